@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from report.assessment.changes import Changes
-    from report.assessment.project import Assessment
+    from report.assessment.project import Assessment, Changes
     from report.entities.results import Compared
     from report.motions.prepare import Shaking
     from report.sheet.reading.read import Sheet
@@ -52,8 +51,8 @@ def make(
     from report.package.html import pages
     from report.provenance.files import attachments, fingerprint, sources
     from report.results.compare import with_reissue
-    from report.results.json import results_json
     from report.results.publish import publish
+    from report.results.results_json import results_json
     from report.results.xlsx import results_xlsx
     from report.typeset.pdf import lay_out
     from solver.kernels.compiler import is_compiled
@@ -96,7 +95,7 @@ def _former(since: Path | None) -> tuple[Compared | None, bytes]:
     if since is None:
         return None, b""
     from report.results.publish import STAMP, warn_if_mixed
-    from report.results.since import read_former
+    from report.results.results_json import read_former
 
     if os.path.lexists(since.parent / STAMP):
         warn_if_mixed(since.parent, OUTPUTS)
@@ -122,7 +121,7 @@ def _read(source: Path, out: Path | None, since: Path | None) -> tuple[Sheet, Pa
 def _prepared(sheet: Sheet) -> Shaking:
     """Read and process the records; warn of motions that came from other sources."""
     from report.motions.prepare import prepare
-    from report.results.sources import other_sources
+    from report.results.motions import other_sources
     from report.sheet.checking.findings import lines
 
     shaking = prepare(sheet)
@@ -157,12 +156,12 @@ def _record(sheet: Sheet, shaking: Shaking, tell: Callable[[str], None]) -> bool
 
 
 def _changes(former: Compared | None, assessment: Assessment) -> Changes:
-    from report.assessment.changes import NO_FORMER
+    from report.assessment.project import NO_FORMER
 
     if former is None:
         return NO_FORMER
     from report.results.compare import changes
-    from report.results.since import check_listed
+    from report.results.results_json import check_listed
 
     found = changes(former, assessment)
     check_listed(found)

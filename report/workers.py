@@ -21,7 +21,7 @@ from tempfile import TemporaryDirectory
 from threading import Thread
 from typing import Any, ParamSpec, TypeVar
 
-from report.elsewhere import apart, stay_apart
+from report.libraries import apart, stay_apart
 
 _P = ParamSpec("_P")
 _R = TypeVar("_R")

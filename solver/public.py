@@ -18,8 +18,7 @@ from solver.model import (
 from solver.records.measures import Measures, measures
 from solver.records.processing import Processing, process
 from solver.records.record import Record, record_from_values, write_record
-from solver.records.scaling import design_spectrum, factor_to_target
-from solver.records.spectrum import ResponseSpectrum, spectrum
+from solver.records.spectrum import ResponseSpectrum, design_spectrum, factor_to_target, spectrum
 from solver.rivals.methods import METHODS, Method, Outcome
 from solver.rules.hazard import EDITIONS
 from solver.rules.spectra import RequiredSpectrum, ac156_horizontal, ac156_vertical

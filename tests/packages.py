@@ -24,7 +24,7 @@ import report.typeset.pdf
 import stand_in
 from places import ROOT
 from report.cli.main import main
-from report.figures import accelerations, charts, history, hodograph, plan, spectra
+from report.figures import charts, history, plan, records, spectra
 from report.typeset.finish import Attached
 
 
@@ -152,8 +152,8 @@ def undrawn() -> Iterator[None]:
         empty = '<svg width="1pt" height="1pt"></svg>'
         patch.setattr(Figure, "savefig", lambda _, out, **__: out.write(empty))
         for module, name in (
-            (accelerations, "accelerations"), (charts, "comparison"),
-            (history, "histories"), (hodograph, "hodographs"), (plan, "paper_svg"),
+            (records, "accelerations"), (charts, "comparison"),
+            (history, "histories"), (history, "hodographs"), (plan, "paper_svg"),
             (spectra, "spectra"),
         ):  # fmt: skip
             patch.setattr(module, name, lambda *_, **__: empty)

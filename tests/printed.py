@@ -16,18 +16,19 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 import packages
-from report.assessment.building_variations import building_variations
-from report.assessment.cumulative import cumulative
-from report.assessment.evidence import histories
-from report.assessment.highpass import beyond_corners
+from report.assessment.evidence import (
+    accuracy,
+    beyond_corners,
+    building_variations,
+    cumulative,
+    histories,
+)
 from report.assessment.project import Assessment
 from report.assessment.remedies import remedies
-from report.assessment.sensitivity import accuracy
 from report.assessment.spectra import spectra
 from report.assessment.uncertainty import uncertainty
-from report.document.sections import Section
-from report.manual.machine import this_machine
-from report.manual.render import manual_html
+from report.document.templates import Section
+from report.manual.render import manual_html, this_machine
 from report.package.html import part
 from report.pages.parts import PackageData
 from report.pages.pictures import draw_assessment, draw_plotted

@@ -17,16 +17,14 @@ import sheets
 import stand_in
 from places import ROOT
 from report.assessment.assess import assess
-from report.assessment.changes import Changes
 from report.assessment.evidence import support
-from report.assessment.project import Assessment
+from report.assessment.project import Assessment, Changes
 from report.motions.components import Components
 from report.motions.history import shake
 from report.pages.parts import PackageData
 from report.pages.registry import package_data
 from report.results.compare import changes
-from report.results.json import results_json
-from report.results.since import former_from
+from report.results.results_json import former_from, results_json
 from sheets import Book, read_workbook
 from solver.records.record import Record
 

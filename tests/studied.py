@@ -8,8 +8,7 @@ import pyarrow.parquet as pq
 
 from report.study.parts import signed
 from solver.model import Motion
-from solver.studies.campaign import Campaign, grid
-from solver.studies.runs import LENGTHS
+from solver.studies.runs import LENGTHS, Campaign, grid
 
 SLOPES = np.radians([0.0, 2.0, 6.0])
 MUS = (0.0, 0.05, 0.3, 0.5, 0.7)

@@ -4,7 +4,7 @@ import csv
 
 import numpy as np
 
-from solver.verification import problems
+from solver.verification import reference
 from solver.verification.checks import G, trapezoid
 
 HEADINGS = ("Test", "Data", "Source", "x", "y", "z", "Slope [deg]", "Friction", "PRD [mm]",
@@ -18,7 +18,7 @@ PULSES = ((0.4, 0.1), (0.5, 0.2), (0.6, 0.3), (0.8, 0.4), (1.0, 0.5), (1.0, 0.3)
 def slip_m(peak_g, mu):
     """Return the closed form, for a flat roof and gravity of 9.80665 m/s2."""
     g = 9.80665
-    return problems.pulse_travel(peak_g * G, mu * g, PLATEAU * DT_S, DT_S)
+    return reference.pulse_travel(peak_g * G, mu * g, PLATEAU * DT_S, DT_S)
 
 
 def write_record(path, a_mps2):

@@ -18,7 +18,7 @@ import sheets
 import waves
 from nightly import by_day
 from places import ROOT
-from report.sheet.reading.growing import GrowingTable
+from report.sheet.reading.parts import GrowingTable
 from report.sheet.reading.read import read
 from report.sheet.writing.filled import changing
 from sketch import BOX_FT, Sketch

@@ -51,7 +51,7 @@ class Counting(Progress):
     """Progress whose bar must be full at the end."""
 
     def __exit__(self, *about: object) -> None:
-        assert self._done == len(report.cli.verify.STEPS)
+        assert self._done == len(report.cli.verify.VERIFY_STEPS)
         super().__exit__(*about)
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from projects.rows import write_motions
 from report.sheet.schema.choices import UnitsFirst
+from report.study.read import write_study
 from report.study.schema import (
     Hazard,
     Intensity,
@@ -19,7 +20,6 @@ from report.study.schema import (
     StudyFrictionRun,
     StudyInput,
 )
-from report.study.template import write_study
 from report.suite.inputs import ac156_targets
 from solver.friction_tests import Surface
 from solver.rules.spectra import Tail

@@ -11,8 +11,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from enum import StrEnum
 
-from report.assessment.overrides import OVERRIDDEN, as_adopted, mark_of
 from report.assessment.runs import REQUESTED_MODELS, MotionRun, OrientedRun, nan_is_worst
+from report.assessment.verdict import OVERRIDDEN, as_adopted, mark_of
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import Direction, Statistic
 from report.sheet.schema.scene import Array
@@ -20,8 +20,7 @@ from solver.rules import provisions
 from solver.rules.limit import Limit
 from solver.rules.provisions import AnalysisValue, Basis, Prescriptive, RuleSet
 from solver.sliding import least_model
-from solver.sliding.tipping import Supports, Tipping, tipping_at
-from solver.sliding.uplift import Uplift
+from solver.sliding.uplift import Supports, Tipping, Uplift, tipping_at
 
 NOT_PERMITTED = "not permitted"
 """In place of a design displacement by a route that is not permitted, or beside it."""

@@ -15,7 +15,6 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from report.assessment.acceptance import shaking_acceptance
 from report.assessment.arrays import ArrayAssessment, assess_array, by_id
 from report.assessment.causes import outcome
 from report.assessment.clearances import (
@@ -32,17 +31,17 @@ from report.assessment.conditions import (
     plan_rows,
     project_rows,
 )
-from report.assessment.friction import SHIFT, with_friction
-from report.assessment.friction_velocity import (
+from report.assessment.friction import (
     NOT_BY_VELOCITY,
+    SHIFT,
     low_velocity,
     velocity_rows,
+    with_friction,
     with_low_velocity,
 )
 from report.assessment.links import assess_linked
+from report.assessment.motion_runs import PendingRuns, RunMotion, begin_runs, shaking_acceptance
 from report.assessment.neighbors import PlanNeighbor, plan_pairs, reaches_of
-from report.assessment.overrides import rule_set_of, under_code
-from report.assessment.pending_runs import PendingRuns, RunMotion, begin_runs
 from report.assessment.precheck import building_limits
 from report.assessment.project import THREADS, Assessment
 from report.assessment.runs import (
@@ -53,8 +52,9 @@ from report.assessment.runs import (
     run_motion,
     scene_key,
 )
+from report.assessment.verdict import rule_set_of, under_code
+from report.motions.history import targets
 from report.motions.prepare import Shaking
-from report.motions.targets import targets
 from report.sheet.checking.checks import faults
 from report.sheet.checking.covered import outdated
 from report.sheet.reading.read import Sheet

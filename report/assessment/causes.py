@@ -15,8 +15,8 @@ from report.assessment.precheck import lacking_motions, limit_words
 from report.assessment.runs import nan_is_worst
 from report.assessment.verdict import Requirement, Verdict
 from report.sheet.schema.choices import ModelChoice
-from report.words.counts import ids_by, lowered, ranged
-from report.words.units import Quantity, compared_pairs, ratio
+from report.text.counts import ids_by, lowered, ranged
+from report.text.units import Quantity, compared_pairs, ratio
 from solver.model import Status
 from solver.rules.provisions import review_lifts_slope
 

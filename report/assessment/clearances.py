@@ -11,9 +11,8 @@ from dataclasses import dataclass, replace
 
 from report.assessment.arrays import ArrayAssessment, by_id
 from report.assessment.neighbors import ComparedGap, NearbyKind, PlanNeighbor
-from report.assessment.overrides import as_adopted, mark_of
 from report.assessment.runs import nan_is_worst
-from report.assessment.verdict import Verdict
+from report.assessment.verdict import Verdict, as_adopted, mark_of
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import Direction, DistanceBasis, ObjectKind
 from report.sheet.schema.scene import Array, Clearance, RoofObject

@@ -14,12 +14,9 @@ import numpy as np
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck, facing
-from report.assessment.fire_lanes import fire_lane_rows
 from report.assessment.friction import SHIFT
-from report.assessment.friction_rows import friction_rows
-from report.assessment.hazard_rows import hazard_rows
 from report.assessment.neighbors import PlanNeighbor
-from report.assessment.overrides import override_rows
+from report.assessment.requirement_rows import fire_lane_rows, friction_rows, hazard_rows
 from report.assessment.verdict import (
     NOT_GIVEN,
     STAYS,
@@ -28,17 +25,17 @@ from report.assessment.verdict import (
     Requirement,
     Verdict,
     condition,
+    override_rows,
     stated,
 )
-from report.motions.history import PreparedMotion
-from report.motions.targets import targets
+from report.motions.history import PreparedMotion, targets
 from report.sheet.checking.motion_checks import FIELDS
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import ClearanceSource, DistanceBasis
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import SIDES, Array
-from report.words.counts import capitalized, lowered
-from report.words.units import (
+from report.text.counts import capitalized, lowered
+from report.text.units import (
     G_MPS2,
     Quantity,
     compared_pairs,
@@ -48,8 +45,7 @@ from report.words.units import (
     number,
     pair,
 )
-from solver.records.acceptance import Acceptance
-from solver.records.spectrum_acceptance import POINTS_HZ, spectrum_mps2
+from solver.records.acceptance import POINTS_HZ, Acceptance, spectrum_mps2
 from solver.rules.limit import Consequence, Limit
 from solver.rules.provisions import RULE_SETS, Neighbor, review_lifts_slope
 

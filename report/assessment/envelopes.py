@@ -10,9 +10,9 @@ import math
 from collections.abc import Iterable, Sequence
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.overrides import mark_of
 from report.assessment.project import Assessment
 from report.assessment.runs import OrientedRun
+from report.assessment.verdict import mark_of
 from report.sheet.schema.choices import Direction
 from report.sheet.schema.shapes import Point, Polygon, Shape, merged, ring, sides
 from solver.model import INCH_M

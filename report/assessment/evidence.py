@@ -1,23 +1,209 @@
 """Supporting results that only the package prints, each computed once.
 
 Draws nothing. Read `support`; `report.pages` prints it.
+
+Sensitivity of the design to the friction coefficient.
+
+The governing array with other periods and other damping of the building, one at a time.
+
+What arrays come to with another input in place of one that is not certain.
+
+Effect of the high-pass filter on the slip.
+
+Cumulative displacement of the design event and smaller ones, where the workbook asks for it.
+
+What an analysis could save, where there are no motions and the displacement is prescriptive.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from functools import partial
 
-from report.assessment.building_variations import building_variations
-from report.assessment.cumulative import Cumulative, cumulative
-from report.assessment.highpass import Beyond, beyond_corners
-from report.assessment.project import Assessment
+from report.assessment.arrays import ArrayAssessment, Route, statistic_basis
+from report.assessment.assess import reassess
+from report.assessment.clearances import ClearanceCheck, check_clearance
+from report.assessment.friction import SHIFT, InputCase, with_friction
+from report.assessment.project import THREADS, Assessment
 from report.assessment.remedies import Remedy, remedies
-from report.assessment.sensitivity import Accuracy, accuracy
+from report.assessment.runs import MotionRun, nan_is_worst, run_motion
 from report.assessment.spectra import Spectra, spectra
+from report.assessment.trials import displaced
 from report.assessment.uncertainty import Uncertainty, uncertainty
-from report.sheet.schema.building import BuildingInput
+from report.motions.history import PreparedMotion, first_period_s, through_building
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import Direction
+from report.sheet.schema.motions import BuildingInput, MotionInput
+from report.sheet.schema.scene import Array
+from report.text.units import number
+from solver.building.structure import MOST_PERIOD_S
 from solver.model import SlideHistory
-from solver.rules.provisions import AnalysisValue
+from solver.rules.limit import Limit
+from solver.rules.provisions import (
+    AnalysisValue,
+    analysis_floor_m,
+    analysis_value,
+    review_lifts_slope,
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Accuracy:
+    """The design with the friction coefficients decreased by 5 %, as given, and increased."""
+
+    at_reduced_friction: Assessment
+    given: Assessment
+    at_increased_friction: Assessment
+
+    @property
+    def newly_short(self) -> tuple[ClearanceCheck, ...]:
+        """Clearances that are satisfied as given but not with less friction."""
+        pairs = zip(self.given.clearances, self.at_reduced_friction.clearances, strict=True)
+        return tuple(after for before, after in pairs if before.ok and not after.ok)
+
+    @property
+    def newly_limited(self) -> tuple[tuple[ArrayAssessment, Limit], ...]:
+        """Limits of the routes taken that are satisfied as given but not with less friction."""
+        pairs = zip(self.given.arrays, self.at_reduced_friction.arrays, strict=True)
+        return tuple(
+            (after, check)
+            for before, after in pairs
+            if all(check.ok for check in before.limits)
+            # With less friction another route may be taken, whose limits are other ones.
+            for check in replace(after, route=before.route).limits
+            if not check.ok
+        )
+
+
+def accuracy(given: Assessment) -> Accuracy:
+    """Run all arrays with changed friction."""
+    return Accuracy(
+        at_reduced_friction=given.at_reduced_friction
+        or reassess(given, with_friction(given.project, 1.0 - SHIFT)),
+        given=given,
+        at_increased_friction=reassess(given, with_friction(given.project, 1.0 + SHIFT)),
+    )
+
+
+PERIOD_FACTORS = (0.8, 1.2)
+DAMPING_PERCENT = (2.0, 3.0, 5.0, 7.0)
+
+
+def building_variations(given: Assessment) -> tuple[tuple[BuildingInput, AnalysisValue], ...]:
+    """Return the building as used, then each variation, with the governing array's value from
+    analysis; nothing where no motion goes through the building."""
+    data, array, prepared = given.project, given.governing, given.shaking.prepared
+    if not any(item.roof for item in prepared):
+        return ()
+    used = data.building.model_copy(update={"period_s": first_period_s(data)})
+    found = [(used, array.analysis)]
+    with ThreadPoolExecutor(THREADS) as pool:
+        for building in _others(used):
+            other = data.model_copy(update={"building": building})
+            peaks_m = list(pool.map(partial(_prd_m, array.array, other), data.motions, prepared))
+            value = analysis_value(given.rules, peaks_m, statistic_basis(data))
+            found.append((building, value))
+    return tuple(found)
+
+
+def _others(used: BuildingInput) -> Iterator[BuildingInput]:
+    periods_s = used.model_dump(
+        include={"period_s", "period_2_s", "transverse_s"}, exclude_none=True
+    )
+    for factor in PERIOD_FACTORS:
+        scaled = {name: min(factor * s, MOST_PERIOD_S) for name, s in periods_s.items()}
+        yield used.model_copy(update=scaled)
+    for percent in DAMPING_PERCENT:
+        if percent != used.damping_percent:
+            yield used.model_copy(update={"damping_percent": percent})
+
+
+def _prd_m(array: Array, data: ProjectInput, row: MotionInput, prepared: PreparedMotion) -> float:
+    return run_motion(array, through_building(data, row, prepared)).peak_m(Direction.ANY)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Beyond:
+    """One array under one motion, with the high-pass as run and without it [m]."""
+
+    motion_id: str
+    corner_hz: float
+    filtered_m: float
+    unfiltered_m: float
+
+    @property
+    def share(self) -> float:
+        """Fraction of the PRD without high-pass that the filter removes; NaN without sliding."""
+        if not self.unfiltered_m > 0.0:
+            return math.nan
+        return (self.unfiltered_m - self.filtered_m) / self.unfiltered_m
+
+
+def beyond_corners(assessment: Assessment) -> tuple[Beyond, ...]:
+    """Rerun the governing array without high-pass under every motion that has one."""
+    rows, governing = assessment.project.motions, assessment.governing
+    corners = {row.id: row.highpass_hz or math.nan for row in rows}
+    as_run_m = {run.motion.id: run.governing.prd_m for run in governing.motions}
+    return tuple(
+        Beyond(
+            motion_id=bare.id,
+            corner_hz=corners[bare.id],
+            filtered_m=as_run_m[bare.id],
+            unfiltered_m=run_motion(governing.array, bare).governing.prd_m,
+        )
+        for prepared in assessment.shaking.prepared
+        for bare in prepared.unfiltered
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cumulative:
+    """Sums for one array: the PRD of the design event and of each smaller one, by motion.
+
+    However the events follow each other, and whatever their directions, the array is nowhere
+    farther from where it began than the sum of their PRDs.
+    """
+
+    array: ArrayAssessment
+    sums_m: Mapping[str, float]  # by motion [m]; NaN where a run has no final displacement
+
+    @property
+    def mean_m(self) -> float:
+        """Mean of the sums [m]; NaN if a motion has none."""
+        return math.fsum(self.sums_m.values()) / len(self.sums_m)
+
+    @property
+    def largest_m(self) -> float:
+        """Largest of the sums [m]; NaN if a motion has none."""
+        return max(self.sums_m.values()) if not math.isnan(self.mean_m) else math.nan
+
+
+def cumulative(given: Assessment) -> tuple[Cumulative, ...]:
+    """Return the sums of every array; none without motions, or where no smaller event is named."""
+    factors = given.project.options.smaller_factors
+    if not (factors and given.has_motions):
+        return ()
+    return tuple(
+        Cumulative(
+            array=array,
+            sums_m={run.motion.id: _sum_m(array, run, factors) for run in array.motions},
+        )
+        for array in given.arrays
+    )
+
+
+def _sum_m(array: ArrayAssessment, run: MotionRun, factors: tuple[float, ...]) -> float:
+    # Equal events have equal PRDs: each factor is run once.
+    smaller = {
+        factor: run_motion(
+            array.array, replace(run.motion, scale=factor * run.motion.scale)
+        ).governing.prd_m
+        for factor in set(factors)
+    }
+    return math.fsum([run.governing.prd_m, *(smaller[factor] for factor in factors)])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,3 +241,78 @@ def support(assessment: Assessment) -> Evidence:
         cumulative=cumulative(assessment),
         building=building_variations(assessment),
     )
+
+
+def building_case(given: Assessment, evidence: Evidence) -> InputCase | None:
+    """Return the governing array with the period or damping that lets it slide farthest.
+
+    A variation without a value is the worst. None where no motion goes through the building, where
+    that is no farther than as used, and where the design displacement does not follow from one
+    value of the analysis.
+    """
+    array = given.governing
+    if not evidence.building or array.route is not Route.ANALYSIS or array.by_direction:
+        return None
+    (used, _), *others = evidence.building
+    building, value = max(others, key=lambda pair: nan_is_worst(pair[1].value_m))
+    design_m = math.nan if math.isnan(value.value_m) else max(value.value_m, array.floor_m)
+    if not nan_is_worst(design_m) > array.design_m:
+        return None
+    is_damping = building.damping_percent != used.damping_percent
+    changed = (
+        f"{number(building.damping_percent, 1)} % damping of the building"
+        if is_damping
+        else f"{number(building.period_s or math.nan, 2)} s as the period of the building"
+    )
+    farther = replace(array, analysis=value, design_m=design_m)
+    arrays = [farther if item is array else item for item in given.arrays]
+    rows = [gap.clearance for gap in given.gaps_of(array.id)]
+    gaps = [check_clearance(given.project, given.rules, arrays, row) for row in rows]
+    return InputCase(array=farther, changed=changed, gaps=gaps)
+
+
+def cases(given: Assessment, evidence: Evidence) -> Iterator[InputCase]:
+    """Yield what would change the verdict on an array or exceed its prescriptive displacement."""
+    slow = given.low_velocity
+    found = *(slow.case_of(item.id) for item in slow.arrays), building_case(given, evidence)
+    for case in filter(None, found):
+        now = next(item for item in given.arrays if item.id == case.array.id)
+        most_m = case.array.prescriptive.value_m
+        is_short = any(gap.ok for gap in given.gaps_of(now.id)) and case.short
+        if is_short or now.design_m <= most_m < nan_is_worst(case.array.design_m):
+            yield case
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Saving:
+    """The least design displacement that an analysis may give, and what it would satisfy."""
+
+    ids: Sequence[str]  # arrays that may be analyzed
+    others: Sequence[str]  # arrays on roofs that are too steep for it
+    is_lifted_by_review: bool  # whether these may be analyzed with peer review
+    prescriptive_m: float
+    floor_m: float  # without peer review
+    n_short: int  # clearances that are not satisfied now
+    n_satisfied: int  # of them, with the arrays that may be analyzed at the floor
+
+
+def saving(given: Assessment) -> Saving:
+    """Return what an analysis could save in a project without motions."""
+    at_floor = [_at_floor(given, item) if item.may_be_analyzed else item for item in given.arrays]
+    short = [gap.clearance for gap in given.clearances if not gap.ok]
+    checks = [check_clearance(given.project, given.rules, at_floor, row) for row in short]
+    first = given.arrays[0]  # the prescriptive displacement is the same for every array
+    return Saving(
+        ids=[item.id for item in given.arrays if item.may_be_analyzed],
+        others=[item.id for item in given.arrays if not item.may_be_analyzed],
+        is_lifted_by_review=review_lifts_slope(given.rules, given.project.site.sdc),
+        prescriptive_m=first.prescriptive.value_m,
+        floor_m=analysis_floor_m(given.rules, first.prescriptive),
+        n_short=len(short),
+        n_satisfied=sum(check.ok for check in checks),
+    )
+
+
+def _at_floor(given: Assessment, item: ArrayAssessment) -> ArrayAssessment:
+    floor_m = analysis_floor_m(given.rules, item.prescriptive)
+    return replace(displaced(item, 0.0, floor_m), is_permitted=True)

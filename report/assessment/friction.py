@@ -1,18 +1,29 @@
 """The friction of arrays: in words, as it was run; and inputs with other friction.
 
-Runs nothing. `report.assessment.friction_rows` compares it with tests.
+Runs nothing. `report.assessment.requirement_rows` compares it with tests.
+
+Friction at the velocities at which arrays slide, against the velocities tested.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
+from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment, assess_array
+from report.assessment.clearances import ClearanceCheck, check_clearance
+from report.assessment.motion_runs import PendingRuns
+from report.assessment.requirement_rows import tested
+from report.assessment.verdict import NOT_GIVEN, VELOCITY_ROW, Requirement, Verdict, condition
+from report.sheet.checking.motion_checks import MU_TOLERANCE
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.scene import Array
-from report.words.counts import ids_by, ranged
-from report.words.units import number
+from report.text.counts import ids_by, ranged
+from report.text.units import Quantity, no_less, number, pair
+from solver.friction_tests import Series, governing
 from solver.model import Friction
+from solver.rules.provisions import RuleSet
 
 SHIFT = 0.05
 """Fraction by which the friction coefficients are decreased and increased."""
@@ -57,3 +68,212 @@ def at_low_velocity(array: Array) -> Array:
     """Return an array with its low-velocity coefficient alone, at rest and at every velocity."""
     names = ("mu_fast", "mu_rate_s_per_m", "mu_static")
     return array.model_copy(update=dict.fromkeys(names))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VelocityCheck:
+    """The friction of an array beyond the velocities tested."""
+
+    friction: Friction
+    # largest sliding velocity of all runs of the array [m/s]; NaN where a run gives none
+    fastest_mps: float
+    tests: Series  # the runs of friction tests that govern for the array
+
+    @property
+    def is_beyond(self) -> bool:
+        """Whether the array may slide faster than tested; where no test reports its velocity, so.
+
+        An array that never slides is not beyond.
+        """
+        tested_mps = self.tests.velocity_mps
+        # A run without a velocity, NaN, is beyond.
+        return not self.fastest_mps <= (0.0 if math.isnan(tested_mps) else tested_mps)
+
+    @property
+    def mu_beyond(self) -> float:
+        """Largest friction used beyond the velocities tested; NaN where none is."""
+        law, ends = self.friction, (self.tests.velocity_mps, self.fastest_mps)
+        if not self.is_beyond:
+            return math.nan
+        if any(map(math.isnan, ends)):
+            return max(law.mu_slow, law.mu_fast)
+        return max(map(law.at, ends))
+
+    @property
+    def is_satisfied(self) -> bool:
+        """Whether friction beyond the tests is at most the smallest tested, within rounding."""
+        return not self.is_beyond or self.mu_beyond <= self.tests.minimum_mu + MU_TOLERANCE
+
+    @property
+    def verdict(self) -> Verdict:
+        """OK, or OK with conditions."""
+        return Verdict.OK if self.is_satisfied else Verdict.CONDITION
+
+
+def velocity_check(data: ProjectInput, assessed: ArrayAssessment) -> VelocityCheck | None:
+    """Return the friction of an array beyond the velocities tested; None without test runs."""
+    found = tested(data)
+    if not found:
+        return None
+    return VelocityCheck(
+        friction=assessed.array.friction,
+        fastest_mps=assessed.fastest_mps,
+        tests=governing(found, assessed.array.mu_report),
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InputCase:
+    """An array with another input.
+
+    Attributes
+    ----------
+    array : ArrayAssessment
+        With its design displacement then.
+    changed : str
+        The other input, in words.
+    gaps : sequence of ClearanceCheck
+        The clearances that involve the array, then.
+    """
+
+    array: ArrayAssessment
+    changed: str
+    gaps: Sequence[ClearanceCheck]
+
+    @property
+    def short(self) -> Sequence[ClearanceCheck]:
+        """The clearances that would be NG."""
+        return [gap for gap in self.gaps if gap.verdict is Verdict.NG]
+
+    def words(self, us_first: bool) -> str:
+        """Return it as a sentence."""
+        return f"{self.array.id} with {self.changed}: {', '.join(self._outcome(us_first))}."
+
+    def _outcome(self, us_first: bool) -> Iterator[str]:
+        design_m = self.array.design_m
+        yield (
+            "no design displacement"
+            if math.isnan(design_m)
+            else f"design displacement {pair(design_m, Quantity.DISPLACEMENT, us_first, no_less)}"
+        )
+        if self.array.has_unpermitted_value:
+            yield NOT_PERMITTED
+        if failed := [gap.words(us_first) for gap in self.short]:
+            yield f"NG: {', '.join(failed)}"
+        elif self.gaps and all(gap.ok for gap in self.gaps):
+            yield "all its clearances OK" if len(self.gaps) > 1 else "its clearance OK"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LowVelocityAssessment:
+    """The arrays whose friction depends on velocity, with the low-velocity coefficient alone."""
+
+    arrays: tuple[ArrayAssessment, ...]  # empty where no friction depends on velocity
+    # the clearances of these arrays, by their number in the workbook, from 1
+    clearances: Mapping[int, ClearanceCheck]
+
+    def of(self, array_id: str) -> ArrayAssessment | None:
+        """Return an array; None where its friction does not depend on velocity."""
+        return next((item for item in self.arrays if item.id == array_id), None)
+
+    def gaps_of(self, array_id: str) -> Sequence[ClearanceCheck]:
+        """Return the clearances that involve an array, on either side."""
+        return [gap for gap in self.clearances.values() if gap.involves(array_id)]
+
+    def case_of(self, array_id: str) -> InputCase | None:
+        """Return an array as a case; None where its friction does not depend on velocity."""
+        alone = self.of(array_id)
+        if alone is None:
+            return None
+        changed = f"μ = {coefficient(alone.array.mu)} at every velocity"
+        return InputCase(array=alone, changed=changed, gaps=self.gaps_of(array_id))
+
+
+NOT_BY_VELOCITY = LowVelocityAssessment(arrays=(), clearances={})
+
+
+def with_low_velocity(data: ProjectInput) -> ProjectInput:
+    """Return an input with those arrays only whose friction depends on velocity, without it."""
+    arrays = [at_low_velocity(array) for array in data.arrays if array.friction.is_by_velocity]
+    return data.model_copy(update={"arrays": type(data.arrays)(arrays)})
+
+
+def low_velocity(
+    data: ProjectInput,
+    rules: RuleSet,
+    arrays: Sequence[ArrayAssessment],
+    begun: PendingRuns,
+    *,
+    motions_qualify: bool,
+) -> LowVelocityAssessment:
+    """Assess the arrays of `with_low_velocity` beside the others as given.
+
+    Parameters
+    ----------
+    begun : PendingRuns
+        Their runs.
+    """
+    changed = {
+        array.id: assess_array(data, rules, array, *wait(), motions_qualify=motions_qualify)
+        for array, wait in zip(with_low_velocity(data).arrays, begun, strict=True)
+    }
+    every = [changed.get(item.id, item) for item in arrays]
+    return LowVelocityAssessment(
+        arrays=tuple(changed.values()),
+        clearances={
+            count: check_clearance(data, rules, every, row)
+            for count, row in enumerate(data.clearances, start=1)
+            if not changed.keys().isdisjoint((row.array, row.object))
+        },
+    )
+
+
+def velocity_rows(
+    data: ProjectInput, arrays: Sequence[ArrayAssessment], slow: LowVelocityAssessment
+) -> Iterator[Requirement]:
+    """Yield for each array whether friction beyond the velocities tested is shown by tests.
+
+    Nothing without test runs: what is missing then is a requirement of its own.
+    """
+    for item in arrays:
+        check = velocity_check(data, item)
+        if check is not None:
+            yield _row(item.id, check, slow, data.us_first)
+
+
+def _row(
+    array_id: str, check: VelocityCheck, slow: LowVelocityAssessment, us_first: bool
+) -> Requirement:
+    least = number(check.tests.minimum_mu, 3)
+    case = slow.case_of(array_id)
+    return condition(
+        id=VELOCITY_ROW,
+        title="Friction beyond the velocities tested",
+        subject=array_id,
+        found="; ".join(_found(check, us_first)),
+        limit=f"slower than tested, or μ beyond ≤ {least}",
+        basis="friction tests",
+        is_satisfied=check.is_satisfied,
+        # No coefficient is offered but the one that is run: with less friction it may be NG.
+        remedy="Obtain friction tests at the sliding velocities.",
+        outcome=case.words(us_first) if case else "",
+    )
+
+
+def _found(check: VelocityCheck, us_first: bool) -> Iterator[str]:
+    yield _slides(check.fastest_mps, us_first)
+    tested_mps = check.tests.velocity_mps
+    if math.isnan(tested_mps):
+        yield f"velocities tested {NOT_GIVEN}"
+    else:
+        yield f"tested to {pair(tested_mps, Quantity.VELOCITY, us_first)}"
+    if check.is_beyond:
+        yield f"μ beyond {number(check.mu_beyond, 3)}"
+
+
+def _slides(fastest_mps: float, us_first: bool) -> str:
+    if math.isnan(fastest_mps):
+        return "a run gives no velocity"
+    if fastest_mps == 0.0:
+        return "does not slide"
+    return f"slides at {pair(fastest_mps, Quantity.VELOCITY, us_first)}"

@@ -14,7 +14,7 @@ from functools import partial
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.runs import nan_is_worst
 from report.sheet.schema.choices import Direction
-from report.sheet.schema.links import Links
+from report.sheet.schema.motions import Links
 from report.sheet.schema.scene import Array
 from solver.model import Motion, Orientation, SlideResult, Status
 from solver.rules import provisions

@@ -20,7 +20,7 @@ from report.sheet.schema.choices import DistanceBasis, ObjectKind
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import Array, Clearance
 from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape, gap_m, sides, spans_near
-from report.words.units import Quantity, beside, no_less, pair, ratio
+from report.text.units import Quantity, beside, no_less, pair, ratio
 from solver.model import INCH_M
 
 if TYPE_CHECKING:

@@ -9,27 +9,23 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 
-from report.assessment.acceptance import shaking_acceptance
 from report.assessment.arrays import Route, interconnection_n, limits_of, statistic_basis
 from report.assessment.conditions import motion_rows, noted, project_rows, rows_before_runs
+from report.assessment.motion_runs import shaking_acceptance
 from report.assessment.neighbors import REACH_FACTOR, NearbyKind
-from report.assessment.overrides import rule_set_of
 from report.assessment.plan_clearances import design_before_runs_m, pairs_before_runs
-from report.assessment.verdict import Requirement, Verdict
-from report.motions.plausible import record_findings
-from report.motions.prepare import Shaking
-from report.motions.targets import targets
+from report.assessment.verdict import Requirement, Verdict, rule_set_of
+from report.motions.history import targets
+from report.motions.prepare import Shaking, record_findings
 from report.sheet.checking.covered import outdated
-from report.sheet.checking.findings import acknowledged, limit, note
-from report.sheet.checking.grouped import listed
+from report.sheet.checking.findings import acknowledged, limit, listed, note
 from report.sheet.checking.plausible import implausible
 from report.sheet.reading.read import Sheet
 from report.sheet.reading.unseen import warnings
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Finding, Place
-from report.words.command import quoted
-from report.words.counts import lowered, numbered
-from report.words.units import Quantity, number, pair, round_down, round_up
+from report.text.counts import lowered, numbered, quoted
+from report.text.units import Quantity, number, pair, round_down, round_up
 from solver.rules import provisions
 from solver.rules.limit import Limit, Measure
 from solver.rules.provisions import Basis, RuleSet

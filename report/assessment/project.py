@@ -1,6 +1,8 @@
 """An assessed project as one record: arrays, clearances, requirements, and what they come to.
 
 Runs nothing: `report.assessment.assess` does.
+
+What changed since a former revision, as finished text, and which rows of the package show it.
 """
 
 from __future__ import annotations
@@ -8,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from enum import StrEnum
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import (
@@ -16,19 +19,19 @@ from report.assessment.clearances import (
 from report.assessment.conditions import (
     MOTIONS_ID,
 )
-from report.assessment.friction_velocity import (
+from report.assessment.friction import (
     LowVelocityAssessment,
 )
 from report.assessment.links import LinkedArray
+from report.assessment.motion_runs import RunWarning, run_warnings
 from report.assessment.neighbors import ComparedGap, PlanNeighbor
-from report.assessment.run_warnings import RunWarning, run_warnings
 from report.assessment.runs import nan_is_worst, scene_key
 from report.assessment.verdict import BY_CONSEQUENCE, Requirement, Verdict, as_one, worst
+from report.motions.history import Targets
 from report.motions.prepare import Shaking
-from report.motions.targets import Targets
 from report.sheet.reading.read import Sheet
 from report.sheet.schema import ProjectInput
-from report.words.counts import grouped_by
+from report.text.counts import grouped_by
 from solver.model import Status
 from solver.records.acceptance import Acceptance
 from solver.rules.limit import Limit
@@ -229,3 +232,61 @@ class Assessment:
         gaps: Sequence[ComparedGap] = (*self.clearances, *self.missing_gaps)
         found = [gap for gap in gaps if not array_id or gap.involves(array_id)]
         return max(found, key=lambda gap: nan_is_worst(gap.demand_capacity), default=None)
+
+
+class ChangeKind(StrEnum):
+    """What changed, in the order of the page."""
+
+    RULES = "rule set"
+    SOFTWARE = "software"
+    INPUT = "input"
+    RECORD = "record"
+    DOCUMENT = "document"
+    DESIGN = "design displacement"
+    CLEARANCE = "clearance"
+    REQUIREMENT = "requirement"
+    VERDICT = "verdict"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Change:
+    """One change."""
+
+    kind: ChangeKind
+    title: str  # what changed, with the array, motion or clearance that it belongs to
+    # as printed
+    before: str
+    now: str
+    cell: str = ""  # address in the workbook; empty for what has no cell
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Changes:
+    """Everything that changed since a former revision."""
+
+    # of the former package
+    revision: str = ""
+    date: str = ""
+    items: tuple[Change, ...] = ()
+    arrays: frozenset[str] = frozenset()  # ids of arrays with another result
+    # array and key of results.json, or array and motion, whose number changed
+    values: frozenset[tuple[str, str]] = frozenset()
+    clearances: frozenset[int] = frozenset()  # numbers of the clearances that changed, from 1
+
+    @property
+    def is_asked_for(self) -> bool:
+        """Whether a former revision was named."""
+        return bool(self.revision)
+
+    @property
+    def cells(self) -> frozenset[str]:
+        """Addresses of the input cells that changed."""
+        return frozenset(item.cell for item in self.items if item.cell)
+
+    def count(self, kind: ChangeKind) -> int:
+        """Return the number of changes of a kind."""
+        return sum(item.kind is kind for item in self.items)
+
+
+NO_FORMER = Changes()
+"""Of a package that is compared with none."""

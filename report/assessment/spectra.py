@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from report.assessment.project import Assessment
-from report.motions.targets import TargetSpectrum
+from report.motions.history import TargetSpectrum
 from report.sheet.schema.choices import RecordedAt
-from report.words.units import G_MPS2
+from report.text.units import G_MPS2
 from solver.model import Floats, Motion
+from solver.records.acceptance import POINTS_HZ, spectrum_mps2
 from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
-from solver.records.spectrum_acceptance import POINTS_HZ, spectrum_mps2
 
 PRINTED_S = (0.03, 0.1, 0.2, 0.5, 0.77, 1.0, 2.0, 5.0, 10.0)
 # The points of the limits on spectra, so that a page says one thing of them; and printed periods.

@@ -1,6 +1,6 @@
 """Margins and confidence of the design values: friction, slope, directions that are not run.
 
-Runs the solver and collects numbers; `report.pages.uncertainty` prints the margins, results.json
+Runs the solver and collects numbers; `report.pages.accuracy` prints the margins, results.json
 has the grid, which the page draws. Read `uncertainty`.
 """
 

@@ -23,8 +23,7 @@ from report.cli.terminal import (
     print_json,
     say,
 )
-from report.words.command import command
-from report.words.counts import numbered
+from report.text.counts import command, numbered
 
 if TYPE_CHECKING:
     from report.motions.prepare import Shaking
@@ -78,11 +77,10 @@ def checked(
     # They load the compiler of the solver: an error in the workbook does not wait for it.
     from report.assessment.precheck import findings, limits_before_runs, missing_clearances
     from report.motions.prepare import prepare
-    from report.results.sources import other_sources
+    from report.results.motions import other_sources
     from report.sheet.checking.findings import in_order
-    from report.sheet.writing.legacy_notes import what_is_new
-    from report.sheet.writing.live import findings as formula_findings
-    from report.sheet.writing.live import overwritten
+    from report.sheet.writing.filled import findings as formula_findings
+    from report.sheet.writing.filled import overwritten, what_is_new
     from report.typeset.letters import check_letters
 
     check_letters(sheet)

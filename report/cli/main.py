@@ -5,44 +5,133 @@ verdict; 130 cut off by Ctrl+C; 4 where `verify-package` could not compare all; 
 where the verdict is not OK; 2 input error; 1 internal error (with the traceback), failed
 verification checks, or a package that differs.
 Read `report` for the way from workbook to package.
+
+The command `roofslip completion`: the shell completes commands, options and files.
+
+The command `roofslip schema`: what results.json holds.
+
+The command `roofslip doctor`: what is installed, and what a package needs; changes nothing.
 """
 
 from __future__ import annotations
 
+import json
 import os
+import platform
 import sys
+from collections.abc import Callable, Iterator
+from importlib.metadata import requires, version
 from typing import Any
 
 import click
 
 from report.cli.check import check
-from report.cli.colors import color_choice
-from report.cli.completion import VARIABLE, completion
-from report.cli.doctor import doctor
-from report.cli.groups import SectionedGroup
 from report.cli.motion import motion
+from report.cli.options import SectionedGroup
 from report.cli.plan import plan
-from report.cli.report import new, report
-from report.cli.schema import schema
+from report.cli.report import new, report, watch
 from report.cli.serve import serve
-from report.cli.sign import sign
 from report.cli.slide import slide
 from report.cli.study import study
 from report.cli.terminal import (
     INPUT_ERROR,
     INTERRUPTED,
     UntilClosed,
+    color_choice,
     interrupts,
     plain,
     show_warnings,
     suit_windows,
     unwritten,
 )
-from report.cli.verify import verify
-from report.cli.verify_package import verify_package
-from report.cli.watch import watch
-from report.elsewhere import stay_apart
-from report.words.command import as_typed, called
+from report.cli.verify import sign, verify, verify_package
+from report.libraries import library, stay_apart
+from report.text.counts import as_typed, called
+
+VARIABLE = "_ROOFSLIP_COMPLETE"
+"""Set by the script in which the shell asks for completions."""
+
+
+@click.command()
+@click.argument("shell", type=click.Choice(["bash", "zsh", "fish"]))
+def completion(shell: str) -> None:
+    """Print the script by which a shell completes commands, options and files.
+
+    In bash: `eval "$(roofslip completion bash)"`, which also completes ./roofslip. In zsh the same
+    with zsh, after compinit. In fish: `roofslip completion fish | source`. zsh and fish complete a
+    roofslip that is in the PATH.
+    """
+    from click.shell_completion import get_completion_class
+
+    root = click.get_current_context().find_root().command
+    script = get_completion_class(shell)
+    assert script is not None  # by the choice of shells
+    click.echo(script(root, {}, "roofslip", VARIABLE).source())
+
+
+@click.command()
+def schema() -> None:
+    """Print the JSON schema of results.json."""
+    from report.entities import results
+
+    click.echo(json.dumps(results.schema(), indent=1))
+
+
+NATIVE = {"pango-1.0": "libpango-1.0-0", "pangoft2-1.0": "libpangoft2-1.0-0",
+          "harfbuzz-subset": "libharfbuzz-subset0", "fontconfig": "libfontconfig1"}  # fmt: skip
+"""Native libraries of the PDF renderer, each with the Debian package that has it."""
+
+
+@click.command()
+def doctor() -> None:
+    """Check versions, native libraries, a test run and a test page; list what to install."""
+    wrong = []
+    for name, look, remedy in _checks():
+        try:
+            found = look(name) or "missing"
+        except Exception as error:  # whatever is wrong here is the finding
+            found = f"fails: {'; '.join(str(error).splitlines()[:3]) or repr(error)}"
+        click.echo(f"{name:15}  {found}")
+        if found.startswith(("missing", "fails")):
+            wrong.append(f"{name}: {remedy}")
+    if wrong:
+        raise click.ClickException("\n".join(wrong))
+    click.echo("Everything that a package needs is here.")
+
+
+def _checks() -> Iterator[tuple[str, Callable[[str], str | None], str]]:
+    """Yield each check: a name, what finds it, and what to do where it finds nothing or fails."""
+    yield "Python", lambda _: f"{platform.python_version()}, {platform.platform()}", ""
+    yield "cores", lambda _: str(os.cpu_count()), ""
+    launcher = os.path.join(".", "roofslip")
+    locked = f"install it: {launcher} does so from requirements.lock"
+    for name in ("roofslip", *(each for each in requires("roofslip") or () if ";" not in each)):
+        yield name, version, locked
+    for name, package in NATIVE.items():
+        debian = f"install it: sudo apt-get install {package}"
+        yield name, library, locked if sys.platform == "win32" else debian
+    again = f"remove .venv and run {launcher} again; if it stays, report it"
+    yield "test run", _slipped, again
+    yield "test page", _laid_out, "install what is missing above, or the program again"
+
+
+def _slipped(_: str) -> str:
+    """Run a block whose displacement is known in closed form: mu g (0.8 s)^2 / 6."""
+    from solver import slide
+
+    slipped_m = slide([-0.2, 0.05], 1.0, slope_rad=0.0, mu=0.1, units="g").prd_m
+    is_right = abs(slipped_m - 0.1 * 9.80665 * 0.8**2 / 6.0) < 1e-9
+    return f"{'' if is_right else 'fails: '}{slipped_m:.9f} m"
+
+
+def _laid_out(_: str) -> str:
+    """Lay out a page in the style of a package."""
+    from report.typeset.pdf import TEMPLATES, lay_out
+
+    css = (TEMPLATES / "package.css").read_text(encoding="utf-8")
+    page = f"<!DOCTYPE html><html lang='en-US'><title>Test page</title><style>{css}</style></html>"
+    return f"{len(lay_out(page)):,} bytes"
+
 
 _FORMER = {
     "batch": "Give its projects to roofslip report.",

@@ -19,11 +19,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from report.cli.groups import SectionedGroup
+from report.cli.options import TIME_STEP, Number, SectionedGroup
 from report.cli.terminal import AS_JSON, SOURCE, UNITS, Progress, input_errors, plain, say_next
-from report.cli.values import TIME_STEP, Number
-from report.words.command import called
-from report.words.counts import numbered
+from report.text.counts import called, numbered
 
 if TYPE_CHECKING:
     from report.sheet.reading.read import Sheet
@@ -85,7 +83,7 @@ def info(file: Path, channel: str, as_json: bool, plot: Path | None, **how: Any)
     95 % of it), and the velocity and displacement at the end, without baseline correction. The
     format is recognized from the content, not from the file name.
     """
-    from report.suite.info import summary, table
+    from report.suite.files import summary, table
 
     with input_errors(file):
         motion_file = _read(file, **how)
@@ -173,9 +171,8 @@ def suite(
     # What comes before the first motion takes no share, so that the time left is theirs.
     shares = (0.0, *[1.0] * count, 1.0)
     with input_errors(into or folder), Progress(shares) as progress:
-        from report.results.motions import add_suite, suite_rows
+        from report.results.motions import add_suite, said_near, suite_rows
         from report.results.publish import output_folder, publish
-        from report.results.sources import said_near
         from report.sheet.reading.read import read
         from report.suite.files import generate, suite_table
         from report.suite.inputs import check_folder, read_seeds
@@ -240,7 +237,7 @@ def rows(
         from report.motions.sets import sets_of, table
         from report.results.motions import row_cells, set_rows
         from report.sheet.writing.filled import changing
-        from report.web.uploads import unpack
+        from report.web.receiving import unpack
         from solver.model import InputError
 
         if project and not at:
@@ -281,8 +278,8 @@ def rows(
 
 def _in_library(source: Path) -> Path:
     """Return a folder or zip as given, or of that name in the user's library of motions."""
-    from solver.meant import meant
     from solver.model import InputError
+    from solver.suggestions import meant
 
     if source.exists():
         return source
@@ -305,8 +302,7 @@ def _targets(
     given: dict[str, Any], target: str | None, sheet: Sheet | None
 ) -> tuple[SuiteTargets, list[str]]:
     """Return the target of a suite, and what of it is from which cells of a workbook."""
-    from report.suite.inputs import ac156_targets, table_targets
-    from report.suite.site import site_targets
+    from report.suite.inputs import ac156_targets, site_targets, table_targets
     from report.suite.target_table import read_target
     from solver.model import InputError
     from solver.rules.spectra import Tail
@@ -342,7 +338,7 @@ def _write(record: Record, out: Path) -> None:
 def _draw(records: Sequence[Record], out: Path) -> None:
     """Write the plot of records; an earlier plot is replaced."""
     from report.figures.records import MOST, records_png, records_svg
-    from report.suite.info import PERIODS_S, spectra_g
+    from report.suite.files import PERIODS_S, spectra_g
     from solver.files import write_whole
     from solver.model import InputError
 

@@ -1,32 +1,107 @@
 """The command `roofslip plan`: the roof plan of a workbook, from a drawing.
 
 Read `read` first.
+
+What `roofslip plan read` does with layers that nobody said anything of; read `choose`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.groups import SectionedGroup
-from report.cli.plan_layers import choose, given_kinds
+from report.cli.options import Number, SectionedGroup
 from report.cli.terminal import SOURCE, Progress, input_errors, no_collections, plain, say_next
-from report.cli.values import Number
-from report.words.command import command
-from report.words.counts import grouped_by, numbered
+from report.text.counts import command, grouped_by, numbered
 
 if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment
     from report.drawing.ballast import Load
-    from report.drawing.drawn import RoofDrawing
     from report.drawing.plan_read import DrawnOutline, RoofPlan
+    from report.drawing.roof_drawing import RoofDrawing
     from report.sheet.schema.choices import LayerKind
     from report.sheet.schema.fields import DraftRow
     from report.sheet.writing.filled import WorkbookChange
+
+
+_MOST_ROWS, _MOST_LETTERS = 100, 60
+
+
+def given_kinds(
+    _: click.Context, __: click.Parameter, value: Sequence[str]
+) -> dict[str, LayerKind]:
+    """Return what each `--layer NAME=KIND` says, by the name."""
+    from report.sheet.schema.choices import LayerKind
+
+    kinds = {}
+    for text in value:
+        name, _sign, word = text.rpartition("=")
+        if not name or word.lower() not in list(LayerKind):
+            choices = ", ".join(LayerKind)
+            raise click.BadParameter(f"'{text}' is not NAME=KIND, where KIND is one of {choices}.")
+        kinds[name] = LayerKind(word.lower())
+    return kinds
+
+
+def choose(
+    drawing: RoofDrawing,
+    sheet: Mapping[str, LayerKind],
+    given: Mapping[str, LayerKind],
+    accept: bool,
+) -> dict[str, LayerKind]:
+    """Return what is said of layers beyond the sheet Layers: as given, or proposed and accepted.
+
+    Raises
+    ------
+    InputError
+        If a layer that is given is not in the drawing; or, after a table of them, if layers with
+        closed lines are not known.
+    """
+    from report.drawing.drawing_names import proposed
+    from report.drawing.plan_read import known_layers
+    from report.sheet.schema.choices import LayerKind
+    from report.text.counts import numbered
+    from solver.model import InputError, Problem
+    from solver.suggestions import nearest
+
+    names = {layer.casefold(): layer for layer, _ in drawing.counts}
+    if lost := [name for name in given if name.casefold() not in names]:
+        near = [nearest(name, names.values()) for name in lost]
+        raise InputError(
+            [Problem(f"no layer '{name}'", meant and f"did you mean '{meant}'?")
+             for name, meant in zip(lost, near, strict=True)]
+        )  # fmt: skip
+    known = known_layers({**sheet, **given})
+    outlines = Counter(line.layer for line in drawing.lines if line.layer.casefold() not in known)
+    kinds = {layer: proposed(layer) for layer in sorted(outlines)}
+    if kinds and not accept:
+        for line in _table(drawing, outlines, kinds):
+            click.echo(plain(line))
+        raise InputError(
+            f"nothing is written: nobody says what is drawn on {numbered(len(kinds), 'layer')};"
+            " add --accept to take what is proposed, or --layer NAME=KIND for a layer, where KIND"
+            f" is one of {', '.join(LayerKind)}"
+        )
+    return {**given, **{layer: kind for layer, kind in kinds.items() if kind}}
+
+
+def _table(
+    drawing: RoofDrawing, outlines: Mapping[str, int], kinds: Mapping[str, LayerKind | None]
+) -> Iterator[str]:
+    from report.text.formats import aligned
+
+    rows = [("layer", "closed lines", "drawn", "proposed")]
+    for layer, kind in list(kinds.items())[:_MOST_ROWS]:
+        counts = sorted((of, count) for (at, of), count in drawing.counts.items() if at == layer)
+        drawn = ", ".join(f"{count} {of}" for of, count in counts)
+        rows.append((layer[:_MOST_LETTERS], str(outlines[layer]), drawn, kind or "none"))
+    yield from aligned(rows, "<><<")
+
 
 UNIT_CHOICES = ("in", "ft", "mm", "cm", "m")
 WEIGHT_CHOICES = ("lb", "kip", "N", "kN", "kg")
@@ -77,14 +152,13 @@ def read(
     blocks. Equal rectangles of the size of modules are joined into arrays. Everything else in the
     workbook is kept. If it has no other errors, the clearances follow as by plan clearances.
     """
-    from report.drawing.fill import changes
-    from report.drawing.matched import matched
+    from report.drawing.fill import changes, matched
     from report.drawing.plan_read import check_size, known_layers, plan_of
     from report.sheet.checking.plan_checks import us_first
     from report.sheet.reading.read import read_book
     from report.sheet.schema.choices import LayerKind
     from report.sheet.writing.filled import changing, withdrawn
-    from report.words.units import LENGTHS
+    from report.text.units import LENGTHS
     from solver.model import InputError
 
     gap_m = gap[0] * LENGTHS[gap[1]]
@@ -181,7 +255,7 @@ def _add_clearances(change: WorkbookChange) -> Sequence[str]:
 def _read(drawing: Path, units: str | None) -> tuple[RoofDrawing, float]:
     """Read the drawing; return it and the size of its unit [m]."""
     from report.drawing.read_dxf import read_dxf
-    from report.words.units import LENGTHS
+    from report.text.units import LENGTHS
     from solver.model import InputError
 
     found = read_dxf(drawing, LENGTHS.get(units or ""))
@@ -229,7 +303,7 @@ def _check_found(found: RoofPlan, drawn: RoofDrawing) -> None:
 
 def _line(place: DrawnOutline, gap_m: float, is_us: bool) -> str:
     from report.drawing.plan_read import own_axes
-    from report.words.units import Quantity, pair
+    from report.text.units import Quantity, pair
 
     *sides, angle = own_axes(place.shape)
     wide, tall = (pair(side, Quantity.PLAN, is_us) for side in sides)
@@ -250,7 +324,7 @@ def _line(place: DrawnOutline, gap_m: float, is_us: bool) -> str:
 
 def _unread(found: RoofPlan) -> Iterator[str]:
     """Yield what was not understood, once for each cause, with its layers and some handles."""
-    from report.sheet.checking.grouped import listed
+    from report.sheet.checking.findings import listed
 
     for reason, items in grouped_by(found.unread, lambda item: item.reason).items():
         layers = listed(item.layer for item in items)
@@ -274,11 +348,11 @@ def ballast(
     """
     from report.drawing.ballast import loads, read_map
     from report.drawing.fill import ballast_changes
-    from report.sheet.checking.grouped import listed
+    from report.sheet.checking.findings import listed
     from report.sheet.checking.plan_checks import shapes_of, us_first
     from report.sheet.reading.read import read_book
     from report.sheet.writing.filled import changing
-    from report.words.units import LENGTHS, WEIGHTS, Quantity, pair
+    from report.text.units import LENGTHS, WEIGHTS, Quantity, pair
     from solver.model import InputError
 
     block_n = block_weight[0] * WEIGHTS[block_weight[1]]
@@ -312,7 +386,7 @@ def ballast(
 def _balance(row: DraftRow, load: Load, ballast_n: float, is_us: bool) -> str:
     """Return the ballast of an array and its center of gravity, as far as weights are known."""
     from report.drawing.ballast import center_of_gravity
-    from report.words.units import Quantity, pair
+    from report.text.units import Quantity, pair
 
     modules, each_n = row.get("modules"), row.get("module_weight_n")
     modules_n = modules * each_n if modules and each_n else 0.0

@@ -23,8 +23,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from report.cli.options import Existing
 from report.cli.terminal import INPUT_ERROR, INTERNAL_ERROR, input_errors
-from report.cli.values import Existing
 
 if TYPE_CHECKING:
     import uvicorn
@@ -164,8 +164,8 @@ def listen(host: str, port: int) -> socket.socket:
 def _server(folder: Path, keys: Keys, hosts: Sequence[str]) -> uvicorn.Server:
     import uvicorn
 
+    from report.web.access import Strangers
     from report.web.app import made
-    from report.web.connections import Strangers
 
     strangers = Strangers()
     return uvicorn.Server(

@@ -20,13 +20,13 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
-from report.cli.colors import colored
 from report.cli.terminal import (
     INPUT_ERROR,
     INTERNAL_ERROR,
     NOT_OK,
     SCHEMA_VERSION,
     Progress,
+    colored,
     no_collections,
     outputs_of,
     plain,
@@ -37,7 +37,7 @@ from report.cli.terminal import (
     warn_of_others,
     workbook_of,
 )
-from report.words.counts import numbered
+from report.text.counts import numbered
 
 if TYPE_CHECKING:
     from report.workers import WorkerProcess
@@ -93,7 +93,7 @@ def report_several(
     sources: Sequence[Path], *, fail_on_ng: bool, quiet: bool, as_json: bool
 ) -> NoReturn:
     """Write the packages, print one table, and end with the exit code of the worst."""
-    from report.sheet.checking.grouped import grouped
+    from report.sheet.checking.findings import grouped
 
     outcomes = run(sources, quiet=quiet or as_json)
     if as_json:
@@ -226,8 +226,8 @@ _COLUMNS = ("project", "verdict", "D/C", "time", "package")
 
 def table(outcomes: Sequence[ReportOutcome]) -> Iterator[str]:
     """Return the headings and a line for each project."""
-    from report.words.formats import aligned
-    from report.words.units import ratio
+    from report.text.formats import aligned
+    from report.text.units import ratio
 
     rows = (
         (str(o.source), o.word, "".join(map(ratio, o.largest)), f"{o.seconds:.1f} s", o.package)

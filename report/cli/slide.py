@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from report.cli.options import TIME_STEP, Number
 from report.cli.terminal import AS_JSON, UNITS, input_errors
-from report.cli.values import TIME_STEP, Number
 
 if TYPE_CHECKING:
     from solver.model import Scene
@@ -74,7 +74,7 @@ def slide(
         scene = _scene(records, slope_deg, mu, scale)
         values = {"slope_deg": slope_deg, "mu": mu, "scale": scale, "dt_s": scene.dt_s}
         values |= _solved(scene, model)
-    from report.words.formats import aligned, finite
+    from report.text.formats import aligned, finite
 
     if as_json:
         click.echo(json.dumps(finite(values)))

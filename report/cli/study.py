@@ -55,9 +55,8 @@ def study(
     """
     from report.results.publish import check_apart, check_of_workbook, output_folder
     from report.study.exports import EXPORTS
-    from report.study.extra import ARROW, extra
     from report.study.files import TABLE
-    from report.study.manifest import NAME
+    from report.study.manifest import ARROW, NAME, extra
     from report.study.run import estimate, planned
 
     folder = out or workbook_of(source).parent / "out/study"
@@ -127,7 +126,7 @@ def _print_estimate(found: Estimate) -> None:
 
 def summary(results: StudyResults) -> list[str]:
     """Return what to print at the end; the time is no result and not in the files to read."""
-    from report.study.words import headline
+    from report.study.wording import headline
 
     first, *others = headline(results)
     return [f"{first}, {results.manifest['processor_seconds']:,.0f} s of processor time", *others]

@@ -2,6 +2,8 @@
 
 Prints no text of its own. Heavy imports stay out, so that `--help` is quick. Read `report.cli.main`
 next.
+
+Verdicts and levels in color. `click.echo` takes it off where no terminal reads.
 """
 
 from __future__ import annotations
@@ -17,7 +19,7 @@ import sys
 import tempfile
 import time
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from io import TextIOWrapper
 from pathlib import Path
@@ -26,20 +28,50 @@ from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 
 import click
 
-from report.cli.colors import colored
-from report.words.command import as_typed, command
-from report.words.counts import numbered
+from report.text.counts import as_typed, command, numbered
 
 if TYPE_CHECKING:
     from types import FrameType
 
     from solver.model import Problem
 
+
+_GREEN, _RED, _YELLOW = ({"fg": color, "bold": True} for color in ("green", "red", "yellow"))
+_STYLES: Mapping[str, Mapping[str, Any]] = {
+    "OK with conditions": _YELLOW,
+    "OK": _GREEN,
+    "PASS": _GREEN,
+    "NG": _RED,
+    "FAIL": _RED,
+    "Condition": _YELLOW,
+}
+_LEVELS: Mapping[str, Mapping[str, Any]] = {  # at the beginning of a line
+    "condition": _YELLOW,
+    "warning": {"fg": "yellow"},
+    "note": {"dim": True},
+}
+_ALL = {**_STYLES, **_LEVELS}
+_WORD = re.compile(rf"\b(?:{'|'.join(_STYLES)})\b|^(?:{'|'.join(_LEVELS)})(?=: )")
+
+
+def colored(line: str) -> str:
+    """Return a line with its verdicts, and the level it begins with, in color."""
+    return _WORD.sub(lambda found: click.style(found[0], **_ALL[found[0]]), line)
+
+
+def color_choice() -> bool | None:
+    """Return whether to color: not where NO_COLOR is set or the terminal has none; else by click.
+
+    NO_COLOR counts if it is not empty (no-color.org).
+    """
+    return False if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb" else None
+
+
 SOURCE = click.Path(path_type=Path)
 
 
 UNITS = click.Choice(("g", "m/s2", "cm/s2", "mm/s2", "gal"))
-"""Of acceleration, of a file: `solver.records.units.UNIT_CHOICES`, which is slow to import."""
+"""Of acceleration, of a file: `solver.records.record.UNIT_CHOICES`, which is slow to import."""
 
 QUIET_SECONDS = 1.0
 TIMED_SECONDS = 2.0
@@ -181,7 +213,7 @@ def print_json(document: Any) -> None:
 
 def say_problems(source: Path, problems: Sequence[Problem]) -> None:
     """Print the problems of an input, one per line; those of several cells once."""
-    from report.sheet.checking.grouped import grouped
+    from report.sheet.checking.findings import grouped
 
     click.echo(f"{plain(source)}: {numbered(len(problems), 'problem')} found.", err=True)
     for problem in grouped(problems):

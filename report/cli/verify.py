@@ -1,24 +1,50 @@
-"""The command `roofslip verify`: the verification manual."""
+"""The command `roofslip verify`: the verification manual.
+
+The command `roofslip verify-package`: a package made again from its own input, and compared.
+
+The command `roofslip sign`: the engineer's signature in the seal box of a package.
+"""
 
 from __future__ import annotations
 
 import datetime as dt
+import os
+import signal
 import sys
-from collections.abc import Callable, Mapping
+import tempfile
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.colors import colored
-from report.cli.terminal import SOURCE, Progress, input_errors, no_collections
-from report.cli.values import Existing
+from report.cli.options import Existing
+from report.cli.terminal import (
+    AS_JSON,
+    DIFFERS,
+    NOT_COMPARED,
+    QUIET,
+    SOURCE,
+    Progress,
+    colored,
+    input_errors,
+    no_collections,
+    plain,
+    print_json,
+    say,
+)
+from report.making import OUTPUTS, STEPS, make
 
 if TYPE_CHECKING:
+    from report.proof.verdict import Proof
     from solver.verification.evidence import Verification
     from solver.verification.shake_table import ShakeTable
 
-STEPS = (18, 2, 3, 9, 11, 5, 0.1, 5, 0.1, 0.5, 0.1, 7, 33, 2)
+
+VERIFY_STEPS = (18, 2, 3, 9, 11, 5, 0.1, 5, 0.1, 0.5, 0.1, 7, 33, 2)
 """Usual shares of the time of the steps that a verification reports, as with --quick."""
 
 _FOLDER = Existing(file_okay=False)
@@ -42,7 +68,7 @@ def verify(out: Path | None, quick: bool, records: Path | None, table: Path | No
     from report.results.publish import output_folder, publish
 
     source = table or records or out or Path(_USUAL)
-    with input_errors(source), Progress(STEPS) as progress, no_collections():
+    with input_errors(source), Progress(VERIFY_STEPS) as progress, no_collections():
         out = output_folder(out, Path(), _USUAL)
         verification, files = _verification(quick, records, table, progress)
         progress("writing the files")
@@ -73,8 +99,8 @@ def _verification(
     from report.manual.render import files
     from solver.verification.building import recorded_buildings
     from solver.verification.run import verify
-    from solver.verification.table_tests import table_tests
-    from solver.verification.triples import recorded_triples
+    from solver.verification.shake_table import table_tests
+    from solver.verification.study import recorded_triples
 
     tests = table_tests(table) if table else ()
     buildings = recorded_buildings(records) if records else ()
@@ -86,6 +112,166 @@ def _verification(
 
 
 def _judgment(tests: ShakeTable) -> str:
-    from report.manual.shake_table import result
+    from report.manual.measured import result
 
     return f"shake table: {len(tests.runs)} tests, median ratio {tests.median:.3f}. {result(tests)}"
+
+
+COMPARING = 0.1
+"""Usual time of the comparison, as a share of that of the package."""
+
+_SAID = {
+    "same": "Same: the input in the package gives this package, to the byte.",
+    "not compared in full": "Not compared in full; nothing differs in what was compared:",
+    "differs": "Differs from what the input in the package gives:",
+}
+
+
+@click.command("verify-package")
+@click.argument("file", metavar="FILE.pdf", type=SOURCE)
+@click.option("--records", type=SOURCE, metavar="FOLDER",
+              help="Of the workbook, where the package only lists its records.")  # fmt: skip
+@click.option("--out", type=SOURCE,
+              help="Where the package made again is written if drawings were not compared; "
+              "default: FILE-again.pdf beside it.")  # fmt: skip
+@QUIET
+@AS_JSON
+def verify_package(
+    file: Path, records: Path | None, out: Path | None, quiet: bool, as_json: bool
+) -> None:
+    """Make a package again from the input inside it, and compare the bytes.
+
+    Exit codes: 0 the same; 4 not compared in full, as where another processor, system or version
+    made it: numbers and words agree, drawings were not compared, and the package made again is
+    written; 1 it differs, and where first; 2 it cannot be made again with what is given. Signatures
+    that were put on after the package was written are no difference.
+    """
+    from report.proof.package import read_package
+    from solver.files import write_whole
+    from solver.model import InputError
+
+    again = out or file.with_name(f"{file.stem}-again.pdf")
+    with input_errors(file, as_json=as_json), _ended_by_signals():
+        data = read_package(file)
+        if os.path.lexists(again):  # a dangling link as well
+            raise InputError(f"{again}: already exists; give another --out, or move the file")
+        with Progress((*STEPS, COMPARING), quiet=quiet) as progress, no_collections():
+            proof, made = _proof(file, data, records, progress)
+        if proof.is_to_be_read:
+            write_whole(again, made)
+    written = str(again) if proof.is_to_be_read else ""
+    if as_json:
+        print_json(asdict(proof) | {"made_again": written})
+    elif not quiet:
+        _print(proof, written)
+    if code := {"differs": DIFFERS, "not compared in full": NOT_COMPARED}.get(proof.answer):
+        sys.exit(code)
+
+
+@contextmanager
+def _ended_by_signals() -> Iterator[None]:
+    """Have SIGTERM end the command as Ctrl+C does, so that its files are removed."""
+    former = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, former)
+
+
+def _proof(
+    file: Path, data: bytes, records: Path | None, progress: Progress
+) -> tuple[Proof, bytes]:
+    """Return the outcome, and the package made again if it was."""
+    from report.proof.package import RecordsMissingError, opened, take_out
+    from report.proof.verdict import Agreement, Proof, compared, failed
+    from report.results.publish import STAMP, warn_if_mixed
+    from solver.model import InputError
+
+    if os.path.lexists(file.parent / STAMP):
+        warn_if_mixed(file.parent, OUTPUTS)
+    try:
+        package = opened(data)
+        with tempfile.TemporaryDirectory(prefix="roofslip-") as folder:
+            workbook, former = take_out(package, Path(folder, "input"), records)
+            try:
+                made = made_again(workbook, Path(folder, "out"), former, progress)
+            except InputError as error:
+                return failed(package, error.problems), b""
+        progress("comparing")
+        return compared(package, opened(made)), made
+    except RecordsMissingError:
+        raise
+    except InputError as error:
+        return Proof(answer=Agreement.DIFFERS, reasons=tuple(error.problems)), b""
+
+
+def made_again(workbook: Path, out: Path, former: list[Path], progress: Progress) -> bytes:
+    """Return the package of a workbook."""
+    _, _, files, _ = make(workbook, out, former[0] if former else None, progress)
+    return files["calc-package.pdf"]
+
+
+def _print(proof: Proof, written: str) -> None:
+    click.echo(_SAID[proof.answer])
+    for reason in proof.reasons:
+        say(f"  {reason}")
+    if written:
+        click.echo(plain(f"The package made again: {written}"))
+    for one in proof.signed:
+        click.echo(
+            plain(
+                f"Signed since, in the field '{one.field}', by '{one.signer}'. Who issued the "
+                "certificate was not checked: a PDF reader does."
+            )
+        )
+
+
+_FILE = Existing(dir_okay=False)
+
+
+@click.command()
+@click.argument("file", metavar="FILE.pdf", type=_FILE, is_eager=True)
+@click.option("--p12", type=_FILE, is_eager=True, required=True, metavar="CERT.p12",
+              help="PKCS#12 file with the private key and the certificate.")  # fmt: skip
+@click.option("--password", envvar="ROOFSLIP_P12_PASSWORD",
+              help="Of CERT.p12; without it, from ROOFSLIP_P12_PASSWORD or asked for.")  # fmt: skip
+@click.option("--time-stamp", default="", metavar="URL",
+              help="Of a time-stamp authority (RFC 3161): PAdES B-T instead of B-B.")  # fmt: skip
+@click.option("--out", type=SOURCE, help="File to write; default: FILE-signed.pdf beside it.")
+def sign(file: Path, p12: Path, password: str | None, time_stamp: str, out: Path | None) -> None:
+    """Sign a package in the field over its seal box (PAdES baseline).
+
+    The package itself stays as it is, and verifies as before. Nothing is sent anywhere but to URL.
+    """
+    from report.proof.signatures import signed
+    from solver.files import check_plain, write_whole
+    from solver.model import InputError
+
+    target = out or file.with_name(f"{file.stem}-signed.pdf")
+    with input_errors(file):
+        if out is None:
+            check_plain(target, file.parent)
+        password = _asked() if password is None else password
+        if target.exists() and target.samefile(file):
+            raise InputError("the signed package needs a name of its own; choose another --out")
+        content = signed(file.read_bytes(), p12.read_bytes(), password, time_stamp)
+        write_whole(target, content)
+    click.echo(target)
+
+
+def _asked() -> str:
+    """Return the password that is typed; without a terminal nobody can."""
+    from getpass import GetPassWarning
+
+    from solver.model import InputError
+
+    with warnings.catch_warnings():
+        # Without a terminal, getpass would warn and read what others can see.
+        warnings.simplefilter("error", GetPassWarning)
+        try:
+            password: str = click.prompt("Password", hide_input=True)
+        except GetPassWarning as error:
+            raise InputError(
+                "the password cannot be asked for without a terminal; set ROOFSLIP_P12_PASSWORD"
+            ) from error
+    return password

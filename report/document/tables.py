@@ -14,10 +14,9 @@ from typing import Any
 from markupsafe import Markup
 
 from report.assessment.verdict import Verdict
-from report.entities.columns import TableColumn, UnitFormat
-from report.entities.shown import Entity, Shown, shown_by
-from report.words.counts import grouped_by, joined, name_order, ranged
-from report.words.units import Unit
+from report.entities.shown import Entity, Shown, TableColumn, UnitFormat, shown_by
+from report.text.counts import grouped_by, joined, name_order, ranged
+from report.text.units import Unit
 from solver.model import DefectError
 
 PLAIN = UnitFormat(us_first=True, none="—")

@@ -2,12 +2,15 @@
 
 Words are in the templates and numbers in Python: a filter prints a number as every page does.
 A template that is given the data of a package calls it `p`. Owns no content.
+
+Sections of a document, numbered: each is a template with its words and what that prints.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,21 +21,22 @@ from markupsafe import Markup
 from report.assessment.friction import mu_words
 from report.document.tables import Table, headed, merged, stamp, table_of
 from report.entities.linked import ratio_up
-from report.entities.marks import dagger
-from report.typeset.equations import data_uri, fraction, symbol
-from report.words.counts import (
+from report.entities.requirement import dagger
+from report.text.counts import (
+    below_mm,
     capitalized,
     counted,
     joined,
+    lettered,
     lowered,
     named,
     numbered,
     ranged,
     spelled,
 )
-from report.words.formats import general, percent, scientific, seconds, shortened
-from report.words.letters import below_mm, lettered
-from report.words.units import digits_down, digits_up, number, ratio
+from report.text.formats import general, percent, scientific, seconds, shortened
+from report.text.units import digits_down, digits_up, number, ratio
+from report.typeset.equations import data_uri, fraction, symbol
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -132,3 +136,76 @@ def _of_package(name: str) -> Callable[..., Any]:
 def _rows(context: Context, entities: Any, names: str, **how: Any) -> Table:
     """Return rows of an entity as a table of the named fields."""
     return table_of(entities, names, how.pop("fmt", context["p"].fmt), **how)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Part:
+    """A numbered part of the package; `parts` are those below it."""
+
+    id: str
+    number: str
+    title: str
+    parts: tuple[Part, ...] = field(default=())
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Section:
+    """A numbered section.
+
+    Attributes
+    ----------
+    id, title : str
+        Anchor and heading.
+    template : str
+        Path below the templates. It heads its subsections with `sub`.
+    content : mapping
+        What the template prints, by name.
+    charts : mapping of str to str
+        SVG by name.
+    """
+
+    id: str
+    title: str
+    template: str
+    content: Mapping[str, Any]
+    charts: Mapping[str, str]
+
+
+def section(
+    name: str, title: str, /, *, id: str = "", charts: Mapping[str, str] = {}, **content: Any
+) -> Section:
+    """Return the section of a template by its path without ending, whose last part is its id."""
+    id = id or name.rpartition("/")[2]
+    return Section(id=id, title=title, template=f"{name}.html", content=content, charts=charts)
+
+
+def filled(
+    folder: Path, sections: Sequence[Section], context: Mapping[str, Any]
+) -> Iterator[tuple[Part, Markup]]:
+    """Yield each section with its numbers, and its HTML below its heading.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the templates.
+    context : mapping
+        What every template may print.
+    """
+    for count, section in enumerate(sections, start=1):
+        yield _filled(folder, section, str(count), context)
+
+
+def _filled(
+    folder: Path, section: Section, number: str, context: Mapping[str, Any]
+) -> tuple[Part, Markup]:
+    part = Part(id=section.id, number=number, title=section.title)
+    below: list[Part] = []
+
+    def sub(title: str) -> Part:
+        count = len(below) + 1
+        below.append(Part(id=f"{part.id}-{count}", number=f"{number}.{count}", title=title))
+        return below[-1]
+
+    given = {"template": section.template, "drawings": section.charts, "sub": sub}
+    html = rendered(folder, "section.html", {**context, **section.content, **given})
+    return replace(part, parts=tuple(below)), Markup(html)

@@ -16,11 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from report.drawing.load_dxf import MB
+from report.drawing.roof_drawing import MB
 from report.sheet.reading.typed_text import number_in, separator
 from report.sheet.schema.shapes import Point, Shape, solid
-from report.words.letters import cut
-from report.words.units import LENGTHS
+from report.text.counts import cut
+from report.text.units import LENGTHS
 from solver.model import InputError
 
 MAX_BYTES, MAX_ROWS, MAX_BLOCKS = 5 * MB, 20_000, 10_000

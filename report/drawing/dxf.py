@@ -9,7 +9,7 @@ import io
 import math
 from typing import TYPE_CHECKING
 
-from report.drawing.layers import Layer, PlanDimension, PlanDrawing
+from report.drawing.items import Layer, PlanDimension, PlanDrawing
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from report.drawing.drawn import Drawn
-from report.sheet.reading.locate_tables import MAX_ROWS
+from report.drawing.roof_drawing import Drawn
+from report.sheet.reading.locate import MAX_ROWS
 from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.shapes import Polygon, Rectangle, Shape, mean, ring, solid
 from solver.model import INCH_M, InputError

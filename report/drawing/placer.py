@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from report.drawing.layers import Point
+from report.drawing.items import Point
 
 _CLEAR_IN = 0.035  # between labels
 _RINGS_IN = np.concatenate((np.arange(0.0, 1.6, 0.06), np.arange(1.6, 4.0, 0.2)))

@@ -11,10 +11,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from report.assessment.neighbors import EDGE_STRIP_M, bare_sides
-from report.drawing.drawn import Drawn, RoofDrawing, Unread, Words, turned
-from report.drawing.layers import Layer
+from report.drawing.drawing_names import first_height, read_line
+from report.drawing.items import Layer
 from report.drawing.modules import GAP_M, MOST_TEXTS, Known, alike_m, joined
-from report.drawing.written import first_height, read_line
+from report.drawing.roof_drawing import Drawn, RoofDrawing, Unread, Words, turned
 from report.sheet.checking.plan_checks import LEAST_VERTICES
 from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.shapes import (
@@ -27,7 +27,7 @@ from report.sheet.schema.shapes import (
     sides,
     solid,
 )
-from report.words.units import LENGTHS, Quantity, pair
+from report.text.units import LENGTHS, Quantity, pair
 from solver.model import InputError
 
 LAYERS: Mapping[str, LayerKind] = {layer.title: LayerKind.NOT_READ for layer in Layer} | {

@@ -1,7 +1,7 @@
 """Reads a roof drawing: its closed lines with their layers and names, and what else there is.
 
 Knows no workbook and no kinds (`report.drawing.plan_read`). Points are in the drawing's world
-coordinates and unit. `report.drawing.load_dxf` loads the file.
+coordinates and unit. `report.drawing.roof_drawing` loads the file.
 """
 
 from __future__ import annotations
@@ -14,14 +14,34 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from report.drawing.areas import HATCHES, boundaries, faces, is_fill, is_mesh, outlines, polygons
-from report.drawing.curves import CURVES, MAX_POINTS, curve
-from report.drawing.drawn import Drawn, RoofDrawing, Unread, Words
+from report.drawing.closed_lines import (
+    CURVES,
+    HATCHES,
+    MAX_POINTS,
+    boundaries,
+    curve,
+    faces,
+    is_fill,
+    is_mesh,
+    join,
+    outlines,
+    polygons,
+)
 from report.drawing.dxf import APPLICATION
-from report.drawing.joined import join
-from report.drawing.load_dxf import MAX_ENTITIES, UNITS, damaged, limit, loaded, other_unit
+from report.drawing.roof_drawing import (
+    MAX_ENTITIES,
+    UNITS,
+    Drawn,
+    RoofDrawing,
+    Unread,
+    Words,
+    damaged,
+    limit,
+    loaded,
+    other_unit,
+)
 from report.sheet.schema.shapes import Point, ring
-from report.words.letters import UNPRINTABLE, trimmed
+from report.text.counts import UNPRINTABLE, trimmed
 from solver.model import InputError
 
 if TYPE_CHECKING:
@@ -63,7 +83,7 @@ def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
 
 
 def _read(document: Document, repairs: str, unit_m: float | None) -> RoofDrawing:
-    from report.words.units import LENGTHS
+    from report.text.units import LENGTHS
 
     code = document.header.get("$INSUNITS", 0)
     unit = UNITS.get(code, "")

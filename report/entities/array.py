@@ -13,21 +13,20 @@ from pydantic import BeforeValidator
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis, Route, seaoc_displacement
 from report.assessment.causes import unshown_cause
-from report.assessment.changes import ChangeKind
 from report.assessment.envelopes import keep_clear, keep_clear_m, keep_clear_mark
 from report.assessment.friction import mu_words
 from report.assessment.neighbors import ComparedGap, PlanNeighbor
-from report.assessment.project import Assessment
+from report.assessment.project import Assessment, ChangeKind
 from report.assessment.runs import nan_is_worst
 from report.assessment.verdict import NOT_GIVEN, STRENGTH_ROW, ItemVerdict, Verdict
-from report.entities.cells import Column, Told
-from report.entities.marks import Marked
-from report.entities.requirement import LimitResult
-from report.entities.run import PeakResult, RunResult, peak_result, run_result
+from report.entities.motion import PeakResult, RunResult, peak_result, run_result
+from report.entities.requirement import LimitResult, Marked
 from report.entities.shown import (
+    Column,
     Entity,
     Number,
     Shown,
+    Told,
     at,
     centered,
     length,
@@ -38,7 +37,7 @@ from report.entities.shown import (
     words,
 )
 from report.sheet.schema.choices import Direction, ModelChoice
-from report.words.units import Quantity, Show, beside, measured, no_less, ratio
+from report.text.units import Quantity, Show, beside, measured, no_less, ratio
 from solver.model import Friction
 from solver.rules.provisions import Basis, PrescriptiveBasis
 

@@ -11,15 +11,16 @@ from typing import Annotated
 
 from pydantic import BeforeValidator
 
-from report.assessment.changes import ChangeKind
 from report.assessment.clearances import ClearanceCheck
+from report.assessment.project import ChangeKind
 from report.assessment.verdict import Verdict
-from report.entities.cells import Column, Told
-from report.entities.marks import Marked, joined
+from report.entities.requirement import Marked, joined
 from report.entities.shown import (
+    Column,
     Entity,
     Number,
     Shown,
+    Told,
     at,
     centered,
     length,
@@ -30,7 +31,7 @@ from report.entities.shown import (
     words,
 )
 from report.sheet.schema.choices import Direction, DistanceBasis
-from report.words.units import beside, ratio
+from report.text.units import beside, ratio
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
 _REQUIRED = '=IF(ISTEXT({design_m}),"none",MAX({design_m}*{factor},{minimum_m}))'

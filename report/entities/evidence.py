@@ -15,10 +15,19 @@ from report.assessment.neighbors import Cover, NearbyKind
 from report.assessment.remedies import Remedy, RemedyKind
 from report.assessment.uncertainty import Uncertainty
 from report.assessment.verdict import Verdict
-from report.entities.cells import Column
-from report.entities.shown import Entity, Number, OfUnit, RangeOfUnit, Shown, at, length, words
-from report.sheet.schema.building import BuildingInput
-from report.words.units import no_less
+from report.entities.shown import (
+    Column,
+    Entity,
+    Number,
+    OfUnit,
+    RangeOfUnit,
+    Shown,
+    at,
+    length,
+    words,
+)
+from report.sheet.schema.motions import BuildingInput
+from report.text.units import no_less
 from solver.model import Status
 from solver.rules.provisions import AnalysisValue
 

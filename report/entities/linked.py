@@ -12,10 +12,10 @@ from typing import Annotated
 from report.assessment.links import LinkedArray
 from report.assessment.verdict import Verdict
 from report.entities.array import TAKES_LARGEST
-from report.entities.cells import Column
-from report.entities.columns import NO_VALUE
-from report.entities.run import OrientedResult
+from report.entities.motion import OrientedResult
 from report.entities.shown import (
+    NO_VALUE,
+    Column,
     Entity,
     Number,
     Shown,
@@ -29,7 +29,7 @@ from report.entities.shown import (
     unwritten,
     words,
 )
-from report.words.units import Quantity, number
+from report.text.units import Quantity, number
 from solver.model import INCH_M, Status
 
 

@@ -1,19 +1,23 @@
 """Records and motions as they are written and shown.
 
 Computes nothing: see `report.motions`.
+
+A run of an array under a motion as it is written and shown, and the peaks of a motion.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from operator import attrgetter
 from typing import Annotated, ClassVar
 
-from report.entities.cells import Column
-from report.entities.shown import Entity, at
+from report.assessment.runs import MotionRun, OrientedRun
+from report.entities.shown import Column, Entity, Number, at
 from report.motions.history import PreparedMotion
-from report.sheet.schema.choices import RecordedAt
-from solver.model import Motion
+from report.sheet.schema.choices import Direction, RecordedAt
+from solver.model import Motion, Status
 from solver.records.measures import Measures
+from solver.sliding.least_model import Model
 
 
 class RecordResult(Entity):
@@ -75,3 +79,85 @@ def motion_result(motion: Motion, prepared: PreparedMotion) -> MotionResult:
     return MotionResult.of(
         prepared, id=motion.id, scale=motion.scale, dt_s=motion.dt_s, npts=len(motion.ax_mps2)
     )
+
+
+def _polarity_words(polarity: int) -> str:
+    return "as recorded" if polarity > 0 else "reversed"
+
+
+def _model_words(rung: int) -> str:
+    return f"{rung}, {Model(rung).title}"
+
+
+class PeakResult(Entity):
+    """The largest displacements of an array in all runs of a motion, by direction."""
+
+    motion: Annotated[str, Column("Motion")]
+    down_m: Annotated[Number, Column("Downslope [in]", 2, "=MAX({runs.down_m})")]
+    up_m: Annotated[Number, Column("Upslope [in]", 2, "=MAX({runs.up_m})")]
+    across_m: Annotated[Number, Column("Cross-slope [in]", 2, "=MAX({runs.across_m})")]
+    any_m: Annotated[Number, Column("Any direction [in]", 2, "=MAX({runs.prd_m})")]
+
+
+class OrientedResult(Entity):
+    """A motion with one component along the slope, in one polarity."""
+
+    motion: Annotated[str, Column("Motion")]
+    along: Annotated[str, at("orientation.component"), Column("Component along slope")]
+    polarity: Annotated[int, at("orientation.polarity"), Column("Polarity", value=_polarity_words)]
+    """1 as recorded, -1 reversed."""
+
+
+class RunResult(OrientedResult):
+    """An array under a motion with one component along the slope, in one polarity."""
+
+    scale: Annotated[float, at("scene.scale"), Column("Scale")]
+    dt_s: Annotated[float, at("scene.dt_s")]
+    """Time step."""
+    status: Annotated[Status, at("result.status"), Column("Outcome", value=attrgetter("sentence"))]
+    prd_m: Annotated[Number, at("result.prd_m"), Column("PRD [in]"), Column("PRD [mm]")]
+    """Peak relative displacement in plan; null without a final value."""
+    residual_m: Annotated[
+        Number, at("result.residual_m"), Column("Residual [in]"), Column("Residual [mm]")
+    ]
+    down_m: Annotated[Number, at("result.down_m"), Column("Downslope [in]")]
+    up_m: Annotated[Number, at("result.up_m"), Column("Upslope [in]")]
+    across_m: Annotated[Number, at("result.across_m"), Column("Cross-slope [in]")]
+    residual_across_m: Annotated[
+        Number, at("result.residual_across_m"), Column("Residual cross-slope [in]")
+    ]
+    t_prd_s: Annotated[Number, at("result.t_prd_s"), Column("Time of PRD [s]")]
+    n_stops: Annotated[int, at("result.n_stops"), Column("Stops")]
+    n_min_g: Annotated[Number, at("result.n_min_g"), Column("Minimum N/(m g)")]
+    """Least normal force / weight."""
+    t_uplift_s: Annotated[Number, at("result.t_uplift_s")]
+    """Time of the first uplift; null without uplift."""
+    end_speed_mps: Annotated[Number, at("result.end_speed_mps")]
+    """Sliding velocity at the end of the record."""
+    peak_speed_mps: Annotated[
+        Number, at("result.peak_speed_mps"), Column("Largest velocity [in/s]")
+    ]
+    error_m: Annotated[Number, at("result.error_m"), Column("Error bound [in]")]
+    rung: Annotated[int, at("solution.model"), Column("Model", value=_model_words)]
+    """Number of the model used, from 0, no slip, to 5, a row of linked blocks."""
+    model: Annotated[str, at("solution.model.title")]
+    """Model used, in words."""
+    reason: Annotated[str, at("solution.reason"), Column("Reason")]
+    next_rung: Annotated[int, at("solution.next_model"), Column("Next model", value=_model_words)]
+    """Number of the next model, run to see its effect; that of this one if none is."""
+    next_effect_m: Annotated[
+        Number, at("solution.next_effect_m"), Column("Effect of next model [in]")
+    ]
+    friction_demand: Annotated[Number, at("solution.friction_demand"), Column("Friction demand")]
+    """Required friction coefficient: largest shear over normal force without slip."""
+
+
+def peak_result(motion: MotionRun) -> PeakResult:
+    """Return the peaks of a motion."""
+    peaks = {f"{direction.value}_m": motion.peak_m(direction) for direction in Direction}
+    return PeakResult.model_validate({"motion": motion.motion.id} | peaks)
+
+
+def run_result(motion: MotionRun, run: OrientedRun) -> RunResult:
+    """Return a run of a motion."""
+    return RunResult.of(run, motion=motion.motion.id)

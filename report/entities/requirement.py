@@ -2,21 +2,40 @@
 
 Computes nothing. Read `LimitResult`; a requirement is written as it is
 (`report.assessment.verdict`) and shown as a `RequirementRow`.
+
+The marks of numbers: not compared with the adopted document, changed by an override.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, model_validator
 
-from report.assessment.verdict import Requirement, Verdict
-from report.entities.cells import Column
-from report.entities.shown import LEFT_OUT, Beside, Entity, OfUnit, at, centered, words
+from report.assessment.arrays import SEAOC, ArrayAssessment, DesignBasis
+from report.assessment.project import Assessment
+from report.assessment.verdict import OVERRIDDEN, Requirement, Verdict
+from report.entities.shown import (
+    LEFT_OUT,
+    Beside,
+    Column,
+    Entity,
+    OfUnit,
+    UnitFormat,
+    at,
+    centered,
+    words,
+)
 from report.sheet.checking.findings import located
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import Direction
 from report.sheet.schema.fields import Finding, Level, Place
+from report.text.units import Quantity, no_less
 from solver.rules.limit import Consequence, Limit
+from solver.rules.provisions import PrescriptiveBasis, Provision
 
 
 class FindingResult(Entity):
@@ -119,3 +138,97 @@ def requirement_rows(requirements: Iterable[Requirement]) -> Iterator[Requiremen
     """Yield requirements as rows of a table."""
     for row in requirements:
         yield RequirementRow.of(row, subject=row.subject or "Project")
+
+
+UNVERIFIED = (
+    "Numbers marked † have not been compared with the text of the adopted document and shall be "
+    "verified against it"
+)
+
+
+def dagger(provision: Provision) -> str:
+    """Return the marks of a number: † unverified, ‡ overridden."""
+    return ("" if provision.verified else "†") + (OVERRIDDEN if provision.reason else "")
+
+
+def joined(marks: str, more: str) -> str:
+    """Return marks, each once."""
+    return marks if more in marks else marks + more
+
+
+@dataclass(frozen=True, kw_only=True)
+class Marked:
+    """An assessment with the marks of its numbers and its system of units."""
+
+    assessment: Assessment
+    # whether numbers that were not compared with the adopted document are marked
+    has_daggers: bool = True
+
+    @property
+    def data(self) -> ProjectInput:
+        """The input."""
+        return self.assessment.project
+
+    @property
+    def fmt(self) -> UnitFormat:
+        """Format of values."""
+        return UnitFormat(us_first=self.data.us_first)
+
+    def both(self, value_si: float, quantity: str = "DISPLACEMENT") -> str:
+        """Return a value in both systems of units: `81.6 in (2072 mm)`."""
+        return self.fmt.both(value_si, Quantity[quantity])
+
+    def both_up(self, value_si: float, quantity: str = "DISPLACEMENT") -> str:
+        """Return what is required, or what a requirement follows from, rounded up."""
+        return self.fmt.both(value_si, Quantity[quantity], no_less)
+
+    def mark(self, key: str) -> str:
+        """Return the marks of a provision."""
+        marks = dagger(self.assessment.rules.values[key])
+        return marks if self.has_daggers else marks.removeprefix("†")
+
+    @property
+    def mark_of_seaoc(self) -> str:
+        """The mark of the displacement by SEAOC PV1."""
+        is_known = SEAOC.values["prescriptive_factor_in"].verified or not self.has_daggers
+        return "" if is_known else "†"
+
+    def clause(self, key: str) -> str:
+        """Return the clause of a provision with its marks."""
+        return self.assessment.rules.values[key].clause + self.mark(key)
+
+    def prescriptive_key(self, array: ArrayAssessment) -> str:
+        """Return which provision the prescriptive displacement comes from."""
+        return {
+            PrescriptiveBasis.FORMULA: "prescriptive_factor_in",
+            PrescriptiveBasis.MINIMUM: "prescriptive_minimum_in",
+            PrescriptiveBasis.LOW_CATEGORY: "prescriptive_low_sdc_in",
+        }[array.prescriptive.governs]
+
+    def design_mark(self, array: ArrayAssessment) -> str:
+        """Return the marks of a design displacement."""
+        if math.isnan(array.design_m):
+            return ""
+        if array.governs is DesignBasis.PRESCRIPTIVE:
+            return joined(self.mark(self.prescriptive_key(array)), array.design_mark)
+        key = "analysis_floor" if array.governs is DesignBasis.FLOOR else "analysis_factor"
+        return joined(self.mark(key), array.design_mark)
+
+    def prescriptive_mark(self, array: ArrayAssessment) -> str:
+        """Return the marks of the prescriptive displacement."""
+        mark = array.prescriptive_mark("§") if self.has_daggers else array.prescriptive_mark()
+        return joined(self.mark(self.prescriptive_key(array)), mark)
+
+    def floor_mark(self, array: ArrayAssessment) -> str:
+        """Return the marks of the floor of an array, if it has one."""
+        if self.data.is_peer_reviewed:
+            return ""
+        return joined(self.mark("analysis_floor"), array.mark(lambda item: item.floor_m))
+
+    def direction_mark(self, array: ArrayAssessment, direction: Direction) -> str:
+        """Return the marks of a design displacement in a direction."""
+        value = array.directions[direction].value_m
+        key = "analysis_floor" if array.floor_m > value else "analysis_factor"
+        if math.isnan(value):
+            return ""
+        return joined(self.mark(key), array.toward_mark(direction))

@@ -1,6 +1,6 @@
 """results.json as one model: the assessment and its evidence in SI units.
 
-Computes nothing. Read `Results`; `report.results.json` writes it, `report.results.since` reads it.
+Computes nothing. Read `Results`; `report.results.results_json` writes and reads it.
 """
 
 from __future__ import annotations

@@ -2,6 +2,10 @@
 
 The value of a field is that of the attribute of the assessment with its name, or on the path that
 `at` gives. Owns no entity. Read `Entity`.
+
+A column of a table, and values in both systems of units.
+
+How a field is a column of a sheet of results.xlsx, and how its change is told by `--since`.
 """
 
 from __future__ import annotations
@@ -24,10 +28,120 @@ from pydantic import (
 )
 from pydantic.json_schema import GenerateJsonSchema, SkipJsonSchema
 
-from report.entities.cells import Column
-from report.entities.columns import TableColumn, UnitFormat
+from report.assessment.project import ChangeKind
 from report.sheet.schema.fields import Cell, docstrings
-from report.words.units import Quantity, Show, Unit, measured, no_less, number
+from report.text.units import (
+    NEWTONS_PER_POUND,
+    Quantity,
+    Show,
+    Unit,
+    measured,
+    no_less,
+    number,
+    pair,
+)
+from solver.model import INCH_M
+
+NO_VALUE = "none"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TableColumn:
+    """A column: heading, unit below it, width in shares of the table, alignment, its field."""
+
+    head: str
+    unit: str = ""
+    share: float = 1.0
+    align: str = "right"
+    field: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class UnitFormat:
+    """Formats values, the preferred system of units first."""
+
+    us_first: bool
+    none: str = NO_VALUE
+    systems: int = 2  # in which a table has a quantity: a narrow one has the first alone
+
+    def both(
+        self,
+        value_si: float,
+        quantity: Quantity = Quantity.DISPLACEMENT,
+        show: Show = measured,
+    ) -> str:
+        """Return `81.6 in (2072 mm)`; `none` for NaN."""
+        return self.none if math.isnan(value_si) else pair(value_si, quantity, self.us_first, show)
+
+    def short(
+        self,
+        value_si: float,
+        quantity: Quantity = Quantity.DISPLACEMENT,
+        show: Show = measured,
+    ) -> str:
+        """Return a value with its unit in the preferred system; `none` for NaN."""
+        unit = self.units(quantity)[0]
+        return self.none if math.isnan(value_si) else f"{show(value_si, unit)} {unit.symbol}"
+
+    def first(
+        self,
+        value_si: float,
+        quantity: Quantity = Quantity.DISPLACEMENT,
+        *,
+        mark: str = "",
+        show: Show = measured,
+    ) -> str:
+        """Return a value in the preferred system, without its unit; `none` for NaN."""
+        return self.none if math.isnan(value_si) else show(value_si, self.units(quantity)[0]) + mark
+
+    def units(self, quantity: Quantity = Quantity.DISPLACEMENT) -> tuple[Unit, Unit]:
+        """Return the units of a quantity, the preferred one first."""
+        return (quantity.us, quantity.si) if self.us_first else (quantity.si, quantity.us)
+
+
+_FROM_SI: Mapping[str, Callable[[Any], Any]] = {
+    "in": lambda value_m: value_m / INCH_M,
+    "mm": lambda value_m: value_m * 1e3,
+    "lb": lambda value_n: value_n / NEWTONS_PER_POUND,
+    "in/s": lambda value_mps: value_mps / INCH_M,
+}
+"""What a value in SI is in the units of a sheet; a value in another unit stays as it is."""
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A column of a sheet; a field may have several."""
+
+    head: str = ""  # with its unit; the unit alone, or nothing, below the heading of the field
+    decimals: int | None = None  # of a number; None to show it as it is
+    # live, with names of fields of the row and of other cells in braces; empty for none
+    formula: str = ""
+    # returns what a cell holds of the value of the field, where the unit does not say it
+    value: Callable[[Any], Any] | None = None
+    is_always: bool = False  # whether the formula is written also where it gives no value
+    is_input: bool = False  # whether what has no formula may be changed there
+
+    def heading(self, of_field: str) -> str:
+        """Return the heading, from that of the field where it has none of its own."""
+        is_unit = not self.head or self.head.startswith("[")
+        return f"{of_field} {self.head}".strip() if is_unit else self.head
+
+    def held(self, value: Any) -> Any:
+        """Return what a cell holds of the value of the field."""
+        convert = self.value or _FROM_SI.get(self.head.partition("[")[2].rstrip("]"))
+        return convert(value) if convert else value
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """A change of a field, which marks its row in the package and may be listed."""
+
+    kind: ChangeKind | None = None  # None if it is not listed
+    title: str = ""  # what changed, with what it says of the `row` in braces
+    # whether it is listed of a row that the former revision did not have, or that is gone
+    of_new: bool = True
+    of_gone: bool = False
+
 
 _Mark = TypeVar("_Mark")
 

@@ -2,6 +2,10 @@
 
 Two runs give the same bytes, independent of the machine's fonts and settings.
 Read `report.figures` next.
+
+Logarithmic scales with plain-text tick labels; the charts use no math text.
+
+Line style of each method, the same in the package and in the verification manual.
 """
 
 from __future__ import annotations
@@ -9,18 +13,23 @@ from __future__ import annotations
 import io
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cache
+from itertools import cycle
 from typing import Any
 
 import matplotlib as mpl
 from matplotlib import font_manager
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
 
+from report.text import counts
 from report.typeset.pdf import TEMPLATES
 from solver.model import Floats
+from solver.rivals.methods import METHODS
 
 WIDTH_IN = 7.0
 INK, GRAY, PALE, ACCENT = "#1a1a1a", "#707070", "#d9d9d9", "#1f4e79"
@@ -192,3 +201,85 @@ class Broken:
         """Append a segment."""
         self.x += [*x, math.nan]
         self.y += [*y, math.nan]
+
+
+def power_of_ten(value: float) -> str:
+    """Return `10⁻³` for 0.001, and 0.1, 1, 10 and 100 in full."""
+    if value <= 0.0:
+        return ""
+    exponent = round(math.log10(value))
+    return f"{10.0**exponent:g}" if -1 <= exponent <= 2 else counts.power_of_ten(exponent)
+
+
+def plain(value: float) -> str:
+    """Return `2.5 × 10⁻⁶` for a small number, and others in full."""
+    if value == 0.0 or abs(value) >= 1e-3:
+        return f"{value:g}".replace("-", "−")
+    exponent = math.floor(math.log10(abs(value)))
+    return f"{value / 10.0**exponent:.3g} × {counts.power_of_ten(exponent)}"
+
+
+def decades(axis: Axis, maximum: int = 9) -> None:
+    """Label powers of ten on a logarithmic axis, at most `maximum` of them."""
+    axis.set_major_locator(LogLocator(numticks=maximum))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: power_of_ten(value)))
+    axis.set_minor_locator(NullLocator())
+
+
+def logarithmic(axes: Axes, across: int, up: int) -> None:
+    """Make both axes logarithmic, each with at most so many powers of ten."""
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    decades(axes.xaxis, across)
+    decades(axes.yaxis, up)
+
+
+def periods(axes: Axes, periods_s: Floats) -> None:
+    """Make the lower axis one of periods [s], logarithmic, as far as they reach."""
+    axes.set_xscale("log")
+    axes.set_xlim(periods_s.min(), periods_s.max())
+    ticks(axes.xaxis, (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0))
+
+
+def ticks(axis: Axis, values: Sequence[float]) -> None:
+    """Label given values, those within the limits of the axis, and no others."""
+    low, high = axis.get_view_interval()
+    axis.set_major_locator(FixedLocator([value for value in values if low <= value <= high]))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
+    axis.set_minor_locator(NullLocator())
+
+
+_LONG = (0, (9, 2))
+_STYLES = (
+    ("*", "none", INK, INK),
+    ("o", "-", ACCENT, "white"),
+    ("s", DASHED, INK, "white"),
+    ("^", DASHDOT, ACCENT, ACCENT),
+    ("v", DOTTED, INK, INK),
+    ("D", _LONG, GRAY, GRAY),
+    ("X", DASHED, GRAY, GRAY),
+    ("P", "none", GRAY, GRAY),
+)
+"""Marker, line style, color, and color within the marker."""
+
+
+def _look(label: str, marker: str, line: object, color: str, fill: str) -> dict[str, Any]:
+    return {
+        "marker": marker,
+        "markersize": 4.5,
+        "markeredgecolor": color,
+        "markerfacecolor": fill,
+        "markeredgewidth": 0.9,
+        "color": color,
+        "linestyle": line,
+        "linewidth": 1.1,
+        "label": label,
+    }
+
+
+LOOKS: Mapping[str, dict[str, Any]] = {
+    method.name: _look(method.label, *style)
+    for method, style in zip(METHODS.values(), cycle(_STYLES), strict=False)
+}
+"""Keywords for a line with markers, by the name of the method; styles in the order of the methods.
+"""

@@ -9,8 +9,7 @@ import numpy as np
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.uncertainty import ResponseSurface
-from report.words.counts import ids_by, ranged
-from report.words.letters import cut
+from report.text.counts import cut, ids_by, ranged
 
 LEAST_M = 1e-4
 """Displacement below which no contour is drawn [m]."""

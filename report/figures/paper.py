@@ -17,15 +17,16 @@ from report.figures.base import (
     INK,
     bare,
     boxed,
+    decades,
     draw_family,
     labeled,
     legend_below,
     panels,
     style,
     svg_text,
+    ticks,
 )
 from report.figures.history import envelope
-from report.figures.scales import decades, ticks
 from solver.model import Floats
 from solver.verification.evidence import DesignCurves, LinkComparison
 

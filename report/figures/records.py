@@ -2,11 +2,13 @@
 
 Computes only the layout. The picture is a stand-alone file, so its text is drawn as outlines and
 needs no font. Read `report.figures.base` first.
+
+Accelerations of the motions as run: a row per motion, a column per component, one scale.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import matplotlib as mpl
 import numpy as np
@@ -14,12 +16,23 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, labeled, png_bytes, style, svg_text
+from report.figures.base import (
+    ACCENT,
+    GRAY,
+    INK,
+    WIDTH_IN,
+    Broken,
+    canvas,
+    labeled,
+    periods,
+    png_bytes,
+    style,
+    svg_text,
+)
 from report.figures.history import envelope
-from report.figures.scales import periods
-from report.words.formats import shortened
-from report.words.units import G_MPS2
-from solver.model import Floats
+from report.text.formats import shortened
+from report.text.units import G_MPS2, round_below
+from solver.model import Floats, Motion
 from solver.records.record import Record
 
 MOST = 12
@@ -122,3 +135,70 @@ def _spectra(axes: Axes, records: Sequence[Record], periods_s: Floats, sa_g: Flo
     periods(axes, periods_s)
     title = f"Response {'spectrum' if len(records) == 1 else 'spectra'}, 5 % damping"
     labeled(axes, "Period T [s]", "Pseudo-acceleration [g]", title)
+
+
+_ROW_IN, _TOP_IN, _FOOT_IN = 0.24, 0.22, 0.3
+_ROW_POINTS = 360  # in a history; with fewer the peaks stand apart as if the motion were slow
+_LABELS = 0.14  # width of the labels of the rows, in columns
+_BAR = 0.8  # a bar at most, of the largest peak and of the longest motion; at least 0.32 of them
+_COLUMNS = ("Record", "Transverse", "Vertical")
+
+
+def accelerations(motions: Sequence[Motion], printed: Callable[[str], str] = str) -> str:
+    """Return the scaled accelerations of the motions over time, all at one scale.
+
+    `printed` gives the names as they are printed.
+
+    All panels share one pair of axes, with offsets: one pair for each would take ten times as long.
+    """
+    scaled = [[m.scaled(a) / G_MPS2 for a in (m.ax_mps2, m.ay_mps2, m.az_mps2)] for m in motions]
+    reach = max(float(np.abs(a_g).max()) for row in scaled for a_g in row if a_g.size) or 1.0
+    seconds = max(m.dt_s * (len(m.ax_mps2) - 1) for m in motions)
+    height = _ROW_IN * len(motions) + _TOP_IN + _FOOT_IN
+    with style():
+        rows = (-len(motions) - _FOOT_IN / _ROW_IN, _TOP_IN / _ROW_IN)
+        figure, axes = canvas(height, (-_LABELS, len(_COLUMNS)), rows)
+        _lines(axes, motions, scaled, reach, seconds)
+        _words(axes, [printed(motion.id) for motion in motions], scaled)
+        _scales(axes, len(motions), reach, seconds)
+        return svg_text(figure)
+
+
+def _lines(
+    axes: Axes,
+    motions: Sequence[Motion],
+    scaled: Sequence[Sequence[Floats]],
+    reach: float,
+    seconds: float,
+) -> None:
+    """Draw all histories as one line with gaps, and the zeros as another."""
+    histories, zeros = Broken(), Broken()
+    for row, (motion, components) in enumerate(zip(motions, scaled, strict=True)):
+        for column, a_g in enumerate(components):
+            if a_g.size:
+                t_s = motion.dt_s * np.arange(a_g.size, dtype=np.float64)
+                times, values = envelope(t_s, a_g, _ROW_POINTS)
+                histories.add(column + 0.94 * times / seconds, -row - 0.5 + 0.46 * values / reach)
+                zeros.add([column, column + 0.94], [-row - 0.5] * 2)
+    axes.plot(zeros.x, zeros.y, color=GRAY, linewidth=0.4)
+    axes.plot(histories.x, histories.y, color=INK, linewidth=0.4)
+
+
+def _words(axes: Axes, names: Sequence[str], scaled: Sequence[Sequence[Floats]]) -> None:
+    for column, title in enumerate(_COLUMNS):
+        axes.text(column, 0.1, title, weight="semibold", va="bottom")
+    for row, (name, components) in enumerate(zip(names, scaled, strict=True)):
+        axes.text(-_LABELS, -row - 0.5, name, va="center")
+        for column, a_g in enumerate(components):
+            if not a_g.size:
+                axes.text(column + 0.47, -row - 0.5, "none", va="center", ha="center")
+
+
+def _scales(axes: Axes, rows: int, reach: float, seconds: float) -> None:
+    """Draw bars of round lengths below the panels: of the accelerations and of the times."""
+    level, span_s = round_below(_BAR * reach), round_below(_BAR * seconds)
+    low, wide = -rows - 0.1, 0.94 * span_s / seconds
+    axes.plot([0.0, 0.0], [low, low - 0.46 * level / reach], color=INK, linewidth=1.0)
+    axes.text(0.02, low, f"{level:g} g", va="top")
+    axes.plot([1.0, 1.0 + wide], [low, low], color=INK, linewidth=1.0)
+    axes.text(1.0 + 0.5 * wide, low - 0.06, f"{span_s:g} s", va="top", ha="center")

@@ -9,15 +9,14 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from report.document.sections import Section, section
 from report.document.tables import Column, listed
+from report.document.templates import Section, section
 from report.entities.shown import plain, text, words
-from report.figures import models as figures
-from report.figures.scales import power_of_ten
-from report.words.formats import general, percent, scientific, seconds, ten_digits, two_digits
-from report.words.letters import lettered
-from solver.verification.evidence import Verification
-from solver.verification.model_evidence import ModelEvidence, StaticEvidence
+from report.figures import work as figures
+from report.figures.base import power_of_ten
+from report.text.counts import lettered
+from report.text.formats import general, percent, scientific, seconds, ten_digits, two_digits
+from solver.verification.evidence import ModelEvidence, StaticEvidence, Verification
 
 CHANGED = 1e-3
 """Least relative change of the PRD for which a case counts as changed."""

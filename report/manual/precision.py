@@ -1,20 +1,28 @@
-"""Accuracy against run time: charts and medians."""
+"""Accuracy against run time: charts and medians.
+
+Where methods fail, and where the problem itself is ill-conditioned.
+
+The studies of the paper repeated: Figs. 5 to 12.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
 import pandas as pd
 
-from report.document.sections import Section, section
 from report.document.tables import Column, Table, listed
+from report.document.templates import Section, section
 from report.entities.shown import text, words
+from report.figures import manual, paper
 from report.figures import work as figures
-from report.figures.scales import power_of_ten
-from report.words.formats import percent, seconds, slug
-from report.words.letters import lettered
+from report.figures.base import power_of_ten
+from report.text.counts import grouped_by, lettered
+from report.text.formats import percent, seconds, slug
 from solver.rivals.methods import METHODS
-from solver.verification.evidence import Verification
+from solver.verification import paper_studies
+from solver.verification.evidence import DesignCurves, LinkComparison, Verification
 
 LEAST_PERCENT = 1e-6
 """Smallest error drawn in the charts of single methods; smaller ones are drawn there."""
@@ -104,3 +112,116 @@ def _errors(head: str, error: str) -> tuple[Column, Column]:
         (text(head, "median", 1.2), lambda row: found(row[1], "median")),
         (text(head, "largest", 1.2), lambda row: found(row[1], "max")),
     )
+
+
+def stability(verification: Verification) -> Section:
+    """Return the stability maps with their notes."""
+    counted = list(enumerate(verification.maps, start=1))
+    by_chart = {
+        f"stability-{at // manual.MOST + 1}": counted[at : at + manual.MOST]
+        for at in range(0, len(counted), manual.MOST)
+    }
+    return section(
+        "manual/stability",
+        "Stability",
+        by_chart=by_chart,
+        charts={
+            name: manual.stability([sweep for _, sweep in found], first=found[0][0])
+            for name, found in by_chart.items()
+        },
+    )
+
+
+def conditioning(verification: Verification) -> Section:
+    """Return the effect of a small change of friction."""
+    cases = verification.conditioning
+    by_chart = {f"conditioning-{at // 2 + 1}": cases[at : at + 2] for at in range(0, len(cases), 2)}
+    return section(
+        "manual/conditioning",
+        "Sensitivity to the friction coefficient",
+        by_chart={
+            # A case with the largest and the median change [%].
+            name: [
+                (case, np.nanmax(case.change_percent), np.nanmedian(case.change_percent))
+                for case in found
+            ]
+            for name, found in by_chart.items()
+        },
+        charts={name: manual.conditioning(found) for name, found in by_chart.items()},
+    )
+
+
+PAPER_WORST_PERCENT, PAPER_MEAN_PERCENT = 6.78, 1.69
+"""Differences in RRD between the paper's method and SAP 2000."""
+
+
+def convergence(verification: Verification) -> Section:
+    """Return the paper's Fig. 5."""
+    found = list(verification.convergence.items())
+    return section(
+        "manual/convergence",
+        "The paper's convergence study (Fig. 5)",
+        scenarios=len(paper_studies.CONVERGENCE_CASES),
+        paper_percent=paper.PAPER_P64_PERCENT,
+        errors=found,
+        charts={
+            f"convergence-{at // 3 + 1}": paper.convergence(found[at : at + 3])
+            for at in range(0, len(found), 3)
+        },
+    )
+
+
+def links(verification: Verification) -> Section:
+    """Return the paper's Figs. 6 to 9."""
+    by_record = grouped_by(verification.links, lambda link: link.record)
+    by_chart = {f"links-{slug(name)}": tuple(rows) for name, rows in by_record.items()}
+    return section(
+        "manual/links",
+        "Comparison with a link model (Figs. 6 to 9)",
+        by_chart=by_chart,
+        worst_mm=worst_mm,
+        PAPER_WORST_PERCENT=PAPER_WORST_PERCENT,
+        PAPER_MEAN_PERCENT=PAPER_MEAN_PERCENT,
+        charts={name: paper.links(rows) for name, rows in by_chart.items()},
+    )
+
+
+def worst_mm(link: LinkComparison) -> float:
+    """Return the difference in RRD [mm] in the case where it is largest in percent."""
+    off_m = link.runs_m["RRD, exact"] - link.runs_m["RRD, link"]
+    return 1e3 * float(abs(off_m[link.history_mu]))
+
+
+def curves(verification: Verification) -> Section:
+    """Return the paper's Figs. 10 to 12."""
+    slope_deg, wanted_m = paper.READ_OFF
+    names = [slug(study.record) for study in verification.curves]
+    return section(
+        "manual/curves",
+        "Design curves (Figs. 10 to 12)",
+        ppa_g=paper.FIG_12_PPA_G,
+        slope_deg=slope_deg,
+        wanted_mm=1e3 * wanted_m,
+        studies=[
+            (study, _least_mu(study), f"curves-{name}", f"contours-{name}")
+            for study, name in zip(verification.curves, names, strict=True)
+        ],
+        prd_mm=_prd_mm,
+        charts={
+            chart: svg
+            for study, name in zip(verification.curves, names, strict=True)
+            for chart, svg in (
+                (f"curves-{name}", paper.curves(study)),
+                (f"contours-{name}", paper.contours(study)),
+            )
+        },
+    )
+
+
+def _least_mu(study: DesignCurves) -> float:
+    slope_deg, wanted_m = paper.READ_OFF
+    return study.minimum_mu(slope_deg, paper.FIG_12_PPA_G, wanted_m)
+
+
+def _prd_mm(study: DesignCurves) -> float:
+    return 1e3 * float(np.interp(0.5, study.mus, study.prd(4.0, paper.FIG_12_PPA_G)))

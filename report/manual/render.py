@@ -1,45 +1,183 @@
 """Output files of a verification: PDF, CSV and charts.
 
-Read `sections` and `report.manual.summary` next.
+Read `sections` and `report.manual.render` next.
+
+The summary of the manual: verdict, key results, checks by section.
+
+Machine and software versions of a verification.
+
+Sections that consist of tables: checks, other programs.
 """
 
 from __future__ import annotations
 
 import datetime as dt
+import math
+import os
+import platform
 from collections.abc import Callable, Mapping, Sequence
+from importlib import metadata
+from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 from markupsafe import Markup
 
 import solver.building.roof
-from report.document.sections import Section, filled, section
-from report.document.templates import rendered
-from report.manual.building import building
-from report.manual.machine import this_machine
+from report.document.tables import grouped
+from report.document.templates import Section, filled, rendered, section
+from report.entities.shown import centered, text, words
+from report.manual import precision
+from report.manual.measured import building, shake_table
 from report.manual.models import models
-from report.manual.precision import work
-from report.manual.robustness import conditioning, stability
-from report.manual.shake_table import shake_table
-from report.manual.studies import convergence, curves, links
-from report.manual.summary import judged, summary
-from report.manual.tables import checks, peers
+from report.manual.precision import conditioning, convergence, curves, floor, links, stability, work
+from report.pages.parts import verdict
 from report.pages.symbols import with_symbols
+from report.text.counts import grouped_by, lettered
+from report.text.formats import csv_text, percent, scientific, seconds, ten_digits, unbroken
+from report.text.validation import validation
 from report.typeset.pdf import TEMPLATES, lay_out
-from report.words.formats import csv_text
-from report.words.validation import validation
 from solver.rivals.methods import METHODS
-from solver.verification import model_evidence, model_study, static_study
+from solver.verification import evidence, model_study
 from solver.verification import shake_table as accepted
-from solver.verification.evidence import Verification
+from solver.verification.building import BY_HEIGHT
+from solver.verification.evidence import Check, PeerPoint, Verification
 from solver.verification.features import statuses
+
+_TIME = "time per run [s]"
+
+
+def judged(is_passed: bool) -> Markup:
+    """Return PASS, or FAIL highlighted."""
+    return verdict(is_passed, ("PASS", "FAIL"))
+
+
+def summary(verification: Verification) -> Section:
+    """Return verdict, key results and checks by section."""
+    work, maps, links = verification.work, verification.maps, verification.links
+    paper = work[(work["method"] == "paper") & (work["setting"] == 64)]
+    # Of the same record and case.
+    beside = paper.merge(work[work["method"] == "exact"], on=["record", "case"])
+    worst = max(links, key=lambda link: link.worst_percent) if links else None
+    return section(
+        "manual/summary",
+        "Summary",
+        floor=floor(verification),
+        exact_s=work.loc[work["method"] == "exact", _TIME].median(),
+        times_longer=(beside[f"{_TIME}_x"] / beside[f"{_TIME}_y"]).median(),
+        paper_percent=paper["PRD error [%]"].max(),
+        failed_runs=work[_TIME].isna().sum(),
+        failed_cells=sum(int(sweep.failed.sum()) for sweep in maps),
+        cells=sum(sweep.failed.size for sweep in maps),
+        worst=worst,
+        worst_mm=precision.worst_mm(worst) if worst else math.nan,
+        links_percent=float(np.mean([link.mean_percent for link in links] or [math.nan])),
+        PAPER_WORST_PERCENT=precision.PAPER_WORST_PERCENT,
+        PAPER_MEAN_PERCENT=precision.PAPER_MEAN_PERCENT,
+        BY_HEIGHT=BY_HEIGHT,
+        by_section=grouped_by(verification.checks, lambda row: row.section),
+        used=_used,
+    )
+
+
+def _used(rows: Sequence[Check]) -> str:
+    shares = [row.error / row.tolerance for row in rows if row.tolerance > 0.0]
+    return f"{100.0 * max(shares):.2g} %" if shares else "—"
+
+
+_LIBRARIES = ("numpy", "numba", "llvmlite", "scipy", "pandas", "matplotlib", "jinja2", "weasyprint")
+_CPU_INFO = Path("/proc/cpuinfo")
+
+
+def this_machine() -> dict[str, str]:
+    """Return labels with versions or descriptions, without names of persons, hosts or paths."""
+    return {
+        "Roofslip": metadata.version("roofslip"),
+        "Python": platform.python_version(),
+        **{name: installed(name) for name in _LIBRARIES},
+        "Processor": processor(),
+        "Cores": str(os.cpu_count() or 1),
+        "System": f"{platform.system()} {platform.release()}, {platform.machine()}",
+    }
+
+
+def installed(library: str) -> str:
+    """Return the version of a library, or that it is not installed."""
+    try:
+        return metadata.version(library)
+    except metadata.PackageNotFoundError:
+        return "not installed"
+
+
+def processor() -> str:
+    """Return the processor's model name, if the system reports it."""
+    try:
+        lines = _CPU_INFO.read_text(encoding="utf-8").splitlines()
+    except OSError:
+        lines = []
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.processor() or platform.machine()
+
+
+_CHECK_COLUMNS = (
+    (words("Problem", 3.15), lambda row: unbroken(lettered(row.problem))),
+    (words("Quantity", 1.95), lambda row: _quantity(row)),
+    (text("Expected", share=1.55), lambda row: ten_digits(row.expected)),
+    (text("Computed", share=1.55), lambda row: ten_digits(row.computed)),
+    (text("Error", share=1.1), lambda row: scientific(row.error)),
+    (text("Tolerance", share=1.1), lambda row: scientific(row.tolerance)),
+    (centered("Result", 0.7), lambda row: judged(row.passed)),
+)
+
+_PEER = (
+    (words("Record", 2.0), lambda peer: peer.record),
+    (words("Analysis case", 2.0), lambda peer: lettered(peer.scene)),
+    (text("Time per run"), lambda peer: seconds(peer.seconds)),
+    (text("Error in PRD"), lambda peer: _error(peer.prd_error_percent)),
+)
+
+
+def checks(verification: Verification) -> Section:
+    """Return every check, a table for each section."""
+
+    def source(row: Check) -> str:
+        return f"{row.id}. Source: {lettered(row.source)}"
+
+    return section(
+        "manual/checks",
+        "Checks",
+        by_section={
+            name: grouped(grouped_by(rows, source), _CHECK_COLUMNS)
+            for name, rows in grouped_by(verification.checks, lambda row: row.section).items()
+        },
+    )
+
+
+def _quantity(row: Check) -> str:
+    return row.quantity if row.unit == "1" else f"{row.quantity} [{lettered(row.unit)}]"
+
+
+def peers(points: Sequence[PeerPoint]) -> Section:
+    """Return the results of other programs, each run below its program and model."""
+    groups = grouped_by(points, lambda peer: f"{peer.peer} {peer.version}: {peer.note}")
+    return section(
+        "manual/peers",
+        "Other programs",
+        peers=grouped(groups, _PEER),
+    )
+
+
+def _error(value_percent: float) -> str:
+    return "failed" if math.isnan(value_percent) else percent(value_percent)
+
 
 _CONSTANTS = {
     "building_rules": solver.building.roof,
-    "model_evidence": model_evidence,
+    "model_evidence": evidence,
     "model_study": model_study,
     "shake_table": accepted,
-    "static_study": static_study,
+    "static_study": model_study,
 }
 """Modules whose constants the templates print."""
 

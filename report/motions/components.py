@@ -1,6 +1,8 @@
 """Reads the components of each motion that a workbook names, and processes them as requested.
 
 Owns how components are combined; `files` reads them, `history` makes motions of them.
+
+Samples far above all others of a record: a digit, a sign of a missing value, a loose contact.
 """
 
 from __future__ import annotations
@@ -14,18 +16,42 @@ from typing import Any
 import numpy as np
 
 from report.motions.files import Component, Reader, find_file, find_heading, read_component
-from report.motions.spikes import spikes
 from report.sheet.checking.motion_checks import LABELS, SHORTEST_S
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.unseen import Unseen
 from report.sheet.schema.choices import AccelUnit, Baseline, Scaling
 from report.sheet.schema.fields import Finding, Place
 from report.sheet.schema.motions import MotionInput
-from report.words.units import G_MPS2
+from report.text.units import G_MPS2
 from solver.formats import read_motion_file
-from solver.model import InputError
+from solver.model import Floats, InputError
 from solver.records.processing import Processing, process, process_together
 from solver.records.record import Record, has_gravity
+
+FACTOR = 3.0
+"""Smallest spike / largest other sample: shaking rises to its peak over several samples."""
+
+MOST = 10
+LEAST_SAMPLES_FOR_EACH = 100
+
+
+def spikes(a: Floats) -> tuple[tuple[int, ...], float]:
+    """Return the indexes of the spikes of a record, and the largest magnitude of the others.
+
+    Spikes are at most `MOST` samples, and at most one in `LEAST_SAMPLES_FOR_EACH`, each of which
+    is more than `FACTOR` times any sample that is none.
+
+    Parameters
+    ----------
+    a : array, shape (n,)
+    """
+    size = np.abs(a)
+    most = min(MOST, len(a) // LEAST_SAMPLES_FOR_EACH)
+    largest = np.argsort(-size, kind="stable")[: most + 1]
+    for count in range(1, most + 1):
+        if size[largest[count - 1]] > FACTOR * size[largest[count]]:
+            return tuple(sorted(map(int, largest[:count]))), float(size[largest[count]])
+    return (), float(size.max(initial=0.0))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,7 +72,7 @@ class RecordFile:
     # its last sample; otherwise NaN
     hold_s: float
     size: int  # of the file [bytes]; 0 for a pasted column
-    spikes: tuple[int, ...]  # indexes of samples far above all others (`report.motions.spikes`)
+    spikes: tuple[int, ...]  # indexes of samples far above all others (`report.motions.components`)
     others_g: float  # largest magnitude of the other samples [g]
     unseen: tuple[Unseen, ...] = ()  # of a pasted column: cells that the workbook keeps from sight
 

@@ -2,22 +2,137 @@
 
 Orders the steps: `components` reads, `repeated` compares, `history` scales and carries to the
 roof. Read `prepare`.
+
+Finds motions that a workbook gives more than once, by the samples of their horizontal records.
+
+Finds links that are too stiff to integrate under the motions of a project.
+
+Warnings and notes on records: step, duration, unequal components, spikes, how each was read.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from report.motions.components import Components, RecordFile, read_components
+import numpy as np
+
+from report.motions.components import HORIZONTAL, Components, RecordFile, read_components
 from report.motions.files import bytes_of
 from report.motions.history import PreparedMotion, shake
-from report.motions.repeated import repeated
-from report.motions.stiff_links import stiff_links
-from report.sheet.checking.motion_checks import LABELS
+from report.sheet.checking.findings import note, warning
+from report.sheet.checking.motion_checks import FIELDS, LABELS
 from report.sheet.reading.read import Sheet
-from report.sheet.schema.fields import Finding, Place
-from solver.model import Motion
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.fields import DraftRow, Finding, Place, Where
+from report.sheet.schema.motions import Links
+from report.text.units import G_MPS2, Quantity
+from solver.model import Floats, Motion
+from solver.sliding.row import MOST_STEPS, BlockRow, minimum_steps
+
+ALIKE = 1e-3
+"""Largest difference of two samples / peak where records are the same: above that of rounding."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Given:
+    """A horizontal record: its cell, its row, and its samples / the sample of largest size."""
+
+    place: Place
+    row: DraftRow
+    shape: Floats
+
+    def repeats(self, other: _Given) -> bool:
+        """Whether it is another one again, at any scale and of either sign."""
+        return _overlap(self.row, other.row) and bool(
+            np.abs(self.shape - other.shape).max() <= ALIKE
+        )
+
+
+def repeated(
+    rows: Sequence[DraftRow], by_motion: Mapping[int, Components], where: Where
+) -> Iterator[Finding]:
+    """Yield each motion with a horizontal record of a motion above it.
+
+    Parameters
+    ----------
+    rows : sequence of DraftRow
+    by_motion : mapping of int to Components
+        By row; without those that could not be read.
+    where : callable
+        Returns the address of a place.
+    """
+    seen: dict[tuple[int, int], list[_Given]] = {}
+    for index, components in by_motion.items():
+        given = list(_given(index, rows[index], components))
+        pairs = ((new, old) for key, new in given for old in seen.get(key, ()) if new.repeats(old))
+        new, old = next(pairs, (None, None))
+        if new is not None and old is not None:
+            text = (
+                f"{LABELS[new.place.field]} record repeats the {LABELS[old.place.field]} record at "
+                f"{where(old.place)} (equal samples, apart from scale and sign): {new.row['id']} "
+                f"is {old.row['id']} again"
+            )
+            yield Finding.error(new.place, text, "give each motion once")
+        for key, item in given:
+            seen.setdefault(key, []).append(item)
+
+
+def _given(
+    index: int, row: DraftRow, components: Components
+) -> Iterator[tuple[tuple[int, int], _Given]]:
+    """Yield the horizontal records of a motion that are not all zeros, each with a key.
+
+    Records that are the same have the same key: few others are then to be compared.
+    """
+    for field in HORIZONTAL:
+        if field in components.whole:
+            a = components.whole[field].a_mps2
+            at = int(np.abs(a).argmax())
+            if a[at] != 0.0:
+                yield (len(a), at), _Given(Place("motions", index, field), row, a / a[at])
+
+
+def _overlap(one: DraftRow, other: DraftRow) -> bool:
+    """Whether the times that two motions take of their records overlap: a file may hold two."""
+    (start, end), (other_start, other_end) = map(_times, (one, other))
+    return start < other_end and other_start < end
+
+
+def _times(row: DraftRow) -> tuple[float, float]:
+    return row["from_s"] or 0.0, math.inf if row["to_s"] is None else row["to_s"]
+
+
+def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Finding]:
+    """Yield the rows whose runs together need more than `MOST_STEPS` steps."""
+    seconds = sum(
+        len(motion.orientations) * motion.dt_s * len(motion.ax_mps2) for motion in motions
+    )
+    weights = {array.id: array.weight_n for array in data.arrays}
+    for index, links in enumerate(data.links):
+        most = _stiffest(links, weights[links.array], seconds)
+        if links.stiffness_n_per_m > most:
+            yield Finding.error(
+                Place("links", index, "stiffness_n_per_m"),
+                f"link stiffness is {_said(links.stiffness_n_per_m)}, too stiff to "
+                f"integrate in {MOST_STEPS:.0e} steps",
+                f"give {_said(0.9 * most)} or less (a stiffer row moves as one rigid "
+                "block with the mean coefficient)",
+            )
+
+
+def _stiffest(links: Links, weight_n: float, seconds: float) -> float:
+    """Return the stiffness [N/m] that needs `MOST_STEPS`; steps grow with its square root."""
+    soft = BlockRow(mus=links.mus, stiffness_per_s2=1.0, damping_per_s=2.0 * links.damping_ratio)
+    per_s2 = (MOST_STEPS / minimum_steps(soft, seconds)) ** 2
+    return per_s2 * weight_n / (len(links.mus) * G_MPS2)
+
+
+def _said(stiffness: float) -> str:
+    us, si = (f"{stiffness / unit.si:.2g} {unit.symbol}" for unit in Quantity.STIFFNESS.value)
+    return f"{us} ({si})"
+
 
 # Of all files, each counted for every motion that names it: what is read within 10 s.
 MAX_TOGETHER = 64_000_000
@@ -96,3 +211,80 @@ def shaking(sheet: Sheet, by_motion: Sequence[Components]) -> Shaking:
         prepared=tuple(prepared for _, prepared in shaken),
         records=tuple(file for components in by_motion for file in components.files),
     )
+
+
+MOST_STEP_S = 0.02
+"""Time step [s] above which a record has no content at 25 Hz and above."""
+
+MOST_DURATION_S = 300.0
+"""Duration [s] above which a time step is more probably wrong than right."""
+
+MOST_UNEQUAL = 0.05
+"""Share of the longest component that may be trimmed from it without a warning."""
+
+
+def record_findings(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
+    """Yield what is unusual in the records of each motion."""
+    for index, row in enumerate(data.motions):
+        files = [file for file in shaking.records if file.motion_id == row.id]
+        if files:
+            yield from _step(index, files)
+            yield from _duration(index, files)
+            yield from _unequal(index, files)
+        for file in files:
+            yield from _spikes(index, file)
+            place = Place("motions", index, FIELDS[file.component])
+            yield from (note(place, f"{file.name}: {text}") for text in file.notes)
+
+
+def _step(index: int, files: Sequence[RecordFile]) -> Iterator[Finding]:
+    longest = max(files, key=lambda file: file.dt_s)
+    if longest.dt_s > MOST_STEP_S * (1.0 + 1e-9):
+        text = (
+            f"{longest.name} has a time step of {longest.dt_s:g} s, and so no content above"
+            f" {0.5 / longest.dt_s:.3g} Hz; {MOST_STEP_S:g} s or less is usual: correct the time"
+            " step, or give another record"
+        )
+        yield warning(f"step {longest.motion_id}", _place(index, longest), text)
+
+
+def _duration(index: int, files: Sequence[RecordFile]) -> Iterator[Finding]:
+    longest = max(files, key=_seconds)
+    if _seconds(longest) > MOST_DURATION_S:
+        text = (
+            f"{longest.name} lasts {_seconds(longest):.0f} s at a time step of {longest.dt_s:g} s;"
+            f" {MOST_DURATION_S:.0f} s or less is usual: correct the time step, or trim the record"
+        )
+        yield warning(f"duration {longest.motion_id}", _place(index, longest), text)
+
+
+def _unequal(index: int, files: Sequence[RecordFile]) -> Iterator[Finding]:
+    longest = max(files, key=lambda file: file.npts)
+    cut = max(file.npts_trimmed for file in files)
+    if cut > MOST_UNEQUAL * longest.npts:
+        text = (
+            f"{longest.name} has {longest.npts} samples, and {cut} of them are trimmed, to the"
+            " shortest component; give components of one recording"
+        )
+        yield warning(f"length {longest.motion_id}", _place(index, longest), text)
+
+
+def _spikes(index: int, file: RecordFile) -> Iterator[Finding]:
+    if not file.spikes:
+        return
+    first, more = file.spikes[0], len(file.spikes) - 1
+    which = f"sample {first + 1:,}" + (f" and {more} more" if more else "")
+    text = (
+        f"{file.name}: {which}, at {first * file.dt_s:.6g} s, {'reach' if more else 'is'}"
+        f" {file.peak_g:.4g} g, and no other is more than {file.others_g:.4g} g; correct the file,"
+        " or give another record"
+    )
+    yield warning(f"spike {file.motion_id} {file.component}", _place(index, file), text)
+
+
+def _seconds(file: RecordFile) -> float:
+    return (file.npts - 1) * file.dt_s
+
+
+def _place(index: int, file: RecordFile) -> Place:
+    return Place("motions", index, FIELDS[file.component])

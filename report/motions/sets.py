@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from report.motions.files import BAR, MAX_BYTES
-from report.words.formats import aligned
+from report.text.formats import aligned
 from solver.formats import MotionFile, read_motion_file
 from solver.model import InputError
 

@@ -10,19 +10,18 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment, by_id
-from report.assessment.friction import mu_words
-from report.assessment.friction_rows import tested
-from report.assessment.friction_velocity import velocity_check
+from report.assessment.friction import mu_words, velocity_check
+from report.assessment.requirement_rows import tested
 from report.assessment.verdict import NOT_GIVEN, VELOCITY_ROW, Verdict
 from report.document.tables import Table, Wide, by_place, listed, stamp
 from report.entities.shown import Shown, centered, text, words
 from report.pages.parts import PackageData
-from report.sheet.checking.friction_checks import MU_TOLERANCE
+from report.sheet.checking.motion_checks import MU_TOLERANCE
 from report.sheet.schema import ProjectInput
-from report.sheet.schema.friction import FrictionTests
+from report.sheet.schema.project import FrictionTests
 from report.sheet.schema.scene import Array
-from report.words.counts import ids_by, numbered
-from report.words.units import Quantity, number
+from report.text.counts import ids_by, numbered
+from report.text.units import Quantity, number
 from solver.friction_tests import FittedLaw, Series, Surface, fit_law, governing
 
 _STATED = (
@@ -61,7 +60,7 @@ def page(package: PackageData) -> Mapping[str, object]:
 
 def drawings(package: PackageData) -> Sequence[str]:
     """Return the runs over velocity, where any run reports its velocity."""
-    from report.figures.friction import friction_by_velocity
+    from report.figures.charts import friction_by_velocity
 
     data = package.data
     if not _n_drawn(data):

@@ -1,6 +1,12 @@
 """What the letter, the summary, the roof plan and the basis need beside the package.
 
 Computes nothing. Read `report.pages.parts` first.
+
+The head of the first sheet: project, codes and revisions. Read `cover`.
+
+What changed since a former revision, and the bars beside changed rows.
+
+The comparison with the prescriptive displacement: chart, limits of the route, other inputs.
 """
 
 from __future__ import annotations
@@ -10,23 +16,26 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from report.assessment.arrays import Route
-from report.assessment.cases import cases
-from report.assessment.evidence import Evidence
+from report.assessment.arrays import ArrayAssessment, Route
+from report.assessment.evidence import Evidence, cases
 from report.assessment.friction import mus_words
-from report.assessment.friction_rows import tested
-from report.assessment.overrides import LOWERING
-from report.assessment.plan_gaps import plan_gaps
+from report.assessment.plan_clearances import plan_gaps
+from report.assessment.project import ChangeKind, Changes
+from report.assessment.requirement_rows import tested
 from report.assessment.runs import nan_is_worst
 from report.assessment.spectra import departures
-from report.assessment.verdict import Verdict
-from report.drawing.schedule import alike_arrays
+from report.assessment.verdict import LOWERING, Verdict
+from report.drawing.labels import alike_arrays
 from report.drawing.sheet import unit_format
 from report.entities.clearance import ClearanceResult
-from report.pages.limits import troubles
+from report.pages.limits import analysis_faults, check_table, troubles
 from report.pages.parts import PackageData, statistic
-from report.pages.remedies import answers
-from report.words.validation import explained
+from report.pages.summary import answers
+from report.pages.symbols import friction_standard
+from report.sheet.schema import SECTION
+from report.sheet.schema.project import Revision
+from report.sheet.schema.years import StudyYears, YearsOfArray
+from report.text.validation import explained
 from solver.verification.shake_table import SHIPPED
 
 N_WORST = 3
@@ -137,3 +146,83 @@ def basis(package: PackageData) -> Mapping[str, object]:
         "is_tested": bool(tested(package.data)),
         "validation": explained(SHIPPED),
     }
+
+
+def cover(package: PackageData) -> Mapping[str, object]:
+    """Return what the head needs beside the package."""
+    return {
+        "friction_standard": friction_standard(package),
+        "revisions": list(_revisions(package)),
+    }
+
+
+def _revisions(package: PackageData) -> Iterator[Sequence[object]]:
+    """Yield revision, date, description and author of each, or of the first issue."""
+    project = package.data.project
+    first = Revision(
+        revision=project.revision,
+        date=project.date,
+        description="First issue",
+        by=project.prepared_by,
+    )
+    for row in package.data.revisions or [first]:
+        yield row.revision, row.date, row.description, row.by or "—"
+
+
+def counted(changes: Changes) -> str:
+    """Return the number of changes by kind, as a clause."""
+    total = len(changes.items)
+    if not total:
+        return "no change in inputs, records, results or verdicts"
+    counts = ((kind, changes.count(kind)) for kind in ChangeKind)
+    parts = [f"{kind.value} {count}" for kind, count in counts if count]
+    return f"{total} change{'s' if total > 1 else ''} ({', '.join(parts)})"
+
+
+def page(package: PackageData) -> Mapping[str, object]:
+    """Return the changes as rows of a table."""
+    items = package.changes.items
+    return {
+        "counted": counted(package.changes),
+        "rows": [(item.kind.value, item.title, item.cell, item.before, item.now) for item in items],
+    }
+
+
+def comparison(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
+    """Return what the comparison needs beside the arrays."""
+    arrays = package.assessment.arrays
+    checks = [(item.id, check) for item in arrays for check in item.prescriptive_checks]
+    return {
+        "cases": list(cases(package.assessment, evidence)),
+        "faults": {item.id: analysis_faults(package, item) for item in arrays},
+        "years": list(_years(package)),
+        "routes": check_table(package, checks, ("satisfied", "not satisfied")),
+    }
+
+
+def _years(package: PackageData) -> Iterator[Mapping[str, object]]:
+    """Yield the study of years with its file, and the arrays of both; nothing without one."""
+    sheet = package.assessment.sheet
+    label = SECTION["options"].entry("study_years").cell.label
+    by_id = {array.id.casefold(): array for array in package.assessment.arrays}
+    for document in sheet.documents:
+        if document.label != label:
+            continue
+        study = StudyYears.model_validate_json(sheet.book.files[document.sha256])
+        shared = [
+            (by_id[one.array.casefold()], one)
+            for one in study.arrays
+            if one.array.casefold() in by_id
+        ]
+        yield {
+            "study": study,
+            "document": document,
+            "arrays": shared,
+            "unlike": [array.id for array, one in shared if _is_unlike(array, one)],
+        }
+
+
+def _is_unlike(array: ArrayAssessment, one: YearsOfArray) -> bool:
+    """Whether an array has another friction coefficient or slope in the study, as printed."""
+    slope_deg = math.degrees(array.array.slope_rad)
+    return abs(array.array.mu - one.mu) >= 5e-4 or abs(slope_deg - one.slope_deg) >= 5e-3

@@ -1,24 +1,113 @@
-"""Inputs: site parameters in the order of a permit sheet, arrays, objects."""
+"""Inputs: site parameters in the order of a permit sheet, arrays, objects.
+
+Seismic parameters of the site that are not given; their table is in its template.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 from report.assessment.friction import mu_words
+from report.assessment.project import Assessment
 from report.assessment.runs import REQUESTED_MODELS
 from report.assessment.verdict import NOT_GIVEN
 from report.document.tables import Table, listed
 from report.entities.shown import Shown, length, plain, text, words
-from report.motions.targets import ac156
+from report.motions.history import ac156
 from report.pages import friction_tests
 from report.pages.parts import PackageData
-from report.pages.site import site, unused_s_ds
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import RiskCategory
+from report.sheet.schema.project import Site
 from report.sheet.schema.scene import Array, RoofObject
 from report.sheet.schema.shapes import Polygon, Shape
-from report.words.units import Quantity, number
+from report.text.counts import grouped_by, ranged
+from report.text.units import Quantity, digits_up, no_less, number, pair
+from solver.building.structure import approximate_period_s
+from solver.rules import hazard
+from solver.rules.hazard import ComponentForce, component_force
 from solver.rules.rulesets import LowProfileLength
+
+
+def site(package: PackageData) -> Mapping[str, object]:
+    """Return what the table of the site needs beside the package."""
+    site, building = package.data.site, package.data.building
+    factors = sorted({array.i_p for array in package.data.arrays})
+    categories = hazard.design_categories(
+        s_ds_g=site.s_ds,
+        s_d1_g=site.s_d1,
+        s_1_g=site.s_1_g,
+        is_essential=site.risk_category is RiskCategory.IV,
+    )
+    return {
+        "i_p": tuple(dict.fromkeys((factors[0], factors[-1]))),
+        "period_s": approximate_period_s(building.structure or "other", site.structure_height_m),
+        "force": site_force(package.data),
+        "near_fault_g": hazard.NEAR_FAULT_S_1_G,
+        "categories": categories,
+    }
+
+
+def attachment(given: Assessment) -> str:
+    """Return the force of a positive attachment of the arrays that are NG, if any is."""
+    data = given.project
+    arrays = [item.array for item in given.arrays if not given.array_verdict(item).is_permitted]
+    if not arrays:
+        return ""
+    force, names = site_force(data), ranged(array.id for array in arrays)
+    if force is None:
+        factors = " and ".join(data.site.edition.force_factors)
+        return (
+            f"Positive attachment of {names}, by others: give {factors} on the sheet Site for F_p."
+        )
+    weight = partial(pair, quantity=Quantity.WEIGHT, us_first=data.us_first, show=no_less)
+    alike = grouped_by(arrays, lambda array: weight(force.value * array.weight_n))
+    forces = (f"{ranged(array.id for array in same)} {each}" for each, same in alike.items())
+    return (
+        f"Positive attachment of {names}, by others, for F_p = {digits_up(force.value, 3)} W_p, at "
+        f"each: {'; '.join(forces)}. It is not assessed here."
+    )
+
+
+def site_force(data: ProjectInput) -> ComponentForce | None:
+    """Return F_p / W_p with the largest I_p of the arrays, if a_p and R_p are given.
+
+    The height factor of ASCE 7-22 takes the period where the workbook states period or structure.
+    """
+    site, building = data.site, data.building
+    if site.force_factor is None or site.force_divisor is None:
+        return None
+    period_s = building.period_s
+    if period_s is None and building.structure is not None:
+        period_s = approximate_period_s(building.structure, site.structure_height_m)
+    return component_force(
+        site.edition,
+        s_ds_g=site.s_ds,
+        factor=site.force_factor,
+        divisor=site.force_divisor,
+        i_p=max(array.i_p for array in data.arrays),
+        z_over_h=site.z_over_h,
+        period_s=period_s,
+    )
+
+
+def unused_s_ds(site: Site) -> Mapping[str, object]:
+    """Return the symbols from which S_DS follows, and its value from them if another is given."""
+    origin, s_ms = _origin(site), site.parameters.s_ms
+    is_unused = site.s_ds_g is not None and s_ms is not None and origin
+    return {"origin": origin, "value_g": 2.0 / 3.0 * s_ms if is_unused and s_ms else None}
+
+
+def _origin(site: Site) -> tuple[str, ...]:
+    """Return the symbols of the given values from which S_DS follows; none if there are none."""
+    if site.s_ms_g is not None:
+        return ("S_MS",)
+    if site.edition.has_site_coefficients and site.s_s_g is not None and site.f_a is not None:
+        return ("S_S", "F_a")
+    return ()
 
 
 def below(_: PackageData) -> tuple[tuple[str, str], ...]:

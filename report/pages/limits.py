@@ -1,26 +1,35 @@
-"""Limits, requirements and interconnection strength, and what of them the summary says."""
+"""Limits, requirements and interconnection strength, and what of them the summary says.
+
+The part on clearances: what its template needs beside the clearances themselves.
+
+The provisions behind the numbers, overrides and departures.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
+from markupsafe import Markup, escape
+
 from report.assessment.arrays import ArrayAssessment, Route
+from report.assessment.neighbors import Cover
 from report.assessment.precheck import findings
 from report.assessment.verdict import STRENGTH_ROW, as_one
 from report.document.tables import Table, listed, table_of
 from report.entities.array import array_results
-from report.entities.marks import dagger
-from report.entities.requirement import requirement_rows
-from report.entities.shown import centered, text, words
-from report.pages.links import link_troubles
-from report.pages.model import model_troubles
+from report.entities.evidence import NeighborResult
+from report.entities.requirement import UNVERIFIED, dagger, requirement_rows
+from report.entities.shown import centered, length, text, words
+from report.pages.model import link_troubles, model_troubles
 from report.pages.parts import NG, OK, PackageData, verdict
 from report.pages.symbols import with_symbols
 from report.sheet.checking.findings import lines
+from report.sheet.schema.choices import ObjectKind
 from report.sheet.schema.fields import Level
-from report.words.counts import grouped_by, ranged
+from report.text.counts import grouped_by, ranged
+from report.typeset.equations import symbol
 from solver.rules.limit import Consequence, Limit
-from solver.rules.provisions import Basis
+from solver.rules.provisions import OVERRIDABLE, Basis, Neighbor
 
 EXCEPTED = "permitted*"
 """Verdict on a value beyond a limit that the rule set permits to be exceeded."""
@@ -123,3 +132,87 @@ def _warnings(package: PackageData) -> Iterator[Sequence[str]]:
     warnings = [finding for finding in found if finding.level is Level.WARNING]
     for line in lines(warnings, sheet.addresses):
         yield line.cells, f"{line.finding.text}.", line.finding.reason or "not acknowledged"
+
+
+def clearances(package: PackageData) -> Mapping[str, object]:
+    """Return the part on clearances, without its chart."""
+    near = list(map(NeighborResult.of, package.assessment.neighbors))
+    beyond = [pair for pair in package.assessment.pairs if not pair.is_listed]
+    return {
+        "neighbors": [pair for pair in near if pair.cover is not Cover.BEYOND],
+        "farther": [
+            row.clearance for pair in near if pair.cover is Cover.BEYOND for row in pair.given
+        ],
+        "n_beyond": len(beyond),
+        "nearest": min(beyond, key=lambda pair: pair.gap_m, default=None),
+        "factors": _factors(package),
+        "clauses": dict.fromkeys(row.clause for row in package.clearances),
+        "parapets": _parapets(package),
+        "is_least": any(gap.is_minimum_value for gap in package.assessment.clearances),
+    }
+
+
+def _factors(package: PackageData) -> Sequence[Mapping[str, object]]:
+    """Return each kind of neighbor with its factor, and the clearances to it."""
+    kinds = grouped_by(package.clearances, lambda row: (row.neighbor.value, row.factor))
+    return [
+        {"kind": kind, "factor": factor, "numbers": [str(row.count) for row in rows]}
+        for (kind, factor), rows in kinds.items()
+    ]
+
+
+def _parapets(package: PackageData) -> Table:
+    """Return the parapet of each clearance to an edge that has one, and whether it qualifies."""
+    edges = {
+        item.id: item.height_m
+        for item in package.data.objects
+        if item.kind is ObjectKind.EDGE_WITH_PARAPET and item.height_m is not None
+    }
+    arrays = {array.id: array.cg_height_m for array in package.data.arrays}
+    columns = (
+        (words("Parapet"), lambda row: row[0].object),
+        (words("Beside"), lambda row: row[0].array),
+        (length("Top above the roof"), lambda row: row[1]),
+        (length("Center of gravity"), lambda row: row[2]),
+        (length("Top above it"), lambda row: row[1] - row[2]),
+        (words("Result", 1.3), lambda row: row[3]),
+    )
+    rows = [
+        (
+            gap.clearance,
+            edges[gap.clearance.object],
+            arrays[gap.clearance.array],
+            "qualifies" if gap.neighbor is Neighbor.PARAPET else "does not qualify",
+        )
+        for gap in package.assessment.clearances
+        if gap.clearance.object in edges
+    ]
+    return listed(rows, columns, package.fmt, kind="compact")
+
+
+def provisions(package: PackageData) -> Mapping[str, object]:
+    """Return every number of the rule set in two columns, and the overrides."""
+    rules = package.assessment.rules
+    named = [(_sentence_case(OVERRIDABLE[key]), value) for key, value in rules.values.items()]
+    columns = (
+        (words("Provision", 4.6), lambda row: row[0]),
+        (text("Value", share=0.75), lambda row: f"{row[1].value:.4g}" + dagger(row[1])),
+        (words("Clause", 2.4), lambda row: row[1].clause),
+    )
+    middle = (len(named) + 1) // 2
+    halves = named[:middle], named[middle:]
+    return {
+        "halves": [listed(half, columns, package.fmt, kind="compact") for half in halves],
+        "noted": [(name, provision) for name, provision in named if provision.note],
+        "unverified": UNVERIFIED,
+        "overrides": [
+            (_sentence_case(OVERRIDABLE[row.provision]), f"{row.value:.6g}†‡", row.reason)
+            for row in package.data.overrides
+        ],
+    }
+
+
+def _sentence_case(name: str) -> Markup:
+    """Return the name of a provision in sentence case with typeset symbols."""
+    plain = escape(name[0].upper() + name[1:]).replace(" - ", " − ").replace("^2", "²")
+    return plain.replace("S_DS", symbol("S_DS")).replace("W1", symbol("W_1"))

@@ -9,10 +9,10 @@ import math
 from collections.abc import Mapping
 
 from report.assessment.runs import nan_is_worst
-from report.drawing.section import drawn_slope_deg
+from report.drawing.items import drawn_slope_deg
 from report.pages.parts import PackageData, statistic
 from report.sheet.schema.choices import Direction
-from report.words.units import Quantity
+from report.text.units import Quantity
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
 

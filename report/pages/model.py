@@ -1,6 +1,8 @@
 """The model used for each array, the reason it is adequate, and what it neglects.
 
 Selects nothing: `solver.sliding.least_model` does. Read `report.pages.parts` first.
+
+Comparison of arrays with a row of linked blocks: results, and where one block may not do.
 """
 
 from __future__ import annotations
@@ -11,17 +13,68 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.links import LinkedArray
 from report.assessment.runs import REQUESTED_MODELS, OrientedRun, nan_is_worst
 from report.document.tables import Table, Wide, by_place, listed
-from report.entities.columns import NO_VALUE
-from report.entities.shown import centered, length, plain, text, words
-from report.pages import links
-from report.pages.parts import PackageData, verdict
+from report.entities.linked import linked_result
+from report.entities.shown import NO_VALUE, centered, length, plain, text, words
+from report.pages.parts import PackageData, statistic, verdict
 from report.sheet.schema.choices import Direction
-from report.words.letters import below_mm
-from report.words.units import number, ratio
-from solver.model import INCH_M
+from report.text.counts import below_mm
+from report.text.units import number, ratio
+from solver.model import INCH_M, Status
 from solver.sliding.least_model import DEFAULT, Model, Solution
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LinkTrouble:
+    """A reason why one rigid block has not been shown to be adequate for an array.
+
+    Attributes
+    ----------
+    status, runs : Status, tuple of str
+        An outcome without a final displacement, and the runs that have it.
+    is_too_far : bool
+        Whether the row slides too far; if not, and without runs, there is nothing to compare with.
+    """
+
+    linked: LinkedArray
+    status: Status = Status.OK
+    runs: tuple[str, ...] = ()
+    is_too_far: bool = False
+
+
+def part(package: PackageData) -> Mapping[str, object]:
+    """Return the rows of linked blocks for the page on the models; empty where there are none."""
+    linked = package.assessment.linked
+    return {
+        "rows": tuple(map(linked_result, linked)),
+        "statistics": sorted({statistic(array.design.analysis.basis) for array in linked}),
+        "troubles": tuple(link_troubles(package)),
+    }
+
+
+def link_troubles(package: PackageData) -> Iterator[LinkTrouble]:
+    """Yield for which arrays one rigid block has not been shown to be adequate, and why."""
+    for linked in package.assessment.linked:
+        yield from _unfinished(linked)
+        if not linked.design.is_permitted:
+            yield LinkTrouble(linked=linked)
+        if not linked.is_within and not math.isnan(linked.estimated_m):
+            yield LinkTrouble(linked=linked, is_too_far=True)
+
+
+def _unfinished(linked: LinkedArray) -> Iterator[LinkTrouble]:
+    for status in Status:
+        runs = [
+            f"{motion.motion.id} {run.orientation.name}"
+            for motion in linked.motions
+            for run in motion.runs
+            if run.row.status is status
+        ]
+        if runs and status is not Status.OK:
+            yield LinkTrouble(linked=linked, status=status, runs=tuple(runs))
+
 
 _NEGLECTED = {
     Model.ONE_AXIS_VERTICAL: "Vertical shaking",
@@ -41,7 +94,7 @@ def page(package: PackageData) -> Mapping[str, object]:
         "neglected": _neglected_table(package),
         "stability": _stability_table(package),
         "troubles": tuple(model_troubles(package)),
-        "links": links.part(package),
+        "links": part(package),
     }
 
 

@@ -13,19 +13,19 @@ from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.causes import reasons
-from report.assessment.changes import NO_FORMER, Changes
-from report.assessment.friction_rows import basis_words
+from report.assessment.evidence import Saving, saving
 from report.assessment.precheck import limit_value
-from report.assessment.savings import Saving, saving
+from report.assessment.project import NO_FORMER, Changes
+from report.assessment.requirement_rows import basis_words
 from report.assessment.verdict import Verdict
 from report.document.tables import stamp
 from report.entities.array import ArrayResult, array_results
 from report.entities.clearance import ClearanceResult, clearance_results
-from report.entities.marks import Marked
+from report.entities.requirement import Marked
 from report.provenance.files import fingerprint
 from report.sheet.schema.choices import PackageEdition, RecordedAt
 from report.sheet.schema.scene import Array
-from report.words.counts import ids_by
+from report.text.counts import ids_by
 from solver.rules.limit import Limit
 from solver.rules.provisions import Basis
 

@@ -9,13 +9,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.cases import cases
-from report.assessment.evidence import Evidence
+from report.assessment.evidence import Evidence, cases
 from report.drawing.on_paper import printed_plan
 from report.pages import friction_tests
 from report.pages.parts import PackageData
-from report.words.counts import ranged
-from report.words.names import Names
+from report.text.counts import Names, ranged
 from solver.model import SlideHistory
 
 PANELS, CHART_ROWS, ACCELERATION_ROWS = 12, 16, 16  # maximum in one figure: it must fit on a page
@@ -31,8 +29,8 @@ def _in_parts(items: Sequence[Any], most: int) -> Iterator[Sequence[Any]]:
 
 def draw_assessment(package: PackageData) -> Drawings:
     """Return the drawings that need no evidence."""
-    from report.figures import accelerations, plan
-    from report.figures.section import array_section
+    from report.figures import plan, records
+    from report.figures.plan import array_section
 
     us_first, assessment = package.fmt.us_first, package.assessment
     names = package.data.names
@@ -46,7 +44,7 @@ def draw_assessment(package: PackageData) -> Drawings:
     return drawings | {
         "method-motion": [array_section(package.governing.array, us_first)],
         "motions-list": [
-            accelerations.accelerations(some, names)
+            records.accelerations(some, names)
             for some in _in_parts(assessment.shaking.motions, ACCELERATION_ROWS)
         ],
     }
@@ -100,8 +98,7 @@ def _governing(
 def _histories(
     array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool, names: Names
 ) -> Iterator[tuple[str, str]]:
-    from report.figures.history import RunPanel, histories
-    from report.figures.hodograph import hodographs
+    from report.figures.history import RunPanel, histories, hodographs
 
     runs = zip(_in_parts(array.motions, PANELS), _in_parts(followed, PANELS), strict=True)
     for motions, paths in runs:

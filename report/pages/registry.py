@@ -10,15 +10,12 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.evidence import Evidence
-from report.assessment.project import Assessment
-from report.document.sections import Part
+from report.assessment.project import NO_FORMER, Assessment, Changes
+from report.document.templates import Part
 from report.pages import (
+    acceptance,
     accuracy,
-    changes,
-    clearances,
-    comparison,
     echo,
     front,
     inputs,
@@ -26,8 +23,6 @@ from report.pages import (
     method,
     model,
     motions,
-    provisions,
-    records,
     results,
     symbols,
 )
@@ -78,22 +73,22 @@ def _complete(id: str, title: str, fill: Fill) -> Page:
 
 PAGES = (
     Page("summary", "Summary", front.summary),
-    Page("comparison", "Comparison with the prescriptive displacement", comparison.comparison),
+    Page("comparison", "Comparison with the prescriptive displacement", front.comparison),
     Page("plan", "Roof plan and schedule of clearances", _alone(front.plan)),
-    Page("clearances", "Parapets and neighbors", _alone(clearances.clearances)),
+    Page("clearances", "Parapets and neighbors", _alone(limits.clearances)),
     Page("basis", "Basis and limits of the method", _alone(front.basis)),
     Page("model", "Model used", _alone(model.page)),
     Page("limits", "Limits and requirements", _alone(limits.limits)),
-    Page("provisions", "Provisions and overrides", _alone(provisions.provisions)),
+    Page("provisions", "Provisions and overrides", _alone(limits.provisions)),
     Page("inputs", "Inputs", _alone(inputs.inputs), inputs.below),
     Page("motions", "Roof motions", motions.page, motions.below),
     Page("method", "Equations", _alone(method.page), method.below),
     Page("results", "Results", results.page, results.below),
     Page("accuracy", "Accuracy and sensitivity", accuracy.page),
-    Page("records", "Records, software and references", _alone(records.page), is_appendix=True),
+    Page("records", "Records, software and references", _alone(acceptance.page), is_appendix=True),
     Page("notes", "Notes for the construction documents", lambda *_: {}, is_appendix=True),
     _complete("echo", "Input echo", _alone(echo.page)),
-    _complete("hashes", "Hashes of the records", _alone(records.hashes)),
+    _complete("hashes", "Hashes of the records", _alone(acceptance.hashes)),
     _complete("spectra", "Table of spectra", motions.spectra),
     _complete("histories", "Histories and paths", results.histories),
     _complete("symbols", "Symbols", _alone(symbols.page)),
@@ -107,7 +102,7 @@ OF_MOTIONS = frozenset(
 LETTER = Part(id="letter", number="", title="Letter of results", parts=())
 """Before the first page, without a number."""
 
-CHANGES = Page("changes", "Changes", _alone(changes.page))
+CHANGES = Page("changes", "Changes", _alone(front.page))
 """After the summary, without a number: the other parts have the same in every revision."""
 
 

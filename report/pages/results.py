@@ -12,15 +12,14 @@ from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.evidence import Evidence
-from report.assessment.run_warnings import run_warnings
+from report.assessment.motion_runs import run_warnings
 from report.assessment.runs import MotionRun, OrientedRun
 from report.document.tables import Column, Table, TableRow, Wide, listed, table_of
-from report.entities.columns import UnitFormat
-from report.entities.shown import Shown, length, text, words
+from report.entities.shown import Shown, UnitFormat, length, text, words
 from report.pages.parts import PackageData, statistic
 from report.sheet.schema.choices import Direction
-from report.words.counts import named
-from report.words.units import measured, no_less, number
+from report.text.counts import named
+from report.text.units import measured, no_less, number
 from solver.model import Orientation, Status
 
 _Alike = Sequence[ArrayAssessment]

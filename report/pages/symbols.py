@@ -8,7 +8,7 @@ from itertools import zip_longest
 
 from markupsafe import Markup, escape
 
-from report.assessment.friction_rows import STANDARD
+from report.assessment.requirement_rows import STANDARD
 from report.pages.parts import PackageData
 from report.typeset.equations import symbol
 from solver.rules.hazard import EDITIONS

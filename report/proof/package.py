@@ -20,11 +20,11 @@ from pydantic import ValidationError
 from pypdf import PdfReader
 
 from report.motions.files import MAX_BYTES as MAX_RECORD
-from report.proof.numbers import parsed
+from report.proof.contents import parsed
 from report.provenance.files import MANIFEST, RESULTS, SCHEMA_VERSION, Listed, Manifest
 from report.sheet.reading.archive import MAX_FILE, MAX_MEMBERS, MAX_TOTAL, MB
-from solver.meant import meant
 from solver.model import InputError
+from solver.suggestions import meant
 
 _T = TypeVar("_T")
 _MOST_OTHERS = 20

@@ -9,8 +9,7 @@ from importlib.metadata import version
 from itertools import zip_longest
 from typing import Any
 
-from report.proof.contents import refused, words
-from report.proof.numbers import differences, first_other_word
+from report.proof.contents import differences, first_other_word, refused, words
 from report.proof.package import OpenedPackage, guarded, signed_fields
 from report.proof.signatures import Appended, Signature, appended
 from report.provenance.files import MANIFEST, RESULTS, Manifest

@@ -1,15 +1,21 @@
 """The files that a package is computed from, as attachments of the package, and their hashes.
 
 Reads no file and runs nothing. Read `attachments`; `report.proof` takes them out.
+
+The software that computes a package: the parts whose versions matter to numbers and pages.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
+import platform
 import posixpath
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import cache
+from importlib import metadata
 from importlib.metadata import version
 from typing import Annotated
 
@@ -18,10 +24,39 @@ from pydantic import BaseModel, ConfigDict, StringConstraints
 from report.motions.components import RecordFile
 from report.motions.files import BAR, MOST_RECORDS
 from report.motions.prepare import Shaking
-from report.provenance.software import environment
 from report.sheet.reading.read import Sheet
 from report.typeset.finish import Attached
 from solver.model import InputError
+
+_LIBRARIES = (
+    "numpy",
+    "numba",
+    "llvmlite",
+    "pandas",
+    "openpyxl",
+    "lxml",
+    "matplotlib",
+    "weasyprint",
+    "pydyf",
+    "fonttools",
+)
+
+
+@cache
+def versions() -> Mapping[str, str]:
+    """Return the versions that a package prints, by name, without what is not installed."""
+    found = {"roofslip": metadata.version("roofslip"), "python": platform.python_version()}
+    for name in _LIBRARIES:
+        with suppress(metadata.PackageNotFoundError):
+            found[name] = metadata.version(name)
+    return found
+
+
+def environment() -> Mapping[str, str]:
+    """Return the versions, and the system and processor."""
+    system = f"{platform.system()} {platform.machine()} {' '.join(platform.libc_ver())}"
+    return {**versions(), "system": system.strip()}
+
 
 MANIFEST, RESULTS, FORMER = "roofslip.json", "results.json", "since/results.json"
 """Attachments beside the input: what is attached and by which software, and the results."""

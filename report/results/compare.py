@@ -1,6 +1,6 @@
 """What changed since a former revision: inputs, records, results and verdicts.
 
-Reads no file (`report.results.since`) and computes no result. Read `changes`.
+Reads no file (`report.results.results_json`) and computes no result. Read `changes`.
 """
 
 from __future__ import annotations
@@ -11,14 +11,11 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, TypeVar
 
-from report.assessment.changes import Change, ChangeKind, Changes
-from report.assessment.project import Assessment
+from report.assessment.project import Assessment, Change, ChangeKind, Changes
 from report.assessment.verdict import condition
 from report.entities.array import ArrayResult
-from report.entities.cells import Told
-from report.entities.columns import UnitFormat
 from report.entities.results import Compared, compared
-from report.entities.shown import Entity, marks_of
+from report.entities.shown import Entity, Told, UnitFormat, marks_of
 from report.sheet.checking.covered import COVERED
 from report.sheet.schema import SECTIONS
 from report.sheet.schema.fields import Entry, Frozen, Place, SheetSection, YesNo, entries

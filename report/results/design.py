@@ -1,27 +1,200 @@
 """The sheet Design of results.xlsx: from the peaks to the design displacement and the verdicts.
 
 Live formulas, each written with the value from `report.assessment.project`. Read `DesignRow`.
+
+The sheets Peaks and Directions of results.xlsx: from runs to displacements in each direction.
+
+The sheet Inputs of results.xlsx: the numbers that Design and Clearances follow by formula.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
 from typing import Annotated, ClassVar
 
 from report.assessment.arrays import ArrayAssessment, Route
-from report.assessment.overrides import MEANING
 from report.assessment.project import Assessment
-from report.assessment.verdict import Verdict, worst
-from report.entities.array import ArrayResult, array_result
-from report.entities.cells import Column
-from report.entities.shown import Number
-from report.results.directions import PeakRanges
-from report.results.inputs import InputCells
-from report.results.sheets import TOP, Cells, Pages, SheetRow, write_live
+from report.assessment.verdict import MEANING, OVERRIDDEN, Verdict, worst
+from report.entities.array import ArrayResult, DirectionResult, array_result, direction_result
+from report.entities.motion import PeakResult, peak_result
+from report.entities.shown import Column, Number
+from report.results.lists import RunRow
+from report.results.sheets import TOP, Cells, Pages, SheetRow, typed, write_live
 from report.sheet.schema.choices import Direction
+from report.sheet.schema.fields import YesNo
 from solver.model import INCH_M
-from solver.rules.provisions import Basis, PrescriptiveBasis
+from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, Basis, PrescriptiveBasis
+
+PeakRanges = Mapping[tuple[str, Direction], str]
+"""Cells of the peaks of an array in a direction, one for each motion."""
+
+
+class PeakRow(SheetRow, PeakResult):
+    """The peaks of an array under a motion."""
+
+    sheet: ClassVar[str] = "Peaks"
+    across: ClassVar[str] = "array"
+
+    array: Annotated[str, Column("Array")]
+
+
+class DirectionRow(SheetRow, DirectionResult):
+    """The displacement of an array in a direction."""
+
+    sheet: ClassVar[str] = "Directions"
+    across: ClassVar[str] = (
+        "array direction mean_m largest_m factor computed_m floor_m design_m by_roofslip_m"
+    )
+
+    array: Annotated[str, Column("Array")]
+    direction: Annotated[Direction, Column("Direction")]
+    factor: Annotated[float, Column("Analysis factor", 2, "={design.analysis_factor}")]
+    floor_m: Annotated[float, Column("Floor [in]", 2, "={design.floor_m}")]
+    by_roofslip_m: Annotated[Number, Column("By Roofslip [in]", 2)]
+    difference: Annotated[float, Column("Difference [in]", 4, "={design_m}-{by_roofslip_m}")] = 0.0
+
+
+def write_peaks(pages: Pages, assessment: Assessment) -> PeakRanges:
+    """Write the largest excursion of all runs of each motion, by direction; return its cells."""
+    rows: list[PeakRow] = []
+    ranges: dict[tuple[str, Direction], str] = {}
+    first_run = 2
+    for item in assessment.arrays:
+        first = TOP + len(rows)
+        for motion in item.motions:
+            runs = Cells(RunRow, first_run, first_run + len(motion.runs) - 1)
+            first_run += len(motion.runs)
+            rows.append(PeakRow.beside(peak_result(motion), array=item.id, refs={"runs": runs}))
+        peaks = Cells(PeakRow, first, TOP + len(rows) - 1)
+        ranges |= {(item.id, way): getattr(peaks, f"{way.value}_m") for way in Direction}
+    note = "Largest of all runs of each motion, by direction, from the sheet Runs."
+    write_live(pages, PeakRow, rows, "Peaks", note)
+    return ranges
+
+
+def write_directions(
+    pages: Pages, assessment: Assessment, peaks: PeakRanges, designs: Mapping[str, Cells]
+) -> None:
+    """Write the displacement of each array in each direction."""
+    use = (
+        "Each clearance uses the displacement in its own direction, a departure from the rule set."
+        if assessment.project.options.directional
+        else "For information: each clearance uses the full design displacement."
+    )
+    rows = [
+        _direction_row(item, way, {"peaks": peaks[item.id, way], "design": designs[item.id]})
+        for item in assessment.arrays
+        for way in Direction
+    ]
+    note = f"{use} From the sheets Peaks and Design."
+    write_live(pages, DirectionRow, rows, "Design displacement by direction", note)
+
+
+def _direction_row(
+    item: ArrayAssessment, way: Direction, refs: Mapping[str, object]
+) -> DirectionRow:
+    analysis, design_m = item.directions[way], item.directional_m(way)
+    values: dict[str, float] = {"floor_m": item.floor_m, "by_roofslip_m": design_m}
+    blanks = set()
+    if math.isnan(analysis.value_m):
+        values |= {"mean_m": math.nan, "largest_m": math.nan}
+        blanks |= {"factor", "floor_m"}
+    if math.isnan(design_m):
+        blanks |= {"by_roofslip_m", "difference"}
+    is_prescriptive = item.route is Route.PRESCRIPTIVE
+    return DirectionRow.beside(
+        direction_result(item, way),
+        refs=refs,
+        formulas={"design_m": "={design.design_m}"} if is_prescriptive else {},
+        blanks=blanks,
+        marks=dict.fromkeys(("design_m", "by_roofslip_m"), item.toward_mark(way)),
+        array=item.id,
+        direction=way,
+        factor=analysis.factor,
+        **values,
+    )
+
+
+InputCells = Mapping[str, str]
+"""Cell of each input, by its key."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Input:
+    """A number with its digits, or one of several words; of the rule set, under its key there."""
+
+    key: str
+    label: str
+    value: float | StrEnum
+    use: str
+    decimals: int = 3
+
+
+def write_inputs(pages: Pages, assessment: Assessment) -> InputCells:
+    """Write what may be changed for the whole project; return the cells."""
+    inputs = list(_inputs(assessment))
+    sheet = pages.sheet(
+        "Inputs",
+        "Inputs of the project",
+        "Change a yellow cell here, or on the sheets Design and Clearances: the verdicts follow. "
+        "Route, limits, motions and runs are those of the report.",
+        ("Input", "Value", "Use"),
+        [(item.label, f"{item.value}", item.use) for item in inputs],
+    )
+    changed = {row.provision for row in assessment.project.overrides}
+    cells = {}
+    for row, item in enumerate(inputs, start=TOP):
+        cell = f"B{row}"
+        sheet.write_string(f"A{row}", item.label, pages.text)
+        sheet.write_string(f"C{row}", item.use, pages.text)
+        if isinstance(item.value, StrEnum):
+            sheet.write_string(cell, item.value, pages.typed_text)
+            choices = [choice.value for choice in type(item.value)]
+            sheet.data_validation(cell, {"validate": "list", "source": choices})
+        else:
+            mark = OVERRIDDEN if item.key in changed else ""
+            shown = pages.number(item.decimals, mark, is_input=True)
+            sheet.write_number(cell, typed(item.value), shown)
+        cells[item.key] = f"Inputs!$B${row}"
+    return cells
+
+
+def _inputs(assessment: Assessment) -> Iterator[_Input]:
+    site, options, rules = assessment.project.site, assessment.project.options, assessment.rules
+
+    def provision(key: str, label: str, use: str, decimals: int = 3) -> _Input:
+        return _Input(key, label, rules[key], use, decimals)
+
+    strength = "Strength required between the parts of an array"
+    in_separation = rules.importance_in_separation
+    of_i_e = "Separations to edges" if in_separation else "Prescriptive displacement"
+    reviewed = YesNo.YES if assessment.project.is_peer_reviewed else YesNo.NO
+    asked = options.statistic
+    use = "Prescriptive displacement, interconnection strength"
+    yield _Input("s_ds_g", "S_DS [g]", site.s_ds, use, decimals=4)
+    yield _Input("i_e", "Importance factor I_e", site.i_e, of_i_e)
+    use = "Rule set: 1.1 x mean or 1.1 x largest, by the number of motions"
+    yield _Input("statistic", "Design value statistic", asked, use)
+    yield _Input("peer_reviewed", "Peer review", reviewed, "Yes removes the floor")
+    yield provision("analysis_factor", "Analysis factor", "On the mean or the largest peak")
+    yield provision("analysis_floor", "Floor / prescriptive", "Without peer review")
+    use = "Minimum number of motions for 1.1 x mean"
+    yield provision("analysis_mean_motions", "Motions for a mean", use, 0)
+    use = "Minimum number of motions for 1.1 x largest"
+    yield provision("analysis_min_motions", "Motions for the largest", use, 0)
+    yield _Input(
+        "plain_mean_motions",
+        "Motions for a mean without factor",
+        float(MEAN_WITHOUT_FACTOR_MOTIONS),
+        "Minimum number of motions for the mean",
+        decimals=0,
+    )
+    yield provision("interconnection_sds", "Interconnection / (S_DS W1)", strength)
+    yield provision("interconnection_min", "Interconnection / W1, minimum", strength)
+
 
 _LIVE_ROWS = ("electrical_slack", "interconnection")
 """Ids of the requirements that follow here by formula."""

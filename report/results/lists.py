@@ -1,6 +1,8 @@
 """The sheets of results.xlsx without formulas: Runs, Motions, Neighbors, Requirements and more.
 
 Computes nothing. Read `report.results.xlsx`.
+
+The sheets LinkRuns and Links of results.xlsx: rows of linked blocks against one rigid block.
 """
 
 from __future__ import annotations
@@ -10,21 +12,34 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
 from typing import Annotated, ClassVar
 
-from report.assessment.overrides import OVERRIDDEN
+from report.assessment.links import LinkedArray
 from report.assessment.precheck import limit_value
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra
-from report.entities.cells import Column
+from report.assessment.verdict import OVERRIDDEN
 from report.entities.evidence import NeighborResult
-from report.entities.motion import MotionResult, RecordResult, motion_result
+from report.entities.linked import LinkedResult, LinkedRunResult, linked_result
+from report.entities.motion import MotionResult, RecordResult, RunResult, motion_result, run_result
 from report.entities.requirement import RequirementRow, requirement_rows
-from report.entities.run import RunResult, run_result
-from report.entities.shown import Number
+from report.entities.shown import Column, Number, columns_of
 from report.motions.prepare import Shaking
-from report.results.sheets import Pages, SheetRow, write_list, write_live, write_table
+from report.results.sheets import (
+    LINE_PT,
+    TOP,
+    Cells,
+    Pages,
+    SheetRow,
+    fixed,
+    write_list,
+    write_live,
+    write_rows,
+    write_table,
+)
 from report.sheet.schema.choices import Direction
-from report.words.units import G_MPS2
+from report.text.units import G_MPS2
+from solver.model import INCH_M
 from solver.rules.limit import Limit, Measure
+from solver.sliding.least_model import DEFAULT
 
 
 class RunRow(SheetRow, RunResult):
@@ -157,3 +172,155 @@ def _spectra(spectra: Sequence[Spectra]) -> Mapping[str, Sequence[float]]:
         for name, row in zip(part.ids, part.sa_g, strict=True):
             columns[f"{part.title}, {name} [g]"] = row.tolist()
     return columns
+
+
+_TOLERANCE = f"=MAX({DEFAULT.matters_m}/{INCH_M},{DEFAULT.matters_share}*{{design_m}})"
+_DIFFERENCE = "={estimated_m}-{by_roofslip_m}"
+_RESULT = '=IF({estimated_m}<={design_m}+{tolerance_m},"OK","NG")'
+
+
+class LinkRunRow(SheetRow, LinkedRunResult):
+    """A run as a row of blocks, and as one block."""
+
+    sheet: ClassVar[str] = "LinkRuns"
+    across: ClassVar[str] = (
+        "array motion along polarity rigid_prd_m largest_m block prd_m stretch_m link_force_n"
+        " error_m n_stops status"
+    )
+    key_columns: ClassVar[int] = 4
+
+    array: Annotated[str, Column("Array")]
+    largest_m: Annotated[Number, Column("PRD, row [in]")]
+    block: Annotated[str, Column("Block with largest PRD")]
+
+
+class LinkPeakRow(SheetRow):
+    """The largest of all runs of a motion, below the arrays."""
+
+    sheet: ClassVar[str] = "Links"
+
+    array: Annotated[str, Column("Array")]
+    motion: Annotated[str, Column("Motion")]
+    rigid_m: Annotated[Number, Column("PRD, rigid [in]", 3, "=MAX({runs.rigid_prd_m})")]
+    row_m: Annotated[Number, Column("PRD, row [in]", 3, "=MAX({runs.largest_m})")]
+
+
+class LinkRow(SheetRow, LinkedResult):
+    """The effect of links on the design displacement of an array."""
+
+    sheet: ClassVar[str] = "Links"
+    across: ClassVar[str] = (
+        "array rigid_mean_m rigid_largest_m row_mean_m row_largest_m factor rigid_one_axis_m"
+        " linked_one_axis_m ratio computed_m floor_m estimated_m design_m tolerance_m result"
+        " by_roofslip_m difference"
+    )
+
+    rigid_mean_m: Annotated[Number, Column("Mean, rigid [in]", 3, "=AVERAGE({peaks.rigid_m})")]
+    rigid_largest_m: Annotated[Number, Column("Largest, rigid [in]", 3, "=MAX({peaks.rigid_m})")]
+    row_mean_m: Annotated[Number, Column("Mean, row [in]", 3, "=AVERAGE({peaks.row_m})")]
+    row_largest_m: Annotated[Number, Column("Largest, row [in]", 3, "=MAX({peaks.row_m})")]
+    factor: Annotated[float, Column("Analysis factor", 3, "={design.analysis_factor}")]
+    computed_m: Annotated[Number, Column("Computed [in]", 3, "={design.computed_m}")]
+    floor_m: Annotated[float, Column("Floor [in]", 3, "={design.floor_m}")]
+    tolerance_m: Annotated[Number, Column("Tolerance [in]", 3, _TOLERANCE)]
+    result: Annotated[str, Column("Verdict", formula=_RESULT)]
+    by_roofslip_m: Annotated[Number, Column("With links by Roofslip [in]", 3)]
+    difference: Annotated[float, Column("Difference [in]", 4, _DIFFERENCE)] = 0.0
+
+
+_WITHOUT_VALUE = {"array", "estimated_m", "result"}
+"""What the row of an array has whose blocks do not come to rest."""
+
+
+def link_run_rows(assessment: Assessment) -> Iterator[LinkRunRow]:
+    """Yield each run of an array that is compared with a row of linked blocks."""
+    for linked in assessment.linked:
+        runs = [run for motion in linked.motions for run in motion.runs]
+        for run, result in zip(runs, linked_result(linked).runs, strict=True):
+            yield LinkRunRow.beside(
+                result,
+                array=linked.design.id,
+                largest_m=run.prd_m,
+                block="none" if math.isnan(run.prd_m) else str(run.block),
+            )
+
+
+def link_cells(assessment: Assessment, array_id: str) -> Sequence[str]:
+    """Return the cells of the results of an array as a row of linked blocks."""
+    return [
+        fixed(LinkRow, "result", row)
+        for row, linked in enumerate(assessment.linked, start=TOP)
+        if linked.design.id == array_id
+    ]
+
+
+def write_links(pages: Pages, assessment: Assessment, designs: Mapping[str, Cells]) -> None:
+    """Write the effect of links on the design displacement of each array, from the sheet LinkRuns.
+
+    The peaks of the motions are below the arrays.
+    """
+    top = TOP + len(assessment.linked) + 2
+    rows: list[LinkRow] = []
+    peaks: list[LinkPeakRow] = []
+    first_run = 2
+    for linked in assessment.linked:
+        first = top + len(peaks)
+        for motion in linked.motions:
+            runs = Cells(LinkRunRow, first_run, first_run + len(motion.runs) - 1)
+            first_run += len(motion.runs)
+            peaks.append(
+                LinkPeakRow(
+                    refs={"runs": runs},
+                    array=linked.design.id,
+                    motion=motion.motion.id,
+                    rigid_m=motion.rigid_m,
+                    row_m=motion.linked_m,
+                )
+            )
+        of_array = Cells(LinkPeakRow, first, top + len(peaks) - 1, is_here=True)
+        rows.append(_row(linked, {"peaks": of_array, "design": designs[linked.design.id]}))
+    sheet = write_live(
+        pages,
+        LinkRow,
+        rows,
+        "Rows of linked blocks",
+        "From the sheets LinkRuns and Design. Ratio: row / rigid, one axis. Design with links: "
+        "max(max(1, ratio) x computed, floor).",
+    )
+    headings = [heading for _, heading, _ in columns_of(LinkPeakRow)]
+    sheet.write_row(top - 2, 0, headings, pages.head)
+    sheet.set_row(top - 2, 3 * LINE_PT)
+    write_rows(pages, sheet, top, peaks)
+
+
+def _row(linked: LinkedArray, refs: Mapping[str, Cells]) -> LinkRow:
+    design, rigid, row = linked.design, linked.rigid, linked.linked
+    has_value = math.isfinite(linked.estimated_m)
+    is_enough = has_value and linked.is_rigid_enough
+    formulas = {}
+    if not rigid.value_m > 0.0:
+        formulas["ratio"] = "=1"
+    if linked.value_m != design.analysis.value_m:
+        # Not that of the design: the adequate model gives more than the one that is requested.
+        formulas["computed_m"] = f"={linked.value_m / INCH_M!r}"
+    if not (has_value and linked.is_final and design.is_permitted):
+        formulas["result"] = ""
+    names = {name for name, _, _ in columns_of(LinkRow)}
+    return LinkRow.beside(
+        linked_result(linked),
+        refs=refs,
+        formulas=formulas,
+        blanks=set() if has_value else names - _WITHOUT_VALUE,
+        # Without bound where the blocks slide and the single one does not.
+        estimated_m=linked.estimated_m if has_value else math.nan,
+        rigid_mean_m=rigid.mean_m,
+        rigid_largest_m=rigid.largest_m,
+        row_mean_m=row.mean_m,
+        row_largest_m=row.largest_m,
+        factor=rigid.factor,
+        computed_m=linked.value_m,
+        floor_m=design.floor_m,
+        tolerance_m=DEFAULT.bound_m(design.design_m),
+        result="OK" if is_enough else "NG",
+        by_roofslip_m=linked.estimated_m,
+    )

@@ -18,10 +18,8 @@ from xlsxwriter.utility import xl_col_to_name
 from xlsxwriter.workbook import Workbook
 from xlsxwriter.worksheet import Worksheet
 
-from report.assessment.overrides import OVERRIDDEN
-from report.entities.cells import Column
-from report.entities.columns import NO_VALUE
-from report.entities.shown import Entity, columns_of
+from report.assessment.verdict import OVERRIDDEN
+from report.entities.shown import NO_VALUE, Column, Entity, columns_of
 
 TOP = 5
 """First row below the headings of a sheet with a title."""

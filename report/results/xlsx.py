@@ -2,22 +2,152 @@
 
 Computes nothing: each formula is written with the value from `report.assessment.project`, and that
 value is repeated beside it as a number, so that a checker can trace, change and compare it.
+
+The sheet Clearances of results.xlsx: required and provided separations.
 """
 
 from __future__ import annotations
 
 import io
+import math
 from collections.abc import Sequence
+from typing import Annotated, ClassVar
 
+from report.assessment.clearances import ClearanceCheck, facing
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra
-from report.results.design import DesignRow, write_design
-from report.results.directions import write_directions, write_peaks
-from report.results.gaps import result_cells, write_clearances
-from report.results.inputs import write_inputs
-from report.results.links import LinkRunRow, link_cells, link_run_rows, write_links
-from report.results.lists import write_lists, write_requirements
-from report.results.sheets import TOP, Cells, Pages, text_workbook, write_list
+from report.assessment.verdict import MEANING, Verdict
+from report.entities.clearance import ClearanceResult
+from report.entities.shown import Column, Number
+from report.results.design import (
+    DesignRow,
+    DirectionRow,
+    InputCells,
+    write_design,
+    write_directions,
+    write_inputs,
+    write_peaks,
+)
+from report.results.lists import (
+    LinkRunRow,
+    link_cells,
+    link_run_rows,
+    write_links,
+    write_lists,
+    write_requirements,
+)
+from report.results.sheets import (
+    TOP,
+    Cells,
+    Pages,
+    SheetRow,
+    fixed,
+    text_workbook,
+    write_list,
+    write_live,
+)
+from report.sheet.schema.choices import Direction
+from solver.rules.provisions import SEPARATION_KEYS
+
+_DIFFERENCE = '=IF(ISTEXT({required_m}),"none",{required_m}-{by_roofslip_m})'
+
+
+class GapRow(SheetRow, ClearanceResult):
+    """A clearance: required and provided separation."""
+
+    sheet: ClassVar[str] = "Clearances"
+    across: ClassVar[str] = (
+        "count array object direction neighbor governing design_m factor minimum_m required_m"
+        " provided_m basis demand_capacity verdict by_roofslip_m difference rule_factor importance"
+    )
+    key_columns: ClassVar[int] = 3
+
+    count: Annotated[int, Column("No.")]
+    governing: Annotated[str, Column("Governing array, direction")]
+    minimum_m: Annotated[float, Column("Minimum [in]", 1, is_input=True)]
+    by_roofslip_m: Annotated[Number, Column("Required by Roofslip [in]", 2)]
+    difference: Annotated[float, Column("Difference [in]", 4, _DIFFERENCE)] = 0.0
+    rule_factor: Annotated[float, Column("Separation / displacement", 2, is_input=True)]
+
+
+def result_cells(assessment: Assessment, array_id: str) -> Sequence[str]:
+    """Return the cells of the results of the clearances of an array, from either side."""
+    return [
+        fixed(GapRow, "verdict", row)
+        for row, gap in enumerate(assessment.clearances, start=TOP)
+        if gap.involves(array_id)
+    ]
+
+
+def write_clearances(pages: Pages, assessment: Assessment, inputs: InputCells) -> None:
+    """Write each clearance as formulas."""
+    write_live(
+        pages,
+        GapRow,
+        [_row(assessment, gap, inputs, k) for k, gap in enumerate(assessment.clearances, start=1)],
+        "Clearances",
+        f"{assessment.rules.name}. From the sheet Design; between two arrays the larger "
+        "displacement governs. The factor includes I_e or I_p if the rule set applies it here."
+        + (f" {MEANING}." if assessment.is_overridden else ""),
+    )
+
+
+def _row(assessment: Assessment, gap: ClearanceCheck, inputs: InputCells, count: int) -> GapRow:
+    rules = assessment.rules
+    largest, governing = _sides(assessment, gap)
+    # Which route is permitted is no formula.
+    formulas = {"governing": f"={governing}" if gap.is_permitted else ""}
+    if not (rules.importance_in_separation and gap.neighbor.is_edge):
+        formulas["importance"] = ""
+    given = rules.values[SEPARATION_KEYS[gap.neighbor]]
+    has_value = not math.isnan(gap.required_m)
+    return GapRow.beside(
+        ClearanceResult.of(gap),
+        refs={
+            "inputs": inputs,
+            "largest": largest if gap.is_permitted else '"none"',
+            "unknown": Verdict.NG if gap.is_permitted else Verdict.NONE,
+        },
+        formulas=formulas,
+        blanks=() if has_value else {"by_roofslip_m", "difference"},
+        marks={
+            "design_m": gap.design_mark,
+            "rule_factor": given.reason,
+            **dict.fromkeys(("required_m", "demand_capacity", "by_roofslip_m"), gap.mark),
+        },
+        count=count,
+        governing=f"{gap.governing_array}, {gap.governing_direction.value}",
+        minimum_m=gap.minimum_m,
+        by_roofslip_m=gap.required_m,
+        rule_factor=given.value,
+    )
+
+
+def _sides(assessment: Assessment, gap: ClearanceCheck) -> tuple[str, str]:
+    """Return the formulas of the larger displacement on either side, and of whose it is."""
+    sides = facing(assessment.project, assessment.arrays, gap.clearance)
+    rows = {array.id: row for row, array in enumerate(assessment.arrays, start=TOP)}
+    cells = [_displacement(assessment, rows[array.id], toward) for array, toward in sides]
+    names = [
+        f'{fixed(DesignRow, "id", rows[array.id])}&", {toward.value}"' for array, toward in sides
+    ]
+    if len(cells) == 1:
+        return cells[0], names[0]
+    # Text, "none", is larger than any number: an array without a value governs.
+    near, far = cells
+    return (
+        f'IF(OR(ISTEXT({near}),ISTEXT({far})),"none",MAX({near},{far}))',
+        f"IF({far}>{near},{names[1]},{names[0]})",
+    )
+
+
+def _displacement(assessment: Assessment, row: int, toward: Direction) -> str:
+    """Return the cell of the displacement of an array that a clearance takes."""
+    if not (assessment.project.options.directional and assessment.has_motions):
+        return fixed(DesignRow, "design_m", row)
+    ways = list(Direction)
+    return fixed(DirectionRow, "design_m", TOP + len(ways) * (row - TOP) + ways.index(toward))
+
 
 _ORDER = (
     "Design", "Clearances", "Neighbors", "Requirements", "Inputs", "Motions", "Records", "Spectra",

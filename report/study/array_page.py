@@ -6,11 +6,16 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from report.document.sections import Section, section
 from report.document.tables import Column, listed
+from report.document.templates import Section, section
 from report.entities.shown import text, words
 from report.study import figures
-from report.study.dispersion import (
+from report.study.exports import has_probabilities
+from report.study.page_parts import axis
+from report.study.plan import SLOPE
+from report.study.results import ArrayStudyResult, LimitState, StudyResults
+from report.study.tables import length_unit
+from report.study.wording import (
     MASS,
     NAMES,
     Dispersion,
@@ -18,15 +23,10 @@ from report.study.dispersion import (
     exported,
     is_exportable,
     is_refused,
+    on_building,
 )
-from report.study.exports import has_probabilities
-from report.study.page_parts import axis
-from report.study.plan import SLOPE
-from report.study.results import ArrayStudyResult, LimitState, StudyResults
-from report.study.tables import length_unit
-from report.study.words import on_building
-from report.words.formats import slug
-from report.words.units import number, round_up
+from report.text.formats import slug
+from report.text.units import number, round_up
 from solver.studies import capacity, uncertainty
 from solver.studies import fragility as fits
 

@@ -15,15 +15,22 @@ import numpy as np
 
 from report.document.templates import said
 from report.sheet.schema.choices import RecordedAt
-from report.study.dispersion import MASS, NOT_DETERMINED, dispersions, exported, is_refused
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.schema import Intensity
 from report.study.tables import Row
-from report.study.words import context, warning
+from report.study.wording import (
+    MASS,
+    NOT_DETERMINED,
+    context,
+    dispersions,
+    exported,
+    is_refused,
+    warning,
+)
+from report.text.counts import capitalized
+from report.text.formats import csv_text
+from report.text.units import digits_down, digits_up, round_up
 from report.typeset.pdf import TEMPLATES
-from report.words.counts import capitalized
-from report.words.formats import csv_text
-from report.words.units import digits_down, digits_up, round_up
 from solver.model import Floats
 
 DEMANDS: Mapping[Intensity, tuple[str, str]] = {

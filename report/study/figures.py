@@ -22,6 +22,7 @@ from report.figures.base import (
     PALE,
     bare,
     boxed,
+    decades,
     draw_family,
     labeled,
     legend_below,
@@ -29,11 +30,10 @@ from report.figures.base import (
     style,
     svg_text,
 )
-from report.figures.scales import decades
 from report.sheet.schema.years import ALWAYS
 from report.study.results import LimitState
 from report.study.years import LIVES, RECURRENCES, ArrayYears
-from report.words.units import Quantity, Unit, digits_down, measured
+from report.text.units import Quantity, Unit, digits_down, measured
 from solver.model import Floats
 from solver.studies.rates import HazardCurve
 from solver.studies.uncertainty import Bar

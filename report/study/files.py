@@ -6,19 +6,15 @@ from collections.abc import Mapping
 
 from markupsafe import Markup
 
-from report.document.sections import Section, filled, section
-from report.document.templates import rendered
+from report.document.templates import Section, filled, rendered, section
 from report.sheet.schema.years import FILE as YEARS
-from report.study.allowed import allowed
 from report.study.array_page import fragility
-from report.study.basis import basis, limits
-from report.study.curves import curves
+from report.study.curves import allowed, compare, curves, prescribed
 from report.study.exports import export_files
-from report.study.formula import formula
-from report.study.prescribed import compare, prescribed
+from report.study.page_parts import basis, formula, limits
 from report.study.results import StudyResults
 from report.study.tables import curves_csv, study_xlsx
-from report.study.words import context, headline
+from report.study.wording import context, headline
 from report.study.years_page import sheets, years, years_json
 from report.typeset.pdf import TEMPLATES, lay_out
 

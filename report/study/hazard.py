@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from report.sheet.reading.beside import path_beside
+from report.sheet.reading.linked_files import path_beside
 from report.sheet.schema.fields import Finding, Place
 from report.study.read import StudySheet
 from report.study.schema import Intensity

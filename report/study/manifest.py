@@ -1,15 +1,24 @@
 """What a study runs and with what: the manifest beside its parts, by which a later run goes on.
 
 Writes nothing. Read `manifest_of`, then `check_former`.
+
+The key by which a user's own study parts are known; it is kept in no study. Read `user_key`.
+
+The packages that only a study needs, imported where they are used. Read `extra`.
 """
 
 from __future__ import annotations
 
 import hashlib
+import importlib
 import json
+import os
 import platform
+import secrets
 import sys
+import tempfile
 from collections.abc import Mapping
+from contextlib import suppress
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -18,11 +27,11 @@ import numpy as np
 from pydantic_core import from_json
 
 import solver
-from report.manual.machine import installed, processor
-from report.words.units import G_MPS2
+from report.manual.render import installed, processor
+from report.text.units import G_MPS2
 from solver.model import InputError, Motion
 from solver.sliding.least_model import DEFAULT
-from solver.studies.campaign import Campaign
+from solver.studies.runs import Campaign
 
 SCHEMA_VERSION = 1
 """Raised where a key of the manifest or a column of the parts changes its name or meaning."""
@@ -146,3 +155,85 @@ def check_former(folder: Path, manifest: Mapping[str, Any]) -> int:
             f"finish it with that version, or {away}"
         )
     return parts
+
+
+KEY_BYTES = 32
+
+
+def user_key() -> bytes:
+    """Return the key of this user on this machine; it is made at its first use.
+
+    Raises
+    ------
+    InputError
+        If it cannot be kept or read, with what to do.
+    """
+    try:
+        path = state_folder() / "roofslip" / "study.key"
+        if not path.exists():
+            _make(path)
+        key = path.read_bytes()
+    except (OSError, RuntimeError) as error:  # RuntimeError: the user has no home folder
+        where = getattr(error, "filename", None) or "your state folder"
+        raise InputError(
+            f"{where}: the key that signs the parts of your studies cannot be kept there "
+            f"({getattr(error, 'strerror', None) or error}); make the folder writable, or set "
+            "XDG_STATE_HOME to a folder of yours that is"
+        ) from error
+    if len(key) != KEY_BYTES:
+        raise InputError(
+            f"{path}: damaged, {len(key)} bytes, not the {KEY_BYTES} of a key; delete it: parts "
+            "that were signed with it are computed again"
+        )
+    return key
+
+
+def state_folder() -> Path:
+    """Return where programs keep what is this user's; an absolute XDG_STATE_HOME comes first."""
+    given = os.environ.get("XDG_STATE_HOME", "")
+    if Path(given).is_absolute():
+        return Path(given)
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData/Local")
+    if sys.platform == "darwin":
+        return Path.home() / "Library/Application Support"
+    return Path.home() / ".local/state"
+
+
+def _make(path: Path) -> None:
+    """Make a key, whole and readable by its user alone; that of a quicker process stays."""
+    path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    number, part = tempfile.mkstemp(dir=path.parent)
+    try:
+        with open(number, "wb") as file:
+            file.write(secrets.token_bytes(KEY_BYTES))
+            file.flush()
+            os.fsync(file.fileno())
+        with suppress(FileExistsError):
+            os.link(part, path)
+    finally:
+        os.unlink(part)
+
+
+def extra(name: str) -> Any:
+    """Return a package, by the name of the module of it that is needed.
+
+    Raises
+    ------
+    InputError
+        If it is not installed, with what to type.
+    """
+    package = name.partition(".")[0]
+    try:
+        importlib.import_module(name)
+    except ImportError as error:
+        raise InputError(
+            f"a study needs the package {package}, which is not installed; type: "
+            "./roofslip study (the launcher installs the extra), or: "
+            "pip install 'roofslip[study]'"
+        ) from error
+    return sys.modules[package]
+
+
+ARROW = "pyarrow.parquet"
+DASK = "distributed"

@@ -20,7 +20,7 @@ from report.sheet.schema.fields import Finding, Place, entries
 from report.sheet.schema.motions import MotionInput
 from report.study.read import StudySheet
 from report.study.schema import MOST_SAMPLES, Intensity, StudyBuilding, StudyInput
-from report.words.units import G_MPS2
+from report.text.units import G_MPS2
 from solver.building.roof import shaking_to_roof
 from solver.building.structure import building_of_periods
 from solver.model import Motion

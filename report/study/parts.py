@@ -23,14 +23,12 @@ from typing import Any
 import numpy as np
 from pydantic import TypeAdapter
 
-from report.study.extra import ARROW, extra
-from report.study.manifest import NAME, machine
+from report.study.manifest import ARROW, NAME, extra, machine
 from solver.files import check_plain, write_all
 from solver.kernels.compiler import THREADS
 from solver.model import Floats, InputError
 from solver.sliding.least_model import Model
-from solver.studies.campaign import Campaign
-from solver.studies.runs import LENGTHS, STATUSES, Rows, Runner, run_part
+from solver.studies.runs import LENGTHS, STATUSES, Campaign, Rows, Runner, run_part
 
 _PARTS = "part-?????.parquet"
 

@@ -1,6 +1,8 @@
 """Reads a study workbook: its values, or every error with its cell.
 
 Runs nothing and reads no records (`motions` does). Read `read_study`.
+
+Writes the study workbook from its schema, blank or filled in. Read `write_study`.
 """
 
 from __future__ import annotations
@@ -8,11 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
-from report.sheet.checking.drafts import column, repeated
+from report.sheet.checking.findings import column, repeated
 from report.sheet.reading.archive import open_book
 from report.sheet.reading.locate import is_absent
 from report.sheet.reading.read import SheetOf, read_as
-from report.sheet.schema.choices import RecordedAt
+from report.sheet.schema.choices import RecordedAt, UnitsFirst
 from report.sheet.schema.fields import (
     Draft,
     DraftRow,
@@ -22,6 +24,7 @@ from report.sheet.schema.fields import (
     entries,
     sections_of,
 )
+from report.sheet.writing.template import book_of, saved
 from report.study.schema import (
     MOST_CASES,
     MOST_VALUES,
@@ -32,6 +35,7 @@ from report.study.schema import (
     tested,
     values,
 )
+from solver.files import write_whole
 from solver.model import InputError
 
 HOW = (
@@ -214,3 +218,16 @@ _NEEDLESS = {
     "site": "the curve is for the Vs30 of the site",
     "roof": "the ground motions are carried through the buildings",
 }
+
+
+def write_study(path: Path, *, units: UnitsFirst, example: StudyInput | None = None) -> None:
+    """Write or replace a study workbook, with the values of a study or blank but for defaults.
+
+    Parameters
+    ----------
+    units : UnitsFirst
+        System of units of the sheets.
+    """
+    sections = sections_of(StudyInput)
+    book, _ = book_of(sections, sections[0].sheet, units, example)
+    write_whole(path, saved(book, units))

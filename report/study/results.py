@@ -14,16 +14,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from report.study.array_capacities import SHARES, array_capacities
+from report.study.array_capacities import SHARES, SpectralSpread, array_capacities, spectral_spread
 from report.study.parts import Done, peaks, read_part
 from report.study.plan import ArrayPlan, StudyPlan
 from report.study.schema import NoValue
-from report.study.spread import SpectralSpread, spectral_spread
 from report.study.years import ArrayYears, years_of
-from report.words.units import G_MPS2, round_down, round_up
+from report.text.units import G_MPS2, round_down, round_up
 from solver.model import Floats, InputError
-from solver.studies.curves import Statistics, first_allowed, statistics
-from solver.studies.fit import Fit, fit_prd
+from solver.studies.curves import Fit, Statistics, first_allowed, fit_prd, statistics
 from solver.studies.fragility import Fragility, fragility
 from solver.studies.runs import Runner
 from solver.studies.uncertainty import Bar, Exceedance, exceedance, tornado

@@ -1,34 +1,54 @@
-"""A study from its workbook to its results, for the command and for scripts. Read `run_study`."""
+"""A study from its workbook to its results, for the command and for scripts. Read `run_study`.
+
+The parts of a study on an existing Dask cluster; each comes back and is kept here.
+"""
 
 from __future__ import annotations
 
 import json
 import time
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from report.study.array_capacities import maximum_runs
-from report.study.extra import ARROW, extra
-from report.study.key import user_key
-from report.study.manifest import NAME, OWN_KEY, TRUST_PARTS, check_former, manifest_of
+from report.study.manifest import (
+    ARROW,
+    DASK,
+    NAME,
+    OWN_KEY,
+    TRUST_PARTS,
+    check_former,
+    extra,
+    manifest_of,
+    program,
+    unlike,
+    user_key,
+)
 from report.study.motions import study_motions
 from report.study.parts import (
     BYTES_A_ROW,
     Done,
+    OnDone,
     begin,
     check_places,
     done_parts,
     finished,
+    keep,
+    made_part,
+    mixed,
     run_missing,
 )
 from report.study.plan import StudyPlan, plan_study
 from report.study.read import read_study
 from report.study.results import StudyResults, results_of
-from report.words.counts import numbered
+from report.text.counts import numbered
 from solver.files import write_all
+from solver.model import InputError
+from solver.studies.runs import Campaign, Runner
 
 RUNS = "runs"
 """Folder of the parts, in the folder of the outputs."""
@@ -135,8 +155,6 @@ def run_study(
         tell(part)
 
     if scheduler:
-        from report.study.cluster import connected, run_on_cluster
-
         with connected(scheduler, manifest) as client:
             begin(folder, manifest, former)
             run_on_cluster(client, folder, campaign, identity, names, missing, key, on_done)
@@ -196,3 +214,83 @@ def _meter(
         progress(f"{ran:,} of {rows:,} runs, {rate:,.0f} a second, {left:.0f} s left")
 
     return tell
+
+
+TIMEOUT_S = 10.0
+"""How long a scheduler may take to answer [s]."""
+
+RETRIES = 2
+"""How often a part that fails is tried again."""
+
+
+@contextmanager
+def connected(address: str, manifest: Mapping[str, Any]) -> Iterator[Any]:
+    """Yield a client of a cluster whose workers agree with this program.
+
+    Raises
+    ------
+    InputError
+        If no scheduler answers, it has no worker, or a worker has other versions.
+    """
+    distributed = extra(DASK)
+    try:
+        client = distributed.Client(address, timeout=TIMEOUT_S, set_as_default=False)
+    except (OSError, ValueError, TypeError, RuntimeError) as error:
+        raise InputError(
+            f"--scheduler {address}: no Dask scheduler answers within {TIMEOUT_S:g} s "
+            f"({type(error).__name__}); start one with: dask scheduler, and workers with: dask "
+            f"worker {address}"
+        ) from error
+    try:
+        _check_workers(client, address, manifest["program"])
+        yield client
+    finally:
+        client.close()
+
+
+def _check_workers(client: Any, address: str, here: Mapping[str, str]) -> None:
+    there = client.run(program, on_error="return")
+    if not there:
+        raise InputError(
+            f"--scheduler {address}: has no worker; start some with: dask worker {address}"
+        )
+    problems = []
+    for worker, found in sorted(there.items()):
+        if not isinstance(found, dict):
+            problems.append(f"worker {worker}: cannot import this program ({found})")
+        elif off := unlike(found, here):
+            problems.append(f"worker {worker}: has {off}")
+    if problems:
+        raise InputError([*problems, "install the same versions on every worker, then try again"])
+
+
+def run_on_cluster(
+    client: Any,
+    folder: Path,
+    campaign: Campaign,
+    identity: str,
+    names: Sequence[str],
+    missing: Sequence[int],
+    key: bytes,
+    on_done: OnDone,
+) -> None:
+    """Run parts on a cluster; sign and keep each here as it comes back.
+
+    The records are the result of a task, as the parts are: with a worker that dies both are lost,
+    and both are computed again by another one.
+
+    Raises
+    ------
+    Exception
+        Of a part that fails whenever it is tried.
+    """
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Sending large graph", UserWarning)
+        runner = client.submit(Runner, campaign, pure=False)
+        parts = [
+            client.submit(made_part, runner, number, identity, names, pure=False, retries=RETRIES)
+            for number in mixed(missing)
+        ]
+    for part in extra(DASK).as_completed(parts, loop=client.loop):
+        on_done(keep(folder, part.result(), key))
+        part.release()

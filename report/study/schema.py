@@ -28,8 +28,8 @@ from report.sheet.schema.choices import (
     UnitsFirst,
 )
 from report.sheet.schema.fields import Cell, Frozen, OnSheet
-from report.sheet.schema.friction import FrictionTestRow
-from report.words.units import Quantity
+from report.sheet.schema.project import FrictionTestRow
+from report.text.units import Quantity
 from solver.friction_tests import FrictionRun, Series, Surface, series
 from solver.studies.uncertainty import Spread, spread_of_tests
 

@@ -13,18 +13,26 @@ from typing import Any
 
 import numpy as np
 
-from report.entities.columns import UnitFormat
-from report.entities.marks import UNVERIFIED
+from report.entities.requirement import UNVERIFIED
+from report.entities.shown import UnitFormat
 from report.results.sheets import text_workbook
 from report.sheet.schema.years import SUPPORTING
-from report.study.dispersion import NAMES, dispersions, exported, is_exportable, is_refused
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
-from report.study.words import analysis_words, design_words, taken_over
-from report.words.counts import capitalized
-from report.words.formats import csv_text
-from report.words.units import Unit
+from report.study.wording import (
+    NAMES,
+    analysis_words,
+    design_words,
+    dispersions,
+    exported,
+    is_exportable,
+    is_refused,
+    taken_over,
+)
+from report.text.counts import capitalized
+from report.text.formats import csv_text
+from report.text.units import Unit
 from solver.model import Floats
-from solver.studies.fit import Fit
+from solver.studies.curves import Fit
 
 Row = Sequence[Any]
 

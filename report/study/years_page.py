@@ -10,16 +10,16 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
-from report.document.sections import Section, section
+from report.document.templates import Section, section
 from report.sheet.schema.years import SUPPORTING, Distance, StudyYears, YearsOfArray
 from report.study import figures
 from report.study import years as rates
 from report.study.page_parts import axis, design_length
 from report.study.results import StudyResults
 from report.study.tables import length_unit
-from report.study.words import on_building
+from report.study.wording import on_building
 from report.study.years import ArrayYears
-from report.words.formats import slug
+from report.text.formats import slug
 from solver.studies import lives, predictive
 from solver.studies.rates import LEAST_RATE, probability
 

@@ -2,31 +2,145 @@
 
 Prints nothing and writes no file; `solver.synthesis` generates the motions. Read
 `suite_files` first.
+
+The acceptance of a generated suite: its rows as text and as data.
+
+Output of `roofslip motion info`: measures of the records of a file, and their table.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from functools import partial
 from importlib.metadata import version
 from typing import Any
 
 import numpy as np
 
-from report.figures.suite import Panel, suite_png
-from report.suite.acceptance import acceptance_facts, acceptance_lines, suite_acceptance
-from report.suite.info import facts, without_noise
+from report.figures.spectra import Panel, suite_png
 from report.suite.inputs import Seeds, SuiteTargets
-from report.words.formats import aligned
-from report.words.units import G_MPS2
+from report.text.formats import aligned
+from report.text.units import G_MPS2
 from solver.model import Floats
+from solver.records.acceptance import Acceptance, acceptance
 from solver.records.measures import Measures, measures
 from solver.records.record import Record, record_csv
-from solver.rules.spectra import Target
+from solver.records.spectrum import response_spectrum
+from solver.rules.limit import Limit
+from solver.rules.spectra import Target, target_sa_g
+from solver.sliding.checked import motion
+from solver.synthesis.matching import BAND_HZ, SpectrumFit, lowest_hz, spectrum_fit
 from solver.synthesis.suite import SuiteMotion, make_suite
-from solver.synthesis.target import BAND_HZ, SpectrumFit, lowest_hz, spectrum_fit
+
+
+def suite_acceptance(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> Acceptance:
+    """Compare a suite with its targets as the motions of an analysis; motions count from 1."""
+    return acceptance(
+        [motion(m.x, m.y, m.z, id=f"motion-{k:02d}") for k, m in enumerate(suite, start=1)],
+        [m.hold_s for m in suite],
+        partial(target_sa_g, targets.horizontal),
+        partial(target_sa_g, targets.vertical),
+    )
+
+
+def acceptance_lines(rows: Sequence[Limit]) -> list[str]:
+    """Return a line for each row: OK or what follows, title, value found, limit, where."""
+    return [
+        f"{'OK' if row.ok else row.consequence.value}: {row.title}: "
+        f"{row.found:.4g} {row.measure.unit}".rstrip()
+        + f", {'at least' if row.is_at_least else 'at most'} "
+        + f"{row.limit:.4g} {row.measure.unit}".rstrip()
+        + f"{f' ({row.worst})' if row.worst else ''}"
+        f"{'; not a code requirement, limit set by this program' if row.is_program_limit else ''}"
+        for row in rows
+    ]
+
+
+def acceptance_facts(rows: Sequence[Limit]) -> list[dict[str, Any]]:
+    """Return the rows for suite.json."""
+    return [
+        {
+            "title": row.title,
+            "found": row.found,
+            "limit": row.limit,
+            "unit": row.measure.value,
+            "is_at_least": row.is_at_least,
+            "satisfied": row.ok,
+            "worst": row.worst,
+            "is_ours": row.is_program_limit,
+            "consequence": row.consequence.value,
+        }
+        for row in rows
+    ]
+
+
+PERIODS_S: Floats = np.geomspace(0.02, 10.0, 200)
+
+# Heading, key of the number, and factor for the printed unit.
+_MEASURES = (
+    ("dt [s]", "dt_s", 1.0),
+    ("samples", "npts", 1.0),
+    ("length [s]", "duration_s", 1.0),
+    ("PGA [g]", "pga_g", 1.0),
+    ("PGV [cm/s]", "pgv_mps", 100.0),
+    ("PGD [cm]", "pgd_m", 100.0),
+    ("Arias [m/s]", "arias_mps", 1.0),
+    ("D5-95 [s]", "d5_95_s", 1.0),
+    ("final v [cm/s]", "final_velocity_mps", 100.0),
+    ("final d [cm]", "final_displacement_m", 100.0),
+)
+
+# A drift below this fraction of the peak is rounding error.
+_NO_DRIFT = 1e-9
+
+
+def summary(record: Record) -> dict[str, Any]:
+    """Return the measures of a record, in SI except g, with units in the keys."""
+    values = measures(record)
+    npts = len(record.a_mps2)
+    return {
+        "name": record.name,
+        "dt_s": record.dt_s,
+        "npts": npts,
+        "duration_s": (npts - 1) * record.dt_s,
+        **facts(values),
+    }
+
+
+def facts(values: Measures) -> dict[str, float]:
+    """Return measures, in SI except g, with units in the keys."""
+    given = asdict(values)
+    return {"pga_g": given.pop("pga_mps2") / G_MPS2, **given}
+
+
+def table(channels: Sequence[Mapping[str, Any]]) -> Iterator[str]:
+    """Return summaries as lines of a table, one channel per line, under a heading."""
+    rows = [("", "channel", *(heading for heading, _, _ in _MEASURES))]
+    rows += [(str(count), *_row(channel)) for count, channel in enumerate(channels, start=1)]
+    return aligned(rows, (">", "<", *(">" for _ in _MEASURES)))
+
+
+def spectra_g(records: Sequence[Record]) -> Floats:
+    """Return the 5 % damped pseudo-accelerations [g] of each record over `PERIODS_S`."""
+    rows = [response_spectrum(record.a_mps2, record.dt_s, PERIODS_S) / G_MPS2 for record in records]
+    return np.array(rows)
+
+
+def _row(channel: Mapping[str, Any]) -> tuple[str, ...]:
+    shown = without_noise(channel)
+    values = ((shown[key] * size, ".0f" if key == "npts" else ".4g") for _, key, size in _MEASURES)
+    return (channel["name"], *(f"{value:{form}}" for value, form in values))
+
+
+def without_noise(measured: Mapping[str, Any]) -> dict[str, Any]:
+    """Return measures with 0 for what is rounding error beside its peak at the end of a record."""
+    peaks = {"final_velocity_mps": "pgv_mps", "final_displacement_m": "pgd_m"}
+    lost = (end for end, peak in peaks.items() if abs(measured[end]) <= _NO_DRIFT * measured[peak])
+    return {**measured, **dict.fromkeys(lost, 0.0)}
+
 
 LEAST, GREATEST, MEAN_OFF = 0.90, 1.30, 0.07
 """Limits on every component's ratios to its target, at 1/12 octave."""

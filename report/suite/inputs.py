@@ -1,6 +1,8 @@
 """Inputs of a generated suite: targets by code or table, records as seeds, the output folder.
 
 `report.suite.files` makes the output. Read `SuiteTargets` first.
+
+The site of a workbook as the target of a suite.
 """
 
 from __future__ import annotations
@@ -16,6 +18,9 @@ from typing import Any
 
 from report.motions.sets import VERTICAL
 from report.sheet.checking.motion_checks import GENERATED
+from report.sheet.reading.read import Sheet
+from report.sheet.schema.fields import Place
+from report.sheet.schema.project import site_parameters
 from report.suite.target_table import TargetTable
 from solver.formats import MotionFile, read_motion_file
 from solver.model import InputError
@@ -237,3 +242,45 @@ def check_folder(folder: Path, count: int) -> None:
             f"{folder}: {left[0]} and {len(left) - 1} other files of an earlier suite would "
             "remain; remove them, or choose another folder"
         )
+
+
+_CODE_OF = {name: code for code, name in CODES.items()}
+
+
+def site_targets(sheet: Sheet) -> tuple[SuiteTargets, list[str]]:
+    """Return the AC156 spectra of the site of a workbook, and what of them is from which cells.
+
+    Raises
+    ------
+    InputError
+        With the cells of each value that the workbook does not give, or is out of range.
+    """
+    site, target = ([*sheet.draft[key], {}][0] for key in ("site", "target"))
+    parameters = site_parameters(site)
+    z_m, h_m = site.get("roof_height_m"), site.get("structure_height_m")
+    stated = [(name,) for name in ("s_ds_g", "s_ms_g") if site.get(name) is not None]
+    found = (
+        ("s_ds_g", "S_DS", parameters and parameters.s_ds, [*stated, ("s_s_g", "f_a")][0]),
+        ("z_over_h", "z/h", None if z_m is None or h_m is None else z_m / h_m,
+         ("roof_height_m", "structure_height_m")),
+        ("code", "code", _CODE_OF.get(site.get("rule_set", "")), ("rule_set",)),
+        ("edition", "edition", site.get("edition_name") or "", ("edition_name",)),
+        ("tail", "tail", target.get("tail"), ("tail",)),
+    )  # fmt: skip
+    lines, lacking = [], []
+    for name, label, value, fields in found:
+        key = "target" if name == "tail" else "site"
+        cells = " and ".join(sheet.where(Place(key, 0, field)) for field in fields)
+        if value is None:
+            lacking.append(f"{cells}: {label} is missing or cannot be read; fill it in")
+        elif value != "":
+            shown = f"{value:.4g}" if isinstance(value, float) else value
+            lines.append(f"{label} {shown}{' g' if label == 'S_DS' else ''} from {cells}")
+    if sheet.draft["spectrum"]:
+        at = sheet.where(Place("spectrum"))
+        lacking.append(f"{at}: a target spectrum is given, not that of AC156; add --target to the"
+                       " command motion suite, with that spectrum as CSV")  # fmt: skip
+    if lacking:
+        raise InputError(lacking)
+    arguments: dict[str, Any] = {name: value for name, _, value, _ in found}
+    return ac156_targets(**arguments), lines

@@ -18,9 +18,9 @@ from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.cells import CellError, Found, check_saved, number
 from report.sheet.reading.positions import CellPosition, found_at
 from report.sheet.reading.typed_text import separator
-from solver.meant import meant
 from solver.model import Floats, InputError, Problem
-from solver.synthesis.target import BAND_HZ
+from solver.suggestions import meant
+from solver.synthesis.matching import BAND_HZ
 
 MAX_ROWS = 2000
 MAX_COLUMNS = 30

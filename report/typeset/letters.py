@@ -10,8 +10,8 @@ import subprocess
 import sys
 from functools import cache
 
+from report.libraries import has_font_on_windows
 from report.sheet.reading.read import Sheet
-from report.typeset.native import has_font_on_windows
 from solver.model import InputError, Problem
 
 _LISTED = 5

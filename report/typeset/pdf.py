@@ -2,6 +2,8 @@
 
 Reads only the HTML, `data:` addresses and the fonts and styles in the template folder. Any warning
 in the renderer's log is an internal error.
+
+What no line breaks within: a number and its unit, a date, a short name with a hyphen.
 """
 
 from __future__ import annotations
@@ -9,6 +11,7 @@ from __future__ import annotations
 import datetime as dt
 import gc
 import logging
+import re
 import sys
 import tempfile
 import warnings
@@ -18,10 +21,34 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
+from report.libraries import load_renderer
+from report.text.units import Quantity
 from report.typeset.finish import Attached, finish
-from report.typeset.native import load_renderer
-from report.typeset.unbroken import unbroken
 from solver.model import DefectError
+
+LONGEST = 8
+"""Characters of a name that is kept whole: a longer one may need a second line in its column."""
+
+_UNITS = {unit.symbol for quantity in Quantity for unit in quantity.value}
+_MORE = ("g", "s", "Hz", "%", "s/m", "m g", "kB", "MB")
+_QUANTITY = "[−]?\\d[\\d.,]* (?:{})(?![\\w/])".format(
+    "|".join(map(re.escape, sorted({*_UNITS, *_MORE}, key=len, reverse=True)))
+)
+_DATE = r"\d{4}-\d\d-\d\d"
+_NAME = rf"(?=[\w-]{{3,{LONGEST}}}(?![\w-]))[A-Z0-9]\w*(?:-\w+)+"
+_PATTERN = re.compile(rf"<[^<>]*>|(?<![\w./-])(?P<whole>{_QUANTITY}|(?:{_DATE}|{_NAME})(?![\w-]))")
+
+
+def unbroken(html: str) -> str:
+    """Return a document in which no line breaks within such a text."""
+    head, body, rest = html.partition("<body")
+    return head + _PATTERN.sub(_kept, body + rest)
+
+
+def _kept(match: re.Match[str]) -> str:
+    whole = match["whole"]
+    return f'<span style="white-space: nowrap">{whole}</span>' if whole else match[0]
+
 
 _HERE = Path(__file__).resolve().parents[1]
 # In a wheel the folder is inside the package, in a checkout beside it.

@@ -2,10 +2,13 @@
 
 The page keeps the key in its own storage and sends it in a header. A cookie would go to every other
 port of this machine as well. Read `Access`.
+
+Connections that have not shown the key: of too many, the oldest ends.
 """
 
 from __future__ import annotations
 
+import asyncio
 import hmac
 import secrets
 from collections.abc import Collection
@@ -15,8 +18,51 @@ from starlette.datastructures import MutableHeaders
 from starlette.requests import HTTPConnection
 from starlette.responses import JSONResponse, PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from report.web.connections import Strangers
+MOST = 200
+"""Most connections without the key; a browser has six."""
+
+Peer = tuple[str, int]
+"""Host and port of the other end."""
+
+
+class Strangers:
+    """The connections that have not shown the key, the oldest first."""
+
+    def __init__(self) -> None:
+        self._open: dict[Peer, asyncio.Transport] = {}
+
+    def add(self, transport: asyncio.Transport) -> None:
+        """Take note of a new connection, and end the oldest where there are too many."""
+        self._open[_peer(transport)] = transport
+        if len(self._open) > MOST:
+            self._open.pop(next(iter(self._open))).abort()
+
+    def forget(self, peer: Peer) -> None:
+        """Let a connection be: it has shown the key, or has ended."""
+        self._open.pop(peer, None)
+
+    def protocol(self) -> type[asyncio.Protocol]:
+        """Return the protocol of HTTP that tells of its connections."""
+        strangers = self
+
+        class Protocol(H11Protocol):
+            def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+                super().connection_made(transport)
+                strangers.add(transport)
+
+            def connection_lost(self, exc: Exception | None) -> None:
+                strangers.forget(_peer(self.transport))
+                super().connection_lost(exc)
+
+        return Protocol
+
+
+def _peer(transport: asyncio.Transport) -> Peer:
+    host, port = transport.get_extra_info("peername")[:2]
+    return host, port
+
 
 HEADERS = {
     "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; "

@@ -14,22 +14,20 @@ from report.assessment.arrays import NOT_PERMITTED
 from report.assessment.assess import not_continued
 from report.assessment.causes import outcome, short_clearances, short_words
 from report.assessment.neighbors import PlanNeighbor
-from report.assessment.overrides import MEANING
 from report.assessment.project import Assessment
 from report.assessment.runs import MotionRun
-from report.assessment.verdict import Verdict
+from report.assessment.verdict import MEANING, Verdict
 from report.document.templates import sentence
 from report.drawing.sheet import unit_format
 from report.entities.array import ArrayResult, array_results
 from report.entities.clearance import ClearanceResult, clearance_results
-from report.entities.columns import UnitFormat
-from report.entities.marks import Marked
+from report.entities.requirement import Marked
+from report.entities.shown import UnitFormat
 from report.pages.registry import package_data
 from report.pages.summary import attention
+from report.text.units import beside, no_less
 from report.typeset.pdf import TEMPLATES
-from report.web.plan import USUAL_PX, plan
-from report.web.tables import Cell, ShowVerdict, cells, heads, stamp
-from report.words.units import beside, no_less
+from report.web.plan import USUAL_PX, Cell, ShowVerdict, cells, heads, plan, stamp
 from solver.rules.limit import Consequence
 
 _ARRAY = "id mean_prd_m design_m prescriptive_m verdict"

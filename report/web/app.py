@@ -21,9 +21,10 @@ from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
-from report.web.access import ENTRY, TOKEN_HEADER, Access, Keys
-from report.web.connections import Strangers
-from report.web.desk import (
+from report.web.access import ENTRY, TOKEN_HEADER, Access, Keys, Strangers
+from report.web.downloads import keys_of, package_routes, workbook
+from report.web.receiving import is_alone, receive_json, received, remove
+from report.web.session import (
     EXAMPLE,
     Desk,
     LostError,
@@ -32,11 +33,7 @@ from report.web.desk import (
     StaleError,
     desk_of,
 )
-from report.web.downloads import keys_of, package_routes, workbook
-from report.web.packages import copied
-from report.web.receiving import receive_json, received
-from report.web.uploads import is_alone, remove
-from report.web.worker import FULL, is_full
+from report.web.worker import FULL, copied, is_full
 from solver.model import InputError
 
 _HERE = Path(__file__).resolve().parent

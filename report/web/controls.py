@@ -1,29 +1,109 @@
 """The sliders and choices of a workbook, and what each of their values means, as finished text.
 
 Only those are offered that the cells of the workbook can express. Read `controls`.
+
+A workbook with its records, read once: what every answer starts from.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 from report.assessment.friction import mu_words
-from report.sheet.reading.read import Sheet
+from report.motions.components import Components
+from report.motions.prepare import Shaking, read_records, shaking, stiff_links
+from report.sheet.reading.read import Sheet, read
 from report.sheet.reading.what_if import retyped
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import Polarity, RuleSetName, UnitsFirst
-from report.sheet.schema.fields import Place
+from report.sheet.schema.fields import Finding, Place
 from report.sheet.schema.scene import Array
-from report.web.opened import Opened
+from report.text.counts import cut, ids_by, ranged
+from report.text.units import Quantity, number, pair
+from report.typeset.letters import check_letters
 from report.web.values import MUS, UNITS_FIRST, Values, typed
-from report.words.counts import ids_by, ranged
-from report.words.letters import cut
-from report.words.units import Quantity, number, pair
 from solver.friction_tests import MOST_MU
 from solver.model import InputError, Motion
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Opened:
+    """A workbook, its records as read, and its motions as run.
+
+    Attributes
+    ----------
+    sheet : Sheet
+    by_motion : tuple of Components
+        Of each motion; the same whatever the sliders say.
+    shaking : Shaking
+    """
+
+    sheet: Sheet
+    by_motion: Sequence[Components]
+    shaking: Shaking
+
+    @property
+    def scales(self) -> dict[str, float]:
+        """Factor on the records of each motion."""
+        return {motion.id: motion.scale for motion in self.shaking.motions}
+
+
+_NOTHING_TO_RUN = (
+    "no motion is given",
+    "fill in at least one row; roofslip report makes a package of the prescriptive displacement",
+)
+
+
+def opened(path: Path) -> Opened:
+    """Read a workbook and its records.
+
+    Raises
+    ------
+    InputError
+        With every problem.
+    """
+    sheet = read(path)
+    check_letters(sheet)
+    if not sheet.draft["motions"]:
+        sheet.refuse([Finding.error(Place("motions"), *_NOTHING_TO_RUN)])
+    by_motion = read_records(sheet)
+    sheet.book.files.clear()  # for a package, which another process makes
+    sheet.book.records.clear()
+    return Opened(sheet=sheet, by_motion=by_motion, shaking=shaking(sheet, by_motion))
+
+
+def with_values(given: Opened, values: Values) -> Opened:
+    """Return a workbook as if the values had been typed into it.
+
+    Raises
+    ------
+    InputError
+        Where the workbook could not have them.
+    """
+    changed = typed(given.sheet, given.scales, values)
+    if not changed:
+        return given
+    sheet = retyped(given.sheet, changed)
+    sheet.refuse(())
+    if _has_motions_of(given.sheet, sheet):
+        sheet.refuse(stiff_links(sheet.project, given.shaking.motions))
+        return replace(given, sheet=sheet)
+    return Opened(sheet=sheet, by_motion=given.by_motion, shaking=shaking(sheet, given.by_motion))
+
+
+def _has_motions_of(before: Sheet, after: Sheet) -> bool:
+    """Whether two sheets have the same motions: only units, arrays and clearances differ."""
+    return all(
+        rows == after.draft[key]
+        for key, rows in before.draft.items()
+        if key not in ("project", "arrays", "clearances", "links")
+    )
+
 
 _LEAST, _MOST = 0.2, 2.0
 _TRIM = {True: (-24.0, 24.0, 1.0), False: (-600.0, 600.0, 25.0)}

@@ -16,11 +16,9 @@ from starlette.routing import Route
 
 from report.making import OUTPUTS
 from report.web.access import Keys
-from report.web.desk import RefusedError, desk_of
-from report.web.packages import TYPES, Package, State, copied
-from report.web.receiving import receive_json, received
-from report.web.uploads import remove
-from report.web.worker import PROJECT, motions_made
+from report.web.receiving import receive_json, received, remove
+from report.web.session import RefusedError, desk_of
+from report.web.worker import PROJECT, TYPES, Package, State, copied, motions_made
 from solver.model import InputError
 
 

@@ -2,26 +2,59 @@
 
 Placed on the widest sheet that the page has room for; the page places nothing. Reads finished
 numbers; the package paints the same in `report.figures.plan`.
+
+An entity as rows of a table of the page: short texts, with both systems of units as titles.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
-from report.drawing.items import Arrow, Circle, Item, Look, Mark, Outline, Point, Text
-from report.drawing.layers import Layer
+from report.drawing.items import (
+    TYPE_PT,
+    Arrow,
+    Circle,
+    Item,
+    Layer,
+    Look,
+    Mark,
+    Outline,
+    Point,
+    Text,
+)
 from report.drawing.on_paper import plan_on_paper
-from report.drawing.paper import Paper
-from report.drawing.sheet import PlanSize
-from report.drawing.widths import TYPE_PT
+from report.drawing.sheet import Paper, PlanSize
 from report.entities.clearance import ClearanceResult
-from report.entities.columns import UnitFormat
-from report.web.tables import Cell, ShowVerdict
-from report.words.units import beside, no_less
+from report.entities.shown import Entity, UnitFormat, shown_by
+from report.text.units import beside, no_less
+
+Cell = Mapping[str, str]
+ShowVerdict = Callable[[Verdict], Cell | None]
+
+
+def stamp(verdict: Verdict, text: str = "") -> Cell:
+    """Return a verdict and its look; that on the project as a text."""
+    return {"text": text or verdict, "look": verdict.name.lower()}
+
+
+def heads(model: type[Entity], names: str, **others: str) -> list[str]:
+    """Return the headings of fields, or others by field."""
+    return [others.get(name, shown_by(model, name).head) for name in names.split()]
+
+
+def cells(row: Entity, names: str, fmt: UnitFormat, **others: Cell | None) -> list[Cell | None]:
+    """Return the cells of fields, or others by field; none for a verdict that is not known yet."""
+    return [others[n] if n in others else _cell(row, n, fmt) for n in names.split()]
+
+
+def _cell(row: Entity, name: str, fmt: UnitFormat) -> Cell:
+    text, both = row.short(name, fmt), row.both(name, fmt)
+    return {"text": text} if both == text else {"text": text, "title": both}
+
 
 _TYPE_PX = 13.0  # of the page
 _PX = _TYPE_PX / (TYPE_PT / 72.0)  # in an inch

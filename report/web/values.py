@@ -13,7 +13,7 @@ from report.sheet.reading.read import Sheet
 from report.sheet.reading.what_if import Typed, size_of_unit
 from report.sheet.schema.choices import Scaling, SlopeUnit
 from report.sheet.schema.fields import Place
-from report.sheet.schema.links import coefficients
+from report.sheet.schema.motions import coefficients
 from report.sheet.schema.scene import SIDES, Array, slope_rad
 from report.sheet.schema.shapes import Rectangle, Shape, gap_m
 from solver.model import INCH_M

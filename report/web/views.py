@@ -2,6 +2,8 @@
 
 Each function answers from a finished assessment and runs again only what a drawing needs. Values
 are those of the package; a number that does not exist is None. Read `slide`.
+
+Which samples a moving plan or a path needs: few enough to draw, and every peak among them.
 """
 
 from __future__ import annotations
@@ -13,6 +15,7 @@ from dataclasses import asdict
 from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.project import THREADS, Assessment
@@ -20,17 +23,45 @@ from report.assessment.runs import MotionRun, OrientedRun
 from report.assessment.uncertainty import ResponseSurface, surface
 from report.document.templates import sentence
 from report.drawing.sheet import unit_format
-from report.entities.columns import UnitFormat
+from report.entities.shown import UnitFormat
 from report.figures.levels import LEAST_M, dot_name, dots, drawn_levels, is_decade
+from report.text.units import G_MPS2, Unit, number
 from report.typeset.pdf import TEMPLATES
 from report.web.answers import finite
 from report.web.run_forces import Slip, run_forces, slips_of, with_jumps
-from report.web.thinning import beside, peaks_kept
-from report.words.units import G_MPS2, Unit, number
 from solver.model import INCH_M, Floats, InputError, Scene, SlideHistory, Status
 from solver.records.measures import velocity_displacement
 from solver.records.record import Record
 from solver.sliding import least_model
+
+Indices = NDArray[np.intp]
+
+
+def peaks_kept(values: Floats, maximum: int) -> Indices:
+    """Return the samples of at most `maximum` that have the smallest and largest value of a part.
+
+    The history is divided into equal parts; its ends stay. NaN is neither small nor large.
+    """
+    n = len(values)
+    if n <= maximum:
+        return np.arange(n)
+    size = math.ceil(n / (maximum // 2 - 1))
+    parts = -(-n // size)
+    padded = np.full(parts * size, np.nan)
+    padded[:n] = values
+    lost = np.isnan(padded)
+    low = np.where(lost, math.inf, padded).reshape(parts, size).argmin(axis=1)
+    high = np.where(lost, -math.inf, padded).reshape(parts, size).argmax(axis=1)
+    starts = np.arange(parts) * size
+    kept = np.unique([0, n - 1, *(starts + low), *(starts + high)])
+    return kept[kept < n]
+
+
+def beside(times_s: Floats, dt_s: float, n: int) -> Indices:
+    """Return the samples before and after each of the times."""
+    at = np.floor(times_s / dt_s).astype(np.intp)
+    return np.unique(np.clip(np.concatenate([at, at + 1]), 0, n - 1))
+
 
 Json = dict[str, Any]
 _T = TypeVar("_T")

@@ -4,8 +4,8 @@ The public names are listed here. Knows no code rules and changes no sample. Rea
 `reader.read_motion_file` first, then one format, such as `peer`.
 """
 
-from solver.formats.motionfile import MotionFile
+from solver.formats.channels import MotionFile
 from solver.formats.reader import read_motion_file, read_record
-from solver.records.units import UNIT_CHOICES
+from solver.records.record import UNIT_CHOICES
 
 __all__ = ["UNIT_CHOICES", "MotionFile", "read_motion_file", "read_record"]

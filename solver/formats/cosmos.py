@@ -20,6 +20,7 @@ from dataclasses import dataclass, replace
 
 from solver.formats.channels import (
     Channel,
+    MotionFile,
     check_length,
     check_number,
     check_only_blank,
@@ -28,12 +29,10 @@ from solver.formats.channels import (
     peak_notes,
     recorder_notes,
 )
-from solver.formats.motionfile import MotionFile
 from solver.formats.numbers import Block, each, fixed_values, header_values, layout_of, printed
 from solver.formats.source import Source, Stated
 from solver.model import InputError
-from solver.records.record import raise_any, shown
-from solver.records.units import unit_size
+from solver.records.record import raise_any, shown, unit_size
 
 _FIRST = re.compile(
     r"\s*(RAW|UNCORRECTED|CORRECTED)\s+([A-Z]+)\b.*\(FORMAT\s+V", re.ASCII | re.IGNORECASE

@@ -18,6 +18,7 @@ from collections.abc import Sequence
 
 from solver.formats.channels import (
     Channel,
+    MotionFile,
     check_length,
     check_only_blank,
     check_steps,
@@ -27,7 +28,6 @@ from solver.formats.channels import (
     peak_notes,
     recorder_notes,
 )
-from solver.formats.motionfile import MotionFile
 from solver.formats.numbers import (
     Block,
     FieldFormat,
@@ -41,7 +41,7 @@ from solver.formats.numbers import (
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
 from solver.model import Floats, InputError
-from solver.records.units import unit_size
+from solver.records.record import unit_size
 
 _VOLUME_1 = re.compile(r"^\s*UNCORRECTED ACCELEROGRAM DATA", re.IGNORECASE)
 _VOLUME_2 = re.compile(r"^\s*CORRECTED ACCELEROGRAM\b", re.IGNORECASE)

@@ -18,8 +18,14 @@ from contextlib import suppress
 
 import numpy as np
 
-from solver.formats.channels import Channel, check_length, motion_file, offset_notes, peak_notes
-from solver.formats.motionfile import MotionFile
+from solver.formats.channels import (
+    Channel,
+    MotionFile,
+    check_length,
+    motion_file,
+    offset_notes,
+    peak_notes,
+)
 from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.source import Source
 from solver.model import Floats, InputError

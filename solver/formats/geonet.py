@@ -17,6 +17,7 @@ from collections.abc import Sequence
 
 from solver.formats.channels import (
     Channel,
+    MotionFile,
     check_length,
     check_only_blank,
     check_steps,
@@ -25,7 +26,6 @@ from solver.formats.channels import (
     parts_of,
     peak_notes,
 )
-from solver.formats.motionfile import MotionFile
 from solver.formats.numbers import Block, FieldFormat, each, fixed_values, header_values, printed
 from solver.formats.source import Source, Stated
 from solver.model import InputError

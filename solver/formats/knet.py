@@ -19,8 +19,7 @@ from contextlib import suppress
 
 import numpy as np
 
-from solver.formats.channels import Channel, motion_file, offset_notes, peak_notes
-from solver.formats.motionfile import MotionFile
+from solver.formats.channels import Channel, MotionFile, motion_file, offset_notes, peak_notes
 from solver.formats.numbers import (
     COMPARED,
     Block,

@@ -17,13 +17,11 @@ import itertools
 import re
 from collections.abc import Sequence
 
-from solver.formats.channels import Channel, motion_file
-from solver.formats.motionfile import MotionFile
+from solver.formats.channels import Channel, MotionFile, motion_file
 from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.source import Source
 from solver.model import InputError
-from solver.records.record import shown
-from solver.records.units import unit_size
+from solver.records.record import shown, unit_size
 
 # The count is in the first lines of a file: the heading has four, or seven and more.
 _HEADING_LINES, _LONGEST_HEADING = 6, 20

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Protocol
 
 from solver.formats import cosmos, csmip, esm, geonet, knet, peer, smc, text
-from solver.formats.motionfile import MotionFile
+from solver.formats.channels import MotionFile
 from solver.formats.source import Source, open_source
 from solver.records.record import Record
 

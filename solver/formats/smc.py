@@ -18,8 +18,7 @@ import math
 import re
 from collections.abc import Sequence
 
-from solver.formats.channels import Channel, motion_file, offset_notes, peak_notes
-from solver.formats.motionfile import MotionFile
+from solver.formats.channels import Channel, MotionFile, motion_file, offset_notes, peak_notes
 from solver.formats.numbers import Block, FieldFormat, fixed_rows, fixed_values, header_values
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled

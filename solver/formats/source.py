@@ -1,21 +1,78 @@
 """The lines of a file with the units and step given by the caller, checked against each other.
 
 Sets the limits on files from unknown sources; knows no format. Read `open_source` first.
+
+What a file that is not read probably is, by its first lines or bytes, and what to do with it.
 """
 
 from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from solver.files import check_length
-from solver.formats.likely import likely_bytes
-from solver.meant import meant
 from solver.model import InputError
-from solver.records.record import is_finite_number, raise_any, shown
-from solver.records.units import UNIT_CHOICES, unit_size
+from solver.records.record import UNIT_CHOICES, is_finite_number, raise_any, shown, unit_size
+from solver.suggestions import meant
+
+_CONVERT = (
+    "convert it to times and accelerations, for example with ObsPy: write columns time_s,acc_g"
+)
+_COLUMNS = "write its values as columns below a heading such as time_s,x_g,y_g"
+_AS_RECORD = "give the record itself, such as the file that its download page offers"
+
+_TEXTS = (
+    (re.compile(r"(?i)\s*<(?:!doctype html|html)"), "a web page", _AS_RECORD),
+    (re.compile(r"(?i)\s*<\?xml|\s*<[a-z]+[ >]"), "XML, such as StationXML", _AS_RECORD),
+    (re.compile(r"(?i)\s*[\[{]"), "JSON", _COLUMNS),
+    (re.compile(r"(?i)#?\s*(?:Station ?Code|InstrumentKind)\b"), "a file of CWA, Taiwan", _COLUMNS),
+    (re.compile(r"(?i)TIMESERIES "), "TSPAIR or SLIST of EarthScope", _CONVERT),
+    (re.compile(r"(?i)(?:WID[12]|BEGIN GSE2|BEGIN IMS)\b"), "GSE2", _CONVERT),
+    (re.compile(r"(?i)(?:\s+-?12345(?:\.0*)?){3}"), "SAC in letters", _CONVERT),
+    (re.compile(r"(?i).*(?:MEXICANA|ASA ?2\.0|UNAM\b)"), "a file of UNAM, Mexico", _COLUMNS),
+    (re.compile(r"(?i).*\b(?:BHRC|CSMNC|USC)\b"), "a file of another network", _COLUMNS),
+    (re.compile(r"(?i)\s*(?:timeSeries|set|function|import|pattern)\b"), "a program", _AS_RECORD),
+)  # fmt: skip
+_LOOKED_AT = 15
+
+_BYTES = (
+    (re.compile(rb"\d{6}[DRQM][ \x00]|MS\x03"), "miniSEED", _CONVERT),
+    (re.compile(rb"\d{6}[VAST] "), "SEED", _CONVERT),
+    (re.compile(rb"PK\x03\x04"), "a zip or a workbook", "unpack it, or save its sheet as CSV"),
+    (re.compile(rb"\x1f\x8b"), "a gzip", "unpack it"),
+    (re.compile(rb"%PDF"), "a PDF", _AS_RECORD),
+    (re.compile(rb"\x89HDF"), "HDF5, such as ASDF", _CONVERT),
+    (re.compile(rb"MATLAB"), "a file of MATLAB", _COLUMNS),
+    (re.compile(rb"\x93NUMPY"), "an array of numpy", _COLUMNS),
+)
+_SAC_HEADING, _SAC_VERSION_AT, _SAC_VERSIONS = 632, 304, {6, 7}
+
+
+def likely_text(lines: Sequence[str], index: int) -> str:
+    """Return what a text that is no table of numbers probably is, and what to do; at a line."""
+    near = [line for line in lines[:_LOOKED_AT] if line.strip()]
+    for pattern, name, remedy in _TEXTS:
+        if any(map(pattern.match, near)):
+            return f"this looks like {name}, which is not read; {remedy}"
+    return (
+        f"found {shown(lines[index].strip())} where numbers are due, and no heading of a format"
+        f" that is read; {_COLUMNS}, with # before every other line of text"
+    )
+
+
+def likely_bytes(data: bytes) -> str:
+    """Return what a file that is no text probably is, and what to do; "" if unknown."""
+    for pattern, name, remedy in _BYTES:
+        if pattern.match(data):
+            return f"{name}; {remedy}"
+    heading = data[_SAC_VERSION_AT : _SAC_VERSION_AT + 4]
+    versions = [int.from_bytes(heading, order) for order in ("little", "big")]
+    is_sac = len(data) > _SAC_HEADING and not _SAC_VERSIONS.isdisjoint(versions)
+    return f"SAC; {_CONVERT}" if is_sac else ""
+
 
 MAX_BYTES = 64_000_000
 MAX_LINE = 1000

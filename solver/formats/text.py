@@ -1,7 +1,7 @@
 """Text and csv: one column (acceleration), or times and one or more columns.
 
 Handles this format only; `solver.formats.layout` finds its rows and takes off what programs add,
-`solver.formats.headings` interprets headings, `solver.formats.times` times. Columns are separated
+`solver.formats.layout` interprets headings, `solver.formats.times` times. Columns are separated
 by comma, semicolon, tab or blanks. One heading line, blank lines and comments after `#` are
 skipped, except that units are read from them. Where the caller says how many values a line has,
 they follow each other across the lines. Read `read` first.
@@ -19,11 +19,12 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.formats import headings
-from solver.formats.channels import Channel, motion_file
-from solver.formats.headings import Heading, Kind
+from solver.formats import layout
+from solver.formats.channels import Channel, MotionFile, motion_file
 from solver.formats.layout import (
     ACROSS,
+    Heading,
+    Kind,
     Row,
     across,
     check_shape,
@@ -34,14 +35,11 @@ from solver.formats.layout import (
     rows_of,
     separator_of,
 )
-from solver.formats.likely import likely_text
-from solver.formats.motionfile import MotionFile
 from solver.formats.numbers import COMPARED, DECIMAL_COMMA, field_problem, is_cut_short, printed
-from solver.formats.source import Source, Stated
+from solver.formats.source import Source, Stated, likely_text
 from solver.formats.times import Sampled, is_even, sampled
 from solver.model import Floats, InputError
-from solver.records.record import BEYOND, HOLD, raise_any, shown
-from solver.records.units import unit_size
+from solver.records.record import BEYOND, HOLD, raise_any, shown, unit_size
 
 _HOLD = re.compile(rf"\b{re.escape(HOLD)} (\d+(?:\.\d+)?) s\b", re.ASCII)
 
@@ -83,7 +81,7 @@ def read(source: Source) -> MotionFile:
     table = _table(source)
     _check_count(source, table)
     _check_last(source, table)
-    if table.headings and (named := headings.of_a_spectrum(table.headings)):
+    if table.headings and (named := layout.of_a_spectrum(table.headings)):
         raise InputError(
             f"{source.at(table.heading_index)}: found {', '.join(map(shown, named))}: this is a"
             " spectrum, no record; give accelerations by time"
@@ -122,7 +120,7 @@ def _check_count(source: Source, table: _Table) -> None:
     """Compare the number of rows with the number of samples that a remark states."""
     found = len(table.values)
     for index, line in table.remarks:
-        stated = headings.count_in(line)
+        stated = layout.count_in(line)
         if stated not in (-1, found):
             remedy = "give the whole file" if found < stated else "correct the count"
             raise InputError(
@@ -229,7 +227,7 @@ def _check_step(source: Source, table: _Table, even: Sampled) -> None:
 def _step_in(table: _Table) -> Stated:
     """Step [s] that a remark states; NaN for none."""
     for index, line in table.remarks:
-        text, seconds = headings.step_in(line)
+        text, seconds = layout.step_in(line)
         if text:
             stated = printed(text, index)
             value, rounding = stated.value * seconds, stated.rounding * seconds
@@ -254,7 +252,7 @@ def _scale(source: Source, table: _Table, column: int) -> float:
     """Value [m/s2] of a column's unit: from its heading, the text above, or the caller."""
     if table.headings and table.headings[column].unit:
         return _heading_scale(source, table, table.headings[column])
-    stated = [(unit, i) for i, line in table.remarks for unit in headings.units_in(line)]
+    stated = [(unit, i) for i, line in table.remarks for unit in layout.units_in(line)]
     if len({unit_size(unit) for unit, _ in stated}) > 1:
         units = " and ".join(dict.fromkeys(unit for unit, _ in stated))
         raise InputError(f"{source.at(stated[-1][1])}: found units {units}; give one")
@@ -265,7 +263,7 @@ def _heading_scale(source: Source, table: _Table, heading: Heading) -> float:
     """Value [m/s2] of a heading's unit; where a comment states another, the caller's decides."""
     size = unit_size(heading.unit)
     for index, line in table.remarks:
-        stated = {unit_size(unit): unit for unit in headings.stated_units(line)}
+        stated = {unit_size(unit): unit for unit in layout.stated_units(line)}
         if not stated or size in stated:
             continue
         if source.units and unit_size(source.units) in {size, *stated}:
@@ -309,7 +307,7 @@ def _table(source: Source) -> _Table:
 
 def _told_across(source: Source, start: int, separator: str | None, remarks: Sequence[Row]) -> int:
     """Values in the first line, if a remark states as many samples as there are in all lines."""
-    stated = max((headings.count_in(line) for _, line in remarks), default=-1)
+    stated = max((layout.count_in(line) for _, line in remarks), default=-1)
     widths = (
         [len(row.split(separator)) for _, row in rows_of(source.lines, start)] if stated > 0 else []
     )
@@ -335,17 +333,17 @@ def _headings(
     """Heading of each column and the index of their line: the heading line, or else a comment."""
     heading = content_of(source.lines[start - 1]) if start else ""
     if heading and is_heading(heading):
-        texts = headings.words(heading, separator)
+        texts = layout.words(heading, separator)
         if len(texts) == width:
-            return headings.settled([headings.parse(text) for text in texts]), start - 1
+            return layout.settled([layout.parse(text) for text in texts]), start - 1
         if width > 2:
             raise InputError(
                 f"{source.at(start - 1)}: found {len(texts)} headings over {width} columns;"
                 " give one for each"
             )
     for index, line in reversed(remarks):
-        if parsed := headings.remark(line, separator, width):
-            return headings.settled(parsed), index
+        if parsed := layout.remark(line, separator, width):
+            return layout.settled(parsed), index
     return [], -1
 
 

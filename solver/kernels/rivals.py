@@ -17,7 +17,11 @@ Every kernel assumes N >= 0 throughout (`one_axis.minimum_normal`). It fills `hi
 (2, n), with s and w at the samples; shape (2, 0) is not filled. It returns its code, the largest
 and the least s, s and w at the end, the time of the largest |s| and the number of stops. A block
 that has stopped sliding has w = 0 at the end.
+
+A block in two axes by fixed steps of constant acceleration, jitted: the straightforward method.
 """
+
+from __future__ import annotations
 
 import math
 
@@ -249,3 +253,42 @@ def slide_link(ax, az, dt, sn, cs, mu, g, scale, substeps, k, implicit, history)
     if history.shape[1] > 0:
         history[0, -1], history[1, -1] = s, w
     return FOLLOWED, s_max, s_min, s, w if slip != 0 else 0.0, t_peak, n_stops
+
+
+@njit(cache=KEPT)
+def slide_fixed(g, dt, cs, substeps, holds):
+    """Solve the motion under G and mu N with `substeps` steps in each interval.
+
+    g has shape (n, 3): Gx, Gy and mu N at the samples [m/s2]. Friction is mu N v / |v| at the
+    beginning of a step, and zero at rest. With `holds`, a block comes to rest if its velocity turns
+    by 90 deg or more in a step while mu N >= |G|, and stays at rest until |G| > mu N at the
+    beginning of a step, as the paper does in one axis.
+
+    Returns
+    -------
+    tuple
+        PRD at the ends of steps, position in plan at the end (x, y), speed at the end.
+    """
+    h = dt / substeps
+    sx = sy = vx = vy = prd = 0.0
+    for i in range(g.shape[0] - 1):
+        for j in range(substeps):
+            part = j / substeps
+            gx = g[i, 0] + (g[i + 1, 0] - g[i, 0]) * part
+            gy = g[i, 1] + (g[i + 1, 1] - g[i, 1]) * part
+            c = g[i, 2] + (g[i + 1, 2] - g[i, 2]) * part
+            w, pull = math.sqrt(vx * vx + vy * vy), math.sqrt(gx * gx + gy * gy)
+            if w > 0.0:
+                ax, ay = gx - c * vx / w, gy - c * vy / w
+            elif not holds:
+                ax, ay = gx, gy
+            elif pull > c:
+                ax, ay = gx * (1.0 - c / pull), gy * (1.0 - c / pull)
+            else:
+                continue
+            nx, ny = vx + ax * h, vy + ay * h
+            sx, sy = sx + 0.5 * (vx + nx) * h, sy + 0.5 * (vy + ny) * h
+            stops = holds and w > 0.0 and nx * vx + ny * vy <= 0.0 and pull <= c
+            vx, vy = (0.0, 0.0) if stops else (nx, ny)
+            prd = max(prd, math.sqrt(cs * cs * sx * sx + sy * sy))
+    return prd, cs * sx, sy, math.sqrt(cs * cs * vx * vx + vy * vy)

@@ -1,7 +1,7 @@
 """One limit, with the value found and what follows from a miss.
 
 Owns no limit: `solver.rules.provisions`, `solver.records.acceptance` and
-`solver.records.spectrum_acceptance` do. Read `Limit`.
+`solver.records.acceptance` do. Read `Limit`.
 """
 
 from __future__ import annotations

@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from solver.formats.headings import parse
+from solver.formats.layout import parse
 from solver.model import Floats, Friction, InputError, Motion, Scene, coulomb
 from solver.records.record import UNITS, Record, has_gravity, read_only
-from solver.records.units import unit_size as records_unit
+from solver.records.record import unit_size as records_unit
 from solver.rivals.methods import ANY_NUMBER, METHODS, NO_RECORD, WANTED, Method, Parameters
 from solver.sliding import two_axes
 

@@ -2,6 +2,8 @@
 
 A check independent of the model: with uplift no displacement is given. Integrates no motion.
 Read `uplift`.
+
+Tipping: whether a block would begin to rotate about an edge of its supports.
 """
 
 from __future__ import annotations
@@ -11,8 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver.forces import normal_mps2
-from solver.model import Floats, Scene
+from solver.forces import friction_demand, normal_mps2
+from solver.model import Floats, Friction, InputError, Scene
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,3 +73,120 @@ def _starts(normal: Floats) -> Floats:
     (at,) = np.nonzero((first >= 0.0) & (last < 0.0))
     begins = [0.0] if normal[0] < 0.0 else []
     return np.array([*begins, *(at + first[at] / (first[at] - last[at]))])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Supports:
+    """Position of the center of gravity of a block relative to its supports.
+
+    Attributes
+    ----------
+    height_m : float
+        Height of the center of gravity above the plane of the supports [m], > 0. It is assumed to
+        lie midway between the supports.
+    spacing_m : float
+        Spacing of the supports in the direction in which it is smallest [m], > 0.
+    """
+
+    height_m: float
+    spacing_m: float
+
+    @property
+    def capacity(self) -> float:
+        """Shear over normal force at which the block begins to tip about an edge, b / (2 h)."""
+        return 0.5 * self.spacing_m / self.height_m
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tipping:
+    """Shear transmitted by the supports compared with the shear at which the block begins to tip.
+
+    Attributes
+    ----------
+    demand : float
+        Largest shear over normal force with no slip; inf if the block lifts off.
+    capacity : float
+        `Supports.capacity`.
+    at_rest_ratio : float
+        With the block at rest, up to slip: the lesser of the demand and the static friction
+        coefficient, over the capacity.
+    sliding_ratio : float
+        While the block slides: kinetic friction coefficient over the capacity; 0 with no slip.
+    """
+
+    demand: float
+    capacity: float
+    at_rest_ratio: float
+    sliding_ratio: float
+
+    @property
+    def ratio(self) -> float:
+        """The greater of the two."""
+        return max(self.at_rest_ratio, self.sliding_ratio)
+
+    @property
+    def transmitted(self) -> float:
+        """Shear over normal force that reaches the block in the state that governs."""
+        return self.ratio * self.capacity
+
+    @property
+    def governs(self) -> str:
+        """The state with the greater ratio, at rest or sliding; at rest if they are equal."""
+        return "at rest" if self.at_rest_ratio >= self.sliding_ratio else "sliding"
+
+    @property
+    def is_ok(self) -> bool:
+        """Whether the block never begins to tip."""
+        return self.ratio <= 1.0
+
+
+def tipping(scene: Scene, supports: Supports) -> Tipping:
+    """Compare the shear on a block with the shear that would tip it about an edge of its supports.
+
+    About the center of gravity, the shear V at the supports has the moment V h. The normal force
+    can balance at most N b / 2, when all of it acts at one edge. The block therefore stays flat
+    while V / N <= b / (2 h), at rest or sliding (Housner, Bull. Seism. Soc. Am. 53 (1963) 403-417,
+    for a block that does not slip; Ishiyama, Earthquake Eng. Struct. Dyn. 10 (1982) 635-650, with
+    friction: it slides before it tips if mu < b / (2 h)). Friction transmits at most V = mu N. On a
+    slope the components of gravity are included in G (in the plane of the roof) and N (normal to
+    it).
+
+    A ratio above 1 means that rocking begins, not that the block overturns. With two horizontal
+    components the resultant is compared with the smallest support spacing, which is conservative.
+
+    Raises
+    ------
+    InputError
+        With every length that is not above 0.
+    """
+    return tipping_at(friction_demand(scene), scene.friction, supports)
+
+
+def tipping_at(demand: float, friction: Friction, supports: Supports) -> Tipping:
+    """Return the same, or its error, from the largest shear over normal force with no slip."""
+    _check(supports)
+    slips = demand > friction.mu_static
+    return Tipping(
+        demand=demand,
+        capacity=supports.capacity,
+        at_rest_ratio=min(demand, friction.mu_static) / supports.capacity,
+        sliding_ratio=_kinetic(friction) / supports.capacity if slips else 0.0,
+    )
+
+
+def _kinetic(friction: Friction) -> float:
+    """Return the greatest coefficient at any speed."""
+    if friction.rate_s_per_m > 0.0:
+        return max(friction.mu_slow, friction.mu_fast)
+    return friction.mu_slow
+
+
+def _check(supports: Supports) -> None:
+    lengths = {"height_m": supports.height_m, "spacing_m": supports.spacing_m}
+    problems = [
+        f"{name} is {value!r}; give a length in meters above 0"
+        for name, value in lengths.items()
+        if not 0.0 < value < math.inf
+    ]
+    if problems:
+        raise InputError(problems)

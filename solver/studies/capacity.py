@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from solver.kernels.compiler import THREADS
 from solver.model import Floats, Status
-from solver.studies.campaign import grid
-from solver.studies.runs import STATUSES, Track, demand_at, empty_rows
+from solver.studies.runs import STATUSES, Track, demand_at, empty_rows, grid
 
 Flags = NDArray[np.bool_]
 

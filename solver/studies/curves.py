@@ -2,17 +2,20 @@
 
 A PRD that is NaN is a run without a value (uplift, or sliding at the end of the record): it counts
 as larger than any limit and is never left out. Runs nothing. Read `statistics` first.
+
+A closed formula fitted to a displacement of a study, with its error and its domain.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.model import Floats
+from solver.model import Floats, InputError
 
 PERCENTILE = 84.0
 
@@ -87,3 +90,144 @@ def first_allowed(values: Floats, prd_m: Floats, allowed_m: float) -> float:
         return float(values[last + 1])
     part = (prd_m[last] - allowed_m) / (prd_m[last] - prd_m[last + 1])
     return float(values[last] + part * (values[last + 1] - values[last]))
+
+
+LEAST_PRD_M = 0.005
+"""PRD from which cases are fitted: below, a factor on the PRD means nothing."""
+
+LARGEST_R = 0.9
+"""Largest r fitted: near 1 the logarithm of a small difference would govern the fit."""
+
+TERMS = 5
+
+DIGITS = 4
+"""Significant digits of the coefficients: the errors are those of the formula as it is printed."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Fit:
+    """A fitted formula.
+
+    Attributes
+    ----------
+    coefficients : tuple of float
+        b0 to b4, for a PRD in meters, to `DIGITS`.
+    ppa_g : float
+        p, mean peak acceleration of the motions per unit of intensity [g], to `DIGITS`.
+    sigma_ln : float
+        Standard deviation of ln(exact / fitted), with the degrees of freedom that are left.
+    minimum_ratio, maximum_ratio : float
+        Extremes of exact / fitted.
+    cases : int
+        Number of cases fitted.
+    domain : mapping of str to (float, float)
+        Least and greatest slope [rad], friction, intensity, r and PRD [m] of the cases fitted.
+    """
+
+    coefficients: tuple[float, ...]
+    ppa_g: float
+    sigma_ln: float
+    minimum_ratio: float
+    maximum_ratio: float
+    cases: int
+    domain: Mapping[str, tuple[float, float]]
+
+    def prd_m(self, slope_rad: float, mu: float, intensity: float) -> float:
+        """Return the fitted PRD [m].
+
+        Raises
+        ------
+        InputError
+            Outside the domain, with the ranges.
+        """
+        r = _ratio(slope_rad, mu, self.ppa_g * intensity)
+        given = {"slope_rad": slope_rad, "mu": mu, "intensity": intensity, "r": r}
+        problems = [
+            f"{name} is {value:.4g}; the formula holds from {low:.4g} to {high:.4g}"
+            for name, value in given.items()
+            for low, high in [self.domain[name]]
+            if not _within(value, low, high)
+        ]
+        if problems:
+            raise InputError(problems)
+        terms = _terms(np.array([slope_rad]), np.array([mu]), np.array([intensity]), np.array([r]))
+        return float(np.exp(terms @ np.array(self.coefficients))[0])
+
+    def covers(self, slope_rad: float, mu: float, intensity: float) -> bool:
+        """Whether a case is in the domain."""
+        try:
+            self.prd_m(slope_rad, mu, intensity)
+        except InputError:
+            return False
+        return True
+
+
+def _within(value: float, low: float, high: float) -> bool:
+    # A case that was fitted is in the domain whatever the rounding error of its units.
+    slack = 1e-9 * max(abs(low), abs(high))
+    return low - slack <= value <= high + slack
+
+
+def _ratio(slope_rad: float, mu: float, peak_g: float) -> float:
+    return math.tan(math.atan(mu) - slope_rad) / peak_g
+
+
+def _terms(slope: Floats, mu: Floats, x: Floats, r: Floats) -> Floats:
+    return np.stack([np.ones_like(r), np.log1p(-r), np.log(r), np.log(x), slope / mu], axis=-1)
+
+
+def _to_digits(value: float) -> float:
+    return float(f"{value:.{DIGITS}g}")
+
+
+def fit_prd(
+    slope_rad: Floats, mu: Floats, intensity: Floats, prd_m: Floats, *, ppa_g: float
+) -> Fit:
+    """Fit the formula to cases by least squares of the logarithm.
+
+    Cases without a value, with a PRD below `LEAST_PRD_M` or with r outside of (0, `LARGEST_R`] are
+    outside of the domain and not fitted.
+
+    Parameters
+    ----------
+    slope_rad, mu, intensity, prd_m : array, shape (m,)
+    ppa_g : float
+        Mean peak acceleration of the motions per unit of intensity [g].
+
+    Raises
+    ------
+    InputError
+        If fewer than ten cases are left, or they do not determine the coefficients.
+    """
+    ppa_g = _to_digits(ppa_g)
+    with np.errstate(divide="ignore"):
+        r = np.tan(np.arctan(mu) - slope_rad) / (ppa_g * intensity)
+    fits = (prd_m >= LEAST_PRD_M) & (r > 0.0) & (r <= LARGEST_R)
+    cases = int(fits.sum())
+    if cases < 2 * TERMS:
+        raise InputError(
+            f"{cases} cases have a displacement of {1e3 * LEAST_PRD_M:g} mm or more; a formula "
+            f"needs {2 * TERMS} or more"
+        )
+    slope_rad, mu, intensity, prd_m, r = (
+        values[fits] for values in (slope_rad, mu, intensity, prd_m, r)
+    )
+    terms, wanted = _terms(slope_rad, mu, intensity, r), np.log(prd_m)
+    found, _, rank, _ = np.linalg.lstsq(terms, wanted, rcond=None)
+    if rank < TERMS:
+        raise InputError(
+            "the cases do not determine a formula; give two or more slopes, friction "
+            "coefficients and intensities"
+        )
+    found = np.array([_to_digits(value) for value in found])
+    off = wanted - terms @ found
+    values = {"slope_rad": slope_rad, "mu": mu, "intensity": intensity, "r": r, "prd_m": prd_m}
+    return Fit(
+        coefficients=tuple(found.tolist()),
+        ppa_g=ppa_g,
+        sigma_ln=float(np.sqrt(np.sum(off**2) / (cases - TERMS))),
+        minimum_ratio=float(np.exp(off.min())),
+        maximum_ratio=float(np.exp(off.max())),
+        cases=cases,
+        domain={name: (float(v.min()), float(v.max())) for name, v in values.items()},
+    )

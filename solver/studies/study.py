@@ -22,10 +22,9 @@ from solver.records.record import Record
 from solver.sliding.checked import motion
 from solver.sliding.least_model import Model
 from solver.sliding.sweep import axis
-from solver.studies.campaign import Campaign, grid
 from solver.studies.capacity import Curve, capacities
 from solver.studies.curves import Statistics, first_allowed, statistics
-from solver.studies.runs import LENGTHS, STATUSES, Runner, run_part
+from solver.studies.runs import LENGTHS, STATUSES, Campaign, Runner, grid, run_part
 
 if TYPE_CHECKING:
     import pandas as pd

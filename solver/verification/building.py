@@ -2,27 +2,132 @@
 
 Reads the given records and fits a beam; draws nothing.
 Read `recorded_buildings`, then `compare`; `building_checks` has the closed forms.
+
+Period, damping and stiffness ratio of a building from motions of its ground and its floors.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
+from itertools import product
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
-from solver.building.periods import FOOT_M, approximate_period_s
-from solver.building.roof import RoofMotion, to_roof
-from solver.building.structure import building_of_modes
+from solver.building.roof import RoofMotion, absolute_accelerations, to_roof
+from solver.building.structure import (
+    FOOT_M,
+    MOST_ALPHA0,
+    MOST_DAMPING,
+    Building,
+    Modes,
+    approximate_period_s,
+    beam_modes,
+    building_of_modes,
+    building_of_periods,
+)
 from solver.formats import read_record
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
 from solver.records.spectrum import response_spectrum
 from solver.sliding.checked import slide
 from solver.verification.evidence import RoofComparison, RoofPrediction
-from solver.verification.identification import Identified, identify
-from solver.verification.study import unexplained
+from solver.verification.study import best_of, unexplained
+
+MODES = 12
+"""Modes of the beam; further modes do not change the floor motions noticeably."""
+
+DAMPINGS, ALPHAS = (0.02, 0.05, 0.12), (0.0, 2.0, 6.0, 15.0, 40.0)
+"""The coarse grid; periods are 4 % apart, less than the width of a resonance peak."""
+
+_PERIOD_STEP, _LAST_STEP = 0.04, 1e-4
+
+_Point = tuple[float, float, float]
+
+
+class Identified(NamedTuple):
+    """The uniform beam whose floor motions fit the recorded ones best.
+
+    `unexplained` is the sum of squares of the difference over that of the recorded motions.
+    """
+
+    period_s: float
+    damping: float
+    alpha0: float
+    unexplained: float
+
+    def building(self) -> Building:
+        """Return the beam."""
+        return building_of_periods([self.period_s], damping=[self.damping], alpha0=self.alpha0)
+
+
+def identify(
+    ground_mps2: Floats,
+    dt_s: float,
+    heights: tuple[float, ...],
+    floors_mps2: Floats,
+    periods_s: tuple[float, float],
+) -> Identified:
+    """Return the beam with the least sum of squares: grid search, then shrinking steps.
+
+    Parameters
+    ----------
+    ground_mps2, floors_mps2 : array, shape (n,) and (n, m)
+        Recorded in the same direction, over the same time.
+    heights : tuple of float, m of them
+        Of the floors, relative to the height of the building.
+    periods_s : pair of float
+        Least and greatest first period of the grid [s].
+    """
+
+    def misfit(point: _Point) -> float:
+        period_s, damping, alpha0 = (float(v) for v in _plain(point))
+        modes = _beam(alpha0, heights)
+        zeta = np.full(MODES, damping)
+        responses = absolute_accelerations(ground_mps2, dt_s, period_s * modes.period_ratios, zeta)
+        rigid = 1.0 - modes.factors.sum(axis=0)
+        return unexplained(responses @ modes.factors + ground_mps2[:, None] * rigid, floors_mps2)
+
+    steps = int(np.log(periods_s[1] / periods_s[0]) / _PERIOD_STEP) + 2
+    grid = product(np.log(np.geomspace(*periods_s, steps)), np.log(DAMPINGS), np.log1p(ALPHAS))
+    least, best = _descend(misfit, *best_of(misfit, grid))
+    return Identified(*_plain(best), least)
+
+
+def _plain(point: _Point) -> _Point:
+    """Return period, damping and ratio of a point of the search (logarithms), within bounds."""
+    period, damping, alpha0 = np.exp(point)
+    return (
+        float(period),
+        float(min(damping, MOST_DAMPING)),
+        float(min(max(alpha0 - 1.0, 0.0), MOST_ALPHA0)),
+    )
+
+
+def _descend(
+    misfit: Callable[[_Point], float], minimum: float, best: _Point
+) -> tuple[float, _Point]:
+    """Step to the best of the neighbors on each axis; halve the steps where none is better."""
+    reach = np.array([_PERIOD_STEP / 2.0, 0.4, 0.4])
+    while reach[0] > _LAST_STEP:
+        around: list[_Point] = [
+            tuple(best + sign * move) for move in np.diag(reach) for sign in (1.0, -1.0)
+        ]
+        nearby, point = best_of(misfit, around)
+        if nearby < minimum:
+            minimum, best = nearby, point
+        else:
+            reach /= 2.0
+    return minimum, best
+
+
+@lru_cache(maxsize=256)
+def _beam(alpha0: float, heights: tuple[float, ...]) -> Modes:
+    return beam_modes(alpha0, MODES, heights)
+
 
 SPECTRUM_S = np.geomspace(0.05, 8.0, 89)
 """Periods of the compared spectra, twelve or more per octave [s]."""
@@ -34,7 +139,7 @@ SLOPE_DEG, MUS, PPA_G = 2.0, (0.1, 0.2, 0.3, 0.4), 1.0
 
 CODE_DAMPING = 0.05
 FRAME_ALPHA0 = 12.5
-"""Middle of the usual stiffness ratios of moment frames, see `solver.building.beam.beam_modes`."""
+"""Middle of the usual stiffness ratios of moment frames, see `solver.building.structure`."""
 
 BY_HEIGHT = "approximate period from height, no measurement"
 """Name of the prediction that needs no measurement of the building."""

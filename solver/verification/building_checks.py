@@ -12,9 +12,14 @@ from itertools import islice
 
 import numpy as np
 
-from solver.building.beam import Modes, beam_modes, floor_stiffness, story_modes
 from solver.building.roof import absolute_accelerations, roof_motion
-from solver.building.structure import building_of_periods
+from solver.building.structure import (
+    Modes,
+    beam_modes,
+    building_of_periods,
+    floor_stiffness,
+    story_modes,
+)
 from solver.model import Floats
 from solver.records.record import Record
 from solver.verification.building import FloorRecords

@@ -1,24 +1,27 @@
 """Checks of the solver against independent results, one row for each value.
 
-Closed forms (`solver.verification.problems`) and the paper's physical checks; calls only
+Closed forms (`solver.verification.reference`) and the paper's physical checks; calls only
 `solver.slide` and `slide_history`. See `crosschecks` for 50 digits, symmetries and the rivals.
+
+Checks of the exact method against 50-digit arithmetic and symmetries, and of every rival.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import partial
 
 import numpy as np
 
-from solver.model import EventKind, Floats, SlideResult
+from solver.model import STANDARD_GRAVITY_MPS2, EventKind, Floats, SlideResult
 from solver.records.record import Record
+from solver.rivals.methods import METHODS, Method, link_frequency
 from solver.sliding.checked import slide, slide_history
-from solver.verification import problems
+from solver.verification import reference, scenes
 from solver.verification.evidence import ROUNDING, Check
 from solver.verification.reference import Reference
-from solver.verification.scenes import Case
+from solver.verification.scenes import Case, is_runnable, scale_to
 from solver.verification.study import run
 
 G = 9.81
@@ -55,7 +58,7 @@ def trapezoid(peak: float, plateau: int, rest: int) -> Floats:
 
 
 def closed_forms() -> Iterator[Check]:
-    """Check against `solver.verification.problems`, all with g = 9.81 m/s2."""
+    """Check against `solver.verification.reference`, all with g = 9.81 m/s2."""
     yield from _pulses_on_a_flat_roof()
     yield from _pulses_on_a_slope()
     yield from _half_sines()
@@ -71,7 +74,7 @@ def _pulses_on_a_flat_roof() -> Iterator[Check]:
     for a, mu, lasts in ((0.4, 0.1, 0.2), (0.5, 0.2, 0.3), (1.0, 0.4, 0.1)):
         name = f"A = {a:g} g for {lasts:g} s, mu = {mu:g}, flat roof"
         plateau = round(lasts / dt)
-        expected = problems.pulse_travel(a * G, mu * G, plateau * dt, dt)
+        expected = reference.pulse_travel(a * G, mu * G, plateau * dt, dt)
         result = slide(trapezoid(-a * G, plateau, 400), dt, slope_rad=0.0, mu=mu, g_mps2=G)
         pulse = f"Trapezoidal pulse {name}"
         yield Check("CF-1", PIECEWISE, "PRD", "m", pulse, expected, result.prd_m)
@@ -90,8 +93,8 @@ def _pulses_on_a_slope() -> Iterator[Check]:
     for degrees, mu, a, lasts in ((5, 0.4, 0.6, 0.3), (10, 0.5, 0.8, 0.15)):
         slope, plateau = math.radians(degrees), round(lasts / dt)
         for b in (0.0, -0.3, 0.3):
-            drive, resist = problems.slope_pulse(slope, mu, a, b, G)
-            expected = problems.pulse_travel(drive, resist, plateau * dt, dt) * math.cos(slope)
+            drive, resist = reference.slope_pulse(slope, mu, a, b, G)
+            expected = reference.pulse_travel(drive, resist, plateau * dt, dt) * math.cos(slope)
             ax, az = (trapezoid(peak * G, plateau, 900) for peak in (-a, b))
             result = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, g_mps2=G)
             name = f"Trapezoidal pulse A = {a:g} g, vertical {b:g} g, for {lasts:g} s, "
@@ -102,7 +105,7 @@ def _half_sines() -> Iterator[Check]:
     chords = "Closed-form integration of the sine; record sampled at 400 points"
     second = "Errors with 200 and 400 samples: linear interpolation is second order"
     for a, mu, freq in ((0.5, 0.2, 1.0), (0.8, 0.4, 2.0), (1.0, 0.1, 1.0)):
-        expected = problems.half_sine_travel(a, mu, freq, G)
+        expected = reference.half_sine_travel(a, mu, freq, G)
         name = f"Half-sine pulse A = {a:g} g, {freq:g} Hz, mu = {mu:g}, flat roof"
         travels_m = []
         for steps in (100, 200, 400):
@@ -128,7 +131,7 @@ def _harmonic() -> Check:
         "Travel per half cycle",
         "m",
         "Steady-state harmonic A = 0.5 g, 1 Hz, mu = 0.2, flat roof, after 80 cycles",
-        problems.harmonic_travel(0.5, 0.2, 1.0, G),
+        reference.harmonic_travel(0.5, 0.2, 1.0, G),
         abs(stops[-1] - stops[-2]) if len(stops) > 1 else math.nan,
         1e-5,
     )
@@ -138,7 +141,7 @@ def _free_slide(id: str, degrees: float, mu: float, time_s: float) -> Check:
     slope = math.radians(degrees)
     steps = round(time_s / 0.01)
     result = slide(np.zeros(steps + 1), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
-    expected = problems.free_slide_travel(slope, mu, time_s, G) * math.cos(slope)
+    expected = reference.free_slide_travel(slope, mu, time_s, G) * math.cos(slope)
     name = f"No shaking, slope {degrees:g} deg, mu = {mu:g}: slides from rest for {time_s:g} s"
     source = "0.5 (g sin(theta) - mu g cos(theta)) t^2, the paper's physical check 2"
     return Check(id, source, *_DOWNSLOPE, name, expected, result.down_m)
@@ -149,7 +152,7 @@ def _yield_accelerations() -> Iterator[Check]:
     row = partial(Check, "CF-8", source, "Yield acceleration", "m/s2", tolerance=1e-9)
     for degrees, mu in ((0.0, 0.4), (4.0, 0.4), (-7.0, 0.2), (30.0, 1.0)):
         slope = math.radians(degrees)
-        limits = problems.yield_accelerations(slope, mu, G)
+        limits = reference.yield_accelerations(slope, mu, G)
         for way, limit in zip(("downslope", "upslope"), limits, strict=True):
             name = f"Slope {degrees:g} deg, mu = {mu:g}: onset of {way} slip"
             yield row(name, limit, _limit_by_bisection(slope, mu, limit))
@@ -180,8 +183,8 @@ def physical_checks(record: Record) -> Iterator[Check]:
     row = partial(Check, "PH-1", "Paper, Physical Checks (1): slope 30 deg, mu = 1", "PRD", "m")
     still = slide(np.zeros(500), dt, slope_rad=slope, mu=1.0, g_mps2=G)
     yield row("No shaking: no slip", 0.0, still.prd_m, 0.0)
-    drive, resist = problems.slope_pulse(slope, 1.0, 0.6, 0.0, G)
-    expected = problems.pulse_travel(drive, resist, 0.3, dt) * math.cos(slope)
+    drive, resist = reference.slope_pulse(slope, 1.0, 0.6, 0.0, G)
+    expected = reference.pulse_travel(drive, resist, 0.3, dt) * math.cos(slope)
     loose = slide(trapezoid(-0.6 * G, 30, 900), dt, slope_rad=slope, mu=1.0, g_mps2=G)
     yield row("A pulse of 0.6 g for 0.3 s causes slip", expected, loose.prd_m)
     yield _free_slide("PH-2", 7.0, 0.1, 5.0)
@@ -203,7 +206,7 @@ def _critical_friction() -> Iterator[Check]:
     slope, time_s = math.radians(0.5), 5.0
     source = "Paper, Physical Checks (4): slides at 0.999 tan(theta), no slip at 1.000 tan(theta)"
     less, just = 0.999 * math.tan(slope), math.tan(slope)
-    travel_m = problems.free_slide_travel(slope, less, time_s, G) * math.cos(slope)
+    travel_m = reference.free_slide_travel(slope, less, time_s, G) * math.cos(slope)
     for factor, mu, expected, tolerance in (
         # sin - mu cos cancels to a thousandth of sin, which costs three digits.
         (0.999, less, travel_m, 1e-11),
@@ -212,3 +215,117 @@ def _critical_friction() -> Iterator[Check]:
         result = slide(np.zeros(501), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
         name = f"No shaking, slope 0.5 deg, mu = {factor:.3f} tan(theta), 5 s"
         yield Check("PH-4", source, "PRD", "m", name, expected, result.prd_m, tolerance)
+
+
+CASES = (*scenes.CASES[:4], Case(-7.0, 0.05, 1.0), Case(0.0, 0.0, 0.2))
+"""Compared with 50 digits; the second and the fourth also with vertical shaking."""
+
+
+def fifty_digits(record: Record) -> Iterator[Check]:
+    """Compare PRD and residual with `reference`."""
+    source = "Decimal arithmetic, Eqs. 12-18 of the paper; shares no code with the solver"
+    ax, dt = record.a_mps2, record.dt_s
+    for k, case in enumerate(CASES):
+        slope, mu, scale = case.slope_rad, case.mu, scale_to(record, case.ppa_g)
+        shaken = [("", None), (", with vertical shaking", 0.3 * ax[::-1])]
+        for more, az in shaken if k in (1, 3) else shaken[:1]:
+            exact = reference.slide(
+                ax.tolist(),
+                dt,
+                slope_rad=slope,
+                mu=mu,
+                az_mps2=None if az is None else az.tolist(),
+                scale=scale,
+                g_mps2=STANDARD_GRAVITY_MPS2,
+            )
+            result = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, scale=scale)
+            yield from slip_checks("DA-1", source, f"{record.name}, {case}{more}", exact, result)
+
+
+def symmetries(record: Record) -> Iterator[Check]:
+    """Run scenes whose results follow from those of others."""
+    case = Case(3.0, 0.25, 1.0)
+    ax, dt, scale = record.a_mps2, record.dt_s, scale_to(record, case.ppa_g)
+    slope, mu, g = case.slope_rad, case.mu, STANDARD_GRAVITY_MPS2
+    plain = slide(ax, dt, slope_rad=slope, mu=mu, scale=scale)
+    mirrored = slide(-ax, dt, slope_rad=-slope, mu=mu, scale=scale)
+    fine = np.interp(np.arange(2 * ax.size - 1) / 2, np.arange(ax.size), ax)
+    finer = slide(fine, dt / 2, slope_rad=slope, mu=mu, scale=scale)
+    twice = slide(ax, dt, slope_rad=slope, mu=mu, scale=2 * scale, g_mps2=2 * g)
+    slow = slide(ax, 2 * dt, slope_rad=slope, mu=mu, scale=scale)
+    prd_m, name = plain.prd_m, f"{record.name}, {case}"
+
+    def row(id: str, problem: str, source: str, times: float, found: SlideResult) -> Check:
+        expected = times * prd_m
+        return Check(id, source, "PRD", "m", f"{problem}: {name}", expected, found.prd_m)
+
+    mirror, same = "Slope and record mirrored", "identical to the last bit"
+    yield Check("SY-1", f"PRD {same}", "PRD", "m", f"{mirror}: {name}", prd_m, mirrored.prd_m, 0.0)
+    yield Check(
+        "SY-1",
+        f"Residual of opposite sign, {same}",
+        "Residual",
+        "m",
+        f"{mirror}, residual: {name}",
+        -plain.residual_m,
+        mirrored.residual_m,
+        0.0,
+    )
+    added = "Samples added by linear interpolation"
+    yield row("SY-2", added, "The displacement is unchanged", 1.0, finer)
+    yield row("SY-3", "Gravity and record doubled", "Displacements are doubled", 2.0, twice)
+    yield row("SY-4", "Time step doubled", "Displacements are multiplied by four", 4.0, slow)
+    yield _energy(record, case)
+
+
+def _energy(record: Record, case: Case) -> Check:
+    """Compare the work of friction with that of gravity and shaking, summed over the history."""
+    parts = 32
+    n = record.a_mps2.size
+    ax = np.interp(np.arange((n - 1) * parts + 1) / parts, np.arange(n), record.a_mps2)
+    ax *= scale_to(record, case.ppa_g)
+    dt = record.dt_s / parts
+    history = slide_history(ax, dt, slope_rad=case.slope_rad, mu=case.mu)
+    sine, cosine = math.sin(case.slope_rad), math.cos(case.slope_rad)
+    v = history.v_mps / cosine
+    g = STANDARD_GRAVITY_MPS2
+    friction = case.mu * (g * cosine + ax * sine) * np.abs(v)
+    drive = (g * sine - ax * cosine) * v
+    return Check(
+        "SY-5",
+        "Work of gravity and shaking less kinetic energy; summed at 32 points per interval",
+        "Work of friction per unit mass",
+        "J/kg",
+        f"Energy balance: {record.name}, {case}",
+        float(drive.sum() * dt - v[-1] ** 2 / 2),
+        float(friction.sum() * dt),
+        1e-4,
+    )
+
+
+def rivals() -> Iterator[Check]:
+    """Compare every method with one closed form, each within its own tolerance."""
+    dt, plateau, a, mu = 0.01, 20, 0.4, 0.1
+    expected = reference.pulse_travel(a * G, mu * G, plateau * dt, dt)
+    ax = trapezoid(a * G, plateau, 150)
+    for method in METHODS.values():
+        if not is_runnable(method.name):
+            continue
+        result = slide(
+            ax, dt, slope_rad=0.0, mu=mu, g_mps2=G, method=method.name, units="m/s2",
+            **_fine(method, dt),
+        )  # fmt: skip
+        name = f"{method.title}: pulse A = {a:g} g for 0.2 s, mu = {mu:g}, flat roof"
+        yield Check("ME-1", PIECEWISE, "PRD", "m", name, expected, result.prd_m, method.ceiling)
+
+
+def _fine(method: Method, dt_s: float) -> Mapping[str, float]:
+    """Return fine settings; those of a link lie well within its stability limit."""
+    if method.link_steps_per_radian:
+        substeps = 100
+        omega = 0.5 * substeps / dt_s
+        stiffness = (omega / link_frequency(1.0, G)) ** 2
+        return {"stiffness_per_m": stiffness, "substeps": substeps}
+    if method.name == "regularized":
+        return {"velocity_mps": 1e-3, "tolerance": 1e-6}
+    return {}

@@ -25,8 +25,7 @@ from solver.rules.provisions import (
     required_separation,
 )
 from solver.sliding.checked import scene
-from solver.sliding.tipping import Supports, tipping
-from solver.sliding.uplift import uplift
+from solver.sliding.uplift import Supports, tipping, uplift
 from solver.verification.evidence import Check
 
 _INCH, _FOOT = 0.0254, 0.3048

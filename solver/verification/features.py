@@ -9,8 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from solver.verification.evidence import Check
-from solver.verification.shake_table import ShakeTable
-from solver.verification.table_tests import TableTest
+from solver.verification.shake_table import ShakeTable, TableTest
 
 
 # Named functions, so that a feature can be pickled.

@@ -22,8 +22,16 @@ from solver.verification import plane_scipy
 from solver.verification.checks import slip_checks
 from solver.verification.evidence import Check
 from solver.verification.random_pairs import bound_ratios
-from solver.verification.study import MODEL_CASES, TIGHT, faded, flat_scene, scenes_of
-from solver.verification.triples import RECORDED, cut, scene_of
+from solver.verification.study import (
+    MODEL_CASES,
+    RECORDED,
+    TIGHT,
+    cut,
+    faded,
+    flat_scene,
+    scene_of,
+    scenes_of,
+)
 
 AGREES = 1e-9
 """Tolerance where two computations agree to rounding error and the tightest tolerance."""

@@ -24,8 +24,7 @@ from solver.verification import model_checks
 from solver.verification.evidence import PeerPoint, percent_off
 from solver.verification.plane_scipy import samples_of
 from solver.verification.scenes import CASES, Case
-from solver.verification.study import MODEL_CASES, clocked, posed
-from solver.verification.triples import cut, scene_of
+from solver.verification.study import MODEL_CASES, clocked, cut, posed, scene_of
 
 SUBSTEPS = 10
 MOTIONS = 3

@@ -20,7 +20,7 @@ from solver.model import Floats, Friction, Scene, Status, coulomb
 from solver.records.record import read_only
 from solver.rivals.methods import NO_RECORD
 from solver.sliding.two_axes import TwoAxesOutcome, follow
-from solver.verification.model_evidence import BoundRatios
+from solver.verification.evidence import BoundRatios
 
 EPS = 2.0**-52
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)

@@ -14,7 +14,6 @@ from solver.verification import (
     building,
     building_checks,
     checks,
-    crosschecks,
     design_checks,
     model_checks,
     model_study,
@@ -26,9 +25,8 @@ from solver.verification import (
 from solver.verification.building import FloorRecords
 from solver.verification.evidence import Check, Verification
 from solver.verification.scenes import own_records
-from solver.verification.shake_table import SHIPPED, compare
-from solver.verification.table_tests import TableTest
-from solver.verification.triples import own_triples
+from solver.verification.shake_table import SHIPPED, TableTest, compare
+from solver.verification.study import own_triples
 
 
 def verify(
@@ -114,8 +112,8 @@ def _rows(records: Sequence[Record]) -> Iterator[Check]:
     yield from checks.closed_forms()
     yield from checks.physical_checks(records[0])
     for record in records:
-        yield from crosschecks.fifty_digits(record)
+        yield from checks.fifty_digits(record)
     for record in records:
-        yield from crosschecks.symmetries(record)
-    yield from crosschecks.rivals()
+        yield from checks.symmetries(record)
+    yield from checks.rivals()
     yield from design_checks.design_checks()

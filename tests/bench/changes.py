@@ -44,7 +44,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from solver.formats.motionfile import MotionFile
+from solver.formats.channels import MotionFile
 from solver.formats.source import Source
 from solver.records.record import Record, UNITS
 
@@ -168,7 +168,7 @@ CHANGES = (
         "from openpyxl import load_workbook\n"
         "from report.assessment.evidence import support\n"
         "from report.entities.results import schema\n"
-        "from report.results.json import results_json\n"
+        "from report.results.results_json import results_json\n"
         "from report.results.xlsx import results_xlsx\n"
         "assessment = report.assess_project('projects/example')\n"
         "evidence = support(assessment)\n"
@@ -185,7 +185,7 @@ CHANGES = (
         "from report.assessment.evidence import support\n"
         "from report.package.html import pages\n"
         "from report.pages.summary import attention\n"
-        "from report.results.json import results_json\n"
+        "from report.results.results_json import results_json\n"
         "assessment = report.assess_project('projects/example')\n"
         "evidence = support(assessment)\n"
         "rows = json.loads(results_json(assessment, evidence))['requirements']\n"

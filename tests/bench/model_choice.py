@@ -28,7 +28,7 @@ from solver.model import Floats, Scene, SlideResult, Status, coulomb
 from solver.records.record import read_only
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model, one_axis, two_axes
-from solver.verification.triples import own_triples, recorded_triples
+from solver.verification.study import own_triples, recorded_triples
 
 SCENES = 30 if SMOKE else 10_000
 KINDS, ACROSS = ("noise", "periodic", "recorded"), ("like it", "noise", "push")

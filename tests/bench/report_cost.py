@@ -61,7 +61,7 @@ def stages() -> Iterator[str]:
     yield "plan.dxf, results.xlsx and results.json"
     from report.drawing.dxf import write_dxf
     from report.drawing.plan import plan_drawing
-    from report.results.json import results_json
+    from report.results.results_json import results_json
     from report.results.xlsx import results_xlsx
 
     write_dxf(plan_drawing(assessment))

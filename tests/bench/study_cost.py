@@ -23,8 +23,7 @@ from report.study.manifest import manifest_of
 from report.study.parts import begin, done_parts, peaks, read_part, run_missing
 from solver import read_record, sweep
 from solver.model import Motion
-from solver.studies.campaign import Campaign, grid
-from solver.studies.runs import Runner, run_part
+from solver.studies.runs import Campaign, Runner, grid, run_part
 from studied import frozen, motion
 
 SLOPES = np.radians(np.linspace(-7.0, 7.0, 29))

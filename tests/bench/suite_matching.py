@@ -11,8 +11,8 @@ from measure import SMOKE, figure
 
 from solver.rules.hazard import EDITIONS
 from solver.rules.spectra import ac156_horizontal, ac156_vertical
+from solver.synthesis.matching import spectrum_fit
 from solver.synthesis.suite import make_suite
-from solver.synthesis.target import spectrum_fit
 
 S_DS_G = 1.2
 SEEDS, COUNT = (1, 1) if SMOKE else (3, 7)

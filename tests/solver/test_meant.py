@@ -10,7 +10,7 @@ import commands
 from growth import grows_faster
 from places import ROOT
 from report.cli.main import main
-from solver.meant import meant, nearest
+from solver.suggestions import meant, nearest
 
 pytestmark = pytest.mark.quick
 

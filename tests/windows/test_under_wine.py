@@ -15,7 +15,7 @@ from wine import command, installed, on_windows, roofslip
 from packages import reported
 from places import ROOT, TESTS
 from report.cli.main import main
-from report.proof.numbers import differences
+from report.proof.contents import differences
 
 pytestmark = pytest.mark.nightly
 

@@ -9,23 +9,30 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from report.sheet.checking.conditions import MAX_SLOPE_DEG, REFERENCES, UNIQUE, missing
-from report.sheet.checking.drafts import column, repeated, suggestion
-from report.sheet.checking.friction_checks import friction_faults
-from report.sheet.checking.motion_checks import motion_faults
-from report.sheet.checking.plan_checks import places_of, plan_faults, shapes_of, us_first
+from report.sheet.checking.findings import column, repeated, suggestion
+from report.sheet.checking.motion_checks import friction_faults, motion_faults
+from report.sheet.checking.plan_checks import (
+    MAX_SLOPE_DEG,
+    REFERENCES,
+    UNIQUE,
+    missing,
+    places_of,
+    plan_faults,
+    shapes_of,
+    us_first,
+)
 from report.sheet.checking.site_checks import site_faults
 from report.sheet.schema import factors, provision_name
 from report.sheet.schema.choices import ModelChoice, SlopeUnit
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
-from report.sheet.schema.links import coefficients
+from report.sheet.schema.motions import coefficients
 from report.sheet.schema.scene import slope_rad
 from report.sheet.schema.shapes import Rectangle, Shape, gap_m
-from report.words.letters import cut, foreign_letters, latin
-from report.words.units import Quantity, pair
-from solver.meant import nearest
+from report.text.counts import cut, foreign_letters, latin
+from report.text.units import Quantity, pair
 from solver.model import INCH_M
 from solver.rules.rulesets import ALLOWED, OVERRIDABLE, RULE_SETS
+from solver.suggestions import nearest
 
 GAP_TOLERANCE = 0.01
 # Below the inch at which a package states that a clearance contradicts the plan

@@ -9,11 +9,11 @@ import datetime as dt
 import hashlib
 from collections.abc import Iterator, Mapping, Sequence, Set
 
-from report.sheet.schema import SECTION, SECTIONS, ProjectInput, legacy_labels
+from report.sheet.schema import SECTION, SECTIONS, ProjectInput, layout
 from report.sheet.schema.choices import ClearanceSource
 from report.sheet.schema.fields import Frozen, Place
 from report.sheet.schema.scene import SIDES, WEIGHT_PARTS
-from report.words.counts import grouped_by
+from report.text.counts import grouped_by
 
 _LETTERS = 6  # of a hash
 _Covers = Mapping[str, Set[str]]
@@ -96,7 +96,7 @@ def _dated(
         if date and getattr(block, "peer_reviewed", True):
             of, _, recorded = getattr(block, covered).partition(": ")
             now = _hashes(covers, data, records, {})
-            earlier = _hashes(covers, data, records, legacy_labels.SHEETS)
+            earlier = _hashes(covers, data, records, layout.SHEETS)
             recorded = recorded if of == str(date) else ""
             yield Place(section, 0, covered), date, recorded, now, earlier
 
@@ -125,7 +125,7 @@ def _hashes(
 def _line(key: str, row: Frozen, fields: Sequence[str]) -> str:
     """Return a row as text: a number in any unit is the same, and a default is none."""
     given = row.model_dump(include=set(fields), exclude_defaults=True)
-    order = {name: at for at, name in enumerate(legacy_labels.ORDERS.get(key, "").split())}
+    order = {name: at for at, name in enumerate(layout.ORDERS.get(key, "").split())}
     return "; ".join(
         f"{name} {value:.9g}" if isinstance(value, float) else f"{name} {value}"
         for name, value in sorted(given.items(), key=lambda item: order.get(item[0], len(order)))

@@ -1,17 +1,110 @@
 """Warnings on the input, which an engineer may answer with a reason, and notes.
 
 Owns ids and acknowledgments. Read `report.sheet.checking.plausible` next.
+
+The problems of an input: equal ones of several cells become one.
+
+The cells of a draft that could be read, those that repeat an earlier one, and what a name means.
+
+Warnings on numbers outside the range that the sheet itself prints as usual.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
-from report.sheet.checking.drafts import suggestion
-from report.sheet.checking.grouped import listed
 from report.sheet.schema import SECTIONS, ProjectInput
-from report.sheet.schema.fields import Finding, Level, Place
+from report.sheet.schema.choices import Direction, ObjectKind
+from report.sheet.schema.fields import (
+    Draft,
+    Entry,
+    Finding,
+    Frozen,
+    Level,
+    Place,
+    SheetSection,
+    entries,
+)
+from report.sheet.schema.motions import MotionInput
+from report.sheet.schema.project import FrictionTestRow
+from report.sheet.schema.scene import Array, Clearance, RoofObject
+from report.text.counts import foreign_letters, latin
+from solver.model import Problem
+from solver.suggestions import nearest
+
+MOST_LISTED = 3
+"""Cells and ids named of equal errors and findings."""
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """A problem of one cell, of several of a sheet, or of none."""
+
+    first: Problem
+    sheet: str  # empty for a problem of no cell
+    cells: tuple[str, ...]
+
+    @property
+    def found(self) -> str:
+        """What was found; with the sheet where there is no cell to name it."""
+        at = "" if self.sheet or not self.first.where else f"{self.first.where}: "
+        return f"{at}{self.first.found}"
+
+    @property
+    def line(self) -> str:
+        """The problem with its cells, as it is printed."""
+        addresses = listed(f"{self.sheet}!{cell}" for cell in self.cells)
+        return f"{addresses}: {self.first.text}" if addresses else str(self.first)
+
+
+def grouped(problems: Iterable[Problem]) -> Iterator[Group]:
+    """Yield problems in order; equal ones of a sheet once, where the first is."""
+    alike: dict[tuple[str, str, int], list[Problem]] = {}
+    for number, problem in enumerate(problems):
+        sheet, has_cell, _ = problem.where.rpartition("!")
+        alike.setdefault((sheet, problem.text, 0 if has_cell else number), []).append(problem)
+    for (sheet, _, _), those in alike.items():
+        cells = [each.where.removeprefix(f"{sheet}!") for each in those] if sheet else []
+        yield Group(those[0], sheet, tuple(cells))
+
+
+def listed(names: Iterable[str], most: int = MOST_LISTED) -> str:
+    """Return the first few of the names, with the count of the others."""
+    given = list(dict.fromkeys(names))
+    more = len(given) - most
+    return ", ".join(given[:most]) + (f" and {more:,} more" if more > 0 else "")
+
+
+def column(draft: Draft, sections: Iterable[str], field: str) -> Iterator[tuple[Place, Any]]:
+    """Yield the readable cells of a field in the tables that have it, each with its place."""
+    for section in sections:
+        for index, row in enumerate(draft[section]):
+            if field in row:
+                yield Place(section, index, field), row[field]
+
+
+def repeated(
+    cells: Iterable[tuple[Place, Any]], key: Callable[[Any], Hashable] = lambda value: value
+) -> Iterator[tuple[Place, Any, Place]]:
+    """Yield place and value of what is given again, and the place at which it was given first."""
+    places: dict[Hashable, Place] = {}
+    for place, value in cells:
+        first = places.setdefault(key(value), place)
+        if first is not place:
+            yield place, value, first
+
+
+def suggestion(value: str, ids: Collection[str]) -> str:
+    """Return in words which id may have been meant, or which there are."""
+    same = next((name for name in ids if latin(name).casefold() == latin(value).casefold()), "")
+    if said := same and (foreign_letters(value) or foreign_letters(same)):
+        return f"it looks like '{same}', but {said}: retype it"
+    if close := nearest(value, ids):
+        return f"did you mean '{close}'?"
+    names = ", ".join(list(ids)[:8])
+    return f"give one of {names}" if names else "add it there first"
 
 
 def warning(name: str, place: Place, text: str) -> Finding:
@@ -93,3 +186,56 @@ def _idle(data: ProjectInput, found: Iterable[Finding]) -> Iterator[Finding]:
             text = f"warning is '{row.warning}', which is not given; "
             text += suggestion(row.warning, given) if given else "delete the row"
             yield note(Place("acknowledged", index, "warning"), text)
+
+
+ROUNDING = 1e-9
+"""Difference from a limit / limit that is rounding error of a conversion of units."""
+
+
+def unusual(data: ProjectInput) -> Iterator[Finding]:
+    """Yield a warning for each number outside its usual range."""
+    is_us = data.us_first
+    for section in SECTIONS:
+        found = getattr(data, section.key)
+        for index, row in enumerate(found if section.is_table else (found,)):
+            for entry in entries(section.model):
+                value, span = getattr(row, entry.name), entry.expected
+                if entry.cell.usual is None or value is None or _is_bare_edge(row, value):
+                    continue
+                if not span.low * (1.0 - ROUNDING) <= value <= span.high * (1.0 + ROUNDING):
+                    yield _warning(section, index, entry, row, is_us)
+
+
+def _warning(section: SheetSection, index: int, entry: Entry, row: Frozen, is_us: bool) -> Finding:
+    unit = entry.unit(is_us=is_us)
+    symbol, si = (unit.symbol, unit.si) if unit else (str(entry.cell.unit), 1.0)
+    given, span = f"{getattr(row, entry.name) / si:.4g}", entry.expected.words(si)
+    text = f"{entry.spoken} is {given} {symbol}".rstrip() + f"; {span} {symbol}".rstrip()
+    name = " ".join(f"usual {entry.spoken} {_named(row)}".split())
+    place = Place(section.key, index, entry.name)
+    return warning(name, place, f"{text} is usual: correct the value or its unit")
+
+
+def _is_bare_edge(row: Frozen, value: float) -> bool:
+    """Whether a value is the height 0 of an edge without parapet."""
+    return (
+        isinstance(row, RoofObject) and row.kind is ObjectKind.EDGE_WITHOUT_PARAPET and value == 0.0
+    )
+
+
+def _named(row: Frozen) -> str:
+    """Return by what a row of a table is known; nothing for single cells."""
+    match row:
+        case Array() | RoofObject() | MotionInput():
+            return row.id
+        case Clearance():
+            return spoken(row)
+        case FrictionTestRow():
+            return f"{row.report or ''} {row.surface} {row.number}"
+    return ""
+
+
+def spoken(row: Clearance) -> str:
+    """Return a clearance in words."""
+    where = "" if row.direction is Direction.ANY else f" {row.direction}"
+    return f"{row.array} to {row.object}{where}"

@@ -1,6 +1,6 @@
 """Warnings on values that are permitted and improbable: dates, height, weight, friction, gaps.
 
-Reads no record: `report.motions.plausible` does. Read `implausible`.
+Reads no record: `report.motions.prepare` does. Read `implausible`.
 """
 
 from __future__ import annotations
@@ -9,17 +9,16 @@ import math
 from collections.abc import Iterator, Mapping
 
 from report.sheet.checking.checks import gap_tolerance_m
-from report.sheet.checking.findings import note, warning
+from report.sheet.checking.findings import note, spoken, unusual, warning
 from report.sheet.checking.site_checks import ROUNDING_OF_COEFFICIENTS
-from report.sheet.checking.usual import spoken, unusual
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import Direction, SlopeUnit
 from report.sheet.schema.fields import Finding, Level, Place
 from report.sheet.schema.project import Site
 from report.sheet.schema.scene import Array, Clearance
 from report.sheet.schema.shapes import Shape, closest, gap_m
-from report.words.counts import counted, numbered
-from report.words.units import LENGTHS, PRESSURES, Quantity, pair
+from report.text.counts import counted, numbered
+from report.text.units import LENGTHS, PRESSURES, Quantity, pair
 from solver.rules.provisions import OVERRIDABLE
 from solver.rules.rulesets import usual
 from solver.rules.site_coefficients import F_A, F_V, site_coefficient

@@ -25,8 +25,8 @@ from openpyxl import LXML, Workbook, load_workbook
 
 from report.sheet.reading.scan import REOPEN, Extent, Scan, scan_parts
 from solver.files import check_length
-from solver.meant import meant
 from solver.model import DefectError, InputError
+from solver.suggestions import meant
 
 MB = 1_000_000
 MAX_FILE = 100 * MB

@@ -18,20 +18,21 @@ from openpyxl.utils.datetime import WINDOWS_EPOCH
 from openpyxl.utils.escape import unescape
 from pydantic import ValidationError
 
-from report.sheet.reading.number_format import is_percentage, misleading
 from report.sheet.reading.typed_text import (
     choice_in,
     dates_in,
     in_thousands,
     inches_in,
+    is_percentage,
+    misleading,
     number_in,
     remark_in,
     rise_in,
 )
 from report.sheet.schema.choices import SlopeUnit
 from report.sheet.schema.fields import Entry, YesNo, adapter, entries
-from report.words.letters import SHOWN, UNPRINTABLE, cut, trimmed
-from report.words.units import LENGTHS
+from report.text.counts import SHOWN, UNPRINTABLE, cut, trimmed
+from report.text.units import LENGTHS
 from solver.model import INCH_M, InputError, Problem
 
 _WITH_UNIT = re.compile(

@@ -1,30 +1,236 @@
 """Finds the single inputs of a workbook by defined name and by label; `locate_tables` the others.
 
 Never uses positions or styles, which users change. `cells` converts the content of the cells.
+
+Finds the tables of a workbook by their name, or by the headings of their fields.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+
+from openpyxl.utils import get_column_letter
+from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.reading.archive import OpenBook
-from report.sheet.reading.locate_tables import FieldColumn, table_area
 from report.sheet.reading.positions import (
     FRESH,
+    MAX_COLUMNS,
     CellPosition,
     area_named,
+    bounds_of,
     check_uncovered,
     fields_by_label,
     found_at,
+    heading_parts,
+    label_key,
     labels,
     labels_of,
+    merged,
     sheet_titled,
     unit_size,
 )
-from report.sheet.schema import legacy_labels
+from report.sheet.schema import layout
+from report.sheet.schema.answers import ANSWER_HEADINGS
 from report.sheet.schema.fields import Entry, SheetSection, entries
-from solver.model import InputError
+from solver.model import InputError, Problem
+
+MAX_ROWS = 2000
+
+_Place = tuple[Worksheet, int, int, int, range]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FieldColumn:
+    """A column of a table, and the unit in its heading."""
+
+    number: int
+    unit: str
+    si: float
+    heading: CellPosition  # the cell that states the unit
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TableFound:
+    """A table of inputs."""
+
+    heading: CellPosition  # its first one
+    columns: Mapping[str, FieldColumn]  # by field, of headings that are present and readable
+    rows: Sequence[int]  # those that may contain inputs
+    others: tuple[CellPosition, ...]  # headings that belong to no field
+    absent: tuple[str, ...]  # optional fields without a column, as in earlier workbooks
+    problems: tuple[Problem, ...]  # of headings and merged cells
+
+
+def find_table(book: OpenBook, section: SheetSection) -> TableFound:
+    """Return a table of inputs, by its name, or else by a row of its headings.
+
+    Raises
+    ------
+    InputError
+        If there is neither, or the sheet has data too far away.
+    """
+    sheet, left, top, right, below = _table_named(book, section) or _headings(book, section)
+    _check_reach(book, sheet, top)
+    # Headings may go on beyond the table.
+    while right < MAX_COLUMNS and sheet.cell(top, right + 1).value is not None:
+        right += 1
+    positions = [CellPosition(sheet.title, top, column) for column in range(left, right + 1)]
+    # Formulas are not read.
+    answers = ANSWER_HEADINGS.get(section.key, frozenset()) | layout.ANSWERS
+    headings = [p for p in positions if label_key(sheet.cell(top, p.column).value) not in answers]
+    columns, others, absent, problems = _columns(book, section, headings)
+    used = [column.number for column in columns.values()]
+    last_row = min(book.extent(sheet.title).last_row, _next_table(sheet, top, used) - 1)
+    problems += _merged(sheet, top, last_row, used)
+    return TableFound(
+        heading=headings[0],
+        columns=columns,
+        rows=[row for row in range(top + 1, last_row + 1) if row not in below],
+        others=tuple(others),
+        absent=tuple(absent),
+        problems=tuple(problems),
+    )
+
+
+def _table_named(book: OpenBook, section: SheetSection) -> _Place | None:
+    """Return sheet, left, heading row, right and rows of totals of a section's table."""
+    for sheet in book.book.worksheets:
+        for table in sheet.tables.values():
+            names = {str(table.displayName).casefold(), str(table.name).casefold()}
+            bounds = bounds_of(table.ref)
+            has_headings = table.headerRowCount != 0 and bounds and bounds[2] <= MAX_COLUMNS
+            if section.table_name in names and bounds and has_headings:
+                left, top, right, bottom = bounds
+                totals = table.totalsRowCount or 0
+                return sheet, left, top, right, range(bottom - totals + 1, bottom + 1)
+    return None
+
+
+def _headings(book: OpenBook, section: SheetSection) -> _Place:
+    """Return the row with the most headings of a section; its own sheet is searched first."""
+    own, fields = sheet_titled(book, section.sheet), fields_by_label(section)
+    for sheet in [own] if own else book.book.worksheets:
+        rows: dict[int, list[int]] = {}
+        taken = _rows_of_others(sheet, section)
+        for position, label in labels(book, sheet):
+            if position.row not in taken and label in fields:
+                rows.setdefault(position.row, []).append(position.column)
+        best = max(rows, key=lambda row: len(rows[row]), default=0)
+        if best and len(rows[best]) > len(entries(section.model)) / 2:
+            return sheet, min(rows[best]), best, max(rows[best]), range(0)
+    what = f"no table {section.table_name} and no row of its headings"
+    missing = "" if own else "the sheet is missing: "
+    raise InputError(f"{section.sheet}: {missing}{what}; {FRESH}")
+
+
+def _rows_of_others(sheet: Worksheet, section: SheetSection) -> set[int]:
+    # Sections have headings in common, and one without a table must not read that of another.
+    names = {str(table.name).casefold(): table.ref for table in sheet.tables.values()}
+    others = [
+        ref for name, ref in names.items() if name.endswith("_table") and name != section.table_name
+    ]
+    return {bounds[1] for ref in others if (bounds := bounds_of(ref))}
+
+
+def _check_reach(book: OpenBook, sheet: Worksheet, top: int) -> None:
+    extent, far = book.extent(sheet.title), []
+    if extent.last_row > top + MAX_ROWS:
+        far.append((extent.row_cell, f"more than {MAX_ROWS} rows below the headings"))
+    if extent.last_column > MAX_COLUMNS:
+        far.append((extent.column_cell, f"beyond column {get_column_letter(MAX_COLUMNS)}"))
+    if far:
+        found = [(f"contains data {where}", f"{sheet.title}!{cell}") for cell, where in far]
+        raise InputError([Problem(text, "clear it", at) for text, at in found])
+
+
+def _columns(
+    book: OpenBook, section: SheetSection, headings: Sequence[CellPosition]
+) -> tuple[dict[str, FieldColumn], list[CellPosition], list[str], list[Problem]]:
+    """Return the columns of fields, other headings, fields without a column, and problems."""
+    fields = fields_by_label(section)
+    places: dict[str, CellPosition] = {}
+    columns: dict[str, FieldColumn] = {}
+    others: list[CellPosition] = []
+    problems: list[Problem] = []
+    for position in headings:
+        text = found_at(book, position).value
+        entry = fields.get(label_key(text))
+        if entry is None:
+            others += [position] if text is not None else []
+        elif entry.name in places:
+            twice = f"heading '{entry.cell.label}' appears twice, also in {places[entry.name].cell}"
+            problems.append(Problem(twice, "keep one", position.address))
+        else:
+            places[entry.name] = position
+            try:
+                unit, si = unit_size(entry, heading_parts(text)[1], position.address)
+            except InputError as error:
+                problems += error.parts
+                continue
+            columns[entry.name] = FieldColumn(
+                number=position.column, unit=unit, si=si, heading=position
+            )
+    absent: list[str] = []
+    following = headings[0]  # where a missing one belongs: after that of the field before it
+    for entry in entries(section.model):
+        if entry.name not in places and not entry.is_expected and not others:
+            absent.append(entry.name)
+        elif entry.name not in places:
+            # With an unknown heading no field counts as absent: the heading may be a renamed one.
+            found = f", '{found_at(book, following).value}' found" if following in others else ""
+            missing = f"heading '{entry.cell.label}' is missing{found}"
+            wanted = f"write it here in its own column, or {FRESH}"
+            problems.append(Problem(missing, wanted, following.address))
+        following = replace(following, column=places.get(entry.name, following).column + 1)
+    return columns, others, absent, problems
+
+
+def _next_table(sheet: Worksheet, top: int, columns: Sequence[int]) -> int:
+    """Return the first row of the next table below, or the row after the last one."""
+    starts = [sheet.max_row + 1]
+    for table in sheet.tables.values():
+        bounds = bounds_of(table.ref)
+        if bounds and bounds[1] > top and any(bounds[0] <= c <= bounds[2] for c in columns):
+            starts.append(bounds[1])
+    return min(starts)
+
+
+def _merged(sheet: Worksheet, top: int, last_row: int, columns: Sequence[int]) -> list[Problem]:
+    return [
+        merged(sheet.title, area.coord)
+        for area in sorted(sheet.merged_cells.ranges, key=str)
+        if any(area.min_col <= column <= area.max_col for column in columns)
+        if area.min_row <= last_row and area.max_row >= top
+    ]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TableArea:
+    """A named table with all of its headings, those of formulas included."""
+
+    sheet: str
+    header: int
+    last: int  # row above its totals
+    totals: int  # 0 without them
+    headings: Mapping[str, CellPosition]  # by `label_key`
+
+
+def table_area(book: OpenBook, section: SheetSection) -> TableArea | None:
+    """Return the table of a section, found by its name; None without one."""
+    found = _table_named(book, section)
+    if found is None:
+        return None
+    sheet, left, top, right, totals = found
+    places = [CellPosition(sheet.title, top, column) for column in range(left, right + 1)]
+    return TableArea(
+        sheet=sheet.title,
+        header=top,
+        last=totals.start - 1,
+        totals=totals.start if totals else 0,
+        headings={label_key(sheet.cell(top, place.column).value): place for place in places},
+    )
 
 
 def find_cell(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition:
@@ -76,7 +282,7 @@ def added_later(book: OpenBook, section: SheetSection) -> tuple[Entry, ...]:
     """
     groups = (
         [entry for entry in entries(section.model) if (section.key, entry.name) in added]
-        for added in legacy_labels.ADDED
+        for added in layout.ADDED
     )
     return tuple(entry for group in groups if not _has_any(book, section, group) for entry in group)
 
@@ -94,7 +300,7 @@ def is_absent(book: OpenBook, section: SheetSection) -> bool:
 
 def _fields(section: SheetSection, entry: Entry) -> tuple[str, ...]:
     """Return the name of a field and its earlier names."""
-    return entry.name, *legacy_labels.FIELDS.get((section.key, entry.name), ())
+    return entry.name, *layout.FIELDS.get((section.key, entry.name), ())
 
 
 def _named(book: OpenBook, names: Iterable[str]) -> CellPosition | None:
@@ -119,7 +325,7 @@ def _position(book: OpenBook, section: SheetSection, entry: Entry) -> CellPositi
 def _labels(book: OpenBook, section: SheetSection) -> Iterator[tuple[CellPosition, str]]:
     """Yield what may be a label of a block, from its sheets and the one of earlier workbooks."""
     titles = [section.sheet_of(entry.name) for entry in entries(section.model)]
-    earlier = legacy_labels.SHEETS.get(section.key, section.sheet)
+    earlier = layout.SHEETS.get(section.key, section.sheet)
     for title in dict.fromkeys((*titles, earlier)):
         if sheet := sheet_titled(book, title):
             yield from labels(book, sheet)

@@ -17,7 +17,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.cells import Found
-from report.sheet.schema import legacy_labels
+from report.sheet.schema import layout
 from report.sheet.schema.fields import Entry, SheetSection, entries
 from solver.model import InputError, Problem
 
@@ -145,7 +145,7 @@ def heading_parts(text: object) -> tuple[str, str]:
 
 def labels_of(section: SheetSection, entry: Entry) -> set[str]:
     """Return the label of a field and its earlier labels, in the form that is compared."""
-    earlier = legacy_labels.LABELS.get((section.key, entry.name), ())
+    earlier = layout.LABELS.get((section.key, entry.name), ())
     return {label_key(label) for label in (entry.cell.label, *earlier)}
 
 

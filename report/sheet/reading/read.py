@@ -17,8 +17,6 @@ from pydantic import ValidationError
 
 from report.sheet.checking.checks import faults
 from report.sheet.reading.archive import OpenBook, open_book
-from report.sheet.reading.beside import Document, read_documents
-from report.sheet.reading.calculated import from_outside, not_calculated
 from report.sheet.reading.cells import (
     CellError,
     Found,
@@ -27,11 +25,26 @@ from report.sheet.reading.cells import (
     stated_unit,
     wish_for_missing,
 )
-from report.sheet.reading.duplicate_sheets import copies
-from report.sheet.reading.locate import added_later, beside, cell_as_column, find_cell, is_absent
-from report.sheet.reading.locate_tables import FieldColumn, TableFound, find_table
+from report.sheet.reading.linked_files import Document, read_documents
+from report.sheet.reading.locate import (
+    FieldColumn,
+    TableFound,
+    added_later,
+    beside,
+    cell_as_column,
+    find_cell,
+    find_table,
+    is_absent,
+)
 from report.sheet.reading.positions import FRESH, CellPosition, found_at
-from report.sheet.reading.unseen import Unseen, by_cell, unseen
+from report.sheet.reading.unseen import (
+    Unseen,
+    by_cell,
+    copies,
+    from_outside,
+    not_calculated,
+    unseen,
+)
 from report.sheet.schema import SECTION, SECTIONS, ProjectInput
 from report.sheet.schema.fields import (
     Draft,
@@ -44,7 +57,7 @@ from report.sheet.schema.fields import (
     entries,
     sections_of,
 )
-from report.words.command import quoted
+from report.text.counts import quoted
 from solver.model import InputError, Problem
 
 

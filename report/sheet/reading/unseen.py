@@ -2,11 +2,15 @@
 
 Knows how a workbook hides: sheets, rows and columns, filters, colors, number formats. Knows no
 field. Read `unseen`, and `warnings` for what is said of it.
+
+Formulas whose saved values may be former ones: not calculated, or taken from elsewhere.
+
+Finds sheets that have the labels of another one, as a sheet copied in Excel has.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import groupby, islice
@@ -16,12 +20,13 @@ from openpyxl.styles.colors import COLOR_INDEX, Color
 from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.sheet.checking.findings import warning
+from report.sheet.checking.findings import listed, warning
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.cells import Found
-from report.sheet.reading.number_format import shows_nothing
-from report.sheet.reading.positions import bounds_of
-from report.sheet.schema.fields import Finding, Place
+from report.sheet.reading.positions import bounds_of, fields_by_label, labels
+from report.sheet.reading.typed_text import shows_nothing
+from report.sheet.schema.fields import Finding, Place, SheetSection
+from report.text.counts import cut
 
 Used = Iterable[tuple[Place, Found]]
 """Cells that are read, each with the place that it is read for."""
@@ -251,3 +256,77 @@ def _rgb(color: Color | None, default: tuple[int, ...]) -> tuple[int, ...]:
     if color.type == "indexed" and color.indexed < len(COLOR_INDEX):
         return tuple(bytes.fromhex(COLOR_INDEX[color.indexed][-6:]))
     return default
+
+
+_MOST_LISTED = 8
+
+
+def from_outside(book: OpenBook, whole: Place) -> Iterator[Finding]:
+    """Yield a warning if a workbook takes values from elsewhere: by DDE, or of other files."""
+    if book.outside:
+        names = (cut(one).encode("ascii", "replace").decode() for one in book.outside)
+        which = listed(names, _MOST_LISTED)
+        text = f"the workbook takes values from elsewhere ({which}), of which the saved ones are"
+        yield warning("outside", whole, f"{text} read: type the values instead")
+
+
+def not_calculated(book: OpenBook, used: Used, whole: Place) -> Iterator[Finding]:
+    """Yield a warning if the values of formulas may not follow from the cells that they refer to.
+
+    A workbook that asks to be calculated when it is opened, as a fresh one does, has such values
+    only in formulas that are read.
+    """
+    says = book.calculation
+    read = [(place, cell.address) for place, cell in used if cell.formula]
+    if says.get("calcCompleted", "1") in ("0", "false"):
+        manual = " (calculation is manual)" if says.get("calcMode") == "manual" else ""
+        why = f"was saved before its formulas were calculated{manual}"
+    elif read and says.get("fullCalcOnLoad", "0") in ("1", "true"):
+        why = "asks to be calculated when it is opened"
+    else:
+        return
+    if read or any(scan.formulas for scan in book.scans.values()):
+        place, cell = read[0] if read else (whole, "")
+        which = listed((address for _, address in read), _MOST_LISTED) or "its computed cells"
+        text = f"the workbook {why}, and {which} may show former values: calculate it (F9; in"
+        text += " LibreOffice Ctrl+Shift+F9) and save it"
+        yield replace(warning("calculation", place, text), cell=cell)
+
+
+Rows = tuple[frozenset[str], ...]
+"""Labels in each row of a sheet, in the form that is compared."""
+
+
+def copies(
+    book: OpenBook, sections: Iterable[SheetSection], addresses: Mapping[Place, str]
+) -> Iterator[Finding]:
+    """Yield a warning for each sheet with all labels of one that is read."""
+    rows = {sheet.title: _rows(book, sheet) for sheet in book.book.worksheets}
+    told: set[str] = set()
+    for section in sections:
+        found = (address for place, address in addresses.items() if place.section == section.key)
+        read = next(found, "").rpartition("!")[0]
+        labels = _labels(section, rows[read]) if read in rows else frozenset()
+        for title in rows:
+            if labels and title not in (read, *told) and labels <= _labels(section, rows[title]):
+                told.add(title)
+                text = (
+                    f"sheets '{read}' and '{title}' both have the labels of {section.title};"
+                    f" '{read}' is read, and '{title}' is ignored: delete the one that is not meant"
+                )
+                yield warning(f"copy {title}", Place(section.key), text)
+
+
+def _rows(book: OpenBook, sheet: Worksheet) -> Rows:
+    rows: dict[int, set[str]] = {}
+    for position, label in labels(book, sheet):
+        rows.setdefault(position.row, set()).add(label)
+    return tuple(map(frozenset, rows.values()))
+
+
+def _labels(section: SheetSection, rows: Rows) -> Set[str]:
+    """Return the labels of a section on a sheet: of a table, those in one row."""
+    fields = fields_by_label(section)
+    places = rows if section.is_table else (frozenset().union(*rows),)
+    found = ({fields[label].name for label in place & fields.keys()} for place in places)
+    return max(found, key=len, default=set())

@@ -12,7 +12,6 @@ from typing import Annotated
 
 from pydantic import AfterValidator, PrivateAttr, model_validator
 
-from report.sheet.schema.building import BuildingInput, SpectrumPoint, TargetInput
 from report.sheet.schema.choices import (
     ClearanceSource,
     DistanceBasis,
@@ -26,14 +25,18 @@ from report.sheet.schema.choices import (
     decimals,
 )
 from report.sheet.schema.fields import Cell, Frozen, OnSheet, SheetSection, sections_of
-from report.sheet.schema.friction import FrictionTestRow, FrictionTests
-from report.sheet.schema.legacy_labels import PROVISIONS
-from report.sheet.schema.links import Links
-from report.sheet.schema.motions import MotionInput
-from report.sheet.schema.project import Project, Revision, Site
+from report.sheet.schema.layout import PROVISIONS
+from report.sheet.schema.motions import (
+    BuildingInput,
+    Links,
+    MotionInput,
+    SpectrumPoint,
+    TargetInput,
+)
+from report.sheet.schema.project import FrictionTestRow, FrictionTests, Project, Revision, Site
 from report.sheet.schema.scene import ROOF, Array, Clearance, DrawingLayer, Roof, RoofObject, Vertex
 from report.sheet.schema.shapes import Point, ring
-from report.words.names import Names
+from report.text.counts import Names
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, OVERRIDABLE
 
 MAX_EVENTS = 20

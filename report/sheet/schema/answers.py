@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import KW_ONLY, dataclass
 
 from report.sheet.schema.layout import Tables, literal
-from report.words.units import Quantity, Unit
+from report.text.units import Quantity, Unit
 from solver.model import INCH_M
 from solver.rules.hazard import LEAST_I_E, HazardBasis
 from solver.rules.provisions import Neighbor
@@ -206,7 +206,7 @@ def _required_m(displacement_in: str) -> str:
 
 
 def _demand_capacity(required_m: str) -> str:
-    # Rounded up as by `report.words.units.ratio`, so that 1.00 never hides a failure.
+    # Rounded up as by `report.text.units.ratio`, so that 1.00 never hides a failure.
     ratio = f"{required_m}/([provided_m]*unit_clearances_provided_m)"
     return f"""
         IF(OR([required]="",TRIM([provided_m])=""),"",

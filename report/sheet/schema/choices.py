@@ -11,8 +11,8 @@ from typing import Annotated
 
 from pydantic import Field
 
-from solver.building.periods import APPROXIMATE_PERIODS
-from solver.records.units import UNIT_CHOICES
+from solver.building.structure import APPROXIMATE_PERIODS
+from solver.records.record import UNIT_CHOICES
 from solver.rules.hazard import EDITIONS
 from solver.rules.provisions import Basis
 from solver.rules.rulesets import RULE_SETS
@@ -185,7 +185,7 @@ class DistanceBasis(StrEnum):
 
 
 class AccelUnit(StrEnum):
-    """Unit of a motion record: that of the file, or any of `solver.records.units`."""
+    """Unit of a motion record: that of the file, or any of `solver.records.record`."""
 
     _ignore_ = "_unit"
     FROM_FILE = "from file"

@@ -21,7 +21,7 @@ from annotated_types import Ge, Gt, Le, Lt
 from pydantic import BaseModel, ConfigDict, TypeAdapter
 from pydantic.fields import FieldInfo
 
-from report.words.units import Quantity, Unit
+from report.text.units import Quantity, Unit
 from solver.model import Problem
 
 

@@ -28,7 +28,7 @@ from report.sheet.schema.choices import (
 )
 from report.sheet.schema.fields import Cell, Frozen
 from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape
-from report.words.units import Quantity
+from report.text.units import Quantity
 from solver.friction_tests import MOST_MU, MOST_RATE_S_PER_M
 from solver.model import DefectError, Friction
 

@@ -26,7 +26,7 @@ from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.fields import Entry, Frozen, SheetSection, entries
 from report.sheet.schema.layout import TablePlace, Tables, name_cell
 from report.sheet.writing import style
-from report.words.units import Unit
+from report.text.units import Unit
 
 BLANK_ROWS, FEWER_ROWS = 20, 6
 """Rows of a table without rows, and of one that is below others on its sheet."""

@@ -2,24 +2,36 @@
 
 Site coefficients, limits of the seismic design category, separations in use, units in use, and the
 ids that the sheet Clearances offers. Read `write_lookups`.
+
+The sheet Provisions: every number of the rule sets in words, with value, clause and mark.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from openpyxl import Workbook
+from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.sheet.schema import SECTIONS
+from report.sheet.schema import SECTIONS, provision_name, provision_unit
+from report.sheet.schema.answers import BY_FORMULA, IN_DISPLACEMENT, IN_SEPARATION, ONE_VALUE
 from report.sheet.schema.fields import entries
-from report.sheet.schema.layout import LAST_ROW, Tables, name_cell, name_formula, name_range
+from report.sheet.schema.layout import (
+    LAST_ROW,
+    TablePlace,
+    Tables,
+    name_cell,
+    name_formula,
+    name_range,
+)
 from report.sheet.writing import style
 from report.sheet.writing.style import Answer
-from report.words.units import LENGTHS, PRESSURES, STIFFNESSES, VELOCITIES, WEIGHTS
+from report.text.units import LENGTHS, PRESSURES, STIFFNESSES, VELOCITIES, WEIGHTS
 from solver.rules import hazard
-from solver.rules.provisions import SEPARATION_KEYS, Neighbor
-from solver.rules.rulesets import Confidence
+from solver.rules.provisions import OVERRIDABLE, SEPARATION_KEYS, Neighbor
+from solver.rules.rulesets import ALLOWED, RULE_SETS, Confidence, RuleSet, usual
 from solver.rules.site_coefficients import F_A, F_V, CoefficientTable
 
 TABLES = "Tables"
@@ -186,3 +198,123 @@ def _write_names(book: Workbook, sheet: Worksheet, tables: Tables, row: int) -> 
     for name, length in (("names", "name_count"), ("array_names", "array_count")):
         reach = f"MIN({MOST_NAMES},MAX(1,live_{length}))"
         name_formula(book, f"live_{name}", f"OFFSET({first},{reach},1)")
+
+
+PROVISIONS = "Provisions"
+_HEADS = ("Rule", "Unit", "In use", "Clause in use", "Override, allowed", "Override, usual")
+_WIDTHS = (52, 6, 9, 18, 12, 14)
+_RULE_WIDTHS = (10, 16)
+_FIRST = len(_HEADS) + 1
+_FROM, _TO = map(get_column_letter, (_FIRST, _FIRST + 2 * len(RULE_SETS) - 1))
+_PROVISIONS_HINT = (
+    "Value and clause of each rule by rule set. Override a number on the sheet Options, within the"
+    " range allowed. This sheet has no input cells."
+)
+_MARKS = (
+    "† not confirmed against a published calculation: verify against the adopted code."
+    "  ‡ overridden on the sheet Options."
+)
+
+
+_FACTS: Sequence[tuple[str, str, Callable[[RuleSet], str]]] = (
+    (
+        "importance",
+        "The importance factor is applied",
+        lambda rules: IN_SEPARATION if rules.importance_in_separation else IN_DISPLACEMENT,
+    ),
+    (
+        "low_sdc",
+        "In SDC A, B, C the prescriptive displacement is",
+        lambda rules: ONE_VALUE if rules.low_sdc_is_flat else BY_FORMULA,
+    ),
+    ("edition", "Edition of ASCE 7, unless Site names one", lambda rules: rules.edition),
+    (
+        "low_profile",
+        "The height of the center of gravity is limited by a fraction of the",
+        lambda rules: rules.low_profile_length.value,
+    ),
+)
+"""What of a rule set is no number: its name, words, and what a rule set says."""
+
+
+def write_rules(book: Workbook, tables: Tables) -> None:
+    """Write the sheet, with a defined name for each number in use."""
+    sheet = book.create_sheet(PROVISIONS)
+    style.put_title(sheet, PROVISIONS, _PROVISIONS_HINT)
+    style.put(sheet, 3, 1, _MARKS, color=style.GRAY, size=9, wrap=False)
+    names = (head for rules in RULE_SETS.values() for head in (rules.name, "Clause"))
+    head = 5
+    name_range("rule_sets", sheet, f"${_FROM}${head}:${_TO}${head}")
+    style.put_values(sheet, head, (*_HEADS, *names), are_heads=True)
+    for column, width in enumerate((*_WIDTHS, *(_RULE_WIDTHS * len(RULE_SETS))), start=1):
+        sheet.column_dimensions[get_column_letter(column)].width = width
+    sheet.row_dimensions[head].height = 32
+    first = head + 1
+    for row, key in enumerate(OVERRIDABLE, start=first):
+        _write_rule(sheet, tables["overrides"], row, key)
+    last = first + len(OVERRIDABLE) - 1
+    name_range("rule_names", sheet, f"$A${first}:$A${last}")
+    _write_facts(sheet, last + 2)
+    sheet.freeze_panes = f"B{first}"
+    sheet.print_title_rows = f"{head}:{head}"
+
+
+def _write_rule(sheet: Worksheet, overrides: TablePlace, row: int, key: str) -> None:
+    style.put(sheet, row, 1, provision_name(key)).border = style.LINE
+    style.put(sheet, row, 2, provision_unit(key), color=style.GRAY).border = style.LINE
+    for column, span in enumerate((ALLOWED[key].span, usual(key).span), start=_FIRST - 2):
+        style.put(sheet, row, column, span, color=style.GRAY, size=9).border = style.LINE
+    for count, rules in enumerate(RULE_SETS.values()):
+        provision = rules.values.get(key)
+        if provision is None:
+            _write_pair(sheet, row, count, "–", "no such rule")
+        else:
+            mark = "" if provision.verified else "†"
+            _write_pair(sheet, row, count, provision.value, f"{provision.clause}{mark}")
+    value, clause = _chosen(row, 0), _chosen(row, 1)
+    # A book may name a rule by the key of earlier versions, or in words.
+    for name in (f'"{key}"', f"$A{row}"):
+        at = f"MATCH({name},{overrides.all('provision')},0)"
+        value = f"IFERROR(INDEX({overrides.all('value')},{at}),{value})"
+        clause = f'IF(ISNUMBER({at}),"override‡",{clause})'
+    style.put_answer(sheet.cell(row, 3), value, "0.####")
+    style.put_answer(sheet.cell(row, 4), clause)
+    name_cell(f"rule_{key}", sheet, row, 3)
+    name_cell(f"rule_{key}_clause", sheet, row, 4)
+    lines = math.ceil(len(provision_name(key)) / _WIDTHS[0])
+    sheet.row_dimensions[row].height = 7 + 13 * lines
+
+
+def _chosen(row: int, offset: int) -> str:
+    """Return the value or the clause of the rule set that governs."""
+    cells = f"${_FROM}{row}:${_TO}{row}"
+    return f'IFERROR(INDEX({cells},1,MATCH(site_rule_set,rule_sets,0)+{offset}),"")'
+
+
+def _write_pair(sheet: Worksheet, row: int, count: int, value: str | float, clause: str) -> None:
+    column = _FIRST + 2 * count
+    cell = style.put(sheet, row, column, "", color=style.INK)
+    cell.value = value
+    if isinstance(value, float):
+        cell.number_format = "0.####"
+        cell.data_type = "n"
+    cell.border = style.LINE
+    style.put(sheet, row, column + 1, clause, color=style.GRAY, size=9).border = style.LINE
+
+
+def _write_facts(sheet: Worksheet, top: int) -> None:
+    style.put(sheet, top, 1, "How each rule set works", bold=True, wrap=False)
+    for row, (key, words, fact) in enumerate(_FACTS, start=top + 1):
+        style.put(sheet, row, 1, words).border = style.LINE
+        for count, rules in enumerate(RULE_SETS.values()):
+            _write_pair(sheet, row, count, fact(rules), "")
+            _merge(sheet, row, _FIRST + 2 * count)
+        style.put_answer(sheet.cell(row, 3), _chosen(row, 0))
+        name_cell(f"rule_{key}", sheet, row, 3)
+        _merge(sheet, row, 3)
+        sheet.row_dimensions[row].height = 32
+
+
+def _merge(sheet: Worksheet, row: int, column: int) -> None:
+    """Give a text the width of a value and its clause."""
+    sheet.merge_cells(start_row=row, end_row=row, start_column=column, end_column=column + 1)

@@ -21,8 +21,8 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.reading.cells import escaped, wish
 from report.sheet.schema.fields import Entry, YesNo
-from report.words.command import as_typed
-from report.words.units import Unit
+from report.text.counts import as_typed
+from report.text.units import Unit
 
 INK = "1F3A4D"
 GRAY = "7A7F85"

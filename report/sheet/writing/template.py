@@ -3,6 +3,8 @@
 Owns the order of the sheets and what is on each; `grids` writes blocks and tables, `style` owns
 their appearance, `answers` the formulas. `read` finds the cells by names and headings, so positions
 here may change.
+
+The example that comes with the program: its workbook, and its records beside it.
 """
 
 from __future__ import annotations
@@ -13,14 +15,14 @@ from pathlib import Path
 
 from openpyxl import Workbook
 
+from report.sheet.reading.read import read
 from report.sheet.schema import SECTIONS, ProjectInput
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.fields import SheetSection
 from report.sheet.schema.layout import TablePlace, Tables
 from report.sheet.writing import style
 from report.sheet.writing.grids import write_answers, write_block, write_table
-from report.sheet.writing.lookups import write_lookups
-from report.sheet.writing.rules import write_rules
+from report.sheet.writing.lookups import write_lookups, write_rules
 from report.sheet.writing.start import START, mark_sheets, write_start
 from solver.files import write_whole
 
@@ -77,3 +79,19 @@ def saved(book: Workbook, units: UnitsFirst) -> bytes:
     buffer = io.BytesIO()
     book.save(buffer)
     return buffer.getvalue()
+
+
+_REPORT = Path(__file__).resolve().parents[2]
+_HOMES = (_REPORT / "web" / "example", _REPORT.parent / "projects" / "example")
+EXAMPLE = next(path for path in _HOMES if path.is_dir())
+"""Within the package where it is installed, or of the checkout."""
+
+
+def example_files(units: UnitsFirst) -> dict[str, bytes]:
+    """Return records/, as they are shipped, and input.xlsx in a system of units, by their names."""
+    records = sorted((EXAMPLE / "records").iterdir())
+    files = {f"records/{path.name}": path.read_bytes() for path in records}
+    project = read(EXAMPLE).project
+    issue = project.project.model_copy(update={"units_first": units})
+    example = project.model_copy(update={"project": issue})
+    return files | {"input.xlsx": template(units, example)}

@@ -6,8 +6,8 @@ import scenes
 import stand_in
 from printed import printed
 from report.assessment import assess
-from report.assessment.hazard_rows import hazard_rows
 from report.assessment.precheck import limits_before_runs
+from report.assessment.requirement_rows import hazard_rows
 from report.assessment.runs import run_motion
 from report.assessment.verdict import Verdict
 from report.sheet.schema.choices import BuildingCode

@@ -10,7 +10,7 @@ import scenes
 import stand_in
 from one_by_one import prd_m
 from printed import printed
-from report.assessment.building_variations import building_variations
+from report.assessment.evidence import building_variations
 from report.entities.evidence import variation_result
 from solver import at_roof, building_of_periods
 from solver.sliding.least_model import DEFAULT

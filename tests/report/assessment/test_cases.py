@@ -9,8 +9,7 @@ import pytest
 import scenes
 import stand_in
 from report.assessment.arrays import Route
-from report.assessment.cases import building_case, cases
-from report.assessment.evidence import support
+from report.assessment.evidence import building_case, cases, support
 from report.assessment.verdict import Requirement, Verdict, as_one
 from solver.rules.limit import Consequence
 

@@ -10,10 +10,10 @@ import inputs
 import scenes
 import stand_in
 from report.assessment.conditions import project_rows, rows_before_runs
-from report.assessment.hazard_rows import hazard_rows
+from report.assessment.requirement_rows import hazard_rows
 from report.assessment.verdict import STAYS, Verdict, worst
 from report.sheet.checking.covered import to_record
-from report.words.units import PRESSURES, WEIGHTS
+from report.text.units import PRESSURES, WEIGHTS
 from solver import design_spectrum, spectrum
 from solver.rules.limit import Consequence
 from stand_in import FOOT, INCH

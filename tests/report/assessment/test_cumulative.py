@@ -10,7 +10,7 @@ import scenes
 import stand_in
 from one_by_one import prd_m
 from printed import printed
-from report.assessment.cumulative import cumulative
+from report.assessment.evidence import cumulative
 from sheets import at, make, problems, read_workbook, type_into
 from solver.sliding.least_model import DEFAULT
 

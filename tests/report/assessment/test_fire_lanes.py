@@ -4,7 +4,7 @@ import pytest
 
 import scenes
 import stand_in
-from report.assessment.fire_lanes import fire_lane_rows
+from report.assessment.requirement_rows import fire_lane_rows
 from report.assessment.verdict import Verdict
 from report.sheet.schema.fields import Place
 from stand_in import FOOT

@@ -3,7 +3,7 @@
 import pytest
 
 import stand_in
-from report.assessment.friction_rows import basis_words
+from report.assessment.requirement_rows import basis_words
 from solver.model import Friction
 
 pytestmark = pytest.mark.quick

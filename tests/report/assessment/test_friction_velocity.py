@@ -9,7 +9,7 @@ import pytest
 import scenes
 import stand_in
 from report.assessment.evidence import histories
-from report.assessment.friction_velocity import VelocityCheck, velocity_check
+from report.assessment.friction import VelocityCheck, velocity_check
 from report.assessment.verdict import Verdict
 from solver.friction_tests import FrictionRun, Series, Surface
 from solver.model import Friction, coulomb

@@ -4,9 +4,8 @@ import pytest
 
 import scenes
 import stand_in
-from report.assessment.overrides import OVERRIDDEN, override_rows
 from report.assessment.precheck import limits_before_runs
-from report.assessment.verdict import Verdict
+from report.assessment.verdict import OVERRIDDEN, Verdict, override_rows
 from report.sheet.schema.fields import Place
 from solver.rules.limit import Consequence
 

@@ -8,13 +8,12 @@ import pytest
 import scenes
 import stand_in
 from plans import roof_plan
-from report.assessment.plan_gaps import parapet_note, plan_gaps
-from report.drawing.layers import Layer
+from report.assessment.plan_clearances import parapet_note, plan_gaps
+from report.drawing.items import Layer
 from report.drawing.plan import plan_drawing
 from report.drawing.sheet import LETTER
-from report.entities.columns import UnitFormat
-from report.web.plan import plan
-from report.web.tables import stamp
+from report.entities.shown import UnitFormat
+from report.web.plan import plan, stamp
 
 pytestmark = pytest.mark.quick
 

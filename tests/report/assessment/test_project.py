@@ -15,7 +15,7 @@ from one_by_one import slid, slides
 from report import assess_project
 from report.assessment.arrays import DesignBasis, assess_array
 from report.assessment.evidence import support
-from report.assessment.run_warnings import run_warnings
+from report.assessment.motion_runs import run_warnings
 from report.assessment.runs import motion_run
 from report.assessment.verdict import Verdict
 from report.sheet.schema.choices import Direction

@@ -13,9 +13,8 @@ from report.assessment.causes import outcome
 from report.assessment.remedies import MOST_GAPS, RemedyKind, best_remedy, remedies
 from report.assessment.trials import with_mu
 from report.assessment.verdict import Verdict
-from report.pages.remedies import best_words
-from report.pages.site import attachment
-from report.pages.summary import summary
+from report.pages.inputs import attachment
+from report.pages.summary import best_words, summary
 from report.sheet.schema.shapes import gap_m
 
 FOOT, INCH, ARRAY, GAP = stand_in.FOOT, stand_in.INCH, stand_in.array, stand_in.clearance

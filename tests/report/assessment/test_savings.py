@@ -4,9 +4,9 @@ import pytest
 
 import scenes
 from report.assessment.assess import assess, changed
-from report.assessment.savings import saving
+from report.assessment.evidence import saving
 from report.document.templates import sentence
-from report.entities.marks import Marked
+from report.entities.requirement import Marked
 from report.typeset.pdf import TEMPLATES
 
 PRESCRIPTIVE_M = 60 * 0.0254 * (1.566 - 0.4) ** 2

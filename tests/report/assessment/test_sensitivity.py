@@ -9,8 +9,8 @@ import scenes
 import stand_in
 from one_by_one import prd_m
 from printed import printed
-from report.assessment.sensitivity import accuracy
-from report.words.letters import below_mm
+from report.assessment.evidence import accuracy
+from report.text.counts import below_mm
 
 pytestmark = pytest.mark.quick
 

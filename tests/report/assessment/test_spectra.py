@@ -9,10 +9,10 @@ import scenes
 import stand_in
 from printed import printed
 from report.assessment.spectra import Spectra, spectra
-from report.motions.targets import TargetSpectrum, ac156
+from report.motions.history import TargetSpectrum, ac156
 from report.sheet.schema.choices import RecordedAt
+from solver.records.acceptance import POINTS_HZ
 from solver.records.spectrum import response_spectrum
-from solver.records.spectrum_acceptance import POINTS_HZ
 
 G = 9.80665
 

@@ -21,7 +21,7 @@ from report.assessment.verdict import Verdict
 from report.pages.summary import summary
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import SIDES
-from report.words.units import LENGTHS, PRESSURES, WEIGHTS, Quantity, compared_pairs
+from report.text.units import LENGTHS, PRESSURES, WEIGHTS, Quantity, compared_pairs
 
 SI = LENGTHS | WEIGHTS | PRESSURES
 NUMBER = re.compile(

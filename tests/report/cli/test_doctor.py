@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 from commands import printed, run
-from report.cli import doctor
+from report.cli import main
 from report.typeset.pdf import TEMPLATES
 
 pytestmark = pytest.mark.quick
@@ -26,7 +26,7 @@ def test_with_everything_installed_it_says_so():
 
 
 def test_a_native_library_that_is_missing_is_named_with_its_package(monkeypatch):
-    monkeypatch.setitem(doctor.NATIVE, "no-such-library", "libnone0")
+    monkeypatch.setitem(main.NATIVE, "no-such-library", "libnone0")
     done = run("doctor")
     assert done.exit_code == 1
     assert done.stderr == "Error: no-such-library: install it: sudo apt-get install libnone0\n"
@@ -36,7 +36,7 @@ def test_a_native_library_that_is_missing_is_named_with_its_package(monkeypatch)
 
 def test_a_package_that_is_missing_is_named(monkeypatch):
     needed = ["numpy", "no-such-package", "other-package; extra == 'sign'"]
-    monkeypatch.setattr(doctor, "requires", lambda _: needed)
+    monkeypatch.setattr(main, "requires", lambda _: needed)
     done = run("doctor")
     assert done.exit_code == 1
     assert "no-such-package: install it" in done.stderr

@@ -9,7 +9,7 @@ from click.testing import CliRunner
 from commands import printed, refused
 from places import ROOT
 from report.cli.main import main
-from report.words.command import as_typed
+from report.text.counts import as_typed
 from sheets import make
 
 EXAMPLE = ROOT / "projects" / "example"
@@ -45,7 +45,7 @@ def test_levels_are_colored_on_a_terminal_and_nowhere_else(tmp_path):
 
 @pytest.mark.parametrize(("name", "value"), [("NO_COLOR", "1"), ("TERM", "dumb")])
 def test_a_reader_may_want_no_color(tmp_path, monkeypatch, name, value):
-    from report.cli.colors import color_choice
+    from report.cli.terminal import color_choice
 
     monkeypatch.delenv("NO_COLOR", raising=False)
     monkeypatch.setenv("TERM", "xterm")
@@ -55,7 +55,7 @@ def test_a_reader_may_want_no_color(tmp_path, monkeypatch, name, value):
 
 
 def test_verdicts_are_colored_as_words_of_their_own():
-    from report.cli.colors import colored
+    from report.cli.terminal import colored
 
     assert colored("A1  0.8 in  NG: slope") == f"A1  0.8 in  {VERDICT}: slope"
     assert click.unstyle(colored("verdict: OK with conditions")) == "verdict: OK with conditions"

@@ -19,9 +19,9 @@ import tables
 import verified
 from commands import refused, run
 from report.figures import work
-from report.words import formats
-from report.words.letters import lettered
-from report.words.validation import NOT_VALIDATED
+from report.text import formats
+from report.text.counts import lettered
+from report.text.validation import NOT_VALIDATED
 from solver.model import Status
 from solver.rivals.methods import METHODS
 from solver.verification.evidence import PeerPoint

@@ -20,8 +20,8 @@ from commands import hearing, refused
 from nightly import by_day
 from packages import unlaid
 from places import ROOT, TESTS
+from report.cli.report import report_again, settled, stamps
 from report.cli.terminal import INTERRUPTED, collect
-from report.cli.watch import report_again, settled, stamps
 from report.making import OUTPUTS
 from sheets import make, type_into
 
@@ -88,7 +88,7 @@ def later(seconds, action):
 @pytest.fixture
 def patient(monkeypatch):
     """As long as a busy machine needs."""
-    monkeypatch.setattr("report.cli.watch.MOST_POLLS", 200)
+    monkeypatch.setattr("report.cli.report.MOST_POLLS", 200)
 
 
 @pytest.mark.nightly
@@ -129,7 +129,7 @@ def test_a_workbook_that_is_not_there_is_an_error_at_once(tmp_path):
 def test_a_round_with_a_problem_says_that_the_files_are_of_an_earlier_run(
     tmp_path, capsys, monkeypatch
 ):
-    monkeypatch.setattr("report.cli.watch.MOST_POLLS", 1)
+    monkeypatch.setattr("report.cli.report.MOST_POLLS", 1)
     path, folder = tmp_path / "input.xlsx", tmp_path / "out"
     path.write_bytes(b"half")
     settled(path)  # waits no longer than it should
@@ -149,7 +149,7 @@ def test_a_round_with_a_problem_says_that_the_files_are_of_an_earlier_run(
 
 @pytest.mark.nightly
 def test_a_round_says_what_changed_up_to_a_number(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("report.cli.watch.MOST_CHANGES", 1)
+    monkeypatch.setattr("report.cli.report.MOST_CHANGES", 1)
     path = make(tmp_path)
     with unlaid():
         results = report_again(path, None, b"")

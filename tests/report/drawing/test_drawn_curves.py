@@ -5,7 +5,7 @@ import math
 import pytest
 import shapely
 
-from report.drawing.curves import curve
+from report.drawing.closed_lines import curve
 from sketch import Sketch
 
 pytestmark = pytest.mark.quick

@@ -16,7 +16,7 @@ from report.sheet.reading.read import read
 from report.sheet.schema.choices import ClearanceSource, UnitsFirst
 from report.sheet.schema.scene import SIDES
 from report.sheet.schema.shapes import Polygon
-from report.sheet.writing.live import overwritten
+from report.sheet.writing.filled import overwritten
 from sheets import at, blank, different, edit, make, parts, project, put, same, type_into
 from sketch import BOX_FT, L_FT, ROOF_FT, Sketch
 

@@ -11,8 +11,8 @@ from click.testing import CliRunner
 from growth import grows_faster
 from nightly import by_day
 from report.cli.main import main
-from report.drawing.load_dxf import MAX_ENTITIES, MAX_VALUES
 from report.drawing.read_dxf import MAX_LETTERS, read_dxf
+from report.drawing.roof_drawing import MAX_ENTITIES, MAX_VALUES
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import LayerKind
 from sheets import make

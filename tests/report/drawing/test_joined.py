@@ -6,7 +6,7 @@ import random
 import pytest
 
 from inputs import FT
-from report.drawing.joined import BRANCHED, OPEN, join
+from report.drawing.closed_lines import BRANCHED, OPEN, join
 from report.drawing.read_dxf import read_dxf
 from report.sheet.schema.shapes import Polygon, ring
 from sketch import Sketch, plan

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from inputs import FT
 from report.cli.main import main
-from report.drawing.matched import MOST_TOLD, matched
+from report.drawing.fill import MOST_TOLD, matched
 from report.drawing.plan_read import DrawnOutline, RoofPlan
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import LayerKind, UnitsFirst

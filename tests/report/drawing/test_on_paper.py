@@ -13,11 +13,9 @@ from inputs import HEAD, sides
 from places import ROOT
 from plans import SMALL
 from printed import printed
-from report.drawing.items import Circle, Lines, Mark, Outline, Text
-from report.drawing.layers import Layer
+from report.drawing.items import TYPE_PT, Circle, Layer, Lines, Mark, Outline, Text, width_in
 from report.drawing.on_paper import plan_on_paper, printed_plan
 from report.drawing.sheet import PlanSize
-from report.drawing.widths import TYPE_PT, width_in
 from report.figures import plan as figures
 from report.package.html import part
 from report.pages.registry import package_data

@@ -16,7 +16,7 @@ import stand_in
 from inputs import sides
 from places import ROOT
 from printed import printed
-from report.assessment.plan_gaps import plan_gaps
+from report.assessment.plan_clearances import plan_gaps
 from report.drawing.dxf import write_dxf
 from report.drawing.plan import plan_drawing
 from sketch import plan

@@ -12,9 +12,9 @@ from ezdxf.math import UCS
 import scenes
 import stand_in
 from inputs import FT, INCH, NO_SIDES
+from report.drawing.closed_lines import OPEN
 from report.drawing.dxf import write_dxf
-from report.drawing.joined import OPEN
-from report.drawing.layers import Layer
+from report.drawing.items import Layer
 from report.drawing.plan import plan_drawing
 from report.drawing.plan_read import LAYERS
 from report.drawing.read_dxf import read_dxf

@@ -2,7 +2,7 @@
 
 import pytest
 
-from report.drawing.proposals import proposed
+from report.drawing.drawing_names import proposed
 
 pytestmark = pytest.mark.quick
 

@@ -11,9 +11,9 @@ from report.assessment.evidence import support
 from report.cli.main import main
 from report.document.tables import table_of
 from report.entities.clearance import ClearanceResult
-from report.entities.columns import UnitFormat
 from report.entities.results import Results
-from report.results.json import results_json
+from report.entities.shown import UnitFormat
+from report.results.results_json import results_json
 
 pytestmark = pytest.mark.quick
 

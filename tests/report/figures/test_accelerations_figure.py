@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import stand_in
-from report.figures.accelerations import accelerations
+from report.figures.records import accelerations
 
 pytestmark = pytest.mark.quick
 

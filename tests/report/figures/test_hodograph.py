@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import scenes
-from report.figures.hodograph import STEP_IN, PanelScale, hodographs, path_of, thinned
+from report.figures.history import STEP_IN, PanelScale, hodographs, path_of, thinned
 
 pytestmark = pytest.mark.quick
 

@@ -13,13 +13,13 @@ from matplotlib.text import Text
 import scenes
 import stand_in
 from report.assessment.evidence import support
-from report.figures import maps, records, work
+from report.figures import manual, records, work
 from report.pages.pictures import draw_assessment, draw_plotted
 from report.sheet.schema.choices import UnitsFirst
 from report.study import figures as study
 from report.study.results import LimitState
-from report.suite.info import PERIODS_S, spectra_g
-from report.words.units import Quantity
+from report.suite.files import PERIODS_S, spectra_g
+from report.text.units import Quantity
 from solver.records.record import Record
 from solver.rivals.methods import METHODS
 from solver.studies.capacity import Capacities
@@ -126,7 +126,7 @@ def test_in_the_stability_maps_of_the_manual(drawn, count):
         error_percent=np.geomspace(1e-3, 1e3, 35).reshape(5, 7),
         limit=1e-2 / np.sqrt(x / 1e2),
     )
-    maps.stability([one] * count)
+    manual.stability([one] * count)
     assert not list(faults(drawn))
 
 

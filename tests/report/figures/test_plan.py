@@ -15,11 +15,9 @@ from inputs import NO_SIDES, sides
 from plans import SMALL, roof_plan
 from printed import printed
 from report.assessment.envelopes import keep_clear_words
-from report.drawing.items import Text
+from report.drawing.items import TYPE_PT, Text, width_in
 from report.drawing.on_paper import plan_on_paper, printed_plan
-from report.drawing.paper import FOOT_M, round_scale
-from report.drawing.sheet import LETTER, PlanSize
-from report.drawing.widths import TYPE_PT, width_in
+from report.drawing.sheet import FOOT_M, LETTER, PlanSize, round_scale
 from report.figures.base import style
 from report.figures.plan import painted, paper_svg
 from sketch import L_FT

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from report.figures import records as figures
-from report.suite.info import PERIODS_S, spectra_g
+from report.suite.files import PERIODS_S, spectra_g
 from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
 

@@ -9,14 +9,13 @@ import pytest
 
 import printed
 import tables
-from report.document.sections import section
-from report.manual.shake_table import result, shake_table
-from report.words.validation import NOT_VALIDATED, explained
+from report.document.templates import section
+from report.manual.measured import result, shake_table
+from report.text.validation import NOT_VALIDATED, explained
 from solver.verification.design_checks import design_checks
 from solver.verification.evidence import SECTIONS, Check
 from solver.verification.features import FEATURES, statuses
-from solver.verification.shake_table import compare
-from solver.verification.table_tests import table_tests
+from solver.verification.shake_table import compare, table_tests
 from verified import only
 
 pytestmark = pytest.mark.quick

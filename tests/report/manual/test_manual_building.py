@@ -12,18 +12,22 @@ from click.testing import CliRunner
 import printed
 from places import RECORDS
 from report.cli.main import main
-from report.manual.building import building
-from report.manual.summary import summary
-from solver.building.beam import beam_modes
+from report.manual.measured import building
+from report.manual.render import summary
 from solver.building.roof import absolute_accelerations, roof_motion
-from solver.building.structure import building_of_periods
+from solver.building.structure import beam_modes, building_of_periods
 from solver.model import InputError
 from solver.records.record import Record, write_record
 from solver.records.spectrum import response_spectrum
 from solver.sliding.checked import slide
 from solver.verification import building_checks as checks
-from solver.verification.building import BY_HEIGHT, SPECTRUM_S, compare, recorded_buildings
-from solver.verification.identification import identify
+from solver.verification.building import (
+    BY_HEIGHT,
+    SPECTRUM_S,
+    compare,
+    identify,
+    recorded_buildings,
+)
 from solver.verification.scenes import own_records
 from verified import only
 

@@ -11,12 +11,11 @@ import pytest
 
 import printed
 from report.manual.models import models
-from report.manual.render import verification_csv
-from report.manual.summary import summary
-from report.words.formats import percent
+from report.manual.render import summary, verification_csv
+from report.text.formats import percent
 from solver.verification import model_study
-from solver.verification.model_evidence import HELD, SECOND
-from solver.verification.triples import own_triples
+from solver.verification.evidence import HELD, SECOND
+from solver.verification.study import own_triples
 from verified import only
 
 pytestmark = pytest.mark.skipif(

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from report.motions.spikes import FACTOR, spikes
+from report.motions.components import FACTOR, spikes
 
 pytestmark = pytest.mark.quick
 

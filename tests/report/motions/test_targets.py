@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import stand_in
-from report.motions.targets import ac156, targets
+from report.motions.history import ac156, targets
 from report.sheet.schema.choices import RecordedAt
 from solver.rules.hazard import EDITIONS
 from solver.rules.spectra import Tail, ac156_horizontal, ac156_vertical

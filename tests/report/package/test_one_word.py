@@ -11,9 +11,9 @@ import scenes
 from printed import printed
 from report.assessment.evidence import support
 from report.assessment.verdict import as_one
-from report.results.json import results_json
+from report.results.results_json import results_json
 from report.results.xlsx import results_xlsx
-from report.words.counts import grouped_by
+from report.text.counts import grouped_by
 
 CASES = {
     "example": lambda: scenes.shipped("example"),

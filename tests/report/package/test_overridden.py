@@ -20,7 +20,7 @@ from report.drawing.sheet import LETTER
 from report.figures.base import style
 from report.figures.plan import painted
 from report.pages.summary import summary
-from report.results.json import results_json
+from report.results.results_json import results_json
 from report.results.xlsx import results_xlsx
 from report.sheet.reading.archive import open_book
 from report.web.answers import answer

@@ -15,8 +15,8 @@ import packages
 import scenes
 from places import ROOT
 from printed import FRONT, IDS, printed
+from report.motions.history import targets
 from report.motions.prepare import prepare
-from report.motions.targets import targets
 from report.sheet.reading.read import read
 from solver.formats import read_record
 from solver.records.spectrum import response_spectrum

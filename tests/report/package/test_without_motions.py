@@ -19,13 +19,12 @@ from report.assessment.verdict import Verdict
 from report.cli.check import checked, lines
 from report.cli.main import main
 from report.drawing.dxf import write_dxf
-from report.drawing.layers import Layer
+from report.drawing.items import Layer
 from report.drawing.plan import plan_drawing
 from report.making import make
 from report.pages.registry import OF_MOTIONS, PAGES, package_data, pages_in
 from report.pages.summary import summary
-from report.results.json import results_json
-from report.results.since import former_from
+from report.results.results_json import former_from, results_json
 from report.results.xlsx import results_xlsx
 from report.sheet.schema.choices import PackageEdition
 from sheets import type_into, without_motions

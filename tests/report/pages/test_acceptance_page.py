@@ -10,10 +10,10 @@ from openpyxl import Workbook
 import scenes
 import stand_in
 from printed import printed
-from report.assessment.acceptance import shaking_acceptance
+from report.assessment.motion_runs import shaking_acceptance
 from report.assessment.spectra import spectra
 from report.motions.components import read_components
-from report.motions.targets import TargetSpectrum, targets
+from report.motions.history import TargetSpectrum, targets
 from report.sheet.reading.archive import open_book
 from report.sheet.schema.choices import RecordedAt
 from report.sheet.schema.motions import MotionInput

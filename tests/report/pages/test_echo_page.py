@@ -6,7 +6,7 @@ import pytest
 
 import scenes
 from printed import printed
-from report.assessment.changes import NO_FORMER, Change, ChangeKind
+from report.assessment.project import NO_FORMER, Change, ChangeKind
 from report.pages.registry import package_data
 from report.sheet.reading.read import EchoRow
 

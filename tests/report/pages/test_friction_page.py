@@ -8,12 +8,12 @@ import scenes
 import stand_in
 from inputs import LB
 from printed import printed
-from report.assessment.friction_rows import friction_rows
-from report.assessment.friction_rows import tested as series_of
+from report.assessment.requirement_rows import friction_rows
+from report.assessment.requirement_rows import tested as series_of
 from report.assessment.verdict import Verdict
-from report.drawing.section import drawn_slope_deg
-from report.figures.friction import friction_by_velocity
-from report.figures.section import array_section
+from report.drawing.items import drawn_slope_deg
+from report.figures.charts import friction_by_velocity
+from report.figures.plan import array_section
 from scenes import TESTS as REPORT
 from solver.friction_tests import fit_law
 

@@ -10,8 +10,7 @@ import stand_in
 from printed import printed
 from report.sheet.schema.choices import Direction
 from solver.sliding.least_model import Model
-from solver.sliding.tipping import Supports, tipping
-from solver.sliding.uplift import uplift
+from solver.sliding.uplift import Supports, tipping, uplift
 
 pytestmark = pytest.mark.quick
 

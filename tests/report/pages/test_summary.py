@@ -8,7 +8,7 @@ from printed import printed
 from report.assessment.arrays import Route
 from report.assessment.assess import assess
 from report.pages.summary import document, summary
-from report.web.opened import opened, with_values
+from report.web.controls import opened, with_values
 
 pytestmark = pytest.mark.quick
 

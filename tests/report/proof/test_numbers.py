@@ -3,7 +3,7 @@
 import pytest
 
 from growth import grows_faster
-from report.proof.numbers import differences, first_other_word, parsed
+from report.proof.contents import differences, first_other_word, parsed
 from solver.model import InputError
 
 pytestmark = pytest.mark.quick

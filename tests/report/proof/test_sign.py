@@ -32,13 +32,13 @@ from nightly import by_day
 from report.cli.main import main
 from report.cli.terminal import warn_of_others
 from report.proof.contents import refused
-from report.proof.sign import signed as signed_by
 from report.proof.signatures import Appended, Signature, appended
+from report.proof.signatures import signed as signed_by
 from report.typeset.finish import FIELD
 from solver.model import InputError
 
 PASSWORD = "pass word"
-command = sys.modules["report.cli.verify_package"]
+command = sys.modules["report.cli.verify"]
 CONFIG = """
 external-url-prefix: "http://localhost"
 keysets:

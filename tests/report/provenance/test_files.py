@@ -25,12 +25,12 @@ from report.provenance.files import (
     record_bytes,
     sources,
 )
-from report.results.json import results_json
-from report.sheet.reading.beside import Document
+from report.results.results_json import results_json
+from report.sheet.reading.linked_files import Document
 from report.sheet.reading.parts import changed
 from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.read import read
-from report.web.opened import opened
+from report.web.controls import opened
 from solver.model import InputError
 
 EXAMPLE = ROOT / "projects" / "example"

@@ -3,7 +3,7 @@ from importlib import metadata
 
 import pytest
 
-from report.provenance.software import environment, versions
+from report.provenance.files import environment, versions
 
 pytestmark = pytest.mark.quick
 

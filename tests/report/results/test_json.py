@@ -8,7 +8,7 @@ import pytest
 import scenes
 import stand_in
 from report.assessment.evidence import support
-from report.results.json import results_json
+from report.results.results_json import results_json
 from report.sheet.schema.choices import Direction
 
 

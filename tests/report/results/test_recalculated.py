@@ -12,7 +12,7 @@ from cells import cell
 from recalculated import converted, recalculated
 from report.assessment.spectra import spectra
 from report.results.xlsx import results_xlsx
-from report.words.units import ratio
+from report.text.units import ratio
 from sheets import of, put
 
 pytestmark = pytest.mark.nightly

@@ -15,14 +15,20 @@ import inputs as parts_of
 import scenes
 import stand_in
 from printed import IDS, printed
-from report.assessment.changes import ChangeKind
 from report.assessment.evidence import support
+from report.assessment.project import ChangeKind
 from report.assessment.verdict import Verdict
 from report.pages.registry import package_data, parts
 from report.results.compare import changes, with_reissue
-from report.results.json import results_json
-from report.results.since import AGAIN, MOST_CHANGES, check_listed, former_from, read_former
-from report.sheet.reading.beside import Document
+from report.results.results_json import (
+    AGAIN,
+    MOST_CHANGES,
+    check_listed,
+    former_from,
+    read_former,
+    results_json,
+)
+from report.sheet.reading.linked_files import Document
 from solver.model import InputError
 
 

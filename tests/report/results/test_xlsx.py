@@ -16,8 +16,8 @@ import stand_in
 from cells import address, cell
 from nightly import by_day
 from report.assessment.spectra import spectra
-from report.entities.cells import Column
-from report.results.directions import PeakRow
+from report.entities.shown import Column
+from report.results.design import PeakRow
 from report.results.lists import RunRow
 from report.results.sheets import Cells, Pages, write_live
 from report.results.xlsx import results_xlsx

@@ -19,7 +19,7 @@ from report.sheet.reading.read import read
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import SiteClass, UnitsFirst
 from report.sheet.writing.template import write_template
-from report.words.units import PRESSURES, Quantity, number, ratio
+from report.text.units import PRESSURES, Quantity, number, ratio
 from sheets import formula_cells, project, retitle, same, site, type_into
 from solver.rules import hazard
 from solver.rules.provisions import (

@@ -5,7 +5,7 @@ import hashlib
 import pytest
 
 import sheets
-from report.sheet.reading import beside
+from report.sheet.reading import linked_files
 from report.sheet.reading.read import read
 from sheets import at, problems, type_into
 
@@ -69,7 +69,7 @@ def test_what_may_not_be_attached_is_an_error_of_its_cell(workbook, name, said):
 
 
 def test_all_documents_together_have_a_limit(workbook, monkeypatch):
-    monkeypatch.setattr(beside, "MAX_DOCUMENTS", 2 * len(PDF) - 1)
+    monkeypatch.setattr(linked_files, "MAX_DOCUMENTS", 2 * len(PDF) - 1)
     naming(workbook, "letter.pdf", PDF)
     assert len(read(workbook).documents) == 1
     (workbook.parent / "report.pdf").write_bytes(PDF)

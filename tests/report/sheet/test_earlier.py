@@ -12,7 +12,7 @@ from places import DATA, ROOT
 from report.cli.main import main
 from report.sheet.checking.covered import CONFIRMATIONS, outdated
 from report.sheet.reading.archive import open_book
-from report.sheet.reading.locate_tables import table_area
+from report.sheet.reading.locate import table_area
 from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.read import read
 from report.sheet.schema import SECTION, ProjectInput

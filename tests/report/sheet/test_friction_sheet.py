@@ -9,7 +9,7 @@ from cells import cell
 from inputs import INCH
 from nightly import by_day
 from report.sheet.schema.choices import UnitsFirst
-from report.sheet.schema.friction import FrictionTests
+from report.sheet.schema.project import FrictionTests
 from report.sheet.writing.grids import BLOCK_WIDTHS
 from sheets import arrays, at, make, problems, read_workbook, said, type_into
 

@@ -7,9 +7,9 @@ import pytest
 from click.testing import CliRunner
 
 from report.cli.main import main
-from report.sheet.checking.grouped import grouped
+from report.sheet.checking.findings import grouped
 from report.sheet.reading.read import read
-from report.web.problems import problems
+from report.web.jobs import problems
 from sheets import at, make, said, type_into
 from solver.model import InputError, Problem
 

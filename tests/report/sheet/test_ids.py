@@ -3,7 +3,7 @@
 import pytest
 
 import stand_in
-from report.sheet.checking.drafts import suggestion
+from report.sheet.checking.findings import suggestion
 from report.sheet.schema import ProjectInput
 from sheets import at, make, problems, type_into
 

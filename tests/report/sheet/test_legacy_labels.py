@@ -11,10 +11,9 @@ from places import DATA, ROOT
 from report.cli.main import main
 from report.sheet.reading.archive import open_book
 from report.sheet.reading.read import read
-from report.sheet.schema import SECTION, SECTIONS, ProjectInput, legacy_labels
+from report.sheet.schema import SECTION, SECTIONS, ProjectInput, layout
 from report.sheet.schema.fields import entries
-from report.sheet.writing.legacy_notes import what_is_new
-from report.sheet.writing.live import overwritten
+from report.sheet.writing.filled import overwritten, what_is_new
 from sheets import edit, make, project, same, type_into
 from solver.rules.provisions import OVERRIDABLE
 
@@ -46,9 +45,9 @@ def present():
 def earlier_labels(book):
     """Replace each renamed label and heading by its oldest name, and remove all defined names."""
     oldest = {
-        (section.sheet, entry.cell.label): legacy_labels.LABELS[section.key, entry.name][0]
+        (section.sheet, entry.cell.label): layout.LABELS[section.key, entry.name][0]
         for section, entry in present()
-        if (section.key, entry.name) in legacy_labels.LABELS
+        if (section.key, entry.name) in layout.LABELS
     }
     book.defined_names.clear()
     changed = set()
@@ -110,9 +109,9 @@ def test_an_earlier_provision_key_overrides_the_present_one(tmp_path):
 @pytest.mark.quick
 def test_every_earlier_name_belongs_to_a_present_one():
     known = {(section.key, entry.name) for section, entry in present()}
-    assert legacy_labels.LABELS.keys() | legacy_labels.FIELDS.keys() <= known
+    assert layout.LABELS.keys() | layout.FIELDS.keys() <= known
     labels = {(section.key, other.cell.label): other.name for section, other in present()}
-    for (section, field), earlier in legacy_labels.LABELS.items():
+    for (section, field), earlier in layout.LABELS.items():
         for label in earlier:
             assert labels.get((section, label), field) == field
-    assert set(legacy_labels.PROVISIONS.values()) <= OVERRIDABLE.keys()
+    assert set(layout.PROVISIONS.values()) <= OVERRIDABLE.keys()

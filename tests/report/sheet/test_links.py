@@ -11,7 +11,7 @@ from cells import cell
 from inputs import INCH, LB
 from nightly import by_day
 from report.sheet.schema.choices import UnitsFirst
-from report.sheet.schema.links import Links, coefficients
+from report.sheet.schema.motions import Links, coefficients
 from sheets import arrays, at, edit, make, problems, read_workbook, said, type_into
 from solver.sliding.row import MOST_STEPS, minimum_steps
 

@@ -11,7 +11,7 @@ from places import DATA
 from report.cli.main import main
 from report.sheet.reading.archive import open_book
 from report.sheet.schema.choices import UnitsFirst
-from report.sheet.writing.live import findings, overwritten
+from report.sheet.writing.filled import findings, overwritten
 from sheets import at, edit, formula_cells, make, pack, parts, put, retitle, said, type_into
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from report.sheet.reading.number_format import is_percentage, misleading, shows_nothing
+from report.sheet.reading.typed_text import is_percentage, misleading, shows_nothing
 
 pytestmark = pytest.mark.quick
 

@@ -12,8 +12,7 @@ from openpyxl.utils import coordinate_to_tuple, range_boundaries
 from cells import cell
 from nightly import by_day
 from report.sheet.reading.archive import open_book
-from report.sheet.reading.growing import GrowingTable
-from report.sheet.reading.parts import changed
+from report.sheet.reading.parts import GrowingTable, changed
 from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.read import read
 from report.sheet.writing import style

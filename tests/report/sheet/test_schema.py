@@ -15,7 +15,7 @@ from report.sheet.schema.motions import MotionInput
 from report.sheet.schema.project import Project, Site
 from report.sheet.schema.scene import Array, slope_rad
 from report.sheet.schema.shapes import Rectangle, gap_m
-from report.words.units import LENGTHS, WEIGHTS, Quantity
+from report.text.units import LENGTHS, WEIGHTS, Quantity
 from sheets import project
 from solver.formats import UNIT_CHOICES
 

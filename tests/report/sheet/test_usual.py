@@ -3,7 +3,7 @@
 import pytest
 
 from inputs import INCH
-from report.sheet.checking.usual import unusual
+from report.sheet.checking.findings import unusual
 from report.sheet.schema import SECTIONS
 from report.sheet.schema.fields import Place, entries
 from sheets import arrays, project, row_changed

@@ -5,7 +5,7 @@ from openpyxl import load_workbook
 from openpyxl.utils import get_column_letter
 
 from projects.example.make import project
-from report.drawing.widths import TYPE_PT, width_in
+from report.drawing.items import TYPE_PT, width_in
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.writing.template import write_template
 

@@ -27,6 +27,7 @@ import stranger
 from report.cli.main import main
 from report.cli.study import make
 from report.study import figures, files
+from report.study.curves import compare
 from report.study.exports import (
     component_id,
     export_files,
@@ -35,13 +36,12 @@ from report.study.exports import (
     probabilities_of,
 )
 from report.study.files import study_html
-from report.study.prescribed import compare
 from report.study.run import estimate, planned, run_study
 from report.study.schema import Intensity, NoValue, StudyArray, StudyBuilding
 from report.study.tables import curves_csv, study_xlsx
-from report.study.words import design_words, headline
+from report.study.wording import design_words, headline
+from report.text.units import Quantity
 from report.typeset.pdf import lay_out
-from report.words.units import Quantity
 from solver import solve
 from solver.files import LOCK, locked
 from solver.model import InputError, coulomb

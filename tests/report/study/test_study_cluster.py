@@ -6,10 +6,10 @@ import signal
 import pytest
 from test_study_read import command, write
 
-from report.study import cluster as clusters
-from report.study.cluster import connected, run_on_cluster
+from report.study import run as clusters
 from report.study.manifest import manifest_of
 from report.study.parts import begin, done_parts, part_name, run_missing
+from report.study.run import connected, run_on_cluster
 from solver.model import InputError
 from studied import KEY, campaign, row_bytes
 

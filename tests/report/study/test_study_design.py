@@ -15,13 +15,12 @@ from test_study_read import given, sheet_rows, with_study, write
 import printed
 import stand_in
 from report.assessment.arrays import Route
-from report.study.allowed import allowed
+from report.study.curves import allowed, compare
 from report.study.page_parts import design_length
-from report.study.prescribed import compare
 from report.study.results import STATISTICS
 from report.study.run import planned, run_study
 from report.study.schema import Intensity, Mat, RuleSetName, StudyArray
-from report.study.words import both, design_words, headline
+from report.study.wording import both, design_words, headline
 from solver.rules.provisions import (
     RULE_SETS,
     analysis_floor_m,

@@ -10,12 +10,11 @@ from test_study_read import command, given, sheet_rows, write
 
 import printed
 from report.study.array_capacities import curves_of
-from report.study.dispersion import dispersions, exported
 from report.study.exports import export_files
 from report.study.plan import FRICTION, SLOPE
 from report.study.run import estimate, planned, run_study
 from report.study.schema import Intensity, StudyArray
-from report.study.words import headline
+from report.study.wording import dispersions, exported, headline
 from solver.studies.capacity import capacities
 from solver.studies.fragility import fit_lognormal
 from solver.studies.runs import Runner, Track

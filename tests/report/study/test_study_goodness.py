@@ -12,7 +12,7 @@ import printed
 from report.study.array_page import fragility as pages
 from report.study.results import LimitState
 from report.study.run import planned, run_study
-from report.words.units import digits_down
+from report.text.units import digits_down
 from solver.studies.capacity import Capacities
 from solver.studies.fragility import fragility
 

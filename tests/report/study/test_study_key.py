@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from test_study_read import command, write
 
-from report.study.key import KEY_BYTES, state_folder, user_key
+from report.study.manifest import KEY_BYTES, state_folder, user_key
 from solver.model import InputError
 
 pytestmark = pytest.mark.quick

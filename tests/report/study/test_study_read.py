@@ -21,7 +21,7 @@ from report.sheet.reading.read import read
 from report.sheet.schema.choices import UnitsFirst
 from report.study.motions import study_motions
 from report.study.plan import plan_study
-from report.study.read import read_study
+from report.study.read import read_study, write_study
 from report.study.schema import (
     Intensity,
     Mat,
@@ -34,7 +34,6 @@ from report.study.schema import (
     values,
 )
 from report.study.tables import study_xlsx
-from report.study.template import write_study
 from sheets import edit, type_into
 from solver.model import InputError
 from solver.records.record import Record, write_record

@@ -14,13 +14,13 @@ from test_study_read import command, given, with_study, write
 
 import printed
 from report.study import files
+from report.study.array_capacities import spectral_spread
 from report.study.exports import export_files
 from report.study.plan import FRICTION, SLOPE, ArrayPlan
 from report.study.results import ArrayStudyResult, LimitState
 from report.study.run import planned, run_study
 from report.study.schema import StudyArray
-from report.study.spread import spectral_spread
-from report.study.words import headline, warning
+from report.study.wording import headline, warning
 from solver.studies.capacity import Capacities
 from solver.studies.fragility import Fragility, Lognormal
 from solver.studies.uncertainty import Spread

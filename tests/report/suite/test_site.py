@@ -11,11 +11,10 @@ import report.suite.files
 import waves
 from cells import address, cell
 from packages import unlaid
+from report.results.motions import other_sources
 from report.results.publish import STAMP
-from report.results.sources import other_sources
 from report.sheet.reading.read import read
-from report.suite.inputs import ac156_targets
-from report.suite.site import site_targets
+from report.suite.inputs import ac156_targets, site_targets
 from sheets import at, edit, make, type_into
 from solver.model import InputError
 from solver.rules.spectra import Tail

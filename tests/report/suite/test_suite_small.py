@@ -9,7 +9,7 @@ import pytest
 import waves
 from report.suite.files import suite_files, suite_table
 from report.suite.inputs import ac156_targets
-from report.words.units import G_MPS2
+from report.text.units import G_MPS2
 from solver.rules.spectra import Tail
 from waves import PEAK_G
 

@@ -9,7 +9,7 @@ IMPORTED = """
 import ctypes.util, subprocess, sys
 usual = ctypes.util.find_library
 subprocess.Popen = None  # what looks for a library starts other programs
-from report.typeset.native import load_renderer
+from report.libraries import load_renderer
 load_renderer()
 assert "weasyprint" in sys.modules and ctypes.util.find_library is usual
 """

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from report.typeset.unbroken import unbroken
+from report.typeset.pdf import unbroken
 
 pytestmark = pytest.mark.quick
 

@@ -3,10 +3,9 @@
 import pytest
 from starlette.testclient import TestClient
 
-from report.web.access import KEY_HEADER, Keys
+from report.web.access import KEY_HEADER, Keys, Strangers
 from report.web.app import made
-from report.web.connections import Strangers
-from report.web.desk import Desk
+from report.web.session import Desk
 
 HOST = "127.0.0.1:8765"
 

@@ -18,8 +18,7 @@ from report.sheet.reading.read import read
 from report.sheet.schema.choices import ClearanceSource
 from report.web import receiving
 from report.web.access import KEY_HEADER
-from report.web.packages import State
-from report.web.worker import answered
+from report.web.worker import State, answered
 from sheets import SECTIONS, at, make, type_into
 
 EXAMPLE = ROOT / "projects" / "example"
@@ -245,7 +244,7 @@ def test_a_full_disk_is_said_where_another_process_writes(client, desk, monkeypa
         return answered(job)
 
     monkeypatch.setattr("report.web.jobs.perform", full)
-    monkeypatch.setattr("report.web.desk.Desk._answer", ask)
+    monkeypatch.setattr("report.web.session.Desk._answer", ask)
     answer = client.post("/api/workbook", json={"values": {}})
     assert error_of(answer, 507).startswith(IS_FULL)
     assert not list(desk.folder.glob("written-*"))

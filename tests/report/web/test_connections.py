@@ -11,8 +11,7 @@ from starlette.applications import Starlette
 from starlette.responses import PlainTextResponse
 from starlette.routing import Route
 
-from report.web.access import KEY_HEADER, Access, Keys
-from report.web.connections import MOST, Strangers
+from report.web.access import KEY_HEADER, MOST, Access, Keys, Strangers
 
 pytestmark = pytest.mark.quick
 

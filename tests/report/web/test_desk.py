@@ -7,8 +7,8 @@ from multiprocessing import active_children
 
 import pytest
 
-from report.web import desk as desks
-from report.web.desk import Asked, Desk, LostError, StaleError
+from report.web import session as desks
+from report.web.session import Asked, Desk, LostError, StaleError
 from report.workers import WorkerProcess
 
 

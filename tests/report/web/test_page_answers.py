@@ -7,7 +7,7 @@ from report.assessment.assess import assess, reassess
 from report.assessment.friction import with_friction
 from report.web import answers
 from report.web.answers import answer
-from report.web.opened import opened
+from report.web.controls import opened
 
 
 @pytest.fixture(scope="module")

@@ -10,9 +10,9 @@ import pytest
 import stand_in
 from browsing import ALONE, FONTS, quiet_page, serve_scripts
 from report.assessment.verdict import Verdict
+from report.text.units import Quantity, measured, number, pair
 from report.web import views
-from report.web.tables import stamp
-from report.words.units import Quantity, measured, number, pair
+from report.web.plan import stamp
 
 MOTIONS = stand_in.motions(2, seconds=8.0)
 MOUNT = """

@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from report.web.thinning import beside, peaks_kept
+from report.web.views import beside, peaks_kept
 
 pytestmark = pytest.mark.quick
 

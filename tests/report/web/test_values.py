@@ -14,8 +14,7 @@ from report.sheet.reading.what_if import cells, retyped
 from report.sheet.schema.choices import Scaling
 from report.web import jobs
 from report.web.answers import answer
-from report.web.controls import controls, shown
-from report.web.opened import opened, with_values
+from report.web.controls import controls, opened, shown, with_values
 from report.web.values import typed
 from sheets import make
 from solver.sliding import least_model

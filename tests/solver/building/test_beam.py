@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from solver.building.beam import beam_modes, floor_stiffness, story_modes
+from solver.building.structure import beam_modes, floor_stiffness, story_modes
 from solver.model import InputError
 
 ALPHAS = [0.0, 0.3, 1.0, 2.0, 5.0, 12.5, 30.0, 200.0]

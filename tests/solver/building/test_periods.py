@@ -3,7 +3,7 @@
 import pytest
 
 from refused import refused
-from solver.building.periods import APPROXIMATE_PERIODS, FOOT_M, approximate_period_s
+from solver.building.structure import APPROXIMATE_PERIODS, FOOT_M, approximate_period_s
 
 pytestmark = pytest.mark.quick
 

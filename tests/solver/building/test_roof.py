@@ -11,7 +11,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import solver
-from solver.building.beam import floor_stiffness
 from solver.building.roof import (
     FINENESS,
     MOST_STEPS,
@@ -22,7 +21,12 @@ from solver.building.roof import (
     shaking_to_roof,
     to_roof,
 )
-from solver.building.structure import BEAM_MODES, building_of_modes, building_of_periods
+from solver.building.structure import (
+    BEAM_MODES,
+    building_of_modes,
+    building_of_periods,
+    floor_stiffness,
+)
 from solver.model import InputError
 
 pytestmark = pytest.mark.skipif(

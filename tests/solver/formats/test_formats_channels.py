@@ -7,8 +7,7 @@ import pytest
 
 from refused import refused
 from solver.formats import read_motion_file
-from solver.formats.channels import Channel, motion_file, offset_notes, peak_notes
-from solver.formats.motionfile import distinct
+from solver.formats.channels import Channel, distinct, motion_file, offset_notes, peak_notes
 from solver.formats.source import Source
 from solver.model import InputError
 

@@ -4,9 +4,8 @@ import math
 
 import pytest
 
-from solver.formats.headings import Kind, parse, remark, settled, step_in, units_in, words
-from solver.records.record import UNITS
-from solver.records.units import UNIT_CHOICES, is_other_unit, unit_size
+from solver.formats.layout import Kind, parse, remark, settled, step_in, units_in, words
+from solver.records.record import UNIT_CHOICES, UNITS, is_other_unit, unit_size
 
 pytestmark = pytest.mark.quick
 

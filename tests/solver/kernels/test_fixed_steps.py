@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from solver.kernels import fixed_steps
+from solver.kernels import rivals
 from solver.sliding import two_axes
 from solver.verification.model_checks import stopped_scene
 from solver.verification.plane_scipy import samples_of
@@ -15,7 +15,7 @@ pytestmark = pytest.mark.quick
 
 def run(scene, substeps, holds):
     rows = samples_of(scene)
-    return fixed_steps.slide_fixed(rows, scene.dt_s, math.cos(scene.slope_rad), substeps, holds)
+    return rivals.slide_fixed(rows, scene.dt_s, math.cos(scene.slope_rad), substeps, holds)
 
 
 @pytest.mark.parametrize("holds", [True, False])
@@ -41,7 +41,7 @@ def test_a_held_block_rests_and_one_without_a_rule_for_rest_chatters_and_drifts(
 
 def test_a_pushed_block_at_rest_starts_with_what_friction_leaves():
     rows = np.array([[3.0, 4.0, 2.0]] * 3)
-    prd, x, y, speed = fixed_steps.slide_fixed(rows, 0.1, 1.0, 1, True)
+    prd, x, y, speed = rivals.slide_fixed(rows, 0.1, 1.0, 1, True)
     assert speed == pytest.approx(3.0 * 0.2)
     assert (x, y) == pytest.approx((0.6 * 0.06, 0.8 * 0.06))
     assert prd == pytest.approx(0.06)
@@ -49,5 +49,5 @@ def test_a_pushed_block_at_rest_starts_with_what_friction_leaves():
 
 def test_a_free_block_at_rest_feels_no_friction_in_its_first_step():
     rows = np.array([[3.0, 4.0, 2.0]] * 2)
-    _, _, _, speed = fixed_steps.slide_fixed(rows, 0.1, 1.0, 1, False)
+    _, _, _, speed = rivals.slide_fixed(rows, 0.1, 1.0, 1, False)
     assert speed == pytest.approx(0.5)

@@ -11,9 +11,8 @@ from hypothesis import strategies as st
 
 from modal import psa_g
 from solver.model import Motion
-from solver.records.acceptance import acceptance
+from solver.records.acceptance import POINTS_HZ, acceptance
 from solver.records.record import read_only
-from solver.records.spectrum_acceptance import POINTS_HZ
 from solver.rules.limit import PROGRAM, Consequence, Limit
 
 G = 9.80665

@@ -9,8 +9,7 @@ import pytest
 from refused import refused
 from solver.model import InputError
 from solver.records.record import Record
-from solver.records.scaling import design_spectrum, factor_to_target
-from solver.records.spectrum import response_spectrum
+from solver.records.spectrum import design_spectrum, factor_to_target, response_spectrum
 from solver.rules.spectra import ac156_vertical, target_sa_g
 
 pytestmark = pytest.mark.quick

@@ -14,7 +14,7 @@ from solver.model import InputError, Status
 from solver.rivals import regularized
 from solver.rivals.methods import METHODS, link_frequency
 from solver.sliding.checked import slide, slide_history
-from solver.verification import problems
+from solver.verification import reference
 
 G = 9.80665
 STEPPED = ("paper", "linear", "adaptive")
@@ -123,8 +123,8 @@ FLAT, SLOPED = (0, 0.1, 0.4), (5, 0.4, 0.6)
 def test_a_ramped_pulse_is_met_within_the_ceiling(name, scene, vertical):
     (degrees, mu, amplitude), dt, plateau = scene, 0.01, 25
     slope, az = math.radians(degrees), trapezoid(vertical * G, plateau, 150) if vertical else None
-    drive, resist = problems.slope_pulse(slope, mu, amplitude, vertical, G)
-    expected = problems.pulse_travel(drive, resist, plateau * dt, dt) * math.cos(slope)
+    drive, resist = reference.slope_pulse(slope, mu, amplitude, vertical, G)
+    expected = reference.pulse_travel(drive, resist, plateau * dt, dt) * math.cos(slope)
     ax, some = trapezoid(-amplitude * G, plateau, 150), {"method": name} | FINE.get(name, {})
     result = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, **some)
     assert (result.prd_m, result.down_m) == pytest.approx((expected,) * 2, rel=CEILINGS[name])
@@ -135,7 +135,7 @@ def test_a_ramped_pulse_is_met_within_the_ceiling(name, scene, vertical):
 def test_the_steady_harmonic_travels_as_far_each_half_cycle(name):
     ax = 0.5 * G * np.sin(2 * np.pi * np.arange(40 * 200 + 1) / 200)
     history = slide_history(ax, 1 / 200, slope_rad=0, mu=0.2, method=name, **FINE.get(name, {}))
-    expected = problems.harmonic_travel(0.5, 0.2, 1.0, G)
+    expected = reference.harmonic_travel(0.5, 0.2, 1.0, G)
     assert np.ptp(history.u_m[-201:]) == pytest.approx(expected, rel=0.005)
 
 
@@ -152,10 +152,10 @@ def test_the_steady_harmonic_travels_as_far_each_half_cycle(name):
 def test_a_frozen_normal_force_is_off_by_its_closed_form(degrees, mu, amplitude, vertical, off):
     slope, dt, plateau = math.radians(degrees), 0.01, 30
     sn, cs = math.sin(slope), math.cos(slope)
-    drive, resist = problems.slope_pulse(slope, mu, amplitude, vertical, G)
-    true = problems.pulse_travel(drive, resist, plateau * dt, dt) * cs
+    drive, resist = reference.slope_pulse(slope, mu, amplitude, vertical, G)
+    true = reference.pulse_travel(drive, resist, plateau * dt, dt) * cs
     frozen_drive, frozen_resist = (amplitude * cs + vertical * sn) * G, (mu * cs - sn) * G
-    frozen = problems.pulse_travel(frozen_drive, frozen_resist, plateau * dt, dt) * cs
+    frozen = reference.pulse_travel(frozen_drive, frozen_resist, plateau * dt, dt) * cs
     ax, az = (trapezoid(a * G, plateau, 3000) for a in (-amplitude, vertical))
     result = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, method="frozen-normal")
     assert result.down_m == pytest.approx(frozen, rel=1e-12)
@@ -335,7 +335,7 @@ def test_a_link_in_balance_with_gravity_stays_where_it_is(name):
 @pytest.mark.parametrize("name", LINKS)
 def test_a_block_that_slides_freely_needs_no_link(name):
     slope = math.radians(7)
-    expected = problems.free_slide_travel(slope, 0.1, 2.0, G) * math.cos(slope)
+    expected = reference.free_slide_travel(slope, 0.1, 2.0, G) * math.cos(slope)
     result = slide(np.zeros(201), 0.01, slope_rad=slope, mu=0.1, method=name)
     assert result.down_m == pytest.approx(expected, rel=1e-10)
     assert result.status is Status.SLIDING_AT_END

@@ -2,7 +2,7 @@
 
 import pytest
 
-from solver.building.periods import FOOT_M, approximate_period_s
+from solver.building.structure import FOOT_M, approximate_period_s
 from solver.rules.hazard import (
     EDITIONS,
     component_force,

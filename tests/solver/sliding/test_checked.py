@@ -14,7 +14,7 @@ import solver
 from blocks import trapezoid
 from solver.model import EventKind, Friction, InputError, Status
 from solver.sliding.checked import slide, slide_history
-from solver.verification import problems
+from solver.verification import reference
 
 G = 9.81
 LENGTHS = ("prd", "residual", "down", "up")
@@ -45,7 +45,7 @@ def assert_agrees(result, exact, floor_m=1e-3):
 @pytest.mark.quick
 def test_a_ramped_pulse_on_a_flat_roof_is_met_to_rounding(amplitude, mu, duration):
     dt, plateau = duration / 20, 20
-    expected = problems.pulse_travel(amplitude * G, mu * G, plateau * dt, dt)
+    expected = reference.pulse_travel(amplitude * G, mu * G, plateau * dt, dt)
     result = slide(trapezoid(amplitude * G, plateau, 400), dt, slope_rad=0.0, mu=mu, g_mps2=G)
     assert result.status is Status.OK
     assert result.prd_m == pytest.approx(expected, rel=1e-12)
@@ -57,9 +57,9 @@ def test_a_ramped_pulse_on_a_flat_roof_is_met_to_rounding(amplitude, mu, duratio
 @pytest.mark.parametrize(("degrees", "mu", "amplitude"), [(5, 0.4, 0.6), (10, 0.5, 0.8)])
 def test_a_ramped_pulse_on_a_slope_is_met_to_rounding(degrees, mu, amplitude, vertical):
     slope, dt, plateau = math.radians(degrees), 0.01, 30
-    drive, resist = problems.slope_pulse(slope, mu, amplitude, vertical, G)
+    drive, resist = reference.slope_pulse(slope, mu, amplitude, vertical, G)
     ax, az = (trapezoid(a * G, plateau, 900) for a in (-amplitude, vertical))
-    expected = problems.pulse_travel(drive, resist, plateau * dt, dt) * math.cos(slope)
+    expected = reference.pulse_travel(drive, resist, plateau * dt, dt) * math.cos(slope)
     result = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, g_mps2=G)
     assert result.down_m == pytest.approx(expected, rel=1e-12)
     assert result.up_m == 0.0
@@ -80,7 +80,7 @@ def test_a_short_ramp_comes_near_the_rectangular_pulse():
 
 @pytest.mark.parametrize(("amplitude", "mu", "freq"), [(0.5, 0.2, 1.0), (0.8, 0.4, 2.0)])
 def test_the_sampled_half_sine_converges_at_second_order(amplitude, mu, freq):
-    expected = problems.half_sine_travel(amplitude, mu, freq, G)
+    expected = reference.half_sine_travel(amplitude, mu, freq, G)
     errors = []
     for steps in (100, 200, 400):
         dt = 0.5 / freq / steps
@@ -96,14 +96,14 @@ def test_the_steady_harmonic_travels_as_far_each_half_cycle():
     t = np.arange(80 * 2000 + 1) * dt
     history = slide_history(0.5 * G * np.sin(2 * np.pi * t), dt, slope_rad=0.0, mu=0.2, g_mps2=G)
     stops = [event.u_m for event in history.events if event.kind is EventKind.STOP]
-    expected = problems.harmonic_travel(0.5, 0.2, 1.0, G)
+    expected = reference.harmonic_travel(0.5, 0.2, 1.0, G)
     assert abs(stops[-1] - stops[-2]) == pytest.approx(expected, rel=1e-5)
 
 
 def test_a_block_on_a_still_roof_steeper_than_friction_slides_freely():
     slope = math.radians(7)
     result = slide(np.zeros(201), 0.01, slope_rad=slope, mu=0.1, g_mps2=G)
-    expected = problems.free_slide_travel(slope, 0.1, 2.0, G)
+    expected = reference.free_slide_travel(slope, 0.1, 2.0, G)
     assert result.down_m == pytest.approx(expected * math.cos(slope), rel=1e-12)
     assert result.status is Status.SLIDING_AT_END
     down = math.sin(slope) - 0.1 * math.cos(slope)
@@ -121,7 +121,7 @@ def test_a_block_on_a_still_roof_steeper_than_friction_slides_freely():
 )
 def test_slip_begins_just_beyond_the_yield_accelerations(degrees, mu):
     slope = math.radians(degrees)
-    for limit in problems.yield_accelerations(slope, mu, G):
+    for limit in reference.yield_accelerations(slope, mu, G):
         for factor, moves in ((1 - 1e-12, False), (1 + 1e-9, True)):
             ax = np.array([0.0, limit * factor, 0.0])
             result = slide(ax, 0.5, slope_rad=slope, mu=mu, g_mps2=G)
@@ -266,7 +266,7 @@ def test_a_vertical_record_of_zeros_changes_no_bit(scale):
     # At the yield acceleration itself, where a rounding decides.
     for slope, mu in itertools.product((-0.06, 0.0, 0.3), np.linspace(0.05, 0.95, 20)):
         given = {"slope_rad": slope, "mu": mu, "scale": scale, "g_mps2": G}
-        for limit in problems.yield_accelerations(slope, mu, G):
+        for limit in reference.yield_accelerations(slope, mu, G):
             for ulps in range(-8, 9):
                 ax = np.array([0.0, limit / scale * (1.0 + ulps * 2.0**-52), 0.0])
                 without, still = slide(ax, 0.5, **given), slide(ax, 0.5, az_mps2=0.0 * ax, **given)

@@ -9,14 +9,14 @@ from places import ROOT, TESTS
 
 CODE = """
 import json
-from solver.kernels import fixed_steps, one_axis, oscillator, rivals, row, two_axes
+from solver.kernels import one_axis, oscillator, rivals, row, two_axes
 from numba.core.dispatcher import Dispatcher
-from solver.sliding.compiled import PARTS
+from solver.sliding.checked import PARTS
 
 def compiled():
     return {
         f"{module.__name__}.{name} {signature}"
-        for module in (fixed_steps, one_axis, oscillator, rivals, row, two_axes)
+        for module in (one_axis, oscillator, rivals, row, two_axes)
         for name, kernel in vars(module).items()
         if isinstance(kernel, Dispatcher)
         for signature in kernel.signatures

@@ -7,7 +7,7 @@ import pytest
 
 from blocks import block
 from solver.model import Friction, InputError
-from solver.sliding.tipping import Supports, tipping
+from solver.sliding.uplift import Supports, tipping
 
 pytestmark = pytest.mark.quick
 

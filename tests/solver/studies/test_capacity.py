@@ -9,9 +9,8 @@ from scipy.optimize import brentq
 
 from solver import solve
 from solver.model import coulomb
-from solver.studies.campaign import Campaign, grid
 from solver.studies.capacity import ACCURACY, COARSE_SCAN, SCAN, Curve, capacities, maximum_searches
-from solver.studies.runs import Runner
+from solver.studies.runs import Campaign, Runner, grid
 from studied import frozen, motion
 
 G = 9.80665

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from solver.model import InputError
-from solver.studies.fit import DIGITS, fit_prd
+from solver.studies.curves import DIGITS, fit_prd
 
 pytestmark = pytest.mark.quick
 

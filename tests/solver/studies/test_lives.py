@@ -9,7 +9,6 @@ import pytest
 from solver import solve
 from solver.kernels import lives as kernel
 from solver.model import coulomb
-from solver.studies.campaign import Campaign, grid
 from solver.studies.lives import (
     RESPONSES,
     Draws,
@@ -22,7 +21,7 @@ from solver.studies.lives import (
     uplift_intensity,
 )
 from solver.studies.rates import HazardCurve, exceedance_rates
-from solver.studies.runs import Runner
+from solver.studies.runs import Campaign, Runner, grid
 from studied import motion
 
 LEVELS = np.geomspace(0.2, 8.0, 65)

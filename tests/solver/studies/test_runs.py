@@ -10,9 +10,8 @@ from solver import solve
 from solver.model import Status, coulomb
 from solver.sliding.least_model import Model
 from solver.sliding.sweep import sweep
-from solver.studies.campaign import Campaign, cases_of, grid
 from solver.studies.curves import first_allowed
-from solver.studies.runs import LENGTHS, STATUSES, Runner, run_part
+from solver.studies.runs import LENGTHS, STATUSES, Campaign, Runner, cases_of, grid, run_part
 from solver.verification.paper_studies import MUS as PAPER_MUS
 from solver.verification.paper_studies import PPAS_G, SLOPES_DEG, design_curves
 from solver.verification.scenes import own_records, scale_to

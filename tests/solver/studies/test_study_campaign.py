@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from solver.studies import campaign as made
-from solver.studies.campaign import cases_of, grid, joined
+from solver.studies import runs as made
+from solver.studies.runs import cases_of, grid, joined
 from studied import campaign
 
 pytestmark = pytest.mark.quick

@@ -11,7 +11,7 @@ from solver.model import InputError
 from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
 from solver.rules.spectra import target_sa_g
-from solver.synthesis import seeds
+from solver.synthesis import suite
 from solver.synthesis.suite import make_suite
 
 pytestmark = [
@@ -126,14 +126,14 @@ def test_phases_of_components_alike_are_turned(made):
 def test_the_strongest_part_of_a_long_record_is_used():
     t = 0.01 * np.arange(10_000)
     weak, strong = 0.1 * np.sin(3.0 * t), np.where((t > 40.0) & (t < 65.0), np.sin(9.0 * t), 0.0)
-    seed = seeds.strongest(Record(name="long", dt_s=0.01, a_mps2=weak + strong), 0.005, 6001)
+    seed = suite.strongest(Record(name="long", dt_s=0.01, a_mps2=weak + strong), 0.005, 6001)
     at = 0.005 * np.flatnonzero(np.abs(seed) > 0.5)
     assert at[-1] - at[0] == pytest.approx(25.0, abs=0.5)
 
 
 def test_a_short_record_stands_in_the_middle_at_the_motions_step():
     t = 0.02 * np.arange(501)
-    seed = seeds.strongest(Record(name="short", dt_s=0.02, a_mps2=np.sin(5.0 * t)), 0.005, 6001)
+    seed = suite.strongest(Record(name="short", dt_s=0.02, a_mps2=np.sin(5.0 * t)), 0.005, 6001)
     assert not seed[:2000].any()
     assert not seed[4001:].any()
     exact = np.sin(5.0 * 0.005 * np.arange(2001))
@@ -145,8 +145,8 @@ def test_a_short_record_stands_in_the_middle_at_the_motions_step():
 def test_the_size_of_a_record_does_not_matter(made, size):
     first = made[0][0]
     sized = Record(name="falling-1", dt_s=0.01, a_mps2=first.a_mps2 * size)
-    seed = seeds.strongest(sized, 0.005, 6001)
-    assert seed == pytest.approx(seeds.strongest(first, 0.005, 6001), abs=1e-12)
+    seed = suite.strongest(sized, 0.005, 6001)
+    assert seed == pytest.approx(suite.strongest(first, 0.005, 6001), abs=1e-12)
 
 
 @pytest.mark.parametrize(

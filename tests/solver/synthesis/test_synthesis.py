@@ -16,11 +16,9 @@ from solver.model import InputError, Motion
 from solver.records.acceptance import acceptance
 from solver.records.record import Record, write_record
 from solver.rules.spectra import target_sa_g
-from solver.synthesis import suite, target
-from solver.synthesis.matching import make_frame
-from solver.synthesis.seeds import NOISE
-from solver.synthesis.suite import make_suite, synthesize
-from solver.synthesis.target import spectrum_fit
+from solver.synthesis import matching, suite
+from solver.synthesis.matching import make_frame, spectrum_fit
+from solver.synthesis.suite import NOISE, make_suite, synthesize
 
 pytestmark = pytest.mark.skipif(
     numba.config.DISABLE_JIT, reason="each motion takes minutes without compiled kernels"
@@ -235,7 +233,7 @@ class TestSynthesis:
     @pytest.mark.nightly
     def test_a_target_out_of_reach_is_told(self, monkeypatch):
         monkeypatch.setattr(suite, "DRAWS", 2)
-        monkeypatch.setattr(target, "LEAST", 1.5)
+        monkeypatch.setattr(matching, "LEAST", 1.5)
         with pytest.raises(
             InputError,
             match=r"x: 2 motions of 12 s all miss .*; the closest has 1\.00 to 1\.\d\d times",

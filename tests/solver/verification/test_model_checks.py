@@ -8,7 +8,7 @@ from solver.records.record import read_only
 from solver.sliding import two_axes
 from solver.verification import model_checks
 from solver.verification.evidence import SECTIONS
-from solver.verification.triples import own_triples
+from solver.verification.study import own_triples
 
 pytestmark = pytest.mark.quick
 

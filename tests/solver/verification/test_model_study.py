@@ -9,7 +9,7 @@ import pytest
 from solver.records.record import read_only
 from solver.sliding.checked import slide
 from solver.verification import model_study
-from solver.verification.model_evidence import (
+from solver.verification.evidence import (
     HELD,
     LEAST_M,
     OVER_SLOW,
@@ -20,7 +20,7 @@ from solver.verification.model_evidence import (
     WORST,
     ModelChange,
 )
-from solver.verification.triples import own_triples, scale_to
+from solver.verification.study import own_triples, triple_scale
 
 pytestmark = pytest.mark.quick
 
@@ -41,7 +41,7 @@ def test_every_run_is_counted(study):
 
 def test_a_ratio_is_that_of_two_slides(study):
     (triple,) = own_triples(True)
-    scene = {"slope_rad": 0.0, "mu": 0.3, "scale": scale_to(triple, 1.5)}
+    scene = {"slope_rad": 0.0, "mu": 0.3, "scale": triple_scale(triple, 1.5)}
     alone = slide(triple.ax_mps2, triple.dt_s, az_mps2=triple.az_mps2, **scene)
     both = slide(triple, **scene)
     assert min(alone.prd_m, both.prd_m) > LEAST_M

@@ -9,7 +9,7 @@ from solver.model import STANDARD_GRAVITY_MPS2
 from solver.sliding import one_axis
 from solver.verification import peers
 from solver.verification.scenes import near_fault_pulse
-from solver.verification.triples import own_triples
+from solver.verification.study import own_triples
 
 pytestmark = pytest.mark.quick
 

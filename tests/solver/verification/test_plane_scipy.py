@@ -12,7 +12,7 @@ from solver.sliding import one_axis
 from solver.verification import plane_scipy
 from solver.verification.model_checks import stopped_scene
 from solver.verification.scenes import Case
-from solver.verification.triples import cut, own_triples, scene_of
+from solver.verification.study import cut, own_triples, scene_of
 
 pytestmark = pytest.mark.quick
 

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from solver.verification.problems import (
+from solver.verification.reference import (
     half_sine_travel,
     harmonic_travel,
     pulse_travel,

@@ -13,8 +13,7 @@ from growth import grows_faster
 from solver.model import InputError
 from solver.sliding.least_model import Model
 from solver.verification.checks import G, trapezoid
-from solver.verification.shake_table import compare
-from solver.verification.table_tests import MOST_TESTS, Data, table_tests
+from solver.verification.shake_table import MOST_TESTS, Data, compare, table_tests
 
 pytestmark = pytest.mark.quick
 

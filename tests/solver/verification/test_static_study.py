@@ -4,9 +4,8 @@ import pytest
 
 from solver.model import STANDARD_GRAVITY_MPS2, coulomb
 from solver.sliding import one_axis, two_axes
-from solver.verification import model_study, static_study
-from solver.verification.study import MODEL_CASES, TIGHT
-from solver.verification.triples import own_triples, scene_of
+from solver.verification import model_study
+from solver.verification.study import MODEL_CASES, TIGHT, own_triples, scene_of
 
 pytestmark = pytest.mark.quick
 
@@ -45,9 +44,9 @@ def test_two_axes_tend_to_one_with_one_coefficient_and_need_not_with_two(evidenc
 def test_a_push_between_kinetic_and_static_holds_in_one_axis_alone(evidence):
     alone_m, faint_m, *pushed_m = evidence.pushed["end_m"]
     # v falls from its speed at 0.06 s with the push and friction: v^2 / 2a, before that a ramp.
-    scene = static_study.pushed_scene(0.0, static_study.JUMPING)
+    scene = model_study.pushed_scene(0.0, model_study.JUMPING)
     history = two_axes.run_history(scene)
-    braking = (static_study.PUSHED_BACK_G + 0.4) * STANDARD_GRAVITY_MPS2
+    braking = (model_study.PUSHED_BACK_G + 0.4) * STANDARD_GRAVITY_MPS2
     stops = history.u_m[6] + history.v_mps[6] ** 2 / (2.0 * braking)
     assert alone_m == pytest.approx(stops, rel=1e-9)
     assert faint_m == pytest.approx(alone_m, rel=1e-9)
@@ -59,9 +58,9 @@ def test_a_push_between_kinetic_and_static_holds_in_one_axis_alone(evidence):
 
 
 def test_the_block_that_is_pushed_back_slides_off_without_more_friction_at_rest():
-    scene = static_study.pushed_scene(0.0, coulomb(0.4))
+    scene = model_study.pushed_scene(0.0, coulomb(0.4))
     assert one_axis.run(scene).prd_m > 0.5
-    held = static_study.held(0.4, 1.25)
+    held = model_study.held(0.4, 1.25)
     assert (held.mu_slow, held.mu_fast, held.mu_static) == (0.4, 0.4, 0.5)
     assert not held.is_constant
 
@@ -69,6 +68,6 @@ def test_the_block_that_is_pushed_back_slides_off_without_more_friction_at_rest(
 def test_where_nothing_slides_there_is_nothing_to_compare():
     (triple,) = own_triples(True)
     still = scene_of(triple, MODEL_CASES[0], coulomb(9.0))
-    none = static_study.static_evidence([still], 1.25)
+    none = model_study.static_evidence([still], 1.25)
     assert none.n_scenes == 0
     assert all(changes.empty for changes in none.differences.values())

@@ -7,7 +7,7 @@ import pytest
 
 from places import RECORDS, SAMPLES
 from solver.verification.scenes import own_records
-from solver.verification.triples import RECORDED, cut, own_triples, recorded_triples, scale_to
+from solver.verification.study import RECORDED, cut, own_triples, recorded_triples, triple_scale
 
 pytestmark = pytest.mark.quick
 
@@ -25,7 +25,7 @@ def test_the_own_motions_are_those_of_the_records(own):
 
 
 def test_a_scene_has_the_larger_horizontal_peak_and_one_factor_for_all(own):
-    scale = scale_to(own, 0.5)
+    scale = triple_scale(own, 0.5)
     peaks = [np.abs(a).max() * scale for a in (own.ax_mps2, own.ay_mps2)]
     assert max(peaks) == pytest.approx(0.5 * 9.80665)
 

@@ -11,7 +11,7 @@ import oracle
 import verified
 from solver.rivals.methods import METHODS
 from solver.sliding.checked import slide
-from solver.verification import checks, crosschecks, paper_studies, plane_scipy, reference, study
+from solver.verification import checks, paper_studies, plane_scipy, reference, study
 from solver.verification.evidence import ROUNDING, Check, DesignCurves, percent_off
 from solver.verification.features import FEATURES, statuses
 from solver.verification.scenes import Case, near_fault_pulse, own_records, scale_to, shortened
@@ -81,20 +81,20 @@ def test_a_solver_that_is_a_millionth_off_fails_the_checks_that_see_it(monkeypat
         off = {name: (1.0 + 1e-6) * getattr(right, name) for name in names}
         return dataclasses.replace(right, **off)
 
-    for module in (checks, crosschecks):
+    for module in (checks, checks):
         monkeypatch.setattr(module, "slide", wrong)
     closed = [row for row in checks.closed_forms() if row.tolerance == ROUNDING]
     assert closed
     assert not any(row.passed for row in closed)
-    assert not any(row.passed for row in crosschecks.fifty_digits(pulse) if row.expected != 0.0)
+    assert not any(row.passed for row in checks.fifty_digits(pulse) if row.expected != 0.0)
 
 
 def test_a_method_without_a_number_fails_its_check(monkeypatch):
     def lost(*args, **kwargs):
         return dataclasses.replace(slide(*args, **kwargs), prd_m=math.nan)
 
-    monkeypatch.setattr(crosschecks, "slide", lost)
-    rows = list(crosschecks.rivals())
+    monkeypatch.setattr(checks, "slide", lost)
+    rows = list(checks.rivals())
     assert len(rows) == len(METHODS)
     assert all(math.isnan(row.error) and not row.passed for row in rows)
 

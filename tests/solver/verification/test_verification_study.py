@@ -11,7 +11,7 @@ from solver.sliding import one_axis
 from solver.sliding.checked import motion, slide
 from solver.verification import study
 from solver.verification.scenes import Case, near_fault_pulse, scale_to, shortened
-from solver.verification.triples import AS_RECORDED
+from solver.verification.study import AS_RECORDED
 
 pytestmark = pytest.mark.quick
 

@@ -1,0 +1,228 @@
+"""What a roof drawing consists of, as data: closed lines, texts, and what was not understood.
+
+`report.drawing.read_dxf` fills it, and `report.drawing.plan_read` says what of it is the plan.
+
+Loads a DXF file: refuses what is no drawing in text or too large, and repairs what it may.
+"""
+
+from __future__ import annotations
+
+import cmath
+import logging
+import math
+import re
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from report.sheet.schema.shapes import Point
+from solver.model import InputError
+from solver.suggestions import meant
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing as Document
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Drawn:
+    """A closed line of a drawing.
+
+    Attributes
+    ----------
+    handle : str
+        Of the line, or of the first of those that are joined.
+    name : str
+        As `report` wrote it, or from the attributes of its block; empty if neither.
+    points : tuple of Point
+        A ring, not repeated, in the unit of the drawing.
+    is_ours : bool
+        Whether `report` wrote it.
+    heights : tuple of str
+        Attributes of its block that give a height, each as `HT 42`.
+    sizes : tuple of (int, float, float)
+        Number, long side [m] and short side [m] of each size of the modules that it is the outline
+        of, the most frequent first; then its points are in m.
+    """
+
+    handle: str
+    layer: str
+    name: str
+    points: tuple[Point, ...]
+    is_ours: bool
+    heights: tuple[str, ...] = ()
+    sizes: tuple[tuple[int, float, float], ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Words:
+    """A text of a drawing, or the first line of it, where it is, and its other lines.
+
+    Attributes
+    ----------
+    of : str
+        What `report` wrote it of, wherever it is; empty for none.
+    """
+
+    layer: str
+    text: str
+    at: Point
+    others: tuple[str, ...] = ()
+    of: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unread:
+    """Something of a drawing that was not understood, why, and what of it."""
+
+    handle: str
+    layer: str
+    reason: str
+    detail: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class RoofDrawing:
+    """What a drawing consists of.
+
+    Attributes
+    ----------
+    unit : str
+        Empty if it states none of `UNITS`.
+    other_unit : str
+        What it states of `OTHER_UNITS`, as a sentence goes on after its name; empty for none.
+    layouts : tuple of str
+        Those that have closed lines, which no plan is read from.
+    repairs : str
+        What to say of a damaged drawing; empty for a sound one.
+    counts : Counter of tuple of str
+        How many of each layer and kind of entity there are.
+    north_deg : float
+        Direction of north by GEODATA, counterclockwise from +x; NaN for none. Not by
+        `$NORTHDIRECTION`, "the angle between the Y axis of WCS and the grid north" (AutoCAD help)
+        in a sense that is not documented.
+    """
+
+    unit: str
+    other_unit: str = ""
+    layouts: tuple[str, ...] = ()
+    repairs: str = ""
+    lines: list[Drawn] = field(default_factory=list)
+    texts: list[Words] = field(default_factory=list)
+    unread: list[Unread] = field(default_factory=list)
+    counts: Counter[tuple[str, str]] = field(default_factory=Counter)
+    north_deg: float = math.nan
+
+    def turned(self, degrees: float) -> RoofDrawing:
+        """Return the drawing turned counterclockwise about its origin, with its north."""
+        places = turned([text.at for text in self.texts], degrees)
+        return replace(
+            self,
+            lines=[replace(line, points=turned(line.points, degrees)) for line in self.lines],
+            texts=[replace(text, at=at) for text, at in zip(self.texts, places, strict=True)],
+            north_deg=(self.north_deg + degrees) % 360.0,
+        )
+
+
+def turned(points: Sequence[Point], degrees: float) -> tuple[Point, ...]:
+    """Return points turned counterclockwise about the origin."""
+    turn = cmath.rect(1.0, math.radians(degrees))
+    found = (complex(*point) * turn for point in points)
+    return tuple((z.real, z.imag) for z in found)
+
+
+MB = 1_000_000
+MAX_BYTES = 25 * MB
+MAX_ENTITIES = 20_000
+MAX_VALUES = 1_000_000
+MAX_LINE = 10_000
+
+UNITS: Mapping[int, str] = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m"}
+"""Units of drawings by $INSUNITS."""
+OTHER_UNITS: Mapping[int, tuple[str, str]] = {
+    3: ("miles", "ft"), 7: ("kilometers", "m"), 8: ("microinches", "in"), 9: ("mils", "in"),
+    10: ("yards", "ft"), 14: ("decimeters", "m"), 15: ("decameters", "m"),
+    16: ("hectometers", "m"), 21: ("US survey feet", "ft"), 22: ("US survey inches", "in"),
+    23: ("US survey yards", "ft"), 24: ("US survey miles", "ft"),
+}  # fmt: skip
+"""Units that drawings state and roofs are not drawn in, and in which such a drawing mostly is."""
+
+_ENDED = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*EOF\s*\Z")
+_ENTITY = re.compile(rb"^[ \t]*0[ \t]*\r?\n[ \t]*[A-Z3_]", re.MULTILINE)
+
+
+def other_unit(code: int) -> str:
+    """Return what to say of a unit of `OTHER_UNITS`, by $INSUNITS; empty for another."""
+    if code not in OTHER_UNITS:
+        return ""
+    stated, unit = OTHER_UNITS[code]
+    is_same = stated == f"US survey {'feet' if unit == 'ft' else 'inches'}"  # within 2 in a million
+    condition = "" if is_same else ", if that is what it is drawn in, or scale it in CAD"
+    return f"states {stated}; give --units {unit}{condition}"
+
+
+def _check(path: Path) -> None:
+    """Refuse what is no DXF in text, and what is too large to load."""
+    try:
+        size = path.stat().st_size
+        if size > MAX_BYTES:
+            raise InputError(
+                f"{size / MB:.0f} MB, more than {MAX_BYTES // MB} MB; save the roof plan alone"
+            )
+        data = path.read_bytes()
+    except OSError as error:
+        asked = f"; {found}" if (found := meant(path)) else ""
+        raise InputError(f"cannot be read ({error.strerror}){asked}") from error
+    if data.startswith(b"AC10"):
+        raise InputError("a DWG drawing; save it as DXF (R12 to R2018)")
+    if data.startswith(b"AutoCAD Binary DXF"):
+        raise InputError("a binary DXF; save it as DXF in text")
+    values = data.count(b"\n") // 2  # each after a line with its code
+    limit(values, MAX_VALUES, "values")
+    limit(sum(1 for _ in _ENTITY.finditer(data)), MAX_ENTITIES, "entities")
+    # Names are read once for each entity that has them; formats allow lines of 2,049 letters.
+    limit(max(map(len, data.splitlines()), default=0), MAX_LINE, "letters in a line")
+
+
+def limit(count: int, most: int, what: str) -> None:
+    """Refuse more than a drawing may have."""
+    if count > most:
+        raise InputError(
+            f"{count:,} {what}, more than {most:,}; save the layers of the roof plan alone"
+        )
+
+
+def damaged() -> InputError:
+    """Return the error of a drawing that cannot be read."""
+    return InputError("not a DXF drawing, or damaged; open it in CAD and save it again")
+
+
+def loaded(path: Path) -> tuple[Document, str]:
+    """Return a drawing, and what to say of its repair if strict reading refuses it.
+
+    Raises
+    ------
+    InputError
+        If it is no DXF, damaged, or too large.
+    """
+    import ezdxf
+    from ezdxf import recover
+
+    _check(path)
+    logging.getLogger("ezdxf").addHandler(logging.NullHandler())
+    try:
+        return ezdxf.filemanagement.readfile(str(path)), ""
+    except Exception as refused:  # a damaged drawing makes the library raise almost anything
+        # What is missing at the end of a drawing that was cut off, no repair would tell.
+        if not _ENDED.search(path.read_bytes()):
+            raise damaged() from refused
+    try:
+        document, audit = recover.readfile(str(path))
+    except Exception as error:
+        raise damaged() from error
+    if audit.has_errors:  # such as a coordinate that it has guessed
+        raise damaged()
+    count = len(audit.fixes)
+    fixes = f", {count} faults repaired" if count > 1 else ", a fault repaired" if count else ""
+    return document, f"a damaged drawing, read as far as it can be{fixes}: compare the plan"

@@ -1,0 +1,262 @@
+"""Stability maps: failure and error of a method against two parameters; and sensitivity to mu.
+
+Computed against measured slip of shake-table tests.
+
+Recorded and computed roof motion: spectra, and the strongest part of the history.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import FuncFormatter
+
+from report.figures.base import (
+    ACCENT,
+    GRAY,
+    INK,
+    PALE,
+    WIDTH_IN,
+    decades,
+    framed,
+    labeled,
+    panels,
+    periods,
+    plain,
+    style,
+    svg_text,
+    ticks,
+)
+from report.text.counts import lettered
+from report.text.units import G_MPS2
+from solver.model import Floats
+from solver.verification.evidence import Conditioning, RoofComparison, RoofPrediction, StabilityMap
+from solver.verification.scenes import strongest
+from solver.verification.shake_table import RATIOS, ShakeTable
+
+MOST = 4  # maps per figure, so that it fits on a page
+_BANDS = (
+    (0.0, 0.1, "#ffffff", "less than 0.1 %"),
+    (0.1, 1.0, "#dfe6ee", "0.1 to 1 %"),
+    (1.0, 10.0, "#a9bccf", "1 to 10 %"),
+    (10.0, math.inf, "#5f7890", "more than 10 %"),
+)
+_CONTOURS: tuple[tuple[int, Any, float], ...] = ((1, "-", 0.9), (10, (0, (4, 1.6)), 1.2))
+_LIMIT: dict[str, Any] = {"color": INK, "linewidth": 1.6, "linestyle": (0, (5, 1.4, 1, 1.4))}
+_FAILED: dict[str, Any] = {
+    "facecolor": "white",
+    "hatch": "xxxxx",
+    "edgecolor": INK,
+    "linewidth": 0.0,
+}
+
+
+def stability(maps: Sequence[StabilityMap], first: int = 1) -> str:
+    """Return maps in two columns, numbered from `first`; failed cells are hatched."""
+    rows = math.ceil(len(maps) / 2)
+    with style():
+        margins = {"left": 0.09, "right": 0.985, "above": 0.42, "below": 0.95}
+        figure, grid = panels(rows, 2, 2.55 * rows + 0.6, **margins, wspace=0.28, hspace=0.52)
+        for axes in grid.flat[len(maps) :]:
+            axes.set_axis_off()
+        for count, (axes, sweep) in enumerate(zip(grid.flat, maps, strict=False), start=first):
+            _map(axes, sweep, count)
+        figure.legend(handles=_key(maps), loc="lower center", ncols=4, handlelength=2.6)
+        return svg_text(figure)
+
+
+def _map(axes: Axes, sweep: StabilityMap, count: int) -> None:
+    x, y = _edges(sweep.x, log=sweep.x_log), _edges(sweep.y)
+    bands = ListedColormap([band[2] for band in _BANDS])
+    norm = BoundaryNorm([0.0, 0.1, 1.0, 10.0, 1e300], bands.N)
+    shown = np.ma.masked_where(sweep.failed, sweep.error_percent)
+    axes.pcolormesh(x, y, shown, cmap=bands, norm=norm, linewidth=0.4, edgecolors="face")
+    for row, column in np.argwhere(sweep.failed):
+        axes.fill(
+            [x[column], x[column + 1], x[column + 1], x[column]],
+            [y[row], y[row], y[row + 1], y[row + 1]],
+            **_FAILED,
+        )
+    _contours(axes, sweep)
+    if sweep.limit.size:
+        axes.plot(sweep.x, sweep.limit, **_LIMIT)
+    if not math.isnan(sweep.x_mark):
+        axes.axvline(sweep.x_mark, **_LIMIT)
+    if sweep.x_log:
+        axes.set_xscale("log")
+        decades(axes.xaxis, maximum=7)
+    axes.set_yscale("log")
+    decades(axes.yaxis, maximum=7)
+    axes.set_xlim(x[0], x[-1])
+    axes.set_ylim(y[0], y[-1])
+    axes.set_xlabel(sweep.x_label)
+    axes.set_ylabel(sweep.y_label)
+    title = lettered(sweep.title).replace(": ", ":\n", 1)
+    axes.set_title(f"({count}) {title}", loc="left", weight="semibold")
+
+
+def _contours(axes: Axes, sweep: StabilityMap) -> None:
+    levels = np.log10(np.maximum(sweep.error_percent, 1e-9))
+    usable = levels[np.isfinite(levels)]
+    for percent, line, width in _CONTOURS:
+        level = math.log10(percent)
+        if usable.size and usable.min() < level < usable.max():
+            look: dict[str, Any] = {"linewidths": width, "linestyles": [line], "colors": INK}
+            axes.contour(sweep.x, sweep.y, levels, [level], **look)
+
+
+def _edges(centers: Floats, *, log: bool = True) -> Floats:
+    """Return the edges of cells around their centers."""
+    values = np.log(centers) if log else centers
+    middle = (values[:-1] + values[1:]) / 2.0
+    edges = np.concatenate([[2.0 * values[0] - middle[0]], middle, [2.0 * values[-1] - middle[-1]]])
+    return np.asarray(np.exp(edges) if log else edges)
+
+
+def _key(maps: Sequence[StabilityMap]) -> list[Any]:
+    handles: list[Any] = [
+        Patch(facecolor=color, edgecolor=INK, linewidth=0.4, label=text)
+        for _, _, color, text in _BANDS
+    ]
+    handles.append(Patch(**_FAILED, label="failed"))
+    handles += [
+        Line2D([], [], color=INK, linewidth=width, linestyle=line, label=f"{percent} % contour")
+        for percent, line, width in _CONTOURS
+    ]
+    if any(sweep.limit.size or not math.isnan(sweep.x_mark) for sweep in maps):
+        handles.append(Line2D([], [], **_LIMIT, label="theoretical limit"))
+    return handles
+
+
+def conditioning(cases: Sequence[Conditioning]) -> str:
+    """Return PRD over mu, and below it the change due to a small change of mu, a column each."""
+    with style():
+        margins = {"left": 0.12, "right": 0.985, "above": 0.208, "below": 0.416}
+        between = {"wspace": 0.34, "hspace": 0.16}
+        figure, grid = panels(2, len(cases), 2.6, **margins, **between, sharex="col")
+        for (above, below), case in zip(grid.T, cases, strict=True):
+            above.plot(case.mu, 1e3 * case.prd_m, color=ACCENT, linewidth=1.4)
+            below.plot(case.mu, np.maximum(case.change_percent, 1e-14), color=INK, linewidth=0.9)
+            above.set_yscale("symlog", linthresh=1.0)
+            _spread(below, case.change_percent)
+            ticks(above.yaxis, (0.0, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6))
+            labeled(above, title=case.title)
+            labeled(below, "Friction coefficient μ")
+        grid[0, 0].set_ylabel("Exact PRD [mm]")
+        grid[1, 0].set_ylabel("Change in PRD [%]")
+        return svg_text(figure)
+
+
+def _spread(axes: Axes, values: Floats) -> None:
+    """Set a logarithmic scale if the values span decades, a linear scale otherwise."""
+    seen = values[values > 0.0]
+    if seen.size and seen.max() > 100.0 * seen.min():
+        axes.set_yscale("log")
+        decades(axes.yaxis, maximum=6)
+    else:
+        axes.set_ylim(0.0, None)
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
+
+
+_TICKS = tuple(digit * 10.0**power for power in range(-1, 6) for digit in (1, 2, 5))
+
+
+def computed_against_measured(table: ShakeTable) -> str:
+    """Return a dot for each test with both values, and the range in which 80 % shall lie [mm]."""
+    runs = [run for run in table.runs if run.ratio > 0.0]
+    measured = [1e3 * run.test.prd_m for run in runs]
+    computed = [1e3 * run.prd_m for run in runs]
+    low, high = 0.7 * min(measured + computed), 1.4 * max(measured + computed)
+    with style():
+        figure, axes = framed(2.25, 2.45, 2.45, 0.1, 0.45)
+        least, most = RATIOS
+        axes.fill_between([low, high], [least * low, least * high], [most * low, most * high],
+                          color=PALE, linewidth=0.0)  # fmt: skip
+        axes.plot([low, high], [low, high], color=INK, linewidth=0.8)
+        axes.plot(measured, computed, linestyle="", marker="o", markersize=4.0, color=ACCENT)
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_xlim(low, high)
+        axes.set_ylim(low, high)
+        for axis in (axes.xaxis, axes.yaxis):
+            ticks(axis, _TICKS)
+        labeled(axes, "PRD, stated [mm]", "PRD, computed [mm]")
+        return svg_text(figure)
+
+
+SHOWN_S = 16.0
+"""Duration of the histories shown, around the strongest shaking [s]."""
+
+_DASHES: tuple[Any, ...] = ((0, (5, 1.5)), (0, (1, 1.2)), (0, (6, 1.5, 1, 1.5)))
+_SPECTRUM_IN, _HISTORY_IN, _ABOVE_IN, _BELOW_IN = 2.2, 1.05, 0.22, 0.42
+
+
+def comparison(roof: RoofComparison) -> str:
+    """Return spectra of ground, roof and computed roofs; below, histories of a recorded roof."""
+    panels = [(_spectra, _SPECTRUM_IN)]
+    if roof.is_recorded:
+        panels.append((_histories, _HISTORY_IN))
+    height = sum(_ABOVE_IN + panel_in + _BELOW_IN for _, panel_in in panels)
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, height))
+        top = height
+        for draw, panel_in in panels:
+            top -= _ABOVE_IN + panel_in
+            draw(figure.add_axes((0.085, top / height, 0.9, panel_in / height)), roof)
+            top -= _BELOW_IN
+        return svg_text(figure)
+
+
+def computed(roof: RoofComparison) -> tuple[RoofPrediction, ...]:
+    """Return the predictions by a building model: all except the ground motion itself."""
+    return tuple(prediction for prediction in roof.predictions if prediction.n_modes > 0)
+
+
+def _spectra(axes: Axes, roof: RoofComparison) -> None:
+    label = "roof, recorded" if roof.is_recorded else "roof, integrated directly"
+    for sa_mps2, look in (
+        (roof.ground_sa_mps2, {"color": GRAY, "linewidth": 0.9, "label": "ground"}),
+        (roof.roof_sa_mps2, {"color": INK, "linewidth": 1.8, "label": label}),
+        *(
+            (
+                prediction.sa_mps2,
+                {"color": ACCENT, "linewidth": 1.3, "linestyle": dash, "label": prediction.name},
+            )
+            for prediction, dash in zip(computed(roof), _DASHES, strict=False)
+        ),
+    ):
+        axes.plot(roof.periods_s, sa_mps2 / G_MPS2, **look)
+    axes.set_yscale("log")
+    periods(axes, roof.periods_s)
+    ticks(axes.yaxis, _LEVELS_G)
+    labeled(axes, "Period T [s]", "Pseudo-acceleration [g]", "Response spectra, 5 % damping")
+    axes.legend(loc="lower left", handlelength=3.2)
+
+
+_LEVELS_G = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0)
+
+
+def _histories(axes: Axes, roof: RoofComparison) -> None:
+    first = roof.predictions[0]
+    width = round(SHOWN_S / roof.dt_s)
+    part = strongest(roof.roof_mps2**2, width)
+    t = np.arange(roof.roof_mps2.size)[part] * roof.dt_s
+    # More points a second than print can show make the file larger and no line clearer.
+    every = max(1, round(0.02 / roof.dt_s))
+    for a_mps2, color, line in (
+        (roof.roof_mps2, INK, "-"),
+        (first.a_mps2, ACCENT, _DASHES[0]),
+    ):
+        shown_g = a_mps2[part][::every] / G_MPS2
+        axes.plot(t[::every], shown_g, color=color, linewidth=1.1, linestyle=line)
+    axes.set_xlim(t[0], t[-1])
+    title = f"Roof acceleration: recorded (solid) and {first.name} (dashed)"
+    labeled(axes, "Time [s]", "Acceleration [g]", title)

@@ -1,0 +1,138 @@
+"""results.json: a dump of `report.entities.results`, in SI units with null for no value.
+
+Computes nothing.
+
+Reads results.json of a former revision; trusts nothing in it.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+from pydantic_core import from_json
+
+from report.assessment.evidence import Evidence
+from report.assessment.project import Assessment, Changes
+from report.entities.results import SCHEMA_VERSION, Compared, results
+from report.text.counts import UNPRINTABLE, cut
+from report.text.formats import finite
+from report.typeset.letters import named, undrawable
+from solver.model import InputError
+from solver.suggestions import meant
+
+
+def results_json(assessment: Assessment, evidence: Evidence) -> bytes:
+    """Return everything as JSON in SI, with units in the keys and null for no value."""
+    document = results(assessment, evidence).model_dump(mode="python")
+    document["input"] = assessment.project.model_dump(mode="json")
+    return json.dumps(finite(document), indent=1, ensure_ascii=False).encode() + b"\n"
+
+
+GIVE = "give the results.json of a former revision"
+AGAIN = "write it again with `report` of this version, from the workbook of that revision"
+
+MOST_BYTES, MOST_OBJECTS = 25_000_000, 100_000
+"""Largest file that is read [B], and most objects of one that is compared."""
+
+MOST_CHANGES, MOST_LETTERS = 2_000, 400_000
+"""Most changes that the package lists, and most letters of them all."""
+
+
+def read_former(path: Path) -> tuple[Compared, bytes]:
+    """Read results.json of a former revision; return it as data, and the file.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, is damaged or incomplete, or has another schema version.
+    """
+    try:
+        # A device is refused here, before it is opened: it may have no end.
+        if path.exists() and not path.is_file():
+            raise InputError(f"{path}: cannot be read (no file); {GIVE}")
+        with path.open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
+    except OSError as error:
+        reason = f"cannot be read ({error.strerror}); {meant(path) or GIVE}"
+        raise InputError(f"{path}: {reason}") from error
+    if len(content) > MOST_BYTES:
+        raise InputError(f"{path}: is larger than {MOST_BYTES / 1e6:g} MB; {GIVE}")
+    return former_from(content, path), content
+
+
+def former_from(content: bytes, path: Path) -> Compared:
+    """Return the content of results.json as data.
+
+    Raises
+    ------
+    InputError
+    """
+    # Before they are parsed: millions of empty rows take gigabytes.
+    if (count := content.count(b"{")) > MOST_OBJECTS:
+        raise InputError(
+            f"{path}: has {count:,} objects; at most {MOST_OBJECTS:,} are compared; {GIVE}"
+        )
+    try:
+        document = from_json(content, allow_inf_nan=False)
+    except ValueError as error:
+        raise InputError(f"{path}: is no results.json or is damaged; {AGAIN}") from error
+    if not isinstance(document, dict):
+        raise InputError(f"{path}: is no results.json or is damaged (no object); {AGAIN}")
+    version = document.get("schema_version")
+    # True equals 1, and 2.0 equals 2: only a whole number is a version.
+    if type(version) is not int or version != SCHEMA_VERSION:
+        found = f"{version!r:.40}" if version is not None else "missing, as in version 0.1"
+        raise InputError(
+            f"{path}: schema_version is {found}; this version reads {SCHEMA_VERSION}; {AGAIN}"
+        )
+    try:
+        former = Compared.model_validate_json(content, strict=True)
+    except ValidationError as error:
+        raise InputError(f"{path}: {_first(error)}; the file is damaged: {AGAIN}") from error
+    for text in _texts(former.model_dump(mode="json")):
+        if letter := UNPRINTABLE.search(text):
+            raise InputError(
+                f"{path}: '{cut(text)}' has the character U+{ord(letter[0]):04X}, which cannot be"
+                f" printed; the file is damaged: {AGAIN}"
+            )
+        if missing := undrawable(text):
+            raise InputError(
+                f"{path}: no font of this machine has {named(missing)} of '{cut(text)}'; install"
+                " one that does"
+            )
+    return former
+
+
+def check_listed(changes: Changes) -> None:
+    """Refuse more changes since a former revision than can be laid out in minutes."""
+    count = len(changes.items)
+    letters = sum(len(item.title) + len(item.before) + len(item.now) for item in changes.items)
+    if count > MOST_CHANGES or letters > MOST_LETTERS:
+        raise InputError(
+            f"--since: the list of changes has {count:,} rows of {letters:,} letters; at most"
+            f" {MOST_CHANGES:,} of {MOST_LETTERS:,} are listed; {GIVE} of this project"
+        )
+
+
+def _texts(value: Any) -> Iterator[str]:
+    """Yield all texts of a document, keys included."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, dict):
+        for key, item in value.items():
+            yield from (key, *_texts(item))
+    elif isinstance(value, list):
+        for item in value:
+            yield from _texts(item)
+
+
+def _first(error: ValidationError) -> str:
+    """Return the first problem with its place in the file."""
+    first = error.errors(include_url=False, include_input=False, include_context=False)[0]
+    place = ".".join(str(step) for step in first["loc"])
+    more = f", and {error.error_count() - 1} more" if error.error_count() > 1 else ""
+    return f"{place or 'the whole'} is not as `report` writes it{more}"

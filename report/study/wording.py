@@ -1,0 +1,227 @@
+"""What the templates of a study may print, and their sentences for its tables and the screen.
+
+Read `context`, then `headline`.
+
+The dispersions of an exported fragility by name, as FEMA P-58 has them; none is assumed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+from report.document.templates import said
+from report.entities.requirement import UNVERIFIED
+from report.entities.shown import UnitFormat
+from report.pages.symbols import with_symbols
+from report.study.manifest import OWN_KEY, TRUST_PARTS
+from report.study.plan import FRICTION, I_E, SDC, SLOPE
+from report.study.results import MEAN, SLOPE_DECIMALS, ArrayStudyResult, LimitState, StudyResults
+from report.study.schema import Intensity
+from report.text.units import no_less
+from report.typeset.pdf import TEMPLATES
+from solver.rules.provisions import SEPARATION_KEYS
+from solver.studies.fragility import Lognormal
+
+NAMES = ("record-to-record", "modeling", "quality of data", "friction", "slope")
+NOT_GIVEN, NOT_DETERMINED = "not given", "not determined"
+MASS = "Mass has no effect: each array is one rigid block with Coulomb friction"
+"""Each force on such a block is proportional to its mass; a study has no others."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Dispersion:
+    """A part of the dispersion of a capacity, independent of the others.
+
+    Attributes
+    ----------
+    name : str
+        One of `NAMES`.
+    source : str
+        Where it is from, or why it is not included.
+    beta : float
+        Standard deviation of the logarithm of the capacity; 0 where it is not included.
+    """
+
+    name: str
+    source: str
+    beta: float
+
+
+def dispersions(
+    results: StudyResults, one: ArrayStudyResult, state: LimitState
+) -> tuple[Dispersion, ...]:
+    """Return the dispersions of a limit state that has a lognormal; mass is none (`MASS`)."""
+    study, plan = results.plan.input.study, one.plan
+    record = "these motions", state.fragility.fitted.beta
+    if study.record_beta is not None:
+        record = study.record_source, study.record_beta
+    mu, slope = plan.spreads[FRICTION], plan.spreads[SLOPE]
+    tests = f"tests of {plan.array.mat}, standard deviation of ln μ {mu.deviation:.3f}"
+    tolerance = f"tolerance, standard deviation {slope.deviation:.2g} deg"
+    found = (
+        record,
+        _entered(study.modeling_beta),
+        _entered(study.quality_beta),
+        _of_effect(state, FRICTION, f"mat {plan.array.mat} has no tests", tests),
+        _of_effect(state, SLOPE, "no tolerance is given", tolerance),
+    )
+    return tuple(
+        Dispersion(name=name, source=source, beta=beta)
+        for name, (source, beta) in zip(NAMES, found, strict=True)
+    )
+
+
+def _entered(beta: float | None) -> tuple[str, float]:
+    return (NOT_GIVEN, 0.0) if beta is None else ("entered", beta)
+
+
+def _of_effect(state: LimitState, variable: str, lacking: str, source: str) -> tuple[str, float]:
+    beta = state.effects.get(variable)
+    if beta is None:
+        return lacking, 0.0
+    return (NOT_DETERMINED, 0.0) if math.isnan(beta) else (source, beta)
+
+
+def exported(results: StudyResults, one: ArrayStudyResult, state: LimitState) -> Lognormal:
+    """Return the lognormal of a limit state with all its dispersions; unknown if it has none."""
+    fitted = state.fragility.fitted
+    if not fitted.is_known:
+        return fitted
+    total = math.hypot(*(part.beta for part in dispersions(results, one, state)))
+    return Lognormal(theta=fitted.theta, beta=total)
+
+
+def is_exportable(results: StudyResults) -> bool:
+    """Whether any format has the measure of intensity."""
+    return results.plan.input.study.intensity is not Intensity.S_DS
+
+
+def lacks_record_spread(results: StudyResults) -> bool:
+    """Whether neither the motions nor the workbook give a record-to-record dispersion."""
+    return results.plan.input.study.record_beta is None and not results.spread.is_record_to_record
+
+
+def is_refused(results: StudyResults) -> bool:
+    """Whether no fragility is exported, although a format has the measure of intensity."""
+    is_wanted = bool(results.arrays) and is_exportable(results)
+    return is_wanted and lacks_record_spread(results) and not results.allow_matched
+
+
+def is_warned(results: StudyResults) -> bool:
+    """Whether fragilities are exported in spite of that."""
+    return results.allow_matched and lacks_record_spread(results)
+
+
+_SENTENCES = "study/sentences.html"
+
+
+def context(results: StudyResults) -> dict[str, Any]:
+    """Return what every template of a study may print."""
+    rule, given = results.plan.design_rule, results.plan.input
+    return {
+        "r": results,
+        "rule": rule,
+        "given": given,
+        "study": given.study,
+        "both": partial(both, results),
+        "level": partial(level, results),
+        "on": partial(on_building, results),
+        "with_symbols": with_symbols,
+        "separations": sorted(SEPARATION_KEYS.values(), key=lambda key: rule.rules[key]),
+        "is_refused": is_refused(results),
+        "is_warned": is_warned(results),
+        "I_E": I_E,
+        "MEAN": MEAN,
+        "NOT_DETERMINED": NOT_DETERMINED,
+        "OWN_KEY": OWN_KEY,
+        "SDC": SDC,
+        "TRUST_PARTS": TRUST_PARTS,
+        "UNVERIFIED": UNVERIFIED,
+    }
+
+
+def both(results: StudyResults, value_m: float) -> str:
+    """Return a displacement or a clearance in both systems of units, rounded up; `none` for NaN.
+
+    What is found for a clearance holds for a larger one.
+    """
+    return UnitFormat(results.plan.input.study.units_first.is_us).both(value_m, show=no_less)
+
+
+def level(results: StudyResults, value: float) -> str:
+    """Return an intensity with its letters and unit."""
+    measure = results.plan.input.study.intensity
+    return f"{measure.letters} = {value:g} {measure.unit}"
+
+
+def on_building(results: StudyResults, building: int, before: str = " on ") -> str:
+    """Return " on NAME" in a study with several buildings, else nothing."""
+    names = results.plan.motions.buildings
+    return before + names[building] if len(names) > 1 else ""
+
+
+def analysis_words(results: StudyResults) -> str:
+    """Return what the value from analysis is; it must have one."""
+    return said(TEMPLATES, _SENTENCES, "analysis", context(results))
+
+
+def design_words(results: StudyResults) -> str:
+    """Return what the design displacement is, or that there is none."""
+    return said(TEMPLATES, _SENTENCES, "design", context(results))
+
+
+def warning(results: StudyResults) -> str:
+    """Return what each exported file says of its dispersion and its runs, if anything."""
+    return said(TEMPLATES, _SENTENCES, "warnings", context(results))
+
+
+def taken_over(results: StudyResults) -> list[str]:
+    """Return how many runs are from parts that were there, from when and on whose word."""
+    return _lines("taken_over", context(results))
+
+
+def headline(results: StudyResults) -> list[str]:
+    """Return the main results, one line each."""
+    levels = results.plan.input.intensities
+    more = {"middle": levels[len(levels) // 2], "steepest": list(_steepest(results))}
+    return _lines("headline", context(results) | more)
+
+
+def _lines(macro: str, given: Mapping[str, Any]) -> list[str]:
+    text = said(TEMPLATES, _SENTENCES, macro, given)
+    return [line.strip() for line in text.splitlines() if line.strip()]
+
+
+def _steepest(results: StudyResults) -> Iterator[tuple[str, float, list[str]]]:
+    """Yield building, friction, and the largest slope for the allowed displacement by its name."""
+    given, allowed_m = results.plan.input, results.plan.input.study.allowed_m
+    names, middle = dict.fromkeys((results.leading, MEAN)), len(given.intensities) // 2
+    if not allowed_m:
+        return
+    for building in range(len(results.plan.motions.buildings)):
+        found = [results.largest_slopes(building, name, allowed_m)[:, middle] for name in names]
+        for mu, *slopes in zip(given.mus, *found, strict=True):
+            yield on_building(results, building), mu, [_slope(results, one) for one in slopes]
+
+
+def _slope(results: StudyResults, slope: float) -> str:
+    if math.isnan(slope):
+        return "none of the study"
+    return f"{answer(slope, results.plan.input.slopes_deg[-1], '≥', SLOPE_DECIMALS)} deg"
+
+
+def answer(value: float, end: float, mark: str, decimals: int) -> str:
+    """Return an answer, marked where it is an end of the study; "none" for NaN."""
+    if math.isnan(value):
+        return "none"
+    return f"{mark} {shown(end, decimals)}" if value == end else shown(value, decimals)
+
+
+def shown(value: float, decimals: int) -> str:
+    """Return an answer with its decimals; one of the study's own values with all of its digits."""
+    text = f"{value:.{decimals}f}"
+    return text if float(text) == value else f"{value:.12g}"

@@ -1,0 +1,280 @@
+"""Counts and lists in sentences: counts are spelled out up to nine, in digits beyond.
+
+Long names of arrays, objects and motions, and the keys that a package prints for them.
+
+Greek letters for their names (the solver writes `mu`, a page prints μ); superscripts.
+
+How the reader calls the program: `roofslip`, or the launcher's path such as `./roofslip`.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import shlex
+import sys
+import unicodedata
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import chain, count
+from pathlib import Path
+from typing import Any, TypeVar
+
+from markupsafe import escape
+
+_Item = TypeVar("_Item")
+_Key = TypeVar("_Key", bound=Hashable)
+
+_WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
+
+
+def spelled(count: int) -> str:
+    """Return a count in words up to nine, such as `three`, and in digits beyond; `no` for 0."""
+    return _WORDS[count] if count < len(_WORDS) else str(count)
+
+
+def counted(count: int, noun: str) -> str:
+    """Return a number of things, such as `one array`, `three arrays` or `12 arrays`."""
+    return f"{spelled(count)} {noun}" if count == 1 else f"{spelled(count)} {noun}s"
+
+
+def numbered(count: int, noun: str) -> str:
+    """Return the same in digits, such as `1 problem` or `3 problems`."""
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
+def capitalized(text: str) -> str:
+    """Return a text with its first letter in upper case, the rest as it is."""
+    return text[:1].upper() + text[1:]
+
+
+def lowered(text: str) -> str:
+    """Return a text with its first letter in lower case, as within a sentence."""
+    return text[:1].lower() + text[1:]
+
+
+def joined(names: Sequence[str]) -> str:
+    """Return `a, b and c`."""
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+def grouped_by(items: Iterable[_Item], key: Callable[[_Item], _Key]) -> Mapping[_Key, list[_Item]]:
+    """Return items in groups of one key, in the order of their first items."""
+    groups: dict[_Key, list[_Item]] = {}
+    for item in items:
+        groups.setdefault(key(item), []).append(item)
+    return groups
+
+
+def ids_by(items: Iterable[Any], key: Callable[[Any], _Key]) -> Mapping[_Key, list[str]]:
+    """Return the same of items with an id, each by that."""
+    groups = grouped_by(items, key).items()
+    return {found: [item.id for item in alike] for found, alike in groups}
+
+
+def ranged(names: Iterable[str]) -> str:
+    """Return names, each once and sorted, three or more that count on as one: `A1 to A6, A9`."""
+    runs: list[list[tuple[str, int, str]]] = []
+    for stem, number, name in sorted(set(map(name_order, names))):
+        if runs and runs[-1][-1][:2] == (stem, number - 1):
+            runs[-1].append((stem, number, name))
+        else:
+            runs.append([(stem, number, name)])
+    own = ([name for *_, name in run] for run in runs)
+    return ", ".join(f"{run[0]} to {run[-1]}" if len(run) > 2 else ", ".join(run) for run in own)
+
+
+def name_order(name: str) -> tuple[str, int, str]:
+    """Return what is before the number at the end of a name, the number, and the name."""
+    stem = name.rstrip("0123456789")
+    return stem, int(name[len(stem) :] or -2), name
+
+
+def named(names: Sequence[str], noun: str) -> str:
+    """Return names with their noun before them: `array A9`, `arrays A1 to A6`."""
+    return f"{noun}{'' if len(names) == 1 else 's'} {ranged(names)}"
+
+
+LONGEST = 12
+"""Characters of a name that is printed as it is."""
+
+# A name within a longer word or a path is another name.
+_BEFORE, _AFTER = r"(?<![\w/\\.-])", r"(?![\w/\\]|[.-]\w)"
+# What is printed as it was entered, with all within; and what is no text.
+_KEPT = r"""<(\w+)[^>]*\stranslate="no"[^>]*>.*?</\1>|<[^>]*>"""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Names:
+    """Prints the names of a project: a long one by its key, such as `[3]`.
+
+    Attributes
+    ----------
+    keys : mapping of str to str
+        By name, in the order of the keys.
+    """
+
+    keys: Mapping[str, str]
+
+    @classmethod
+    def of(cls, *kinds: Iterable[str]) -> Names:
+        """Return the keys of names of several kinds.
+
+        Names that count on have keys that count on, so that a range of names is one of keys: of
+        names with one stem all have a key, or none.
+        """
+        rows = [sorted(map(name_order, dict.fromkeys(names))) for names in kinds]
+        long = {(at, row[0]) for at, kind in enumerate(rows) for row in kind if _is_long(row[2])}
+        keyed = [row[2] for at, kind in enumerate(rows) for row in kind if (at, row[0]) in long]
+        given = {row[2] for row in chain(*rows)}
+        free = (key for number in count(1) if (key := f"[{number}]") not in given)
+        return cls(keys=dict(zip(dict.fromkeys(keyed), free, strict=False)))
+
+    @property
+    def _written(self) -> Mapping[str, str]:
+        """The keys of the names, also as they begin a sentence."""
+        return {**{capitalized(name): key for name, key in self.keys.items()}, **self.keys}
+
+    def __call__(self, text: str) -> str:
+        """Return a text with the keys of the names in it."""
+        keys = self._written
+        if not keys:
+            return text
+        any_of = _any_of(keys)
+        return re.compile(any_of).sub(lambda match: keys[match[0]], text)
+
+    def in_html(self, html: str) -> str:
+        """Return a document with the keys of the names in its texts.
+
+        What is marked `translate="no"` is left as it is.
+        """
+        if not self.keys:
+            return html
+        keys = {str(escape(name)): key for name, key in self._written.items()}
+        head, body, rest = html.partition("<body")
+        any_of = rf"{_KEPT}|{_any_of(keys)}"
+        pattern = re.compile(any_of, re.DOTALL)
+        return head + pattern.sub(lambda match: keys.get(match[0], match[0]), body + rest)
+
+
+def _is_long(name: str) -> bool:
+    return len(name) > LONGEST
+
+
+def _any_of(names: Iterable[str]) -> str:
+    """Return a pattern for the longest of some names."""
+    longest_first = sorted(names, key=len, reverse=True)
+    return f"{_BEFORE}(?:{'|'.join(map(re.escape, longest_first))}){_AFTER}"
+
+
+UNPRINTABLE = re.compile(
+    r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]"
+)
+"""Control characters, those that separate lines or change the direction of a text, and what XML
+does not allow."""
+
+SHOWN = 60
+"""Characters of a cell or a name that a message shows."""
+
+_UNSEEN = "".join(filter(str.isspace, map(chr, range(0x3001)))) + (
+    "\u00ad\u200b\u200c\u200d\u200e\u200f\u2060\u2061\u2062\u2063\u2064\ufeff"
+)
+
+_ALIKE = str.maketrans(
+    "АВЕЅІЈКМНОРСТУХаеѕіјорсухΑΒΕΖΗΙΚΜΝΟΡΤΥΧο", "ABESIJKMHOPCTYXaesijopcyxABEZHIKMNOPTYXo"
+)
+"""Cyrillic and Greek letters that look like Latin ones."""
+
+_LETTERS = {
+    "mu": "μ",
+    "theta": "θ",
+    "phi": "φ",
+    "omega": "ω",
+    "eta": "η",
+    "gamma": "γ",
+    "beta": "β",
+    "zeta": "ζ",
+    "sigma": "σ",
+    "pi": "π",
+}
+_NAMES = re.compile(rf"\b({'|'.join(_LETTERS)})\b")
+
+_SIGNS = {"^2": "²", "m/s2": "m/s²", "v0": "v₀", "sqrt(": "√(", ">=": "≥", " - ": " − "}
+
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def cut(text: str, maximum: int = SHOWN) -> str:
+    """Return a text on one line, shortened."""
+    text = UNPRINTABLE.sub("?", text).replace("\n", " ")
+    return text if len(text) <= maximum else f"{text[: maximum - 1]}…"
+
+
+def latin(text: str) -> str:
+    """Return a text with Latin letters for those that look like them."""
+    return text.translate(_ALIKE)
+
+
+def foreign_letters(text: str) -> str:
+    """Return which letters of a text only look Latin, with their alphabets; empty for none."""
+    found = dict.fromkeys(letter for letter in text if latin(letter) != letter)
+    said = (f"'{one}' is a {unicodedata.name(one).split()[0].capitalize()} letter" for one in found)
+    return ", ".join(said)
+
+
+def power_of_ten(exponent: int) -> str:
+    """Return `10⁻¹⁵` for -15."""
+    return f"10{str(exponent).translate(_RAISED)}"
+
+
+def power_above(value: float) -> str:
+    """Return a power of ten above a value: its digits depend on the machine."""
+    return power_of_ten(math.floor(math.log10(value)) + 1)
+
+
+def below_mm(error_m: float) -> str:
+    """Return the power of ten above an error, in mm."""
+    return f"{power_above(1e3 * error_m)} mm" if error_m else "rounding error"
+
+
+def lettered(text: str) -> str:
+    """Return a text with Greek letters, root signs, superscript twos and true minus signs."""
+    named = _NAMES.sub(lambda match: _LETTERS[match[1]], text)
+    for plain, set_well in _SIGNS.items():
+        named = named.replace(plain, set_well)
+    return re.sub(r"(?<![\w-])-(?=[\w.])", "−", named)
+
+
+def trimmed(text: str) -> str:
+    """Return a text without spaces and characters of no width at its ends."""
+    return text.strip(_UNSEEN)
+
+
+# The name in lower case before a word is a command; the product is Roofslip.
+_COMMAND = re.compile(r"(?<![\w./-])roofslip(?= [a-z])")
+
+_PLAIN = re.compile(r"[\w.:\\/+-]+")  # no shell of Windows takes it apart
+
+
+def called() -> str:
+    """Return the program as the reader typed it, which the launcher passes on."""
+    return quoted(os.environ.get("ROOFSLIP_COMMAND") or "roofslip")
+
+
+def quoted(word: object) -> str:
+    """Return a word as the shell takes it; on Windows, as both cmd and PowerShell do."""
+    if sys.platform == "win32":
+        return str(word) if _PLAIN.fullmatch(str(word)) else f'"{word}"'
+    return shlex.quote(str(word))
+
+
+def command(words: str, path: Path) -> str:
+    """Return a command on a path, as it can be pasted into a shell."""
+    return f"{called()} {words} {quoted(path)}"
+
+
+def as_typed(text: str) -> str:
+    """Return a text whose commands begin as the reader's own."""
+    return _COMMAND.sub(lambda _: called(), text)

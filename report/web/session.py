@@ -1,0 +1,262 @@
+"""The desk of one engineer: what is open, and the two processes that answer about it.
+
+One process answers sliders that move, the other all else, and moves where it alone is free; one
+that ends or takes too long is replaced. Knows no route and no physics. Read `Desk.ask`.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import shutil
+from collections.abc import Coroutine, Mapping, Sequence
+from concurrent.futures import Executor
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field
+from starlette.requests import Request
+
+from report.sheet.writing import template
+from report.web.plan import USUAL_PX
+from report.web.worker import Packages, answered, computing
+
+EXAMPLE = template.EXAMPLE / "input.xlsx"
+
+LONGEST_S = 120.0
+"""Longest time of an answer [s]; then its process is ended."""
+
+IN_BACKGROUND = "verdict"
+"""Asked while the page rests: the quick process does it, and a move then takes the other."""
+
+_TRIES = 2
+
+
+class RefusedError(Exception):
+    """What a workbook could not have, with each problem as data."""
+
+    def __init__(self, sentence: str, problems: Sequence[Mapping[str, Any]]) -> None:
+        super().__init__(sentence)
+        self.problems = problems
+
+
+class StaleError(Exception):
+    """A newer request of the same page came before this one was begun."""
+
+
+class LostError(Exception):
+    """The process that was asked ended, or was ended for the time it took."""
+
+
+class OtherProjectError(Exception):
+    """A page asks about a project that is no longer open."""
+
+
+class Asked(BaseModel):
+    """A request of the page about what is open, with the values of its sliders.
+
+    Of two requests of a page only that with the larger number counts. A script that does not say
+    what is open asks about whatever it is.
+    """
+
+    model_config = ConfigDict(strict=True, frozen=True)
+
+    page: str = Field("", max_length=100)
+    n: int = Field(0, ge=-(2**53), le=2**53)
+    opened: str | None = None
+    values: dict[str, int | float | str] = Field({}, max_length=40)
+    moving: bool = False
+    room: int = Field(USUAL_PX, le=10_000)
+    array: str | None = None
+    motion: str | None = None
+    run: str | None = None
+
+
+class Desk:
+    """What is open, the processes that compute, and the packages.
+
+    Attributes
+    ----------
+    folder : Path
+        Of uploads and packages; it ends with the server.
+    workbook : Path
+        What is open: the example, or the last upload that could be read.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder, self.workbook, self.packages = folder, EXAMPLE, Packages()
+        self._openings = 0
+        self._processes: dict[bool, Executor] = {}
+        self._busy: set[bool] = set()
+        self._turns = asyncio.Condition()
+        self._newest: dict[tuple[object, ...], Asked] = {}
+        self._preparing: set[asyncio.Task[None]] = set()
+        self._references: dict[str, Any] = {}  # of the last complete answer, by workbook
+
+    @property
+    def opened(self) -> str:
+        """Name of what is open, which no other upload has."""
+        is_example = self.workbook == EXAMPLE
+        return "example" if is_example else self.workbook.relative_to(self.folder).parts[0]
+
+    def new_folder(self) -> Path:
+        """Return an empty folder for an upload."""
+        self._openings += 1
+        folder = self.folder / f"upload-{self._openings}"
+        folder.mkdir()
+        return folder
+
+    def is_newest(self, folder: Path) -> bool:
+        """Whether nothing was opened, and no upload begun, after that of a folder."""
+        return folder.name == f"upload-{self._openings}"
+
+    def open(self, workbook: Path) -> None:
+        """Open a workbook in place of another one, and end what is being made."""
+        self.packages.cancel()
+        former = self.folder / self.opened
+        self.workbook = workbook
+        self._openings += 1
+        shutil.rmtree(former, ignore_errors=True)
+
+    def start(self) -> None:
+        """Start the processes, each with the example, as the page will ask first."""
+        self._busy = {True, False}
+        self._begin(self._warm())
+
+    async def _warm(self) -> None:
+        # The first answer comes sooner from one that starts alone.
+        for is_quick, do in ((False, "state"), (True, "prepare")):
+            job = {"do": do, "workbook": str(EXAMPLE)}
+            with suppress(LostError):
+                await self._answer(job, is_quick, longest_s=None)  # it may compile the solver
+            await self._end_turn(is_quick)
+
+    def prepare(self, workbook: Path) -> None:
+        """Have the quick process read a workbook, while the other one computes its state."""
+        self._begin(self._prepare(workbook))
+
+    async def _prepare(self, workbook: Path) -> None:
+        async with self._turns:
+            await self._turns.wait_for(lambda: True not in self._busy)
+            self._busy.add(True)
+        with suppress(LostError):
+            await self._answer({"do": "prepare", "workbook": str(workbook)}, True, LONGEST_S)
+        await self._end_turn(True)
+
+    def _begin(self, work: Coroutine[Any, Any, None]) -> None:
+        task = asyncio.create_task(work)
+        self._preparing.add(task)
+        task.add_done_callback(self._preparing.discard)
+
+    async def stop(self) -> None:
+        """End every process, in the middle of a job if need be."""
+        for task in self._preparing:
+            task.cancel()
+        await asyncio.gather(*self._preparing, return_exceptions=True)
+        await self.packages.stop()
+        for is_quick in list(self._processes):
+            self._end(is_quick)
+
+    async def ask(self, job: Mapping[str, Any], asked: Asked | None = None) -> Mapping[str, Any]:
+        """Return the answer to a job, about what is open if it names no workbook.
+
+        Parameters
+        ----------
+        asked : Asked, optional
+            Request of a page; none for what no newer request replaces.
+
+        Raises
+        ------
+        RefusedError, StaleError, LostError
+        OSError
+            If the disk is full.
+        """
+        job = {"workbook": str(self.workbook), **job}
+        if asked:
+            self._note(job["do"], asked)
+        is_quick = await self._turn(job["do"], asked)
+        try:
+            if asked and asked.moving:
+                job["reference"] = self._references.get(job["workbook"], {})
+            found = await self._answer(job, is_quick, LONGEST_S)
+        finally:
+            await self._end_turn(is_quick)
+        if "reference" in found:
+            now, own = job["workbook"], str(self.workbook)
+            kept = {own: self._references[own]} if own in self._references else {}
+            self._references = kept | {now: found["reference"]}
+        if "answer" in found:
+            answer: Mapping[str, Any] = found["answer"]
+            return answer
+        if "errno" in found:
+            raise OSError(found["errno"], os.strerror(found["errno"]))
+        first = found["refused"] if "refused" in found else found["problems"][0]["text"]
+        raise RefusedError(first, found["problems"])
+
+    async def _turn(self, kind: str, asked: Asked | None) -> bool:
+        """Wait until a process is free, and return whether it is the quick one."""
+        async with self._turns:
+            self._turns.notify_all()  # what this one replaces ends at once: a browser waits for six
+            await self._turns.wait_for(
+                lambda: self._is_stale(kind, asked) or self._free(kind, asked)
+            )
+            if self._is_stale(kind, asked):
+                raise StaleError
+            is_quick = self._free(kind, asked)[0]
+            self._busy.add(is_quick)
+            return is_quick
+
+    async def _end_turn(self, is_quick: bool) -> None:
+        self._busy.discard(is_quick)
+        async with self._turns:
+            self._turns.notify_all()
+
+    def _free(self, kind: str, asked: Asked | None) -> Sequence[bool]:
+        """Return which processes may do a job now: either of them, for a move."""
+        able = (True, False) if asked and asked.moving else (kind == IN_BACKGROUND,)
+        return [each for each in able if each not in self._busy]
+
+    def _note(self, kind: str, asked: Asked) -> None:
+        for key in ((asked.page, kind, asked.moving), (asked.page,)):
+            if key not in self._newest or self._newest[key].n <= asked.n:
+                self._newest[key] = asked
+
+    def _is_stale(self, kind: str, asked: Asked | None) -> bool:
+        """Whether its page asked the same anew since, or is at other values; a script never."""
+        if asked is None or not asked.page:
+            return False
+        is_asked_anew = self._newest[asked.page, kind, asked.moving].n > asked.n
+        is_elsewhere = self._newest[asked.page,].values != asked.values
+        return is_asked_anew or (is_elsewhere and not asked.moving)
+
+    async def _answer(
+        self, job: Mapping[str, Any], is_quick: bool, longest_s: float | None
+    ) -> Mapping[str, Any]:
+        """Have a process do a job; where it ends, another one does it, once."""
+        for _ in range(_TRIES):
+            try:
+                if is_quick not in self._processes:
+                    self._processes[is_quick] = computing(self.folder)
+                # Not `wait_for`: it drops a cancellation that comes with the answer.
+                async with asyncio.timeout(longest_s):
+                    asking = self._processes[is_quick].submit(answered, job)
+                    return await asyncio.wrap_future(asking)
+            except TimeoutError as error:
+                self._end(is_quick)
+                told = f"This took longer than {longest_s:.0f} s and was stopped."
+                raise LostError(told) from error
+            except Exception as error:  # it ended, sent what is no answer, or does not start
+                self._end(is_quick)
+                lost = error
+        raise LostError from lost
+
+    def _end(self, is_quick: bool) -> None:
+        if process := self._processes.pop(is_quick, None):
+            process.shutdown()
+
+
+def desk_of(request: Request) -> Desk:
+    """Return the desk of the server."""
+    desk: Desk = request.app.state.desk
+    return desk
