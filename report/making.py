@@ -137,9 +137,9 @@ def _record(sheet: Sheet, shaking: Shaking, tell: Callable[[str], None]) -> bool
     from report.sheet.writing.filled import changing
     from solver.model import InputError
 
-    found = to_record(sheet.project, shaking.hashes).items()
+    lines = to_record(sheet.project, shaking.hashes).items()
     # Earlier workbooks do not have the cells.
-    new = cells(sheet, {place: text for place, text in found if place in sheet.addresses})
+    new = cells(sheet, {place: text for place, text in lines if place in sheet.addresses})
     if not new:
         return False
     where = f"{sheet.path}: {', '.join(position.address for position in new)}"
@@ -163,6 +163,6 @@ def _changes(former: Compared | None, assessment: Assessment) -> Changes:
     from report.results.compare import changes
     from report.results.results_json import check_listed
 
-    found = changes(former, assessment)
-    check_listed(found)
-    return found
+    changed = changes(former, assessment)
+    check_listed(changed)
+    return changed

@@ -89,17 +89,17 @@ def check_plain(
     for part in path.relative_to(within).parts:
         place /= part
         try:
-            found = place.lstat()
+            status = place.lstat()
         except FileNotFoundError:
             return
         wants_folder = is_folder or place != path
-        if stat.S_ISLNK(found.st_mode):
+        if stat.S_ISLNK(status.st_mode):
             what = f"is a link to {os.readlink(place)}"
-        elif in_place and stat.S_ISREG(found.st_mode) and found.st_nlink > 1:
+        elif in_place and stat.S_ISREG(status.st_mode) and status.st_nlink > 1:
             what = "is also the file of another name (a hard link)"
-        elif (stat.S_ISDIR if wants_folder else stat.S_ISREG)(found.st_mode):
+        elif (stat.S_ISDIR if wants_folder else stat.S_ISREG)(status.st_mode):
             continue
-        elif stat.S_ISDIR(found.st_mode) or stat.S_ISREG(found.st_mode):
+        elif stat.S_ISDIR(status.st_mode) or stat.S_ISREG(status.st_mode):
             what = "is a file, not a folder" if wants_folder else "is a folder, not a file"
         else:
             what = "is a pipe or a device"

@@ -109,7 +109,7 @@ class Series:
     @property
     def minimum_mu(self) -> float:
         """Smallest mean of the kinetic coefficients at one velocity."""
-        return min(one.mean for one in self.repeats)
+        return min(repeat.mean for repeat in self.repeats)
 
     def mean_of(self, law: Friction) -> float:
         """Return the mean of a friction law over the tested velocities.

@@ -42,8 +42,8 @@ class Problem:
     @classmethod
     def of(cls, line: str) -> Problem:
         """Return a problem that is written `what was found; what would do`."""
-        found, _, remedy = line.partition("; ")
-        return cls(found, remedy)
+        fault, _, remedy = line.partition("; ")
+        return cls(fault, remedy)
 
     def at(self, where: str, of: str = "") -> Problem:
         """Return the problem of a field at an address."""
@@ -69,8 +69,8 @@ class InputError(ValueError):
     """
 
     def __init__(self, problems: str | Problem | Sequence[str | Problem]):
-        given = [problems] if isinstance(problems, (str, Problem)) else problems
-        self.parts = tuple(Problem.of(each) if isinstance(each, str) else each for each in given)
+        listed = [problems] if isinstance(problems, (str, Problem)) else problems
+        self.parts = tuple(Problem.of(each) if isinstance(each, str) else each for each in listed)
         self.problems = tuple(map(str, self.parts))
         super().__init__("\n".join(self.problems))
 

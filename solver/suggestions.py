@@ -28,8 +28,8 @@ def nearest(value: str, names: Iterable[str], taken: Collection[str] = ()) -> st
         alike = sorted(plain, key=lambda name: plain[name][:2] != wanted[:2])
         costs = accumulate(len(wanted) * len(name) for name in alike)
         near = [name for name, cost in zip(alike, costs, strict=True) if cost <= _MOST_COMPARED]
-        found = difflib.get_close_matches(wanted, {plain[name] for name in near}, n=_MOST_LISTED)
-        ratios = {each: difflib.SequenceMatcher(None, each, wanted).ratio() for each in found}
+        matches = difflib.get_close_matches(wanted, {plain[name] for name in near}, n=_MOST_LISTED)
+        ratios = {each: difflib.SequenceMatcher(None, each, wanted).ratio() for each in matches}
         best = max(ratios.values(), default=0.0)
         close = [name for name in near if ratios.get(plain[name]) == best]
     left = [name for name in close if name not in taken] or close

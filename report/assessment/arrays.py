@@ -390,7 +390,9 @@ def assess_array(
         by_direction=data.options.directional,
         tipping=_nearest_to_tipping(array, each),
         uplift=min(
-            (motion.uplift for motion in runs), key=lambda found: found.n_min_g, default=NO_UPLIFT
+            (motion.uplift for motion in runs),
+            key=lambda most_uplifted: most_uplifted.n_min_g,
+            default=NO_UPLIFT,
         ),
         interconnection_n=interconnection_n(data, rules, array),
         # The input itself, if it has no override and no departure.

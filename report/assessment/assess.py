@@ -111,24 +111,29 @@ def assess(
         return _beside(whole(other, begun=begun, acceptance=acceptance), done)
 
 
-def _beside(other: Assessment, given: Assessment) -> Assessment:
+def _beside(other: Assessment, assessment: Assessment) -> Assessment:
     """Return an assessment with the outcome by the rule set of its building code in its rows."""
-    linked = tuple(replace(row, design=by_id(other.arrays, row.design.id)) for row in given.linked)
-    one, two = ((each.project.overrides, each.project.options) for each in (given, other))
-    how = "the same motions and S_DS" if given.has_motions else "the same S_DS"
+    linked = tuple(
+        replace(row, design=by_id(other.arrays, row.design.id)) for row in assessment.linked
+    )
+    one, two = ((each.project.overrides, each.project.options) for each in (assessment, other))
+    how = "the same motions and S_DS" if assessment.has_motions else "the same S_DS"
     how += "" if one == two else ", without overrides and departures"
-    words = outcome(replace(other, linked=linked)).words(given.project.us_first)
+    words = outcome(replace(other, linked=linked)).words(assessment.project.us_first)
     text = f"By {other.rules.name} 13.6.12 with {how}: {words}."
     ids = "rule_set", "edition_name"
     rows = [
-        row.model_copy(update={"outcome": text}) if row.id in ids else row for row in given.rows
+        row.model_copy(update={"outcome": text}) if row.id in ids else row
+        for row in assessment.rows
     ]
-    return replace(given, rows=tuple(rows))
+    return replace(assessment, rows=tuple(rows))
 
 
-def reassess(given: Assessment, project: ProjectInput) -> Assessment:
+def reassess(assessment: Assessment, project: ProjectInput) -> Assessment:
     """Assess another input under the same motions, with its own models only."""
-    return _by_own_models(given.sheet, given.shaking, project, given.acceptance, run_motion)
+    return _by_own_models(
+        assessment.sheet, assessment.shaking, project, assessment.acceptance, run_motion
+    )
 
 
 def anticipate(sheet: Sheet, shaking: Shaking, known: Reference) -> Assessment:
@@ -263,22 +268,22 @@ def _plan_pairs(
     return plan_pairs(data, reaches_of(arrays), sheet.addresses, required)
 
 
-def refused(given: ProjectInput, changed: ProjectInput) -> list[Finding]:
+def refused(data: ProjectInput, changed: ProjectInput) -> list[Finding]:
     """Return what `check` refuses of a changed input and not of the one given."""
-    before = _faults(given)
+    before = _faults(data)
     return [fault for fault in _faults(changed) if fault not in before]
 
 
-def changed(given: ProjectInput, **sections: Any) -> ProjectInput:
+def changed(data: ProjectInput, **sections: Any) -> ProjectInput:
     """Return an input with other sections."""
-    return ProjectInput(**(dict(given) | sections))
+    return ProjectInput(**(dict(data) | sections))
 
 
-def entered(given: Assessment, project: ProjectInput) -> Assessment | None:
+def entered(assessment: Assessment, project: ProjectInput) -> Assessment | None:
     """Assess a changed input under the same motions; None where `check` would refuse it."""
-    if refused(given.project, project):
+    if refused(assessment.project, project):
         return None
-    return assess(given.sheet, given.shaking, given, project)
+    return assess(assessment.sheet, assessment.shaking, assessment, project)
 
 
 def _faults(data: ProjectInput) -> list[Finding]:

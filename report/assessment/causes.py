@@ -33,11 +33,11 @@ def unshown_cause(assessment: Assessment, item: ArrayAssessment) -> str:
 
     Nothing for OK.
     """
-    verdict, found = assessment.array_verdict(item), causes(assessment, item)
+    verdict, reasons = assessment.array_verdict(item), causes(assessment, item)
     is_shown = any(gap.demand_capacity > 1.0 for gap in assessment.gaps_of(item.id))
-    if not found or (verdict is Verdict.NG and is_shown):
+    if not reasons or (verdict is Verdict.NG and is_shown):
         return ""
-    return found[0] + (f" and {len(found) - 1} more" if len(found) > 1 else "")
+    return reasons[0] + (f" and {len(reasons) - 1} more" if len(reasons) > 1 else "")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

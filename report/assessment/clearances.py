@@ -128,7 +128,7 @@ def check_clearance(
     rows: Sequence[Array | RoofObject] = (*data.arrays, *data.objects)
     other = next(each for each in rows if each.id == row.object)
     neighbor, importance = _across(data, rules, near, other)
-    found = ClearanceCheck(
+    check = ClearanceCheck(
         clearance=row,
         basis=data.basis_of(row),
         neighbor=neighbor,
@@ -145,7 +145,7 @@ def check_clearance(
         design_mark="",
         mark="",
     )
-    return _marked(found, data, arrays)
+    return _marked(check, data, arrays)
 
 
 def _across(
@@ -161,19 +161,19 @@ def _across(
 
 
 def _marked(
-    found: ClearanceCheck, data: ProjectInput, arrays: Sequence[ArrayAssessment]
+    check: ClearanceCheck, data: ProjectInput, arrays: Sequence[ArrayAssessment]
 ) -> ClearanceCheck:
     adopted = as_adopted(data)
     if adopted is data:
-        return found
+        return check
     rules = provisions.RULE_SETS[data.site.rule_set]
     as_arrays = [array.adopted or array for array in arrays]
-    other = check_clearance(adopted, rules, as_arrays, found.clearance)
-    opened = by_id(arrays, found.governing_array).opened_mark
+    other = check_clearance(adopted, rules, as_arrays, check.clearance)
+    opened = by_id(arrays, check.governing_array).opened_mark
     return replace(
-        found,
-        design_mark=mark_of(found.design_m, other.design_m) or opened,
-        mark=mark_of(found.required_m, other.required_m) or opened,
+        check,
+        design_mark=mark_of(check.design_m, other.design_m) or opened,
+        mark=mark_of(check.required_m, other.required_m) or opened,
     )
 
 
@@ -191,8 +191,8 @@ def minimum_gap(
             direction=Direction.ANY,
             provided_m=max(near.gap_m, 0.0),
         )
-        found = check_clearance(data, rules, arrays, row)
-        return found.required_m, found.mark
+        check = check_clearance(data, rules, arrays, row)
+        return check.required_m, check.mark
     array, adopted = by_id(arrays, near.array), as_adopted(data)
     required_m = separation_m(data, rules, array.permitted_m, array.array, None)
     if adopted is data:
@@ -241,18 +241,18 @@ def _importance(rules: RuleSet, neighbor: Neighbor, *, i_e: float, i_p: float) -
     return i_e if neighbor.is_edge else i_p
 
 
-def are_alike(one: Array, other: Array) -> bool:
+def are_alike(first: Array, other: Array) -> bool:
     """Whether two arrays slide alike: construction, slope, friction and downslope direction."""
     return (
-        one.construction.casefold() == other.construction.casefold()
-        and math.isclose(one.slope_rad, other.slope_rad, abs_tol=ALIKE_SLOPE_RAD)
-        and one.friction == other.friction
-        and _is_parallel(one, other)
+        first.construction.casefold() == other.construction.casefold()
+        and math.isclose(first.slope_rad, other.slope_rad, abs_tol=ALIKE_SLOPE_RAD)
+        and first.friction == other.friction
+        and _is_parallel(first, other)
     )
 
 
-def _is_parallel(one: Array, other: Array) -> bool:
-    turn = (one.downslope_deg - other.downslope_deg) % 360.0
+def _is_parallel(first: Array, other: Array) -> bool:
+    turn = (first.downslope_deg - other.downslope_deg) % 360.0
     return min(turn, 360.0 - turn) <= ALIKE_DEG
 
 

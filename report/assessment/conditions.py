@@ -154,15 +154,15 @@ def _dates(data: ProjectInput) -> Iterator[Requirement]:
 
 
 def _confirmation(data: ProjectInput) -> Iterator[Requirement]:
-    given, adopted = data.confirmation, data.site.adopted
-    if given.date and "confirmation" not in data.outdated:  # else a row on its date says so
+    confirmation, adopted = data.confirmation, data.site.adopted
+    if confirmation.date and "confirmation" not in data.outdated:  # else a row on its date says so
         yield condition(
             id="confirmation",
             title="Confirmation of the provisions",
-            found=f"{', '.join(given.of)}: {given.by}, {given.date}",
+            found=f"{', '.join(confirmation.of)}: {confirmation.by}, {confirmation.date}",
             limit=", ".join(part or f"building code {NOT_GIVEN}" for part in adopted),
             basis="plan check",
-            is_satisfied=given.of == adopted,
+            is_satisfied=confirmation.of == adopted,
             remedy="Have the provisions of these inputs confirmed: until then the marks † stay.",
             places=(Place("confirmation", 0, "date"),),
         )
@@ -191,12 +191,12 @@ def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[R
         if drifts(motion):
             ends = {name: abs(m.final_displacement_m) for name, m in motion.measures.items()}
             largest = max(ends.values())
-            found, most = compared_pairs(largest, DRIFT_M, Quantity.DISPLACEMENT, data.us_first)
+            drift, most = compared_pairs(largest, DRIFT_M, Quantity.DISPLACEMENT, data.us_first)
             yield condition(
                 id="drift",
                 title="Final displacement of the record",
                 subject=motion.motion_id,
-                found=found,
+                found=drift,
                 limit=f"≤ {most}",
                 basis="limit of this program",
                 is_satisfied=False,
@@ -275,11 +275,13 @@ _SCALED = (
 
 def _motion_row(missed: Limit, takes_analysis: bool, way: str) -> Requirement:
     is_ng = missed.consequence is Consequence.NG
-    found, least = (f"{v:.4g} {missed.measure.unit}".rstrip() for v in (missed.found, missed.limit))
+    measured, least = (
+        f"{v:.4g} {missed.measure.unit}".rstrip() for v in (missed.found, missed.limit)
+    )
     return Requirement(
         id=MOTIONS_ID,
         title=missed.title,
-        found=found + (f" ({missed.worst})" if missed.worst else ""),
+        found=measured + (f" ({missed.worst})" if missed.worst else ""),
         limit=f"{missed.sign} {least}",
         basis=missed.provision.clause,
         is_satisfied=False,
@@ -315,7 +317,7 @@ def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Requi
             title=title,
             cause=f"{lowered(title)} {NOT_GIVEN}" if neighbor.is_missing else "",
             subject=neighbor.array,
-            found=found,
+            found=gap,
             limit=limit,
             basis="roof plan",
             is_satisfied=False,
@@ -324,7 +326,7 @@ def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Requi
         )
         for neighbor in nearby
         for title in (f"Clearance {neighbor.names}",)
-        for found, limit in (_found_and_required(neighbor, data.us_first),)
+        for gap, limit in (_found_and_required(neighbor, data.us_first),)
         for text in neighbor.shortcomings(data.us_first)
     )
 
@@ -335,9 +337,9 @@ def _found_and_required(neighbor: PlanNeighbor, us_first: bool) -> tuple[str, st
         if neighbor.is_missing:
             return NOT_GIVEN, "a clearance, as in the plan"
         entered = {row.clearance.provided_m for row in neighbor.contradictions}
-        given = " and ".join(pair(each, Quantity.SIZE, us_first) for each in sorted(entered))
+        sizes = " and ".join(pair(each, Quantity.SIZE, us_first) for each in sorted(entered))
         gap = pair(neighbor.gap_m, Quantity.SIZE, us_first)
-        return f"differs from the plan: {given} entered, {gap} measured", "as in the plan"
+        return f"differs from the plan: {sizes} entered, {gap} measured", "as in the plan"
     required_m = neighbor.required_m
     least, gap = compared_pairs(required_m, neighbor.gap_m, Quantity.SIZE, us_first)
     required = NO_DESIGN if math.isnan(required_m) else f"≥ {least}{neighbor.mark}"
@@ -398,13 +400,13 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
         is_over = here_pa > capacity_pa * (1.0 + _NOISE)
         # As elsewhere, and rounded up only where that would not show that it is too much.
         is_hidden = is_over and printed == measured(capacity_pa, unit)
-        found, most = compared_pairs(here_pa, capacity_pa, *units, up=is_hidden)
+        weight, most = compared_pairs(here_pa, capacity_pa, *units, up=is_hidden)
         yield Requirement(
             id="roof_capacity",
             title="Weight per plan area",
             cause="weight over the roof capacity",
             subject=array.id,
-            found=found,
+            found=weight,
             limit=f"≤ {most}",
             basis="roof capacity",
             is_satisfied=not is_over,
@@ -413,13 +415,13 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
             places=_places(data, array, "weight_n", "roof_capacity_pa"),
         )
     if wind_pa is not None:
-        found, here = (pair(value, *units) for value in (wind_pa, here_pa))
+        weight, here = (pair(value, *units) for value in (wind_pa, here_pa))
         yield condition(
             id="wind_weight",
             title="Weight in wind design",
             cause="weight differs from the wind design",
             subject=array.id,
-            found=found,
+            found=weight,
             limit=f"= {here}",
             basis="wind, by others",
             is_satisfied=printed == measured(wind_pa, unit),  # to the digits that are printed
@@ -465,12 +467,12 @@ def _provided(
     value: float | None, required: float, quantity: Quantity, us_first: bool
 ) -> Mapping[str, Any]:
     """Return what is found and required of a value that a workbook may give, and what follows."""
-    given = math.nan if value is None else value
-    least, had = compared_pairs(required, given, quantity, us_first)
+    provided = math.nan if value is None else value
+    least, had = compared_pairs(required, provided, quantity, us_first)
     return {
         "found": NOT_GIVEN if value is None else had,
         "limit": NO_DESIGN if math.isnan(required) else f"≥ {least}",
-        "is_satisfied": given >= required,
+        "is_satisfied": provided >= required,
         "consequence": Consequence.CONDITION if value is None else Consequence.NG,
     }
 
@@ -494,13 +496,13 @@ def pathway_rows(
         least, left = compared_pairs(row.pathway_m, left_m, *units, up=False)
         slid = (pair(m, *units, no_less) for m in slides)
         terms = " − ".join((pair(row.provided_m, *units), *slid))
-        found = f"{terms} = {left}{gap.design_mark}"
+        width = f"{terms} = {left}{gap.design_mark}"
         yield Requirement(
             id="fire_pathway",
             title=f"Fire pathway {row.array} to {row.object} after displacement",
             cause=f"fire pathway {row.array} to {row.object} too narrow",
             subject=row.array,
-            found=NO_DESIGN if math.isnan(left_m) else found,
+            found=NO_DESIGN if math.isnan(left_m) else width,
             limit=f"≥ {least}",
             basis="fire code, as entered",
             is_satisfied=left_m >= row.pathway_m * (1.0 - _NOISE),

@@ -103,8 +103,8 @@ def hull(points: Iterable[Point]) -> Outline:
     """Return the convex hull of points, from the leftmost one on."""
     import shapely
 
-    found = shapely.get_coordinates(shapely.convex_hull(shapely.linestrings(list(points))))
-    around = ring([(x, y) for x, y in found.tolist()])
+    corners = shapely.get_coordinates(shapely.convex_hull(shapely.linestrings(list(points))))
+    around = ring([(x, y) for x, y in corners.tolist()])
     first = around.index(min(around))
     return (*around[first:], *around[:first])
 

@@ -78,13 +78,13 @@ class Accuracy:
         )
 
 
-def accuracy(given: Assessment) -> Accuracy:
+def accuracy(assessment: Assessment) -> Accuracy:
     """Run all arrays with changed friction."""
     return Accuracy(
-        at_reduced_friction=given.at_reduced_friction
-        or reassess(given, with_friction(given.project, 1.0 - SHIFT)),
-        given=given,
-        at_increased_friction=reassess(given, with_friction(given.project, 1.0 + SHIFT)),
+        at_reduced_friction=assessment.at_reduced_friction
+        or reassess(assessment, with_friction(assessment.project, 1.0 - SHIFT)),
+        given=assessment,
+        at_increased_friction=reassess(assessment, with_friction(assessment.project, 1.0 + SHIFT)),
     )
 
 
@@ -92,21 +92,21 @@ PERIOD_FACTORS = (0.8, 1.2)
 DAMPING_PERCENT = (2.0, 3.0, 5.0, 7.0)
 
 
-def building_variations(given: Assessment) -> tuple[tuple[BuildingInput, AnalysisValue], ...]:
+def building_variations(assessment: Assessment) -> tuple[tuple[BuildingInput, AnalysisValue], ...]:
     """Return the building as used, then each variation, with the governing array's value from
     analysis; nothing where no motion goes through the building."""
-    data, array, prepared = given.project, given.governing, given.shaking.prepared
+    data, array, prepared = assessment.project, assessment.governing, assessment.shaking.prepared
     if not any(item.roof for item in prepared):
         return ()
     used = data.building.model_copy(update={"period_s": first_period_s(data)})
-    found = [(used, array.analysis)]
+    variations = [(used, array.analysis)]
     with ThreadPoolExecutor(THREADS) as pool:
         for building in _others(used):
             other = data.model_copy(update={"building": building})
             peaks_m = list(pool.map(partial(_prd_m, array.array, other), data.motions, prepared))
-            value = analysis_value(given.rules, peaks_m, statistic_basis(data))
-            found.append((building, value))
-    return tuple(found)
+            value = analysis_value(assessment.rules, peaks_m, statistic_basis(data))
+            variations.append((building, value))
+    return tuple(variations)
 
 
 def _others(used: BuildingInput) -> Iterator[BuildingInput]:
@@ -181,17 +181,17 @@ class Cumulative:
         return max(self.sums_m.values()) if not math.isnan(self.mean_m) else math.nan
 
 
-def cumulative(given: Assessment) -> tuple[Cumulative, ...]:
+def cumulative(assessment: Assessment) -> tuple[Cumulative, ...]:
     """Return the sums of every array; none without motions, or where no smaller event is named."""
-    factors = given.project.options.smaller_factors
-    if not (factors and given.has_motions):
+    factors = assessment.project.options.smaller_factors
+    if not (factors and assessment.has_motions):
         return ()
     return tuple(
         Cumulative(
             array=array,
             sums_m={run.motion.id: _sum_m(array, run, factors) for run in array.motions},
         )
-        for array in given.arrays
+        for array in assessment.arrays
     )
 
 
@@ -243,14 +243,14 @@ def support(assessment: Assessment) -> Evidence:
     )
 
 
-def building_case(given: Assessment, evidence: Evidence) -> InputCase | None:
+def building_case(assessment: Assessment, evidence: Evidence) -> InputCase | None:
     """Return the governing array with the period or damping that lets it slide farthest.
 
     A variation without a value is the worst. None where no motion goes through the building, where
     that is no farther than as used, and where the design displacement does not follow from one
     value of the analysis.
     """
-    array = given.governing
+    array = assessment.governing
     if not evidence.building or array.route is not Route.ANALYSIS or array.by_direction:
         return None
     (used, _), *others = evidence.building
@@ -265,20 +265,23 @@ def building_case(given: Assessment, evidence: Evidence) -> InputCase | None:
         else f"{number(building.period_s or math.nan, 2)} s as the period of the building"
     )
     farther = replace(array, analysis=value, design_m=design_m)
-    arrays = [farther if item is array else item for item in given.arrays]
-    rows = [gap.clearance for gap in given.gaps_of(array.id)]
-    gaps = [check_clearance(given.project, given.rules, arrays, row) for row in rows]
+    arrays = [farther if item is array else item for item in assessment.arrays]
+    rows = [gap.clearance for gap in assessment.gaps_of(array.id)]
+    gaps = [check_clearance(assessment.project, assessment.rules, arrays, row) for row in rows]
     return InputCase(array=farther, changed=changed, gaps=gaps)
 
 
-def cases(given: Assessment, evidence: Evidence) -> Iterator[InputCase]:
+def cases(assessment: Assessment, evidence: Evidence) -> Iterator[InputCase]:
     """Yield what would change the verdict on an array or exceed its prescriptive displacement."""
-    slow = given.low_velocity
-    found = *(slow.case_of(item.id) for item in slow.arrays), building_case(given, evidence)
-    for case in filter(None, found):
-        now = next(item for item in given.arrays if item.id == case.array.id)
+    slow = assessment.low_velocity
+    all_cases = (
+        *(slow.case_of(item.id) for item in slow.arrays),
+        building_case(assessment, evidence),
+    )
+    for case in filter(None, all_cases):
+        now = next(item for item in assessment.arrays if item.id == case.array.id)
         most_m = case.array.prescriptive.value_m
-        is_short = any(gap.ok for gap in given.gaps_of(now.id)) and case.short
+        is_short = any(gap.ok for gap in assessment.gaps_of(now.id)) and case.short
         if is_short or now.design_m <= most_m < nan_is_worst(case.array.design_m):
             yield case
 
@@ -296,23 +299,25 @@ class Saving:
     n_satisfied: int  # of them, with the arrays that may be analyzed at the floor
 
 
-def saving(given: Assessment) -> Saving:
+def saving(assessment: Assessment) -> Saving:
     """Return what an analysis could save in a project without motions."""
-    at_floor = [_at_floor(given, item) if item.may_be_analyzed else item for item in given.arrays]
-    short = [gap.clearance for gap in given.clearances if not gap.ok]
-    checks = [check_clearance(given.project, given.rules, at_floor, row) for row in short]
-    first = given.arrays[0]  # the prescriptive displacement is the same for every array
+    at_floor = [
+        _at_floor(assessment, item) if item.may_be_analyzed else item for item in assessment.arrays
+    ]
+    short = [gap.clearance for gap in assessment.clearances if not gap.ok]
+    checks = [check_clearance(assessment.project, assessment.rules, at_floor, row) for row in short]
+    first = assessment.arrays[0]  # the prescriptive displacement is the same for every array
     return Saving(
-        ids=[item.id for item in given.arrays if item.may_be_analyzed],
-        others=[item.id for item in given.arrays if not item.may_be_analyzed],
-        is_lifted_by_review=review_lifts_slope(given.rules, given.project.site.sdc),
+        ids=[item.id for item in assessment.arrays if item.may_be_analyzed],
+        others=[item.id for item in assessment.arrays if not item.may_be_analyzed],
+        is_lifted_by_review=review_lifts_slope(assessment.rules, assessment.project.site.sdc),
         prescriptive_m=first.prescriptive.value_m,
-        floor_m=analysis_floor_m(given.rules, first.prescriptive),
+        floor_m=analysis_floor_m(assessment.rules, first.prescriptive),
         n_short=len(short),
         n_satisfied=sum(check.ok for check in checks),
     )
 
 
-def _at_floor(given: Assessment, item: ArrayAssessment) -> ArrayAssessment:
-    floor_m = analysis_floor_m(given.rules, item.prescriptive)
+def _at_floor(assessment: Assessment, item: ArrayAssessment) -> ArrayAssessment:
+    floor_m = analysis_floor_m(assessment.rules, item.prescriptive)
     return replace(displaced(item, 0.0, floor_m), is_permitted=True)

@@ -58,9 +58,9 @@ def with_friction(data: ProjectInput, factor: float) -> ProjectInput:
 def array_with_friction(array: Array, factor: float) -> Array:
     """Return an array with all of its friction coefficients multiplied by a factor."""
     names = ("mu", "mu_fast", "mu_static")
-    given = {name: getattr(array, name) for name in names}
+    values = {name: getattr(array, name) for name in names}
     return array.model_copy(
-        update={name: mu * factor for name, mu in given.items() if mu is not None}
+        update={name: mu * factor for name, mu in values.items() if mu is not None}
     )
 
 
@@ -112,13 +112,13 @@ class VelocityCheck:
 
 def velocity_check(data: ProjectInput, assessed: ArrayAssessment) -> VelocityCheck | None:
     """Return the friction of an array beyond the velocities tested; None without test runs."""
-    found = tested(data)
-    if not found:
+    all_series = tested(data)
+    if not all_series:
         return None
     return VelocityCheck(
         friction=assessed.array.friction,
         fastest_mps=assessed.fastest_mps,
-        tests=governing(found, assessed.array.mu_report),
+        tests=governing(all_series, assessed.array.mu_report),
     )
 
 

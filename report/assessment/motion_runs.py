@@ -135,10 +135,12 @@ def run_warnings(arrays: Sequence[ArrayAssessment], us_first: bool) -> tuple[Run
         for run in motion.runs
         if run.result.status is not Status.OK
     ]
-    found = grouped_by(troubled, lambda each: (each[2].result.status, _would_do(each[2])))
+    by_status = grouped_by(troubled, lambda each: (each[2].result.status, _would_do(each[2])))
     return tuple(
         RunWarning(f"{_place(same)}: {_outcome(status, [each[2] for each in same], us_first)}.", do)
-        for (status, do), same in sorted(found.items(), key=lambda item: _ORDER.index(item[0][0]))
+        for (status, do), same in sorted(
+            by_status.items(), key=lambda item: _ORDER.index(item[0][0])
+        )
     )
 
 

@@ -133,8 +133,8 @@ class ComparedGap(ABC):
 
     def across_from(self, array_id: str) -> str:
         """Return what is on the other side of the gap."""
-        one, other = self.between
-        return one if other == array_id else other
+        first, other = self.between
+        return first if other == array_id else other
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -243,16 +243,16 @@ class PlanNeighbor(ComparedGap):
             )
             return (f"{self.to_add}: {apart}, {near}, and no clearance is given; {what}",)
         are_boxes = isinstance(self.near, Rectangle) and isinstance(self.far, Rectangle)
-        found = []
+        shortcomings = []
         for row in self.contradictions:
             provided_m = row.clearance.provided_m
             breaks = self.gap_m < self.required_m <= provided_m  # sufficient only as given
-            found.append(
+            shortcomings.append(
                 f"{row.cell}: provided clearance is {_both(provided_m, us_first)}, but {apart}"
                 f"{', which would be NG' if breaks else ''}; correct the clearance or the "
                 f"{'rectangles' if are_boxes else 'outlines'}"
             )
-        return tuple(found)
+        return tuple(shortcomings)
 
 
 def _both(value_m: float, us_first: bool) -> str:
@@ -293,15 +293,15 @@ def bare_edges(data: ProjectInput) -> tuple[BareEdge, ...]:
 
 def bare_sides(outline: Shape, strips: Sequence[Shape], north_deg: float) -> tuple[BareEdge, ...]:
     """Return the parts of an outline along which no strip lies."""
-    found = []
+    bare = []
     for number, side in enumerate(sides(outline.points), start=1):
         (x0, y0), (x1, y1) = side
         outward_deg = math.degrees(math.atan2(x0 - x1, y1 - y0))
         name = f"{compass(outward_deg, north_deg)} edge of the roof"
         if isinstance(outline, Polygon):
             name += f" (side {number})"
-        found += [BareEdge(name, ends) for ends in _bare(side, strips)]
-    return tuple(found)
+        bare += [BareEdge(name, ends) for ends in _bare(side, strips)]
+    return tuple(bare)
 
 
 def compass(way_deg: float, north_deg: float) -> str:
@@ -342,8 +342,8 @@ def _covered(side: tuple[Point, Point], strips: Sequence[Shape]) -> Iterator[tup
         else:
             parts = spans_near(strip, *side, EDGE_STRIP_M)
         for points in parts:
-            found = shapely.line_locate_point(path, shapely.points(points)).tolist()
-            yield min(found), max(found)
+            along = shapely.line_locate_point(path, shapely.points(points)).tolist()
+            yield min(along), max(along)
 
 
 def _pairs(
@@ -402,6 +402,6 @@ def _rows(
     for index, row in enumerate(data.clearances):
         cell = addresses.get(Place("clearances", index, "provided_m"), "Clearances")
         key = frozenset((row.array, row.object))
-        given = GivenGap(number=index + 1, clearance=row, basis=data.basis_of(row), cell=cell)
-        rows[key] = (*rows.get(key, ()), given)
+        clearance = GivenGap(number=index + 1, clearance=row, basis=data.basis_of(row), cell=cell)
+        rows[key] = (*rows.get(key, ()), clearance)
     return rows

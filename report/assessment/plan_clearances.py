@@ -177,8 +177,8 @@ def _renewed(
     cells: dict[CellPosition, Value] = {}
     lines: list[str] = []
     for near in pairs:
-        for given in near.given:
-            was, drawn_m = given.clearance, _drawn_m(near, data)
+        for entered in near.given:
+            was, drawn_m = entered.clearance, _drawn_m(near, data)
             if was.source is not ClearanceSource.DRAWING:
                 continue
             turned = near
@@ -187,11 +187,11 @@ def _renewed(
             is_one = len(near.given) == 1
             direction = _direction(turned, data) if is_one else was.direction
             if abs(was.provided_m - drawn_m) > _NOISE_M or direction is not was.direction:
-                cells |= table.cells(rows[given.cell], _from_drawing(table, direction, drawn_m))
+                cells |= table.cells(rows[entered.cell], _from_drawing(table, direction, drawn_m))
                 before, now = (
                     _size(value_m, data.us_first) for value_m in (was.provided_m, drawn_m)
                 )
-                lines.append(f"{given.cell}: {near.names}: {was.direction}, {before}; now"
+                lines.append(f"{entered.cell}: {near.names}: {was.direction}, {before}; now"
                              f" {direction}, {now}")  # fmt: skip
     return cells, lines
 
@@ -219,13 +219,13 @@ def _from_drawing(table: GrowingTable, direction: Direction, drawn_m: float) -> 
 def _differing(pairs: Sequence[PlanNeighbor], us_first: bool) -> Iterator[str]:
     """Yield the rows as entered or measured whose distance is not that of the plan."""
     for near in pairs:
-        for given in near.given:
-            if given.clearance.source is ClearanceSource.DRAWING:
+        for row in near.given:
+            if row.clearance.source is ClearanceSource.DRAWING:
                 continue
-            if abs(given.clearance.provided_m - near.gap_m) > US_STEP_M + _NOISE_M:
-                values = (given.clearance.provided_m, near.gap_m)
+            if abs(row.clearance.provided_m - near.gap_m) > US_STEP_M + _NOISE_M:
+                values = (row.clearance.provided_m, near.gap_m)
                 entered, drawn = (_size(value, us_first) for value in values)
-                yield f"{given.cell}: {near.names}: {entered} entered, {drawn} in plan"
+                yield f"{row.cell}: {near.names}: {entered} entered, {drawn} in plan"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -49,7 +49,7 @@ MOST_NAMED = 50
 def findings(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
     """Return what an engineer is asked about, with the reasons that the workbook gives."""
     data = sheet.project
-    hidden = [*sheet.unseen, *(one for file in shaking.records for one in file.unseen)]
+    hidden = [*sheet.unseen, *(cell for file in shaking.records for cell in file.unseen)]
     return acknowledged(
         data,
         [

@@ -124,7 +124,7 @@ class Assessment:
     @property
     def verdict(self) -> Verdict:
         """Verdict on the project: the worst of its limits, arrays, clearances and rows."""
-        found = worst(
+        verdict = worst(
             [
                 *(self.limit_verdict(check) for check in self.building_checks),
                 *self._verdicts.values(),
@@ -132,7 +132,7 @@ class Assessment:
                 *(row.verdict for row in self.rows),
             ]
         )
-        return Verdict.CONDITIONS if found is Verdict.CONDITION else found
+        return Verdict.CONDITIONS if verdict is Verdict.CONDITION else verdict
 
     def array_verdict(self, item: ArrayAssessment) -> Verdict:
         """Return the verdict on an array: its values, limits, rows and clearances.
@@ -230,8 +230,8 @@ class Assessment:
         Of the clearances, and of the pairs that the plan shows to be short and no clearance covers.
         """
         gaps: Sequence[ComparedGap] = (*self.clearances, *self.missing_gaps)
-        found = [gap for gap in gaps if not array_id or gap.involves(array_id)]
-        return max(found, key=lambda gap: nan_is_worst(gap.demand_capacity), default=None)
+        concerned = [gap for gap in gaps if not array_id or gap.involves(array_id)]
+        return max(concerned, key=lambda gap: nan_is_worst(gap.demand_capacity), default=None)
 
 
 class ChangeKind(StrEnum):

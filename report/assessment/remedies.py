@@ -49,31 +49,33 @@ _NOISE_M = 1e-8  # a length that is rounded up is no less than what it is rounde
 _MOST_TRIES = 10  # of the length of a move: more only where it goes past the other shape
 
 
-def moves(given: Assessment, number: int, gap: ClearanceCheck) -> tuple[Assessment | None, str]:
+def moves(
+    assessment: Assessment, number: int, gap: ClearanceCheck
+) -> tuple[Assessment | None, str]:
     """Return the project with a clearance as required, and how; or none, and why not.
 
     The shortest move of an array beside it with which nothing else becomes NG. Where the plan does
     not show both, the clearance alone is entered.
     """
-    row, data = gap.clearance, given.project
+    row, data = gap.clearance, assessment.project
     unit = Quantity.SIZE.us if data.us_first else Quantity.SIZE.si
     lack_m = round_up((gap.required_m - row.provided_m) / unit.si, unit.decimals) * unit.si
     more = pair(lack_m, Quantity.SIZE, data.us_first, no_less)
-    shapes = shapes_of(given)
+    shapes = shapes_of(assessment)
     if row.object not in shapes:
         rows = list(data.clearances)
         rows[number - 1] = row.model_copy(update={"provided_m": row.provided_m + lack_m + _NOISE_M})
-        return entered(given, changed(data, clearances=tuple(rows))), f"{more} more"
+        return entered(assessment, changed(data, clearances=tuple(rows))), f"{more} more"
     before, ways = (
-        _failed(given),
+        _failed(assessment),
         sorted(_ways_to_move(data, shapes, row, lack_m), key=lambda way: way[0]),
     )
     for length_m, array, (dx, dy) in ways:
         by = (dx * length_m, dy * length_m)
         # Most are refused by a neighbor in plan: only the others are assessed.
-        if not _has_room(given, array, shifted(shapes[array.id], by)):
+        if not _has_room(assessment, array, shifted(shapes[array.id], by)):
             continue
-        done = entered(given, _moved(data, shapes, array, by))
+        done = entered(assessment, _moved(data, shapes, array, by))
         if done is not None and done.clearances[number - 1].ok and _failed(done) <= before:
             toward = compass(math.degrees(math.atan2(dy, dx)), data.roof.north_deg)
             length = pair(length_m - _NOISE_M, Quantity.SIZE, data.us_first, no_less)
@@ -84,9 +86,9 @@ def moves(given: Assessment, number: int, gap: ClearanceCheck) -> tuple[Assessme
     )
 
 
-def _has_room(given: Assessment, array: Array, moved: Shape) -> bool:
+def _has_room(assessment: Assessment, array: Array, moved: Shape) -> bool:
     """Whether no pair of the plan comes nearer than is required, as far as that is known."""
-    near = (pair for pair in given.pairs if pair.involves(array.id))
+    near = (pair for pair in assessment.pairs if pair.involves(array.id))
     others = ((pair, pair.far if pair.array == array.id else pair.near) for pair in near)
     return not any(
         gap_m(moved, other) < min(pair.required_m, pair.gap_m) - _NOISE_M for pair, other in others
@@ -155,10 +157,10 @@ def _moved(data: ProjectInput, shapes: dict[str, Shape], array: Array, by: Point
     )
 
 
-def _failed(given: Assessment) -> set[tuple[str, ...]]:
+def _failed(assessment: Assessment) -> set[tuple[str, ...]]:
     """Return what is NG: clearances, pairs of the plan without one, requirements."""
-    gaps = (*(gap for gap in given.clearances if not gap.ok), *given.missing_gaps)
-    rows = (row for row in given.rows if not row.verdict.is_permitted)
+    gaps = (*(gap for gap in assessment.clearances if not gap.ok), *assessment.missing_gaps)
+    rows = (row for row in assessment.rows if not row.verdict.is_permitted)
     return {*(gap.between for gap in gaps), *((row.id, row.subject, row.title) for row in rows)}
 
 
@@ -206,7 +208,7 @@ def remedies(assessment: Assessment) -> tuple[Remedy, ...]:
     Of more than `MOST_GAPS` clearances those with the largest D/C.
     """
     with ThreadPoolExecutor(THREADS) as pool:
-        return tuple(one for way in _ways(assessment, pool) for one in way)
+        return tuple(remedy for way in _ways(assessment, pool) for remedy in way)
 
 
 def best_remedy(assessment: Assessment, *, may_run: bool = True) -> Sequence[Remedy]:
@@ -217,7 +219,7 @@ def best_remedy(assessment: Assessment, *, may_run: bool = True) -> Sequence[Rem
     first: Sequence[Remedy] = ()
     with ThreadPoolExecutor(THREADS) as pool:
         for way in _ways(assessment, pool, most=1, may_run=may_run):
-            outcomes = [one.outcome for one in way if one.outcome]
+            outcomes = [remedy.outcome for remedy in way if remedy.outcome]
             if way and len(outcomes) == len(way):
                 first = first or way
                 if outcomes[0].verdict.is_permitted:
@@ -226,44 +228,47 @@ def best_remedy(assessment: Assessment, *, may_run: bool = True) -> Sequence[Rem
 
 
 def _ways(
-    given: Assessment, pool: Executor, *, most: int = MOST_GAPS, may_run: bool = True
+    assessment: Assessment, pool: Executor, *, most: int = MOST_GAPS, may_run: bool = True
 ) -> Iterator[Sequence[Remedy]]:
     """Yield the remedies that are entered together, those that need runs last.
 
     Of the clearances marked NG, or of that many with the largest D/C.
     """
-    if given.verdict.is_permitted:
+    if assessment.verdict.is_permitted:
         return
-    numbered = enumerate(given.clearances, start=1)
-    found = [(number, gap) for number, gap in numbered if gap.verdict is Verdict.NG]
-    short = sorted(found, key=lambda each: -nan_is_worst(each[1].demand_capacity))[:most]
-    yield from ([_separation(given, *each)] for each in short)
-    yield list(_review(given))
+    numbered = enumerate(assessment.clearances, start=1)
+    failed = [(number, gap) for number, gap in numbered if gap.verdict is Verdict.NG]
+    short = sorted(failed, key=lambda each: -nan_is_worst(each[1].demand_capacity))[:most]
+    yield from ([_separation(assessment, *each)] for each in short)
+    yield list(_review(assessment))
     if not may_run:
         return
-    trials = trials_of(given, pool)
-    yield from (_frictions(given, *each, trials) for each in short)
-    for array in given.arrays:
+    trials = trials_of(assessment, pool)
+    yield from (_frictions(assessment, *each, trials) for each in short)
+    for array in assessment.arrays:
         if not is_final(array):
-            yield _together(given, [_friction(trials[array.id], 0, None)])
+            yield _together(assessment, [_friction(trials[array.id], 0, None)])
 
 
 def _frictions(
-    given: Assessment, number: int, gap: ClearanceCheck, trials: Mapping[str, Trials]
+    assessment: Assessment, number: int, gap: ClearanceCheck, trials: Mapping[str, Trials]
 ) -> Sequence[Remedy]:
     """Return the friction of each array beside a clearance that is too small for it."""
-    here = [trials[array.id] for array in involved(given, gap.clearance)]
-    short = [one for one in here if not _satisfies(one.array, given, gap.clearance)]
-    found = [_friction(one, number, gap.clearance) for one in short]
-    return _together(given, found)
+    here = [trials[array.id] for array in involved(assessment, gap.clearance)]
+    short = [one for one in here if not _satisfies(one.array, assessment, gap.clearance)]
+    remedies = [_friction(one, number, gap.clearance) for one in short]
+    return _together(assessment, remedies)
 
 
-def _together(given: Assessment, found: Sequence[Remedy]) -> Sequence[Remedy]:
+def _together(assessment: Assessment, remedies: Sequence[Remedy]) -> Sequence[Remedy]:
     """Return coefficients with what comes of all of them, if each would do."""
-    if not all(one.exists for one in found):
-        return found
-    done = entered(given, _with_mus(given.project, {one.array: one.value for one in found}))
-    return [replace(one, outcome=outcome(done) if done else None) for one in found]
+    if not all(remedy.exists for remedy in remedies):
+        return remedies
+    done = entered(
+        assessment,
+        _with_mus(assessment.project, {remedy.array: remedy.value for remedy in remedies}),
+    )
+    return [replace(remedy, outcome=outcome(done) if done else None) for remedy in remedies]
 
 
 def _with_mus(data: ProjectInput, mus: dict[str, float]) -> ProjectInput:
@@ -271,8 +276,8 @@ def _with_mus(data: ProjectInput, mus: dict[str, float]) -> ProjectInput:
     return changed(data, arrays=tuple(arrays))
 
 
-def _satisfies(array: ArrayAssessment, given: Assessment, row: Clearance) -> bool:
-    return is_final(array) and single_array_check(given, given.project, array, row).ok
+def _satisfies(array: ArrayAssessment, assessment: Assessment, row: Clearance) -> bool:
+    return is_final(array) and single_array_check(assessment, assessment.project, array, row).ok
 
 
 def _friction(trials: Trials, number: int, row: Clearance | None) -> Remedy:
@@ -331,12 +336,12 @@ def _in_vain(trials: Trials, row: Clearance | None) -> str:
     return "the minimum separation of the rule set is more than is provided"
 
 
-def _separation(given: Assessment, number: int, gap: ClearanceCheck) -> Remedy:
+def _separation(assessment: Assessment, number: int, gap: ClearanceCheck) -> Remedy:
     """Return the required separation, where the plan has room for it or does not show both."""
-    required, basis, found = gap.required_m, "there is no design displacement", None
+    required, basis, result = gap.required_m, "there is no design displacement", None
     if not math.isnan(required):
-        found, basis = moves(given, number, gap)
-    value = required if found else math.nan
+        result, basis = moves(assessment, number, gap)
+    value = required if result else math.nan
     return Remedy(
         kind=RemedyKind.SEPARATION,
         clearance=number,
@@ -344,17 +349,19 @@ def _separation(given: Assessment, number: int, gap: ClearanceCheck) -> Remedy:
         given=gap.clearance.provided_m,
         value=value,
         verified=(value, value),
-        n_values=1 if found else 0,
+        n_values=1 if result else 0,
         basis=basis,
-        outcome=outcome(found) if found else None,
+        outcome=outcome(result) if result else None,
     )
 
 
-def _review(given: Assessment) -> Iterator[Remedy]:
+def _review(assessment: Assessment) -> Iterator[Remedy]:
     """Yield peer review, where it removes a floor that governs."""
-    data = given.project
+    data = assessment.project
     floored = [
-        item for item in given.arrays if item.governs is DesignBasis.FLOOR and item.is_permitted
+        item
+        for item in assessment.arrays
+        if item.governs is DesignBasis.FLOOR and item.is_permitted
     ]
     if not floored:
         return
@@ -364,7 +371,7 @@ def _review(given: Assessment) -> Iterator[Remedy]:
         "peer_covered": "",
         **dict.fromkeys(("peer_reviewer", "peer_license", "peer_letter"), "to be given"),
     }
-    done = entered(given, changed(data, options=data.options.model_copy(update=review)))
+    done = entered(assessment, changed(data, options=data.options.model_copy(update=review)))
     if done is None:
         return
     ids = [item.id for item in floored]

@@ -110,13 +110,13 @@ def _source(site: Site) -> Requirement:
 def _category(site: Site) -> Requirement:
     lacking = site.sdc_lacks
     missing = " and ".join(lacking)
-    found = f"{missing} {NOT_GIVEN}: SDC {site.sdc} is not confirmed"
+    stated = f"{missing} {NOT_GIVEN}: SDC {site.sdc} is not confirmed"
     if not lacking:
-        found = f"S_1 = {site.s_1_g:.3f} g, S_D1 = {site.s_d1:.3f} g"
+        stated = f"S_1 = {site.s_1_g:.3f} g, S_D1 = {site.s_d1:.3f} g"
     return condition(
         id="sdc",
         title="Basis of the seismic design category",
-        found=found,
+        found=stated,
         limit="S_DS, S_1 and S_D1",
         basis=site.edition.clause("sdc"),
         is_satisfied=not lacking,
@@ -227,21 +227,21 @@ def _standard(data: ProjectInput) -> Requirement:
 
 
 def _wet_and_dry(data: ProjectInput) -> Requirement:
-    given = {(one.report, one.surface): one for one in tested(data)}
-    reports = dict.fromkeys(report for report, _ in given)
+    by_surface = {(series.report, series.surface): series for series in tested(data)}
+    reports = dict.fromkeys(report for report, _ in by_surface)
     still = [index for index, row in enumerate(data.friction_runs) if row.velocity_mps is None]
-    found = [
+    rows = [
         (f"report {report or 'without a number'}: " if len(reports) > 1 else "")
-        + ", ".join(_runs({s: given.get((report, s)) for s in Surface}, data.us_first))
+        + ", ".join(_runs({s: by_surface.get((report, s)) for s in Surface}, data.us_first))
         for report in reports
     ]
     return _row(
         title="Wet and dry, three runs at each velocity",
-        found="; ".join(found) or "no runs",
+        found="; ".join(rows) or "no runs",
         limit=f"{LEAST_RUNS} runs or more at each velocity, wet and dry",
         is_satisfied=bool(reports)
-        and all((report, surface) in given for report in reports for surface in Surface)
-        and all(map(has_enough_runs, given.values())),
+        and all((report, surface) in by_surface for report in reports for surface in Surface)
+        and all(map(has_enough_runs, by_surface.values())),
         remedy="Obtain the runs that are missing, and enter them with velocities on the sheet "
         "Friction tests.",
         places=tuple(Place("friction_runs", index, "velocity_mps") for index in still)
@@ -251,10 +251,10 @@ def _wet_and_dry(data: ProjectInput) -> Requirement:
 
 def basis_words(data: ProjectInput, array: Array) -> str:
     """Return where the friction of an array comes from: the fit of test runs, or entered."""
-    found = tested(data)
-    if not found:
+    all_series = tested(data)
+    if not all_series:
         return "entered; no runs of friction tests are given"
-    tests = governing(found, array.mu_report)
+    tests = governing(all_series, array.mu_report)
     where = _where(tests, data.us_first)
     if _is_fit(array.friction, tests):
         return f"as tested: the fit of the {tests.surface} runs {where}"
@@ -276,7 +276,7 @@ def _is_fit(law: Friction, tests: Series) -> bool:
 
 def _how_far(law: Friction, tests: Series) -> str:
     """Return how entered friction compares with the runs at each velocity, or on average."""
-    if all(one.mean_of(law) <= one.mean + _NOISE for one in tests.repeats):
+    if all(repeat.mean_of(law) <= repeat.mean + _NOISE for repeat in tests.repeats):
         return "at or below"
     if tests.mean_of(law) <= tests.mean + _NOISE:
         return "on average at or below"
@@ -285,30 +285,35 @@ def _how_far(law: Friction, tests: Series) -> str:
 
 def _where(tests: Series, us_first: bool) -> str:
     """Return from which to which velocity runs were made."""
-    velocities = [one.velocity_mps for one in tests.repeats]
+    velocities = [repeat.velocity_mps for repeat in tests.repeats]
     ends = [pair(v, Quantity.VELOCITY, us_first) for v in velocities if not math.isnan(v)]
     if not ends:
         return f"(velocities {NOT_GIVEN})"
     return f"at {ends[0]}" if len(ends) == 1 else f"from {ends[0]} to {ends[-1]}"
 
 
-def has_enough_runs(one: Series) -> bool:
+def has_enough_runs(series: Series) -> bool:
     """Whether there are enough runs at each velocity; runs without one are no repeats."""
-    return not math.isnan(one.repeats[-1].velocity_mps) and all(
-        len(repeats.runs) >= LEAST_RUNS for repeats in one.repeats
+    return not math.isnan(series.repeats[-1].velocity_mps) and all(
+        len(repeats.runs) >= LEAST_RUNS for repeats in series.repeats
     )
 
 
-def _runs(given: Mapping[Surface, Series | None], us_first: bool) -> Iterator[str]:
+def _runs(by_surface: Mapping[Surface, Series | None], us_first: bool) -> Iterator[str]:
     """Yield the runs in each condition, those that are alike together."""
-    words = {s: runs_by_velocity(one, us_first) if one else "0 runs" for s, one in given.items()}
+    words = {
+        s: runs_by_velocity(series, us_first) if series else "0 runs"
+        for s, series in by_surface.items()
+    }
     for said, alike in grouped_by(words, words.__getitem__).items():
         yield f"{' and '.join(alike)} {said}"
 
 
-def runs_by_velocity(one: Series, us_first: bool) -> str:
+def runs_by_velocity(series: Series, us_first: bool) -> str:
     """Return in words how many runs there are at each velocity."""
-    counts = grouped_by(one.repeats, lambda each: (len(each.runs), math.isnan(each.velocity_mps)))
+    counts = grouped_by(
+        series.repeats, lambda each: (len(each.runs), math.isnan(each.velocity_mps))
+    )
     return ", ".join(
         f"{numbered(count, 'run')} with velocity {NOT_GIVEN}"
         if is_unknown
@@ -350,18 +355,18 @@ def fire_lane_rows(data: ProjectInput) -> Iterator[Requirement]:
         fits = dimension_m <= _MOST_M
         # Of arrays that only lack the section the same is said: they share a condition.
         shown_m = largest_m if fits and not section else dimension_m
-        found, limit = compared_pairs(shown_m, FIRE_LANE_M, *units, up=not fits)
+        distance, limit = compared_pairs(shown_m, FIRE_LANE_M, *units, up=not fits)
         if fits and not section:
-            found = f"at most {found}"
+            distance = f"at most {distance}"
         elif len(group) > 1:
-            found = f"{ranged(array.id for array in group)} together: {found}"
+            distance = f"{ranged(array.id for array in group)} together: {distance}"
         for array in group:
             yield condition(
                 id="fire_lanes",
                 title=f"Largest plan dimension between fire lanes of {lane}",
                 cause="fire code section not given" if fits else "too wide between fire lanes",
                 subject=array.id,
-                found=found if section else f"{found}; section {NOT_GIVEN}",
+                found=distance if section else f"{distance}; section {NOT_GIVEN}",
                 limit=f"≤ {limit}",
                 basis=f"{section or f'fire code, section {NOT_GIVEN}'}†",
                 is_satisfied=fits and bool(section),
@@ -384,7 +389,7 @@ def _undivided(arrays: Sequence[Array], lane_m: float) -> Sequence[Sequence[Arra
         apart: list[list[Array]] = []
         joined = [array]
         for group in groups:
-            if any(gap_m(array.shape, one.shape) < lane_m - _ROUNDING_M for one in group):
+            if any(gap_m(array.shape, other.shape) < lane_m - _ROUNDING_M for other in group):
                 joined += group
             else:
                 apart.append(group)

@@ -86,12 +86,12 @@ class Departure:
 def departures(spectra: Sequence[Spectra]) -> tuple[Departure, ...]:
     """Return where the mean of the motions misses its target, from 0.1 to 33.3 Hz, by target."""
     places = dict.fromkeys((part.is_ground, part.target.name) for part in spectra)
-    found = (
+    rows = (
         _departure([s for s in spectra if (s.is_ground, s.target.name) == place], is_short)
         for place in places
         for is_short in (True, False)
     )
-    return tuple(each for each in found if each is not None)
+    return tuple(each for each in rows if each is not None)
 
 
 def _departure(parts: Sequence[Spectra], is_short: bool) -> Departure | None:

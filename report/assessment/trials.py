@@ -89,9 +89,9 @@ class Trials:
     """
 
     def __init__(
-        self, given: Assessment, array: ArrayAssessment, pool: Executor, runs: Runs
+        self, assessment: Assessment, array: ArrayAssessment, pool: Executor, runs: Runs
     ) -> None:
-        self.given = given
+        self.given = assessment
         self.array = array
         self._pool = pool
         self._runs = runs
@@ -148,10 +148,10 @@ class Trials:
         return tuple(self._pool.map(partial(_first_run, array), self.array.motions))
 
 
-def trials_of(given: Assessment, pool: Executor) -> Mapping[str, Trials]:
+def trials_of(assessment: Assessment, pool: Executor) -> Mapping[str, Trials]:
     """Return the trials of each array by its id."""
     runs: Runs = {}
-    return {array.id: Trials(given, array, pool, runs) for array in given.arrays}
+    return {array.id: Trials(assessment, array, pool, runs) for array in assessment.arrays}
 
 
 def _first_run(array: Array, run: MotionRun) -> MotionRun:
@@ -171,14 +171,14 @@ def is_final(array: ArrayAssessment) -> bool:
 
 
 def single_array_check(
-    given: Assessment, data: ProjectInput, trial: ArrayAssessment, row: Clearance
+    assessment: Assessment, data: ProjectInput, trial: ArrayAssessment, row: Clearance
 ) -> ClearanceCheck:
     """Return a clearance with one array as tried and all others at rest."""
     arrays = tuple(
         trial if array.id == trial.id else displaced(array, 0.0, 0.0)
-        for array in involved(given, row)
+        for array in involved(assessment, row)
     )
-    return check_clearance(data, given.rules, arrays, row)
+    return check_clearance(data, assessment.rules, arrays, row)
 
 
 def displaced(array: ArrayAssessment, analysis_m: float, floor_m: float) -> ArrayAssessment:
@@ -193,6 +193,6 @@ def displaced(array: ArrayAssessment, analysis_m: float, floor_m: float) -> Arra
     )
 
 
-def involved(given: Assessment, row: Clearance) -> Sequence[ArrayAssessment]:
+def involved(assessment: Assessment, row: Clearance) -> Sequence[ArrayAssessment]:
     """Return the arrays on both sides of a clearance."""
-    return [array for array in given.arrays if array.id in (row.array, row.object)]
+    return [array for array in assessment.arrays if array.id in (row.array, row.object)]

@@ -117,29 +117,29 @@ class Uncertainty:
         return max(self.turned, key=lambda run: nan_is_worst(run.result.prd_m))
 
 
-def uncertainty(given: Assessment) -> Uncertainty | None:
+def uncertainty(assessment: Assessment) -> Uncertainty | None:
     """Return how the governing array and every clearance react to what is not known exactly.
 
     None without motions.
     """
-    if not given.has_motions:
+    if not assessment.has_motions:
         return None
-    governing = given.governing
+    governing = assessment.governing
     motion = governing.worst
     angles = ANGLES_DEG if motion.motion.has_transverse else ()
     with ThreadPoolExecutor(THREADS) as pool:
         return Uncertainty(
-            surface=surface(given, governing, pool),
-            margins=tuple(_margins(given, pool)),
+            surface=surface(assessment, governing, pool),
+            margins=tuple(_margins(assessment, pool)),
             motion=motion,
             turned=tuple(pool.map(partial(_turned, governing), angles)),
             reversed_m=_reversed_m(governing),
         )
 
 
-def surface(given: Assessment, item: ArrayAssessment, pool: Executor) -> ResponseSurface:
+def surface(assessment: Assessment, item: ArrayAssessment, pool: Executor) -> ResponseSurface:
     """Return the mean PRD of an array over a grid of friction and slope around all arrays."""
-    arrays = [array.array for array in given.arrays]
+    arrays = [array.array for array in assessment.arrays]
     mus = _axis([array.mu for array in arrays], item.array.mu, N_MUS, unit=0.01, room=0.05)
     degrees = _axis(
         [math.degrees(array.slope_rad) for array in arrays],
@@ -190,7 +190,7 @@ def _slid(scene: Scene) -> SlideResult:
     return two_axes.run(scene, TOLERANCE)
 
 
-def _is_like(one: Array, other: Array) -> bool:
+def _is_like(first: Array, other: Array) -> bool:
     """Whether the friction of two arrays differs by a factor only."""
 
     def law(array: Array) -> tuple[float, ...]:
@@ -199,13 +199,15 @@ def _is_like(one: Array, other: Array) -> bool:
             return (1.0, 1.0, 0.0)
         return (f.mu_fast / f.mu_slow, f.mu_static / f.mu_slow, f.rate_s_per_m)
 
-    return all(math.isclose(a, b, rel_tol=1e-9) for a, b in zip(law(one), law(other), strict=True))
+    return all(
+        math.isclose(a, b, rel_tol=1e-9) for a, b in zip(law(first), law(other), strict=True)
+    )
 
 
-def _margins(given: Assessment, pool: Executor) -> Iterator[Margin]:
-    trials = trials_of(given, pool)
-    for number, gap in enumerate(given.clearances, start=1):
-        for array in involved(given, gap.clearance):
+def _margins(assessment: Assessment, pool: Executor) -> Iterator[Margin]:
+    trials = trials_of(assessment, pool)
+    for number, gap in enumerate(assessment.clearances, start=1):
+        for array in involved(assessment, gap.clearance):
             yield _margin(trials[array.id], number, gap)
 
 

@@ -66,8 +66,8 @@ def _all_are_written(schema: dict[str, Any]) -> None:
     schema["required"] = list(schema["properties"])
 
 
-def _verdict(given: dict[str, Any]) -> Verdict:
-    return Verdict.OK if given["is_satisfied"] else BY_CONSEQUENCE[given["consequence"]]
+def _verdict(fields: dict[str, Any]) -> Verdict:
+    return Verdict.OK if fields["is_satisfied"] else BY_CONSEQUENCE[fields["consequence"]]
 
 
 class Requirement(BaseModel):
@@ -104,8 +104,8 @@ class Requirement(BaseModel):
 
     @field_validator("remedy", "outcome")
     @classmethod
-    def _only_where_it_is_needed(cls, text: str, given: ValidationInfo) -> str:
-        return "" if given.data["is_satisfied"] else text
+    def _only_where_it_is_needed(cls, text: str, fields: ValidationInfo) -> str:
+        return "" if fields.data["is_satisfied"] else text
 
     @property
     def asked(self) -> tuple[str, ...]:
@@ -149,11 +149,11 @@ def stated(section: str, **parts: tuple[str, object]) -> Mapping[str, Any]:
 
     With whether it states all, and the cells of those that are missing.
     """
-    given = [str(value) for _, value in parts.values() if value]
+    parts_stated = [str(value) for _, value in parts.values() if value]
     missing = {field: name for field, (name, value) in parts.items() if not value}
     lacks = [f"{', '.join(missing.values())} {NOT_GIVEN}"] if missing else []
     return {
-        "found": "; ".join([*given, *lacks]) if given else NOT_GIVEN,
+        "found": "; ".join([*parts_stated, *lacks]) if parts_stated else NOT_GIVEN,
         "is_satisfied": not missing,
         "places": tuple(Place(section, 0, field) for field in missing),
     }
@@ -193,10 +193,10 @@ def rule_set_of(data: ProjectInput) -> RuleSet:
 
 def as_adopted(data: ProjectInput) -> ProjectInput:
     """Return an input without its overrides and departures; the input itself if it has none."""
-    given = data.options
-    statistic = Statistic.RULE_SET if _takes_plain_mean(data) else given.statistic
-    options = given.model_copy(update={"directional": False, "statistic": statistic})
-    if not data.overrides and options == given:
+    chosen = data.options
+    statistic = Statistic.RULE_SET if _takes_plain_mean(data) else chosen.statistic
+    options = chosen.model_copy(update={"directional": False, "statistic": statistic})
+    if not data.overrides and options == chosen:
         return data
     return data.model_copy(update={"overrides": (), "options": options})
 
@@ -219,8 +219,8 @@ def mark_of(value: float, adopted: float) -> str:
 
 
 def _lowers(rules: RuleSet, row: Override) -> bool:
-    given = rules.values.get(row.provision)
-    return given is not None and ALLOWED[row.provision].lowers(row.value, given.value)
+    value = rules.values.get(row.provision)
+    return value is not None and ALLOWED[row.provision].lowers(row.value, value.value)
 
 
 def _override(rules: RuleSet, index: int, row: Override) -> Requirement:

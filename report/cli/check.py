@@ -51,12 +51,12 @@ def check(source: Path, quiet: bool, as_json: bool) -> None:
         Progress(STEPS, quiet=quiet or as_json) as progress,
         no_collections(),
     ):
-        sheet, shaking, found = checked(source, progress)
+        sheet, shaking, findings = checked(source, progress)
     if as_json:
-        print_json(_document(sheet, found))
+        print_json(_document(sheet, findings))
     elif not quiet:
-        click.echo(_summary(sheet, shaking, found))
-        for line in lines(sheet, found):
+        click.echo(_summary(sheet, shaking, findings))
+        for line in lines(sheet, findings):
             say(line)
         click.echo(f"Next: {command('report', source)}")
 
@@ -144,21 +144,21 @@ def _in_future(sheet: Sheet, today: dt.date) -> Iterator[Finding]:
         yield note(Place("project", 0, "date"), text)
 
 
-def lines(sheet: Sheet, found: Iterable[Finding]) -> Iterator[str]:
+def lines(sheet: Sheet, listed: Iterable[Finding]) -> Iterator[str]:
     """Yield findings as lines: level, cells, what was found, the names of warnings."""
     from report.sheet.checking import findings
 
-    for line in findings.lines(found, sheet.addresses):
+    for line in findings.lines(listed, sheet.addresses):
         finding = line.finding
         name = f" [{line.names}]" if line.names else ""
         answered = f" Acknowledged: {finding.reason}" if finding.reason else ""
         yield f"{finding.level}: {line.cells}: {finding.text}{name}{answered}"
 
 
-def _document(sheet: Sheet, found: Iterable[Finding]) -> dict[str, Any]:
+def _document(sheet: Sheet, findings: Iterable[Finding]) -> dict[str, Any]:
     from report.entities.requirement import finding_results
 
-    data, rows = sheet.project, finding_results(found, sheet.addresses)
+    data, rows = sheet.project, finding_results(findings, sheet.addresses)
     return document(sheet.path) | {
         "findings": [row.model_dump(mode="json") for row in rows],
         "arrays": len(data.arrays),
@@ -169,11 +169,11 @@ def _document(sheet: Sheet, found: Iterable[Finding]) -> dict[str, Any]:
     }
 
 
-def _summary(sheet: Sheet, shaking: Shaking, found: Iterable[Finding]) -> str:
+def _summary(sheet: Sheet, shaking: Shaking, findings: Iterable[Finding]) -> str:
     from report.sheet.schema.fields import Level
 
     data = sheet.project
-    levels = [finding.level for finding in found]
+    levels = [finding.level for finding in findings]
     counts = ", ".join(numbered(count, level) for level in Level if (count := levels.count(level)))
     return (
         f"{sheet.path}: {f'no errors, {counts}' if counts else 'no problems found'}. "

@@ -88,11 +88,11 @@ def doctor() -> None:
     wrong = []
     for name, look, remedy in _checks():
         try:
-            found = look(name) or "missing"
+            version = look(name) or "missing"
         except Exception as error:  # whatever is wrong here is the finding
-            found = f"fails: {'; '.join(str(error).splitlines()[:3]) or repr(error)}"
-        click.echo(f"{name:15}  {found}")
-        if found.startswith(("missing", "fails")):
+            version = f"fails: {'; '.join(str(error).splitlines()[:3]) or repr(error)}"
+        click.echo(f"{name:15}  {version}")
+        if version.startswith(("missing", "fails")):
             wrong.append(f"{name}: {remedy}")
     if wrong:
         raise click.ClickException("\n".join(wrong))

@@ -181,8 +181,8 @@ def suite(
         output_folder(folder, folder, "")
         sheet = read(into) if into else None
         asked = {"s_ds_g": s_ds_g, "z_over_h": z_over_h, "code": code, "tail": tail}
-        given = {name: value for name, value in asked.items() if value is not None}
-        targets, taken = _targets(given, target, sheet)
+        options = {name: value for name, value in asked.items() if value is not None}
+        targets, taken = _targets(options, target, sheet)
         rows = suite_rows(sheet.book, folder, count, targets.source(seed)) if sheet else []
         seeds = read_seeds((*records, *more), units=units or "", dt_s=dt_s)
         motions, files = generate(targets, count, seed, seeds, progress)
@@ -288,14 +288,14 @@ def _in_library(source: Path) -> Path:
     try:
         text = config.read_text(encoding="utf-8") if config.exists() else ""
         library = str(tomllib.loads(text).get("motions", ""))
-        found = Path(library).expanduser() / source
+        path = Path(library).expanduser() / source
     except (OSError, ValueError, RuntimeError) as error:  # the last of an unknown ~user
         raise InputError(f"{config}: cannot be read; {wanted}") from error
-    if not library or not found.exists():
+    if not library or not path.exists():
         hint = meant(source) or f"for a library of motions, {wanted}"
         place = f"here or in {library}" if library else f"here; {hint}"
         raise InputError(f"no such folder or zip {place}")
-    return found
+    return path
 
 
 def _targets(

@@ -51,7 +51,7 @@ def given_kinds(
 def choose(
     drawing: RoofDrawing,
     sheet: Mapping[str, LayerKind],
-    given: Mapping[str, LayerKind],
+    chosen: Mapping[str, LayerKind],
     accept: bool,
 ) -> dict[str, LayerKind]:
     """Return what is said of layers beyond the sheet Layers: as given, or proposed and accepted.
@@ -70,13 +70,13 @@ def choose(
     from solver.suggestions import nearest
 
     names = {layer.casefold(): layer for layer, _ in drawing.counts}
-    if lost := [name for name in given if name.casefold() not in names]:
+    if lost := [name for name in chosen if name.casefold() not in names]:
         near = [nearest(name, names.values()) for name in lost]
         raise InputError(
             [Problem(f"no layer '{name}'", meant and f"did you mean '{meant}'?")
              for name, meant in zip(lost, near, strict=True)]
         )  # fmt: skip
-    known = known_layers({**sheet, **given})
+    known = known_layers({**sheet, **chosen})
     outlines = Counter(line.layer for line in drawing.lines if line.layer.casefold() not in known)
     kinds = {layer: proposed(layer) for layer in sorted(outlines)}
     if kinds and not accept:
@@ -87,7 +87,7 @@ def choose(
             " add --accept to take what is proposed, or --layer NAME=KIND for a layer, where KIND"
             f" is one of {', '.join(LayerKind)}"
         )
-    return {**given, **{layer: kind for layer, kind in kinds.items() if kind}}
+    return {**chosen, **{layer: kind for layer, kind in kinds.items() if kind}}
 
 
 def _table(
@@ -142,7 +142,7 @@ def read(
     gap: tuple[float, str],
     replace: bool,
     accept: bool,
-    given: dict[str, LayerKind],
+    kinds: dict[str, LayerKind],
     rotate: float,
 ) -> None:
     """Fill in arrays, objects, roof edges and outlines from the closed lines of a DXF.
@@ -170,15 +170,15 @@ def read(
         with input_errors(drawing):
             drawn, unit_m = _read(drawing, units)
             drawn, turn = _turned(drawn, rotate)
-            layers = choose(drawn, named, given, accept)
-            found = plan_of(drawn, unit_m, {**named, **layers}, gap_m, is_us)
+            layers = choose(drawn, named, kinds, accept)
+            roof_plan = plan_of(drawn, unit_m, {**named, **layers}, gap_m, is_us)
             known_now = known_layers({**named, **layers})
             unknown = [line.layer for line in drawn.lines if line.layer.casefold() not in known_now]
             layers |= dict.fromkeys(unknown, LayerKind.NOT_READ)
-        _check_found(found, drawn)
+        _check_found(roof_plan, drawn)
         with input_errors(drawing):
-            check_size(found, unit_m, is_us)
-            told = matched(found, draft)
+            check_size(roof_plan, unit_m, is_us)
+            told = matched(roof_plan, draft)
         change.fill(changes(change.book, told, layers, replace=replace))
         try:
             more = _add_clearances(change)
@@ -193,9 +193,9 @@ def read(
         *turn,
         *(
             _line(place, gap_m, is_us)
-            for place in (*found.roof, *told.plan.arrays, *told.plan.objects)
+            for place in (*roof_plan.roof, *told.plan.arrays, *told.plan.objects)
         ),
-        *_unread(found),
+        *_unread(roof_plan),
         *(f"layer {name}: {kind.value}" for name, kind in layers.items()),
         f"{change.book.path}: the plan is filled in: {change.areas}",
         *told.lines(replace=replace),
@@ -247,9 +247,9 @@ def _add_clearances(change: WorkbookChange) -> Sequence[str]:
             arrays = assess(to_run, shaking).arrays
         except InputError as error:
             not_run = [f"the motions are not run: {error.problems[0]}"]
-    cells, found = missing_rows(sheet, arrays)
+    cells, lines = missing_rows(sheet, arrays)
     change.fill(cells)
-    return [*not_run, *found]
+    return [*not_run, *lines]
 
 
 def _read(drawing: Path, units: str | None) -> tuple[RoofDrawing, float]:
@@ -258,13 +258,13 @@ def _read(drawing: Path, units: str | None) -> tuple[RoofDrawing, float]:
     from report.text.units import LENGTHS
     from solver.model import InputError
 
-    found = read_dxf(drawing, LENGTHS.get(units or ""))
-    unit = units or found.unit
+    roof_drawing = read_dxf(drawing, LENGTHS.get(units or ""))
+    unit = units or roof_drawing.unit
     if not unit:
-        if found.other_unit:
-            raise InputError(found.other_unit)
+        if roof_drawing.other_unit:
+            raise InputError(roof_drawing.other_unit)
         raise InputError(f"states no unit; add --units with one of {', '.join(UNIT_CHOICES)}")
-    return found, LENGTHS[unit]
+    return roof_drawing, LENGTHS[unit]
 
 
 def _turned(drawn: RoofDrawing, rotate: float) -> tuple[RoofDrawing, list[str]]:
@@ -286,19 +286,21 @@ def _turned(drawn: RoofDrawing, rotate: float) -> tuple[RoofDrawing, list[str]]:
     return drawn, lines
 
 
-def _check_found(found: RoofPlan, drawn: RoofDrawing) -> None:
+def _check_found(roof_plan: RoofPlan, drawn: RoofDrawing) -> None:
     """Refuse a drawing from which nothing is filled in."""
     from solver.model import InputError
 
-    if found.roof or found.arrays or found.objects:
+    if roof_plan.roof or roof_plan.arrays or roof_plan.objects:
         return
     if not drawn.lines:
         if names := ", ".join(drawn.layouts):
             text = f"its closed lines are in the layout {names}, not in model space"
             raise InputError(f"{text}; move them there in CAD")
         text = "the drawing has no closed lines; draw roof, arrays and objects as such in CAD"
-        raise InputError([text, *_unread(found)])
-    raise InputError(["nothing to fill in: give the layers on the sheet Layers", *_unread(found)])
+        raise InputError([text, *_unread(roof_plan)])
+    raise InputError(
+        ["nothing to fill in: give the layers on the sheet Layers", *_unread(roof_plan)]
+    )
 
 
 def _line(place: DrawnOutline, gap_m: float, is_us: bool) -> str:
@@ -322,11 +324,11 @@ def _line(place: DrawnOutline, gap_m: float, is_us: bool) -> str:
     return f"{place.name}: {made}, {count} vertices, {wide} by {tall}{askew}{source}{note}"
 
 
-def _unread(found: RoofPlan) -> Iterator[str]:
+def _unread(roof_plan: RoofPlan) -> Iterator[str]:
     """Yield what was not understood, once for each cause, with its layers and some handles."""
     from report.sheet.checking.findings import listed
 
-    for reason, items in grouped_by(found.unread, lambda item: item.reason).items():
+    for reason, items in grouped_by(roof_plan.unread, lambda item: item.reason).items():
         layers = listed(item.layer for item in items)
         handles = listed(f"{item.handle} {item.detail}".strip() for item in items)
         yield f"not read: {reason}: {len(items)} on {layers} ({handles})"
@@ -362,17 +364,17 @@ def ballast(
         sheet = read_book(change.book)
         shapes = shapes_of(sheet.draft)
         arrays = {row["id"]: row for row in sheet.draft["arrays"] if row.get("id") in shapes}
-        found, outside = loads(rows, {name: shapes[name] for name in arrays})
-        if not found:
+        blocks, outside = loads(rows, {name: shapes[name] for name in arrays})
+        if not blocks:
             raise InputError("no block of the map is within an array of the plan")
-        weights = {name: load.blocks * block_n for name, load in found.items()}
-        bare = [name for name in arrays if name not in found] if replace else []
+        weights = {name: load.blocks * block_n for name, load in blocks.items()}
+        bare = [name for name in arrays if name not in blocks] if replace else []
         filled = ballast_changes(change.book, {**weights, **dict.fromkeys(bare)}, replace=replace)
         change.fill(filled)
     is_us = us_first(sheet.draft)
     for name, row in arrays.items():
-        text = _balance(row, found[name], weights[name], is_us) if name in found else "no blocks"
-        if name not in found and row.get("ballast_n") is not None:
+        text = _balance(row, blocks[name], weights[name], is_us) if name in blocks else "no blocks"
+        if name not in blocks and row.get("ballast_n") is not None:
             was = pair(row["ballast_n"], Quantity.WEIGHT, is_us)
             text += f"; the {was} given {'are taken out' if replace else 'stay without --replace'}"
         click.echo(plain(f"{name}: {text}"))

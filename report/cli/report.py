@@ -257,11 +257,11 @@ def settled(workbook: Path) -> set[tuple[str, int, int]]:
 
 def stamps(top: Path) -> set[tuple[str, int, int]]:
     """Return path, time and size of the files below a folder that may be inputs."""
-    found = set()
+    seen = set()
     for folder, _, names in os.walk(top):
         for name in names:
             if not name.startswith((".", "~")) and not name.endswith(NO_INPUTS):
                 with suppress(OSError):  # it may be gone by now
                     status = os.stat(path := os.path.join(folder, name))
-                    found.add((path, status.st_mtime_ns, status.st_size))
-    return found
+                    seen.add((path, status.st_mtime_ns, status.st_size))
+    return seen

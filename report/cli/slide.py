@@ -102,13 +102,13 @@ def _read(names: tuple[str | None, ...], units: str, dt_s: float) -> list[Record
             records[-1] = read_record(path, units=units, dt_s=dt_s, channel=channel.strip())
         except InputError as error:
             problems += error.problems
-    given = [record for record in records if record is not None]
+    components = [record for record in records if record is not None]
     problems += [
         f"{record.name}: has a mean of about 1 g: gravity is in it; subtract the mean"
-        for record in given
+        for record in components
         if has_gravity(record.a_mps2)
     ]
-    problems += _mismatches(given)
+    problems += _mismatches(components)
     if problems:
         raise InputError(problems)
     return records

@@ -117,11 +117,13 @@ def make(
     return results, files
 
 
-def _print_estimate(found: Estimate) -> None:
-    most = f"; at most {found.capacity_runs:,} more runs for the capacities"
-    more = most if found.capacity_runs else ""
-    click.echo(f"{found.cases:,} cases, {found.runs:,} runs in {found.parts:,} parts{more}")
-    click.echo(f"{found.disk_bytes / 1e6:,.1f} MB on disk")
+def _print_estimate(estimate: Estimate) -> None:
+    most = f"; at most {estimate.capacity_runs:,} more runs for the capacities"
+    more = most if estimate.capacity_runs else ""
+    click.echo(
+        f"{estimate.cases:,} cases, {estimate.runs:,} runs in {estimate.parts:,} parts{more}"
+    )
+    click.echo(f"{estimate.disk_bytes / 1e6:,.1f} MB on disk")
 
 
 def summary(results: StudyResults) -> list[str]:

@@ -217,11 +217,11 @@ def _print(proof: Proof, written: str) -> None:
         say(f"  {reason}")
     if written:
         click.echo(plain(f"The package made again: {written}"))
-    for one in proof.signed:
+    for signature in proof.signed:
         click.echo(
             plain(
-                f"Signed since, in the field '{one.field}', by '{one.signer}'. Who issued the "
-                "certificate was not checked: a PDF reader does."
+                f"Signed since, in the field '{signature.field}', by '{signature.signer}'. Who "
+                "issued the certificate was not checked: a PDF reader does."
             )
         )
 

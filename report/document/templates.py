@@ -206,6 +206,6 @@ def _filled(
         below.append(Part(id=f"{part.id}-{count}", number=f"{number}.{count}", title=title))
         return below[-1]
 
-    given = {"template": section.template, "drawings": section.charts, "sub": sub}
-    html = rendered(folder, "section.html", {**context, **section.content, **given})
+    values = {"template": section.template, "drawings": section.charts, "sub": sub}
+    html = rendered(folder, "section.html", {**context, **section.content, **values})
     return replace(part, parts=tuple(below)), Markup(html)

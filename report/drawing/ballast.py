@@ -76,22 +76,22 @@ def read_map(path: Path, unit_m: float) -> Any:
         raise InputError(f"line 1: not one heading {', '.join(missing)}; give x, y and blocks")
     if len(rows) > MAX_ROWS:
         raise InputError(f"{len(rows):,} lines, more than {MAX_ROWS:,}; add up neighboring blocks")
-    found, wrong = [], []
+    rows_read, wrong = [], []
     for line, row in rows[1:]:
-        given = [row[k].strip() if k < len(row) else "" for k in map(heads.index, COLUMNS)]
+        cells = [row[k].strip() if k < len(row) else "" for k in map(heads.index, COLUMNS)]
         x, y, blocks = (
-            number_in(text.replace(",", ".") if mark == ";" else text) for text in given
+            number_in(text.replace(",", ".") if mark == ";" else text) for text in cells
         )
-        for name, text, value in zip(COLUMNS, given, (x, y, blocks), strict=True):
+        for name, text, value in zip(COLUMNS, cells, (x, y, blocks), strict=True):
             if not math.isfinite(value):
                 wrong.append(f"line {line}: {name} is '{cut(text)}'; give a number")
             elif name == "blocks" and not (value.is_integer() and 0.0 <= value <= MAX_BLOCKS):
                 wanted = f"give a whole number from 0 to {MAX_BLOCKS:,}"
                 wrong.append(f"line {line}: blocks is {value:g}; {wanted}")
-        found.append((line, x * unit_m, y * unit_m, blocks))
+        rows_read.append((line, x * unit_m, y * unit_m, blocks))
     if wrong:
         raise InputError(wrong)
-    return np.array(found).reshape(-1, 4)
+    return np.array(rows_read).reshape(-1, 4)
 
 
 def loads(rows: Any, arrays: Mapping[str, Shape]) -> tuple[dict[str, Load], list[int]]:
@@ -103,13 +103,13 @@ def loads(rows: Any, arrays: Mapping[str, Shape]) -> tuple[dict[str, Load], list
     home = np.full(len(rows), -1)
     of, at = points.query(solids, predicate="intersects")
     home[at] = of
-    found = {}
+    by_array = {}
     for index, name in enumerate(arrays):
         own, middle = rows[home == index], solids[index].centroid
         if count := int(own[:, 3].sum()):
             x, y = (own[:, 3] @ own[:, 1:3] / count).tolist()
-            found[name] = Load(blocks=count, center=(x, y), centroid=(middle.x, middle.y))
-    return found, rows[(home < 0) & (rows[:, 3] > 0.0), 0].astype(int).tolist()
+            by_array[name] = Load(blocks=count, center=(x, y), centroid=(middle.x, middle.y))
+    return by_array, rows[(home < 0) & (rows[:, 3] > 0.0), 0].astype(int).tolist()
 
 
 def center_of_gravity(load: Load, ballast_n: float, modules_n: float) -> Point:

@@ -85,24 +85,24 @@ def _vertices(entity: Any, kind: str) -> list[tuple[float, float, float]]:
         return [(float(p[0]), float(p[1]), 0.0) for p in at]
     if _is_circle(entity, kind):
         (x, y, _), radius = entity.dxf.center, entity.dxf.radius
-        found = [(x - radius, y, 1.0), (x + radius, y, 1.0)]
+        vertices = [(x - radius, y, 1.0), (x + radius, y, 1.0)]
     elif kind == "ARC":
         from ezdxf.math import arc_to_bulge
 
         dxf = entity.dxf
         turn = math.radians(dxf.start_angle), math.radians(dxf.end_angle)
         start, end, bulge = arc_to_bulge(dxf.center, turn[0], turn[1], dxf.radius)
-        found = [(*start, bulge), (*end, 0.0)]
+        vertices = [(*start, bulge), (*end, 0.0)]
     elif kind == "LWPOLYLINE":
-        found = [(x, y, bulge) for x, y, bulge in entity.get_points("xyb")]
+        vertices = [(x, y, bulge) for x, y, bulge in entity.get_points("xyb")]
     else:
         shown = [v for v in entity.vertices if not v.dxf.flags & _SPLINE_FRAME]
-        found = [(v.dxf.location.x, v.dxf.location.y, v.dxf.bulge) for v in shown]
+        vertices = [(v.dxf.location.x, v.dxf.location.y, v.dxf.bulge) for v in shown]
         if entity.is_3d_polyline:
-            return found
+            return vertices
     # The plane of the curve may look down: then x and the turn of arcs are mirrored.
     way = 1.0 if entity.dxf.get("extrusion", (0.0, 0.0, 1.0))[2] > 0.0 else -1.0
-    return [(way * float(x), float(y), way * float(bulge)) for x, y, bulge in found]
+    return [(way * float(x), float(y), way * float(bulge)) for x, y, bulge in vertices]
 
 
 def _is_circle(entity: Any, kind: str) -> bool:
@@ -127,8 +127,8 @@ def _spline(entity: Any, sagitta: float) -> Iterable[Any]:
     spans, parts = len(knots) - 1, _SPAN_PARTS
     while True:
         marks = np.linspace(0, spans, 2 * parts * spans + 1)  # each second one is a middle
-        found = tool.points(np.interp(marks, range(spans + 1), knots).tolist())
-        points = np.array([(p.x, p.y) for p in found])
+        points_3d = tool.points(np.interp(marks, range(spans + 1), knots).tolist())
+        points = np.array([(p.x, p.y) for p in points_3d])
         chords = shapely.linestrings(np.stack((points[:-1:2], points[2::2]), axis=1))
         off = shapely.distance(shapely.points(points[1::2]), chords)
         if len(points) > 2 * MAX_POINTS or (off <= sagitta).all():
@@ -269,10 +269,10 @@ def boundaries(hatch: Any, sagitta: float, tolerance: float) -> list[Any] | str:
     for path in hatch.paths:
         opened: list[list[Point]] = []
         for part in _curves(path):
-            found = curve(part, sagitta)
-            if isinstance(found, str):
-                return f"a {kind} whose boundary is not read: {found}"
-            points, is_closed = found
+            outline = curve(part, sagitta)
+            if isinstance(outline, str):
+                return f"a {kind} whose boundary is not read: {outline}"
+            points, is_closed = outline
             (rings if is_closed else opened).append(points)
         closed, rest = join(opened, tolerance)
         if rest:

@@ -150,12 +150,12 @@ def _dimension(plan: PlanSheet, provided: str, equal: Sequence[Lane]) -> None:
     long = width_in(words) + 0.06
     tall = LINE_IN - 0.02
     for overhang in (0.0, _OVERHANG_IN):
-        found = [(lane, shift) for lane in equal for shift in alongside(lane, long, overhang)]
-        frames = [lane.frame(shift, long, tall) for lane, shift in found]
-        within = [lane.frame(shift, long, min(lane.narrow, tall)) for lane, shift in found]
+        places = [(lane, shift) for lane in equal for shift in alongside(lane, long, overhang)]
+        frames = [lane.frame(shift, long, tall) for lane, shift in places]
+        within = [lane.frame(shift, long, min(lane.narrow, tall)) for lane, shift in places]
         taken = plan.paper.placer.take_first(frames, within)
         if taken is not None:
-            (lane, _), frame = found[taken], frames[taken]
+            (lane, _), frame = places[taken], frames[taken]
             plan.paper.box(Mark.BACKING, frame)
             (x, y), is_upright = frame.middle, lane.is_upright
             base = (x + BASE_IN, y) if is_upright else (x, y - BASE_IN)

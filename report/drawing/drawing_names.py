@@ -92,20 +92,20 @@ def read_line(text: str, unit_m: float) -> tuple[str, Height | None]:
         text = text.replace(mark, plain)
     word = _KEYWORD.search(text)
     if word:
-        found, start, said = _VALUE.match(text, word.end()), word.start(), word[1] or word[2]
+        match, start, said = _VALUE.match(text, word.end()), word.start(), word[1] or word[2]
     elif before := _BEFORE.search(text):
-        found, start, said = _VALUE.fullmatch(before["value"]), before.start(), "H"
+        match, start, said = _VALUE.fullmatch(before["value"]), before.start(), "H"
     else:
         return text, None
     name = _OTHER_SIZES.sub("", text[:start]).strip(" ,;:-(@")
     unclear = Height(math.nan, said.upper(), False)
-    if not found or not found[0]:
+    if not match or not match[0]:
         return name, unclear
-    unit = found["unit"] or ('"' if found["feet"] else "")
-    if word and not unit and text[found.end() :].lstrip()[:1].isalnum():
+    unit = match["unit"] or ('"' if match["feet"] else "")
+    if word and not unit and text[match.end() :].lstrip()[:1].isalnum():
         return name, unclear  # such as `42 yd` or `42 1/0`
-    value = float(found["number"] or 0.0) + float(Fraction(found["share"] or 0))
-    value_m = value * _UNITS.get(unit.lower(), unit_m) + float(found["feet"] or 0.0) * _UNITS["ft"]
+    value = float(match["number"] or 0.0) + float(Fraction(match["share"] or 0))
+    value_m = value * _UNITS.get(unit.lower(), unit_m) + float(match["feet"] or 0.0) * _UNITS["ft"]
     return name, Height(value_m, said.upper(), bool(unit))
 
 

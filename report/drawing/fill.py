@@ -108,13 +108,13 @@ def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
     InputError
         With the candidates, for what cannot be told.
     """
-    given = [*draft["arrays"], *draft["objects"]]
-    rows = {row["id"]: row for row in given if "id" in row}
+    known = [*draft["arrays"], *draft["objects"]]
+    rows = {row["id"]: row for row in known if "id" in row}
     groups = {row["id"]: _group(row.get("kind", "")) for row in draft["objects"] if "id" in row}
     before = shapes_of(draft)
     drawn = (*plan.arrays, *plan.objects)
     by_name = {(groups.get(name, _ARRAY), name.casefold()): name for name in before}
-    found = {
+    by_row = {
         number: by_name[key]
         for number, place in enumerate(drawn)
         if (key := (_group(place.kind), place.name.casefold())) in by_name and not place.unnamed
@@ -129,19 +129,19 @@ def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
                 (k, name): value
                 for k in numbers
                 for name in names
-                if k not in found and name not in found.values()
+                if k not in by_row and name not in by_row.values()
                 if (value := score(drawn[k], before[name])) > 0.0
             }
-            unclear += _tell(pairs, drawn, found, unit)
-        left = [name for name in names if name not in found.values() and _is_drawn(rows[name])]
-        new = [k for k in numbers if k not in found and drawn[k].unnamed and drawn[k].handle]
+            unclear += _tell(pairs, drawn, by_row, unit)
+        left = [name for name in names if name not in by_row.values() and _is_drawn(rows[name])]
+        new = [k for k in numbers if k not in by_row and drawn[k].unnamed and drawn[k].handle]
         if left and new and not unclear:
             unclear.append(_either([drawn[k] for k in new], left, unit) + ", or new")
     if unclear:
         raise InputError([f"{text}: write its name inside of it as a text" for text in unclear])
-    lost = [name for name in before if name not in found.values()]
+    lost = [name for name in before if name not in by_row.values()]
     return MatchedPlan(
-        plan=_renamed(plan, found, before, rows),
+        plan=_renamed(plan, by_row, before, rows),
         gone=tuple(name for name in lost if _is_drawn(rows[name])),
         typed=tuple(name for name in lost if not _is_drawn(rows[name])),
         before=before,
@@ -162,8 +162,8 @@ def _common(place: DrawnOutline, row: Shape) -> float:
     """Return the share that an outline has in common with a row; 0 if too small to be it."""
     if gap_m(place.shape.bounds, row.bounds) >= 0.0:
         return 0.0
-    one, other = solid(place.shape), solid(row)
-    share: float = one.intersection(other).area / one.union(other).area
+    area, other = solid(place.shape), solid(row)
+    share: float = area.intersection(other).area / area.union(other).area
     return share if share >= (_LEAST_SHARE if place.unnamed else _RENAMED_SHARE) else 0.0
 
 
@@ -182,7 +182,7 @@ def _same_sized(place: DrawnOutline, row: Shape) -> float:
 
 
 def _tell(
-    pairs: Pairs, drawn: Sequence[DrawnOutline], found: dict[int, str], unit: Unit
+    pairs: Pairs, drawn: Sequence[DrawnOutline], matches: dict[int, str], unit: Unit
 ) -> Iterator[str]:
     """Add the rows that are plain, the best first, and yield what is not, as far as it is told."""
     told = 0
@@ -195,7 +195,7 @@ def _tell(
         ]
         # A side of the roof that cannot be told is new: its name cannot be drawn.
         if not rivals or drawn[number].handle:
-            found[number] = name
+            matches[number] = name
         if rivals and drawn[number].handle:
             told += 1
             numbers, names = ({*each} for each in zip(best, *rivals, strict=True))
@@ -211,7 +211,7 @@ def _either(places: Sequence[DrawnOutline], names: Sequence[str], unit: Unit) ->
 
 def _renamed(
     plan: RoofPlan,
-    found: Mapping[int, str],
+    matches: Mapping[int, str],
     before: Mapping[str, Shape],
     rows: Mapping[str, DraftRow],
 ) -> RoofPlan:
@@ -221,11 +221,11 @@ def _renamed(
     counts: Counter[LayerKind] = Counter()
     named = []
     for number, place in enumerate(drawn):
-        if number not in found:
+        if number not in matches:
             name = free_name(place.kind, counts, taken) if place.unnamed else place.name
             named.append(replace(place, name=name))
             continue
-        name = found[number]
+        name = matches[number]
         is_written = not place.unnamed and place.name.casefold() == name.casefold()
         other = f"'{place.name}' in the drawing" if not place.unnamed else "by its place"
         place = replace(place, name=name, unnamed="" if is_written else other)

@@ -110,11 +110,11 @@ def _in_reading_order(arrays: Sequence[_Placed]) -> list[_Placed]:
     """Return arrays by rows from the top, each from the left."""
     rows: list[list[tuple[Rectangle, _Placed]]] = []
     placed = [(Polygon(item[0].points).bounds, item) for item in arrays]
-    for box, item in sorted(placed, key=lambda one: -mean(one[0].points)[1]):
+    for box, item in sorted(placed, key=lambda module: -mean(module[0].points)[1]):
         if not rows or mean(box.points)[1] < rows[-1][0][0].y_from_m:
             rows.append([])
         rows[-1].append((box, item))
-    return [item for row in rows for _, item in sorted(row, key=lambda one: one[0].x_from_m)]
+    return [item for row in rows for _, item in sorted(row, key=lambda module: module[0].x_from_m)]
 
 
 def _arrays(
@@ -125,9 +125,9 @@ def _arrays(
 
     small = [k for k, (*_, shape) in enumerate(lines) if shape.area_m2 <= SIDES_M[1] ** 2]
     middles = np.array([complex(*mean(lines[k][2].points)) for k in small])
-    found = list(_parallel(lines, alike))
-    modules = {k for at, *_ in found for k in at}
-    for at, sizes, boxes, turn in found:
+    groups = list(_parallel(lines, alike))
+    modules = {k for at, *_ in groups for k in at}
+    for at, sizes, boxes, turn in groups:
         row = {k: n for n, k in enumerate(at)}
         parts = _closed(boxes, gap_m + ROUNDED_GAP_M)
         own = middles / turn

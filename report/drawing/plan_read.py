@@ -129,11 +129,11 @@ def plan_of(
     known: list[Known] = []
 
     def take(line: Drawn, kind: LayerKind, unit_m: float) -> None:
-        found = _shape(line, unit_m)
-        if isinstance(found, Unread):
-            unread.append(found)
+        shape = _shape(line, unit_m)
+        if isinstance(shape, Unread):
+            unread.append(shape)
         else:
-            known.append((line, kind, found))
+            known.append((line, kind, shape))
 
     for line in drawing.lines:
         kind = kinds.get(line.layer.casefold())
@@ -174,7 +174,7 @@ def _once(known: Sequence[Known], unread: list[Unread]) -> list[Known]:
         if is_equal and solids[first].hausdorff_distance(solids[second]) <= TWICE_M:
             twins.add(second)
     unread += [_unread(known[k][0], "drawn twice, counted once") for k in sorted(twins)]
-    return [one for k, one in enumerate(known) if k not in twins]
+    return [line for k, line in enumerate(known) if k not in twins]
 
 
 def check_size(plan: RoofPlan, unit_m: float, us_first: bool = True) -> None:
@@ -250,7 +250,7 @@ def _named(
     places = []
     written = [_name(line, words, unit_m) for (line, *_), words in zip(known, inside, strict=True)]
     repeated = Counter(name.casefold() for name in written)
-    given = set(repeated)
+    names = set(repeated)
     for (line, kind, shape), words, name in zip(known, inside, written, strict=True):
         notes: list[str] = []
         unnamed = ""
@@ -259,7 +259,7 @@ def _named(
         if kind is LayerKind.ROOF:
             name = "roof"
         elif not name:
-            name = free_name(kind, counts, given)
+            name = free_name(kind, counts, names)
             unnamed = "named in reading order" if line.sizes else "no text inside"
         elif name.casefold() in taken:
             detail = f"'{name}' of {taken[name.casefold()]}"
@@ -345,9 +345,9 @@ def _texts_inside(
                 inside[own[text.of]].append(text)
             continue
         at = shapely.Point(text.at[0] * unit_m, text.at[1] * unit_m)
-        found = tree.query(at, predicate="intersects")
-        if len(found):
-            inside[order[min(found)]].append(text)
+        pairs = tree.query(at, predicate="intersects")
+        if len(pairs):
+            inside[order[min(pairs)]].append(text)
     return inside
 
 

@@ -213,10 +213,10 @@ class _Reader:
 
     def _take_curve(self, entity: Any, layer: str, handle: str, block: _Block) -> str:
         """Add a closed line, or note an open one, or return why it is neither."""
-        found = curve(entity, SAGITTA_M / self.unit_m)
-        if isinstance(found, str):
-            return found
-        points, is_closed = found
+        outline = curve(entity, SAGITTA_M / self.unit_m)
+        if isinstance(outline, str):
+            return outline
+        points, is_closed = outline
         self.points += len(points)
         limit(self.points, MAX_CURVE_POINTS, "points of curves")
         own = _own_name(entity)
@@ -236,23 +236,23 @@ class _Reader:
 
         kind = entity.dxftype()
         is_hatch = kind in HATCHES
-        found = (
+        areas = (
             boundaries(entity, SAGITTA_M / self.unit_m, JOIN_M / self.unit_m)
             if is_hatch
             else faces(entity)
         )
-        if isinstance(found, str):
-            return found
-        if not found and kind != "3DFACE":  # a vertical one is a side of the others
+        if isinstance(areas, str):
+            return areas
+        if not areas and kind != "3DFACE":  # a vertical one is a side of the others
             return f"a {kind} without an area"
-        self.points += sum(len(shapely.get_coordinates(area)) for area in found)
+        self.points += sum(len(shapely.get_coordinates(area)) for area in areas)
         limit(self.points, MAX_CURVE_POINTS, "points of curves")
         own = _own_name(entity)
         line = Drawn(handle=handle, layer=layer, name=own or block.name, points=(),
                      is_ours=bool(own), heights=block.heights)  # fmt: skip
         # Faces that are drawn one by one are those of one body where they touch.
         key = (block.number, layer.casefold(), "" if kind == "3DFACE" else str(self.entities))
-        self.areas.setdefault(key, (line, kind, []))[2].extend(found)
+        self.areas.setdefault(key, (line, kind, []))[2].extend(areas)
         return ""
 
     def _take_areas(self) -> None:
@@ -265,8 +265,8 @@ class _Reader:
         solids = [shapely.union_all(polygons([line.points])) for line in lines]
         layers = [line.layer.casefold() for line in lines]
         tree, gap = shapely.STRtree(solids), JOIN_M / self.unit_m
-        for line, kind, found in self.areas.values():
-            rings, has_holes = outlines(found, gap)
+        for line, kind, outline in self.areas.values():
+            rings, has_holes = outlines(outline, gap)
             if not rings:
                 self._leave(line.handle, line.layer, f"a {kind} without an area")
             for points in rings:
@@ -276,7 +276,7 @@ class _Reader:
                     self._leave(line.handle, line.layer, f"a {kind} over a closed line")
                 elif reason := self._close(replace(line, points=tuple(points)), kind):
                     self._leave(line.handle, line.layer, reason)
-            if has_holes or (kind in HATCHES and len(found) > len(rings)):
+            if has_holes or (kind in HATCHES and len(outline) > len(rings)):
                 self._leave(line.handle, line.layer, f"holes of a {kind}, whose outline is read")
         self.areas.clear()
 
@@ -322,12 +322,12 @@ class _Reader:
         name, heights = _attributes(insert)
         count, clip = _count(insert), _clip(insert)
         _check_expanded(count)
-        for one in insert.multi_insert() if count > 1 else (insert,):
+        for copy in insert.multi_insert() if count > 1 else (insert,):
             self.blocks += 1
             _check_expanded(self.blocks)
             block = _Block(self.blocks, depth, handle, name, heights)
             before = len(self.drawing.lines)
-            for entity in one.virtual_entities():
+            for entity in copy.virtual_entities():
                 # Layer 0 within a block is the layer that the block is put on.
                 if entity.dxf.get("layer", "0") == "0":
                     entity.dxf.layer = layer
@@ -358,12 +358,12 @@ class _Reader:
         limit(self.letters, MAX_LETTERS, "letters of texts")
         if kind == "MTEXT":
             # What the library calls fast takes a time that grows as the square of the length.
-            found = entity.plain_text(split=True, fast=False)
+            texts = entity.plain_text(split=True, fast=False)
             x, y, _ = entity.dxf.insert
         else:
-            found = [entity.plain_text() if kind == "TEXT" else entity.dxf.text]
+            texts = [entity.plain_text() if kind == "TEXT" else entity.dxf.text]
             x, y, _ = entity.get_placement()[1] or entity.dxf.insert
-        lines = [words for text in found if (words := " ".join(_printable(text).split()))]
+        lines = [words for text in texts if (words := " ".join(_printable(text).split()))]
         if lines and math.isfinite(x) and math.isfinite(y):
             self.drawing.texts.append(
                 Words(layer=layer, text=lines[0], at=(float(x), float(y)), others=tuple(lines[1:]),
@@ -390,13 +390,13 @@ def _attributes(insert: Any) -> tuple[str, tuple[str, ...]]:
 
     The name is that of NAME, ID, TAG or MARK, or of the only one that is no height.
     """
-    found = {str(a.dxf.tag).casefold(): _printable(a.dxf.text) for a in insert.attribs}
-    given = [found.pop(tag.casefold(), "") for tag in _HEIGHTS]
+    values = {str(a.dxf.tag).casefold(): _printable(a.dxf.text) for a in insert.attribs}
+    given = [values.pop(tag.casefold(), "") for tag in _HEIGHTS]
     heights = tuple(f"{tag} {text}" for tag, text in zip(_HEIGHTS, given, strict=True) if text)
     for tag in ("name", "id", "tag", "mark"):
-        if found.get(tag):
-            return found[tag], heights
-    return next(iter(found.values())) if len(found) == 1 else "", heights
+        if values.get(tag):
+            return values[tag], heights
+    return next(iter(values.values())) if len(values) == 1 else "", heights
 
 
 def _own_name(entity: Any) -> str:

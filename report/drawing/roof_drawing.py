@@ -128,8 +128,8 @@ class RoofDrawing:
 def turned(points: Sequence[Point], degrees: float) -> tuple[Point, ...]:
     """Return points turned counterclockwise about the origin."""
     turn = cmath.rect(1.0, math.radians(degrees))
-    found = (complex(*point) * turn for point in points)
-    return tuple((z.real, z.imag) for z in found)
+    turned_points = (complex(*point) * turn for point in points)
+    return tuple((z.real, z.imag) for z in turned_points)
 
 
 MB = 1_000_000
@@ -172,7 +172,7 @@ def _check(path: Path) -> None:
             )
         data = path.read_bytes()
     except OSError as error:
-        asked = f"; {found}" if (found := meant(path)) else ""
+        asked = f"; {near}" if (near := meant(path)) else ""
         raise InputError(f"cannot be read ({error.strerror}){asked}") from error
     if data.startswith(b"AC10"):
         raise InputError("a DWG drawing; save it as DXF (R12 to R2018)")

@@ -308,8 +308,8 @@ def array_result(
 ) -> ArrayResult:
     """Return an array with its limits, and with its runs and directions if asked for, marked."""
     motions = item.motions if has_runs else ()
-    given = math.nan if item.array.interconnection_n is None else item.array.interconnection_n
-    rounds = {"provided_n": beside(item.interconnection_n, given)}
+    strength = math.nan if item.array.interconnection_n is None else item.array.interconnection_n
+    rounds = {"provided_n": beside(item.interconnection_n, strength)}
     gap = assessment.governing_gap(item.id)
     near: dict[str, object] = {}
     distance = keep_clear(keep_clear_m(assessment, item), assessment.project.us_first)

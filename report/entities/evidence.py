@@ -36,8 +36,8 @@ def _cells(rows: Any) -> tuple[str, ...]:
     return tuple(getattr(row, "cell", row) for row in rows)
 
 
-def _numbers(given: tuple[GivenResult, ...]) -> str:
-    return f"No. {', '.join(row.clearance for row in given)}" if given else "—"
+def _numbers(clearances: tuple[GivenResult, ...]) -> str:
+    return f"No. {', '.join(row.clearance for row in clearances)}" if clearances else "—"
 
 
 class RemedyResult(Entity):

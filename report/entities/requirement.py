@@ -129,8 +129,8 @@ def finding_results(
     findings: Iterable[Finding], addresses: Mapping[Place, str]
 ) -> Iterator[FindingResult]:
     """Yield warnings and notes on the input, each with its cell."""
-    found = tuple(findings)
-    for finding, cell in zip(found, located(found, addresses), strict=True):
+    shown = tuple(findings)
+    for finding, cell in zip(shown, located(shown, addresses), strict=True):
         yield FindingResult.of(finding, cell=cell)
 
 

@@ -320,15 +320,15 @@ class WrittenSchema(GenerateJsonSchema):
 
     def model_schema(self, schema: Any) -> dict[str, Any]:
         """Return the schema of a model, each field with its docstring or that of a base class."""
-        found, model = super().model_schema(schema), schema["cls"]
-        for name in found["properties"]:
+        written, model = super().model_schema(schema), schema["cls"]
+        for name in written["properties"]:
             if title := next(filter(None, map(_title, model.model_fields[name].metadata)), ""):
-                found["properties"][name]["title"] = title
+                written["properties"][name]["title"] = title
         for base in model.__mro__[: model.__mro__.index(BaseModel)]:
             said = docstrings(base)
-            for name in said.keys() & found["properties"].keys():
-                found["properties"][name].setdefault("description", said[name])
-        return found
+            for name in said.keys() & written["properties"].keys():
+                written["properties"][name].setdefault("description", said[name])
+        return written
 
     def field_is_present(self, field: Any) -> bool:
         """Return whether a field is written."""
@@ -346,10 +346,10 @@ class Beside:
         self._item, self._more = item, more
 
     def __getattr__(self, name: str) -> Any:
-        found = self._more[name] if name in self._more else getattr(self._item, name)
-        if found is LEFT_OUT:
+        value = self._more[name] if name in self._more else getattr(self._item, name)
+        if value is LEFT_OUT:
             raise AttributeError(name)
-        return found
+        return value
 
 
 @cache

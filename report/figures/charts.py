@@ -186,10 +186,10 @@ def friction_by_velocity(
                     **look,
                 )
         for surface, fit in fits.items():
-            curve = [fit.law.at(one) for one in v]
+            curve = [fit.law.at(velocity) for velocity in v]
             axes.plot(v / unit.si, curve, linewidth=1.0, label=f"fit, {surface}", **_FITS[surface])
         for law in laws:
-            curve = [law.at(one) for one in v]
+            curve = [law.at(velocity) for velocity in v]
             axes.plot(v / unit.si, curve, color=INK, linewidth=1.6)
         axes.set_xlim(0.0, most / unit.si)
         _mu_axis(axes, [run.mu for run in shown], [law.at(s) for law in laws for s in (0.0, most)])

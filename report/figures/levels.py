@@ -43,7 +43,7 @@ def dots(
     """Return the arrays at each friction and slope [deg] of a grid: equal ones share a dot."""
     drawn = (array for array in arrays if array.id not in surface.others)
     return ids_by(
-        drawn, lambda one: (round(one.array.mu, 3), round(math.degrees(one.array.slope_rad), 2))
+        drawn, lambda item: (round(item.array.mu, 3), round(math.degrees(item.array.slope_rad), 2))
     )
 
 

@@ -54,13 +54,13 @@ def curve(runs: pd.DataFrame) -> pd.DataFrame:
     In the order of the runs of a method, from coarse to fine.
     """
     by_setting = runs.groupby("setting", sort=False, dropna=False)
-    found = by_setting.agg(
+    medians = by_setting.agg(
         seconds=("seconds", "median"),
         low=("error", "min"),
         middle=("error", "median"),
         high=("error", "max"),
     )
-    return found.dropna()
+    return medians.dropna()
 
 
 def overview(runs: pd.DataFrame, unit: str, floor: float) -> str:
@@ -102,8 +102,8 @@ def by_method(runs: pd.DataFrame, measure: str, floor: float) -> str:
 
     The medians of the other methods are drawn in light gray behind each panel.
     """
-    found = drawn(runs[runs["method"] != "exact"], f"{measure} error [%]", floor)
-    medians = {name: own_curve for name, own in found.items() if len(own_curve := curve(own))}
+    drawn_runs = drawn(runs[runs["method"] != "exact"], f"{measure} error [%]", floor)
+    medians = {name: own_curve for name, own in drawn_runs.items() if len(own_curve := curve(own))}
     others = Broken()
     for other in medians.values():
         others.add(other["seconds"], other["middle"])
@@ -118,7 +118,7 @@ def by_method(runs: pd.DataFrame, measure: str, floor: float) -> str:
             axes.set_axis_off()
         for axes, (name, own_curve) in zip(grid.flat, medians.items(), strict=False):
             axes.plot(others.x, others.y, color=PALE, linewidth=1.0, zorder=1)
-            _panel(axes, name, found[name], own_curve)
+            _panel(axes, name, drawn_runs[name], own_curve)
         for axes in grid[:, 0]:
             axes.set_ylabel("Error [%]")
         for axes in grid.flat[max(len(medians) - 4, 0) : len(medians)]:

@@ -45,7 +45,7 @@ def building(verification: Verification) -> Section:
 
 
 def _name(head: str) -> Column:
-    return (words(head, 3.2), lambda found: capitalized(found.name))
+    return (words(head, 3.2), lambda prediction: capitalized(prediction.name))
 
 
 def _reference(roof: RoofComparison) -> str:
@@ -54,24 +54,24 @@ def _reference(roof: RoofComparison) -> str:
 
 def _properties(roof: RoofComparison) -> Table:
     """Return the properties of each prediction, and its overall agreement."""
-    found = listed(
+    rows = listed(
         roof.predictions,
         (
             _name("Building"),
-            (plain("First period", 2, "s"), lambda found: found.period_s),
-            (plain("Damping", 1, "%", 0.9), lambda found: 100.0 * found.damping),
-            (plain("Stiffness ratio", 1), lambda found: found.alpha0),
-            (text("Modes included", share=0.9), lambda found: found.n_modes or "—"),
+            (plain("First period", 2, "s"), lambda rows: rows.period_s),
+            (plain("Damping", 1, "%", 0.9), lambda rows: 100.0 * rows.damping),
+            (plain("Stiffness ratio", 1), lambda rows: rows.alpha0),
+            (text("Modes included", share=0.9), lambda rows: rows.n_modes or "—"),
             (
                 text("Neglected", "%"),
-                lambda found: number(100.0 * found.left_out_share, 1) if found.n_modes else "—",
+                lambda rows: number(100.0 * rows.left_out_share, 1) if rows.n_modes else "—",
             ),
-            (plain("Peak", 3, "g", 0.8), lambda found: found.peak_mps2 / G_MPS2),
-            (plain("Unexplained", 1, "%", 1.1), lambda found: 100.0 * found.unexplained),
+            (plain("Peak", 3, "g", 0.8), lambda rows: rows.peak_mps2 / G_MPS2),
+            (plain("Unexplained", 1, "%", 1.1), lambda rows: 100.0 * rows.unexplained),
         ),
     )
     peak = number(float(np.abs(roof.roof_mps2).max()) / G_MPS2, 3)
-    return compared_with(found, (_reference(roof), *["—"] * 5, peak, "—"))
+    return compared_with(rows, (_reference(roof), *["—"] * 5, peak, "—"))
 
 
 def _bands(roof: RoofComparison) -> Table:
@@ -80,30 +80,30 @@ def _bands(roof: RoofComparison) -> Table:
         (
             _name("Building"),
             *(
-                (text(f"{low:g} to {high:g}", "s"), lambda found, at=at: _band(found, at))
+                (text(f"{low:g} to {high:g}", "s"), lambda prediction, at=at: _band(prediction, at))
                 for at, (low, high) in enumerate(roof.bands_s)
             ),
         ),
     )
 
 
-def _band(found: RoofPrediction, at: int) -> str:
-    return f"{found.band_ratios[at]:.2f} ({100.0 * found.band_scatters[at]:.0f} %)"
+def _band(prediction: RoofPrediction, at: int) -> str:
+    return f"{prediction.band_ratios[at]:.2f} ({100.0 * prediction.band_scatters[at]:.0f} %)"
 
 
 def _peaks(roof: RoofComparison) -> Table:
-    found = listed(
+    rows = listed(
         roof.predictions,
         (
             _name("Roof motion"),
             *(
-                (text(f"μ = {mu:g}", "mm"), lambda found, at=at: _peak(found.prd_m, roof, at))
+                (text(f"μ = {mu:g}", "mm"), lambda rows, at=at: _peak(rows.prd_m, roof, at))
                 for at, mu in enumerate(roof.mus)
             ),
         ),
     )
     peaks = (number(1e3 * prd_m, 0) for prd_m in roof.prd_m)
-    return compared_with(found, (_reference(roof), *peaks))
+    return compared_with(rows, (_reference(roof), *peaks))
 
 
 def _peak(prd_m: Floats, roof: RoofComparison, at: int) -> str:
@@ -154,8 +154,8 @@ def shake_table(verification: Verification) -> Section:
 def result(table: ShakeTable) -> str:
     """Return whether the acceptance is satisfied, and what follows from it."""
     unsatisfied = [
-        f"{name[0].lower()}{name[1:]}, {found} instead of {limit}"
-        for name, found, limit, is_satisfied in _rows(table)
+        f"{name[0].lower()}{name[1:]}, {value} instead of {limit}"
+        for name, value, limit, is_satisfied in _rows(table)
         if not is_satisfied
     ]
     words = f"not satisfied: {joined(unsatisfied)}" if unsatisfied else "satisfied"
@@ -170,8 +170,8 @@ def _rows(table: ShakeTable) -> Iterator[tuple[str, str, str, bool]]:
     is_within = low <= table.median <= high
     yield "Median ratio", number(table.median, 3), f"{low:g} to {high:g}", is_within
     share, least_share, (low, high) = table.share_within, accepted.SHARE, accepted.RATIOS
-    found, limit = f"{100.0 * share:.0f} %", f"{100.0 * least_share:g} % or more"
-    yield f"Share of the ratios in {low:g} to {high:g}", found, limit, share >= least_share
+    value, limit = f"{100.0 * share:.0f} %", f"{100.0 * least_share:g} % or more"
+    yield f"Share of the ratios in {low:g} to {high:g}", value, limit, share >= least_share
 
 
 def _axes(run: TableRun) -> str:

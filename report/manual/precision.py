@@ -126,8 +126,8 @@ def stability(verification: Verification) -> Section:
         "Stability",
         by_chart=by_chart,
         charts={
-            name: manual.stability([sweep for _, sweep in found], first=found[0][0])
-            for name, found in by_chart.items()
+            name: manual.stability([sweep for _, sweep in maps], first=maps[0][0])
+            for name, maps in by_chart.items()
         },
     )
 
@@ -143,11 +143,11 @@ def conditioning(verification: Verification) -> Section:
             # A case with the largest and the median change [%].
             name: [
                 (case, np.nanmax(case.change_percent), np.nanmedian(case.change_percent))
-                for case in found
+                for case in maps
             ]
-            for name, found in by_chart.items()
+            for name, maps in by_chart.items()
         },
-        charts={name: manual.conditioning(found) for name, found in by_chart.items()},
+        charts={name: manual.conditioning(maps) for name, maps in by_chart.items()},
     )
 
 
@@ -157,16 +157,16 @@ PAPER_WORST_PERCENT, PAPER_MEAN_PERCENT = 6.78, 1.69
 
 def convergence(verification: Verification) -> Section:
     """Return the paper's Fig. 5."""
-    found = list(verification.convergence.items())
+    orders = list(verification.convergence.items())
     return section(
         "manual/convergence",
         "The paper's convergence study (Fig. 5)",
         scenarios=len(paper_studies.CONVERGENCE_CASES),
         paper_percent=paper.PAPER_P64_PERCENT,
-        errors=found,
+        errors=orders,
         charts={
-            f"convergence-{at // 3 + 1}": paper.convergence(found[at : at + 3])
-            for at in range(0, len(found), 3)
+            f"convergence-{at // 3 + 1}": paper.convergence(orders[at : at + 3])
+            for at in range(0, len(orders), 3)
         },
     )
 

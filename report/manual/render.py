@@ -263,9 +263,9 @@ def verification_csv(verification: Verification) -> bytes:
     """Return one table: checks, runs, runs in two axes; a cell that does not apply is empty."""
     rows = [{name: getattr(row, name) for name in _CHECK} for row in verification.checks]
     passed = ["yes" if row.passed else "no" for row in verification.checks]
-    found = pd.DataFrame(rows).assign(passed=passed)
-    found = found.rename(columns={name: f"{name} [-]" for name in ("error", "tolerance")})
-    parts = [("check", found), ("run", verification.work.drop(columns="setting"))]
+    frame = pd.DataFrame(rows).assign(passed=passed)
+    frame = frame.rename(columns={name: f"{name} [-]" for name in ("error", "tolerance")})
+    parts = [("check", frame), ("run", verification.work.drop(columns="setting"))]
     parts += [("run in two axes", evidence.work[_OF_TWO_AXES]) for evidence in verification.models]
     kinds, frames = zip(*parts, strict=True)
     table = pd.concat(frames, keys=kinds, names=["kind", None]).reset_index("kind")

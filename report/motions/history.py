@@ -53,8 +53,8 @@ class TargetSpectrum:
 
     def ordinates(self, periods_s: Floats) -> Floats:
         """Return accelerations [g] at periods [s]; NaN outside its range."""
-        given = (periods_s >= self.from_s * (1.0 - 1e-9)) & (periods_s <= self.to_s * (1.0 + 1e-9))
-        return np.where(given, self.at(1.0 / periods_s), math.nan)
+        inside = (periods_s >= self.from_s * (1.0 - 1e-9)) & (periods_s <= self.to_s * (1.0 + 1e-9))
+        return np.where(inside, self.at(1.0 / periods_s), math.nan)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -65,8 +65,10 @@ def repeated(
     """
     seen: dict[tuple[int, int], list[_Given]] = {}
     for index, components in by_motion.items():
-        given = list(_given(index, rows[index], components))
-        pairs = ((new, old) for key, new in given for old in seen.get(key, ()) if new.repeats(old))
+        records = list(_given(index, rows[index], components))
+        pairs = (
+            (new, old) for key, new in records for old in seen.get(key, ()) if new.repeats(old)
+        )
         new, old = next(pairs, (None, None))
         if new is not None and old is not None:
             text = (
@@ -75,7 +77,7 @@ def repeated(
                 f"is {old.row['id']} again"
             )
             yield Finding.error(new.place, text, "give each motion once")
-        for key, item in given:
+        for key, item in records:
             seen.setdefault(key, []).append(item)
 
 
@@ -94,9 +96,9 @@ def _given(
                 yield (len(a), at), _Given(Place("motions", index, field), row, a / a[at])
 
 
-def _overlap(one: DraftRow, other: DraftRow) -> bool:
+def _overlap(row: DraftRow, other: DraftRow) -> bool:
     """Whether the times that two motions take of their records overlap: a file may hold two."""
-    (start, end), (other_start, other_end) = map(_times, (one, other))
+    (start, end), (other_start, other_end) = map(_times, (row, other))
     return start < other_end and other_start < end
 
 

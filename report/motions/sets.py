@@ -202,7 +202,7 @@ def _unclear(group: Sequence[Candidate], without_vertical: bool) -> Iterator[str
 
 def _channels(file: str, motion_file: MotionFile) -> Sequence[Candidate]:
     """Return the channels of a file; raise where the component of one is not clear."""
-    found = []
+    channels = []
     is_alone = len(motion_file.channels) == 1
     for record in motion_file.channels:
         said = "" if record.name == motion_file.name else record.name
@@ -218,7 +218,7 @@ def _channels(file: str, motion_file: MotionFile) -> Sequence[Candidate]:
             raise InputError(f"its heading ({said}) and its name have different components")
         if not of_name:
             stem = _unglued(stem, family, degrees)
-        found.append(
+        channels.append(
             Candidate(
                 file=file,
                 channel="" if is_alone else record.name,
@@ -231,14 +231,18 @@ def _channels(file: str, motion_file: MotionFile) -> Sequence[Candidate]:
                 motion=(stem, rest),
             )
         )
-    return found
+    return channels
 
 
 def _unglued(stem: str, family: str, degrees: int) -> str:
     """Return a name without the word for a component at its end, of three letters or two."""
     for count in (3, 2):
         word = stem[-count:].casefold()
-        if len(stem) > count and (found := _by_word(word)) and found[:2] == (family, degrees):
+        if (
+            len(stem) > count
+            and (direction := _by_word(word))
+            and direction[:2] == (family, degrees)
+        ):
             return stem[:-count]
     return stem
 
@@ -257,9 +261,9 @@ def _by_heading(text: str) -> _Meant | None:
     """Return the first component that a heading names, with its other words."""
     words = re.findall(r"[a-z0-9]+(?:-[a-z](?![a-z]))?", _CHANNEL.sub(" ", text.casefold()))
     for k, word in enumerate(words):
-        if found := _by_word(word):
+        if direction := _by_word(word):
             rest = [each for each in (*words[:k], *words[k + 1 :]) if not _NOISE.fullmatch(each)]
-            return found[0], found[1], " ".join(filter(None, (found[2], *rest)))
+            return direction[0], direction[1], " ".join(filter(None, (direction[2], *rest)))
     return None
 
 
@@ -268,10 +272,10 @@ def _by_name(stem: str) -> tuple[str, _Meant | None]:
     if match := re.fullmatch(rf"(.*?){_CHANNEL_OF_NAME.pattern}", stem, re.IGNORECASE):
         return match[1], None
     match = _END.fullmatch(stem)
-    found = _by_word((match[2] or match[3]).casefold()) if match else None
-    if not found and (match := _GLUED.fullmatch(stem)):
-        found = _by_word(match[2].casefold())
-    return (match[1], found) if match and found else (stem, None)
+    direction = _by_word((match[2] or match[3]).casefold()) if match else None
+    if not direction and (match := _GLUED.fullmatch(stem)):
+        direction = _by_word(match[2].casefold())
+    return (match[1], direction) if match and direction else (stem, None)
 
 
 def _by_word(word: str) -> _Meant | None:

@@ -156,5 +156,5 @@ _ALIKE: Mapping[str, Callable[[RecordFile], str]] = {
 
 def _alike(rows: Sequence[RecordFile]) -> Mapping[str, str]:
     """Return what all files have alike, by name."""
-    found = {name: {show(row) for row in rows} for name, show in _ALIKE.items()}
-    return {name: values.pop() for name, values in found.items() if len(values) == 1}
+    shown = {name: {show(row) for row in rows} for name, show in _ALIKE.items()}
+    return {name: values.pop() for name, values in shown.items() if len(values) == 1}

@@ -168,10 +168,10 @@ def _design(package: PackageData, head: str, which: Callable[[_Varied], ArrayAss
     )
 
 
-def _change(value: float, given: float) -> str:
-    if math.isnan(value) or not given > 0.0:
-        return NO_VALUE if math.isnan(value) or math.isnan(given) else "—"
-    share = 100.0 * (value / given - 1.0)
+def _change(value: float, base: float) -> str:
+    if math.isnan(value) or not base > 0.0:
+        return NO_VALUE if math.isnan(value) or math.isnan(base) else "—"
+    share = 100.0 * (value / base - 1.0)
     return f"{'+' if share > 0.05 else ''}{number(share, 1)} %"
 
 

@@ -67,9 +67,9 @@ def _tables(rows: Sequence[EchoRow], changed: Set[str]) -> Iterator[_Echoed]:
 
 
 def _single_cells(rows: Sequence[EchoRow], changed: Set[str]) -> _Echoed:
-    given = [row for row in rows if not _is_in_note(row, changed)]
-    half = (len(given) + 1) // 2
-    pairs = zip_longest(given[:half], given[half:])
+    filled = [row for row in rows if not _is_in_note(row, changed)]
+    half = (len(filled) + 1) // 2
+    pairs = zip_longest(filled[:half], filled[half:])
     columns = (*_single(0, changed), *_single(1, changed))
     table = listed(pairs, columns, kind="compact", style=lambda pair: _bar(pair, changed))
     return table, (), [_blank(row, row.cell) for row in rows if _is_in_note(row, changed)]
@@ -98,12 +98,12 @@ def _parts_of_table(rows: Sequence[EchoRow], changed: Set[str]) -> Iterator[_Ech
     letters = list(dict.fromkeys(_column_letters(row) for row in rows))
     columns = {name: [line[name] for line in lines.values() if name in line] for name in letters}
     blank = [cells[0] for cells in columns.values() if all(_is_in_note(r, changed) for r in cells)]
-    given = [cells for cells in columns.values() if cells[0] not in blank]
-    equal = [cells[0] for cells in given if _is_equal(cells, len(lines), changed)]
-    shown = [cells for cells in given if cells[0] not in equal]
+    filled = [cells for cells in columns.values() if cells[0] not in blank]
+    equal = [cells[0] for cells in filled if _is_equal(cells, len(lines), changed)]
+    shown = [cells for cells in filled if cells[0] not in equal]
     alike = [f"{_column_letters(row)} {row.label} {_as_entered(row, row.unit)}" for row in equal]
     # The notes stand below the last part. Where all columns are in them, one stands for the rows.
-    *chunks, last = list(_chunks(shown)) or [[given[0]]]
+    *chunks, last = list(_chunks(shown)) or [[filled[0]]]
     for chunk in chunks:
         yield _columns(lines, chunk, changed), (), ()
     left_blank = [_blank(row, _column_letters(row)) for row in blank]

@@ -37,23 +37,24 @@ _STATED = (
 
 def page(package: PackageData) -> Mapping[str, object]:
     """Return what the part on friction as tested needs beside its chart."""
-    data, given = package.data, package.assessment
-    found, tests = tested(data), data.friction_tests
+    data, assessment = package.data, package.assessment
+    all_series, tests = tested(data), data.friction_tests
     return {
         "is_reported": tests != FrictionTests(),
         "report": [(label, getattr(tests, field) or NOT_GIVEN) for label, field in _STATED],
         "runs": _runs(package),
         "n_drawn": _n_drawn(data),
         "reports": [
-            _means([one for one in found if one.report == report])
-            for report in dict.fromkeys(one.report for one in found)
+            _means([series for series in all_series if series.report == report])
+            for report in dict.fromkeys(series.report for series in all_series)
         ],
-        "compared": _compared(package, found) if found else {},
-        "fits": [(one, fit, _scatter(one)) for one, fit in _fits(package)],
+        "compared": _compared(package, all_series) if all_series else {},
+        "fits": [(series, fit, _scatter(series)) for series, fit in _fits(package)],
         "velocities": _velocities(package),
         "tolerance": MU_TOLERANCE,
         "alone": [
-            (item, by_id(given.arrays, item.id).design_m) for item in given.low_velocity.arrays
+            (item, by_id(assessment.arrays, item.id).design_m)
+            for item in assessment.low_velocity.arrays
         ],
     }
 
@@ -65,21 +66,21 @@ def drawings(package: PackageData) -> Sequence[str]:
     data = package.data
     if not _n_drawn(data):
         return ()
-    runs = [run for one in tested(data) for run in one.runs]
-    fits = {one.surface: fit for one, fit in _fits(package) if fit.is_determined}
+    runs = [run for series in tested(data) for run in series.runs]
+    fits = {series.surface: fit for series, fit in _fits(package) if fit.is_determined}
     return (friction_by_velocity(runs, data.arrays, fits, package.fmt.us_first),)
 
 
 def _n_drawn(data: ProjectInput) -> int:
     """Return the number of runs that report their velocity."""
-    return sum(not math.isnan(run.velocity_mps) for one in tested(data) for run in one.runs)
+    return sum(not math.isnan(run.velocity_mps) for series in tested(data) for run in series.runs)
 
 
 def _runs(package: PackageData) -> Sequence[tuple[str, Table]]:
     """Return the runs of each series below its name, the mean last."""
     data = package.data
-    found = tested(data)
-    has_reports = len({one.report for one in found}) > 1
+    all_series = tested(data)
+    has_reports = len({one.report for one in all_series}) > 1
     columns = by_place(
         text("Run", share=0.7),
         Shown(head="Velocity", quantity=Quantity.VELOCITY),
@@ -99,22 +100,23 @@ def _runs(package: PackageData) -> Sequence[tuple[str, Table]]:
                 style=lambda row: "total" if isinstance(row[0], Wide) else "",
             ),
         )
-        for one in found
+        for one in all_series
     ]
 
 
-def _run_rows(data: ProjectInput, one: Series) -> Iterator[tuple[object, ...]]:
+def _run_rows(data: ProjectInput, series: Series) -> Iterator[tuple[object, ...]]:
     """Yield the runs of a series, and their mean."""
     numbers = [
         row.number
         for row in data.friction_runs
-        if (row.report or data.friction_tests.report, row.surface) == (one.report, one.surface)
+        if (row.report or data.friction_tests.report, row.surface)
+        == (series.report, series.surface)
     ]
-    for count, run in zip(numbers, one.runs, strict=True):
+    for count, run in zip(numbers, series.runs, strict=True):
         velocity = "—" if math.isnan(run.velocity_mps) else run.velocity_mps
         yield count, velocity, number(run.mu, 3), number(run.mu_static, 3)
-    mean = Wide(f"Mean, {numbered(len(one.runs), 'run')}", 3)
-    yield mean, "", number(one.mean, 3), number(one.static_mean, 3)
+    mean = Wide(f"Mean, {numbered(len(series.runs), 'run')}", 3)
+    yield mean, "", number(series.mean, 3), number(series.static_mean, 3)
 
 
 def _velocities(package: PackageData) -> Table:
@@ -127,9 +129,9 @@ def _velocities(package: PackageData) -> Table:
         text("μ tested", "smallest", 0.9),
         centered("Verdict", 1.8),
     )
-    given = package.assessment
-    verdicts = {row.subject: row.verdict for row in given.rows if row.id == VELOCITY_ROW}
-    rows = [_velocity(package.data, item, verdicts) for item in given.arrays]
+    assessment = package.assessment
+    verdicts = {row.subject: row.verdict for row in assessment.rows if row.id == VELOCITY_ROW}
+    rows = [_velocity(package.data, item, verdicts) for item in assessment.arrays]
     return listed(rows, columns, package.fmt, kind="compact")
 
 
@@ -150,11 +152,11 @@ def _velocity(
     )
 
 
-def _means(found: Sequence[Series]) -> Mapping[str, object]:
+def _means(all_series: Sequence[Series]) -> Mapping[str, object]:
     """Return the series of a report, the smallest mean, and the condition without runs."""
-    least = min(found, key=lambda one: one.mean)
+    least = min(all_series, key=lambda series: series.mean)
     other = next(surface for surface in Surface if surface is not least.surface)
-    return {"series": found, "least": least, "other": other}
+    return {"series": all_series, "least": least, "other": other}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -173,11 +175,11 @@ class _Compared:
         return round(self.used - self.tested, 3)
 
 
-def _compared(package: PackageData, found: Sequence[Series]) -> Mapping[_Compared, Sequence[str]]:
+def _compared(package: PackageData, series: Sequence[Series]) -> Mapping[_Compared, Sequence[str]]:
     """Return how the friction of the arrays compares with the tests, alike arrays together."""
 
     def compared(array: Array) -> _Compared:
-        one = governing(found, array.mu_report)
+        one = governing(series, array.mu_report)
         return _Compared(
             is_by_velocity=array.friction.is_by_velocity,
             used=round(one.mean_of(array.friction), 3),
@@ -191,19 +193,19 @@ def _compared(package: PackageData, found: Sequence[Series]) -> Mapping[_Compare
 
 def _fits(package: PackageData) -> Iterator[tuple[Series, FittedLaw]]:
     """Yield the laws fitted to the runs of the governing report, by condition."""
-    found = tested(package.data)
-    reports = dict.fromkeys(one.report for one in found)
+    all_series = tested(package.data)
+    reports = dict.fromkeys(one.report for one in all_series)
     if len(reports) != 1:
         return
-    for one in found:
+    for one in all_series:
         fit = fit_law([run.velocity_mps for run in one.runs], [run.mu for run in one.runs])
         if fit is not None:
             yield one, fit
 
 
-def _scatter(one: Series) -> tuple[int, float]:
+def _scatter(series: Series) -> tuple[int, float]:
     """Return the number of velocities of a series, and the scatter about one coefficient."""
-    runs = [run for run in one.runs if not math.isnan(run.velocity_mps)]
+    runs = [run for run in series.runs if not math.isnan(run.velocity_mps)]
     mean = math.fsum(run.mu for run in runs) / len(runs)
     scatter = math.sqrt(math.fsum((run.mu - mean) ** 2 for run in runs) / len(runs))
     return len({run.velocity_mps for run in runs}), scatter

@@ -65,15 +65,15 @@ def letter(package: PackageData) -> Mapping[str, object]:
 
 def summary(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return what the summary page needs beside the package."""
-    found = departures(evidence.spectra)
-    last = {departure.is_short: departure for departure in found}.values()
+    missed = departures(evidence.spectra)
+    last = {departure.is_short: departure for departure in missed}.values()
     return {
         "statistic": statistic(package.governing.analysis.basis),
         "worst": _worst(package.clearances),
         "gap": package.assessment.governing_gap(),
         "review": _review(package),
         # What follows from a missed target is said once, with the last.
-        "missed": [(departure, departure in last) for departure in found],
+        "missed": [(departure, departure in last) for departure in missed],
         "other": _worst_other(package),
         "what_if": list(_what_if(package, evidence)),
         "troubles": troubles(package),
@@ -116,9 +116,9 @@ def _ratios(package: PackageData) -> Iterator[_Ratio]:
 
 def _what_if(package: PackageData, evidence: Evidence) -> Iterator[str]:
     """Yield what another input comes to, of the conditions and of the comparison, each once."""
-    given, us_first = package.assessment, package.fmt.us_first
-    of_rows = [row.outcome for row in given.conditions if row.outcome]
-    of_cases = [case.words(us_first) for case in cases(given, evidence)]
+    assessment, us_first = package.assessment, package.fmt.us_first
+    of_rows = [row.outcome for row in assessment.conditions if row.outcome]
+    of_cases = [case.words(us_first) for case in cases(assessment, evidence)]
     yield from dict.fromkeys((*of_rows, *of_cases))
 
 
@@ -210,19 +210,22 @@ def _years(package: PackageData) -> Iterator[Mapping[str, object]]:
             continue
         study = StudyYears.model_validate_json(sheet.book.files[document.sha256])
         shared = [
-            (by_id[one.array.casefold()], one)
-            for one in study.arrays
-            if one.array.casefold() in by_id
+            (by_id[array_years.array.casefold()], array_years)
+            for array_years in study.arrays
+            if array_years.array.casefold() in by_id
         ]
         yield {
             "study": study,
             "document": document,
             "arrays": shared,
-            "unlike": [array.id for array, one in shared if _is_unlike(array, one)],
+            "unlike": [array.id for array, array_years in shared if _is_unlike(array, array_years)],
         }
 
 
-def _is_unlike(array: ArrayAssessment, one: YearsOfArray) -> bool:
+def _is_unlike(array: ArrayAssessment, array_years: YearsOfArray) -> bool:
     """Whether an array has another friction coefficient or slope in the study, as printed."""
     slope_deg = math.degrees(array.array.slope_rad)
-    return abs(array.array.mu - one.mu) >= 5e-4 or abs(slope_deg - one.slope_deg) >= 5e-3
+    return (
+        abs(array.array.mu - array_years.mu) >= 5e-4
+        or abs(slope_deg - array_years.slope_deg) >= 5e-3
+    )

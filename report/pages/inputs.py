@@ -51,10 +51,12 @@ def site(package: PackageData) -> Mapping[str, object]:
     }
 
 
-def attachment(given: Assessment) -> str:
+def attachment(assessment: Assessment) -> str:
     """Return the force of a positive attachment of the arrays that are NG, if any is."""
-    data = given.project
-    arrays = [item.array for item in given.arrays if not given.array_verdict(item).is_permitted]
+    data = assessment.project
+    arrays = [
+        item.array for item in assessment.arrays if not assessment.array_verdict(item).is_permitted
+    ]
     if not arrays:
         return ""
     force, names = site_force(data), ranged(array.id for array in arrays)

@@ -53,7 +53,7 @@ def _motion_faults(package: PackageData) -> Sequence[str]:
 def troubles(package: PackageData) -> Mapping[str, Sequence[object]]:
     """Return everything that prevents an OK, except clearances, by kind; nothing if all is OK."""
     arrays, is_refused = package.assessment.arrays, bool(_motion_faults(package))
-    found: Mapping[str, Sequence[object]] = {
+    by_kind: Mapping[str, Sequence[object]] = {
         "warnings": package.assessment.warnings,
         "few": [array for array in arrays if array.lacks_motions],
         "refused": [array for array in arrays if is_refused and array.route is Route.ANALYSIS],
@@ -62,7 +62,7 @@ def troubles(package: PackageData) -> Mapping[str, Sequence[object]]:
         "links": tuple(link_troubles(package)),
         "limits": [(place, check) for place, check in package.checks if not check.ok],
     }
-    return found if any(found.values()) else {}
+    return by_kind if any(by_kind.values()) else {}
 
 
 def _requirements(package: PackageData) -> Table:
@@ -128,8 +128,8 @@ def _warnings(package: PackageData) -> Iterator[Sequence[str]]:
     A contradiction of the plan is also among the requirements.
     """
     sheet = package.assessment.sheet
-    found = findings(sheet, package.assessment.shaking)
-    warnings = [finding for finding in found if finding.level is Level.WARNING]
+    listed = findings(sheet, package.assessment.shaking)
+    warnings = [finding for finding in listed if finding.level is Level.WARNING]
     for line in lines(warnings, sheet.addresses):
         yield line.cells, f"{line.finding.text}.", line.finding.reason or "not acknowledged"
 

@@ -60,7 +60,7 @@ def _motion(package: PackageData) -> Mapping[str, object]:
 def _weights(package: PackageData) -> Mapping[str, object]:
     """Return the weight over plan area of the governing array, and the range of the others."""
     own, fmt = package.governing.array, package.fmt
-    others = [one.weight_pa for one in package.data.arrays if one.id != own.id]
+    others = [array.weight_pa for array in package.data.arrays if array.id != own.id]
     ends = [fmt.first(end(others), Quantity.PRESSURE) for end in (min, max) if others]
     unit = fmt.units(Quantity.PRESSURE)[0].symbol
     return {

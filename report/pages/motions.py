@@ -161,10 +161,10 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
 
 def _sources(motions: Sequence[Motion]) -> Mapping[str, Sequence[str]]:
     """Return the motions of each source; nothing where every motion has a source of its own."""
-    found = grouped_by(motions, lambda motion: motion.source or "not given")
-    if len(found) == len(motions) > 1:
+    by_source = grouped_by(motions, lambda motion: motion.source or "not given")
+    if len(by_source) == len(motions) > 1:
         return {}
-    return {source: [motion.id for motion in of] for source, of in found.items()}
+    return {source: [motion.id for motion in of] for source, of in by_source.items()}
 
 
 def _motion_table(package: PackageData, *, has_sources: bool) -> tuple[Table, Mapping[str, str]]:
@@ -351,7 +351,7 @@ def spectra(_: PackageData, evidence: Evidence) -> Mapping[str, object]:
 
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the part on motions, without its charts."""
-    shaking, found = package.assessment.shaking, evidence.spectra
+    shaking, spectra = package.assessment.shaking, evidence.spectra
     unit, sources = package.fmt.units()[0], _sources(shaking.motions)
     table, alike = _motion_table(package, has_sources=not sources)
     return {
@@ -368,11 +368,11 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "highpass": _highpass_table(package, evidence.highpass) if evidence.highpass else None,
         "building": building_part(package, evidence.building) if package.has_ground else None,
         "tail": Tail(package.data.target.tail).sentence,
-        "departures": departures(found),
-        "achieved": achieved_table(found),
+        "departures": departures(spectra),
+        "achieved": achieved_table(spectra),
         "events": event_table(package),
         "acceptance": acceptance_table(package),
         "points": {"all": len(POINTS_HZ), "sliding": N_SLIDING, "ac156": N_AC156, "sets": N_SETS},
-        "between": lowest_between(package.assessment.acceptance, found),
+        "between": lowest_between(package.assessment.acceptance, spectra),
         "strength": strength_table(package),
     }

@@ -81,10 +81,10 @@ class PackageData(Marked):
     @property
     def checks(self) -> tuple[tuple[str, Limit], ...]:
         """Every limit with the item that it applies to."""
-        given = self.assessment
+        assessment = self.assessment
         return (
-            *(("Building", check) for check in given.building_checks),
-            *((item.id, check) for item in given.arrays for check in item.limits),
+            *(("Building", check) for check in assessment.building_checks),
+            *((item.id, check) for item in assessment.arrays for check in item.limits),
         )
 
     @property
@@ -110,15 +110,15 @@ class PackageData(Marked):
     @property
     def verdicts(self) -> Mapping[str, Sequence[bool]]:
         """Whether each array, clearance, limit and requirement is not NG."""
-        given = self.assessment
+        assessment = self.assessment
         return {
             "array": [item.verdict.is_permitted for item in self.arrays],
             "clearance": [
-                *(gap.verdict.is_permitted for gap in given.clearances),
-                *(False for _ in given.missing_gaps),
+                *(gap.verdict.is_permitted for gap in assessment.clearances),
+                *(False for _ in assessment.missing_gaps),
             ],
             "limit": [check.ok for _, check in self.checks],
-            "requirement": [row.verdict.is_permitted for row in given.rows],
+            "requirement": [row.verdict.is_permitted for row in assessment.rows],
         }
 
     @cached_property

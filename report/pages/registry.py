@@ -120,8 +120,8 @@ def pages_of(
 
 def pages_in(package: PackageData) -> tuple[Page, ...]:
     """Return the pages that a package has."""
-    given = package.assessment
-    return pages_of(package.edition, package.changes, has_motions=given.has_motions)
+    assessment = package.assessment
+    return pages_of(package.edition, package.changes, has_motions=assessment.has_motions)
 
 
 def package_data(

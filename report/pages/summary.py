@@ -54,9 +54,9 @@ def answers(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str, ob
     """Return what would do, in groups, with what was varied; empty if nothing is NG."""
     if package.assessment.verdict.is_permitted:
         return {}
-    found = _printed(package.assessment, remedies)
+    printed = _printed(package.assessment, remedies)
     # Of a clearance all arrays together; what is of none, each array by itself.
-    groups = grouped_by(found, lambda one: one.remedy.clearance or one.remedy.array)
+    groups = grouped_by(printed, lambda answer: answer.remedy.clearance or answer.remedy.array)
     return {
         "groups": [_group(package, group) for group in groups.values()],
         "bases": dict.fromkeys(
@@ -79,15 +79,15 @@ def _printed(assessment: Assessment, remedies: Sequence[Remedy]) -> list[Printed
 
 
 def _answer(assessment: Assessment, remedy: Remedy) -> PrintedRemedy:
-    given, value, us_first = remedy.given, remedy.value, assessment.project.us_first
+    entered, value, us_first = remedy.given, remedy.value, assessment.project.us_first
     if remedy.kind is RemedyKind.FRICTION:
         array = next(array for array in assessment.project.arrays if array.id == remedy.array)
-        mus = (given, value) if remedy.exists else (given, given)
+        mus = (entered, value) if remedy.exists else (entered, entered)
         texts = [mu_words(with_mu(array, mu).friction) for mu in mus]
     else:
         # As the clearances print them.
-        had = no_less if remedy.kind is RemedyKind.REVIEW else beside(value, given)
-        shows = ((given, had), (value, no_less))
+        had = no_less if remedy.kind is RemedyKind.REVIEW else beside(value, entered)
+        shows = ((entered, had), (value, no_less))
         texts = [pair(length_m, Quantity.SIZE, us_first, show) for length_m, show in shows]
     return PrintedRemedy(
         remedy=remedy,
@@ -100,16 +100,22 @@ def _answer(assessment: Assessment, remedy: Remedy) -> PrintedRemedy:
 def _group(package: PackageData, group: Sequence[PrintedRemedy]) -> Mapping[str, object]:
     """Return the ways to satisfy a clearance, or to give an array final values, each by itself."""
     first = group[0].remedy
-    frictions = [one for one in group if one.remedy.kind is RemedyKind.FRICTION]
-    others = [[one] for one in group if one.remedy.kind is not RemedyKind.FRICTION]
+    frictions = [answer for answer in group if answer.remedy.kind is RemedyKind.FRICTION]
+    others = [[answer] for answer in group if answer.remedy.kind is not RemedyKind.FRICTION]
     return {
         "number": first.clearance,
         "gap": package.assessment.clearances[first.clearance - 1] if first.clearance else None,
         "array": first.array,
         "is_review": first.kind is RemedyKind.REVIEW,
-        "ways": [way for way in (frictions, *others) if way and all(one.outcome for one in way)],
+        "ways": [
+            way for way in (frictions, *others) if way and all(answer.outcome for answer in way)
+        ],
         "in_vain": sorted(
-            {(one.remedy.kind.value, one.remedy.basis) for one in group if not one.value}
+            {
+                (answer.remedy.kind.value, answer.remedy.basis)
+                for answer in group
+                if not answer.value
+            }
         ),
     }
 
@@ -197,8 +203,8 @@ def attention(assessment: Assessment, *, may_run: bool = True) -> Iterator[Conce
         yield Concern(row.consequence.value, row_words(row, [row.subject]))
     for finding in what_is_new(assessment.sheet.book):
         yield Concern(finding.level.value, finding.text)
-    found = findings(assessment.sheet, assessment.shaking)
-    for line in lines(found, assessment.sheet.addresses):
+    listed = findings(assessment.sheet, assessment.shaking)
+    for line in lines(listed, assessment.sheet.addresses):
         if line.finding.level is Level.WARNING:
             reason = line.finding.reason
             answer = f" Acknowledged: {reason}" if reason else ""

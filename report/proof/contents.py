@@ -123,9 +123,9 @@ def _dictionaries(pdf: PdfReader) -> Iterator[tuple[str, DictionaryObject]]:
             continue
         yield place, item
         below = [(key, item.raw_get(key)) for key in sorted(item, reverse=True)]
-        pending += [(place, one) for key, one in below if key not in _UPWARD]
+        pending += [(place, value) for key, value in below if key not in _UPWARD]
         # What lies above belongs to no sheet.
-        last += [("document", one) for key, one in below if key in _UPWARD]
+        last += [("document", value) for key, value in below if key in _UPWARD]
 
 
 def words(pdf: PdfReader) -> Iterator[tuple[str, str]]:
@@ -182,11 +182,11 @@ def parsed(content: bytes, name: str) -> Any:
 
 def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """Return an object of JSON; of a key given twice one program reads the first, one the last."""
-    found = dict(pairs)
-    if len(found) < len(pairs):
+    members = dict(pairs)
+    if len(members) < len(pairs):
         twice = next(key for key, count in Counter(key for key, _ in pairs).items() if count > 1)
         raise ValueError(f"the key {_short(twice)} is given twice")
-    return found
+    return members
 
 
 def _whole(digits: str) -> int:
@@ -201,7 +201,9 @@ def _finite(digits: str) -> float:
     return float(digits)
 
 
-def differences(one: Any, two: Any, place: str = "", *, shared: bool = False) -> Iterator[str]:
+def differences(
+    claimed: Any, computed: Any, place: str = "", *, shared: bool = False
+) -> Iterator[str]:
     """Yield where two documents of JSON, as claimed and as computed, differ.
 
     Parameters
@@ -211,32 +213,36 @@ def differences(one: Any, two: Any, place: str = "", *, shared: bool = False) ->
     shared : bool
         Compare only the numbers that both have.
     """
-    if isinstance(one, dict) and isinstance(two, dict):
-        for key in dict.fromkeys((*one, *two)):
+    if isinstance(claimed, dict) and isinstance(computed, dict):
+        for key in dict.fromkeys((*claimed, *computed)):
             below = f"{place}.{key}".lstrip(".")
-            if key in one and key in two:
-                yield from differences(one[key], two[key], below, shared=shared)
+            if key in claimed and key in computed:
+                yield from differences(claimed[key], computed[key], below, shared=shared)
             elif not shared:
-                yield f"{below} is {'missing' if key in two else 'not of this input'}"
-    elif isinstance(one, list) and isinstance(two, list) and (shared or len(one) == len(two)):
-        for at, pair in enumerate(zip(one, two, strict=False)):
+                yield f"{below} is {'missing' if key in computed else 'not of this input'}"
+    elif (
+        isinstance(claimed, list)
+        and isinstance(computed, list)
+        and (shared or len(claimed) == len(computed))
+    ):
+        for at, pair in enumerate(zip(claimed, computed, strict=False)):
             yield from differences(*pair, f"{place}[{at}]", shared=shared)
-    elif _is_number(one) and _is_number(two):
-        if abs(one - two) > _allowed(one, two, place):
-            yield f"{place} is {_short(one)}; the input gives {_short(two)}"
-    elif not shared and (type(one) is not type(two) or one != two):
-        yield f"{place} is {_short(one)}; the input gives {_short(two)}"
+    elif _is_number(claimed) and _is_number(computed):
+        if abs(claimed - computed) > _allowed(claimed, computed, place):
+            yield f"{place} is {_short(claimed)}; the input gives {_short(computed)}"
+    elif not shared and (type(claimed) is not type(computed) or claimed != computed):
+        yield f"{place} is {_short(claimed)}; the input gives {_short(computed)}"
 
 
 def _is_number(value: Any) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-def _allowed(one: float, two: float, place: str) -> float:
+def _allowed(claimed: float, computed: float, place: str) -> float:
     """Return how far two numbers may be apart; an estimated error, by its own size."""
     if place.rpartition(".")[2] == "error_m":
-        return max(abs(two), ABSOLUTE)
-    return max(RELATIVE * max(abs(one), abs(two)), ABSOLUTE)
+        return max(abs(computed), ABSOLUTE)
+    return max(RELATIVE * max(abs(claimed), abs(computed)), ABSOLUTE)
 
 
 def _short(value: Any) -> str:
@@ -246,13 +252,13 @@ def _short(value: Any) -> str:
 
 def first_other_word(claimed: str, computed: str) -> str:
     """Return where the words of two texts first differ, or nothing; blanks do not count."""
-    one, two = claimed.split(), computed.split()
-    letters = "".join(one), "".join(two)
+    first, second = claimed.split(), computed.split()
+    letters = "".join(first), "".join(second)
     if letters[0] == letters[1]:
         return ""
     same = takewhile(lambda pair: pair[0] == pair[1], zip(*letters, strict=False))
     at = sum(1 for _ in same)
-    return f"{_word(one, at)} where the input gives {_word(two, at)}"
+    return f"{_word(first, at)} where the input gives {_word(second, at)}"
 
 
 def _word(words: Sequence[str], letter: int) -> str:

@@ -123,20 +123,20 @@ def _attachments(pdf: PdfReader) -> dict[str, bytes]:
     if pdf.is_encrypted:
         raise InputError("is encrypted, which no package is")
     listed = pdf.root_object.get("/Names", {}).get("/EmbeddedFiles", {}).get("/Names", ())
-    found: dict[str, bytes] = {}
+    files: dict[str, bytes] = {}
     total = 0
     for key, file in zip(listed[::2], listed[1::2], strict=True):
         about = file.get_object()
-        if key in found or not key == about["/UF"] == about["/F"] or len(found) >= MAX_MEMBERS:
+        if key in files or not key == about["/UF"] == about["/F"] or len(files) >= MAX_MEMBERS:
             raise InputError(f"its attachment {key!s:.80} has two names or is one of too many")
-        found[str(key)] = content = about["/EF"]["/F"].get_data()
+        files[str(key)] = content = about["/EF"]["/F"].get_data()
         total += len(content)
         if len(content) > MAX_RECORD or total > MAX_TOTAL:
             raise InputError(
                 f"its attachments unpack to more than {MAX_RECORD // MB} MB in one or"
                 f" {MAX_TOTAL // MB} MB in all"
             )
-    return found
+    return files
 
 
 def _manifest(files: Mapping[str, bytes]) -> Manifest:

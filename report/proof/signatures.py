@@ -80,14 +80,16 @@ def _judged(data: bytes, made: bytes) -> Appended:
     file = PdfFileReader(io.BytesIO(data))
     signed, levels = [], [Level.UNCLEAR]
     problems = list(_others(data, made)) if made else []
-    for one in file.embedded_signatures:
-        status = _validated(one)
+    for signature in file.embedded_signatures:
+        status = _validated(signature)
         stamp = getattr(status, "timestamp_validity", None)
         if not all(each.intact and each.valid for each in (status, stamp) if each):
-            problems.append(f"signature '{one.field_name}': does not fit the bytes that it covers")
-        levels.append(one.evaluate_signature_coverage())
+            problems.append(
+                f"signature '{signature.field_name}': does not fit the bytes that it covers"
+            )
+        levels.append(signature.evaluate_signature_coverage())
         signer = status.signing_cert.subject.native.get("common_name", "")
-        signed.append(Signature(field=one.field_name, signer=str(signer)))
+        signed.append(Signature(field=signature.field_name, signer=str(signer)))
     if max(levels) != Level.ENTIRE_FILE or min(levels[1:]) < Level.ENTIRE_REVISION:
         problems.append("appended: bytes that no signature covers")
     return Appended(signed=tuple(signed), problems=tuple(problems))
@@ -138,20 +140,20 @@ def _stated(pdf: PdfReader) -> object:
     return about and (about.dc_title, about.dc_creator, about.dc_description, about.dc_subject)
 
 
-def _is_signing(one: Any, two: Any) -> bool:
+def _is_signing(before: Any, after: Any) -> bool:
     """Whether an object was changed as signing changes it; what it shows is refused elsewhere."""
-    if isinstance(one, StreamObject):
-        return bool(one.get("/Type") == "/Metadata" == two.get("/Type"))
-    if isinstance(one, ArrayObject):  # fields or annotations
-        return isinstance(two, ArrayObject) and _written(two).startswith(
-            _written(one)[:-1].rstrip()
+    if isinstance(before, StreamObject):
+        return bool(before.get("/Type") == "/Metadata" == after.get("/Type"))
+    if isinstance(before, ArrayObject):  # fields or annotations
+        return isinstance(after, ArrayObject) and _written(after).startswith(
+            _written(before)[:-1].rstrip()
         )
-    if not isinstance(one, DictionaryObject) or not isinstance(two, DictionaryObject):
+    if not isinstance(before, DictionaryObject) or not isinstance(after, DictionaryObject):
         return False
-    if "/Annots" in one and not _is_signing(one["/Annots"], two.get("/Annots")):
+    if "/Annots" in before and not _is_signing(before["/Annots"], after.get("/Annots")):
         return False
-    changing = _SIGNED if one.get("/FT") == "/Sig" else _CHANGING
-    return _without(one, changing) == _without(two, changing)
+    changing = _SIGNED if before.get("/FT") == "/Sig" else _CHANGING
+    return _without(before, changing) == _without(after, changing)
 
 
 def _without(item: DictionaryObject, keys: Set[str]) -> dict[str, bytes]:

@@ -45,11 +45,11 @@ _LIBRARIES = (
 @cache
 def versions() -> Mapping[str, str]:
     """Return the versions that a package prints, by name, without what is not installed."""
-    found = {"roofslip": metadata.version("roofslip"), "python": platform.python_version()}
+    by_name = {"roofslip": metadata.version("roofslip"), "python": platform.python_version()}
     for name in _LIBRARIES:
         with suppress(metadata.PackageNotFoundError):
-            found[name] = metadata.version(name)
-    return found
+            by_name[name] = metadata.version(name)
+    return by_name
 
 
 def environment() -> Mapping[str, str]:
@@ -178,15 +178,15 @@ def sources(sheet: Sheet, shaking: Shaking, former: bytes = b"") -> tuple[Source
     if changed := [path for path, sha256 in used if sha256 != last[path]]:
         raise InputError(f"{changed[0]}: changed while the report ran; run it again")
     are_held = holds_records(shaking.records)
-    found = [_source(sheet.path.name, kept[sheet.sha256], "workbook")]
+    files = [_source(sheet.path.name, kept[sheet.sha256], "workbook")]
     for path, row in rows.items():
         content, only = (kept[row.sha256], None) if are_held else (b"", row)
-        found.append(replace(_source(path, content, "record"), record=only))
+        files.append(replace(_source(path, content, "record"), record=only))
     for path in dict.fromkeys(document.path for document in sheet.documents):
-        found.append(_source(path, kept[last[path]], "document"))
+        files.append(_source(path, kept[last[path]], "document"))
     if former:
-        found.append(_source(FORMER, former, "former"))
-    return tuple(_unlike(found))
+        files.append(_source(FORMER, former, "former"))
+    return tuple(_unlike(files))
 
 
 def _path(row: RecordFile) -> str:
@@ -198,10 +198,10 @@ def _source(path: str, content: bytes, kind: str) -> SourceFile:
     return SourceFile(path=path, name=path, content=content, kind=kind)
 
 
-def _unlike(found: Sequence[SourceFile]) -> Iterator[SourceFile]:
+def _unlike(files: Sequence[SourceFile]) -> Iterator[SourceFile]:
     """Yield the files under names that differ in more than capitals, own names reserved."""
     taken = {MANIFEST, RESULTS}
-    for count, source in enumerate(found):
+    for count, source in enumerate(files):
         name = source.path
         if name.casefold() in taken:
             name = f"renamed/{count}/{posixpath.basename(source.path)}"
@@ -209,30 +209,30 @@ def _unlike(found: Sequence[SourceFile]) -> Iterator[SourceFile]:
         yield replace(source, name=name)
 
 
-def attachments(found: Sequence[SourceFile], results: bytes, short: str) -> tuple[Attached, ...]:
+def attachments(files: Sequence[SourceFile], results: bytes, short: str) -> tuple[Attached, ...]:
     """Return the attachments of a package.
 
     Parameters
     ----------
-    found : sequence of SourceFile
+    files : sequence of SourceFile
     results : bytes
         results.json.
     short : str
         What `fingerprint` returns.
     """
-    has_records = not any(source.record for source in found)
+    has_records = not any(source.record for source in files)
     own = SourceFile(path=RESULTS, name=RESULTS, content=results, kind="results")
     document = Manifest(
         schema_version=SCHEMA_VERSION,
         roofslip_version=version("roofslip"),
         hash=short,
         has_records=has_records,
-        files=tuple(source.listed for source in (*found, own)),
+        files=tuple(source.listed for source in (*files, own)),
         environment=dict(environment()),
     ).model_dump(mode="json")
     listed = json.dumps(document, indent=1, ensure_ascii=False).encode() + b"\n"
     return (
-        *(_attached(source) for source in found if has_records or source.kind != "record"),
+        *(_attached(source) for source in files if has_records or source.kind != "record"),
         _attached(own),
         _attached(SourceFile(path=MANIFEST, name=MANIFEST, content=listed, kind="manifest")),
     )

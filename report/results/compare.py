@@ -98,8 +98,8 @@ def _paired(
     rows: Iterable[_Row], others: Iterable[_Row], key: Callable[[_Row], tuple[str, ...]]
 ) -> Mapping[tuple[str, ...], _Pair[_Row]]:
     """Return the rows of two revisions by key; equal keys are numbered."""
-    one, other = (_keyed(each, key) for each in (rows, others))
-    return {name: (one.get(name), other.get(name)) for name in one | other}
+    mine, other = (_keyed(each, key) for each in (rows, others))
+    return {name: (mine.get(name), other.get(name)) for name in mine | other}
 
 
 def _keyed(

@@ -146,7 +146,7 @@ def _rows(assessment: Assessment) -> Iterator[RequirementRow]:
 
 
 def _limit(assessment: Assessment, item: str, row: Limit) -> RequirementRow:
-    found, limit = (
+    shown, limit = (
         limit_value(row, value, assessment.project.us_first)
         if row.measure is Measure.LENGTH_M
         else f"{value:.6g} {row.measure.unit}".rstrip()
@@ -156,7 +156,7 @@ def _limit(assessment: Assessment, item: str, row: Limit) -> RequirementRow:
     return RequirementRow(
         subject=item,
         title=row.title,
-        found=found + (f" ({row.worst})" if row.worst else ""),
+        found=shown + (f" ({row.worst})" if row.worst else ""),
         limit=f"{row.sign} {limit}{OVERRIDDEN if row.provision.reason else ''}",
         basis=row.provision.clause,
         verdict=assessment.limit_verdict(row),

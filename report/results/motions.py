@@ -180,8 +180,8 @@ def said_near(folder: Path) -> Iterator[str]:
     for path in sorted(book for up in (whole, *whole.parents[:2]) for book in up.glob("*.xlsx")):
         with suppress(InputError):
             sheet = read(path)
-            found = () if path.name.endswith(BEFORE) else other_sources(sheet)
-            for line in lines(found, sheet.addresses):
+            sources = () if path.name.endswith(BEFORE) else other_sources(sheet)
+            for line in lines(sources, sheet.addresses):
                 yield f"{path}: {line.cells}: {line.finding.text}"
 
 

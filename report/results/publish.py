@@ -59,7 +59,7 @@ def stamp(files: Mapping[str, bytes]) -> bytes:
 def warn_if_mixed(folder: Path, names: Iterable[str]) -> None:
     """Warn of files in a folder that do not agree with its stamp."""
     lines = content(folder / STAMP).decode(errors="replace").splitlines()
-    listed = {found[2]: found[1] for line in lines if (found := _LINE.fullmatch(line))}
+    listed = {match[2]: match[1] for line in lines if (match := _LINE.fullmatch(line))}
     there = [name for name in names if os.path.lexists(folder / name)]
     if mixed := [name for name in there if _sha256(content(folder / name)) != listed.get(name)]:
         warnings.warn(
@@ -72,8 +72,8 @@ def warn_if_mixed(folder: Path, names: Iterable[str]) -> None:
 def content(path: Path) -> bytes:
     """Return the content of a file; nothing of what is no file or too large."""
     with suppress(OSError):
-        found = path.lstat()
-        if stat.S_ISREG(found.st_mode) and found.st_size <= _MOST_BYTES:
+        status = path.lstat()
+        if stat.S_ISREG(status.st_mode) and status.st_size <= _MOST_BYTES:
             return path.read_bytes()
     return b""
 

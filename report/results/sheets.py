@@ -284,10 +284,10 @@ def write_table(pages: Pages, name: str, table: Mapping[str, Sequence[Any]], key
 
 def _shown(value: Any, decimals: int | None) -> str:
     """Return what a cell shows."""
-    found = _finite(value)
-    if isinstance(found, float) and decimals is not None:
-        return f"{found:.{decimals}f}"
-    return str(found)
+    number = _finite(value)
+    if isinstance(number, float) and decimals is not None:
+        return f"{number:.{decimals}f}"
+    return str(number)
 
 
 def _headings(model: type[Entity]) -> Sequence[str]:

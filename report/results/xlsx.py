@@ -99,7 +99,7 @@ def _row(assessment: Assessment, gap: ClearanceCheck, inputs: InputCells, count:
     formulas = {"governing": f"={governing}" if gap.is_permitted else ""}
     if not (rules.importance_in_separation and gap.neighbor.is_edge):
         formulas["importance"] = ""
-    given = rules.values[SEPARATION_KEYS[gap.neighbor]]
+    factor = rules.values[SEPARATION_KEYS[gap.neighbor]]
     has_value = not math.isnan(gap.required_m)
     return GapRow.beside(
         ClearanceResult.of(gap),
@@ -112,14 +112,14 @@ def _row(assessment: Assessment, gap: ClearanceCheck, inputs: InputCells, count:
         blanks=() if has_value else {"by_roofslip_m", "difference"},
         marks={
             "design_m": gap.design_mark,
-            "rule_factor": given.reason,
+            "rule_factor": factor.reason,
             **dict.fromkeys(("required_m", "demand_capacity", "by_roofslip_m"), gap.mark),
         },
         count=count,
         governing=f"{gap.governing_array}, {gap.governing_direction.value}",
         minimum_m=gap.minimum_m,
         by_roofslip_m=gap.required_m,
-        rule_factor=given.value,
+        rule_factor=factor.value,
     )
 
 

@@ -54,9 +54,9 @@ class ArrayCapacities:
 def array_capacities(plan: StudyPlan, array: ArrayPlan, runner: Runner) -> ArrayCapacities:
     """Return the capacities of an array, and the dispersions that follow from those beside it."""
     levels = np.array(plan.input.intensities)
-    found = _searched(plan, array, runner, (array.mu, array.array.slope_deg), levels, SCAN)
-    searches = [found]
-    medians = _medians(found)
+    capacities = _searched(plan, array, runner, (array.mu, array.array.slope_deg), levels, SCAN)
+    searches = [capacities]
+    medians = _medians(capacities)
     effects: list[dict[str, float]] = [{} for _ in SHARES]
     for name, shifts in array.shifts.items():
         around = [medians, medians]
@@ -68,7 +68,7 @@ def array_capacities(plan: StudyPlan, array: ArrayPlan, runner: Runner) -> Array
             effect[name] = first_order_beta(median, (low, high))
     orientations = [len(motion.orientations) for motion in runner.campaign.motions[0]]
     runs = sum(int(one[0].searched @ orientations) for one in searches)
-    return ArrayCapacities(found=found, effects=tuple(effects), runs=runs)
+    return ArrayCapacities(found=capacities, effects=tuple(effects), runs=runs)
 
 
 def maximum_runs(plan: StudyPlan, array: ArrayPlan) -> int:
@@ -119,7 +119,7 @@ def _shifted(
 
 
 def _medians(found: Sequence[Capacities]) -> list[float]:
-    return [fit_lognormal(one).theta for one in found]
+    return [fit_lognormal(capacities).theta for capacities in found]
 
 
 def _yield(mu: float, slope_deg: float) -> float:
@@ -162,10 +162,10 @@ class SpectralSpread:
 
 def spectral_spread(buildings: Sequence[Sequence[Motion]]) -> SpectralSpread:
     """Return the spread of the motions at the roof of each building, as they are scaled."""
-    found = np.concatenate([_deviations(motions) for motions in buildings])
-    if not np.isfinite(found).all():
+    deviations = np.concatenate([_deviations(motions) for motions in buildings])
+    if not np.isfinite(deviations).all():
         return SpectralSpread(median=math.nan, largest=math.nan)
-    return SpectralSpread(median=float(np.median(found)), largest=float(found.max()))
+    return SpectralSpread(median=float(np.median(deviations)), largest=float(deviations.max()))
 
 
 def _deviations(motions: Sequence[Motion]) -> Floats:

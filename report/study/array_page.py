@@ -31,56 +31,56 @@ from solver.studies import capacity, uncertainty
 from solver.studies import fragility as fits
 
 
-def fragility(results: StudyResults, one: ArrayStudyResult) -> Section:
+def fragility(results: StudyResults, result: ArrayStudyResult) -> Section:
     """Return the section on an array: its fragilities, and the probabilities where asked for."""
-    name = f"{one.plan.array.id}{on_building(results, one.plan.building, ', building ')}"
-    known = [state for state in one.states if state.fragility.fitted.is_known]
+    name = f"{result.plan.array.id}{on_building(results, result.plan.building, ', building ')}"
+    known = [state for state in result.states if state.fragility.fitted.is_known]
     return section(
         "study/array",
         f"Fragility of {name}",
         id=f"array-{slug(name)}",
-        one=one,
-        is_left_out=is_exportable(results) and not has_probabilities(one),
-        exported=_exported(results, one, known),
+        one=result,
+        is_left_out=is_exportable(results) and not has_probabilities(result),
+        exported=_exported(results, result, known),
         MASS=MASS,
         capacity=capacity,
         fits=fits,
         uncertainty=uncertainty,
-        charts=dict(_charts(results, one)),
+        charts=dict(_charts(results, result)),
     )
 
 
-def _charts(results: StudyResults, one: ArrayStudyResult) -> Iterator[tuple[str, str]]:
-    yield "fragility", figures.fragilities(one.states, axis(results))
-    tested = [state for state in one.states if not math.isnan(state.fragility.p_value)]
+def _charts(results: StudyResults, result: ArrayStudyResult) -> Iterator[tuple[str, str]]:
+    yield "fragility", figures.fragilities(result.states, axis(results))
+    tested = [state for state in result.states if not math.isnan(state.fragility.p_value)]
     if tested:
         yield "goodness", figures.goodness(tested, axis(results))
-    if one.bars and not math.isnan(one.center_m):
-        yield "tornado", figures.tornado(one.bars, one.center_m, length_unit(results))
+    if result.bars and not math.isnan(result.center_m):
+        yield "tornado", figures.tornado(result.bars, result.center_m, length_unit(results))
 
 
 def _exported(
-    results: StudyResults, one: ArrayStudyResult, states: Sequence[LimitState]
+    results: StudyResults, result: ArrayStudyResult, states: Sequence[LimitState]
 ) -> Mapping[str, Any]:
     """Return the dispersions of the exported fragilities by name; empty if there are none."""
-    by_state = {state.name: dispersions(results, one, state) for state in states}
+    by_state = {state.name: dispersions(results, result, state) for state in states}
     if not by_state or not is_exportable(results):
         return {}
     by_name = list(zip(*by_state.values(), strict=True))
-    given = [k for k, parts in enumerate(by_name) if any(part.beta for part in parts)]
-    below = one.plan.shifts[SLOPE][0][1] if SLOPE in one.plan.shifts else math.nan
+    known = [k for k, parts in enumerate(by_name) if any(part.beta for part in parts)]
+    below = result.plan.shifts[SLOPE][0][1] if SLOPE in result.plan.shifts else math.nan
     columns = (
         (words("State", 0.7), lambda state: state.name),
-        *(_part(by_name[k], k, by_state) for k in given),
-        (text("β exported"), lambda state: _total(results, one, state)),
+        *(_part(by_name[k], k, by_state) for k in known),
+        (text("β exported"), lambda state: _total(results, result, state)),
     )
     return {
         "lacking": [
             f"{name} ({parts[0].source})"
             for k, (name, parts) in enumerate(zip(NAMES, by_name, strict=True))
-            if k not in given
+            if k not in known
         ],
-        "first_order": [NAMES[k] for k in given if NAMES[k] in ("friction", "slope")],
+        "first_order": [NAMES[k] for k in known if NAMES[k] in ("friction", "slope")],
         "is_level_below": below == 0.0,
         "table": listed(states, columns),
     }
@@ -99,7 +99,7 @@ def _beta(part: Dispersion) -> str:
     return number(round_up(part.beta, 3), 3) if part.beta else part.source
 
 
-def _total(results: StudyResults, one: ArrayStudyResult, state: LimitState) -> str:
+def _total(results: StudyResults, result: ArrayStudyResult, state: LimitState) -> str:
     if is_refused(results):
         return "not exported"
-    return number(round_up(exported(results, one, state).beta, 3), 3)
+    return number(round_up(exported(results, result, state).beta, 3), 3)

@@ -44,19 +44,19 @@ from solver.rules.provisions import prescriptive_checks, required_mu
 
 def curves(results: StudyResults, building: int) -> Section:
     """Return the section on a building."""
-    given = results.plan.input
-    shown = some(given.mus, MOST_FRICTIONS)
-    sloped = shown if len(given.slopes_deg) > 1 else []
+    study_input = results.plan.input
+    shown = some(study_input.mus, MOST_FRICTIONS)
+    sloped = shown if len(study_input.slopes_deg) > 1 else []
     sheets = list(_sheets(results, building))
     return section(
         "study/curves",
         f"Design curves{on_building(results, building, ', building ')}",
         id=f"curves-{building}",
-        named={m: friction_name(results, given.mus[m]) for m in shown},
+        named={m: friction_name(results, study_input.mus[m]) for m in shown},
         sheets=[(name, is_thick) for name, _, is_thick in sheets],
         LOW_G=LOW_G,
         place=results.plan.motions.buildings[building],
-        middle=given.intensities[len(given.intensities) // 2],
+        middle=study_input.intensities[len(study_input.intensities) // 2],
         displacements=_displacements(results, building),
         charts={
             **{f"intensity-{m}": _against_intensity(results, building, m) for m in shown},
@@ -79,30 +79,30 @@ def _against_intensity(results: StudyResults, building: int, m: int) -> str:
 
 
 def _against_slope(results: StudyResults, building: int, m: int) -> str:
-    given = results.plan.input
-    shown = some(given.intensities, MOST_LINES)
+    study_input = results.plan.input
+    shown = some(study_input.intensities, MOST_LINES)
     values, mean = _drawn(results, building)
     return figures.curves(
-        np.array(given.slopes_deg),
-        [(level(results, given.intensities[x]), values[:, m, x]) for x in shown],
+        np.array(study_input.slopes_deg),
+        [(level(results, study_input.intensities[x]), values[:, m, x]) for x in shown],
         length_unit(results),
         along="Slope [deg]",
-        low=given.slopes_deg[-1],
+        low=study_input.slopes_deg[-1],
         beside=[mean[:, m, x] for x in shown],
     )
 
 
 def _sheets(results: StudyResults, building: int) -> Iterator[tuple[str, str, bool]]:
     """Yield contour sheets: name, drawing, and whether it has the allowed displacement."""
-    given = results.plan.input
+    study_input = results.plan.input
     values, mean = _drawn(results, building)
-    allowed_m = given.study.allowed_m or math.nan
+    allowed_m = study_input.study.allowed_m or math.nan
     for x, cut, along, name in _cuts(results):
-        if len(x) < 2 or len(given.slopes_deg) < 2 or np.isnan(values[cut]).all():
+        if len(x) < 2 or len(study_input.slopes_deg) < 2 or np.isnan(values[cut]).all():
             continue  # one row or column has no contours
         svg = figures.contours(
             np.array(x),
-            np.array(given.slopes_deg),
+            np.array(study_input.slopes_deg),
             values[cut],
             mean[cut],
             length_unit(results),
@@ -114,24 +114,24 @@ def _sheets(results: StudyResults, building: int) -> Iterator[tuple[str, str, bo
 
 def _cuts(results: StudyResults) -> Iterator[tuple[tuple[float, ...], Any, str, str]]:
     """Yield the axis of each sheet, its cases, the name of the axis, and that of the sheet."""
-    given = results.plan.input
-    if len(given.mus) > MOST_FRICTIONS:
-        for x in some(given.intensities, MOST_CUTS):
-            name = level(results, given.intensities[x])
-            yield given.mus, np.s_[:, :, x], "Friction coefficient μ", name
+    study_input = results.plan.input
+    if len(study_input.mus) > MOST_FRICTIONS:
+        for x in some(study_input.intensities, MOST_CUTS):
+            name = level(results, study_input.intensities[x])
+            yield study_input.mus, np.s_[:, :, x], "Friction coefficient μ", name
     else:
-        for m, mu in enumerate(given.mus):
-            yield given.intensities, np.s_[:, m], axis(results), friction_name(results, mu)
+        for m, mu in enumerate(study_input.mus):
+            yield study_input.intensities, np.s_[:, m], axis(results), friction_name(results, mu)
 
 
 def _displacements(results: StudyResults, building: int) -> Table:
     """Return the displacements at the middle intensity."""
-    given, lost = results.plan.input, results.curves.without_value
-    unit, x = length_unit(results).symbol, len(given.intensities) // 2
+    study_input, lost = results.plan.input, results.curves.without_value
+    unit, x = length_unit(results).symbol, len(study_input.intensities) // 2
     cells = dict.fromkeys(STATISTICS, length) | {results.plan.design_rule.name: design_length}
     columns = (
-        (text("μ"), lambda at: f"{given.mus[at[2]]:g}"),
-        (text("Slope", "deg"), lambda at: f"{given.slopes_deg[at[1]]:g}"),
+        (text("μ"), lambda at: f"{study_input.mus[at[2]]:g}"),
+        (text("Slope", "deg"), lambda at: f"{study_input.slopes_deg[at[1]]:g}"),
         *(
             (
                 text(capitalized(name), unit, 1.3),
@@ -143,19 +143,21 @@ def _displacements(results: StudyResults, building: int) -> Table:
     )
     cases = [
         (building, s, m, x)
-        for m in some(given.mus, MOST_FRICTIONS)
-        for s in some(given.slopes_deg, MOST_LINES)
+        for m in some(study_input.mus, MOST_FRICTIONS)
+        for s in some(study_input.slopes_deg, MOST_LINES)
     ]
     return listed(cases, columns, kind="compact")
 
 
 def allowed(results: StudyResults, building: int, allowed_m: float) -> Section:
     """Return the section on what an allowed displacement asks for."""
-    given = results.plan.input
-    frictions = [shown(mu, FRICTION_DECIMALS) for mu in (given.mus[0], given.mus[-1])]
-    slopes = [shown(s, SLOPE_DECIMALS) for s in (given.slopes_deg[0], given.slopes_deg[-1])]
-    least = partial(answer, end=given.mus[0], mark="≤", decimals=FRICTION_DECIMALS)
-    largest = partial(answer, end=given.slopes_deg[-1], mark="≥", decimals=SLOPE_DECIMALS)
+    study_input = results.plan.input
+    frictions = [shown(mu, FRICTION_DECIMALS) for mu in (study_input.mus[0], study_input.mus[-1])]
+    slopes = [
+        shown(s, SLOPE_DECIMALS) for s in (study_input.slopes_deg[0], study_input.slopes_deg[-1])
+    ]
+    least = partial(answer, end=study_input.mus[0], mark="≤", decimals=FRICTION_DECIMALS)
+    largest = partial(answer, end=study_input.slopes_deg[-1], mark="≥", decimals=SLOPE_DECIMALS)
     return section(
         "study/allowed",
         f"Least friction and largest slope{on_building(results, building, ', building ')}",
@@ -166,8 +168,8 @@ def allowed(results: StudyResults, building: int, allowed_m: float) -> Section:
         answers=[
             (
                 name,
-                _allowed_table(results, text("Slope", "deg"), given.slopes_deg, mus, least),
-                _allowed_table(results, text("μ"), given.mus, slopes_deg, largest),
+                _allowed_table(results, text("Slope", "deg"), study_input.slopes_deg, mus, least),
+                _allowed_table(results, text("μ"), study_input.mus, slopes_deg, largest),
             )
             for name in dict.fromkeys((results.leading, MEAN))
             for mus in [results.minimum_frictions(building, name, allowed_m)]
@@ -229,7 +231,7 @@ class Prescribed:
 
 def compare(results: StudyResults, building: int) -> tuple[Prescribed, ...]:
     """Return the comparison; empty without a value from analysis or S_DS."""
-    given, rule = results.plan.input, results.plan.design_rule
+    study_input, rule = results.plan.input, results.plan.design_rule
     if not (rule.has_value and rule.has_floor):
         return ()
     permitted = [
@@ -238,39 +240,41 @@ def compare(results: StudyResults, building: int) -> tuple[Prescribed, ...]:
                 check.ok
                 for check in prescriptive_checks(rule.rules, slope_rad=math.radians(slope), mu=mu)
             )
-            for mu in given.mus
+            for mu in study_input.mus
         ]
-        for slope in given.slopes_deg
+        for slope in study_input.slopes_deg
     ]
     ratio = results.analysis_m[building] / rule.prescriptive_m
     return (Prescribed(ratio=ratio, permitted=np.array(permitted)),)
 
 
-def prescribed(results: StudyResults, building: int, found: Prescribed) -> Section:
+def prescribed(results: StudyResults, building: int, prescribed: Prescribed) -> Section:
     """Return the section on the prescriptive displacement."""
-    given, rules = results.plan.input, results.plan.design_rule.rules
-    names = {m: friction_name(results, given.mus[m]) for m in some(given.mus, MOST_FRICTIONS)}
-    slopes, mus = _extent(results, found.unsafe_not_permitted)
+    study_input, rules = results.plan.input, results.plan.design_rule.rules
+    names = {
+        m: friction_name(results, study_input.mus[m]) for m in some(study_input.mus, MOST_FRICTIONS)
+    }
+    slopes, mus = _extent(results, prescribed.unsafe_not_permitted)
     return section(
         "study/prescribed",
         "Beside the prescriptive displacement" + on_building(results, building, ", building "),
         id=f"prescribed-{building}",
-        found=found,
+        found=prescribed,
         slopes=slopes,
         mus=mus,
         steepest_mu=required_mu(rules, math.radians(rules["prescriptive_max_slope_deg"])),
         names=names,
-        margins=_prescribed_table(results, found),
+        margins=_prescribed_table(results, prescribed),
         charts={f"prescribed-{m}": _chart(results, building, m) for m in names},
     )
 
 
 def _extent(results: StudyResults, cases: NDArray[np.bool_]) -> tuple[list[float], list[float]]:
     """Return the slopes and the friction coefficients of cases."""
-    given = results.plan.input
+    study_input = results.plan.input
     return (
-        [given.slopes_deg[s] for s in np.flatnonzero(cases.any(axis=(1, 2)))],
-        [given.mus[m] for m in np.flatnonzero(cases.any(axis=(0, 2)))],
+        [study_input.slopes_deg[s] for s in np.flatnonzero(cases.any(axis=(1, 2)))],
+        [study_input.mus[m] for m in np.flatnonzero(cases.any(axis=(0, 2)))],
     )
 
 
@@ -280,21 +284,23 @@ def _chart(results: StudyResults, building: int, m: int) -> str:
     return by_intensity(results, results.analysis_m[building], m, limits=limits)
 
 
-def _prescribed_table(results: StudyResults, found: Prescribed) -> Table:
-    given, measure = results.plan.input, with_symbols(axis(results))
+def _prescribed_table(results: StudyResults, prescribed: Prescribed) -> Table:
+    study_input, measure = results.plan.input, with_symbols(axis(results))
 
     def margins(at: tuple[int, int]) -> tuple[str, str, str]:
-        return _margins(found.ratio[at], given.intensities)
+        return _margins(prescribed.ratio[at], study_input.intensities)
 
     columns = (
-        (words("Friction", 1.6), lambda at: friction_name(results, given.mus[at[1]])),
-        (text("Slope", "deg"), lambda at: f"{given.slopes_deg[at[0]]:g}"),
-        (centered("Permitted"), lambda at: "yes" if found.permitted[at] else "no"),
+        (words("Friction", 1.6), lambda at: friction_name(results, study_input.mus[at[1]])),
+        (text("Slope", "deg"), lambda at: f"{study_input.slopes_deg[at[0]]:g}"),
+        (centered("Permitted"), lambda at: "yes" if prescribed.permitted[at] else "no"),
         (text("Enough up to", measure, 1.4), lambda at: margins(at)[0]),
         (text("Least margin", share=1.1), lambda at: margins(at)[1]),
         (text("at", measure, 1.2), lambda at: margins(at)[2]),
     )
-    cases = [(s, m) for m in range(len(given.mus)) for s in range(len(given.slopes_deg))]
+    cases = [
+        (s, m) for m in range(len(study_input.mus)) for s in range(len(study_input.slopes_deg))
+    ]
     return listed(cases, columns, kind="compact")
 
 

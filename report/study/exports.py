@@ -83,7 +83,7 @@ def export_files(results: StudyResults) -> Mapping[str, bytes]:
         return {}
     kind = results.plan.input.study.intensity
     files: dict[str, bytes] = {}
-    known = [one for one in results.arrays if known_states(one)]
+    known = [result for result in results.arrays if known_states(result)]
     if known and kind in DEMANDS:
         files["fragility.csv"] = _library(results, known).encode()
         files["fragility.json"] = _metadata(results, known).encode()
@@ -93,31 +93,31 @@ def export_files(results: StudyResults) -> Mapping[str, bytes]:
     return files
 
 
-def known_states(one: ArrayStudyResult) -> tuple[LimitState, ...]:
+def known_states(result: ArrayStudyResult) -> tuple[LimitState, ...]:
     """Return the limit states that have a lognormal; each has the same name in every file."""
-    return tuple(state for state in one.states if state.fragility.fitted.is_known)
+    return tuple(state for state in result.states if state.fragility.fitted.is_known)
 
 
-def has_probabilities(one: ArrayStudyResult) -> bool:
+def has_probabilities(result: ArrayStudyResult) -> bool:
     """Whether the probability of each limit state is known at every level.
 
     A state without a lognormal has the fractions of the motions, if none of its runs is censored.
     """
-    return not _lost_states(one)
+    return not _lost_states(result)
 
 
-def _lost_states(one: ArrayStudyResult) -> list[str]:
+def _lost_states(result: ArrayStudyResult) -> list[str]:
     return [
         state.name
-        for state in one.states
+        for state in result.states
         if state.fragility.censored and not state.fragility.fitted.is_known
     ]
 
 
-def component_id(results: StudyResults, one: ArrayStudyResult) -> str:
+def component_id(results: StudyResults, result: ArrayStudyResult) -> str:
     """Return the ID of an array in a library: letters, digits, points and dashes."""
-    building = results.plan.motions.buildings[one.plan.building]
-    name = one.plan.array.id
+    building = results.plan.motions.buildings[result.plan.building]
+    name = result.plan.array.id
     if len(results.plan.motions.buildings) > 1:
         name = f"{name}.{building}"
     return "BSA." + re.sub(r"[^A-Za-z0-9.-]+", "-", name).strip("-")
@@ -130,16 +130,16 @@ def _library(results: StudyResults, known: list[ArrayStudyResult]) -> str:
         ("ID", "Incomplete", "Demand-Type", "Demand-Unit", "Demand-Offset", "Demand-Directional",
          *states)
     ]  # fmt: skip
-    for one in known:
-        cells = [cell for state in one.states for cell in _cells(results, one, state)]
+    for result in known:
+        cells = [cell for state in result.states for cell in _cells(results, result, state)]
         cells += [""] * (len(states) - len(cells))
-        rows.append((component_id(results, one), 0, demand, unit, 0, 0, *cells))
+        rows.append((component_id(results, result), 0, demand, unit, 0, 0, *cells))
     return csv_text(rows)
 
 
-def _cells(results: StudyResults, one: ArrayStudyResult, state: LimitState) -> list[str]:
+def _cells(results: StudyResults, result: ArrayStudyResult, state: LimitState) -> list[str]:
     """Return the columns of a limit state; an undetermined one has its description alone."""
-    f = exported(results, one, state)
+    f = exported(results, result, state)
     if not f.is_known:
         return ["", "", "", "", f"{_sentence(state.words)} {_sentence(NOT_DETERMINED)}"]
     about = f"{_sentence(state.words)}{_warned(results)}"
@@ -158,20 +158,20 @@ def _metadata(results: StudyResults, known: list[ArrayStudyResult]) -> str:
         f"{_warned(results)}",
         "Version": results.manifest["program"]["roofslip"],
         "ComponentGroups": {
-            "BSA - Ballasted solar arrays": [component_id(results, one) for one in known]
+            "BSA - Ballasted solar arrays": [component_id(results, result) for result in known]
         },
     }
-    entries = {component_id(results, one): _entry(results, one) for one in known}
+    entries = {component_id(results, result): _entry(results, result) for result in known}
     return (
         json.dumps({"_GeneralInformation": about, **entries}, indent=2, ensure_ascii=False) + "\n"
     )
 
 
-def _entry(results: StudyResults, one: ArrayStudyResult) -> dict[str, object]:
+def _entry(results: StudyResults, result: ArrayStudyResult) -> dict[str, object]:
     kind = results.plan.input.study.intensity
     return {
-        "Description": f"Ballasted solar array {one.plan.array.id}",
-        "Comments": _said(results, "comments", DEMANDS[kind], one=one),
+        "Description": f"Ballasted solar array {result.plan.array.id}",
+        "Comments": _said(results, "comments", DEMANDS[kind], one=result),
         "SuggestedComponentBlockSize": "1 EA",
         "RoundUpToIntegerQuantity": "True",
         "LimitStates": {
@@ -181,7 +181,7 @@ def _entry(results: StudyResults, one: ArrayStudyResult) -> dict[str, object]:
                     "RepairAction": "Inspect; not part of this study.",
                 }
             }
-            for state in known_states(one)
+            for state in known_states(result)
         },
     }
 
@@ -190,9 +190,9 @@ def _placement(results: StudyResults, known: list[ArrayStudyResult]) -> str:
     kind = results.plan.input.study.intensity
     about = _said(results, "measured", DEMANDS[kind]) + _warned(results)
     rows: list[Row] = [("", "Units", "Location", "Direction", "Theta_0", "Blocks", "Comment")]
-    for one in known:
-        comment = f"Array {one.plan.array.id}. {about}"
-        rows.append((component_id(results, one), "ea", "roof", 0, 1, "", comment))
+    for result in known:
+        comment = f"Array {result.plan.array.id}. {about}"
+        rows.append((component_id(results, result), "ea", "roof", 0, 1, "", comment))
     return csv_text(rows)
 
 
@@ -212,17 +212,17 @@ def _nrml(results: StudyResults) -> bytes:
     ET.SubElement(model, f"{{{NRML}}}description").text = _said(results, "description", (imt, unit))
     states = [state.name for state in results.arrays[0].states]
     ET.SubElement(model, f"{{{NRML}}}limitStates").text = " ".join(states)
-    for one in filter(has_probabilities, results.arrays):
+    for result in filter(has_probabilities, results.arrays):
         function = ET.SubElement(
             model,
             f"{{{NRML}}}fragilityFunction",
-            {"id": component_id(results, one), "format": "discrete"},
+            {"id": component_id(results, result), "format": "discrete"},
         )
-        levels = per_unit * one.states[0].fragility.levels
+        levels = per_unit * result.states[0].fragility.levels
         limit = f"{NO_DAMAGE_SHARE * levels[0]:.9g}"
         imls = ET.SubElement(function, f"{{{NRML}}}imls", {"imt": imt, "noDamageLimit": limit})
         imls.text = " ".join(f"{x:.9g}" for x in levels)
-        for state, row in zip(one.states, probabilities_of(results, one), strict=True):
+        for state, row in zip(result.states, probabilities_of(results, result), strict=True):
             poes = ET.SubElement(function, f"{{{NRML}}}poes", {"ls": state.name})
             # Rounded to the safe side: a probability of exceedance is never understated.
             poes.text = " ".join(f"{round_up(float(p), 6):.6f}" for p in row)
@@ -240,7 +240,7 @@ def _said(results: StudyResults, name: str, of: tuple[str, str], **more: object)
     is_roof = study.intensity in (Intensity.PPA, Intensity.PPV) or (
         study.intensity is Intensity.SA1 and study.recorded_at is RecordedAt.ROOF
     )
-    given = {
+    words = {
         "name": of[0],
         "unit": of[1],
         "quantity": QUANTITIES[study.intensity],
@@ -252,10 +252,10 @@ def _said(results: StudyResults, name: str, of: tuple[str, str], **more: object)
         "warned": _warned(results),
         "MASS": MASS,
     }
-    return said(TEMPLATES, "study/exports.html", name, context(results) | given | more)
+    return said(TEMPLATES, "study/exports.html", name, context(results) | words | more)
 
 
-def probabilities_of(results: StudyResults, one: ArrayStudyResult) -> Floats:
+def probabilities_of(results: StudyResults, result: ArrayStudyResult) -> Floats:
     """Return the probability of each limit state at each level, shape (states, levels).
 
     That of the lognormal, or the fractions of the motions where there is none; the array must have
@@ -265,8 +265,8 @@ def probabilities_of(results: StudyResults, one: ArrayStudyResult) -> Floats:
     """
     rows = [
         lognormal.at(state.fragility.levels)
-        if (lognormal := exported(results, one, state)).is_known
+        if (lognormal := exported(results, result, state)).is_known
         else np.maximum.accumulate(state.fragility.exceeded / state.fragility.counted)
-        for state in one.states
+        for state in result.states
     ]
     return np.maximum.accumulate(np.array(rows)[::-1])[::-1]

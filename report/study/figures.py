@@ -142,9 +142,9 @@ def _contour(
     shown = lengths_m / unit.si
     if np.isnan(shown).all():
         return
-    found = [v for v in levels if np.nanmin(shown) < v < np.nanmax(shown)]
-    if found:
-        drawn = axes.contour(*grid, shown, found, **look)
+    levels_shown = [v for v in levels if np.nanmin(shown) < v < np.nanmax(shown)]
+    if levels_shown:
+        drawn = axes.contour(*grid, shown, levels_shown, **look)
         labels = axes.clabel(
             drawn,
             fmt=lambda v: f"{v:g} {unit.symbol}{other(v * unit.si)}",
@@ -296,20 +296,22 @@ def tornado(bars: Sequence[Bar], center_m: float, unit: Unit) -> str:
         return svg_text(figure)
 
 
-def rates(one: ArrayYears, curve: HazardCurve, unit: Unit, along: str) -> str:
+def rates(array_years: ArrayYears, curve: HazardCurve, unit: Unit, along: str) -> str:
     """Return the hazard curve, and the rates at which PRDs are exceeded with their band."""
     with style():
         margins = {"left": 0.085, "right": 0.985, "above": 0.15, "below": 0.55}
         figure, ((left, right),) = panels(1, 2, 3.2, **margins, wspace=0.16, sharey=True)
-        levels = one.responses.levels
+        levels = array_years.responses.levels
         left.plot(curve.intensity, curve.rate, color=INK, linewidth=1.2, marker="o", markersize=3.0)
         left.axvspan(levels[0], levels[-1], color=PALE, linewidth=0.0, zorder=0)
         left.set_xlim(0.2 * levels[0], 2.0 * levels[-1])
-        shown = one.limits_m > 0.0
-        x = one.limits_m[shown] / unit.si
-        right.fill_between(x, *one.rates_band[:, shown], color=PALE, linewidth=0.0)
-        right.plot(x, one.rates[shown], color=INK, linewidth=1.2)
-        right.axvline(one.plan.array.clearance_m / unit.si, color=ACCENT, linestyle=LINES[1])
+        shown = array_years.limits_m > 0.0
+        x = array_years.limits_m[shown] / unit.si
+        right.fill_between(x, *array_years.rates_band[:, shown], color=PALE, linewidth=0.0)
+        right.plot(x, array_years.rates[shown], color=INK, linewidth=1.2)
+        right.axvline(
+            array_years.plan.array.clearance_m / unit.si, color=ACCENT, linestyle=LINES[1]
+        )
         right.set_xlim(10.0**-unit.decimals, x[-1])
         for axes, name in ((left, along), (right, f"PRD [{unit.symbol}]")):
             for years in RECURRENCES:
@@ -321,22 +323,22 @@ def rates(one: ArrayYears, curve: HazardCurve, unit: Unit, along: str) -> str:
         for years in RECURRENCES:
             right.annotate(f"{years:g}", (x[-1], 1.0 / years), (-2, 1), va="bottom", ha="right",
                            textcoords="offset points", fontsize=7.0)  # fmt: skip
-        left.set_ylim(0.2 / RECURRENCES[-1], 3.0 * max(one.rates[0], 1.0 / RECURRENCES[0]))
+        left.set_ylim(0.2 / RECURRENCES[-1], 3.0 * max(array_years.rates[0], 1.0 / RECURRENCES[0]))
         decades(left.yaxis)
         left.set_ylabel("Annual rate of exceedance")
         return svg_text(figure)
 
 
-def lives(one: ArrayYears, unit: Unit) -> str:
+def lives(array_years: ArrayYears, unit: Unit) -> str:
     """Return the share of lives in which distances are exceeded, by when the array is put back."""
     with style():
         figure, axes = boxed(2.9, (0.085, 0.345, 0.89, 0.635))
-        clearance = one.plan.array.clearance_m / unit.si
+        clearance = array_years.plan.array.clearance_m / unit.si
         share = 1.0 - np.arange(LIVES) / LIVES
         shown = np.unique(np.geomspace(1, LIVES, 400).astype(int)) - 1
-        for count, (name, found) in enumerate(one.lives.items()):
+        for count, (name, distances) in enumerate(array_years.lives.items()):
             for at, which in enumerate(("largest", "last")[: 1 + (name != ALWAYS)]):
-                ordered = np.sort(found[at])[::-1][shown] / unit.si
+                ordered = np.sort(distances[at])[::-1][shown] / unit.si
                 axes.plot(
                     ordered, share[::-1][shown], color=(INK, ACCENT)[at], linestyle=LINES[count],
                     linewidth=1.2, label=f"{which}, put back {name}",
@@ -345,7 +347,7 @@ def lives(one: ArrayYears, unit: Unit) -> str:
         axes.set_xscale("log")
         decades(axes.xaxis)
         axes.set_xlim(10.0**-unit.decimals, 8.0 * clearance)
-        top = float(max((found[0] > 0.0).mean() for found in one.lives.values()))
+        top = float(max((distances[0] > 0.0).mean() for distances in array_years.lives.values()))
         axes.set_ylim(0.0, 1.05 * top or 1.0)
         labeled(axes, f"Distance from the installed place [{unit.symbol}]", "Share of lives beyond")
         legend_below(axes, 0.22, 3, handlelength=2.6)

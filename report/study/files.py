@@ -40,25 +40,25 @@ def study_files(results: StudyResults) -> Mapping[str, bytes]:
 
 def study_html(results: StudyResults) -> str:
     """Return the report as HTML, before layout."""
-    given = context(results)
+    words = context(results)
     cover = {
         "css": Markup((TEMPLATES / "package.css").read_text(encoding="utf-8")),
-        "sections": list(filled(TEMPLATES, sections(results), given)),
+        "sections": list(filled(TEMPLATES, sections(results), words)),
     }
-    return rendered(TEMPLATES, "study.html", given | cover)
+    return rendered(TEMPLATES, "study.html", words | cover)
 
 
 def sections(results: StudyResults) -> tuple[Section, ...]:
     """Return all sections except the cover and the contents."""
     allowed_m = results.plan.input.study.allowed_m
     first = section("study/results", "Results", headline=headline(results))
-    found = [first, basis(results)]
+    listed = [first, basis(results)]
     for b in range(len(results.plan.motions.buildings)):
-        found.append(curves(results, b))
+        listed.append(curves(results, b))
         if allowed_m:
-            found.append(allowed(results, b, allowed_m))
-        found.append(formula(results, b))
-        found += [prescribed(results, b, one) for one in compare(results, b)]
-    found += [fragility(results, one) for one in results.arrays]
-    found += [years(results, one) for one in results.years]
-    return (*found, limits(results))
+            listed.append(allowed(results, b, allowed_m))
+        listed.append(formula(results, b))
+        listed += [prescribed(results, b, comparison) for comparison in compare(results, b)]
+    listed += [fragility(results, comparison) for comparison in results.arrays]
+    listed += [years(results, comparison) for comparison in results.years]
+    return (*listed, limits(results))

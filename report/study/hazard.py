@@ -37,12 +37,12 @@ def hazard_curves(sheet: StudySheet) -> tuple[HazardCurve, ...]:
     InputError
         At the cell of the file, or at the row of the table.
     """
-    given, hazard = sheet.project, sheet.project.hazard
-    if not (hazard.file or given.hazard_points):
+    study_input, hazard = sheet.project, sheet.project.hazard
+    if not (hazard.file or study_input.hazard_points):
         return ()
     place, points = (
         Place("hazard_points"),
-        [(point.intensity, point.annual_rate) for point in given.hazard_points],
+        [(point.intensity, point.annual_rate) for point in study_input.hazard_points],
     )
     try:
         if hazard.file:
@@ -50,14 +50,16 @@ def hazard_curves(sheet: StudySheet) -> tuple[HazardCurve, ...]:
             path = path_beside(sheet.path.parent, hazard.file, MAX_BYTES, "hazard-pga.csv")
             points = points_of(
                 path.read_text(encoding="utf-8-sig", errors="replace"),
-                is_spectral=given.study.intensity is Intensity.SA1,
+                is_spectral=study_input.study.intensity is Intensity.SA1,
             )
         x, rate = _checked(points)
     except InputError as error:
         sheet.refuse([Finding.error(place, p.found, p.remedy) for p in error.parts])
         raise
     return (
-        HazardCurve(intensity=hazard.factor * x, rate=rate, beta=given.study.record_beta or 0.0),
+        HazardCurve(
+            intensity=hazard.factor * x, rate=rate, beta=study_input.study.record_beta or 0.0
+        ),
     )
 
 

@@ -190,9 +190,9 @@ def user_key() -> bytes:
 
 def state_folder() -> Path:
     """Return where programs keep what is this user's; an absolute XDG_STATE_HOME comes first."""
-    given = os.environ.get("XDG_STATE_HOME", "")
-    if Path(given).is_absolute():
-        return Path(given)
+    folder = os.environ.get("XDG_STATE_HOME", "")
+    if Path(folder).is_absolute():
+        return Path(folder)
     if sys.platform == "win32":
         return Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData/Local")
     if sys.platform == "darwin":

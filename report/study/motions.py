@@ -72,7 +72,9 @@ def study_motions(sheet: StudySheet) -> StudyMotions:
                 read.append((MotionInput(**row), components))
             case wrong:
                 if not sheet.project.motions:  # a file of the folder has no cell of its own
-                    wrong = [Finding.error(_FOLDER, one.text, one.remedy) for one in wrong]
+                    wrong = [
+                        Finding.error(_FOLDER, problem.text, problem.remedy) for problem in wrong
+                    ]
                 faults += wrong
     sheet.refuse(faults)
     sheet.refuse(_unlike(sheet.project, read))
@@ -122,12 +124,14 @@ def _of_files(sheet: StudySheet) -> list[dict[str, str]]:
     return list(groups.values())
 
 
-def _unlike(given: StudyInput, read: Sequence[tuple[MotionInput, Components]]) -> Iterator[Finding]:
+def _unlike(
+    study_input: StudyInput, read: Sequence[tuple[MotionInput, Components]]
+) -> Iterator[Finding]:
     """Yield motions with other components than the first, and records beyond the memory."""
     wanted = read[0][1].records.keys()
     for index, (row, components) in enumerate(read):
         if components.records.keys() != wanted:
-            place = Place("motions", index, "record") if given.motions else _FOLDER
+            place = Place("motions", index, "record") if study_input.motions else _FOLDER
             yield Finding.error(
                 place,
                 f"motion {row.id} has {len(components.records)} components, the first "
@@ -135,9 +139,9 @@ def _unlike(given: StudyInput, read: Sequence[tuple[MotionInput, Components]]) -
                 "a study compares motions with the same components",
             )
     samples = sum(r.a_mps2.size for _, c in read for r in c.records.values())
-    samples *= max(1, len(given.buildings))
+    samples *= max(1, len(study_input.buildings))
     if samples > MOST_SAMPLES:
-        place = Place("motions") if given.motions else _FOLDER
+        place = Place("motions") if study_input.motions else _FOLDER
         yield Finding.error(
             place, f"the records have {samples:,} samples in all", f"give at most {MOST_SAMPLES:,}"
         )
@@ -158,7 +162,7 @@ def _motion(
             share=_TRUNCATION,
         )
         dt_s, roof = shaking.dt_s, shaking.horizontal
-        a = {field: one.a_mps2 for field, one in zip(horizontal, roof, strict=True)}
+        a = {field: component.a_mps2 for field, component in zip(horizontal, roof, strict=True)}
         a |= {"vertical": shaking.vertical_mps2}
     at_roof = Record(name=row.id, dt_s=dt_s, a_mps2=a["record"])
     unit = _intensity(sheet.project, components.records["record"], at_roof)
@@ -186,9 +190,9 @@ def _building(row: StudyBuilding) -> Any:
     )
 
 
-def _intensity(given: StudyInput, recorded: Record, at_roof: Record) -> float:
+def _intensity(study_input: StudyInput, recorded: Record, at_roof: Record) -> float:
     """Return the intensity of a motion as recorded, in the unit of its measure."""
-    study = given.study
+    study = study_input.study
     match study.intensity:
         case Intensity.PPV:
             return float(measures(at_roof).pgv_mps)

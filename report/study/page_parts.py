@@ -55,8 +55,8 @@ def some(values: Sequence[float], maximum: int) -> list[int]:
 
 def friction_name(results: StudyResults, mu: float) -> str:
     """Return μ = 0.5 (EPDM)."""
-    given = results.plan.input
-    names = [mat.id for mat in given.mats if given.friction(mat.id).center == mu]
+    study_input = results.plan.input
+    names = [mat.id for mat in study_input.mats if study_input.friction(mat.id).center == mu]
     return f"μ = {mu:g}" + (f" ({joined(names)})" if names else "")
 
 
@@ -75,13 +75,16 @@ def by_intensity(results: StudyResults, values: Floats, m: int, **more: Any) -> 
     more : optional
         As `figures.curves` has it.
     """
-    given = results.plan.input
+    study_input = results.plan.input
     return figures.curves(
-        np.array(given.intensities),
-        [(f"{given.slopes_deg[s]:g}°", values[s, m]) for s in some(given.slopes_deg, MOST_LINES)],
+        np.array(study_input.intensities),
+        [
+            (f"{study_input.slopes_deg[s]:g}°", values[s, m])
+            for s in some(study_input.slopes_deg, MOST_LINES)
+        ],
         length_unit(results),
         along=axis(results),
-        low=LOW_G if given.study.intensity.unit == "g" else -math.inf,
+        low=LOW_G if study_input.study.intensity.unit == "g" else -math.inf,
         **more,
     )
 
@@ -113,7 +116,7 @@ def limits(results: StudyResults) -> Section:
     return section(
         "study/limits",
         "Limits",
-        has_probabilities=any(one.exceedances for one in results.arrays),
+        has_probabilities=any(result.exceedances for result in results.arrays),
         FREQ_HZ=FREQ_HZ,
         validation=explained(SHIPPED),
     )
@@ -158,14 +161,14 @@ def _inward(low: float, high: float, unit: str = "") -> str:
 
 
 def _beside(results: StudyResults, building: int, fit: Fit) -> Table:
-    given, unit = results.plan.input, length_unit(results).symbol
+    study_input, unit = results.plan.input, length_unit(results).symbol
     name = capitalized(results.plan.design_rule.name)
     mean_m, design_m = results.curves.mean_m, results.design_m
     by_formula = partial(_by_formula, results, fit)
     columns = (
-        (text("μ"), lambda at: f"{given.mus[at[2]]:g}"),
-        (text("Slope", "deg"), lambda at: f"{given.slopes_deg[at[1]]:g}"),
-        (text(with_symbols(axis(results))), lambda at: f"{given.intensities[at[3]]:g}"),
+        (text("μ"), lambda at: f"{study_input.mus[at[2]]:g}"),
+        (text("Slope", "deg"), lambda at: f"{study_input.slopes_deg[at[1]]:g}"),
+        (text(with_symbols(axis(results))), lambda at: f"{study_input.intensities[at[3]]:g}"),
         (text("Mean PRD", unit), lambda at: length(results, float(mean_m[at]))),
         (text(name, unit, 1.4), lambda at: design_length(results, float(design_m[at]))),
         (text("The same by the formula", unit, 1.4), lambda at: by_formula(at)[0]),
@@ -173,18 +176,18 @@ def _beside(results: StudyResults, building: int, fit: Fit) -> Table:
     )
     cases = [
         (building, s, m, x)
-        for m in some(given.mus, MOST_CUTS)
-        for s in some(given.slopes_deg, MOST_CUTS)
-        for x in some(given.intensities, MOST_FRICTIONS)
+        for m in some(study_input.mus, MOST_CUTS)
+        for s in some(study_input.slopes_deg, MOST_CUTS)
+        for x in some(study_input.intensities, MOST_FRICTIONS)
     ]
     return listed(cases, columns, kind="compact")
 
 
 def _by_formula(results: StudyResults, fit: Fit, at: _At) -> tuple[str, str]:
     """Return the design displacement by the formula, and computed value / formula."""
-    given, rule = results.plan.input, results.plan.design_rule
+    study_input, rule = results.plan.input, results.plan.design_rule
     _, s, m, x = at
-    case = math.radians(given.slopes_deg[s]), given.mus[m], given.intensities[x]
+    case = math.radians(study_input.slopes_deg[s]), study_input.mus[m], study_input.intensities[x]
     if not fit.covers(*case):
         return "outside", "—"
     computed, fitted = float(results.analysis_m[at]), fit.prd_m(*case)

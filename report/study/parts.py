@@ -211,7 +211,7 @@ def peaks(content: bytes, campaign: Campaign) -> Peaks:
 
 def done_parts(folder: Path, campaign: Campaign, identity: str, key: bytes) -> dict[int, Done]:
     """Return the parts that are whole and of this manifest, those of other keys included."""
-    found = {}
+    whole = {}
     for number, part in enumerate(campaign.parts):
         try:
             done = _opened((folder / part_name(number)).read_bytes(), key)
@@ -219,8 +219,8 @@ def done_parts(folder: Path, campaign: Campaign, identity: str, key: bytes) -> d
             continue
         rows = (part.stop - part.start) * len(campaign.columns)
         if (done.about.identity, done.about.number, done.rows) == (identity, number, rows):
-            found[number] = done
-    return found
+            whole[number] = done
+    return whole
 
 
 def _opened(content: bytes, key: bytes) -> Done:

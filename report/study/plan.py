@@ -110,19 +110,19 @@ class DesignRule:
         }
 
 
-def design_rule(given: StudyInput, n_motions: int) -> DesignRule:
+def design_rule(study_input: StudyInput, n_motions: int) -> DesignRule:
     """Return the rule for a study of a number of motions."""
-    rules = RULE_SETS[given.study.rule_set.value]
-    levels = given.intensities if given.study.intensity is Intensity.S_DS else ()
-    found = [
+    rules = RULE_SETS[study_input.study.rule_set.value]
+    levels = study_input.intensities if study_input.study.intensity is Intensity.S_DS else ()
+    requirements = [
         prescriptive_displacement(rules, s_ds_g=level, sdc=SDC, importance=I_E) for level in levels
     ]
     return DesignRule(
         rules=rules,
         n_motions=n_motions,
         basis=basis_for(rules, n_motions),
-        prescriptive_m=np.array([one.value_m for one in found]),
-        floor_m=np.array([analysis_floor_m(rules, one) for one in found]),
+        prescriptive_m=np.array([requirement.value_m for requirement in requirements]),
+        floor_m=np.array([analysis_floor_m(rules, requirement) for requirement in requirements]),
     )
 
 
@@ -209,7 +209,7 @@ class StudyPlan:
             "intensity": study.intensity.value,
             "run_without_value": study.no_value.value,
             "seed": study.seed,
-            "seeds": {f"array {one.array.id}": one.seed for one in self.arrays},
+            "seeds": {f"array {array.array.id}": array.seed for array in self.arrays},
             "buildings": list(self.motions.buildings),
             "slopes_deg": list(self.input.slopes_deg),
             "mus": list(self.input.mus),
@@ -225,50 +225,57 @@ def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
     InputError
         If they are more than a study may have, at the cell of the intensities.
     """
-    given = sheet.project
+    study_input = sheet.project
     buildings = len(motions.buildings)
     blocks = [
-        grid(buildings, [math.radians(s) for s in given.slopes_deg], given.mus, given.intensities)
+        grid(
+            buildings,
+            [math.radians(s) for s in study_input.slopes_deg],
+            study_input.mus,
+            study_input.intensities,
+        )
     ]
     arrays = []
     start = len(blocks[0])
     for number, (array, building) in enumerate(
-        (array, building) for array in given.study_arrays for building in range(buildings)
+        (array, building) for array in study_input.study_arrays for building in range(buildings)
     ):
         # Arrays draw apart: with one seed, all would be at the same quantiles.
-        seed = given.study.seed + 1000 * number
-        made, parts = _array(given, motions, array, building, start, seed)
+        seed = study_input.study.seed + 1000 * number
+        made, parts = _array(study_input, motions, array, building, start, seed)
         arrays.append(made)
         blocks += parts
         start += sum(map(len, parts))
     campaign = Campaign(motions=motions.motions, cases=joined(blocks))
     sheet.refuse(_too_many(campaign))
-    hidden = [one for file in motions.files for one in file.unseen]
-    found = (*warnings([*sheet.unseen, *hidden]), *sheet.warnings)
+    hidden = [cell for file in motions.files for cell in file.unseen]
+    notes = (*warnings([*sheet.unseen, *hidden]), *sheet.warnings)
     return StudyPlan(
         workbook=sheet.path.name,
-        input=given,
+        input=study_input,
         motions=motions,
         campaign=campaign,
         arrays=tuple(arrays),
         hazard=hazard_curves(sheet),
         predicted=_predicted(sheet),
-        warnings=tuple((one.cell or sheet.where(one.place), one.text) for one in found),
+        warnings=tuple((cell.cell or sheet.where(cell.place), cell.text) for cell in notes),
     )
 
 
 def _predicted(sheet: StudySheet) -> Mapping[str, Predictive]:
     """Return the predictive distributions of the mats with tests."""
-    given, found = sheet.project, {}
-    has_use = bool(given.friction_runs or given.hazard.file or given.hazard_points)
-    for row, mat in enumerate(given.mats if has_use else ()):
-        if surfaces := given.surfaces(mat.id):
+    study_input, by_mat = sheet.project, {}
+    has_use = bool(
+        study_input.friction_runs or study_input.hazard.file or study_input.hazard_points
+    )
+    for row, mat in enumerate(study_input.mats if has_use else ()):
+        if surfaces := study_input.surfaces(mat.id):
             try:
-                found[mat.id.casefold()] = predictive(surfaces)
+                by_mat[mat.id.casefold()] = predictive(surfaces)
             except InputError as error:
                 place = Place("mats", row, "id")
                 sheet.refuse([Finding.error(place, p.found, p.remedy) for p in error.parts])
-    return found
+    return by_mat
 
 
 def _too_many(campaign: Campaign) -> Iterator[Finding]:
@@ -281,24 +288,24 @@ def _too_many(campaign: Campaign) -> Iterator[Finding]:
 
 
 def _array(
-    given: StudyInput,
+    study_input: StudyInput,
     motions: StudyMotions,
     array: StudyArray,
     building: int,
     start: int,
     seed: int,
 ) -> tuple[ArrayPlan, list[Cases]]:
-    study, friction = given.study, given.friction(array.mat)
+    study, friction = study_input.study, study_input.friction(array.mat)
     slope = math.radians(array.slope_deg)
     spreads = {
         FRICTION: friction,
         SLOPE: Spread(center=array.slope_deg, half=study.slope_tolerance_deg),
         INTENSITY: Spread(center=study.site_intensity or 1.0, beta=study.intensity_beta),
     }
-    levels = [(building, slope, friction.center, x) for x in given.intensities]
+    levels = [(building, slope, friction.center, x) for x in study_input.intensities]
     samples, bars = [], []
     if study.site_intensity:
-        samples = [_case(building, *row) for row in _samples(given, array, spreads, seed)]
+        samples = [_case(building, *row) for row in _samples(study_input, array, spreads, seed)]
         bars = [_case(building, *row) for row in one_at_a_time(spreads)]
     edges = [start]
     for part in (levels, samples, bars):
@@ -348,13 +355,15 @@ def _case(
 
 
 def _samples(
-    given: StudyInput, array: StudyArray, spreads: Mapping[str, Spread], seed: int
+    study_input: StudyInput, array: StudyArray, spreads: Mapping[str, Spread], seed: int
 ) -> list[list[float]]:
-    study = given.study
+    study = study_input.study
     if study.sampling is Sampling.ALL_COMBINATIONS:
         off = study.slope_tolerance_deg
         slopes = [array.slope_deg + d for d in ((-off, 0.0, off) if off else (0.0,))]
-        combined = all_combinations([given.tests(array.mat), slopes, [spreads[INTENSITY].center]])
+        combined = all_combinations(
+            [study_input.tests(array.mat), slopes, [spreads[INTENSITY].center]]
+        )
     else:
         combined = latin_hypercube(list(spreads.values()), study.samples, seed=seed)
     return [list(map(float, row)) for row in combined]

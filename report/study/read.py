@@ -81,10 +81,10 @@ def _faults(draft: Draft, where: Where) -> Iterator[Finding]:
     study = draft["study"][0] if draft["study"] else {}
     for field, (name, fits, allowed) in _AXES.items():
         if text := study.get(field):
-            found = values(text)
-            if not found:
+            numbers = values(text)
+            if not numbers:
                 yield _at(field, f"{name} are '{text[:60]}'", HOW)
-            elif wrong := [value for value in found if not fits(value)]:
+            elif wrong := [value for value in numbers if not fits(value)]:
                 yield _at(field, f"{name} have {wrong[0]:g}", f"give numbers {allowed}")
     if study.get("mus") == "" and not draft["mats"]:
         yield _at("mus", "friction coefficients are missing and there is no mat", "give either")
@@ -146,8 +146,8 @@ def _about_motions(study: DraftRow, draft: Draft) -> Iterator[Finding]:
 
 def _about_mat(row: int, mat: DraftRow) -> Iterator[Finding]:
     text = mat.get("tested") or ""
-    found = tested(text)
-    if text and (len(found) < 3 or not all(0.0 < v <= 2.0 for v in found)):
+    series = tested(text)
+    if text and (len(series) < 3 or not all(0.0 < v <= 2.0 for v in series)):
         wanted = "give three or more numbers above 0, to 2, with a blank after each comma"
         place = Place("mats", row, "tested")
         yield Finding.error(place, f"tested values are '{text[:60]}'", wanted)

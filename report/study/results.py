@@ -123,7 +123,7 @@ class StudyResults:
     @property
     def capacity_runs(self) -> int:
         """Runs for the capacities, beside those of the cases."""
-        return sum(one.capacity_runs for one in self.arrays)
+        return sum(array.capacity_runs for array in self.arrays)
 
     @property
     def leading(self) -> str:
@@ -176,12 +176,12 @@ def results_of(
     kept: list[Floats] = []
     slips: list[NDArray[np.bool_]] = []
     for number, part in enumerate(campaign.parts):
-        found = peaks(read_part(folder, done[number]), campaign)
+        part_peaks = peaks(read_part(folder, done[number]), campaign)
         # The grid comes first; one part may hold its last cases and the first of the arrays.
         cut = min(max(on_grid - part.start, 0), part.stop - part.start)
-        on_curves.append(statistics(found.prd_m[:cut]))
-        kept.append(found.prd_m[cut:])
-        slips.append(found.slips[cut:])
+        on_curves.append(statistics(part_peaks.prd_m[:cut]))
+        kept.append(part_peaks.prd_m[cut:])
+        slips.append(part_peaks.slips[cut:])
     names = [field.name for field in fields(Statistics)]
     whole = {name: np.concatenate([getattr(one, name) for one in on_curves]) for name in names}
     curves = Statistics(**{name: values.reshape(plan.shape) for name, values in whole.items()})
@@ -212,11 +212,11 @@ def results_of(
 
 
 def _fit(plan: StudyPlan, analysis_m: Floats, ppa_g: float) -> Fit | str:
-    given = plan.input
+    study_input = plan.input
     if not plan.design_rule.has_value:
         return "the motions are too few for a value from analysis"
     slopes, mus, levels = np.meshgrid(
-        np.radians(given.slopes_deg), given.mus, given.intensities, indexing="ij"
+        np.radians(study_input.slopes_deg), study_input.mus, study_input.intensities, indexing="ij"
     )
     try:
         return fit_prd(slopes.ravel(), mus.ravel(), levels.ravel(), analysis_m.ravel(), ppa_g=ppa_g)

@@ -186,14 +186,14 @@ def _own(done: Mapping[int, Done]) -> dict[int, Done]:
 
 def _taken_over(done: Mapping[int, Done]) -> list[dict[str, Any]]:
     """Return how many runs were there, from when and on whose word, for the manifest."""
-    found = []
+    taken = []
     for is_own, word in ((True, OWN_KEY), (False, TRUST_PARTS)):
         parts = [part for part in done.values() if part.is_own is is_own]
         dates = sorted(f"{part.about.computed:%Y-%m-%d}" for part in parts)
         runs = sum(part.rows for part in parts)
         if parts:
-            found.append({"runs": runs, "from": dates[0], "to": dates[-1], "on_the_word_of": word})
-    return found
+            taken.append({"runs": runs, "from": dates[0], "to": dates[-1], "on_the_word_of": word})
+    return taken
 
 
 def _meter(
@@ -255,10 +255,10 @@ def _check_workers(client: Any, address: str, here: Mapping[str, str]) -> None:
             f"--scheduler {address}: has no worker; start some with: dask worker {address}"
         )
     problems = []
-    for worker, found in sorted(there.items()):
-        if not isinstance(found, dict):
-            problems.append(f"worker {worker}: cannot import this program ({found})")
-        elif off := unlike(found, here):
+    for worker, versions in sorted(there.items()):
+        if not isinstance(versions, dict):
+            problems.append(f"worker {worker}: cannot import this program ({versions})")
+        elif off := unlike(versions, here):
             problems.append(f"worker {worker}: has {off}")
     if problems:
         raise InputError([*problems, "install the same versions on every worker, then try again"])

@@ -96,11 +96,11 @@ def values(text: str) -> tuple[float, ...]:
             if not 0.0 <= count < MOST_VALUES or abs(count - round(count)) > 1e-6:
                 return ()
             return tuple(float(f"{low + step * k:.12g}") for k in range(round(count) + 1))
-        found = [float(part) for part in re.split(r";\s*|,\s+", text.strip())]
+        numbers = [float(part) for part in re.split(r";\s*|,\s+", text.strip())]
     except ValueError:
         return ()
-    is_row = all(one < two for one, two in itertools.pairwise(found))
-    return tuple(found) if is_row and len(found) <= MOST_VALUES else ()
+    is_row = all(first < second for first, second in itertools.pairwise(numbers))
+    return tuple(numbers) if is_row and len(numbers) <= MOST_VALUES else ()
 
 
 def tested(text: str) -> tuple[float, ...]:
@@ -367,9 +367,9 @@ class StudyInput(Frozen):
     def surfaces(self, mat_id: str) -> tuple[Series, ...]:
         """Return the runs of a mat by report and surface; without any, its tested values."""
         mat = self._mat(mat_id)
-        runs = [one for one in self.friction_runs if one.mat.casefold() == mat_id.casefold()]
+        runs = [run for run in self.friction_runs if run.mat.casefold() == mat_id.casefold()]
         if runs:
-            return series(one.run(mat.report) for one in runs)
+            return series(run.run(mat.report) for run in runs)
         nan = math.nan
         return series(
             FrictionRun(report=mat.report, surface=Surface.DRY, velocity_mps=nan, mu=mu,

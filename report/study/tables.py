@@ -54,8 +54,10 @@ def curves_csv(results: StudyResults) -> bytes:
 
 def _cases(results: StudyResults) -> Iterator[tuple[Row, tuple[int, ...]]]:
     """Yield building, slope, friction and intensity of each case, and its place in the curves."""
-    plan, given = results.plan, results.plan.input
-    axes = product(plan.motions.buildings, given.slopes_deg, given.mus, given.intensities)
+    plan, study_input = results.plan, results.plan.input
+    axes = product(
+        plan.motions.buildings, study_input.slopes_deg, study_input.mus, study_input.intensities
+    )
     yield from zip(axes, np.ndindex(plan.shape), strict=True)
 
 
@@ -73,22 +75,22 @@ def study_xlsx(results: StudyResults, more: Iterable[tuple[str, Row, Iterable[Ro
         Title, heading and rows of further sheets.
     """
     buffer = io.BytesIO()
-    unit, given = length_unit(results), results.plan.input
-    book = text_workbook(buffer, given.study.date, given.study.title)
+    unit, study_input = length_unit(results), results.plan.input
+    book = text_workbook(buffer, study_input.study.date, study_input.study.title)
     head_format = book.add_format({"bold": True, "text_wrap": True, "bottom": 1})
-    measure = given.study.intensity.value
+    measure = study_input.study.intensity.value
     for title, head, rows in (
         ("Study", ("What", "Value"), _about(results)),
         ("Curves", _curve_head(results, unit), _curves(results, unit)),
         (
             "Least friction",
             ("Building", "Displacement", "Slope [deg]", measure, "Least friction"),
-            _answers(results, given.slopes_deg, results.minimum_frictions),
+            _answers(results, study_input.slopes_deg, results.minimum_frictions),
         ),
         (
             "Largest slope",
             ("Building", "Displacement", "Friction", measure, "Largest slope [deg]"),
-            _answers(results, given.mus, results.largest_slopes),
+            _answers(results, study_input.mus, results.largest_slopes),
         ),
         ("Fragility", _FRAGILITY, _fragilities(results, unit)),
         ("Probabilities", _EXCEEDANCES, _exceedances(results, unit)),
@@ -162,12 +164,12 @@ _FRAGILITY = (
 
 
 def _fragilities(results: StudyResults, unit: Unit) -> Iterator[Row]:
-    for one in results.arrays:
-        for state in one.states:
+    for result in results.arrays:
+        for state in result.states:
             f = state.fragility
             yield (
-                results.plan.motions.buildings[one.plan.building],
-                one.plan.array.id,
+                results.plan.motions.buildings[result.plan.building],
+                result.plan.array.id,
                 state.name,
                 state.words,
                 state.limit_m / unit.si,
@@ -180,16 +182,16 @@ def _fragilities(results: StudyResults, unit: Unit) -> Iterator[Row]:
                 int(f.capacities.is_censored.sum()),
                 int(f.capacities.falls.sum()),
                 f.censored,
-                *_dispersions(results, one, state),
+                *_dispersions(results, result, state),
             )
 
 
-def _dispersions(results: StudyResults, one: ArrayStudyResult, state: LimitState) -> Row:
+def _dispersions(results: StudyResults, result: ArrayStudyResult, state: LimitState) -> Row:
     """Return the dispersions of a limit state by name, and that exported; NaN for none."""
     if not (is_exportable(results) and state.fragility.fitted.is_known):
         return [math.nan] * (len(NAMES) + 1)
-    total = math.nan if is_refused(results) else exported(results, one, state).beta
-    return [*(part.beta or math.nan for part in dispersions(results, one, state)), total]
+    total = math.nan if is_refused(results) else exported(results, result, state).beta
+    return [*(part.beta or math.nan for part in dispersions(results, result, state)), total]
 
 
 _EXCEEDANCES = (
@@ -199,18 +201,18 @@ _EXCEEDANCES = (
 
 
 def _exceedances(results: StudyResults, unit: Unit) -> Iterator[Row]:
-    for one in results.arrays:
-        for found in one.exceedances:
+    for result in results.arrays:
+        for exceedance in result.exceedances:
             yield (
-                results.plan.motions.buildings[one.plan.building],
-                one.plan.array.id,
-                one.plan.array.clearance_m / unit.si,
+                results.plan.motions.buildings[result.plan.building],
+                result.plan.array.id,
+                result.plan.array.clearance_m / unit.si,
                 unit.symbol,
-                found.value,
-                found.low,
-                found.high,
-                found.runs,
-                found.without_value,
+                exceedance.value,
+                exceedance.low,
+                exceedance.high,
+                exceedance.runs,
+                exceedance.without_value,
             )
 
 

@@ -52,17 +52,17 @@ class Dispersion:
 
 
 def dispersions(
-    results: StudyResults, one: ArrayStudyResult, state: LimitState
+    results: StudyResults, result: ArrayStudyResult, state: LimitState
 ) -> tuple[Dispersion, ...]:
     """Return the dispersions of a limit state that has a lognormal; mass is none (`MASS`)."""
-    study, plan = results.plan.input.study, one.plan
+    study, plan = results.plan.input.study, result.plan
     record = "these motions", state.fragility.fitted.beta
     if study.record_beta is not None:
         record = study.record_source, study.record_beta
     mu, slope = plan.spreads[FRICTION], plan.spreads[SLOPE]
     tests = f"tests of {plan.array.mat}, standard deviation of ln μ {mu.deviation:.3f}"
     tolerance = f"tolerance, standard deviation {slope.deviation:.2g} deg"
-    found = (
+    parts = (
         record,
         _entered(study.modeling_beta),
         _entered(study.quality_beta),
@@ -71,7 +71,7 @@ def dispersions(
     )
     return tuple(
         Dispersion(name=name, source=source, beta=beta)
-        for name, (source, beta) in zip(NAMES, found, strict=True)
+        for name, (source, beta) in zip(NAMES, parts, strict=True)
     )
 
 
@@ -86,12 +86,12 @@ def _of_effect(state: LimitState, variable: str, lacking: str, source: str) -> t
     return (NOT_DETERMINED, 0.0) if math.isnan(beta) else (source, beta)
 
 
-def exported(results: StudyResults, one: ArrayStudyResult, state: LimitState) -> Lognormal:
+def exported(results: StudyResults, result: ArrayStudyResult, state: LimitState) -> Lognormal:
     """Return the lognormal of a limit state with all its dispersions; unknown if it has none."""
     fitted = state.fragility.fitted
     if not fitted.is_known:
         return fitted
-    total = math.hypot(*(part.beta for part in dispersions(results, one, state)))
+    total = math.hypot(*(part.beta for part in dispersions(results, result, state)))
     return Lognormal(theta=fitted.theta, beta=total)
 
 
@@ -121,12 +121,12 @@ _SENTENCES = "study/sentences.html"
 
 def context(results: StudyResults) -> dict[str, Any]:
     """Return what every template of a study may print."""
-    rule, given = results.plan.design_rule, results.plan.input
+    rule, study_input = results.plan.design_rule, results.plan.input
     return {
         "r": results,
         "rule": rule,
-        "given": given,
-        "study": given.study,
+        "given": study_input,
+        "study": study_input.study,
         "both": partial(both, results),
         "level": partial(level, results),
         "on": partial(on_building, results),
@@ -191,21 +191,21 @@ def headline(results: StudyResults) -> list[str]:
     return _lines("headline", context(results) | more)
 
 
-def _lines(macro: str, given: Mapping[str, Any]) -> list[str]:
-    text = said(TEMPLATES, _SENTENCES, macro, given)
+def _lines(macro: str, values: Mapping[str, Any]) -> list[str]:
+    text = said(TEMPLATES, _SENTENCES, macro, values)
     return [line.strip() for line in text.splitlines() if line.strip()]
 
 
 def _steepest(results: StudyResults) -> Iterator[tuple[str, float, list[str]]]:
     """Yield building, friction, and the largest slope for the allowed displacement by its name."""
-    given, allowed_m = results.plan.input, results.plan.input.study.allowed_m
-    names, middle = dict.fromkeys((results.leading, MEAN)), len(given.intensities) // 2
+    study_input, allowed_m = results.plan.input, results.plan.input.study.allowed_m
+    names, middle = dict.fromkeys((results.leading, MEAN)), len(study_input.intensities) // 2
     if not allowed_m:
         return
     for building in range(len(results.plan.motions.buildings)):
-        found = [results.largest_slopes(building, name, allowed_m)[:, middle] for name in names]
-        for mu, *slopes in zip(given.mus, *found, strict=True):
-            yield on_building(results, building), mu, [_slope(results, one) for one in slopes]
+        at_middle = [results.largest_slopes(building, name, allowed_m)[:, middle] for name in names]
+        for mu, *slopes in zip(study_input.mus, *at_middle, strict=True):
+            yield on_building(results, building), mu, [_slope(results, slope) for slope in slopes]
 
 
 def _slope(results: StudyResults, slope: float) -> str:

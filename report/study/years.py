@@ -117,7 +117,7 @@ class ArrayYears:
     def statistics(self) -> Mapping[str, tuple[LifeStatistics, LifeStatistics]]:
         """Of the largest and the last distance, by when the array is put back."""
         of = partial(life_statistics, clearance_m=self.plan.array.clearance_m)
-        return {name: (of(found[0]), of(found[1])) for name, found in self.lives.items()}
+        return {name: (of(lives[0]), of(lives[1])) for name, lives in self.lives.items()}
 
 
 def years_of(plan: StudyPlan, curve: HazardCurve, array: ArrayPlan, runner: Runner) -> ArrayYears:
@@ -189,8 +189,8 @@ def _measured(curve: HazardCurve, array: ArrayPlan, draws: Draws, responses: Res
     """Return what must settle: the PRDs of the recurrences, and the 95 % values of the lives."""
     limits_m, by_run = _by_run(curve, array, responses)
     prd_m = displacements_at(limits_m, by_run.mean(axis=(1, 2)), np.array(RECURRENCES))
-    found = distances(draws, responses, math.inf)
-    return np.append(prd_m, [life_statistics(one, 0.0).p95_m for one in found])
+    lives = distances(draws, responses, math.inf)
+    return np.append(prd_m, [life_statistics(life, 0.0).p95_m for life in lives])
 
 
 def _required_mu(mus: tuple[float, ...], prd_m: Floats, clearance_m: float) -> float:

@@ -26,37 +26,43 @@ from solver.studies.rates import LEAST_RATE, probability
 Row = Sequence[Any]
 
 
-def years(results: StudyResults, one: ArrayYears) -> Section:
+def years(results: StudyResults, array_years: ArrayYears) -> Section:
     """Return the section on the rates and the lives of an array."""
-    name = f"{one.plan.array.id}{on_building(results, one.plan.building, ', building ')}"
+    plan = array_years.plan
+    name = f"{plan.array.id}{on_building(results, plan.building, ', building ')}"
     (curve,), unit = results.plan.hazard, length_unit(results)
-    prd_m = [finite(value) for value in one.prd_m]
+    prd_m = [finite(value) for value in array_years.prd_m]
     return section(
         "study/years",
         f"Rates and {rates.LIFE_YEARS:g} years of {name}",
         id=f"years-{slug(name)}",
-        one=one,
-        array=one.plan.array,
+        one=array_years,
+        array=array_years.plan.array,
         hazard=results.plan.input.hazard,
         curve=curve,
         first=float(curve.intensity[0]),
         end=float(curve.intensity[-1]),
         end_years=1.0 / float(curve.rate[-1]),
-        top=float(one.responses.levels[-1]),
-        recurrences=[*zip(rates.RECURRENCES, prd_m, *map(finites, one.prd_band_m), strict=True)],
+        top=float(array_years.responses.levels[-1]),
+        recurrences=[
+            *zip(rates.RECURRENCES, prd_m, *map(finites, array_years.prd_band_m), strict=True)
+        ],
         of_friction=[
             (mu, [design_length(results, finite(value)) for value in row])
-            for mu, row in zip(one.mus, one.prd_by_mu_m, strict=True)
+            for mu, row in zip(array_years.mus, array_years.prd_by_mu_m, strict=True)
         ],
         recurrence_heads=[
             (f"{span:g} years", 1, "right", unit.symbol) for span in rates.RECURRENCES
         ],
         first_motion=results.plan.motions.motions[0][0],
         SUPPORTING=SUPPORTING,
-        chances=[[probability(rate, span) for rate in one.clearance_rates] for span in rates.SPANS],
-        bins=[*zip(one.edges[:-1], one.edges[1:], one.shares, strict=True)],
-        statistics=one.statistics,
-        surfaces=results.plan.input.surfaces(one.plan.array.mat),
+        chances=[
+            [probability(rate, span) for rate in array_years.clearance_rates]
+            for span in rates.SPANS
+        ],
+        bins=[*zip(array_years.edges[:-1], array_years.edges[1:], array_years.shares, strict=True)],
+        statistics=array_years.statistics,
+        surfaces=results.plan.input.surfaces(array_years.plan.array.mat),
         verdict_m=prd_m[rates.RECURRENCES.index(rates.VERDICT_YEARS)],
         finite=finite,
         LEAST_RATE=LEAST_RATE,
@@ -64,8 +70,8 @@ def years(results: StudyResults, one: ArrayYears) -> Section:
         predictive=predictive,
         rates=rates,
         charts={
-            "rates": figures.rates(one, curve, unit, axis(results)),
-            "lives": figures.lives(one, unit),
+            "rates": figures.rates(array_years, curve, unit, axis(results)),
+            "lives": figures.lives(array_years, unit),
         },
     )
 
@@ -89,20 +95,26 @@ def sheets(results: StudyResults) -> Iterator[tuple[str, Row, list[Row]]]:
         "Displacement hazard",
         ("Building", "Array", f"PRD [{unit.symbol}]", "Annual rate", *quantiles),
         [
-            (*_who(results, one), d / unit.si, rate, *band)
-            for one in many
-            for d, rate, band in zip(one.limits_m, one.rates, one.rates_band.T, strict=True)
+            (*_who(results, array_years), d / unit.si, rate, *band)
+            for array_years in many
+            for d, rate, band in zip(
+                array_years.limits_m, array_years.rates, array_years.rates_band.T, strict=True
+            )
         ],
     )
     yield (
         "25 years",
         ("Building", "Array", "What", "Case", "Value", *quantiles, "Unit"),
-        [(*_who(results, one), *row) for one in many for row in _values(results, one)],
+        [
+            (*_who(results, array_years), *row)
+            for array_years in many
+            for row in _values(results, array_years)
+        ],
     )
 
 
-def _who(results: StudyResults, one: ArrayYears) -> Row:
-    return results.plan.motions.buildings[one.plan.building], one.plan.array.id
+def _who(results: StudyResults, array_years: ArrayYears) -> Row:
+    return results.plan.motions.buildings[array_years.plan.building], array_years.plan.array.id
 
 
 def _hazard(results: StudyResults) -> Iterator[Row]:
@@ -119,38 +131,54 @@ def _hazard(results: StudyResults) -> Iterator[Row]:
             yield f"Annual rate above {x / hazard.factor:g} {measure.unit}", float(rate), "1/year"
 
 
-def _values(results: StudyResults, one: ArrayYears) -> Iterator[Row]:
+def _values(results: StudyResults, array_years: ArrayYears) -> Iterator[Row]:
     """Yield what, case, value, its quantiles and its unit."""
     unit, none = length_unit(results), ("", "")
-    for span, prd_m, band_m in zip(rates.RECURRENCES, one.prd_m, one.prd_band_m.T, strict=True):
+    for span, prd_m, band_m in zip(
+        rates.RECURRENCES, array_years.prd_m, array_years.prd_band_m.T, strict=True
+    ):
         yield "PRD", f"{span:g} years", prd_m / unit.si, *band_m / unit.si, unit.symbol
-    yield "Clearance exceeded", "annual rate", *one.clearance_rates, "1/year"
+    yield "Clearance exceeded", "annual rate", *array_years.clearance_rates, "1/year"
     for span in rates.SPANS:
-        chances = [probability(rate, span) for rate in one.clearance_rates]
+        chances = [probability(rate, span) for rate in array_years.clearance_rates]
         yield "Clearance exceeded", f"in {span:g} years", *chances, "probability"
-    for low, high, share in zip(one.edges[:-1], one.edges[1:], one.shares, strict=True):
+    for low, high, share in zip(
+        array_years.edges[:-1], array_years.edges[1:], array_years.shares, strict=True
+    ):
         yield "Clearance exceeded", f"{low:.3g} to {high:.3g}", share, *none, "share of the rate"
-    for name, distances in one.statistics.items():
-        for which, found in zip(("Largest", "Last"), distances, strict=True):
+    for name, distances in array_years.statistics.items():
+        for which, distance in zip(("Largest", "Last"), distances, strict=True):
             case = f"put back {name}"
-            yield f"{which} distance, mean", case, found.mean_m / unit.si, *none, unit.symbol
-            yield f"{which} distance, 95 %", case, found.p95_m / unit.si, *none, unit.symbol
-            yield f"{which} distance beyond clearance", case, found.beyond, *none, "share of lives"
-    for mu, of_mu in zip(one.mus, one.prd_by_mu_m, strict=True):
+            yield f"{which} distance, mean", case, distance.mean_m / unit.si, *none, unit.symbol
+            yield f"{which} distance, 95 %", case, distance.p95_m / unit.si, *none, unit.symbol
+            yield (
+                f"{which} distance beyond clearance",
+                case,
+                distance.beyond,
+                *none,
+                "share of lives",
+            )
+    for mu, of_mu in zip(array_years.mus, array_years.prd_by_mu_m, strict=True):
         for span, prd_m in zip(rates.RECURRENCES, of_mu, strict=True):
             yield f"PRD with μ = {mu:.4g}", f"{span:g} years", prd_m / unit.si, *none, unit.symbol
-    for of_mat in one.predicted:
+    for of_mat in array_years.predicted:
         yield "Friction, mean", f"{of_mat.runs} runs", of_mat.mean, *none, ""
         yield "Friction, scatter within surfaces", "s", of_mat.within, *none, ""
         yield "Friction, scatter between surfaces", "s", of_mat.between, *none, ""
         yield "Friction, Student t scale", f"{of_mat.freedom} degrees", of_mat.scale, *none, ""
-        yield "Friction, more runs", f"{rates.VERDICT_YEARS:g} years", one.more_runs, *none, "runs"
+        yield (
+            "Friction, more runs",
+            f"{rates.VERDICT_YEARS:g} years",
+            array_years.more_runs,
+            *none,
+            "runs",
+        )
 
 
 def years_json(results: StudyResults) -> bytes:
     """Return years.json, which a package may show."""
     study, manifest = results.plan.input.study, results.manifest
-    found = StudyYears(
+    years = StudyYears(
         note=SUPPORTING,
         title=study.title,
         date=study.date.isoformat(),
@@ -158,26 +186,26 @@ def years_json(results: StudyResults) -> bytes:
         program=manifest["program"]["roofslip"],
         hazard=results.plan.input.hazard.model_dump(),
         life_years=rates.LIFE_YEARS,
-        arrays=tuple(_of_array(results, one) for one in results.years),
+        arrays=tuple(_of_array(results, array_years) for array_years in results.years),
     )
-    return found.model_dump_json(indent=1).encode() + b"\n"
+    return years.model_dump_json(indent=1).encode() + b"\n"
 
 
-def _of_array(results: StudyResults, one: ArrayYears) -> YearsOfArray:
+def _of_array(results: StudyResults, array_years: ArrayYears) -> YearsOfArray:
     def distances(at: int) -> dict[str, Distance]:
-        found = {name: asdict(both[at]) for name, both in one.statistics.items()}
-        return {name: Distance(**_known(values)) for name, values in found.items()}
+        statistics = {name: asdict(both[at]) for name, both in array_years.statistics.items()}
+        return {name: Distance(**_known(values)) for name, values in statistics.items()}
 
-    building, array = _who(results, one)
+    building, array = _who(results, array_years)
     return YearsOfArray(
         array=array,
         building=building,
-        slope_deg=one.plan.array.slope_deg,
-        mu=one.predicted[0].mean if one.predicted else one.plan.mu,
-        clearance_m=one.plan.array.clearance_m,
-        clearance_rate=float(one.clearance_rates[0]),
+        slope_deg=array_years.plan.array.slope_deg,
+        mu=array_years.predicted[0].mean if array_years.predicted else array_years.plan.mu,
+        clearance_m=array_years.plan.array.clearance_m,
+        clearance_rate=float(array_years.clearance_rates[0]),
         prd_m=_known(
-            {f"{span:g}": d for span, d in zip(rates.RECURRENCES, one.prd_m, strict=True)}
+            {f"{span:g}": d for span, d in zip(rates.RECURRENCES, array_years.prd_m, strict=True)}
         ),
         largest=distances(0),
         last=distances(1),

@@ -112,8 +112,8 @@ def summary(record: Record) -> dict[str, Any]:
 
 def facts(values: Measures) -> dict[str, float]:
     """Return measures, in SI except g, with units in the keys."""
-    given = asdict(values)
-    return {"pga_g": given.pop("pga_mps2") / G_MPS2, **given}
+    options = asdict(values)
+    return {"pga_g": options.pop("pga_mps2") / G_MPS2, **options}
 
 
 def table(channels: Sequence[Mapping[str, Any]]) -> Iterator[str]:

@@ -259,7 +259,7 @@ def site_targets(sheet: Sheet) -> tuple[SuiteTargets, list[str]]:
     parameters = site_parameters(site)
     z_m, h_m = site.get("roof_height_m"), site.get("structure_height_m")
     stated = [(name,) for name in ("s_ds_g", "s_ms_g") if site.get(name) is not None]
-    found = (
+    targets = (
         ("s_ds_g", "S_DS", parameters and parameters.s_ds, [*stated, ("s_s_g", "f_a")][0]),
         ("z_over_h", "z/h", None if z_m is None or h_m is None else z_m / h_m,
          ("roof_height_m", "structure_height_m")),
@@ -268,7 +268,7 @@ def site_targets(sheet: Sheet) -> tuple[SuiteTargets, list[str]]:
         ("tail", "tail", target.get("tail"), ("tail",)),
     )  # fmt: skip
     lines, lacking = [], []
-    for name, label, value, fields in found:
+    for name, label, value, fields in targets:
         key = "target" if name == "tail" else "site"
         cells = " and ".join(sheet.where(Place(key, 0, field)) for field in fields)
         if value is None:
@@ -282,5 +282,5 @@ def site_targets(sheet: Sheet) -> tuple[SuiteTargets, list[str]]:
                        " command motion suite, with that spectrum as CSV")  # fmt: skip
     if lacking:
         raise InputError(lacking)
-    arguments: dict[str, Any] = {name: value for name, _, value, _ in found}
+    arguments: dict[str, Any] = {name: value for name, _, value, _ in targets}
     return ac156_targets(**arguments), lines

@@ -252,13 +252,13 @@ def _range_problems(source: str, freq_hz: Floats) -> Iterator[Problem]:
     apart = np.diff(np.sort(freq_hz)) > 1e-9 * np.sort(freq_hz)[1:]
     if not apart.all():
         at = float(np.sort(freq_hz)[1:][~apart][0])
-        found = f"{at:g} Hz ({1 / at:g} s) appears twice"
-        yield Problem(found, "give each frequency once", source)
+        fault = f"{at:g} Hz ({1 / at:g} s) appears twice"
+        yield Problem(fault, "give each frequency once", source)
     low, high = BAND_HZ[0] * (1.0 + _ROUNDED), BAND_HZ[1] * (1.0 - _ROUNDED)
     if freq_hz.min() > low or freq_hz.max() < high:
         wanted = f"{BAND_HZ[0]:g} to {BAND_HZ[1]:g} Hz (periods from 0.03 to 3.33 s) or more"
-        found = f"covers {freq_hz.min():.4g} to {freq_hz.max():.4g} Hz"
-        yield Problem(found, f"give {wanted}", source)
+        fault = f"covers {freq_hz.min():.4g} to {freq_hz.max():.4g} Hz"
+        yield Problem(fault, f"give {wanted}", source)
 
 
 def _sorted(source: str, values: Mapping[str, Floats]) -> TargetTable:

@@ -71,7 +71,7 @@ def grouped_by(items: Iterable[_Item], key: Callable[[_Item], _Key]) -> Mapping[
 def ids_by(items: Iterable[Any], key: Callable[[Any], _Key]) -> Mapping[_Key, list[str]]:
     """Return the same of items with an id, each by that."""
     groups = grouped_by(items, key).items()
-    return {found: [item.id for item in alike] for found, alike in groups}
+    return {value: [item.id for item in alike] for value, alike in groups}
 
 
 def ranged(names: Iterable[str]) -> str:
@@ -128,8 +128,8 @@ class Names:
         rows = [sorted(map(name_order, dict.fromkeys(names))) for names in kinds]
         long = {(at, row[0]) for at, kind in enumerate(rows) for row in kind if _is_long(row[2])}
         keyed = [row[2] for at, kind in enumerate(rows) for row in kind if (at, row[0]) in long]
-        given = {row[2] for row in chain(*rows)}
-        free = (key for number in count(1) if (key := f"[{number}]") not in given)
+        keys = {row[2] for row in chain(*rows)}
+        free = (key for number in count(1) if (key := f"[{number}]") not in keys)
         return cls(keys=dict(zip(dict.fromkeys(keyed), free, strict=False)))
 
     @property
@@ -219,8 +219,10 @@ def latin(text: str) -> str:
 
 def foreign_letters(text: str) -> str:
     """Return which letters of a text only look Latin, with their alphabets; empty for none."""
-    found = dict.fromkeys(letter for letter in text if latin(letter) != letter)
-    said = (f"'{one}' is a {unicodedata.name(one).split()[0].capitalize()} letter" for one in found)
+    foreign = dict.fromkeys(letter for letter in text if latin(letter) != letter)
+    said = (
+        f"'{one}' is a {unicodedata.name(one).split()[0].capitalize()} letter" for one in foreign
+    )
     return ", ".join(said)
 
 

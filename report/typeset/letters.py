@@ -60,7 +60,7 @@ def _is_on_machine(letter: str) -> bool:
     if sys.platform == "win32":
         return has_font_on_windows(letter)
     try:
-        found = subprocess.run(
+        fonts = subprocess.run(
             ["fc-list", f":charset={ord(letter):x}", "family"],
             capture_output=True,
             timeout=10.0,
@@ -68,7 +68,7 @@ def _is_on_machine(letter: str) -> bool:
         )
     except (OSError, subprocess.TimeoutExpired):
         return False
-    return bool(found.stdout.strip())
+    return bool(fonts.stdout.strip())
 
 
 def check_letters(sheet: Sheet) -> None:
@@ -81,8 +81,8 @@ def check_letters(sheet: Sheet) -> None:
     """
     problems = []
     if missing := undrawable(sheet.path.name):
-        found = f"the file name: no font of this machine has {named(missing)}"
-        problems.append(Problem(found, "rename the workbook"))
+        fault = f"the file name: no font of this machine has {named(missing)}"
+        problems.append(Problem(fault, "rename the workbook"))
     for row in sheet.echo:
         is_in_figures = row.label == _ID
         if missing := undrawable(row.typed, is_in_figures=is_in_figures):

@@ -172,6 +172,6 @@ class Access:
         return None
 
 
-def _is_same(given: str, known: str) -> bool:
+def _is_same(token: str, known: str) -> bool:
     """Compare secrets in a time that tells nothing of them."""
-    return hmac.compare_digest(given.encode(), known.encode())
+    return hmac.compare_digest(token.encode(), known.encode())

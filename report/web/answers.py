@@ -60,8 +60,8 @@ def answer(
     designs = {item.id: _design(item, fmt, is_provisional) for item in arrays}
     dim = set(not_continued(assessment)) if is_provisional else set()
 
-    def verdict(found: Verdict, text: str = "") -> Cell | None:
-        return None if is_provisional else stamp(found, text)
+    def verdict(verdict: Verdict, text: str = "") -> Cell | None:
+        return None if is_provisional else stamp(verdict, text)
 
     return {
         "model_text": (_PROVISIONAL if is_provisional else _whole(assessment))
@@ -109,20 +109,20 @@ def _line(assessment: Assessment) -> str:
 
 def _reasons(assessment: Assessment, fmt: UnitFormat) -> list[dict[str, Any]]:
     """Return what needs attention, the causes of NG first; many short clearances as one."""
-    found = list(map(asdict, attention(assessment, may_run=False)))
+    reasons = list(map(asdict, attention(assessment, may_run=False)))
     short = [gap for gap in short_clearances(assessment) if not math.isnan(gap.required_m)]
     if len(short) <= MOST_SHORT:
-        return found
+        return reasons
     parts = [short_words(gap, assessment.project.us_first) for gap in short]
     worst, most_m = short[0].clearance, max(gap.required_m for gap in short)
-    first = found.index({"level": Consequence.NG.value, "text": parts[0]})
+    first = reasons.index({"level": Consequence.NG.value, "text": parts[0]})
     grouped = {
         "level": Consequence.NG.value,
         "text": f"{len(short)} clearances under {fmt.short(most_m, show=no_less)}; worst "
         f"{worst.array} to {worst.object}, {fmt.short(worst.provided_m)}",
         "parts": parts,
     }
-    others = [reason for reason in found if reason["text"] not in parts]
+    others = [reason for reason in reasons if reason["text"] not in parts]
     return [*others[:first], grouped, *others[first:]]
 
 
@@ -159,16 +159,16 @@ def _rows(
 def _missing(near: PlanNeighbor, fmt: UnitFormat, verdict: ShowVerdict) -> list[Cell | None]:
     had = beside(near.required_m, near.gap_m)
     lengths = ((near.gap_m, had, ""), (near.required_m, no_less, near.mark))
-    found = (
+    missing_cells = (
         {"text": fmt.short(value_m, show=show) + mark, "title": fmt.both(value_m, show=show)}
         for value_m, show, mark in lengths
     )
     names, none = _between(near.array, near.other, "not given; in plan"), {"text": ""}
-    return [none, names, *found, none, verdict(near.verdict)]
+    return [none, names, *missing_cells, none, verdict(near.verdict)]
 
 
-def _between(one: str, other: str, note: str) -> Cell:
-    return {"text": f"{one} to {other}", "from": one, "to": other, "note": note}
+def _between(first: str, other: str, note: str) -> Cell:
+    return {"text": f"{first} to {other}", "from": first, "to": other, "note": note}
 
 
 def _tips(
@@ -230,8 +230,8 @@ def _prds_m(motions: Sequence[MotionRun]) -> list[float]:
 
 def _whole(assessment: Assessment) -> str:
     """Return which models the values are of."""
-    found = {run.solution.model for a in assessment.arrays for m in a.motions for run in m.runs}
-    names = ", ".join(f"{model.title} ({int(model)})" for model in sorted(found))
+    models = {run.solution.model for a in assessment.arrays for m in a.motions for run in m.runs}
+    names = ", ".join(f"{model.title} ({int(model)})" for model in sorted(models))
     return f"Full model, as in the package. Models of the runs: {names}."
 
 

@@ -147,10 +147,10 @@ async def _clearances(request: Request) -> Response:
 
 async def _with_clearances(request: Request, folder: Path) -> Path:
     desk = desk_of(request)
-    given = desk.workbook
-    workbook = folder / "project" / given.name
-    await run_in_threadpool(copied, given, workbook.parent)
-    await desk.ask({"do": "add_clearances", "workbook": str(given), "to": str(workbook)})
+    current = desk.workbook
+    workbook = folder / "project" / current.name
+    await run_in_threadpool(copied, current, workbook.parent)
+    await desk.ask({"do": "add_clearances", "workbook": str(current), "to": str(workbook)})
     return workbook
 
 
@@ -163,28 +163,28 @@ async def _open_new(
     try:
         workbook = await store(request, folder)
         desk.prepare(workbook)
-        found = await _whole_state(request, workbook)
+        state = await _whole_state(request, workbook)
         if not desk.is_newest(folder):
             raise InputError("Another project was opened meanwhile; open this one again.")
     except BaseException:
         await run_in_threadpool(remove, folder)
         raise
-    if found["problems"]:
-        found["is_alone"] = await run_in_threadpool(is_alone, workbook, folder)
+    if state["problems"]:
+        state["is_alone"] = await run_in_threadpool(is_alone, workbook, folder)
         await run_in_threadpool(remove, folder)
     else:
         desk.open(workbook)
-    return JSONResponse(found | {"opened": desk.opened, "package": None})
+    return JSONResponse(state | {"opened": desk.opened, "package": None})
 
 
 async def _whole_state(request: Request, workbook: Path) -> dict[str, Any]:
     desk = desk_of(request)
     package = desk.packages.last(desk.opened)
     about = {"opened": desk.opened, "package": package.about if package else None}
-    found = {**about, **await desk.ask({"do": "state", "workbook": str(workbook)})}
-    if found["project"]:
-        found["project"] |= {"file": workbook.name, "is_example": workbook == EXAMPLE}
-    return found
+    state = {**about, **await desk.ask({"do": "state", "workbook": str(workbook)})}
+    if state["project"]:
+        state["project"] |= {"file": workbook.name, "is_example": workbook == EXAMPLE}
+    return state
 
 
 async def _job(request: Request) -> Response:

@@ -77,7 +77,7 @@ def opened(path: Path) -> Opened:
     return Opened(sheet=sheet, by_motion=by_motion, shaking=shaking(sheet, by_motion))
 
 
-def with_values(given: Opened, values: Values) -> Opened:
+def with_values(opened: Opened, values: Values) -> Opened:
     """Return a workbook as if the values had been typed into it.
 
     Raises
@@ -85,15 +85,15 @@ def with_values(given: Opened, values: Values) -> Opened:
     InputError
         Where the workbook could not have them.
     """
-    changed = typed(given.sheet, given.scales, values)
+    changed = typed(opened.sheet, opened.scales, values)
     if not changed:
-        return given
-    sheet = retyped(given.sheet, changed)
+        return opened
+    sheet = retyped(opened.sheet, changed)
     sheet.refuse(())
-    if _has_motions_of(given.sheet, sheet):
-        sheet.refuse(stiff_links(sheet.project, given.shaking.motions))
-        return replace(given, sheet=sheet)
-    return Opened(sheet=sheet, by_motion=given.by_motion, shaking=shaking(sheet, given.by_motion))
+    if _has_motions_of(opened.sheet, sheet):
+        sheet.refuse(stiff_links(sheet.project, opened.shaking.motions))
+        return replace(opened, sheet=sheet)
+    return Opened(sheet=sheet, by_motion=opened.by_motion, shaking=shaking(sheet, opened.by_motion))
 
 
 def _has_motions_of(before: Sheet, after: Sheet) -> bool:
@@ -111,19 +111,19 @@ _TURN_DEG = 5.0
 
 
 @lru_cache(16)
-def controls(given: Opened) -> Mapping[str, Any]:
+def controls(opened: Opened) -> Mapping[str, Any]:
     """Return the sliders and choices of a workbook for the page."""
-    sliders = [item for item in _sliders(given.sheet) if _is_offered(given, item)]
-    return {"sliders": [_stopped(given, item) for item in sliders], "choices": _choices(given)}
+    sliders = [item for item in _sliders(opened.sheet) if _is_offered(opened, item)]
+    return {"sliders": [_stopped(opened, item) for item in sliders], "choices": _choices(opened)}
 
 
-def shown(given: Opened) -> Mapping[str, str]:
+def shown(opened: Opened) -> Mapping[str, str]:
     """Return what the values amount to: those of the workbook as changed."""
-    data = given.sheet.project
+    data = opened.sheet.project
     return {
         "friction": _grouped(data.arrays, lambda array: mu_words(array.friction)),
         "slope": _grouped(data.arrays, lambda a: f"{number(math.degrees(a.slope_rad), 2)}°"),
-        "intensity": _factors(given.shaking.motions),
+        "intensity": _factors(opened.shaking.motions),
         "s_ds": f"{number(data.site.s_ds, 3)} g",
         "clearance": _clearances(data),
         "polarity": ", ".join(dict.fromkeys(row.polarity.value for row in data.motions)),
@@ -132,7 +132,7 @@ def shown(given: Opened) -> Mapping[str, str]:
     }
 
 
-def check(given: Opened, values: Values) -> None:
+def check(opened: Opened, values: Values) -> None:
     """Refuse values that no slider or choice of the workbook has.
 
     Raises
@@ -140,7 +140,7 @@ def check(given: Opened, values: Values) -> None:
     InputError
         With every such value.
     """
-    known = controls(given)
+    known = controls(opened)
     sliders = {item["id"]: item for item in known["sliders"]}
     choices = {item["id"]: item for item in known["choices"]}
     wrong: list[str] = []
@@ -191,18 +191,18 @@ def _slider(
     }  # fmt: skip
 
 
-def _stopped(given: Opened, slider: dict[str, Any]) -> dict[str, Any]:
+def _stopped(opened: Opened, slider: dict[str, Any]) -> dict[str, Any]:
     """Return a slider that stops where the workbook could have no value beyond, and says why."""
     for end in ("least", "greatest"):
         away = round((slider[end] - slider["typed"]) / slider["step"])
-        if not _problem_at(given, slider, away):
+        if not _problem_at(opened, slider, away):
             continue
         # The last step without a problem, and the first with one.
         good, bad = 0, away
         while abs(bad - good) > 1:
             middle = (good + bad) // 2
-            good, bad = (good, middle) if _problem_at(given, slider, middle) else (middle, bad)
-        why = f"No value beyond the {end}: {_problem_at(given, slider, bad)}"
+            good, bad = (good, middle) if _problem_at(opened, slider, middle) else (middle, bad)
+        why = f"No value beyond the {end}: {_problem_at(opened, slider, bad)}"
         slider = slider | {
             end: _value_at(slider, good),
             "stops": slider["stops"] | {end: why},
@@ -211,26 +211,26 @@ def _stopped(given: Opened, slider: dict[str, Any]) -> dict[str, Any]:
     return slider
 
 
-def _problem_at(given: Opened, slider: Mapping[str, Any], steps: int) -> str:
+def _problem_at(opened: Opened, slider: Mapping[str, Any], steps: int) -> str:
     values = {slider["id"]: _value_at(slider, steps)}
-    return _why_not(given, values | slider.get("with_choice", {}))
+    return _why_not(opened, values | slider.get("with_choice", {}))
 
 
 def _value_at(slider: Mapping[str, Any], steps: int) -> float:
     return float(round(slider["typed"] + steps * slider["step"], 6))
 
 
-def _is_offered(given: Opened, slider: Mapping[str, Any]) -> bool:
+def _is_offered(opened: Opened, slider: Mapping[str, Any]) -> bool:
     """Whether the workbook has every cell that a slider changes."""
     values = {slider["id"]: _value_at(slider, 1)} | slider.get("with_choice", {})
-    return given.sheet.addresses.keys() >= typed(given.sheet, given.scales, values).keys()
+    return opened.sheet.addresses.keys() >= typed(opened.sheet, opened.scales, values).keys()
 
 
-def _choices(given: Opened) -> Sequence[Mapping[str, Any]]:
-    sheet = given.sheet
+def _choices(opened: Opened) -> Sequence[Mapping[str, Any]]:
+    sheet = opened.sheet
     polarities = list(dict.fromkeys(row["polarity"] for row in sheet.draft["motions"]))
     has_cells = all(
-        Place("motions", i, "polarity") in sheet.addresses for i in range(len(given.by_motion))
+        Place("motions", i, "polarity") in sheet.addresses for i in range(len(opened.by_motion))
     )
     return [
         _choice("together", "S_DS with the motions", "yes", {"yes": "Together", "no": "Apart"},
@@ -239,7 +239,7 @@ def _choices(given: Opened) -> Sequence[Mapping[str, Any]]:
                    ({} if len(polarities) == 1 else {"": "as in the workbook"})
                    | {p.value: p.value for p in Polarity},
                    "Runs of each horizontal component.")] if has_cells else []),
-        _rule_sets(given),
+        _rule_sets(opened),
         *([_choice("units", "Primary units", sheet.draft["project"][0]["units_first"],
                    {UnitsFirst.US.value: "in", UnitsFirst.SI.value: "mm"},
                    "Of the page, the package and the workbook.")]
@@ -259,18 +259,18 @@ def _choice(
     }
 
 
-def _rule_sets(given: Opened) -> Mapping[str, Any]:
-    start = given.sheet.project.site.rule_set.value
+def _rule_sets(opened: Opened) -> Mapping[str, Any]:
+    start = opened.sheet.project.site.rule_set.value
     names = {rule.value: rule.value for rule in RuleSetName}
     choice = _choice("rule_set", "Rule set", start, names, "The provisions to compare with.")
     for option in choice["options"]:
-        option["why_not"] = _why_not(given, {"rule_set": option["value"]})
+        option["why_not"] = _why_not(opened, {"rule_set": option["value"]})
     return choice
 
 
-def _why_not(given: Opened, values: Values) -> str:
+def _why_not(opened: Opened, values: Values) -> str:
     """Return the first problem that the workbook would have with values; empty for none."""
-    changed = retyped(given.sheet, typed(given.sheet, given.scales, values))
+    changed = retyped(opened.sheet, typed(opened.sheet, opened.scales, values))
     return next((str(problem) for _, problem in changed.problems), "")
 
 

@@ -111,10 +111,10 @@ def _attached(response: Response, name: str) -> Response:
 
 
 def _package(request: Request) -> Package:
-    found = desk_of(request).packages.find(request.path_params["id"])
-    if found is None:
+    package = desk_of(request).packages.find(request.path_params["id"])
+    if package is None:
         raise HTTPException(404, "There is no such package")
-    return found
+    return package
 
 
 def keys_of(request: Request) -> Keys:

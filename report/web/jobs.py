@@ -122,12 +122,12 @@ def perform(job: Json) -> Json:
     """
     workbook = Path(job["workbook"])
     try:
-        found = {"answer": _JOBS[job["do"]](workbook, job)}
+        reply = {"answer": _JOBS[job["do"]](workbook, job)}
         is_complete = job["do"] in ("state", "assess") and not job.get("moving")
-        if is_complete and not found["answer"].get("problems"):
+        if is_complete and not reply["answer"].get("problems"):
             key = _key(workbook, job.get("values", {}))
-            found["reference"] = _reference(workbook, _wider(json.loads(key)))
-        return found
+            reply["reference"] = _reference(workbook, _wider(json.loads(key)))
+        return reply
     except InputError as error:
         return {"problems": problems(workbook, error)}
 
@@ -135,15 +135,15 @@ def perform(job: Json) -> Json:
 def state(workbook: Path, job: Json) -> Json:
     """Return everything about a project at the values of its workbook."""
     try:
-        given = _open(workbook)
+        opened = _open(workbook)
     except InputError as error:
-        found = {"project": None, "problems": problems(workbook, error), "answer": None}
-        return {**found, "lacks_motions": _lacks_motions(workbook)}
+        reply = {"project": None, "problems": problems(workbook, error), "answer": None}
+        return {**reply, "lacks_motions": _lacks_motions(workbook)}
     answered = answer_at(workbook, {"values": {}, "moving": False, "room": USUAL_PX})
     return {
         "project": {
-            "name": given.sheet.project.project.name,
-            "sha256": given.sheet.sha256,
+            "name": opened.sheet.project.project.name,
+            "sha256": opened.sheet.sha256,
             "lacks_clearances": any(
                 near.is_missing and near.kind is not NearbyKind.BARE_EDGE
                 for near in _as_typed(workbook).pairs
@@ -151,10 +151,10 @@ def state(workbook: Path, job: Json) -> Json:
         },
         "problems": [],
         "warnings": [line["text"] for line in answered["reasons"] if line["level"] == "warning"],
-        **controls(given),
+        **controls(opened),
         "views": {
-            "arrays": [array.id for array in given.sheet.project.arrays],
-            "motions": [motion.id for motion in given.shaking.motions],
+            "arrays": [array.id for array in opened.sheet.project.arrays],
+            "motions": [motion.id for motion in opened.shaking.motions],
         },
         "answer": answered,
     }
@@ -171,13 +171,13 @@ def _lacks_motions(workbook: Path) -> bool:
 
 def answer_at(workbook: Path, job: Json) -> Json:
     """Return the answer at values: of runs in one axis while a slider moves, else complete."""
-    given = _given(workbook, _key(workbook, job["values"]))
+    opened = _given(workbook, _key(workbook, job["values"]))
     if job["moving"]:
-        found = anticipate(given.sheet, given.shaking, job.get("reference", {}))
+        reply = anticipate(opened.sheet, opened.shaking, job.get("reference", {}))
     else:
-        found = _at_rest(workbook, job["values"])
-    shows = answer(found, is_provisional=job["moving"], room_px=job["room"])
-    return {**shows, "shown": shown(given)}
+        reply = _at_rest(workbook, job["values"])
+    shows = answer(reply, is_provisional=job["moving"], room_px=job["room"])
+    return {**shows, "shown": shown(opened)}
 
 
 def prepare(workbook: Path, _: Json) -> Json:
@@ -189,9 +189,9 @@ def prepare(workbook: Path, _: Json) -> Json:
 
 def write(workbook: Path, job: Json) -> Json:
     """Write the workbook with the values in its cells to another path."""
-    given = _open(workbook)
-    check(given, job["values"])
-    cells_of = cells(given.sheet, typed(given.sheet, given.scales, job["values"]))
+    opened = _open(workbook)
+    check(opened, job["values"])
+    cells_of = cells(opened.sheet, typed(opened.sheet, opened.scales, job["values"]))
     data = workbook.read_bytes()
     Path(job["to"]).write_bytes(changed(data, cells_of) if cells_of else data)
     return {}
@@ -236,9 +236,9 @@ def _at_rest(workbook: Path, values: Values) -> Assessment:
 
 def _key(workbook: Path, values: Values) -> str:
     """Return checked values as JSON; those as typed are the same as none."""
-    given = _open(workbook)
-    check(given, values)
-    known = controls(given)
+    opened = _open(workbook)
+    check(opened, values)
+    known = controls(opened)
     typed_ = {item["id"]: item["typed"] for item in (*known["sliders"], *known["choices"])}
     other = {name: value for name, value in values.items() if value != typed_.get(name)}
     return json.dumps(other, sort_keys=True)
@@ -261,8 +261,8 @@ def _complete(workbook: Path, key: str) -> Assessment:
 @lru_cache(KEPT_PROJECTS)
 def _as_typed(workbook: Path) -> Assessment:
     """Return the assessment from which others start: no other values drive it out."""
-    given = _open(workbook)
-    return assess(given.sheet, given.shaking)
+    opened = _open(workbook)
+    return assess(opened.sheet, opened.shaking)
 
 
 @lru_cache(KEPT_ANSWERS)

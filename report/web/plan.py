@@ -96,7 +96,7 @@ def plan(
 ) -> Mapping[str, Any]:
     """Return the plan with its design displacements, its clearances and what is without one."""
     words = {name: str(cell["text"]) for name, cell in designs.items()}
-    given, missing = gaps
+    shown, missing = gaps
     has_verdicts = verdict(Verdict.OK) is not None
     wide_px, more_px = _sheet_px(room_px)
     tall_px = min(max(_TALLER * wide_px, _TALL_PX[0]), _TALL_PX[1])
@@ -106,7 +106,7 @@ def plan(
     return {
         "title": "Roof plan to scale",
         "described": [
-            *({"text": _sentence(row, fmt), "verdict": verdict(row.verdict)} for row in given),
+            *({"text": _sentence(row, fmt), "verdict": verdict(row.verdict)} for row in shown),
             *(
                 {
                     "text": f"{near.array} to {near.other}: no clearance given, "

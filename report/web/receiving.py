@@ -185,9 +185,13 @@ def _short(info: zipfile.ZipInfo) -> str:
 
 def _workbook(paths: Sequence[Path]) -> Path:
     """Return the workbook: input.xlsx, or the only one that is nearest to the top."""
-    found = sorted((p for p in paths if p.suffix.lower() == ".xlsx"), key=lambda p: len(p.parts))
-    named = [path for path in found if path.name.lower() == "input.xlsx"]
-    top = [path for path in named or found if len(path.parts) == len((named or found)[0].parts)]
+    workbooks = sorted(
+        (p for p in paths if p.suffix.lower() == ".xlsx"), key=lambda p: len(p.parts)
+    )
+    named = [path for path in workbooks if path.name.lower() == "input.xlsx"]
+    top = [
+        path for path in named or workbooks if len(path.parts) == len((named or workbooks)[0].parts)
+    ]
     if len(top) == 1:
         return top[0]
     if not top:

@@ -95,13 +95,13 @@ def during(slips: Sequence[Slip], t_s: Floats) -> NDArray[np.bool_]:
 
 def slips_of(history: SlideHistory) -> list[Slip]:
     """Return each slip with its end; a last one without a stop lasts to the end of the record."""
-    found: list[Slip] = []
+    slips: list[Slip] = []
     begun: list[Event] = []
     for event in history.events:
         if event.kind is EventKind.SLIP:
             begun.append(event)
         else:
-            found.append((begun.pop(), event))
+            slips.append((begun.pop(), event))
     across = history.across_m[-1] if history.across_m.size else 0.0
     last = Event(float(history.t_s[-1]), EventKind.STOP, float(history.u_m[-1]), float(across))
-    return found + [(event, last) for event in begun]
+    return slips + [(event, last) for event in begun]

@@ -179,20 +179,20 @@ class Desk:
         try:
             if asked and asked.moving:
                 job["reference"] = self._references.get(job["workbook"], {})
-            found = await self._answer(job, is_quick, LONGEST_S)
+            reply = await self._answer(job, is_quick, LONGEST_S)
         finally:
             await self._end_turn(is_quick)
-        if "reference" in found:
+        if "reference" in reply:
             now, own = job["workbook"], str(self.workbook)
             kept = {own: self._references[own]} if own in self._references else {}
-            self._references = kept | {now: found["reference"]}
-        if "answer" in found:
-            answer: Mapping[str, Any] = found["answer"]
+            self._references = kept | {now: reply["reference"]}
+        if "answer" in reply:
+            answer: Mapping[str, Any] = reply["answer"]
             return answer
-        if "errno" in found:
-            raise OSError(found["errno"], os.strerror(found["errno"]))
-        first = found["refused"] if "refused" in found else found["problems"][0]["text"]
-        raise RefusedError(first, found["problems"])
+        if "errno" in reply:
+            raise OSError(reply["errno"], os.strerror(reply["errno"]))
+        first = reply["refused"] if "refused" in reply else reply["problems"][0]["text"]
+        raise RefusedError(first, reply["problems"])
 
     async def _turn(self, kind: str, asked: Asked | None) -> bool:
         """Wait until a process is free, and return whether it is the quick one."""

@@ -102,9 +102,9 @@ def _intensity(
 ) -> Iterator[tuple[Place, Typed]]:
     """Multiply the factor of each motion; one scaled to a target keeps its factor as a number."""
     for index, row in enumerate(sheet.draft["motions"]):
-        scaling, given = row["scaling"], row["scale_value"]
+        scaling, value = row["scaling"], row["scale_value"]
         if scaling is Scaling.PPA:
-            yield Place("motions", index, "scale_value"), _rounded(given * factor)
+            yield Place("motions", index, "scale_value"), _rounded(value * factor)
             continue
         scale = scales[row["id"]]
         if scaling is Scaling.TARGET or factor != 1.0:

@@ -164,21 +164,21 @@ def contour(assessment: Assessment, array_id: str) -> Json:
     """
     item, fmt = _array(assessment, array_id), unit_format(assessment)
     with ThreadPoolExecutor(THREADS) as pool:
-        found = surface(assessment, item, pool)
-    row = int(np.argmin(np.abs(found.slopes_rad - item.array.slope_rad)))
-    column = int(np.argmin(np.abs(found.mus - item.array.mu)))
-    here_m, unit = float(found.mean_m[row, column]), fmt.units()[0]
+        contours = surface(assessment, item, pool)
+    row = int(np.argmin(np.abs(contours.slopes_rad - item.array.slope_rad)))
+    column = int(np.argmin(np.abs(contours.mus - item.array.mu)))
+    here_m, unit = float(contours.mean_m[row, column]), fmt.units()[0]
     return {
-        "mus": found.mus.tolist(),
-        "slopes_deg": np.degrees(found.slopes_rad).tolist(),
-        "prd_m": [_numbers(means) for means in found.mean_m],
+        "mus": contours.mus.tolist(),
+        "slopes_deg": np.degrees(contours.slopes_rad).tolist(),
+        "prd_m": [_numbers(means) for means in contours.mean_m],
         "levels": [
             {
                 "prd_m": level * unit.si,
                 "text": f"{level:g} {unit.symbol}",
                 "is_major": is_decade(level),
             }
-            for level in drawn_levels(found, unit.si)
+            for level in drawn_levels(contours, unit.si)
         ],
         "here": {
             "mu": item.array.mu,
@@ -187,7 +187,7 @@ def contour(assessment: Assessment, array_id: str) -> Json:
         },
         "dots": [
             {"mu": mu, "slope_deg": slope, "name": dot_name(ids), "is_shown": array_id in ids}
-            for (mu, slope), ids in dots(found, assessment.arrays).items()
+            for (mu, slope), ids in dots(contours, assessment.arrays).items()
         ],
         "least_m": LEAST_M,
         "units": {
@@ -195,7 +195,7 @@ def contour(assessment: Assessment, array_id: str) -> Json:
             "slope": _units(_SLOPE),
             "displacement": _units(fmt.units()),
         },
-        "texts": _contour_texts(found, here_m, fmt),
+        "texts": _contour_texts(contours, here_m, fmt),
     }
 
 
@@ -224,7 +224,7 @@ def paths(assessment: Assessment, array_id: str) -> Json:
 
 
 def _array(assessment: Assessment, wanted: str) -> ArrayAssessment:
-    return _named("array", assessment.arrays, wanted, lambda one: one.id)
+    return _named("array", assessment.arrays, wanted, lambda run: run.id)
 
 
 def _named(kind: str, items: Sequence[_T], wanted: str, name: Callable[[_T], str]) -> _T:
@@ -288,10 +288,13 @@ def _panels(
         relative.append(_history("cross", history.across_m))
     normal, demand, used = run_forces(run, history, slips)
     i, with_used = with_jumps(run, used, history.events)
-    velocity = [_history(one.name, velocity_displacement(one)[0]) for one in roof]
+    velocity = [_history(component.name, velocity_displacement(component)[0]) for component in roof]
     friction = [_history("used", with_used) | {"i": i.tolist()}, _history("demand", demand)]
     panels = {
-        "acceleration": (_ACCELERATION, [_history(one.name, one.a_mps2) for one in roof]),
+        "acceleration": (
+            _ACCELERATION,
+            [_history(component.name, component.a_mps2) for component in roof],
+        ),
         "velocity": (_VELOCITY[:: 1 if fmt.us_first else -1], velocity),
         "relative": (fmt.units(), relative),
         "normal": (_NORMAL, [_history("N / W", normal)]),
@@ -349,27 +352,27 @@ def _slide_texts(
     }
 
 
-def _contour_texts(found: ResponseSurface, here_m: float, fmt: UnitFormat) -> Json:
-    array, runs = found.array.array, len(found.array.motions)
-    lost = int(np.isnan(found.mean_m).sum())
+def _contour_texts(contours: ResponseSurface, here_m: float, fmt: UnitFormat) -> Json:
+    array, runs = contours.array.array, len(contours.array.motions)
+    lost = int(np.isnan(contours.mean_m).sum())
     notes = [
         "Each motion in its governing heading. Crosses are computed points; contours and values "
         "between them interpolate the logarithm."
     ]
-    if not lost and not (found.mean_m > 0.0).any():
+    if not lost and not (contours.mean_m > 0.0).any():
         notes.append("Nothing slides on the whole grid: no contours are drawn.")
     if lost:
         notes.append(
-            f"{lost} of {found.mean_m.size} points have no value: a run there gives no "
+            f"{lost} of {contours.mean_m.size} points have no value: a run there gives no "
             "displacement."
         )
-    if found.n_unfinished:
+    if contours.n_unfinished:
         notes.append(
-            f"{found.n_unfinished} of {found.n_runs} runs on the grid are still sliding at the end "
-            "of their record: their PRD is not final."
+            f"{contours.n_unfinished} of {contours.n_runs} runs on the grid are still sliding at "
+            "the end of their record: their PRD is not final."
         )
-    if found.others:
-        notes.append(sentence(TEMPLATES, "dots", found))
+    if contours.others:
+        notes.append(sentence(TEMPLATES, "dots", contours))
     return {
         "title": f"Mean PRD of {runs} motion{'s' if runs > 1 else ''} over friction and slope, "
         f"array {array.id}",

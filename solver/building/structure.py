@@ -268,8 +268,8 @@ def building_of_periods(
     _check_periods(periods_s, damping)
     modes = story_modes(alpha0, stories) if stories else beam_modes(alpha0, BEAM_MODES)
     ratios = modes.period_ratios
-    given = np.array(periods_s[: ratios.size], dtype=np.float64)
-    periods = np.append(given, given[-1] * ratios[given.size :] / ratios[given.size - 1])
+    lowest = np.array(periods_s[: ratios.size], dtype=np.float64)
+    periods = np.append(lowest, lowest[-1] * ratios[lowest.size :] / ratios[lowest.size - 1])
     zeta = np.full(periods.size, float(damping[-1]))
     first = np.array(damping[: periods.size], dtype=np.float64)
     zeta[: first.size] = first
@@ -277,7 +277,7 @@ def building_of_periods(
         periods_s=read_only(periods),
         damping=read_only(zeta),
         roof_factors=read_only(modes.factors[:, 0]),
-        words=_words(given, damping, alpha0, stories),
+        words=_words(lowest, damping, alpha0, stories),
     )
 
 
@@ -308,9 +308,9 @@ def building_of_modes(
     )
 
 
-def _words(given: Floats, damping: Sequence[float], alpha0: float, stories: int) -> str:
+def _words(lowest: Floats, damping: Sequence[float], alpha0: float, stories: int) -> str:
     """Describe a uniform building."""
-    periods = ", ".join(f"{period:.3g}" for period in given)
+    periods = ", ".join(f"{period:.3g}" for period in lowest)
     ratios = ", ".join(f"{100.0 * value:.3g}" for value in damping)
     if stories == 1:
         kind = "one story"

@@ -283,7 +283,7 @@ def check_only_blank(source: Source, first: int, stop: int, before: str) -> None
             )
 
 
-def recorder_notes(source: Source, found: int) -> tuple[str, ...]:
+def recorder_notes(source: Source, samples: int) -> tuple[str, ...]:
     """Note that a file has fewer channels than its headings state for the recorder.
 
     It is no error: a file may hold one channel of a recorder.
@@ -294,11 +294,11 @@ def recorder_notes(source: Source, found: int) -> tuple[str, ...]:
         if (match := _OF_RECORDER.search(line))
     ]
     most, index = max(stated, default=(0, 0))
-    if most <= found:
+    if most <= samples:
         return ()
     return (
-        f"line {index + 1} states {most} channels of the recorder, the file has {found}: the others"
-        " are in other files, or the file is truncated",
+        f"line {index + 1} states {most} channels of the recorder, the file has {samples}: the "
+        "others are in other files, or the file is truncated",
     )
 
 

@@ -139,10 +139,10 @@ def _block_problems(source: Source, part: _Part) -> Iterator[str]:
         return
     ends = [*(index for index, _, _ in starts[1:]), part.at]
     for (index, stated, what), end in zip(starts, ends, strict=True):
-        found = end - index - 1 + (what == _TEXT)
-        if found != stated:
+        lines = end - index - 1 + (what == _TEXT)
+        if lines != stated:
             yield (
-                f"{source.at(index)}: states {stated} lines of {what}, found {found}; give the"
+                f"{source.at(index)}: states {stated} lines of {what}, found {lines}; give the"
                 " whole file"
             )
 

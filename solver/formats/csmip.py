@@ -207,10 +207,10 @@ def _step_2(source: Source, part: range, stated: Stated) -> Stated:
 
 def _check_heading(source: Source, part: range, at: int, due: int) -> None:
     """Raise if the heading above the line of values has more or fewer lines than the format."""
-    found = at - part.start
-    if found != due:
+    length = at - part.start
+    if length != due:
         raise InputError(
-            f"{source.at(at)}: found {found} lines of heading above this one, where the format has"
+            f"{source.at(at)}: found {length} lines of heading above this one, where the format has"
             f" {due}; give the whole file"
         )
 

@@ -372,7 +372,7 @@ def check_shape(source: Source, start: int, separator: str | None) -> None:
     if len(others) < 2:
         return
     *middle, (last, left) = others
-    widths = {found for _, found in middle}
+    widths = {numbers for _, numbers in middle}
     if not is_headed and widths == {width} and left < width:
         raise InputError(
             f"{source.at(last)}: found {left} values after lines of {width}: values across the"

@@ -138,7 +138,7 @@ def _check_halved(source: Source, rows: Sequence[tuple[int, str]]) -> None:
     counts = Counter(digits)
     if len(counts) != 2 or min(counts.values()) > 1 or len(digits) < COMPARED // 3:
         return
-    usual, odd = (found for found, _ in counts.most_common())
+    usual, odd = (step for step, _ in counts.most_common())
     if odd < usual:
         index, row = rows[digits.index(odd)]
         raise InputError(

@@ -88,7 +88,7 @@ def read(source: Source) -> MotionFile:
         )
     timed = _has_times(source, table)
     columns = range(int(timed), table.values.shape[1])
-    others = [i for i, one in enumerate(table.headings) if one.kind is Kind.OTHER]
+    others = [i for i, heading in enumerate(table.headings) if heading.kind is Kind.OTHER]
     taken = [i for i in columns if i not in others]
     left = [table.headings[i].text for i in columns if i not in taken]
     if not taken:
@@ -118,13 +118,13 @@ def read(source: Source) -> MotionFile:
 
 def _check_count(source: Source, table: _Table) -> None:
     """Compare the number of rows with the number of samples that a remark states."""
-    found = len(table.values)
+    samples = len(table.values)
     for index, line in table.remarks:
         stated = layout.count_in(line)
-        if stated not in (-1, found):
-            remedy = "give the whole file" if found < stated else "correct the count"
+        if stated not in (-1, samples):
+            remedy = "give the whole file" if samples < stated else "correct the count"
             raise InputError(
-                f"{source.at(index)}: states {stated} samples, found {found}; {remedy}"
+                f"{source.at(index)}: states {stated} samples, found {samples}; {remedy}"
             )
 
 
@@ -144,7 +144,7 @@ def _check_last(source: Source, table: _Table) -> None:
 
 def _hold_s(table: _Table) -> float:
     """Hold of the envelope [s] that a generated file states; NaN for none."""
-    stated = [found for _, line in table.remarks if (found := _HOLD.search(line))]
+    stated = [match for _, line in table.remarks if (match := _HOLD.search(line))]
     return float(stated[0][1]) if stated else math.nan
 
 

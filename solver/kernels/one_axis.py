@@ -396,5 +396,5 @@ def sweep_exact(ax, az, x, z, dt, g, scenes, out):
         least, _ = minimum_normal(ax, az, x, z, dt, sn, cs, g, scale)
         out[k] = np.nan
         if least >= 0.0:
-            found = slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, None)
-            out[k, 0], out[k, 1], out[k, 2], out[k, 3] = found[:4]
+            slide = slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, None)
+            out[k, 0], out[k, 1], out[k, 2], out[k, 3] = slide[:4]

@@ -282,7 +282,7 @@ def slide_row(drive, normal, dt, mus, m, k, c, maximum_events, peaks, links, sam
     drift = error = 0.0
     for i in range(drive.size - 1):
         tau, n_events = 0.0, 0
-        given = max(abs(drive[i]), abs(drive[i + 1])) + maximum_mu * max(normal[i], normal[i + 1])
+        demand = max(abs(drive[i]), abs(drive[i + 1])) + maximum_mu * max(normal[i], normal[i + 1])
         while tau < dt:
             h = min(longest, dt - tau)
             for line_of, values in ((driving, drive), (hold, normal)):
@@ -292,7 +292,7 @@ def slide_row(drive, normal, dt, mus, m, k, c, maximum_events, peaks, links, sam
             x, tie = _next_events(b, sigma, mus, hold, degree, line, when, side)
             reached = min(x, 1.0)
             _advance(b, s, w, e, links, h, reached, degree)
-            drift += STEP * EPS * (size + h * given) + tie * h
+            drift += STEP * EPS * (size + h * demand) + tie * h
             if x < NEVER:
                 stopped, lost = _switch(
                     b, s, w, sigma, mus, hold, degree, x, when, side, line, peaks

@@ -73,8 +73,8 @@ class SpectrumRatio:
 
     def among(self, points: NDArray[np.bool_]) -> tuple[Floats, Floats]:
         """Return the frequencies [Hz] with a target among some points, and the ratios there."""
-        given = points & np.isfinite(self.ratio)
-        return POINTS_HZ[given], self.ratio[given]
+        finite = points & np.isfinite(self.ratio)
+        return POINTS_HZ[finite], self.ratio[finite]
 
     def minimum(self, points: NDArray[np.bool_]) -> tuple[float, str]:
         """Return the smallest ratio among some points, and where it is."""
@@ -134,23 +134,23 @@ def spectrum_rows(ratios: Sequence[SpectrumRatio]) -> Iterator[Limit]:
     each of the `N_SETS` sets is counted for itself. From 0.1 to 1.3 Hz, where sliding is driven,
     our own: every component at 0.90 of the target or more, the mean of the motions at 1.00 or more.
     """
-    if found := _compared(ratios, _IS_AC156):
-        band = f"1.3 to 33.3 Hz{_extent(found, _IS_AC156)}"
+    if rows := _compared(ratios, _IS_AC156):
+        band = f"1.3 to 33.3 Hz{_extent(rows, _IS_AC156)}"
         title = f"Spectrum / target at {N_AC156} points, {band}, each component"
-        yield _least(title, found, _IS_AC156)
+        yield _least(title, rows, _IS_AC156)
         title = f"Neighboring 1/6-octave points below 1.00 of the target, {band}"
         sets = _sets(_IS_AC156)
-        yield _most(title, MOST_IN_A_ROW, [each.longest_dip(s) for each in found for s in sets])
+        yield _most(title, MOST_IN_A_ROW, [each.longest_dip(s) for each in rows for s in sets])
     for points, band in ((_IS_SLOW, "1.3 to 8.3 Hz"), (_IS_FAST, "8.3 to 33.3 Hz")):
-        if found := _compared(ratios, points):
-            title = f"1/6-octave points below 1.00 of the target, {band}{_extent(found, points)}"
-            yield _most(title, MOST_DIPS, [each.dips(s) for each in found for s in _sets(points)])
-    if found := _compared(ratios, _IS_SLIDING):
-        band = f"0.1 to 1.3 Hz{_extent(found, _IS_SLIDING)}"
+        if rows := _compared(ratios, points):
+            title = f"1/6-octave points below 1.00 of the target, {band}{_extent(rows, points)}"
+            yield _most(title, MOST_DIPS, [each.dips(s) for each in rows for s in _sets(points)])
+    if rows := _compared(ratios, _IS_SLIDING):
+        band = f"0.1 to 1.3 Hz{_extent(rows, _IS_SLIDING)}"
         title = f"Spectrum / target at {N_SLIDING} points, {band}, each component"
-        yield _least(title, found, _IS_SLIDING, provision=PROGRAM)
+        yield _least(title, rows, _IS_SLIDING, provision=PROGRAM)
         title = f"Spectrum / target at {N_SLIDING} points, {band}, mean of the motions"
-        yield _least(title, _means(found), _IS_SLIDING, FULL_RATIO, provision=PROGRAM)
+        yield _least(title, _means(rows), _IS_SLIDING, FULL_RATIO, provision=PROGRAM)
 
 
 def _sets(points: NDArray[np.bool_]) -> Sequence[NDArray[np.bool_]]:
@@ -179,10 +179,10 @@ def _least(
     *,
     provision: Provision = MOTIONS,
 ) -> Limit:
-    found, worst = min(each.minimum(points) for each in ratios)
+    least, worst = min(each.minimum(points) for each in ratios)
     return Limit(
         title=title,
-        found=found,
+        found=least,
         limit=limit,
         is_at_least=True,
         worst=worst,
@@ -209,9 +209,9 @@ def _means(ratios: Sequence[SpectrumRatio]) -> Sequence[SpectrumRatio]:
         name: [each.ratio for each in ratios if each.component == name] for name in COMPONENTS
     }
     return [
-        SpectrumRatio(motion="mean of", component=name, ratio=np.mean(found, axis=0))
-        for name, found in by_name.items()
-        if found
+        SpectrumRatio(motion="mean of", component=name, ratio=np.mean(means, axis=0))
+        for name, means in by_name.items()
+        if means
     ]
 
 
@@ -296,15 +296,15 @@ def acceptance(
     Acceptance
         Rows that do not apply are absent: spectra without a target, correlations of records.
     """
-    found = tuple(motion_strength(*pair) for pair in zip(motions, holds_s, strict=True))
+    strengths = tuple(motion_strength(*pair) for pair in zip(motions, holds_s, strict=True))
     rows = (
         _count(motions),
-        _components(found),
+        _components(strengths),
         *spectrum_rows(spectrum_ratios(motions, horizontal, vertical)),
-        *_strong_rows(found),
-        *_correlation_row(found),
+        *_strong_rows(strengths),
+        *_correlation_row(strengths),
     )
-    return Acceptance(rows=rows, motions=found)
+    return Acceptance(rows=rows, motions=strengths)
 
 
 def motion_strength(motion: Motion, hold_s: float) -> MotionStrength:
@@ -334,8 +334,8 @@ def _count(motions: Sequence[Motion]) -> Limit:
     )
 
 
-def _components(found: Sequence[MotionStrength]) -> Limit:
-    fewest = min(found, key=lambda motion: len(motion.strengths))
+def _components(strengths: Sequence[MotionStrength]) -> Limit:
+    fewest = min(strengths, key=lambda motion: len(motion.strengths))
     missing = [name for name in COMPONENTS if name not in fewest.strengths]
     return Limit(
         title="Number of components of each motion: two horizontal and the vertical together",
@@ -347,14 +347,14 @@ def _components(found: Sequence[MotionStrength]) -> Limit:
     )
 
 
-def _strong_rows(found: Sequence[MotionStrength]) -> Iterator[Limit]:
-    holds = [(motion.hold_s, motion.id) for motion in found if motion.is_generated]
+def _strong_rows(strengths: Sequence[MotionStrength]) -> Iterator[Limit]:
+    holds = [(motion.hold_s, motion.id) for motion in strengths if motion.is_generated]
     if holds:
         title = "Strong motion of generated motions: hold of the envelope"
         yield _strong_row(title, holds, Consequence.NG)
     durations = [
         (measured.d5_95_s, f"{motion.id} {name}")
-        for motion in found
+        for motion in strengths
         if not motion.is_generated
         for name, measured in motion.strengths.items()
     ]
@@ -378,10 +378,10 @@ def _strong_row(
     )
 
 
-def _correlation_row(found: Sequence[MotionStrength]) -> Iterator[Limit]:
+def _correlation_row(strengths: Sequence[MotionStrength]) -> Iterator[Limit]:
     pairs = [
         (abs(value), f"{motion.id} {pair}")
-        for motion in found
+        for motion in strengths
         if motion.is_generated
         for pair, value in motion.correlations.items()
     ]

@@ -112,14 +112,14 @@ def analysis_value(
     n = len(peaks_m)
     mean = sum(peaks_m) / n if n else math.nan
     largest = math.nan if mean != mean else max(peaks_m)
-    found = basis_for(rules, n, basis)
+    basis_used = basis_for(rules, n, basis)
     return AnalysisValue(
         n_motions=n,
         mean_m=mean,
         largest_m=largest,
-        basis=found,
-        factor=_factor(rules, basis or found),
-        value_m=factored(rules, found, mean, largest),
+        basis=basis_used,
+        factor=_factor(rules, basis or basis_used),
+        value_m=factored(rules, basis_used, mean, largest),
     )
 
 

@@ -50,9 +50,9 @@ def checked_scene(
     Warns of arrays that are far too weak to slip anything, and so may be in g.
     """
     problems: list[str] = []
-    given = {"ax_mps2": ax_mps2, "ay_mps2": ay_mps2, "az_mps2": az_mps2}
-    records, dt_s, factor = unpacked(given, dt_s, problems)
-    size = unit_size(given, units, problems)
+    components = {"ax_mps2": ax_mps2, "ay_mps2": ay_mps2, "az_mps2": az_mps2}
+    records, dt_s, factor = unpacked(components, dt_s, problems)
+    size = unit_size(components, units, problems)
     ax, ay, az = checked_records(records, problems, size)
     friction = checked_friction("mu", mu, problems)
     numbers = {
@@ -81,28 +81,28 @@ def checked_scene(
             f"az_mps2 has a mean of {az.mean():.3g} m/s2: gravity is in it; subtract the mean"
         )
     if units is None and not any(
-        isinstance(each, Record | Motion) or is_series(each) for each in given.values()
+        isinstance(each, Record | Motion) or is_series(each) for each in components.values()
     ):
         _warn_if_in_g(run)
     return run
 
 
-def unit_size(given: Mapping[str, Given | None], units: str | None, problems: list[str]) -> float:
+def unit_size(values: Mapping[str, Given | None], units: str | None, problems: list[str]) -> float:
     """Return the size of the unit of arrays [m/s2]; records and motions have their own."""
     if units is None:
-        return _size_of_series(given, problems)
-    if any(isinstance(each, Record | Motion) for each in given.values()):
+        return _size_of_series(values, problems)
+    if any(isinstance(each, Record | Motion) for each in values.values()):
         problems.append("units are given beside a record or a motion, which is in m/s2; omit them")
     if units not in UNITS:
         problems.append(f"units is {shown(units)}; give one of {', '.join(UNITS)}")
     return UNITS.get(units, 1.0)
 
 
-def _size_of_series(given: Mapping[str, Given | None], problems: list[str]) -> float:
+def _size_of_series(values: Mapping[str, Given | None], problems: list[str]) -> float:
     """Return the size of the unit that the names of Series state; 1 without any Series."""
     sizes = {
         name: records_unit(parse(str(each.name)).unit)  # type: ignore[union-attr]
-        for name, each in given.items()
+        for name, each in values.items()
         if is_series(each)
     }
     if any(map(math.isnan, sizes.values())):
@@ -110,14 +110,14 @@ def _size_of_series(given: Mapping[str, Given | None], problems: list[str]) -> f
         problems.append(
             f"{unknown} is a Series without a unit; give units, or a name such as acceleration_g"
         )
-    elif len({*sizes.values()}) > 1 or 0 < len(sizes) < sum(e is not None for e in given.values()):
+    elif len({*sizes.values()}) > 1 or 0 < len(sizes) < sum(e is not None for e in values.values()):
         problems.append("some components are Series, in other units than the rest; give units")
     return next(iter(sizes.values()), 1.0)
 
 
-def is_series(given: object) -> bool:
+def is_series(value: object) -> bool:
     """Whether the argument is a Series of pandas: values with an index and a name."""
-    return all(hasattr(given, name) for name in ("index", "name", "to_numpy"))
+    return all(hasattr(value, name) for name in ("index", "name", "to_numpy"))
 
 
 def _step_of_series(name: str, series: Any, problems: list[str]) -> float | None:
@@ -154,18 +154,18 @@ def method_of(method: str | Method) -> Method:
 
 
 def unpacked(
-    given: Mapping[str, Given | None], dt_s: float | None, problems: list[str]
+    values: Mapping[str, Given | None], dt_s: float | None, problems: list[str]
 ) -> tuple[dict[str, ArrayLike | None], float | None, float]:
     """Return components as arrays, their step and their factor, from records or a motion.
 
     Parameters
     ----------
-    given : mapping
+    values : mapping
         By the names of the arguments, that along the slope first, which alone may be a motion.
     """
-    along, *others = given.values()
-    steps = {each.dt_s for each in given.values() if isinstance(each, Record | Motion)}
-    for name, each in given.items():
+    along, *others = values.values()
+    steps = {each.dt_s for each in values.values() if isinstance(each, Record | Motion)}
+    for name, each in values.items():
         if is_series(each) and (step := _step_of_series(name, each, problems)):
             steps.add(step)
     if steps and dt_s is not None:
@@ -180,17 +180,17 @@ def unpacked(
     if any(isinstance(each, Motion) for each in others):
         problems.append("a motion is given as one component; give it first and alone")
     if not isinstance(along, Motion):
-        return {name: _samples(each) for name, each in given.items()}, dt_s, 1.0
+        return {name: _samples(each) for name, each in values.items()}, dt_s, 1.0
     if any(each is not None for each in others):
         problems.append("a motion is given with further components; give it alone")
     components = {name: getattr(along, name) for name in ("ax_mps2", "ay_mps2", "az_mps2")}
     return {n: a if a.size else None for n, a in components.items()}, dt_s, along.scale
 
 
-def _samples(given: Given | None) -> ArrayLike | None:
-    if isinstance(given, Record):
-        return given.a_mps2
-    return None if isinstance(given, Motion) else given
+def _samples(value: Given | None) -> ArrayLike | None:
+    if isinstance(value, Record):
+        return value.a_mps2
+    return None if isinstance(value, Motion) else value
 
 
 def overflow(scene: Scene) -> list[str]:
@@ -321,15 +321,19 @@ def checked_record(name: str, values: ArrayLike | None, problems: list[str]) -> 
     """Return a read-only float64 view: numba would compile a second version for writable arrays."""
     wanted = f"{name} is not a row of real numbers; give a sequence of accelerations"
     try:
-        given = np.asanyarray(values)
+        samples = np.asanyarray(values)
     except (TypeError, ValueError, OverflowError):
         problems.append(wanted)
         return NO_RECORD
-    if given.dtype.kind not in "fiu" or (np.ma.isMaskedArray(given) and np.ma.is_masked(given)):
-        what = "has masked samples" if given.dtype.kind in "fiu" else f"is of type {given.dtype}"
+    if samples.dtype.kind not in "fiu" or (
+        np.ma.isMaskedArray(samples) and np.ma.is_masked(samples)
+    ):
+        what = (
+            "has masked samples" if samples.dtype.kind in "fiu" else f"is of type {samples.dtype}"
+        )
         problems.append(f"{name} {what}; give a sequence of accelerations, all real numbers")
         return NO_RECORD
-    record = np.ascontiguousarray(given, dtype=np.float64)
+    record = np.ascontiguousarray(samples, dtype=np.float64)
     if record.ndim != 1 or record.size < 2:
         problems.append(f"{name} has shape {record.shape}; give one row of 2 samples or more")
         return NO_RECORD

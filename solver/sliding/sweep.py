@@ -142,9 +142,9 @@ def sweep(
     """
     problems: list[str] = []
     names = "ax_mps2", "ay_mps2", "az_mps2"
-    given = dict(zip(names, (ax_mps2, ay_mps2, az_mps2), strict=True))
-    records, step_s, factor = unpacked(given, dt_s, problems)
-    ax, ay, az = checked_records(records, problems, unit_size(given, units, problems))
+    components = dict(zip(names, (ax_mps2, ay_mps2, az_mps2), strict=True))
+    records, step_s, factor = unpacked(components, dt_s, problems)
+    ax, ay, az = checked_records(records, problems, unit_size(components, units, problems))
     axes = [
         axis("slopes_rad", slopes_rad, -math.pi / 2, math.pi / 2, problems),
         axis("mus", mus, -math.ulp(0.0), math.inf, problems),
@@ -210,19 +210,19 @@ def _is_size(value: float) -> bool:
 def axis(name: str, values: ArrayLike, above: float, below: float, problems: list[str]) -> Floats:
     """Return the values of an axis, between two limits, adding a problem for what is not."""
     try:
-        given = np.atleast_1d(np.asanyarray(values))
+        samples = np.atleast_1d(np.asanyarray(values))
     except (TypeError, ValueError, OverflowError):
-        given = np.empty(0, dtype=object)
-    if given.dtype.kind not in "fiu" or np.ma.is_masked(given):
+        samples = np.empty(0, dtype=object)
+    if samples.dtype.kind not in "fiu" or np.ma.is_masked(samples):
         problems.append(f"{name} is not a row of real numbers; give values that `slide` accepts")
         return np.empty(0)
-    found = np.asarray(given, dtype=np.float64)
-    if found.ndim != 1 or found.size == 0:
-        problems.append(f"{name} has shape {found.shape}; give one row of values")
-    wrong = found[~((found > above) & (found < below))]
+    array = np.asarray(samples, dtype=np.float64)
+    if array.ndim != 1 or array.size == 0:
+        problems.append(f"{name} has shape {array.shape}; give one row of values")
+    wrong = array[~((array > above) & (array < below))]
     if wrong.size:
         problems.append(f"{name} has {wrong[0]}; give values that `slide` accepts")
-    return found
+    return array
 
 
 def _run(

@@ -144,11 +144,11 @@ def capacities(
     steps : int
         Number of the equal steps.
     """
-    one = partial(
+    of_motion = partial(
         _of_motion, limits_m=limits_m, levels=levels, is_censoring=is_censoring, steps=steps
     )
     with ThreadPoolExecutor(THREADS) as pool:
-        rows = np.array(list(pool.map(one, curves))).reshape(len(curves), len(limits_m), 5)
+        rows = np.array(list(pool.map(of_motion, curves))).reshape(len(curves), len(limits_m), 5)
     return tuple(
         Capacities(
             intensity=values[:, 0],
@@ -181,11 +181,11 @@ def _of_motion(
         return [(0.0, is_censoring and limit > 0.0, 0.0, False, 0) for limit in limits_m]
     x = np.union1d(np.linspace(slip, top, steps + 1), levels[levels > slip])
     scan = _Scan(curve, x, np.concatenate([[0.0], curve.prd_m(x[1:])]))
-    found = [
+    capacities = [
         scan.capacity(limit, is_censoring) if limit else (slip, False, math.inf, False)
         for limit in limits_m
     ]
-    return [(*one, scan.searched) for one in found]
+    return [(*capacity, scan.searched) for capacity in capacities]
 
 
 class _Scan:

@@ -141,10 +141,10 @@ class Fit:
             Outside the domain, with the ranges.
         """
         r = _ratio(slope_rad, mu, self.ppa_g * intensity)
-        given = {"slope_rad": slope_rad, "mu": mu, "intensity": intensity, "r": r}
+        inputs = {"slope_rad": slope_rad, "mu": mu, "intensity": intensity, "r": r}
         problems = [
             f"{name} is {value:.4g}; the formula holds from {low:.4g} to {high:.4g}"
-            for name, value in given.items()
+            for name, value in inputs.items()
             for low, high in [self.domain[name]]
             if not _within(value, low, high)
         ]
@@ -213,17 +213,17 @@ def fit_prd(
         values[fits] for values in (slope_rad, mu, intensity, prd_m, r)
     )
     terms, wanted = _terms(slope_rad, mu, intensity, r), np.log(prd_m)
-    found, _, rank, _ = np.linalg.lstsq(terms, wanted, rcond=None)
+    coefficients, _, rank, _ = np.linalg.lstsq(terms, wanted, rcond=None)
     if rank < TERMS:
         raise InputError(
             "the cases do not determine a formula; give two or more slopes, friction "
             "coefficients and intensities"
         )
-    found = np.array([_to_digits(value) for value in found])
-    off = wanted - terms @ found
+    coefficients = np.array([_to_digits(value) for value in coefficients])
+    off = wanted - terms @ coefficients
     values = {"slope_rad": slope_rad, "mu": mu, "intensity": intensity, "r": r, "prd_m": prd_m}
     return Fit(
-        coefficients=tuple(found.tolist()),
+        coefficients=tuple(coefficients.tolist()),
         ppa_g=ppa_g,
         sigma_ln=float(np.sqrt(np.sum(off**2) / (cases - TERMS))),
         minimum_ratio=float(np.exp(off.min())),

@@ -101,7 +101,7 @@ Range = tuple[float, float]
 UNKNOWN_RANGE = (math.nan, math.nan)
 
 
-def fit_lognormal(found: Capacities) -> Lognormal:
+def fit_lognormal(capacities: Capacities) -> Lognormal:
     """Return the lognormal of known and censored capacities.
 
     Where none is censored, beta has the divisor n - 1, as method A of Porter, Kennedy and Bachman
@@ -115,12 +115,12 @@ def fit_lognormal(found: Capacities) -> Lognormal:
     Lognormal
         Unknown with fewer than two different known capacities, or one of 0.
     """
-    if not (found.intensity > 0.0).all():
+    if not (capacities.intensity > 0.0).all():
         return UNKNOWN
-    normal = censored.fit(np.log(found.intensity)[None], found.is_censored[None])
+    normal = censored.fit(np.log(capacities.intensity)[None], capacities.is_censored[None])
     mean, deviation = float(normal.mean[0]), float(normal.deviation[0])
-    if not found.is_censored.any() and math.isfinite(deviation):
-        deviation *= math.sqrt(found.intensity.size / (found.intensity.size - 1))
+    if not capacities.is_censored.any() and math.isfinite(deviation):
+        deviation *= math.sqrt(capacities.intensity.size / (capacities.intensity.size - 1))
     return Lognormal(theta=math.exp(mean), beta=deviation)
 
 
@@ -149,7 +149,7 @@ def first_order_beta(median: float, around: tuple[float, float]) -> float:
 
 
 def fragility(
-    levels: Floats, exceeds: Flags, counts: Flags, found: Capacities, *, seed: int
+    levels: Floats, exceeds: Flags, counts: Flags, capacities: Capacities, *, seed: int
 ) -> Fragility:
     """Fit a fragility to the capacities of a limit state, with its confidence.
 
@@ -163,29 +163,31 @@ def fragility(
         Intensities above 0.
     exceeds, counts : array of bool, shape (motions, m)
         Whether the limit state is exceeded, and whether the run is counted.
-    found : Capacities
+    capacities : Capacities
     seed : int
     """
     k, n = exceeds & counts, counts
-    fitted = fit_lognormal(found)
+    fitted = fit_lognormal(capacities)
     theta_range, beta_range, unfitted = UNKNOWN_RANGE, UNKNOWN_RANGE, 0
-    if fitted.is_known and found.is_censored.any():
-        theta_range, beta_range, unfitted = _drawn_ranges(found, fitted, seed)
+    if fitted.is_known and capacities.is_censored.any():
+        theta_range, beta_range, unfitted = _drawn_ranges(capacities, fitted, seed)
     elif fitted.is_known:
-        theta_range, beta_range = _exact_ranges(found.intensity.size, fitted)
-    p_value = _p_value(found, fitted)
+        theta_range, beta_range = _exact_ranges(capacities.intensity.size, fitted)
+    p_value = _p_value(capacities, fitted)
     return Fragility(
         levels=levels,
         exceeded=k.sum(axis=0).astype(np.int64),
         counted=n.sum(axis=0).astype(np.int64),
         censored=int(counts.size - counts.sum()),
-        capacities=found,
+        capacities=capacities,
         fitted=fitted,
         theta_range=theta_range,
         beta_range=beta_range,
         unfitted=unfitted,
         p_value=p_value,
-        critical=math.nan if math.isnan(p_value) else lilliefors_critical(found.intensity.size),
+        critical=math.nan
+        if math.isnan(p_value)
+        else lilliefors_critical(capacities.intensity.size),
     )
 
 
@@ -200,11 +202,15 @@ def _exact_ranges(motions: int, fitted: Lognormal) -> tuple[Range, Range]:
     return (fitted.theta * math.exp(-far), fitted.theta * math.exp(far)), (low, high)
 
 
-def _drawn_ranges(found: Capacities, fitted: Lognormal, seed: int) -> tuple[Range, Range, int]:
+def _drawn_ranges(capacities: Capacities, fitted: Lognormal, seed: int) -> tuple[Range, Range, int]:
     """Return the intervals of theta and beta, and the number of samples without a lognormal."""
-    y, flags, mean = np.log(found.intensity)[None], found.is_censored[None], math.log(fitted.theta)
+    y, flags, mean = (
+        np.log(capacities.intensity)[None],
+        capacities.is_censored[None],
+        math.log(fitted.theta),
+    )
     drawn = mean + fitted.beta * np.random.default_rng(seed).standard_normal((REPEATS, y.size))
-    ends = np.log(found.end)
+    ends = np.log(capacities.end)
     is_beyond, drawn = drawn > ends, np.minimum(drawn, ends)
     fits, own = censored.fit(drawn, is_beyond), censored.fit(y, flags)
     deviances = censored.deviance(drawn, is_beyond, mean, fits)
@@ -261,7 +267,7 @@ def _drawn_distances(motions: int) -> Floats:
     return np.sort(lilliefors(drawn))
 
 
-def _p_value(found: Capacities, fitted: Lognormal) -> float:
-    if not fitted.is_known or found.is_censored.any() or found.intensity.size < 4:
+def _p_value(capacities: Capacities, fitted: Lognormal) -> float:
+    if not fitted.is_known or capacities.is_censored.any() or capacities.intensity.size < 4:
         return math.nan
-    return lilliefors_p(float(lilliefors(np.log(found.intensity))), found.intensity.size)
+    return lilliefors_p(float(lilliefors(np.log(capacities.intensity))), capacities.intensity.size)

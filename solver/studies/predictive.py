@@ -100,7 +100,7 @@ def predictive(surfaces: Sequence[Series]) -> Predictive:
         between = math.sqrt(max(0.0, excess / size))
         p_value = float(f_oneway(*groups).pvalue) if squares > 0.0 else math.nan
     least = min(groups, key=lambda group: float(group.mean()))
-    found = Predictive(
+    distribution = Predictive(
         mean=float(least.mean()),
         runs=least.size,
         freedom=freedom,
@@ -108,6 +108,6 @@ def predictive(surfaces: Sequence[Series]) -> Predictive:
         between=between,
         p_value=p_value,
     )
-    if found.quantiles[0] <= 0.0:
+    if distribution.quantiles[0] <= 0.0:
         raise InputError("the friction runs scatter so much that the coefficient may be 0")
-    return found
+    return distribution

@@ -115,10 +115,10 @@ def contributions(curve: HazardCurve, levels: Floats, prd_m: Floats, limit_m: fl
     share[known] = (limit_m - low[known]) / (high[known] - low[known])
     crossing = below.copy()
     crossing[crosses] = curve.at((levels[:-1] + share * np.diff(levels))[crosses])
-    found = np.where(low > limit_m, below - crossing * falls - above * ~falls, 0.0)
-    found = np.where(rises, crossing - above, found)
-    beyond = np.broadcast_to(rate[-1:], (*found.shape[:-1], 1))
-    return np.concatenate([found, beyond], axis=-1)
+    rates = np.where(low > limit_m, below - crossing * falls - above * ~falls, 0.0)
+    rates = np.where(rises, crossing - above, rates)
+    beyond = np.broadcast_to(rate[-1:], (*rates.shape[:-1], 1))
+    return np.concatenate([rates, beyond], axis=-1)
 
 
 def exceedance_rates(curve: HazardCurve, levels: Floats, prd_m: Floats, limits_m: Floats) -> Floats:
@@ -141,15 +141,15 @@ def deaggregated(
     array, shape (n,)
         Their sum is 1; zeros where the limit is never exceeded.
     """
-    found = np.zeros(edges.size - 1)
+    shares = np.zeros(edges.size - 1)
     middles = np.append(np.sqrt(levels[:-1] * levels[1:]), levels[-1])
     for factor, weight in zip(*curve.factors, strict=True):
         shifted = HazardCurve(intensity=factor * curve.intensity, rate=curve.rate)
         rates = contributions(shifted, levels, prd_m, limit_m)
         inside = np.clip(middles / factor, edges[0], edges[-1])
         by_level = rates.reshape(-1, middles.size).mean(axis=0)
-        found += weight * np.histogram(inside, edges, weights=by_level)[0]
-    return found / (found.sum() or 1.0)
+        shares += weight * np.histogram(inside, edges, weights=by_level)[0]
+    return shares / (shares.sum() or 1.0)
 
 
 def displacements_at(limits_m: Floats, rates: Floats, years: Floats) -> Floats:
@@ -168,12 +168,14 @@ def displacements_at(limits_m: Floats, rates: Floats, years: Floats) -> Floats:
         0 where the block slips less often, and inf where every limit is exceeded more often.
     """
     flat = rates.reshape(limits_m.size, -1)
-    found = np.empty((years.size, flat.shape[1]))
+    displacements = np.empty((years.size, flat.shape[1]))
     with np.errstate(divide="ignore"):
         logs, x = np.log(flat), np.log(np.maximum(limits_m, 0.5 * limits_m[1]))
     for column in range(flat.shape[1]):
-        found[:, column] = np.exp(np.interp(np.log(years), -logs[:, column], x, right=np.inf))
-    return np.where(flat[0] * years[:, None] < 1.0, 0.0, found).reshape(
+        displacements[:, column] = np.exp(
+            np.interp(np.log(years), -logs[:, column], x, right=np.inf)
+        )
+    return np.where(flat[0] * years[:, None] < 1.0, 0.0, displacements).reshape(
         years.size, *rates.shape[1:]
     )
 

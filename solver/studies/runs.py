@@ -211,10 +211,10 @@ class Track:
         scenes = np.stack([slope, mu, self.scene.scale * cases.intensity[chosen]], axis=-1)
         odd = np.arange(len(chosen))
         if not self.scene.ay_mps2.size:
-            found, odd = _solve_along(self, scenes)
-            for length, values in zip(rows.lengths, found.lengths, strict=True):
+            solved, odd = _solve_along(self, scenes)
+            for length, values in zip(rows.lengths, solved.lengths, strict=True):
                 length[chosen, column] = values
-            rows.status[chosen, column], rows.model[chosen, column] = found.status, found.model
+            rows.status[chosen, column], rows.model[chosen, column] = solved.status, solved.model
         for at in odd:
             _solve_one(self.scene, scenes[at], rows, (int(chosen[at]), column))
 
@@ -261,11 +261,11 @@ def _solve_along(track: Track, scenes: Floats) -> tuple[Rows, NDArray[np.intp]]:
 def _sweep(track: Track, scenes: Floats, az: Floats | None, z: Floats | None) -> Floats:
     """Return `LENGTHS` [m] and the speed at the end [m/s], shape (6, m)."""
     order, out = order_alike(scenes), np.empty((len(scenes), 4))
-    one = track.scene
-    kernel.sweep_exact(one.ax_mps2, az, track.x, z, one.dt_s, one.g_mps2, scenes[order], out)
+    scene = track.scene
+    kernel.sweep_exact(scene.ax_mps2, az, track.x, z, scene.dt_s, scene.g_mps2, scenes[order], out)
     s_max, s_min, s_end, w_end = np.empty((4, len(scenes)))
-    for values, found in zip((s_max, s_min, s_end, w_end), out.T, strict=True):
-        values[order] = found
+    for values, computed in zip((s_max, s_min, s_end, w_end), out.T, strict=True):
+        values[order] = computed
     cs = _by_slope(math.cos, scenes)
     prd = np.where(np.isnan(s_max), np.nan, cs * np.maximum(s_max, -s_min))
     none = np.where(np.isnan(s_max), np.nan, 0.0)
@@ -291,13 +291,13 @@ def _is_level_enough(
 
 def _rounding(track: Track, scenes: Floats) -> Floats:
     """Return `one_axis.rounding` of each scene [m]."""
-    one, (x, z) = track.scene, (track.x, track.z)
+    scene, (x, z) = track.scene, (track.x, track.z)
     sn, cs = np.abs(_by_slope(math.sin, scenes)), _by_slope(math.cos, scenes)
     mu, scale = scenes[:, 1], np.abs(scenes[:, 2])
     up = 0.0 if z is None else scale * max(-z[0, -1], z[1, -1], 0.0)
     along = scale * max(-x[0, -1], x[1, -1])
-    terms = (sn + mu * cs) * (one.g_mps2 + up) + (cs + mu * sn) * along
-    lasts = (one.ax_mps2.size - 1) * one.dt_s
+    terms = (sn + mu * cs) * (scene.g_mps2 + up) + (cs + mu * sn) * along
+    lasts = (scene.ax_mps2.size - 1) * scene.dt_s
     return np.asarray(4.0 * sys.float_info.epsilon * terms * lasts * lasts)
 
 
@@ -323,8 +323,8 @@ def _demands(track: Track, scenes: Floats) -> Floats:
     demand[(normal <= 0.0).any(axis=0)] = math.inf
     near = np.abs(demand - scenes[:, 1]) <= _NEAR * scenes[:, 1]
     near |= (np.abs(normal) <= _NEAR * STANDARD_GRAVITY_MPS2).any(axis=0)
-    for one in np.flatnonzero(near):
-        demand[one] = demand_at(track, scenes[one])
+    for index in np.flatnonzero(near):
+        demand[index] = demand_at(track, scenes[index])
     return np.asarray(demand)
 
 

@@ -108,12 +108,12 @@ class StudyRuns:
         from solver.studies.fragility import fragility
 
         tracks = iter(Runner(_campaign(self.motions, (slope_rad,), (mu,), (1.0,))).tracks[0])
-        found = [
+        by_motion = [
             Curve(tracks=[next(tracks) for _ in motion.orientations], slope_rad=slope_rad, mu=mu)
             for motion in self.motions
         ]
-        prd_m = np.array([curve.prd_m(self.intensities) for curve in found])
-        (searched,) = capacities(found, [limit_m], self.intensities, is_censoring=False)
+        prd_m = np.array([curve.prd_m(self.intensities) for curve in by_motion])
+        (searched,) = capacities(by_motion, [limit_m], self.intensities, is_censoring=False)
         counted = np.ones(prd_m.shape, dtype=bool)
         return fragility(self.intensities, ~(prd_m <= limit_m), counted, searched, seed=seed)
 
@@ -183,9 +183,9 @@ def study(
     >>> runs.minimum_friction(0.002).round(3)
     array([[0.256]])
     """
-    given = [motion(each) if isinstance(each, Record) else each for each in motions]
-    problems = [] if given else ["motions is empty; give one or more"]
-    if len({each.id for each in given}) < len(given):
+    as_motions = [motion(each) if isinstance(each, Record) else each for each in motions]
+    problems = [] if as_motions else ["motions is empty; give one or more"]
+    if len({each.id for each in as_motions}) < len(as_motions):
         problems.append("two motions have one name; give solver.motion an id")
     axes = [
         axis("slopes_rad", slopes_rad, -math.pi / 2, math.pi / 2, problems),
@@ -196,13 +196,13 @@ def study(
         problems.append("slopes_rad, mus, intensities: give each value once, in increasing order")
     if problems:
         raise InputError(problems)
-    campaign = _campaign(given, *axes)
+    campaign = _campaign(as_motions, *axes)
     with ThreadPoolExecutor(THREADS) as pool:
         parts = list(pool.map(partial(run_part, Runner(campaign)), campaign.parts))
     shape = (*(values.size for values in axes), len(campaign.columns))
-    names = ((given[number].id, each.name) for number, each in campaign.columns)
+    names = ((as_motions[number].id, each.name) for number, each in campaign.columns)
     return StudyRuns(
-        motions=tuple(given),
+        motions=tuple(as_motions),
         slopes_rad=axes[0],
         mus=axes[1],
         intensities=axes[2],

@@ -214,7 +214,7 @@ def compare(records: FloorRecords) -> RoofComparison:
     """Predict the roof motion from the ground motion and compare it with the record."""
     ground, dt, roof = records.ground_mps2, records.dt_s, records.floors_mps2[:, -1]
     scale = PPA_G * STANDARD_GRAVITY_MPS2 / float(np.abs(roof).max())
-    found = RoofComparison(
+    comparison = RoofComparison(
         title=records.title,
         description=records.description,
         is_recorded=records.is_recorded,
@@ -238,7 +238,9 @@ def compare(records: FloorRecords) -> RoofComparison:
     unknown = Identified(math.nan, math.nan, math.nan, math.nan)
     alone = "ground motion applied at the roof, no building"
     motions.append((alone, unknown, to_roof(ground, dt, RIGID)))
-    return replace(found, predictions=tuple(_predicted(found, *motion) for motion in motions))
+    return replace(
+        comparison, predictions=tuple(_predicted(comparison, *motion) for motion in motions)
+    )
 
 
 def _properties(records: FloorRecords) -> Iterator[tuple[str, Identified]]:
@@ -256,12 +258,12 @@ def _properties(records: FloorRecords) -> Iterator[tuple[str, Identified]]:
 
 
 def _predicted(
-    found: RoofComparison, name: str, properties: Identified, motion: RoofMotion
+    comparison: RoofComparison, name: str, properties: Identified, motion: RoofMotion
 ) -> RoofPrediction:
     # The computed motion outlasts the record; only the recorded duration can be compared.
-    a = motion.a_mps2[:: round(found.dt_s / motion.dt_s)][: found.roof_mps2.size]
-    sa = response_spectrum(a, found.dt_s, SPECTRUM_S)
-    logs = np.log(sa / found.roof_sa_mps2)
+    a = motion.a_mps2[:: round(comparison.dt_s / motion.dt_s)][: comparison.roof_mps2.size]
+    sa = response_spectrum(a, comparison.dt_s, SPECTRUM_S)
+    logs = np.log(sa / comparison.roof_sa_mps2)
     bands = [logs[(low <= SPECTRUM_S) & (high >= SPECTRUM_S)] for low, high in BANDS_S]
     return RoofPrediction(
         name=name,
@@ -270,13 +272,13 @@ def _predicted(
         alpha0=properties.alpha0,
         n_modes=motion.n_modes,
         left_out_share=motion.left_out_share,
-        unexplained=unexplained(a, found.roof_mps2),
+        unexplained=unexplained(a, comparison.roof_mps2),
         peak_mps2=float(np.abs(a).max()),
         sa_mps2=sa,
         band_ratios=np.exp([band.mean() for band in bands]),
         band_scatters=np.array([band.std() for band in bands]),
         a_mps2=a,
-        prd_m=_slips(a, found.dt_s, found.scale),
+        prd_m=_slips(a, comparison.dt_s, comparison.scale),
     )
 
 

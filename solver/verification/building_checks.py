@@ -116,9 +116,9 @@ def _steps() -> Iterator[Check]:
         kappa = math.sqrt(1.0 - zeta**2)
         wave = math.cos(kappa * w * t) - zeta / kappa * math.sin(kappa * w * t)
         expected = 1.0 - math.exp(-zeta * w * t) * wave
-        found = float(absolute_accelerations(np.ones(138), 0.01, [period_s], [zeta])[-1, 0])
+        peak = float(absolute_accelerations(np.ones(138), 0.01, [period_s], [zeta])[-1, 0])
         name = f"Unit step, T = {period_s:g} s, zeta = {zeta:g}"
-        yield Check("RM-1", source, "Acceleration", "m/s2", name, expected, found)
+        yield Check("RM-1", source, "Acceleration", "m/s2", name, expected, peak)
 
 
 def _steady_waves() -> Iterator[Check]:
@@ -132,9 +132,9 @@ def _steady_waves() -> Iterator[Check]:
         roof = roof_motion(wave, dt, building)[: wave.size]
         damped = (2.0 * zeta * ratio) ** 2
         expected = math.sqrt((1.0 + damped) / ((1.0 - ratio**2) ** 2 + damped))
-        found = float(np.abs(roof[-round(1.0 / dt) :]).max())
+        amplitude = float(np.abs(roof[-round(1.0 / dt) :]).max())
         name = f"Harmonic, frequency ratio r = {ratio:g}"
-        yield Check("RM-2", source, "Roof / ground", "1", name, expected, found, 1e-4)
+        yield Check("RM-2", source, "Roof / ground", "1", name, expected, amplitude, 1e-4)
 
 
 def _limits() -> Iterator[Check]:
@@ -172,10 +172,10 @@ def _mode(
     """Yield the rows of a mode: period ratio, 1 by definition for the first, and factor."""
     name = f"{problem}, mode {n}"
     if n > 1:
-        found = float(1.0 / modes.period_ratios[n - 1])
-        yield Check(id, source, "Period ratio T1 / Tn", "1", name, ratio, found, tolerance)
-    found = float(modes.factors[n - 1, 0])
-    yield Check(id, source, "Roof factor", "1", name, factor, found, tolerance)
+        computed = float(1.0 / modes.period_ratios[n - 1])
+        yield Check(id, source, "Period ratio T1 / Tn", "1", name, ratio, computed, tolerance)
+    computed = float(modes.factors[n - 1, 0])
+    yield Check(id, source, "Roof factor", "1", name, factor, computed, tolerance)
 
 
 def _finite_elements(alpha0: float, count: int = 64) -> tuple[list[float], list[float]]:
@@ -209,8 +209,8 @@ def _sums() -> Iterator[Check]:
         (math.inf, " in shear"),
     ):
         sums = np.cumsum(beam_modes(alpha0, 400).factors[:, 0])
-        found, name = float(0.5 * (sums[-1] + sums[-2])), f"Cantilever{kind}, all modes"
-        yield Check("RM-6", source, "Sum of roof factors", "1", name, 1.0, found, 1e-4)
+        total, name = float(0.5 * (sums[-1] + sums[-2])), f"Cantilever{kind}, all modes"
+        yield Check("RM-6", source, "Sum of roof factors", "1", name, 1.0, total, 1e-4)
 
 
 def _stories() -> Iterator[Check]:
@@ -219,9 +219,9 @@ def _stories() -> Iterator[Check]:
         angle = math.pi / (2.0 * stories + 1.0)
         shape = np.sin(angle * np.arange(1, stories + 1))
         expected = float(shape.sum() * shape[-1] / (shape**2).sum())
-        found = float(story_modes(math.inf, stories).factors[0, 0])
+        factor = float(story_modes(math.inf, stories).factors[0, 0])
         name = f"Shear building, stories: {stories}, first mode"
-        yield Check("RM-7", source, "Roof factor", "1", name, expected, found, 1e-9)
+        yield Check("RM-7", source, "Roof factor", "1", name, expected, factor, 1e-9)
 
 
 def _whole_building(made: FloorRecords) -> Check:
@@ -238,10 +238,10 @@ def _identified(comparison: RoofComparison) -> Iterator[Check]:
     best, name = comparison.predictions[0], "Model building, fitted"
     source = "Properties of the model building, as a beam half a story taller; fitted to two floors"
     ratio = ALPHA0 * (1.0 + 0.5 / STORIES)
-    for quantity, unit, expected, found, tolerance in (
+    for quantity, unit, expected, computed, tolerance in (
         ("First period", "s", PERIOD_S, best.period_s, 0.005),
         ("Damping", "1", DAMPING, best.damping, 0.02),
         ("Lateral stiffness ratio", "1", ratio, best.alpha0, 0.025),
         ("Unexplained fraction", "1", 0.0, best.unexplained, 0.01),
     ):
-        yield Check("RM-9", source, quantity, unit, name, expected, found, tolerance)
+        yield Check("RM-9", source, quantity, unit, name, expected, computed, tolerance)

@@ -178,9 +178,9 @@ def _friction_by_speed(triple: Motion) -> Iterator[Check]:
     for drop in (1e-4, 1e-5, 1e-6):
         slow = case.mu * (1.0 - drop)
         law = Friction(mu_slow=slow, mu_fast=case.mu, rate_s_per_m=30.0, mu_static=slow)
-        found = two_axes.run(scene_of(triple, case, law), TIGHT)
+        run = two_axes.run(scene_of(triple, case, law), TIGHT)
         name = f"Low-velocity friction lower by {100.0 * drop:.4g} %: {triple.id}, {case}"
-        yield Check("TA-6", source, "PRD", "m", name, plain.prd_m, found.prd_m, 50.0 * drop)
+        yield Check("TA-6", source, "PRD", "m", name, plain.prd_m, run.prd_m, 50.0 * drop)
 
 
 def _static_friction(triple: Motion) -> Iterator[Check]:
@@ -188,12 +188,12 @@ def _static_friction(triple: Motion) -> Iterator[Check]:
     case = MODEL_CASES[1]
     both = scene_of(triple, case, coulomb(case.mu))
     alone = scene_of(triple, case, coulomb(case.mu), second=False)
-    one, two = one_axis.run(alone).prd_m, two_axes.run(both, TIGHT).prd_m
+    prd_alone_m, prd_both_m = one_axis.run(alone).prd_m, two_axes.run(both, TIGHT).prd_m
     for excess in (1e-2, 1e-3, 1e-4):
         law = replace(both.friction, mu_static=(1.0 + excess) * case.mu)
         for id, scene, axes, kinetic_m, method in (
-            ("TA-7", alone, "one axis", one, "the exact method with vertical"),
-            ("TA-8", both, "two axes", two, "two axes with one coefficient"),
+            ("TA-7", alone, "one axis", prd_alone_m, "the exact method with vertical"),
+            ("TA-8", both, "two axes", prd_both_m, "two axes with one coefficient"),
         ):
             source = f"Converges to {method}: within 50 times the square of the difference"
             name = f"Static friction {100.0 * excess:g} % above kinetic, {axes}: {triple.id}, "
@@ -258,8 +258,8 @@ def _choices(triple: Motion) -> Iterator[Check]:
         ("Velocity-dependent friction", replace(full, friction=law), Model.SPEED_FRICTION),
     ):
         name = f"{what}: {triple.id}, {case.slope_deg:g}°, PPA = {case.ppa_g:g} g"
-        found = float(least_model.solve(scene, Settings()).model)
-        yield Check("TA-12", source, "Model chosen", "1", name, float(model), found, 0.0)
+        chosen = float(least_model.solve(scene, Settings()).model)
+        yield Check("TA-12", source, "Model chosen", "1", name, float(model), chosen, 0.0)
 
 
 def _against_scipy(triple: Motion, samples: int) -> Iterator[Check]:

@@ -243,8 +243,8 @@ def _number(row: _Row, key: str, problems: list[str]) -> float:
     except ValueError:
         value = math.nan
     if not low <= value <= high:
-        found = shown(text) if text else "nothing"
-        problems.append(f"{row.at(key)}: found {found}; give a number from {low:g} to {high:g}")
+        typed = shown(text) if text else "nothing"
+        problems.append(f"{row.at(key)}: found {typed}; give a number from {low:g} to {high:g}")
         return math.nan
     return unit * value
 

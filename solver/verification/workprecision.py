@@ -168,13 +168,15 @@ def work(triple: Motion, *, quick: bool) -> pd.DataFrame:
     """
     part = cut(triple, SAMPLES[not quick])
     scene = scene_of(part, CASE, coulomb(CASE.mu))
-    solvers = [(solver, v0, given[:2]) for solver, v0, given in SCIPY[:3]] if quick else SCIPY
+    solvers = (
+        [(solver, v0, tolerances[:2]) for solver, v0, tolerances in SCIPY[:3]] if quick else SCIPY
+    )
     steps = {f"P = {count}": count for count in SUBSTEPS}
-    found = _measured_in_plane(scene, _runs_in_plane(scene, TOLERANCES, steps, solvers))
+    measured = _measured_in_plane(scene, _runs_in_plane(scene, TOLERANCES, steps, solvers))
     # Their errors of the PRD may be zero by chance.
     largest = [_largest_percent(scene, tolerance) for tolerance in TOLERANCES]
-    found.loc[found["method"] == OURS, "PRD error [%]"] = largest
-    return found.assign(case=f"{part.id}, {CASE}")
+    measured.loc[measured["method"] == OURS, "PRD error [%]"] = largest
+    return measured.assign(case=f"{part.id}, {CASE}")
 
 
 def stops() -> pd.DataFrame:

@@ -123,8 +123,8 @@ def _by_speed(array: DraftRow) -> list[str]:
 def _clearances(draft: Draft, where: Where) -> Iterator[Finding]:
     fields = ("array", "object", "direction")
     rows = enumerate(draft["clearances"])
-    given = ((Place("clearances", i, "array"), tuple(map(row.get, fields))) for i, row in rows)
-    for place, (array, *_), first in repeated(cell for cell in given if None not in cell[1]):
+    named = ((Place("clearances", i, "array"), tuple(map(row.get, fields))) for i, row in rows)
+    for place, (array, *_), first in repeated(cell for cell in named if None not in cell[1]):
         text = f"array is '{array}', with the same object and direction as at {where(first)}"
         yield Finding.error(place, text, "delete one")
     shapes = shapes_of(draft)
@@ -162,8 +162,8 @@ def _room(
         return
     boxes = isinstance(a, Rectangle) and isinstance(b, Rectangle)
     noun = "rectangles" if boxes else "outlines"
-    given, most = (pair(max(m, 0.0), Quantity.SIZE, us_first(draft)) for m in (provided, gap))
-    at, text = places_of(draft, (str(array), str(other)), where), f"provided clearance is {given}"
+    stated, most = (pair(max(m, 0.0), Quantity.SIZE, us_first(draft)) for m in (provided, gap))
+    at, text = places_of(draft, (str(array), str(other)), where), f"provided clearance is {stated}"
     if gap < -1e-9:
         text += f", but {array} and {other} overlap in plan"
         yield Finding.error(place, text, f"correct their {noun} in {at}")
@@ -176,8 +176,8 @@ def _links(draft: Draft, where: Where) -> Iterator[Finding]:
     arrays = {name: place for place, name in column(draft, ("arrays",), "id")}
     named = list(column(draft, ("links",), "array"))
     for place, name, first in repeated(named):
-        found = f"array is '{name}', already given at {where(first)}"
-        yield Finding.error(place, found, "delete one")
+        fault = f"array is '{name}', already given at {where(first)}"
+        yield Finding.error(place, fault, "delete one")
     for place, name in named:
         array = draft["arrays"][arrays[name].row] if name in arrays else {}
         if "mu" in array and _by_speed(array):
@@ -201,23 +201,23 @@ def _blocks(
     mu = draft["arrays"][home.row].get("mu") if home else None
     if home is not None and mu is not None and not min(mus) <= mu <= max(mus):
         side, at = "above" if mu < min(mus) else "below", where(home._replace(field="mu"))
-        found = f"block friction is '{text}', all {side} the {mu:g} at {at}"
-        yield Finding.error(place, found, "give a range that includes it, or change it")
+        fault = f"block friction is '{text}', all {side} the {mu:g} at {at}"
+        yield Finding.error(place, fault, "give a range that includes it, or change it")
 
 
 def _smaller_events(draft: Draft, where: Where) -> Iterator[Finding]:
     for place, text in column(draft, ("options",), "smaller_events"):
         if text and not factors(text):
             wanted = "give up to 20 factors with decimal points, above 0.0 and up to 1.0"
-            found = f"smaller events is '{cut(text)}'"
-            yield Finding.error(place, found, f"{wanted}, such as 0.50, 0.25")
+            fault = f"smaller events is '{cut(text)}'"
+            yield Finding.error(place, fault, f"{wanted}, such as 0.50, 0.25")
 
 
 def _overrides(draft: Draft, where: Where) -> Iterator[Finding]:
-    given = list(column(draft, ("overrides",), "provision"))
+    keys = list(column(draft, ("overrides",), "provision"))
     names = {key: provision_name(key) for key in OVERRIDABLE}
     rules = next((RULE_SETS[name] for _, name in column(draft, ("site",), "rule_set")), None)
-    for place, key in given:
+    for place, key in keys:
         if key not in names:
             near = nearest(key, names.values())
             wanted = (
@@ -225,14 +225,14 @@ def _overrides(draft: Draft, where: Where) -> Iterator[Finding]:
             )
             yield Finding.error(place, f"provision is '{cut(key)}'", wanted)
         elif rules and key not in rules.values:
-            found = f"provision is '{names[key]}', which {rules.name} does not have"
-            yield Finding.error(place, found, "delete the row")
-    for place, key, first in repeated(cell for cell in given if cell[1] in names):
-        found = f"provision is '{names[key]}', already given at {where(first)}"
-        yield Finding.error(place, found, "delete one")
+            fault = f"provision is '{names[key]}', which {rules.name} does not have"
+            yield Finding.error(place, fault, "delete the row")
+    for place, key, first in repeated(cell for cell in keys if cell[1] in names):
+        fault = f"provision is '{names[key]}', already given at {where(first)}"
+        yield Finding.error(place, fault, "delete one")
     for place, value in column(draft, ("overrides",), "value"):
         key = draft["overrides"][place.row].get("provision", "")
         allowed = ALLOWED.get(key)
         if allowed and not allowed.has(value):
-            found = f"value is {value:g} for the {OVERRIDABLE[key]}"
-            yield Finding.error(place, found, f"give {allowed.words}")
+            fault = f"value is {value:g} for the {OVERRIDABLE[key]}"
+            yield Finding.error(place, fault, f"give {allowed.words}")

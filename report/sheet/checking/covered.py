@@ -112,10 +112,10 @@ def _hashes(
             rows = [row for row in rows if row.source is ClearanceSource.DRAWING]
         of = {name: earlier.get(key) or SECTION[key].sheet_of(name) for name in sorted(fields)}
         for sheet, together in grouped_by(of, of.__getitem__).items():
-            found = [*filter(None, (_line(key, row, together) for row in rows))]
-            found += records if key == "motions" else ()
-            if found:
-                lines.setdefault(sheet, []).extend([key, *found])
+            hashes = [*filter(None, (_line(key, row, together) for row in rows))]
+            hashes += records if key == "motions" else ()
+            if hashes:
+                lines.setdefault(sheet, []).extend([key, *hashes])
     return {
         sheet: hashlib.sha256("\n".join(each).encode()).hexdigest()[:_LETTERS]
         for sheet, each in lines.items()
@@ -124,9 +124,9 @@ def _hashes(
 
 def _line(key: str, row: Frozen, fields: Sequence[str]) -> str:
     """Return a row as text: a number in any unit is the same, and a default is none."""
-    given = row.model_dump(include=set(fields), exclude_defaults=True)
+    values = row.model_dump(include=set(fields), exclude_defaults=True)
     order = {name: at for at, name in enumerate(layout.ORDERS.get(key, "").split())}
     return "; ".join(
         f"{name} {value:.9g}" if isinstance(value, float) else f"{name} {value}"
-        for name, value in sorted(given.items(), key=lambda item: order.get(item[0], len(order)))
+        for name, value in sorted(values.items(), key=lambda item: order.get(item[0], len(order)))
     )

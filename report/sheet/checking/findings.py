@@ -72,9 +72,9 @@ def grouped(problems: Iterable[Problem]) -> Iterator[Group]:
 
 def listed(names: Iterable[str], most: int = MOST_LISTED) -> str:
     """Return the first few of the names, with the count of the others."""
-    given = list(dict.fromkeys(names))
-    more = len(given) - most
-    return ", ".join(given[:most]) + (f" and {more:,} more" if more > 0 else "")
+    unique = list(dict.fromkeys(names))
+    more = len(unique) - most
+    return ", ".join(unique[:most]) + (f" and {more:,} more" if more > 0 else "")
 
 
 def column(draft: Draft, sections: Iterable[str], field: str) -> Iterator[tuple[Place, Any]]:
@@ -127,15 +127,19 @@ def acknowledged(data: ProjectInput, findings: Iterable[Finding]) -> tuple[Findi
 
     An acknowledgment of no warning is a note.
     """
-    found = tuple(findings)
+    all_findings = tuple(findings)
     reasons = {_key(row.warning): row.reason for row in data.acknowledged}
-    answered = [replace(f, reason=reasons.get(_key(f.id), "") if f.id else "") for f in found]
-    return in_order([*answered, *_idle(data, found)])
+    answered = [
+        replace(f, reason=reasons.get(_key(f.id), "") if f.id else "") for f in all_findings
+    ]
+    return in_order([*answered, *_idle(data, all_findings)])
 
 
 def in_order(findings: Iterable[Finding]) -> tuple[Finding, ...]:
     """Return findings in the order of the template."""
-    return tuple(sorted(findings, key=lambda one: (_ORDER[one.place.section], one.place.row)))
+    return tuple(
+        sorted(findings, key=lambda finding: (_ORDER[finding.place.section], finding.place.row))
+    )
 
 
 def located(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterator[str]:
@@ -158,9 +162,9 @@ class FindingGroup:
 
 def lines(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterator[FindingGroup]:
     """Yield findings with their cells, in order; equal ones once, at the place of the first."""
-    found = tuple(findings)
+    all_findings = tuple(findings)
     alike: dict[tuple[str, ...], list[tuple[Finding, str]]] = {}
-    for finding, cell in zip(found, located(found, addresses), strict=True):
+    for finding, cell in zip(all_findings, located(all_findings, addresses), strict=True):
         has_id = "id" if finding.id else ""
         key = (finding.level, finding.place.section, finding.text, finding.reason, has_id)
         alike.setdefault(key, []).append((finding, cell))
@@ -178,13 +182,13 @@ def _key(name: str) -> str:
     return " ".join(name.split()).casefold()
 
 
-def _idle(data: ProjectInput, found: Iterable[Finding]) -> Iterator[Finding]:
-    given = [finding.id for finding in found if finding.id]
-    known = {_key(name) for name in given}
+def _idle(data: ProjectInput, findings: Iterable[Finding]) -> Iterator[Finding]:
+    ids = [finding.id for finding in findings if finding.id]
+    known = {_key(name) for name in ids}
     for index, row in enumerate(data.acknowledged):
         if _key(row.warning) not in known:
             text = f"warning is '{row.warning}', which is not given; "
-            text += suggestion(row.warning, given) if given else "delete the row"
+            text += suggestion(row.warning, ids) if ids else "delete the row"
             yield note(Place("acknowledged", index, "warning"), text)
 
 
@@ -196,8 +200,8 @@ def unusual(data: ProjectInput) -> Iterator[Finding]:
     """Yield a warning for each number outside its usual range."""
     is_us = data.us_first
     for section in SECTIONS:
-        found = getattr(data, section.key)
-        for index, row in enumerate(found if section.is_table else (found,)):
+        rows = getattr(data, section.key)
+        for index, row in enumerate(rows if section.is_table else (rows,)):
             for entry in entries(section.model):
                 value, span = getattr(row, entry.name), entry.expected
                 if entry.cell.usual is None or value is None or _is_bare_edge(row, value):
@@ -209,8 +213,8 @@ def unusual(data: ProjectInput) -> Iterator[Finding]:
 def _warning(section: SheetSection, index: int, entry: Entry, row: Frozen, is_us: bool) -> Finding:
     unit = entry.unit(is_us=is_us)
     symbol, si = (unit.symbol, unit.si) if unit else (str(entry.cell.unit), 1.0)
-    given, span = f"{getattr(row, entry.name) / si:.4g}", entry.expected.words(si)
-    text = f"{entry.spoken} is {given} {symbol}".rstrip() + f"; {span} {symbol}".rstrip()
+    value, span = f"{getattr(row, entry.name) / si:.4g}", entry.expected.words(si)
+    text = f"{entry.spoken} is {value} {symbol}".rstrip() + f"; {span} {symbol}".rstrip()
     name = " ".join(f"usual {entry.spoken} {_named(row)}".split())
     place = Place(section.key, index, entry.name)
     return warning(name, place, f"{text} is usual: correct the value or its unit")

@@ -97,8 +97,8 @@ def _own_spectrum(draft: Draft, where: Where) -> Iterator[Finding]:
     rows = draft["spectrum"]
     if len(rows) == 1:
         yield Finding.error(Place("spectrum"), "one row is given", "give at least two, or none")
-    given = [(row["period_s"], index) for index, row in enumerate(rows) if "period_s" in row]
-    for (before, first), (after, second) in pairwise(sorted(given)):
+    periods = [(row["period_s"], index) for index, row in enumerate(rows) if "period_s" in row]
+    for (before, first), (after, second) in pairwise(sorted(periods)):
         if after - before <= 1e-9 * after:
             at = where(Place("spectrum", first, "period_s"))
             text = f"period is {after:g} s, already given at {at}"
@@ -197,12 +197,12 @@ def _report(draft: Draft, row: DraftRow) -> str:
 
 
 def _repeated(draft: Draft, where: Where) -> Iterator[Finding]:
-    given = (
+    files = (
         (place, (_report(draft, row).casefold(), row["surface"], row.get("velocity_mps"), number))
         for place, number in column(draft, ("friction_runs",), "number")
         if "surface" in (row := draft["friction_runs"][place.row])
     )
-    for place, (_, surface, _, number), first in repeated(given):
+    for place, (_, surface, _, number), first in repeated(files):
         text = f"run is {number}, {surface}, already given at {where(first)}"
         yield Finding.error(place, text, "give another number")
 
@@ -235,9 +235,9 @@ def _first(draft: Draft, tests: Series, where: Where) -> str:
 
 def _beyond(index: int, law: Friction, tests: Series, at: str) -> Iterator[Finding]:
     by_velocity = law.mu_fast != law.mu_slow
-    given, tested = tests.mean_of(law), tests.mean
-    if given > tested + MU_TOLERANCE:
-        says = f"averages {given:.3g} at the tested velocities" if by_velocity else f"is {given:g}"
+    mean, tested = tests.mean_of(law), tests.mean
+    if mean > tested + MU_TOLERANCE:
+        says = f"averages {mean:.3g} at the tested velocities" if by_velocity else f"is {mean:g}"
         text = f"friction coefficient {says}; the tests give {tested:.3g} ({tests.surface}, mean"
         runs = f" of {len(tests.runs)} from {at})"
         wanted = "reduce it" if by_velocity else f"give {tested:.3g} or less"

@@ -143,8 +143,8 @@ def missing(draft: Draft, where: Where) -> Iterator[Finding]:
         for index, row in enumerate(draft[section]):
             is_blank = field in row and row[field] in (None, "")
             if is_blank and required.when(row, draft):
-                found = f"{SECTION[section].entry(field).spoken} is missing"
-                yield Finding.error(Place(section, index, field), found, required.wish)
+                fault = f"{SECTION[section].entry(field).spoken} is missing"
+                yield Finding.error(Place(section, index, field), fault, required.wish)
 
 
 LEAST_VERTICES, MOST_OVERLAPS = 3, 1_000
@@ -175,8 +175,8 @@ def shapes_of(draft: Draft) -> dict[str, Shape]:
     """Return the shape of each array and object that has a valid one, by id."""
     outlines = _outlines(draft)
     rows = {row["id"]: row for _, row in _rows(draft) if "id" in row}
-    found = {name: _shape(row, outlines.get(name)) for name, row in rows.items()}
-    return {name: shape for name, shape in found.items() if shape is not None}
+    shapes = {name: _shape(row, outlines.get(name)) for name, row in rows.items()}
+    return {name: shape for name, shape in shapes.items() if shape is not None}
 
 
 def places_of(draft: Draft, names: Iterable[str], where: Where) -> str:
@@ -209,22 +209,22 @@ def _shape(row: DraftRow, outline: _Outline | None) -> Shape | None:
         points = ring(outline.vertices)
         is_ring = len(points) >= LEAST_VERTICES and crossing(points) is None
         return Polygon(points) if is_ring else None
-    given = [row[side] for side in SIDES if row.get(side) is not None]
-    if len(given) < len(SIDES):
+    sides = [row[side] for side in SIDES if row.get(side) is not None]
+    if len(sides) < len(SIDES):
         return None
-    x_from, x_to, y_from, y_to = given
-    return Rectangle(*given) if x_from < x_to and y_from < y_to else None
+    x_from, x_to, y_from, y_to = sides
+    return Rectangle(*sides) if x_from < x_to and y_from < y_to else None
 
 
 def _outlines(draft: Draft) -> dict[str, _Outline]:
     """Return the outlines by name, in the order of the workbook."""
-    found: dict[str, list[tuple[Place, DraftRow]]] = {}
+    by_name: dict[str, list[tuple[Place, DraftRow]]] = {}
     for place, row in _rows(draft, ("outlines",)):
         if "name" in row:
             name = ROOF if row["name"].casefold() == ROOF else row["name"]
-            found.setdefault(name, []).append((place._replace(field="name"), row))
+            by_name.setdefault(name, []).append((place._replace(field="name"), row))
     outlines = {}
-    for name, rows in found.items():
+    for name, rows in by_name.items():
         is_whole = all("x_m" in row and "y_m" in row for _, row in rows)
         vertices = tuple((row["x_m"], row["y_m"]) for _, row in rows) if is_whole else ()
         outlines[name] = _Outline(name, rows[0][0], vertices)
@@ -237,11 +237,11 @@ def _rectangles(draft: Draft, where: Where) -> Iterator[Finding]:
             low, high = row.get(first), row.get(last)
             if low is None or high is None or low < high:
                 continue
-            given, least = (pair(value, Quantity.PLAN, us_first(draft)) for value in (high, low))
+            shown, least = (pair(value, Quantity.PLAN, us_first(draft)) for value in (high, low))
             at = where(place._replace(field=first))
             wanted = f"give more than {_label(first)} in {at}, {least}"
-            found = f"{_label(last)} is {given}"
-            yield Finding.error(place._replace(field=last), found, wanted)
+            fault = f"{_label(last)} is {shown}"
+            yield Finding.error(place._replace(field=last), fault, wanted)
 
 
 def _label(side: str) -> str:
@@ -324,9 +324,9 @@ def _on_the_roof(draft: Draft, where: Where) -> Iterator[Finding]:
                 yield from _beyond(roof, index, array, draft, where)
                 continue
             shape = _shape(array, own)
-            found = outside(shape, roof) if shape is not None else None
-            if found is not None:
-                text = f"{array.get('id')} is outside the roof near {spot(found, us_first(draft))}"
+            beyond = outside(shape, roof) if shape is not None else None
+            if beyond is not None:
+                text = f"{array.get('id')} is outside the roof near {spot(beyond, us_first(draft))}"
                 place = Place("arrays", index, "x_from_m") if own is None else own.place
                 wanted = f"correct it, or the outline of the roof at {where(at)}"
                 yield Finding.error(place, text, wanted)
@@ -340,9 +340,9 @@ def _beyond(
         value, edge, is_low = array.get(side), getattr(roof, side), "from" in side
         if value is None or (value >= edge if is_low else value <= edge):
             continue
-        given, limit = (pair(at, Quantity.PLAN, us_first(draft)) for at in (value, edge))
+        shown, limit = (pair(at, Quantity.PLAN, us_first(draft)) for at in (value, edge))
         inside, at = "more" if is_low else "less", where(Place("roof", 0, side))
-        text = f"{_label(side)} is {given}, outside the roof"
+        text = f"{_label(side)} is {shown}, outside the roof"
         wanted = f"give {limit} or {inside}, or correct the outline at {at}"
         yield Finding.error(Place("arrays", index, side), text, wanted)
 
@@ -360,14 +360,14 @@ class _Body:
 
 def _overlaps(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield arrays that overlap each other or an object; `checks` has those with a clearance."""
-    given = {frozenset((row.get("array"), row.get("object"))) for row in draft["clearances"]}
+    cleared = {frozenset((row.get("array"), row.get("object"))) for row in draft["clearances"]}
     bodies = sorted(_bodies(draft), key=lambda body: body.bounds.x_from_m)
     for count, one in enumerate(bodies):
         for other in bodies[count + 1 :]:
             if other.bounds.x_from_m >= one.bounds.x_to_m:
                 break
             first, second = sorted((one, other), key=lambda body: (not body.is_array, body.place))
-            if not first.is_array or frozenset((one.name, other.name)) in given:
+            if not first.is_array or frozenset((one.name, other.name)) in cleared:
                 continue
             if gap_m(one.bounds, other.bounds) < 0.0 and gap_m(one.shape, other.shape) < -NEAR_M:
                 text = f"{first.name} and {second.name} at {where(second.place)} overlap in plan"

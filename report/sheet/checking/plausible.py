@@ -52,10 +52,10 @@ _FROM_DOWNSLOPE_DEG: Mapping[Direction, tuple[float, ...]] = {
 def implausible(data: ProjectInput) -> Iterator[Finding]:
     """Yield a warning for each value that is permitted and improbable, one for a cell."""
     short = _short_of_plan(data)
-    found = [*_contradictory(data), *_provided(data, short)]
-    told = {finding.place for finding in found if finding.level is Level.WARNING}
+    findings = [*_contradictory(data), *_provided(data, short)]
+    told = {finding.place for finding in findings if finding.level is Level.WARNING}
     told |= {Place("clearances", index, "provided_m") for index in short}
-    yield from found
+    yield from findings
     yield from (finding for finding in unusual(data) if finding.place not in told)
 
 
@@ -99,8 +99,8 @@ def _short_of_plan(data: ProjectInput) -> dict[int, float]:
 def _dates(data: ProjectInput) -> Iterator[Finding]:
     """Yield sources that are later than the package, and a revision that its block lacks."""
     issue = data.project
-    given = [row.revision for row in data.revisions]
-    if issue.revision.casefold() not in (name.casefold() for name in given):
+    revisions = [row.revision for row in data.revisions]
+    if issue.revision.casefold() not in (name.casefold() for name in revisions):
         text = f"revision is '{issue.revision}', which is not in the revision block; add its row"
         text += ", or correct it"
         yield warning(f"revision {issue.revision}", Place("project", 0, "revision"), text)
@@ -120,26 +120,26 @@ def _dates(data: ProjectInput) -> Iterator[Finding]:
 def _height(data: ProjectInput, us_first: bool) -> Iterator[Finding]:
     z, h = data.site.roof_height_m, data.site.structure_height_m
     if z > h:
-        given, most = (pair(value, Quantity.PLAN, us_first) for value in (z, h))
-        text = f"height of the array z is {given}, above the structure height h of {most};"
+        height, most = (pair(value, Quantity.PLAN, us_first) for value in (z, h))
+        text = f"height of the array z is {height}, above the structure height h of {most};"
         yield warning("height z", Place("site", 0, "roof_height_m"), f"{text} correct one of them")
 
 
 def _site_coefficients(site: Site) -> Iterator[Finding]:
     # Less than the table is an error, except with a site-specific analysis (`site_checks`).
-    for table, field, given, mapped, mapped_g in (
+    for table, field, coefficient, mapped, mapped_g in (
         (F_A, "f_a", site.f_a, "S_S", site.s_s_g),
         (F_V, "f_v", site.f_v, "S_1", site.s_1_g),
     ):
         has_row = site.edition.name == table.edition and site.site_class in table.rows
-        if not has_row or given is None or mapped_g is None:
+        if not has_row or coefficient is None or mapped_g is None:
             continue
         tabulated = site_coefficient(table, str(site.site_class), mapped_g)
-        if math.isnan(tabulated) or abs(given - tabulated) <= ROUNDING_OF_COEFFICIENTS:
+        if math.isnan(tabulated) or abs(coefficient - tabulated) <= ROUNDING_OF_COEFFICIENTS:
             continue
         text = (
-            f"{table.symbol} is {given:g}, {'less' if given < tabulated else 'more'} than"
-            f" {tabulated:.4g} in {table.clause} for site class {site.site_class} and {mapped}"
+            f"{table.symbol} is {coefficient:g}, {'less' if coefficient < tabulated else 'more'} "
+            f"than {tabulated:.4g} in {table.clause} for site class {site.site_class} and {mapped}"
             f" {mapped_g:g} g"
         )
         yield note(Place("site", 0, field), text)
@@ -157,22 +157,22 @@ def _weight(index: int, array: Array, us_first: bool) -> Iterator[Finding]:
     place = Place("arrays", index, "weight_n")
     pressure, parts_n = array.weight_n / array.shape.area_m2, array.parts_n
     if parts_n is not None and abs(array.weight_n - parts_n) > SAME_WEIGHT * parts_n:
-        given, of_parts = (
+        weight, of_parts = (
             pair(value, Quantity.WEIGHT, us_first) for value in (array.weight_n, parts_n)
         )
         text = (
-            f"weight is {given}, but {numbered(array.modules or 0, 'module')} and the ballast are"
+            f"weight is {weight}, but {numbered(array.modules or 0, 'module')} and the ballast are"
         )
         text += f" {of_parts}, more than {SAME_WEIGHT:.0%} apart; correct one of them"
         yield warning(f"weight of modules {array.id}", place, text)
     if LEAST_PRESSURE_PA <= pressure <= MOST_PRESSURE_PA:
         return
-    given = pair(array.weight_n, Quantity.WEIGHT, us_first)
+    weight = pair(array.weight_n, Quantity.WEIGHT, us_first)
     per_area, low, high = (
         pair(value, Quantity.PRESSURE, us_first)
         for value in (pressure, LEAST_PRESSURE_PA, MOST_PRESSURE_PA)
     )
-    text = f"weight is {given}, {per_area} on the plan area; {low} to {high} is usual: correct the"
+    text = f"weight is {weight}, {per_area} on the plan area; {low} to {high} is usual: correct the"
     yield warning(f"weight {array.id}", place, f"{text} weight, its unit, or the plan")
 
 
@@ -233,10 +233,10 @@ def _provided(data: ProjectInput, short: Mapping[int, float]) -> Iterator[Findin
             continue
         for index in rows:
             row, place = data.clearances[index], Place("clearances", index, "provided_m")
-            given, plan = (
+            stated, plan = (
                 pair(value, Quantity.SIZE, us_first) for value in (row.provided_m, short[index])
             )
-            text = f"provided clearance is {given}, but {row.array} and {row.object} are {plan}"
+            text = f"provided clearance is {stated}, but {row.array} and {row.object} are {plan}"
             text += " apart in plan; correct it or the plan"
             yield warning(f"clearance {spoken(row)}", place, text)
 

@@ -51,8 +51,8 @@ def site_faults(draft: Draft, where: Where) -> Iterator[Finding]:
         yield from _sdc(row)
 
 
-def _fault(field: str, found: str, wanted: str) -> Finding:
-    return Finding.error(Place("site", 0, field), found, wanted)
+def _fault(field: str, fault: str, wanted: str) -> Finding:
+    return Finding.error(Place("site", 0, field), fault, wanted)
 
 
 def _importance(row: DraftRow) -> Iterator[Finding]:
@@ -103,9 +103,9 @@ def _agreement(row: DraftRow, edition: Edition, chain: _Chain) -> Iterator[Findi
         (design, f"2/3 {label}", _design(maximum)),
         (design, f"2/3 {factors}", _design(product)),
     ):
-        given = row.get(field)
-        if given is not None and derived is not None and abs(given - derived) > AGREES_G:
-            text = f"{symbol} is {given:g} g, but {words} is {derived:.4f} g"
+        value = row.get(field)
+        if value is not None and derived is not None and abs(value - derived) > AGREES_G:
+            text = f"{symbol} is {value:g} g, but {words} is {derived:.4f} g"
             yield _fault(field, text, "leave one of them blank, or correct it")
             return
 
@@ -129,17 +129,17 @@ def _below_table(
     A given coefficient is compared with the table, and `_agreement` compares the rest with it.
     """
     (mapped, symbol), (coefficient, factor), maximum, design = chain
-    mapped_g, given = row.get(mapped), row.get(coefficient)
+    mapped_g, entered = row.get(mapped), row.get(coefficient)
     tabulated = _tabulated(row, edition, mapped_g, table)
     if mapped_g is None or coefficient not in row or math.isnan(tabulated):
         return
     of_class = f"for site class '{site_class_or_default(row['site_class'])}'"
     of_class += "" if row["site_class"] else ", assumed because none is given"
-    if given is not None:
-        if given < tabulated - ROUNDING_OF_COEFFICIENTS:
+    if entered is not None:
+        if entered < tabulated - ROUNDING_OF_COEFFICIENTS:
             wanted = f"give at least {tabulated:.4g} {of_class} and {symbol} of {mapped_g:g} g in"
             at = where(Place("site", 0, mapped))
-            yield _or_study(coefficient, f"{factor} is {given:g}", f"{wanted} {at}", table)
+            yield _or_study(coefficient, f"{factor} is {entered:g}", f"{wanted} {at}", table)
         return
     for (name, label), share, words in ((maximum, 1.0, ""), (design, 2.0 / 3.0, "2/3 ")):
         value, least = row.get(name), share * tabulated * mapped_g
@@ -164,16 +164,16 @@ def _tabulated(
     return math.nan if has_none else site_coefficient(table, site_class, mapped_g)
 
 
-def _or_study(field: str, found: str, wanted: str, table: CoefficientTable) -> Finding:
+def _or_study(field: str, fault: str, wanted: str, table: CoefficientTable) -> Finding:
     out = f"or select the hazard basis '{HazardBasis.SITE_SPECIFIC}' and give its report"
-    return _fault(field, found, f"{wanted} ({table.clause}†), {out}")
+    return _fault(field, fault, f"{wanted} ({table.clause}†), {out}")
 
 
 def _sdc(row: DraftRow) -> Iterator[Finding]:
     parameters, risk_category = site_parameters(row), row.get("risk_category")
     if "sdc" not in row or not parameters or parameters.s_ds is None or risk_category is None:
         return
-    sdc, found = row["sdc"], categories(row)
+    sdc, possible = row["sdc"], categories(row)
     if sdc is None:
         lacking = {"S_1": row["s_1_g"], "S_D1": parameters.s_d1}
         others = " and ".join(name for name, value in lacking.items() if value is None)
@@ -184,7 +184,7 @@ def _sdc(row: DraftRow) -> Iterator[Finding]:
         (f"S_D1 = {parameters.s_d1 or 0.0:.3f} g", "ASCE 7 Table 11.6-2"),
         (f"S_1 = {row['s_1_g'] or 0.0:g} g", "ASCE 7 section 11.6"),
     )
-    least, (reason, clause) = max(zip(found, reasons, strict=True), key=lambda by: by[0])
+    least, (reason, clause) = max(zip(possible, reasons, strict=True), key=lambda by: by[0])
     if sdc < least:
         wanted = f"{reason} in risk category {risk_category} requires {least} or higher ({clause})"
         yield _fault("sdc", f"{_SDC} is '{sdc}'", wanted)

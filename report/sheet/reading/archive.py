@@ -111,7 +111,7 @@ def book_of(path: Path, data: bytes) -> OpenBook:
         book=book,
         scans=scans,
         calculation=parts[_WORKBOOK].calculation,
-        outside=tuple(dict.fromkeys(one for scan in parts.values() for one in scan.outside)),
+        outside=tuple(dict.fromkeys(link for scan in parts.values() for link in scan.outside)),
     )
 
 
@@ -204,19 +204,19 @@ def _content(archive: zipfile.ZipFile, name: str) -> bytes:
 
 
 def _scans_by_title(archive: zipfile.ZipFile, scans: Mapping[str, Scan]) -> dict[str, Scan]:
-    found = {}
+    by_title = {}
     for title, part in sheet_parts(archive):
         # openpyxl would skip it, and its rows would be lost without a word.
         if part not in scans:
             raise InputError(
                 f"sheet '{title}': its part {part or '(no name)'} is missing; {REOPEN}"
             )
-        found[title] = scans[part]
+        by_title[title] = scans[part]
         if cell := scans[part].twice:
             raise InputError(f"{title}!{cell}: the file has this cell twice; {REOPEN}")
     if name := scans[_WORKBOOK].twice:
         raise InputError(f"the file has the name {name} twice; {REOPEN}")
-    return found
+    return by_title
 
 
 def sheet_parts(archive: zipfile.ZipFile) -> list[tuple[str, str]]:

@@ -289,22 +289,22 @@ def _number_in_text(text: str, wanted: str, unit: str) -> float:
 def _date(cell: Found, wanted: str) -> date:
     value = cell.value
     if isinstance(value, datetime):
-        found = value.date()
+        day = value.date()
     elif isinstance(value, date):
-        found = value
+        day = value
     elif isinstance(value, int | float) and EARLIEST_DAY <= value <= LATEST_DAY:
         # SheetJS writes dates without their format.
-        found = (cell.day_zero + timedelta(days=int(value))).date()
+        day = (cell.day_zero + timedelta(days=int(value))).date()
     else:
         meant = dates_in(value.strip()) if isinstance(value, str) else []
         if len(meant) != 1:
             either = f"write {' or '.join(map(str, meant))}" if meant else wanted
             raise CellError(f"is {_quoted(value)}", either)
-        (found,) = meant
+        (day,) = meant
     # A spreadsheet shows a small number, such as 3.5, as a day of 1900.
-    if found < EARLIEST:
-        raise CellError(f"is {found}, before {EARLIEST}", wanted)
-    return found
+    if day < EARLIEST:
+        raise CellError(f"is {day}, before {EARLIEST}", wanted)
+    return day
 
 
 def _choice(cell: Found, entry: Entry, wanted: str) -> StrEnum | bool:

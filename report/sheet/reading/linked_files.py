@@ -99,19 +99,19 @@ def _meant(folder: Path, name: str, taken: Iterable[str]) -> str:
 
 def read_documents(book: OpenBook, draft: Draft) -> tuple[tuple[Document, ...], list[Finding]]:
     """Return the documents that a workbook attaches, and what is wrong with them."""
-    found: list[Document] = []
+    documents: list[Document] = []
     faults: list[Finding] = []
     for section, field in DOCUMENTS:
         entry = SECTION[section].entry(field)
         for name in filter(None, (row.get(field) for row in draft[section])):
-            left = MAX_DOCUMENTS - sum(document.size for document in found)
+            left = MAX_DOCUMENTS - sum(document.size for document in documents)
             try:
-                found.append(_document(book, entry, name, left))
+                documents.append(_document(book, entry, name, left))
             except InputError as error:
                 (problem,) = error.parts
                 text, place = f"{entry.spoken}: {problem.found}", Place(section, 0, field)
                 faults.append(Finding.error(place, text, problem.remedy))
-    return tuple(found), faults
+    return tuple(documents), faults
 
 
 def _document(book: OpenBook, entry: Entry, name: str, left: int) -> Document:

@@ -141,8 +141,8 @@ def _check_reach(book: OpenBook, sheet: Worksheet, top: int) -> None:
     if extent.last_column > MAX_COLUMNS:
         far.append((extent.column_cell, f"beyond column {get_column_letter(MAX_COLUMNS)}"))
     if far:
-        found = [(f"contains data {where}", f"{sheet.title}!{cell}") for cell, where in far]
-        raise InputError([Problem(text, "clear it", at) for text, at in found])
+        stray = [(f"contains data {where}", f"{sheet.title}!{cell}") for cell, where in far]
+        raise InputError([Problem(text, "clear it", at) for text, at in stray])
 
 
 def _columns(
@@ -179,8 +179,8 @@ def _columns(
             absent.append(entry.name)
         elif entry.name not in places:
             # With an unknown heading no field counts as absent: the heading may be a renamed one.
-            found = f", '{found_at(book, following).value}' found" if following in others else ""
-            missing = f"heading '{entry.cell.label}' is missing{found}"
+            instead = f", '{found_at(book, following).value}' found" if following in others else ""
+            missing = f"heading '{entry.cell.label}' is missing{instead}"
             wanted = f"write it here in its own column, or {FRESH}"
             problems.append(Problem(missing, wanted, following.address))
         following = replace(following, column=places.get(entry.name, following).column + 1)
@@ -219,10 +219,10 @@ class TableArea:
 
 def table_area(book: OpenBook, section: SheetSection) -> TableArea | None:
     """Return the table of a section, found by its name; None without one."""
-    found = _table_named(book, section)
-    if found is None:
+    area = _table_named(book, section)
+    if area is None:
         return None
-    sheet, left, top, right, totals = found
+    sheet, left, top, right, totals = area
     places = [CellPosition(sheet.title, top, column) for column in range(left, right + 1)]
     return TableArea(
         sheet=sheet.title,
@@ -247,12 +247,12 @@ def find_cell(book: OpenBook, section: SheetSection, entry: Entry) -> CellPositi
 def beside(book: OpenBook, section: SheetSection) -> Mapping[str, list[CellPosition]]:
     """Return the cells with content beside the labels of each field on the sheets of a block."""
     fields = fields_by_label(section)
-    found: dict[str, list[CellPosition]] = {}
+    by_field: dict[str, list[CellPosition]] = {}
     for position, label in _labels(book, section):
         at = replace(position, column=position.column + 1)
         if label in fields and not found_at(book, at).is_blank:
-            found.setdefault(fields[label].name, []).append(at)
-    return found
+            by_field.setdefault(fields[label].name, []).append(at)
+    return by_field
 
 
 def cell_as_column(
@@ -317,8 +317,8 @@ def _position(book: OpenBook, section: SheetSection, entry: Entry) -> CellPositi
     if named:
         return named
     wanted = labels_of(section, entry)
-    found = (position for position, label in _labels(book, section) if label in wanted)
-    at = next(found, None)
+    places = (position for position, label in _labels(book, section) if label in wanted)
+    at = next(places, None)
     return replace(at, column=at.column + 1) if at else None
 
 

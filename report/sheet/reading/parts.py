@@ -233,10 +233,10 @@ def _put(cell: Any, value: Value) -> None:
 
 def _show(columns: _Columns, filled: set[int]) -> None:
     """Show columns which are hidden, folded groups also, and filled."""
-    for at, one in columns:
-        if one.get("hidden") in _ONES and filled.intersection(at):
-            one.attrib.pop("hidden")
-            one.attrib.pop("collapsed", None)
+    for at, column in columns:
+        if column.get("hidden") in _ONES and filled.intersection(at):
+            column.attrib.pop("hidden")
+            column.attrib.pop("collapsed", None)
             for after, mark in columns:  # where a group ends, its mark would fold it again
                 if after.start == at.stop:
                     mark.attrib.pop("collapsed", None)
@@ -275,9 +275,9 @@ def _longer_tables(
     relations = f"{folder}/_rels/{name}.rels"
     if relations not in files:
         return
-    for one in _parsed(relations, files[relations]).iterfind("{*}Relationship[@Target]"):
+    for relation in _parsed(relations, files[relations]).iterfind("{*}Relationship[@Target]"):
         # A target may begin at the root of the archive.
-        path = posixpath.normpath(posixpath.join("/", folder, one.get("Target"))).lstrip("/")
+        path = posixpath.normpath(posixpath.join("/", folder, relation.get("Target"))).lstrip("/")
         if "tables/" not in path or path not in files:
             continue
         table = _parsed(path, files[path])

@@ -66,14 +66,14 @@ def found_at(book: OpenBook, position: CellPosition) -> Found:
 
 def check_uncovered(book: OpenBook, *positions: CellPosition) -> None:
     """Raise InputError for the cells that merged ones cover: what was typed there is lost."""
-    found = []
+    problems = []
     for at in positions:
         sheet = book.book[at.sheet]
         if isinstance(sheet.cell(at.row, at.column), MergedCell):
             areas = (area.coord for area in sheet.merged_cells.ranges if at.cell in area)
-            found.append(merged(at.sheet, next(areas, at.cell)))
-    if found:
-        raise InputError(list(dict.fromkeys(found)))
+            problems.append(merged(at.sheet, next(areas, at.cell)))
+    if problems:
+        raise InputError(list(dict.fromkeys(problems)))
 
 
 def merged(title: str, area: str) -> Problem:

@@ -117,11 +117,11 @@ class SheetOf(Generic[Whole]):
             With every problem, each as `Sheet!Cell: what was found; what to give`.
         """
         self.refuse(())
-        given: dict[str, Any] = {}
+        parts: dict[str, Any] = {}
         for part in sections_of(self.whole):
             rows = tuple(part.model(**row) for row in self.draft[part.key])
-            given[part.key] = rows if part.is_table else rows[0]
-        return self.whole(**given)
+            parts[part.key] = rows if part.is_table else rows[0]
+        return self.whole(**parts)
 
     def with_(self, **parts: Frozen | Iterable[Frozen]) -> Self:
         """Return the same with other inputs, checked as those of a workbook.
@@ -141,8 +141,8 @@ class SheetOf(Generic[Whole]):
         sections, draft = {part.key: part for part in sections_of(self.whole)}, dict(self.draft)
         if unknown := [key for key in parts if key not in sections]:
             raise InputError(f"no input {', '.join(unknown)}; give some of {', '.join(sections)}")
-        for key, given in parts.items():
-            rows = [given] if isinstance(given, Frozen) else list(given)
+        for key, replaced in parts.items():
+            rows = [replaced] if isinstance(replaced, Frozen) else list(replaced)
             try:
                 checked = [sections[key].model.model_validate(dict(row)) for row in rows]
             except ValidationError as error:
@@ -151,8 +151,8 @@ class SheetOf(Generic[Whole]):
                 )
                 raise InputError(list(wrong)) from error
             draft[key] = [dict(row) for row in checked]
-        found = _located(self.check(draft, self.where), self.addresses, self.unfound)
-        other = replace(self, draft=draft, problems=tuple(found))
+        problems = _located(self.check(draft, self.where), self.addresses, self.unfound)
+        other = replace(self, draft=draft, problems=tuple(problems))
         other.refuse(())
         return other
 
@@ -168,7 +168,7 @@ class SheetOf(Generic[Whole]):
         InputError
             In the order of the template, each once.
         """
-        found = [*self.problems, *_located(faults, self.addresses, self.unfound)]
+        problems = [*self.problems, *_located(faults, self.addresses, self.unfound)]
         sections = sections_of(self.whole)
         order = {part.key: count for count, part in enumerate(sections)}
         names = {part.key: [entry.name for entry in entries(part.model)] for part in sections}
@@ -178,8 +178,8 @@ class SheetOf(Generic[Whole]):
             fields = names[section]
             return order[section], row, fields.index(field) if field in fields else -1
 
-        if found:
-            raise InputError(list(dict.fromkeys(each for _, each in sorted(found, key=rank))))
+        if problems:
+            raise InputError(list(dict.fromkeys(each for _, each in sorted(problems, key=rank))))
 
 
 Sheet = SheetOf[ProjectInput]
@@ -344,7 +344,7 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
     row = {entry.name: entry.default for entry in absent}
     typed = beside(book, section)
     gathered.draft[section.key].append(row)
-    found: list[tuple[Entry, Place, Found, FieldColumn]] = []
+    cells_read: list[tuple[Entry, Place, Found, FieldColumn]] = []
     for entry in entries(section.model):
         if entry in absent:
             continue
@@ -363,10 +363,10 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
         cell = found_at(book, position)
         if not cell.is_blank and column.heading != position:
             gathered.use(place, found_at(book, column.heading))
-        found.append((entry, place, cell, column))
+        cells_read.append((entry, place, cell, column))
     last = section.model.computed_last
     for entry, place, cell, column in sorted(
-        found, key=lambda one: one[2].is_blank and one[0].name in last
+        cells_read, key=lambda one: one[2].is_blank and one[0].name in last
     ):
         _read_field(entry, place, cell, column, stated_unit(entry, row, {}), row, gathered)
 

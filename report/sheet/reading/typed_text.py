@@ -72,22 +72,22 @@ def inches_in(text: str) -> float:
     """Return a length with marks [in]: `28'-6"`, `4'`, `3 1/2"`; NaN for another text."""
     for mark, plain in _MARKS.items():
         text = text.replace(mark, plain)
-    found = _FEET.fullmatch(text)
-    if not found or not text.endswith(("'", '"')):
+    match = _FEET.fullmatch(text)
+    if not match or not text.endswith(("'", '"')):
         return math.nan
-    share = Fraction(found["share"] or found["only"] or 0)
-    inches = float(found["inches"] or 0.0) + float(share)
-    return (_INCHES_PER_FOOT * float(found["feet"] or 0.0) + inches) * (
-        -1.0 if found["sign"] == "-" else 1.0
+    share = Fraction(match["share"] or match["only"] or 0)
+    inches = float(match["inches"] or 0.0) + float(share)
+    return (_INCHES_PER_FOOT * float(match["feet"] or 0.0) + inches) * (
+        -1.0 if match["sign"] == "-" else 1.0
     )
 
 
 def rise_in(text: str) -> float:
     """Return the rise of a slope in 12: `1/2:12`, `0.5 in 12`, `1 1/2:12`; NaN for another text."""
-    found = _RISE.fullmatch(text)
-    if not found:
+    match = _RISE.fullmatch(text)
+    if not match:
         return math.nan
-    return float(found[1] or 0.0) + float(found[2] or 0.0) + float(Fraction(found[3] or 0))
+    return float(match[1] or 0.0) + float(match[2] or 0.0) + float(Fraction(match[3] or 0))
 
 
 def dates_in(text: str) -> list[date]:
@@ -98,13 +98,13 @@ def dates_in(text: str) -> list[date]:
         pass
     if slashed := _SLASHED.fullmatch(text):
         first, second, year = map(int, slashed.groups())
-        found = []
+        dates = []
         for month, day in dict.fromkeys(((first, second), (second, first))):
             try:
-                found.append(date(year, month, day))
+                dates.append(date(year, month, day))
             except ValueError:
                 continue
-        return found
+        return dates
     plain = " ".join(text.split()).removesuffix(".").replace("Sept ", "Sep ")
     for pattern in _DATES:
         try:

@@ -97,13 +97,13 @@ class Unseen:
 def unseen(book: OpenBook, used: Used) -> tuple[Unseen, ...]:
     """Return what is read and kept from sight, one for each sheet and kind."""
     sights: dict[str, _Sight] = {}
-    found: dict[tuple[str, Concealment], list[tuple[Place, tuple[int, int]]]] = {}
+    by_sheet: dict[tuple[str, Concealment], list[tuple[Place, tuple[int, int]]]] = {}
     for place, cell in used:
         if cell.sheet not in sights:
             sights[cell.sheet] = _Sight(book.book[cell.sheet])
         at = coordinate_to_tuple(cell.cell)
         for kind in sights[cell.sheet].kinds(*at, cell):
-            found.setdefault((cell.sheet, kind), []).append((place, at))
+            by_sheet.setdefault((cell.sheet, kind), []).append((place, at))
     return tuple(
         Unseen(
             kind=kind,
@@ -112,37 +112,37 @@ def unseen(book: OpenBook, used: Used) -> tuple[Unseen, ...]:
             place=cells[0][0],
             cells=tuple(at for _, at in cells),
         )
-        for (sheet, kind), cells in found.items()
+        for (sheet, kind), cells in by_sheet.items()
     )
 
 
-def by_cell(found: Iterable[Unseen]) -> Mapping[str, str]:
+def by_cell(unseen_cells: Iterable[Unseen]) -> Mapping[str, str]:
     """Return in words how each cell is kept from sight, by its address."""
     words: dict[str, str] = {}
-    for one in found:
-        for row, column in one.cells:
-            address = f"{one.sheet}!{get_column_letter(column)}{row}"
-            words[address] = ", ".join(filter(None, (words.get(address, ""), one.kind.value)))
+    for unseen in unseen_cells:
+        for row, column in unseen.cells:
+            address = f"{unseen.sheet}!{get_column_letter(column)}{row}"
+            words[address] = ", ".join(filter(None, (words.get(address, ""), unseen.kind.value)))
     return words
 
 
-def warnings(found: Iterable[Unseen]) -> Iterator[Finding]:
+def warnings(unseen_cells: Iterable[Unseen]) -> Iterator[Finding]:
     """Yield a warning for each sheet and kind, with the cells."""
 
-    def key(one: Unseen) -> tuple[str, str]:
-        return one.sheet, one.kind
+    def key(together: Unseen) -> tuple[str, str]:
+        return together.sheet, together.kind
 
-    for _, group in groupby(sorted(found, key=key), key=key):
+    for _, group in groupby(sorted(unseen_cells, key=key), key=key):
         first, *others = group
-        one = replace(first, cells=(*first.cells, *(cell for o in others for cell in o.cells)))
-        text = _SENTENCES[one.kind].format(
-            state=_STATES.get(one.state, "hidden"),
-            cells=one.words,
-            are="are" if one.are_many else "is",
+        together = replace(first, cells=(*first.cells, *(cell for o in others for cell in o.cells)))
+        text = _SENTENCES[together.kind].format(
+            state=_STATES.get(together.state, "hidden"),
+            cells=together.words,
+            are="are" if together.are_many else "is",
         )
-        row, column = one.cells[0]
-        at = f"{one.sheet}!{get_column_letter(column)}{row}"
-        yield replace(warning(f"{one.kind} {one.sheet}", one.place, text), cell=at)
+        row, column = together.cells[0]
+        at = f"{together.sheet}!{get_column_letter(column)}{row}"
+        yield replace(warning(f"{together.kind} {together.sheet}", together.place, text), cell=at)
 
 
 def _ranges(cells: Iterable[tuple[int, int]]) -> Iterator[str]:
@@ -165,7 +165,7 @@ def _ranges(cells: Iterable[tuple[int, int]]) -> Iterator[str]:
 
 def _runs(numbers: Iterable[int]) -> Iterator[tuple[int, int]]:
     """Yield first and last of each run of successive numbers, which increase."""
-    for _, group in groupby(enumerate(numbers), key=lambda one: one[1] - one[0]):
+    for _, group in groupby(enumerate(numbers), key=lambda cell: cell[1] - cell[0]):
         run = [number for _, number in group]
         yield run[0], run[-1]
 
@@ -201,9 +201,9 @@ class _Sight:
             return (self._rows[row],)
         if column not in self._columns:
             self._columns[column] = any(
-                (one.hidden or _is_less(one.width, LEAST_WIDTH))
-                and (one.min or 0) <= column <= (one.max or 0)
-                for one in self._sheet.column_dimensions.values()
+                (dimension.hidden or _is_less(dimension.width, LEAST_WIDTH))
+                and (dimension.min or 0) <= column <= (dimension.max or 0)
+                for dimension in self._sheet.column_dimensions.values()
             )
         return (Concealment.HIDDEN,) if self._columns[column] else ()
 
@@ -222,8 +222,8 @@ def _is_less(size: float | None, minimum: float) -> bool:
 
 def _filtered(sheet: Worksheet) -> Iterator[range]:
     """Yield the rows of each filter that is in use, without that of its headings."""
-    for one in (sheet.auto_filter, *(table.autoFilter for table in sheet.tables.values())):
-        bounds = bounds_of(one.ref) if one is not None and one.filterColumn else None
+    for area in (sheet.auto_filter, *(table.autoFilter for table in sheet.tables.values())):
+        bounds = bounds_of(area.ref) if area is not None and area.filterColumn else None
         if bounds:
             yield range(bounds[1] + 1, bounds[3] + 1)
 
@@ -264,7 +264,7 @@ _MOST_LISTED = 8
 def from_outside(book: OpenBook, whole: Place) -> Iterator[Finding]:
     """Yield a warning if a workbook takes values from elsewhere: by DDE, or of other files."""
     if book.outside:
-        names = (cut(one).encode("ascii", "replace").decode() for one in book.outside)
+        names = (cut(link).encode("ascii", "replace").decode() for link in book.outside)
         which = listed(names, _MOST_LISTED)
         text = f"the workbook takes values from elsewhere ({which}), of which the saved ones are"
         yield warning("outside", whole, f"{text} read: type the values instead")
@@ -304,8 +304,10 @@ def copies(
     rows = {sheet.title: _rows(book, sheet) for sheet in book.book.worksheets}
     told: set[str] = set()
     for section in sections:
-        found = (address for place, address in addresses.items() if place.section == section.key)
-        read = next(found, "").rpartition("!")[0]
+        addresses_of = (
+            address for place, address in addresses.items() if place.section == section.key
+        )
+        read = next(addresses_of, "").rpartition("!")[0]
         labels = _labels(section, rows[read]) if read in rows else frozenset()
         for title in rows:
             if labels and title not in (read, *told) and labels <= _labels(section, rows[title]):
@@ -328,5 +330,5 @@ def _labels(section: SheetSection, rows: Rows) -> Set[str]:
     """Return the labels of a section on a sheet: of a table, those in one row."""
     fields = fields_by_label(section)
     places = rows if section.is_table else (frozenset().union(*rows),)
-    found = ({fields[label].name for label in place & fields.keys()} for place in places)
-    return max(found, key=len, default=set())
+    labels = ({fields[label].name for label in place & fields.keys()} for place in places)
+    return max(labels, key=len, default=set())

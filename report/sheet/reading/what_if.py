@@ -77,8 +77,8 @@ def _unit_of(sheet: Sheet, place: Place) -> tuple[str, float]:
 
 def cells(sheet: Sheet, typed: Mapping[Place, Typed]) -> dict[CellPosition, Typed]:
     """Return what to write into which cells of the file."""
-    found = {}
+    values = {}
     for place, value in typed.items():
         title, _, cell = sheet.addresses[place].rpartition("!")
-        found[CellPosition(title, *coordinate_to_tuple(cell))] = value
-    return found
+        values[CellPosition(title, *coordinate_to_tuple(cell))] = value
+    return values

@@ -339,10 +339,10 @@ class ProjectInput(Frozen):
     @property
     def confirmed(self) -> str:
         """Who confirmed the provisions of these inputs, and when; empty where nobody did."""
-        given = self.confirmation
-        is_of_these = "confirmation" not in self.outdated and given.of == self.site.adopted
-        is_dated = given.date is not None and given.date <= self.project.date
-        return f"{given.by}, {given.date}" if is_of_these and is_dated else ""
+        confirmation = self.confirmation
+        is_of_these = "confirmation" not in self.outdated and confirmation.of == self.site.adopted
+        is_dated = confirmation.date is not None and confirmation.date <= self.project.date
+        return f"{confirmation.by}, {confirmation.date}" if is_of_these and is_dated else ""
 
     def basis_of(self, row: Clearance) -> DistanceBasis:
         """Return the basis of the distance of a clearance."""

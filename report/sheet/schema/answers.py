@@ -285,16 +285,16 @@ _FROM_TABLE = (
 """S_MS where F_a is blank and S_DS is not given: as `Site.computed`."""
 
 
-def _maximum(given: str, mapped: str, coefficient: str, design: str, otherwise: str = '""') -> str:
+def _maximum(values: str, mapped: str, coefficient: str, design: str, otherwise: str = '""') -> str:
     has_both = f"AND(live_edition=table_f_a_edition,ISNUMBER({mapped}),ISNUMBER({coefficient}))"
     return (
-        f"IF(ISNUMBER({given}),{given},IF({has_both},{coefficient}*{mapped},"
+        f"IF(ISNUMBER({values}),{values},IF({has_both},{coefficient}*{mapped},"
         f"IF(ISNUMBER({design}),1.5*{design},{otherwise})))"
     )
 
 
-def _design(given: str, maximum: str) -> str:
-    return f'IF(ISNUMBER({given}),{given},IF(ISNUMBER({maximum}),2/3*{maximum},""))'
+def _design(values: str, maximum: str) -> str:
+    return f'IF(ISNUMBER({values}),{values},IF(ISNUMBER({maximum}),2/3*{maximum},""))'
 
 
 # The most severe category: by S_DS, by S_D1, and by S_1.

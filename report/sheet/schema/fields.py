@@ -174,7 +174,7 @@ class SheetSection:
 
     def entry(self, field: str) -> Entry:
         """Return one of its fields."""
-        return next(one for one in entries(self.model) if one.name == field)
+        return next(entry for entry in entries(self.model) if entry.name == field)
 
     def cell_name(self, field: str) -> str:
         """Return the defined name of a single cell."""
@@ -299,14 +299,14 @@ def docstrings(model: type[BaseModel]) -> Mapping[str, str]:
     # As `use_attribute_docstrings` of pydantic, which takes its time whenever a model is imported.
     (definition,) = ast.parse(inspect.getsource(model)).body
     assert isinstance(definition, ast.ClassDef)
-    found: dict[str, str] = {}
+    texts: dict[str, str] = {}
     for base in model.__bases__:
-        found |= docstrings(base) if getattr(base, "model_fields", None) else {}
+        texts |= docstrings(base) if getattr(base, "model_fields", None) else {}
     for field, text in pairwise(definition.body):
         match field, text:
             case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=said)):
-                found[name] = " ".join(str(said).split())
-    return found
+                texts[name] = " ".join(str(said).split())
+    return texts
 
 
 def _entry(model: type[Frozen], name: str, info: FieldInfo, cell: Cell) -> Entry:
@@ -317,7 +317,9 @@ def _entry(model: type[Frozen], name: str, info: FieldInfo, cell: Cell) -> Entry
         kind = args[0]
         for field in args[1:]:
             constraints += getattr(field, "metadata", [])
-    lengths = [limit for one in constraints if (limit := getattr(one, "max_length", None))]
+    lengths = [
+        limit for constraint in constraints if (limit := getattr(constraint, "max_length", None))
+    ]
     return Entry(
         model=model,
         name=name,

@@ -278,9 +278,9 @@ def edition_of(rule_set: RuleSetName, name: EditionName | None) -> Edition:
     return EDITIONS[RULE_SETS[rule_set].edition if name is None else name]
 
 
-def site_class_or_default(given: SiteClass | None) -> SiteClass:
+def site_class_or_default(site_class: SiteClass | None) -> SiteClass:
     """Return a site class, D by default where none is given."""
-    return SiteClass.D_DEFAULT if given is None else given
+    return SiteClass.D_DEFAULT if site_class is None else site_class
 
 
 _PARAMETERS = ("s_s_g", "f_a", "s_ms_g", "s_ds_g", "s_1_g", "f_v", "s_m1_g", "s_d1_g")
@@ -323,9 +323,9 @@ def _tabulated_f_a(row: DraftRow) -> float | None:
     edition, wanted = edition_of_row(row), ("s_s_g", "site_class", "hazard", "s_ms_g", "s_ds_g")
     if edition is None or edition.name != F_A.edition or not row.keys() >= {*wanted}:
         return None
-    s_s_g, site_class, hazard, *given = (row[name] for name in wanted)
+    s_s_g, site_class, hazard, *coefficients = (row[name] for name in wanted)
     has_table = site_class in F_A.rows and hazard is not HazardBasis.SITE_SPECIFIC
-    if s_s_g is None or not has_table or given != [None, None]:
+    if s_s_g is None or not has_table or coefficients != [None, None]:
         return None
     value = site_coefficient(F_A, site_class, s_s_g)
     return None if math.isnan(value) else value

@@ -97,9 +97,9 @@ def gap_m(a: Shape, b: Shape) -> float:
         dx = max(a.x_from_m, b.x_from_m) - min(a.x_to_m, b.x_to_m)
         dy = max(a.y_from_m, b.y_from_m) - min(a.y_to_m, b.y_to_m)
         return max(dx, dy) if max(dx, dy) < 0 else math.hypot(max(dx, 0.0), max(dy, 0.0))
-    one, other = solid(a), solid(b)
-    overlap = _depth_m(one.intersection(other))
-    return -overlap if overlap > 0.0 else float(one.distance(other))
+    first, other = solid(a), solid(b)
+    overlap = _depth_m(first.intersection(other))
+    return -overlap if overlap > 0.0 else float(first.distance(other))
 
 
 def _depth_m(area: Any) -> float:
@@ -230,14 +230,14 @@ def room(shape: Shape) -> Rectangle:
     boxes = [Rectangle(*xs, *ys) for xs in _ranges(shape, 0) for ys in _ranges(shape, 1)]
     solids = [shapely.box(box.x_from_m, box.y_from_m, box.x_to_m, box.y_to_m) for box in boxes]
     is_within = shapely.covers(solid(shape), solids)
-    within = [box for box, found in zip(boxes, is_within, strict=True) if found]
+    within = [box for box, is_inside in zip(boxes, is_within, strict=True) if is_inside]
     return max((best, *within), key=lambda box: box.area_m2)
 
 
 def _ranges(shape: Polygon, axis: int) -> list[tuple[float, float]]:
     """Return the ranges between coordinates of vertices; of many vertices, of some."""
-    found = sorted({point[axis] for point in shape.points})
-    some = found[:: math.ceil(len(found) / _MOST_COORDINATES)]
+    values = sorted({point[axis] for point in shape.points})
+    some = values[:: math.ceil(len(values) / _MOST_COORDINATES)]
     return [(low, high) for k, low in enumerate(some) for high in some[k + 1 :]]
 
 

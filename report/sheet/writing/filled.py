@@ -68,7 +68,7 @@ class WorkbookChange:
     @property
     def areas(self) -> str:
         """The cells that were written, by runs of rows: `Arrays!A7:W9, Outlines!A8:D19`."""
-        found = []
+        ranges = []
         for sheet in self.book.scans:
             cells = [each for each in self.written if each.sheet == sheet]
             rows = sorted({each.row for each in cells})
@@ -78,8 +78,8 @@ class WorkbookChange:
                 columns = [each.column for each in cells if start <= each.row <= end]
                 first = CellPosition(sheet, start, min(columns))
                 last = CellPosition(sheet, end, max(columns))
-                found.append(first.address + (f":{last.cell}" if last != first else ""))
-        return ", ".join(found)
+                ranges.append(first.address + (f":{last.cell}" if last != first else ""))
+        return ", ".join(ranges)
 
     @property
     def has_formulas(self) -> bool:
@@ -170,7 +170,7 @@ def _dependents(book: OpenBook, cells: Set[CellPosition]) -> Set[CellPosition]:
         for title, scan in book.scans.items()
         for cell in scan.formulas
     }
-    titles, found = {title.casefold() for title in book.scans}, set(cells)
+    titles, dependents = {title.casefold() for title in book.scans}, set(cells)
 
     def may_refer(title: str, bounds: tuple[int, int, int, int] | None) -> bool:
         if bounds is None or title not in titles:  # a name, a column of a table, other files
@@ -178,18 +178,20 @@ def _dependents(book: OpenBook, cells: Set[CellPosition]) -> Set[CellPosition]:
         left, top, right, bottom = bounds
         return any(
             title == at.sheet.casefold() and left <= at.column <= right and top <= at.row <= bottom
-            for at in found
+            for at in dependents
         )
 
-    while more := {at for at in areas if at not in found and any(starmap(may_refer, areas[at]))}:
-        found |= more
-    return found - cells
+    while more := {
+        at for at in areas if at not in dependents and any(starmap(may_refer, areas[at]))
+    }:
+        dependents |= more
+    return dependents - cells
 
 
 def _area(reference: str, title: str) -> tuple[str, tuple[int, int, int, int] | None]:
     """Return the sheet of a reference, if its own is another, and its bounds where it has any."""
-    given, _, cells = reference.rpartition("!")
-    named = given.removeprefix("'").removesuffix("'").replace("''", "'")
+    name, _, cells = reference.rpartition("!")
+    named = name.removeprefix("'").removesuffix("'").replace("''", "'")
     return (named or title).casefold(), bounds_of(cells)
 
 
@@ -244,9 +246,9 @@ def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
     Start of earlier workbooks has samples of their color alone, and their column Status no use.
     """
     lost = [
-        Overwritten(position=position, found=found, title=title)
+        Overwritten(position=position, found=cell, title=title)
         for position in _blue(book)
-        if not (found := found_at(book, position)).formula or _BROKEN in found.formula
+        if not (cell := found_at(book, position)).formula or _BROKEN in cell.formula
         if (title := _title(book, position)) != "Status"
     ]
     titles = book.book.sheetnames
@@ -303,8 +305,8 @@ def _title(book: OpenBook, position: CellPosition) -> str:
         if area and area.sheet == position.sheet and area.header < position.row <= area.last:
             return str(sheet.cell(area.header, position.column).value)
     labels = (sheet.cell(position.row, column).value for column in range(1, position.column))
-    found = next((str(label) for label in labels if isinstance(label, str) and label), "cell")
-    return f"{found.removesuffix(' *')}, computed," if position.sheet == "Site" else found
+    title = next((str(label) for label in labels if isinstance(label, str) and label), "cell")
+    return f"{title.removesuffix(' *')}, computed," if position.sheet == "Site" else title
 
 
 def has_live_formulas(book: OpenBook) -> bool:

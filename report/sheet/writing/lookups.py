@@ -119,8 +119,12 @@ def _write_sdc(sheet: Worksheet, row: int) -> int:
 def _write_separations(sheet: Worksheet, row: int) -> int:
     least = {Neighbor.EDGE: "rule_separation_edge_min_in"}
     rows = (
-        (one.value, Answer(f"rule_{SEPARATION_KEYS[one]}"), Answer(least.get(one, "0")))
-        for one in Neighbor
+        (
+            neighbor.value,
+            Answer(f"rule_{SEPARATION_KEYS[neighbor]}"),
+            Answer(least.get(neighbor, "0")),
+        )
+        for neighbor in Neighbor
     )
     words = ("Separations in use", "From the sheet Provisions, for the rule set on the sheet Site")
     heads = ("Neighbor", "Factor", "Minimum [in]")

@@ -136,8 +136,8 @@ def _write_line(sheet: Worksheet, row: int, line: _Line, tables: Tables, *, is_u
     if line.governs:
         style.put_answer(sheet.cell(row, 5), line.governs)
     for column, formula in enumerate(answers.worst(line.ratios) if line.ratios else (), start=7):
-        found = answers.written(formula, tables, tables["clearances"].this)
-        style.put_answer(sheet.cell(row, column), found, "0.00")
+        written = answers.written(formula, tables, tables["clearances"].this)
+        style.put_answer(sheet.cell(row, column), written, "0.00")
     _write_note(sheet, row, f"={line.clause}", line.note)
 
 
