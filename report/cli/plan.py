@@ -131,7 +131,7 @@ def plan() -> None:
               help="Largest gap between modules of one array; 20 in unless given.")  # fmt: skip
 @click.option("--replace", is_flag=True, help="Overwrite the places of rows that are filled.")
 @click.option("--accept", is_flag=True, help="Take what is proposed for layers that are not known.")
-@click.option("--layer", "given", metavar="NAME=KIND", multiple=True, callback=given_kinds,
+@click.option("--layer", "kinds", metavar="NAME=KIND", multiple=True, callback=given_kinds,
               help="What is drawn on a layer; may be repeated.")  # fmt: skip
 @click.option("--rotate", metavar="DEGREES|north", default="0", callback=_rotation,
               help="Turn the drawing counterclockwise, or its north to +y.")  # fmt: skip
