@@ -87,8 +87,9 @@ def minimum_normal(ax, az, x, z, dt, sn, cs, g, scale):
     """Least N / (m g) over the record, and when N first falls below zero (NaN: never).
 
     N = (g + az) cos(theta) + ax sin(theta), Eq. 6 with the vertical added. N is linear between
-    samples, so its minimum is at a sample. -N has the form of `_net_driving`.
+    samples, so its minimum is at a sample.
     """
+    # -N / m in the form of `_net_driving`: -(g + az) cos(theta) - ax sin(theta).
     c = (-cs * g, -cs * scale, sn * scale)
     most = _maximum_net_driving(c, x, z, x.shape[1] - 1)
     if az is not None:
@@ -176,6 +177,7 @@ def _first_stop(w, q, r, h):
     discriminant = q * q - 2.0 * r * w
     if ends_moving and not (dips and discriminant >= 0.0):
         return -1.0
+    # w + q tau + r tau^2 / 2 = 0: tau = (-q +- sqrt(q^2 - 2 r w)) / r.
     root = math.sqrt(max(discriminant, 0.0))  # negative by rounding error only: it touches zero
     # The forms of the quadratic formula without cancellation; if q >= 0, then r < 0 here.
     tau = 2.0 * w / (root - q) if q < 0.0 else (q + root) / -r
@@ -286,6 +288,11 @@ def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
         s at its largest, s at its least, s at the end, s' at the end, time of the largest |s|,
         number of stops, largest |s'|, number of events.
     """
+    # Eqs. 12-18 along the slope: s'' = G - mu N sign(s') while sliding, with
+    #     N = (g + az) cos(theta) + ax sin(theta),   G = (g + az) sin(theta) - ax cos(theta).
+    # In the direction of motion, sigma = +1 down and -1 up, that is sigma s'' = sigma G - mu N:
+    #     (g + az) (sigma sin(theta) - mu cos(theta)) - ax (sigma cos(theta) + mu sin(theta)),
+    # whose coefficients of 1, az and -ax are the three numbers of `down` and of `up`.
     c_down, c_up = sn - mu * cs, -sn - mu * cs
     down = (c_down * g, c_down * scale, (cs + mu * sn) * scale)
     up = (c_up * g, c_up * scale, (mu * sn - cs) * scale)
@@ -305,6 +312,7 @@ def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
             # The push increases from q_0 <= 0 to q_1 > 0: no stop in the remaining time h.
             c, sigma = (down, DOWN) if _net_driving(down, ax, az, first) > 0.0 else (up, UP)
             q_0, q_1 = _net_driving(c, ax, az, first - 1), _net_driving(c, ax, az, first)
+            # From the onset, where q = 0, to the sample: w = q_1 h / 2, s = q_1 h^2 / 6.
             h = dt * (q_1 / (q_1 - q_0))
             n_events = _note(events, n_events, first * dt - h, sigma, s)
             s += sigma * (q_1 * h * h * SIXTH)
@@ -359,6 +367,7 @@ def fill_history(ax, az, dt, sn, cs, mu, g, scale, events, history):
         t, sigma, s = events[k, 0], events[k, 1], events[k, 2]
         ends = k + 1 < events.shape[0]
         t_stop = events[k + 1, 0] if ends else np.inf
+        # s'' itself here, not sigma s'': G - sigma mu N by powers of 1, az and -ax.
         c = (
             (sn - sigma * mu * cs) * g,
             (sn - sigma * mu * cs) * scale,

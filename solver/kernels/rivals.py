@@ -46,6 +46,7 @@ def _drive_and_cap(ax, az, i, sn, cs, mu, g, scale):
     """G and mu N at sample i; an empty vertical record means none."""
     x = scale * ax[i]
     z = g + scale * az[i] if az.size > 0 else g
+    # G = (g + az) sin(theta) - ax cos(theta);  mu N, N = (g + az) cos(theta) + ax sin(theta).
     return sn * z - cs * x, mu * (cs * z + sn * x)
 
 

@@ -972,7 +972,9 @@ def slide_plane(
         FOLLOWED, TOO_MANY_STEPS or NOT_FINITE; the bound of the error in position [m]; numbers of
         stops, of events and of steps.
     """
+    # G = ((g + az) sin(theta) - ax cos(theta), -ay): coefficients of 1, az, -ax and ay.
     p = (sn * g, sn * scale, cs * scale, -scale)
+    # c = mu N = mu ((g + az) cos(theta) + ax sin(theta)): coefficients of 1, az and ax.
     q = (mu * cs * g, mu * cs * scale, mu * sn * scale)
     hold = 1.0 if law is None else law[3]
     slow = 1.0 if law is None else law[0] - law[1]
