@@ -91,6 +91,7 @@ def test_blocks_with_equal_friction_move_as_one_whatever_links_them(lb_per_in):
     assert done.verdict.is_permitted
 
 
+@pytest.mark.nightly
 def test_very_stiff_links_make_one_block_of_the_mean_coefficient():
     _, item = assessed("0.40, 0.42, 0.50", 2e6, damping_ratio=0.5)
     assert item.linked.value_m == pytest.approx(rigid_value(0.44), rel=0.01)

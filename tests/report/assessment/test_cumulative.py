@@ -39,6 +39,7 @@ def test_each_sum_is_that_of_separate_runs():
         assert item.largest_m == max(item.sums_m.values())
 
 
+@pytest.mark.nightly
 @pytest.mark.quick
 def test_a_rectangular_pulse_gives_the_closed_form():
     """A level block under one pulse slides v^2 / 2 (1/(mu g) - 1/a) (Newmark 1965)."""

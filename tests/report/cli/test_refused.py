@@ -244,6 +244,7 @@ def test_ctrl_c_that_a_library_turns_into_its_own_error_is_still_ctrl_c():
     assert done.stderr == "Interrupted: the work was cut off.\n"
 
 
+@pytest.mark.nightly
 def test_sign_without_a_terminal_is_an_input_error(tmp_path):
     pdf, key = tmp_path / "a.pdf", tmp_path / "a.p12"
     for path in (pdf, key):

@@ -79,6 +79,7 @@ def test_nor_does_another_version_of_roofslip_explain_it(tampered, few_sheets, c
         assert found.answer == (Agreement.DIFFERS if is_seen else Agreement.PARTLY)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("change", by_day(tampering.REDRAWN, 1), ids=lambda change: change.__name__)
 @pytest.mark.parametrize("software", by_day(["", "harfbuzz"], 1))
 def test_another_drawing_is_never_the_same(tampered, few_sheets, change, software):

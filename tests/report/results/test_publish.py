@@ -281,6 +281,7 @@ def test_a_folder_that_cannot_be_made_is_refused_before_anything_is_computed(tmp
     assert not (tmp_path / "a").exists()
 
 
+@pytest.mark.nightly
 def test_two_runs_at_once_never_mix_their_sets(tmp_path):
     children = [writer(tmp_path, start, 2, 0.05) for start in (0, 1)]
     for child in children:

@@ -143,6 +143,7 @@ def test_the_full_model_asked_first_waits_on_beside_the_provisional_answer_of_it
     assert done(script) == ["busy", "step", "move"]
 
 
+@pytest.mark.nightly
 def test_one_process_stays_free_for_sliders_that_move(done):
     async def script(desk):
         slow = ask(desk, "slow", seconds=20.0)
@@ -176,6 +177,7 @@ def test_a_job_whose_process_ends_is_tried_once_more_and_then_lost(done):
     assert done(script) == (["before"], [LostError, "after it"], set())
 
 
+@pytest.mark.nightly
 def test_a_job_that_takes_too_long_is_stopped_and_says_so(done, monkeypatch):
     monkeypatch.setattr(desks, "LONGEST_S", 0.3)
 

@@ -183,6 +183,7 @@ def test_any_short_record_agrees_with_forty_digits_to_the_allowance(values, mu, 
         assert off_m(result, exact) <= result.error_m + 1e-30
 
 
+@pytest.mark.nightly
 def test_records_of_every_kind_agree_with_forty_digits():
     """Quiet stretches, equal and zero samples, steep slopes, no friction, any sign of the scale."""
     rng = np.random.default_rng(3)
