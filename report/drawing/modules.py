@@ -5,6 +5,7 @@ Knows no file and no texts (`report.drawing.plan_read`). Read `joined` first. Po
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
@@ -17,6 +18,7 @@ from report.drawing.roof_drawing import Drawn
 from report.sheet.reading.locate import MAX_ROWS
 from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.shapes import Polygon, Rectangle, Shape, mean, ring, solid
+from report.text.units import LENGTHS
 from solver.model import INCH_M, InputError
 
 GAP_M = 20.0 * INCH_M
@@ -30,8 +32,14 @@ LEAST_ALIKE = 3
 
 ALIKE_M = 0.005
 """Sides within this [m] are equal; a step of an outline within this is none."""
-COARSE_M, COARSE_ALIKE_M = 0.01, 0.015
-"""The same for a drawing whose coordinates are all rounded to a centimeter, in any direction."""
+ROUNDED_M = (
+    *(share * LENGTHS["ft"] for share in (1.0, 0.5, 0.25, 0.1)),
+    *(share * INCH_M for share in (1.0, 0.5, 0.25, 0.125)),
+    0.1, 0.05, 0.01, 0.005, 0.01 * LENGTHS["ft"], 0.1 * INCH_M, 0.002,
+)  # fmt: skip
+"""Steps [m] that exports round coordinates to; a finer one is within `ALIKE_M`."""
+COARSEST_M = ROUNDED_M[3]
+"""Coordinates rounded to more than this [m] do not tell modules that are turned."""
 ROUNDED_GAP_M = 0.015
 """Gaps larger by this [m] are the largest one rounded, such as 20 in to 1.7 ft."""
 
@@ -39,6 +47,9 @@ MOST_TEXTS = 3
 """Texts within an array of which one may be its name; more are those of its modules."""
 
 _PARALLEL_DEG, _NO_TURN_RAD = 0.5, 1e-5
+# A corner is off by 0.71 steps at most: two sides by 2.8 from each other, and places by 1.4.
+_SIDE_STEPS, _PLACE_STEPS, _DEG_PER_M = 3.0, 2.0, 110.0
+_OFF_STEP = 0.13  # such as whole inches in feet with two decimals
 _MOST_PER_M2 = 16  # drawn twice, and with inner lines
 _COMPLEX = np.array((1.0, 1.0j))
 _OUTWARD = np.array((-1.0, -1.0, 1.0, 1.0))
@@ -52,26 +63,24 @@ Known = tuple[Drawn, LayerKind, Shape]
 _Placed = tuple[Drawn, LayerKind]
 
 
-def alike_m(lines: Sequence[Drawn], unit_m: float) -> float:
-    """Return within which the sides of modules are equal [m], by how a drawing is rounded."""
-    points = np.array([point for line in lines for point in line.points]).reshape(-1, 2)
-    steps = points * (unit_m / COARSE_M)
-    is_coarse = np.allclose(steps, np.rint(steps), rtol=0.0, atol=1e-3)
-    return COARSE_ALIKE_M if is_coarse else ALIKE_M
-
-
 def joined(
-    known: Sequence[Known], gap_m: float, alike: float = ALIKE_M
+    known: Sequence[Known], gap_m: float, turned_deg: float = 0.0
 ) -> tuple[list[Known], list[_Placed], list[Drawn]]:
     """Return lines without modules, the arrays of modules in reading order, and lines they overlap.
 
     Modules are equal rectangles of one layer, at least `LEAST_ALIKE`, with sides within `SIDES_M`.
     Parallel ones are an array where the gaps along their sides are at most `gap_m` [m].
 
+    Parameters
+    ----------
+    turned_deg : float
+        By how much the drawing is turned since it was saved, with coordinates rounded or not.
+
     Raises
     ------
     InputError
-        If more rectangles lie at one place than modules can, or they make up too many arrays.
+        If more rectangles lie at one place than modules can, if they make up too many arrays, or if
+        their coordinates are too coarse to tell.
     """
     layers: dict[tuple[LayerKind, str], list[int]] = defaultdict(list)
     for index, (line, kind, _) in enumerate(known):
@@ -80,7 +89,7 @@ def joined(
     arrays: list[_Placed] = []
     gone: dict[int, bool] = {}  # whether a line is a module that counts
     for (kind, _), indices in layers.items():
-        for array, inside in _arrays([known[index] for index in indices], gap_m, alike):
+        for array, inside in _arrays([known[k] for k in indices], gap_m, turned_deg):
             arrays.append((array, kind))
             if len(arrays) > MAX_ROWS:
                 raise InputError(
@@ -118,18 +127,20 @@ def _in_reading_order(arrays: Sequence[_Placed]) -> list[_Placed]:
 
 
 def _arrays(
-    lines: Sequence[Known], gap_m: float, alike: float
+    lines: Sequence[Known], gap_m: float, turned_deg: float
 ) -> Iterator[tuple[Drawn, dict[int, bool]]]:
     """Yield the arrays of a layer, with the lines within each and whether they are its modules."""
     import shapely
 
     small = [k for k, (*_, shape) in enumerate(lines) if shape.area_m2 <= SIDES_M[1] ** 2]
     middles = np.array([complex(*mean(lines[k][2].points)) for k in small])
-    groups = list(_parallel(lines, alike))
+    groups = list(_parallel(lines, turned_deg))
     modules = {k for at, *_ in groups for k in at}
-    for at, sizes, boxes, turn in groups:
+    for at, sizes, boxes, turn, step in groups:
         row = {k: n for n, k in enumerate(at)}
-        parts = _closed(boxes, gap_m + ROUNDED_GAP_M)
+        within_m = ALIKE_M + _PLACE_STEPS * step
+        widest = gap_m + max(ROUNDED_GAP_M, within_m)
+        parts = _closed(boxes, widest)
         own = middles / turn
         inside: list[dict[int, bool]] = [{} for _ in parts]
         tree = shapely.STRtree(shapely.points(own.real, own.imag))
@@ -138,7 +149,7 @@ def _arrays(
                 inside[part][small[n]] = small[n] in row
         for part, within in zip(parts, inside, strict=True):
             its = [row[k] for k in within if within[k]]
-            again = _closed(_snapped(boxes[its], alike), gap_m + ROUNDED_GAP_M + 2.0 * alike)
+            again = _closed(_snapped(boxes[its], within_m), widest + 2.0 * within_m)
             outline = again[0] if len(again) == 1 else part
             points = np.array(outline.exterior.coords) @ _COMPLEX * turn
             kinds = Counter(map(tuple, sizes[its].tolist())).most_common()
@@ -152,32 +163,47 @@ def _arrays(
                     points=ring([(float(z.real), float(z.imag)) for z in points]),
                     is_ours=False,
                     sizes=tuple((count, long, short) for (long, short), count in kinds),
+                    rounded_m=step if turn != 1.0 else 0.0,
                 ),
                 within,
             )
 
 
 def _parallel(
-    lines: Sequence[Known], alike: float
-) -> Iterator[tuple[list[int], Any, Any, complex]]:
+    lines: Sequence[Known], turned_deg: float
+) -> Iterator[tuple[list[int], Any, Any, complex, float]]:
     """Yield the modules of a layer that are parallel: lines, sizes [m], boxes and their direction.
 
     Sizes are those of equal ones; boxes, along their sides, are x from, y from, x to and y to [m].
+    The last is the step that coordinates are rounded to [m].
     """
-    four = [k for k, (*_, shape) in enumerate(lines) if len(shape.points) == 4]
+    four = [
+        k for k, (*_, shape) in enumerate(lines)
+        if len(shape.points) == 4 and shape.area_m2 <= (SIDES_M[1] + ROUNDED_M[0]) ** 2
+    ]  # fmt: skip
     corners = np.array([lines[k][2].points for k in four]).reshape(-1, 4, 2) @ _COMPLEX
-    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 1]
+    along = corners - np.roll(corners, 1, axis=1)  # its first is the side to the first corner
+    a, b = 0.5 * (along[:, 1] - along[:, 3]), 0.5 * (along[:, 2] - along[:, 0])
+    step, is_turned = _rounding(corners * cmath.rect(1.0, -math.radians(turned_deg)))
+    alike = ALIKE_M + (_SIDE_STEPS if is_turned else 1.0) * step
     skew = np.abs(corners @ np.array((1, -1, 1, -1)))
     long, short = np.maximum(abs(a), abs(b)), np.minimum(abs(a), abs(b))
     is_right = (skew <= 2.0 * alike) & (abs((a * b.conj()).real) <= alike * long)
     fits = is_right & (short >= SIDES_M[0] - alike) & (long <= SIDES_M[1] + alike)
+    if step > COARSEST_M and fits.sum() >= LEAST_ALIKE:
+        raise InputError(
+            f"layer {lines[four[0]][0].layer}: coordinates of turned modules are rounded to"
+            f" {1e3 * step:.4g} mm, which does not tell their arrays; export more decimals"
+        )
     sizes = np.full((len(four), 2), np.nan)
-    for run in _runs(long, np.flatnonzero(fits), alike):
-        for equal in _runs(short, run, alike):
-            if len(equal) >= LEAST_ALIKE:
-                sizes[equal] = long[equal].mean(), short[equal].mean()
-    parallel_deg = _PARALLEL_DEG * alike / ALIKE_M
-    angles = np.degrees(np.angle(a)) % 90.0
+    for equal in _equal(long, short, np.flatnonzero(fits), alike):
+        if len(equal) >= LEAST_ALIKE:
+            # Those of a drawing along its axes are as it has them.
+            for same in (equal,) if is_turned else _equal(long, short, equal, ALIKE_M):
+                sizes[same] = long[same].mean(), short[same].mean()
+    step = step if is_turned else 0.0
+    parallel_deg = _PARALLEL_DEG + _DEG_PER_M * step
+    angles = np.degrees(np.angle(np.where(abs(a) >= abs(b), a, b))) % 90.0
     runs = _runs(angles, np.flatnonzero(np.isfinite(sizes[:, 0])), parallel_deg)
     if len(runs) > 1 and angles[runs[0][0]] + 90.0 - angles[runs[-1][0]] <= parallel_deg:
         runs[0] = np.concatenate((runs[0], runs.pop()))
@@ -186,10 +212,31 @@ def _parallel(
         angle = math.radians((angles[run[0]] + float(off.mean()) + 45.0) % 90.0 - 45.0)
         turn = complex(math.cos(angle), math.sin(angle)) if abs(angle) > _NO_TURN_RAD else 1.0
         own = corners[run] / turn
-        sides = (own.real.min(1), own.imag.min(1), own.real.max(1), own.imag.max(1))
-        boxes = np.stack(sides, axis=1)
+        ends = [np.sort(part, axis=1).reshape(-1, 2, 2).mean(2) for part in (own.real, own.imag)]
+        boxes = np.stack((ends[0][:, 0], ends[1][:, 0], ends[0][:, 1], ends[1][:, 1]), axis=1)
         once = _once(boxes, lines[four[run[0]]][0].layer)
-        yield [four[k] for k in run[once]], sizes[run[once]], boxes[once], turn
+        yield [four[k] for k in run[once]], sizes[run[once]], boxes[once], turn, step
+
+
+def _rounding(corners: Any) -> tuple[float, bool]:
+    """Return the step that the corners of a layer are rounded to [m], and whether they are turned.
+
+    It is 0 for a fine one, and for a coarse one of a layer along the axes: as that was meant.
+    """
+    along = np.diff(corners, axis=1)
+    is_turned = bool((np.minimum(abs(along.real), abs(along.imag)) > ROUNDED_M[-1]).any())
+    values = np.ravel(corners - corners[:1, :1])
+    parts = np.concatenate((values.real, values.imag))
+    for step in ROUNDED_M if len(corners) >= LEAST_ALIKE else ():
+        if np.abs(parts / step - np.rint(parts / step)).max() <= _OFF_STEP:
+            return (step if is_turned or step <= COARSEST_M else 0.0), is_turned
+    return 0.0, is_turned
+
+
+def _equal(long: Any, short: Any, at: Any, width: float) -> Iterator[NDArray[np.intp]]:
+    """Yield the indices `at` of equal sizes."""
+    for run in _runs(long, at, width):
+        yield from _runs(short, run, width)
 
 
 def _runs(values: Any, at: Any, width: float) -> list[NDArray[np.intp]]:

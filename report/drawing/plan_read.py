@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from report.assessment.neighbors import EDGE_STRIP_M, bare_sides
 from report.drawing.drawing_names import first_height, read_line
 from report.drawing.items import Layer
-from report.drawing.modules import GAP_M, MOST_TEXTS, Known, alike_m, joined
+from report.drawing.modules import GAP_M, MOST_TEXTS, Known, joined
 from report.drawing.roof_drawing import Drawn, RoofDrawing, Unread, Words, turned
 from report.sheet.checking.plan_checks import LEAST_VERTICES
 from report.sheet.schema.choices import LayerKind
@@ -141,7 +141,7 @@ def plan_of(
             unread.append(_unread(line, "a closed line on a layer that is not in Layers"))
         elif kind is not passed:
             take(line, kind, unit_m)
-    known, arrays, others = joined(known, gap_m, alike_m(drawing.lines, unit_m))
+    known, arrays, others = joined(known, gap_m, drawing.turned_deg)
     reason = "a closed line within or around an array of modules"
     unread += [_unread(line, reason) for line in others]
     for array, kind in arrays:
@@ -253,6 +253,9 @@ def _named(
     names = set(repeated)
     for (line, kind, shape), words, name in zip(known, inside, written, strict=True):
         notes: list[str] = []
+        if line.rounded_m:
+            step = pair(line.rounded_m, Quantity.SIZE, us_first)
+            notes.append(f"of modules whose corners are rounded to {step}")
         unnamed = ""
         if line.sizes and name and repeated[name.casefold()] > 1:
             name = ""  # as of a product

@@ -44,6 +44,8 @@ class Drawn:
     sizes : tuple of (int, float, float)
         Number, long side [m] and short side [m] of each size of the modules that it is the outline
         of, the most frequent first; then its points are in m.
+    rounded_m : float
+        Step to which the corners of turned modules are rounded; 0 for a fine one.
     """
 
     handle: str
@@ -53,6 +55,7 @@ class Drawn:
     is_ours: bool
     heights: tuple[str, ...] = ()
     sizes: tuple[tuple[int, float, float], ...] = ()
+    rounded_m: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -102,6 +105,8 @@ class RoofDrawing:
         Direction of north by GEODATA, counterclockwise from +x; NaN for none. Not by
         `$NORTHDIRECTION`, "the angle between the Y axis of WCS and the grid north" (AutoCAD help)
         in a sense that is not documented.
+    turned_deg : float
+        By how much it is turned since it was read.
     """
 
     unit: str
@@ -113,6 +118,7 @@ class RoofDrawing:
     unread: list[Unread] = field(default_factory=list)
     counts: Counter[tuple[str, str]] = field(default_factory=Counter)
     north_deg: float = math.nan
+    turned_deg: float = 0.0
 
     def turned(self, degrees: float) -> RoofDrawing:
         """Return the drawing turned counterclockwise about its origin, with its north."""
@@ -122,6 +128,7 @@ class RoofDrawing:
             lines=[replace(line, points=turned(line.points, degrees)) for line in self.lines],
             texts=[replace(text, at=at) for text, at in zip(self.texts, places, strict=True)],
             north_deg=(self.north_deg + degrees) % 360.0,
+            turned_deg=self.turned_deg + degrees,
         )
 
 

@@ -299,19 +299,54 @@ def test_rows_that_an_earlier_table_grows_by_have_no_formula_that_is_broken(tmp_
     assert not [text for text in formulas if "#REF!" in text]
 
 
-@pytest.mark.parametrize("angle_deg", [0.0, 17.0])
-@pytest.mark.parametrize(("unit", "decimals"), [("m", 2), ("ft", 2), ("in", 1), ("mm", 0)])
-def test_modules_that_an_export_has_rounded_are_one_array(tmp_path, angle_deg, unit, decimals):
-    """Rows are 20 in apart, the largest gap; each corner is rounded by itself."""
+def rounded(unit, decimals, angle_deg, long=2.1):
+    """A sketch of 40 modules in rows 20 in apart, the largest gap, each corner rounded."""
     sketch = Sketch(unit=unit)
     turn = cmath.rect(1.0, math.radians(angle_deg))
     for row, column in itertools.product(range(5), range(8)):
-        x, y = 0.137 + column * 2.12, 0.291 + row * (1.05 + 20 * INCH)
+        x, y = 0.137 + column * (long + 0.02), 0.291 + row * (1.05 + 20 * INCH)
         corners = (complex(x + dx, y + dy) * turn / sketch.unit_m
-                   for dx, dy in ((0, 0), (2.1, 0), (2.1, 1.05), (0, 1.05)))  # fmt: skip
+                   for dx, dy in ((0, 0), (long, 0), (long, 1.05), (0, 1.05)))  # fmt: skip
         points = [(round(z.real, decimals), round(z.imag, decimals)) for z in corners]
         sketch.space.add_lwpolyline(points, close=True, dxfattribs={"layer": "ARRAY"})
-    (array,) = plan(sketch.saved(tmp_path)).arrays
-    assert array.modules == 40
+    return sketch
+
+
+@pytest.mark.parametrize("angle_deg", [0.0, 5.0, 17.0, 45.0])
+@pytest.mark.parametrize(
+    ("unit", "decimals"), [("m", 2), ("ft", 2), ("ft", 1), ("in", 1), ("in", 0), ("mm", 0)]
+)
+def test_modules_that_an_export_has_rounded_are_one_array(tmp_path, angle_deg, unit, decimals):
+    found = plan(rounded(unit, decimals, angle_deg).saved(tmp_path))
+    (array,) = found.arrays
+    assert (array.modules, found.unread) == (40, ())
     size = (8 * 2.12 - 0.02) * (5 * 1.05 + 4 * 20 * INCH)
-    assert array.shape.area_m2 == pytest.approx(size, rel=5e-3)
+    is_coarse = (unit, decimals) in (("ft", 1), ("in", 0))
+    assert array.shape.area_m2 == pytest.approx(size, rel=1.5e-2 if is_coarse else 5e-3)
+    step_in = {("ft", 1): "1.2 in (30 mm)", ("in", 0): "1.0 in (25 mm)"}.get((unit, decimals), "")
+    assert ("rounded to" in array.note) == (angle_deg > 0.0 and (unit, decimals) != ("mm", 0))
+    assert not is_coarse or angle_deg == 0.0 or step_in in array.note
+
+
+def test_rounded_modules_are_joined_however_the_drawing_is_turned_then(tmp_path):
+    drawing = read_dxf(rounded("in", 0, 17.0).saved(tmp_path)).turned(-17.0)
+    (array,) = plan_of(drawing, INCH, {}).arrays
+    assert array.modules == 40
+
+
+def test_modules_of_two_sizes_along_the_axes_keep_both(tmp_path):
+    """In whole inches, as they were meant: nothing says that a rounding made them."""
+    sketch = Sketch(unit="in")
+    for k in range(12):
+        long = 65 + (k >= 6)
+        corners = ((0, 0), (long, 0), (long, 39), (0, 39))
+        points = [(70 * (k % 6) + x, 59 * (k // 6) + y) for x, y in corners]
+        sketch.space.add_lwpolyline(points, close=True, dxfattribs={"layer": "ARRAY"})
+    (array,) = plan(sketch.saved(tmp_path)).arrays
+    assert [(count, round(long / INCH, 6)) for count, long, _ in array.sizes] == [(6, 65), (6, 66)]
+    assert array.note == ""
+
+
+def test_turned_modules_in_whole_feet_are_refused(tmp_path):
+    with pytest.raises(InputError, match=r"layer ARRAY: .* rounded to 304\.8 mm, .* more decimals"):
+        plan(rounded("ft", 0, 17.0).saved(tmp_path))
