@@ -187,7 +187,7 @@ def suite(
         seeds = read_seeds((*records, *more), units=units or "", dt_s=dt_s)
         motions, files = generate(targets, count, seed, seeds, progress)
         if into:
-            has_formulas = add_suite(into, folder, rows, files).has_formulas
+            change = add_suite(into, folder, rows, files)
         else:
             publish(files, folder)
     for line in (*taken, *suite_table(motions, targets), *seeds.notes):
@@ -199,8 +199,8 @@ def suite(
         )
         also = f", {renewed} renewed" if renewed else ""
         added = f"{numbered(count - renewed, 'row')} added to the sheet Motions{also}"
-        click.echo(f"{sheet.path}: {added}.")
-        say_next(sheet.path, has_formulas)
+        click.echo(f"{sheet.path}: {added}: {change.areas}")
+        say_next(sheet.path, change.has_formulas)
         return
     for line in said_near(folder):
         click.echo(plain(f"warning: {line}"), err=True)
@@ -272,7 +272,8 @@ def rows(
                 change.fill(row_cells(change.book, added))
             path, count = change.book.path, len(change.files)
             click.echo(f"{path.parent}: {numbered(count, 'record')} copied.")
-            click.echo(f"{path}: {numbered(len(added), 'row')} added to the sheet Motions.")
+            rows_added = f"{numbered(len(added), 'row')} added to the sheet Motions"
+            click.echo(f"{path}: {rows_added}: {change.areas}")
             say_next(path, change.has_formulas)
 
 

@@ -19,6 +19,7 @@ from typing import Any
 from report.motions.sets import VERTICAL
 from report.sheet.checking.motion_checks import GENERATED
 from report.sheet.reading.read import Sheet
+from report.sheet.reading.typed_text import choice_in
 from report.sheet.schema.fields import Place
 from report.sheet.schema.project import site_parameters
 from report.suite.target_table import TargetTable
@@ -81,8 +82,8 @@ def ac156_targets(
         problems.append(f"z/h is {z_over_h:g}; give a number from 0 (ground) to 1 (roof)")
     if problems:
         raise InputError(problems)
-    names = {name.casefold(): key for key, name in CODES.items()}
-    code = names.get(code.casefold(), code)
+    named = {name: key for key, name in CODES.items()}
+    code = named.get(choice_in(code, named), code.casefold())
     if code not in CODES:
         raise InputError(f"--code is {code!r}; give one of {', '.join(CODES)}")
     rules = RULE_SETS[CODES[code]]

@@ -39,7 +39,7 @@ def test_sets_become_rows_and_their_files_are_copied(library, tmp_path):
     before = read(path).project.motions
     told = commands.printed(*rows(library, tmp_path / "p", "--at", "roof"))
     assert "6 records copied." in told
-    assert f"{path}: 2 rows added to the sheet Motions." in told
+    assert f"{path}: 2 rows added to the sheet Motions: Motions!" in told
     *standing, first, second = read(path).project.motions
     assert tuple(standing) == before
     assert [m.id for m in (first, second)] == ["PET", "KJM"]

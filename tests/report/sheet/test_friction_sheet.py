@@ -105,6 +105,16 @@ def test_rounding_to_two_decimals_is_allowed(tmp_path):
     assert read_workbook(type_into(path, {"Arrays/A1/Friction coefficient": 0.4649})).input
 
 
+def test_a_run_number_counts_at_each_velocity_anew(tmp_path):
+    """As the table of a laboratory has them: runs 1 to 3 at 1 in/s, and 1 to 3 at 10 in/s."""
+    table = [run("dry", k, 0.6, velocity_mps=v * INCH) for v in (1.0, 10.0) for k in (1, 2, 3)]
+    path = make(tmp_path, friction_tests=REPORT, friction_runs=table)
+    assert len(read_workbook(path).input.friction_runs) == 6
+    (line,) = problems(type_into(path, {f"{SHEET}/4/Velocity": 1.0}))
+    text = f"run is 1, dry, already given at <{SHEET}/1/Run>; give another number"
+    assert line == at(f"<{SHEET}/4/Run>: {text}")
+
+
 def test_one_run_in_one_condition_is_compared_too(tmp_path):
     path = make(tmp_path, friction_runs=runs(dry=(), wet=(0.44,)))
     assert tuple(line.split(";")[0] for line in problems(path)) == said(

@@ -5,8 +5,11 @@ import pytest
 from inputs import INCH
 from report.sheet.checking.findings import unusual
 from report.sheet.schema import SECTIONS
+from report.sheet.schema.choices import ObjectKind
 from report.sheet.schema.fields import Place, entries
 from sheets import arrays, project, row_changed
+
+BARE = ObjectKind.EDGE_WITHOUT_PARAPET
 
 pytestmark = pytest.mark.quick
 
@@ -44,6 +47,12 @@ def test_the_range_is_in_the_units_that_come_first():
 def test_the_limits_of_a_range_are_usual():
     for inches in (4, 36):
         assert list(unusual(row_changed("arrays", 0, cg_height_m=inches * INCH))) == []
+
+
+@pytest.mark.parametrize(("kind", "count"), [(BARE, 0), (ObjectKind.EDGE_WITH_PARAPET, 1)])
+def test_the_height_0_of_an_edge_is_usual_without_a_parapet(kind, count):
+    data = row_changed("objects", 0, kind=kind, height_m=0.0)
+    assert len(list(unusual(data))) == count
 
 
 def test_every_example_is_usual():

@@ -46,6 +46,7 @@ def test_the_edition_of_the_workbook_has_its_spectrum(tmp_path):
     [
         (("--zh", 0.5), "no target; give --sds and --code, or --target"),
         (("--sds", 0.5, "--code", "asce7-22"), "AC156 with ASCE 7-22, S_DS 0.5 g, z/h 1"),
+        (("--sds", 0.5, "--code", "ASCE 7-16"), "AC156 with ASCE 7-16, S_DS 0.5 g, z/h 1"),
     ],
 )
 def test_a_target_is_that_of_the_options_or_of_the_workbook(tmp_path, quick, options, said):
@@ -107,7 +108,8 @@ def test_a_suite_goes_into_the_workbook_with_its_rows(tmp_path, quick):
     path.chmod(0o640)
     before = read(path).project.motions
     told = commands.printed(*suite(tmp_path / "records" / "made", "--into", path))
-    assert f"{path}: 1 row added to the sheet Motions." in told
+    cells = address(path, "Motions/motion-01/ID:Source")
+    assert f"{path}: 1 row added to the sheet Motions: {cells}\n" in told
     assert f"code pv1 from {at('Site/Rule set')}" in told
     *standing, new = read(path).project.motions
     assert tuple(standing) == before
@@ -133,7 +135,7 @@ def test_rows_of_a_suite_are_renewed_and_those_of_a_person_are_not(tmp_path, qui
     commands.printed(*suite(made, "--into", path))
     type_into(path, {"Motions/motion-01/Polarity": "as recorded"})
     told = commands.printed(*suite(made, "--into", path, "--seed", 2), "--count", 2)
-    assert f"{path}: 1 row added to the sheet Motions, 1 renewed." in told
+    assert f"{path}: 1 row added to the sheet Motions, 1 renewed: Motions!" in told
     *_, first, second = read(path).project.motions
     assert (first.id, first.polarity, second.id) == ("motion-01", "as recorded", "motion-02")
     assert first.source == second.source

@@ -269,6 +269,7 @@ def test_a_sheet_of_a_workbook_is_the_target(tmp_path):
             "'--zh': it is nan; give a finite number.",
         ),
         (("--sds", 1.0, "--code", "ibc"), "--code is 'ibc'; give one of"),
+        (("--sds", 1.0, "--code", "ASCE 7"), "--code is 'asce 7'; give one of"),
         ((*AC156, "--count", 0), "Invalid value for '--count'"),
         ((*AC156, "--seed", -1), "Invalid value for '--seed'"),
         ((*AC156, "x.csv"), "unexpected argument 'x.csv'; write --records before the files"),
