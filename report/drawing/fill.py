@@ -44,38 +44,20 @@ Pairs = Mapping[tuple[int, str], float]  # how well an outline, by its number, i
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MatchedPlan:
-    """A plan with the names of the rows of a workbook.
+    """A plan with the names of the rows of a workbook."""
 
-    Attributes
-    ----------
-    plan : RoofPlan
-        As drawn, but for its names.
-    gone, typed : tuple of str
-        Rows with a place that is not in the drawing: from a former one, and typed.
-    before : mapping of str to Shape
-        Where the rows were.
-    rows : mapping of str to DraftRow
-        As they were.
-    unit : Unit
-        Of the table of moves.
-    """
-
-    plan: RoofPlan
-    gone: tuple[str, ...]
-    typed: tuple[str, ...]
-    before: Mapping[str, Shape]
-    rows: Mapping[str, DraftRow]
-    unit: Unit
+    plan: RoofPlan  # as drawn, but for its names
+    gone: tuple[str, ...]  # rows with a place from a former drawing that is not in this one
+    typed: tuple[str, ...]  # the same with a place that was typed
+    before: Mapping[str, Shape]  # where the rows were
+    rows: Mapping[str, DraftRow]  # as they were
+    unit: Unit  # of the table of moves
 
     def lines(self, *, replace: bool) -> Iterator[str]:
         """Yield what moved, is new or is gone as a table, and modules that are not drawn.
 
-        At first, when nothing was in plan, there is no table.
-
-        Parameters
-        ----------
-        replace : bool
-            Whether rows that are gone are taken out.
+        At first, when nothing was in plan, there is no table. Rows that are gone are taken out with
+        `replace`.
         """
         now = {place.name: place.shape for place in (*self.plan.arrays, *self.plan.objects)}
         moves = []

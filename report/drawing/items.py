@@ -64,35 +64,19 @@ class PlanLine:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanText:
-    """A text about a point, in the unit of the drawing.
-
-    Attributes
-    ----------
-    of : str
-        Id of what it tells the height of, wherever it is; empty for none.
-    is_left : bool
-        Whether it starts at its point.
-    is_upright : bool
-        Whether it reads from below.
-    """
+    """A text about a point, in the unit of the drawing."""
 
     layer: Layer
     words: str
     at: Point
-    of: str = ""
-    is_left: bool = False
-    is_upright: bool = False
+    of: str = ""  # id of what it tells the height of, wherever it is; empty for none
+    is_left: bool = False  # whether it starts at its point
+    is_upright: bool = False  # whether it reads from below
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanDimension:
-    """A dimension between two points; its text is about a point, empty where it has no room.
-
-    Attributes
-    ----------
-    has_leader : bool
-        Whether a line leads to its text.
-    """
+    """A dimension between two points; its text is about a point, empty where it has no room."""
 
     layer: Layer
     name: str
@@ -100,7 +84,7 @@ class PlanDimension:
     words: str
     at: Point
     is_upright: bool = False
-    has_leader: bool = False
+    has_leader: bool = False  # whether a line leads to its text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -173,24 +157,14 @@ class Circle:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Text:
-    """A line of text.
+    """A line of text."""
 
-    Attributes
-    ----------
-    at : tuple of float
-        Start of its baseline; where it is centered, the middle of its baseline.
-    is_upright : bool
-        Whether it reads from below.
-    is_light : bool
-        Whether on a dark ground.
-    """
-
-    at: Point
+    at: Point  # start of its baseline; where it is centered, the middle of its baseline
     words: str
     is_centered: bool = False
     is_bold: bool = False
-    is_upright: bool = False
-    is_light: bool = False
+    is_upright: bool = False  # whether it reads from below
+    is_light: bool = False  # whether on a dark ground
 
 
 Item = Outline | Lines | Arrow | Circle | Text

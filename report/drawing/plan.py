@@ -49,22 +49,14 @@ _PAGE = Frame(-math.inf, -math.inf, math.inf, math.inf)
 
 @dataclass(slots=True)
 class PlacedTexts:
-    """The texts of a plan as far as they are placed, on a paper on which they are as in print.
+    """The texts of a plan as far as they are placed, on a paper on which they are as in print."""
 
-    Attributes
-    ----------
-    height_m, unit_m : float
-        Height of the texts and size of the unit of the drawing [m].
-    left : list of (str, str)
-        Ids and names that found no room, each name after its number.
-    """
-
-    height_m: float
-    unit_m: float
+    height_m: float  # of the texts
+    unit_m: float  # size of the unit of the drawing
     texts: list[PlanText] = field(default_factory=list)
     dimensions: list[PlanDimension] = field(default_factory=list)
     leaders: list[PlanLine] = field(default_factory=list)
-    left: list[tuple[str, str]] = field(default_factory=list)
+    left: list[tuple[str, str]] = field(default_factory=list)  # ids, numbered names without room
     paper: Paper = field(init=False)
 
     def __post_init__(self) -> None:

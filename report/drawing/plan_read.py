@@ -55,31 +55,17 @@ _STEMS = {LayerKind.ARRAY: "A", LayerKind.FIXED: "OBJ-", LayerKind.UNLIKE_ARRAY:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DrawnOutline:
-    """An array, an object, an edge or the roof as drawn.
-
-    Attributes
-    ----------
-    handle, layer : str
-        Of its line; empty for an edge that is a side of the roof.
-    height_m : float
-        As written inside of it; NaN if it is not.
-    unnamed : str
-        Whence its name is, if it is not in the drawing; empty if it is.
-    note : str
-        What was assumed; empty for nothing.
-    sizes : tuple of (int, float, float)
-        Of its modules, as of `Drawn`.
-    """
+    """An array, an object, an edge or the roof as drawn."""
 
     name: str
     kind: LayerKind
     shape: Shape
-    handle: str
+    handle: str  # of its line, as its layer; empty for an edge that is a side of the roof
     layer: str
-    height_m: float
-    unnamed: str
-    note: str
-    sizes: tuple[tuple[int, float, float], ...] = ()
+    height_m: float  # as written inside of it; NaN if it is not
+    unnamed: str  # whence its name is, if it is not in the drawing; empty if it is
+    note: str  # what was assumed; empty for nothing
+    sizes: tuple[tuple[int, float, float], ...] = ()  # of its modules, as of `Drawn`
 
     @property
     def modules(self) -> int:
@@ -89,15 +75,9 @@ class DrawnOutline:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RoofPlan:
-    """The plan as drawn, and what was not understood.
+    """The plan as drawn, and what was not understood."""
 
-    Attributes
-    ----------
-    roof : tuple of DrawnOutline
-        One or none.
-    """
-
-    roof: tuple[DrawnOutline, ...]
+    roof: tuple[DrawnOutline, ...]  # one or none
     arrays: tuple[DrawnOutline, ...]
     objects: tuple[DrawnOutline, ...]
     unread: tuple[Unread, ...]

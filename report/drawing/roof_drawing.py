@@ -29,50 +29,29 @@ if TYPE_CHECKING:
 class Drawn:
     """A closed line of a drawing.
 
-    Attributes
-    ----------
-    handle : str
-        Of the line, or of the first of those that are joined.
-    name : str
-        As `report` wrote it, or from the attributes of its block; empty if neither.
-    points : tuple of Point
-        A ring, not repeated, in the unit of the drawing.
-    is_ours : bool
-        Whether `report` wrote it.
-    heights : tuple of str
-        Attributes of its block that give a height, each as `HT 42`.
-    sizes : tuple of (int, float, float)
-        Number, long side [m] and short side [m] of each size of the modules that it is the outline
-        of, the most frequent first; then its points are in m.
-    rounded_m : float
-        Step to which the corners of turned modules are rounded; 0 for a fine one.
+    The sizes are those of the modules that it is the outline of, the most frequent first: their
+    number, long side [m] and short side [m]. Its points are in m then.
     """
 
-    handle: str
+    handle: str  # of the line, or of the first of those that are joined
     layer: str
-    name: str
-    points: tuple[Point, ...]
-    is_ours: bool
-    heights: tuple[str, ...] = ()
+    name: str  # as `report` wrote it, or from the attributes of its block; empty if neither
+    points: tuple[Point, ...]  # a ring, not repeated, in the unit of the drawing
+    is_ours: bool  # whether `report` wrote it
+    heights: tuple[str, ...] = ()  # attributes of its block that give one, each as `HT 42`
     sizes: tuple[tuple[int, float, float], ...] = ()
-    rounded_m: float = 0.0
+    rounded_m: float = 0.0  # step to which corners of turned modules are rounded; 0 for a fine one
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Words:
-    """A text of a drawing, or the first line of it, where it is, and its other lines.
-
-    Attributes
-    ----------
-    of : str
-        What `report` wrote it of, wherever it is; empty for none.
-    """
+    """A text of a drawing, or the first line of it, where it is, and its other lines."""
 
     layer: str
     text: str
     at: Point
     others: tuple[str, ...] = ()
-    of: str = ""
+    of: str = ""  # what `report` wrote it of, wherever it is; empty for none
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -89,36 +68,21 @@ class Unread:
 class RoofDrawing:
     """What a drawing consists of.
 
-    Attributes
-    ----------
-    unit : str
-        Empty if it states none of `UNITS`.
-    other_unit : str
-        What it states of `OTHER_UNITS`, as a sentence goes on after its name; empty for none.
-    layouts : tuple of str
-        Those that have closed lines, which no plan is read from.
-    repairs : str
-        What to say of a damaged drawing; empty for a sound one.
-    counts : Counter of tuple of str
-        How many of each layer and kind of entity there are.
-    north_deg : float
-        Direction of north by GEODATA, counterclockwise from +x; NaN for none. Not by
-        `$NORTHDIRECTION`, "the angle between the Y axis of WCS and the grid north" (AutoCAD help)
-        in a sense that is not documented.
-    turned_deg : float
-        By how much it is turned since it was read.
+    Its north is by GEODATA, counterclockwise from +x, and NaN for none: not by `$NORTHDIRECTION`,
+    "the angle between the Y axis of WCS and the grid north" (AutoCAD help) in a sense that is not
+    documented.
     """
 
-    unit: str
-    other_unit: str = ""
-    layouts: tuple[str, ...] = ()
-    repairs: str = ""
+    unit: str  # empty if it states none of `UNITS`
+    other_unit: str = ""  # what to say of one of `OTHER_UNITS`; empty for none
+    layouts: tuple[str, ...] = ()  # that have closed lines, which no plan is read from
+    repairs: str = ""  # what to say of a damaged drawing; empty for a sound one
     lines: list[Drawn] = field(default_factory=list)
     texts: list[Words] = field(default_factory=list)
     unread: list[Unread] = field(default_factory=list)
-    counts: Counter[tuple[str, str]] = field(default_factory=Counter)
+    counts: Counter[tuple[str, str]] = field(default_factory=Counter)  # by layer and kind of entity
     north_deg: float = math.nan
-    turned_deg: float = 0.0
+    turned_deg: float = 0.0  # since it was read
 
     def turned(self, degrees: float) -> RoofDrawing:
         """Return the drawing turned counterclockwise about its origin, with its north."""

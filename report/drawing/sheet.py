@@ -76,24 +76,14 @@ def round_scale(least_m_per_in: float, us_first: bool) -> Scale:
 
 @dataclass(frozen=True, slots=True)
 class Paper:
-    """A sheet of paper with a plan at a scale.
-
-    Attributes
-    ----------
-    origin : tuple of float
-        Where the origin of the plan is.
-    items : list of Item
-        What is drawn so far, in order.
-    placer : Placer
-        What is taken on the paper.
-    """
+    """A sheet of paper with a plan at a scale."""
 
     wide: float
     tall: float
     scale: Scale
-    origin: Point
-    placer: Placer
-    items: list[Item] = field(default_factory=list)
+    origin: Point  # where the origin of the plan is
+    placer: Placer  # what is taken on the paper
+    items: list[Item] = field(default_factory=list)  # what is drawn so far, in order
 
     def at(self, point: Point) -> Point:
         """Return where a point of the plan [m] is on paper."""
@@ -178,32 +168,18 @@ LEADER_IN = 1.5  # farthest label
 class PlanSize:
     """Size of a plan on paper [in].
 
-    Attributes
-    ----------
-    tall : float
-        Greatest height.
-    key_wide, key_tall : float
-        Of the legend, to the right of the plan, or on a screen below it. That of a full plan is on
-        a paper of its own.
-    sheet : str
-        Which of the large sheets a full plan is printed on, by its name in the package; none on
-        the sheets of the other parts.
-    columns : int
-        Columns of tables beside a full plan.
-    is_full : bool
-        Whether with envelopes, dimensions and coordinates.
-    is_screen : bool
-        Whether as large as there is room, with dimensions, and arrays labeled before them.
+    The legend is to the right of the plan, or on a screen below it; that of a full plan is on a
+    paper of its own.
     """
 
     wide: float
-    tall: float
-    key_wide: float = 0.0
+    tall: float  # greatest height
+    key_wide: float = 0.0  # of the legend
     key_tall: float = 0.0
-    sheet: str = ""
-    columns: int = 0
-    is_full: bool = False
-    is_screen: bool = False
+    sheet: str = ""  # the large one of a full plan in the package; none of those of other parts
+    columns: int = 0  # of tables beside a full plan
+    is_full: bool = False  # whether with envelopes, dimensions and coordinates
+    is_screen: bool = False  # as large as there is room, arrays labeled before dimensions
 
     @property
     def fringe(self) -> tuple[float, float, float, float]:
@@ -251,27 +227,19 @@ class Gap:
 
 @dataclass(frozen=True, kw_only=True)
 class PlanSheet:
-    """A plan while it is drawn.
-
-    Attributes
-    ----------
-    designs : mapping of str to str
-        The design displacement of each array, where it is worded elsewhere.
-    has_verdicts : bool
-        Whether it says which gaps are NG.
-    unnamed : list of str
-        What found no room for its label so far, and has none.
-    crowded : list of str
-        What found no room for its label, or for all of it, near its place.
-    """
+    """A plan while it is drawn."""
 
     assessment: Assessment
     size: PlanSize
     paper: Paper
-    designs: Mapping[str, str]
-    has_verdicts: bool
-    unnamed: list[str] = field(default_factory=list)
-    crowded: list[str] = field(default_factory=list)
+    designs: Mapping[str, str]  # design displacement of each array, where it is worded elsewhere
+    has_verdicts: bool  # whether it says which gaps are NG
+    unnamed: list[str] = field(
+        default_factory=list
+    )  # what found no room for its label, and has none
+    crowded: list[str] = field(
+        default_factory=list
+    )  # what found none near its place, or not for all
 
     @cached_property
     def shapes(self) -> Mapping[str, Shape]:

@@ -180,7 +180,7 @@ def _numbers(cells: list[Found], unit: str) -> list[float]:
         try:
             values.append(_number(cell, unit))
         except CellError as error:
-            problems.append(error.problem.at("", cell.address))
+            problems.append(error.parts[0].at("", cell.address))
     if len(problems) > MAX_TOLD:
         problems[MAX_TOLD:] = [Problem(f"... and {len(problems) - MAX_TOLD} more cells")]
     if problems:

@@ -231,7 +231,7 @@ def _value(row: Sequence[Found], column: int, kind: str, problems: list[Problem]
         check_saved(cell)
         value = number(cell, wanted, _SHOWN[kind])
     except CellError as error:
-        problems.append(error.problem.at(cell.address, kind))
+        problems.append(error.parts[0].at(cell.address, kind))
         return float("nan")
     least, most = _LIMITS[kind]
     if not least <= value <= most:

@@ -53,11 +53,6 @@ class CellError(InputError):
     def __init__(self, found: str, remedy: str = "") -> None:
         super().__init__(Problem(found, remedy))
 
-    @property
-    def problem(self) -> Problem:
-        """The only one."""
-        return self.parts[0]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Found:

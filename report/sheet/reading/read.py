@@ -158,7 +158,7 @@ class SheetOf(Generic[Whole]):
 
     def where(self, place: Place) -> str:
         """Return the address of a place; that of its table or sheet if it has no cell."""
-        return _where(place, self.addresses)
+        return where(self.addresses, place)
 
     def refuse(self, faults: Iterable[Finding]) -> None:
         """Raise the problems of the workbook together with further faults, if there are any.
@@ -236,7 +236,7 @@ def read_as(
     gathered, sections = Gathered(), sections_of(whole)
     for section in sections:
         _read_section(book, section, gathered)
-    gathered.take(check(gathered.draft, gathered.where))
+    gathered.take(check(gathered.draft, partial(where, gathered.addresses)))
     hidden = unseen(book, gathered.used)
     marks = by_cell(hidden)
     return SheetOf(
@@ -266,7 +266,8 @@ def _row_in_book(titles: Sequence[str], row: EchoRow) -> tuple[int, int]:
     return titles.index(row.sheet), coordinate_to_tuple(row.cell)[0]
 
 
-def _where(place: Place, addresses: Mapping[Place, str]) -> str:
+def where(addresses: Mapping[Place, str], place: Place) -> str:
+    """Return the address of a place; that of its table or sheet if it has no cell."""
     whole = addresses.get(Place(place.section), place.section)
     return addresses.get(place, whole)
 
@@ -286,7 +287,7 @@ def _located(
     for fault in faults:
         place = fault.place
         if place.section not in unfound and not _SOURCES.get(place.section, set()) & unfound:
-            yield place, fault.problem(_where(place, addresses))
+            yield place, fault.problem(where(addresses, place))
 
 
 @dataclass(slots=True)
@@ -299,10 +300,6 @@ class Gathered:
     addresses: dict[Place, str] = field(default_factory=dict)
     unfound: set[str] = field(default_factory=set)
     used: list[tuple[Place, Found]] = field(default_factory=list)
-
-    def where(self, place: Place) -> str:
-        """Return the address of a place."""
-        return _where(place, self.addresses)
 
     def use(self, place: Place, cell: Found) -> None:
         """Note that the content of a cell is read."""
@@ -431,7 +428,7 @@ def _read_field(
             computed = entry.model.computed(entry.name, row)
             value = entry.default if computed is None else computed
     except CellError as error:
-        gathered.add(place, [error.problem.at(cell.address, entry.spoken)])
+        gathered.add(place, [error.parts[0].at(cell.address, entry.spoken)])
         return
     row[entry.name] = value
     shown = as_used(value, entry, column.unit)

@@ -171,13 +171,17 @@ def _runs(numbers: Iterable[int]) -> Iterator[tuple[int, int]]:
 
 
 class _Sight:
-    """What a sheet hides; what it says of a column or a style is looked up once."""
+    """What a sheet hides; what it says of a style is looked up once."""
 
     def __init__(self, sheet: Worksheet) -> None:
         self._sheet = sheet
         self._is_hidden = sheet.sheet_state != "visible"
         self._rows = dict(_hidden_rows(sheet))
-        self._columns: dict[int, bool] = {}
+        self._columns = [
+            range(one.min or 0, (one.max or 0) + 1)
+            for one in sheet.column_dimensions.values()
+            if one.hidden or _is_less(one.width, LEAST_WIDTH)
+        ]
         self._styles: dict[int, Sequence[Concealment]] = {}
 
     def kinds(self, row: int, column: int, found: Found) -> Sequence[Concealment]:
@@ -189,9 +193,8 @@ class _Sight:
         style = cell.style_id
         if style not in self._styles:
             self._styles[style] = tuple(_of_style(cell))
-        blanked = (
-            (Concealment.INVISIBLE,) if shows_nothing(found.number_format, found.value) else ()
-        )
+        is_blanked = shows_nothing(found.number_format, found.value)
+        blanked = (Concealment.INVISIBLE,) * is_blanked
         return tuple(dict.fromkeys((*of_place, *self._styles[style], *blanked)))
 
     def _of_place(self, row: int, column: int) -> Sequence[Concealment]:
@@ -199,13 +202,7 @@ class _Sight:
             return (Concealment.SHEET,)
         if row in self._rows:
             return (self._rows[row],)
-        if column not in self._columns:
-            self._columns[column] = any(
-                (dimension.hidden or _is_less(dimension.width, LEAST_WIDTH))
-                and (dimension.min or 0) <= column <= (dimension.max or 0)
-                for dimension in self._sheet.column_dimensions.values()
-            )
-        return (Concealment.HIDDEN,) if self._columns[column] else ()
+        return (Concealment.HIDDEN,) if any(column in each for each in self._columns) else ()
 
 
 def _hidden_rows(sheet: Worksheet) -> Iterator[tuple[int, Concealment]]:

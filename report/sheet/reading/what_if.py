@@ -39,9 +39,9 @@ def retyped(sheet: Sheet, typed: Mapping[Place, Typed]) -> Sheet:
                 read = read_cell(cell, entry, *_unit_of(sheet, place))
             draft[place.section][place.row][place.field] = read
         except CellError as error:
-            gathered.add(place, [error.problem.at(sheet.addresses[place], entry.spoken)])
+            gathered.add(place, [error.parts[0].at(sheet.addresses[place], entry.spoken)])
     _compute(sheet, typed, draft)
-    gathered.take(faults(draft, gathered.where))
+    gathered.take(faults(draft, sheet.where))
     return replace(sheet, draft=draft, problems=tuple(gathered.problems))
 
 

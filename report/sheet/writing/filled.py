@@ -12,7 +12,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping, Sequence, Set
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import groupby, starmap
 from pathlib import Path
 
@@ -22,7 +22,7 @@ from openpyxl.utils import coordinate_to_tuple
 from report.sheet.checking.findings import note
 from report.sheet.reading.archive import OpenBook, book_of, located, open_book
 from report.sheet.reading.cells import Found, plain
-from report.sheet.reading.locate import TableArea, find_table, is_absent, table_area
+from report.sheet.reading.locate import find_table, is_absent, table_area
 from report.sheet.reading.parts import Formula, Value, changed
 from report.sheet.reading.positions import FRESH, CellPosition, area_named, bounds_of, found_at
 from report.sheet.reading.read import Sheet, read_book
@@ -124,41 +124,27 @@ def filled(book: OpenBook, cells: Mapping[CellPosition, Value]) -> OpenBook:
     if not cells:
         return book
     after = book_of(book.path, changed(book.data, cells, _dependents(book, cells.keys())))
+    looks = dict(_grown(book, after))
     # Excel gives the rows that a table has grown by their formulas only where they are typed.
-    grown = dict(_in_grown_rows(book, after))
-    looks = dict(_looks_of_grown_rows(book, after))
-    return book_of(book.path, changed(after.data, grown, looks=looks)) if grown or looks else after
+    formulas = {
+        at: Formula(Translator(formula, last.cell).translate_formula(at.cell))
+        for at, last in looks.items()
+        if (formula := book.formula(last.sheet, last.cell))
+        and is_answer(book.book[last.sheet].cell(last.row, last.column))
+    }
+    return book_of(book.path, changed(after.data, formulas, looks=looks)) if looks else after
 
 
-def _looks_of_grown_rows(
-    before: OpenBook, after: OpenBook
-) -> Iterator[tuple[CellPosition, CellPosition]]:
+def _grown(before: OpenBook, after: OpenBook) -> Iterator[tuple[CellPosition, CellPosition]]:
     """Yield the cells of the rows that each table has grown by, with those of its last row."""
-    for was, now in _tables(before, after):
-        for heading in was.headings.values():
-            last = CellPosition(was.sheet, was.last, heading.column)
-            for row in range(was.last + 1, now.last + 1):
-                yield CellPosition(was.sheet, row, heading.column), last
-
-
-def _tables(before: OpenBook, after: OpenBook) -> Iterator[tuple[TableArea, TableArea]]:
     for section in (section for section in SECTIONS if section.is_table):
         was, now = table_area(before, section), table_area(after, section)
-        if was is not None and now is not None:
-            yield was, now
-
-
-def _in_grown_rows(before: OpenBook, after: OpenBook) -> Iterator[tuple[CellPosition, Formula]]:
-    """Yield the formulas of the last row that each table had for the rows that it has grown by."""
-    for was, now in _tables(before, after):
+        if was is None or now is None:
+            continue
         for heading in was.headings.values():
-            last = CellPosition(was.sheet, was.last, heading.column)
-            formula = before.formula(last.sheet, last.cell)
-            if formula and is_answer(before.book[last.sheet].cell(last.row, last.column)):
-                for row in range(was.last + 1, now.last + 1):
-                    at = CellPosition(was.sheet, row, heading.column)
-                    moved = Translator(formula, last.cell).translate_formula(at.cell)
-                    yield at, Formula(moved)
+            last = replace(heading, row=was.last)
+            for row in range(was.last + 1, now.last + 1):
+                yield replace(heading, row=row), last
 
 
 def _dependents(book: OpenBook, cells: Set[CellPosition]) -> Set[CellPosition]:
