@@ -20,6 +20,7 @@ from report.assessment.evidence import (
     accuracy,
     beyond_corners,
     building_variations,
+    cases,
     cumulative,
     histories,
 )
@@ -136,6 +137,7 @@ class _Evidence:
     uncertainty = cached_property(lambda self: uncertainty(self._assessment))
     cumulative = cached_property(lambda self: cumulative(self._assessment))
     building = cached_property(lambda self: building_variations(self._assessment))
+    cases = cached_property(lambda self: tuple(cases(self._assessment, self.building)))
     spectra = cached_property(lambda self: spectra(self._assessment))
     histories = cached_property(lambda self: histories(self._assessment))
     accuracy = cached_property(lambda self: accuracy(self._assessment))

@@ -125,6 +125,53 @@ def _prd_m(array: Array, data: ProjectInput, row: MotionInput, prepared: Prepare
     return run_motion(array, through_building(data, row, prepared)).peak_m(Direction.ANY)
 
 
+Variations = Sequence[tuple[BuildingInput, AnalysisValue]]
+"""The building as used and with other periods and damping, each with its value from analysis."""
+
+
+def building_case(assessment: Assessment, variations: Variations) -> InputCase | None:
+    """Return the governing array with the period or damping that lets it slide farthest.
+
+    A variation without a value is the worst. None where no motion goes through the building, where
+    that is no farther than as used, and where the design displacement does not follow from one
+    value of the analysis.
+    """
+    array = assessment.governing
+    if not variations or array.route is not Route.ANALYSIS or array.by_direction:
+        return None
+    (used, _), *others = variations
+    building, value = max(others, key=lambda pair: nan_is_worst(pair[1].value_m))
+    design_m = math.nan if math.isnan(value.value_m) else max(value.value_m, array.floor_m)
+    if not nan_is_worst(design_m) > array.design_m:
+        return None
+    is_damping = building.damping_percent != used.damping_percent
+    changed = (
+        f"{number(building.damping_percent, 1)} % damping of the building"
+        if is_damping
+        else f"{number(building.period_s or math.nan, 2)} s as the period of the building"
+    )
+    farther = replace(array, analysis=value, design_m=design_m)
+    arrays = [farther if item is array else item for item in assessment.arrays]
+    rows = [gap.clearance for gap in assessment.gaps_of(array.id)]
+    gaps = [check_clearance(assessment.project, assessment.rules, arrays, row) for row in rows]
+    return InputCase(array=farther, changed=changed, gaps=gaps)
+
+
+def cases(assessment: Assessment, variations: Variations) -> Iterator[InputCase]:
+    """Yield what would change the verdict on an array or exceed its prescriptive displacement."""
+    slow = assessment.low_velocity
+    all_cases = (
+        *(slow.case_of(item.id) for item in slow.arrays),
+        building_case(assessment, variations),
+    )
+    for case in filter(None, all_cases):
+        now = next(item for item in assessment.arrays if item.id == case.array.id)
+        most_m = case.array.prescriptive.value_m
+        is_short = any(gap.ok for gap in assessment.gaps_of(now.id)) and case.short
+        if is_short or now.design_m <= most_m < nan_is_worst(case.array.design_m):
+            yield case
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Beyond:
     """One array under one motion, with the high-pass as run and without it [m]."""
@@ -222,6 +269,7 @@ class Evidence:
     uncertainty: Uncertainty | None
     cumulative: tuple[Cumulative, ...]  # for each array, if the workbook names smaller events
     building: tuple[tuple[BuildingInput, AnalysisValue], ...]  # with other periods and damping
+    cases: tuple[InputCase, ...]  # other inputs that would change a verdict or the route
 
 
 def histories(assessment: Assessment) -> tuple[tuple[SlideHistory, ...], ...]:
@@ -231,6 +279,7 @@ def histories(assessment: Assessment) -> tuple[tuple[SlideHistory, ...], ...]:
 
 def support(assessment: Assessment) -> Evidence:
     """Compute the results that support an assessment."""
+    building = building_variations(assessment)
     return Evidence(
         spectra=spectra(assessment),
         histories=histories(assessment),
@@ -239,51 +288,9 @@ def support(assessment: Assessment) -> Evidence:
         remedies=remedies(assessment),
         uncertainty=uncertainty(assessment),
         cumulative=cumulative(assessment),
-        building=building_variations(assessment),
+        building=building,
+        cases=tuple(cases(assessment, building)),
     )
-
-
-def building_case(assessment: Assessment, evidence: Evidence) -> InputCase | None:
-    """Return the governing array with the period or damping that lets it slide farthest.
-
-    A variation without a value is the worst. None where no motion goes through the building, where
-    that is no farther than as used, and where the design displacement does not follow from one
-    value of the analysis.
-    """
-    array = assessment.governing
-    if not evidence.building or array.route is not Route.ANALYSIS or array.by_direction:
-        return None
-    (used, _), *others = evidence.building
-    building, value = max(others, key=lambda pair: nan_is_worst(pair[1].value_m))
-    design_m = math.nan if math.isnan(value.value_m) else max(value.value_m, array.floor_m)
-    if not nan_is_worst(design_m) > array.design_m:
-        return None
-    is_damping = building.damping_percent != used.damping_percent
-    changed = (
-        f"{number(building.damping_percent, 1)} % damping of the building"
-        if is_damping
-        else f"{number(building.period_s or math.nan, 2)} s as the period of the building"
-    )
-    farther = replace(array, analysis=value, design_m=design_m)
-    arrays = [farther if item is array else item for item in assessment.arrays]
-    rows = [gap.clearance for gap in assessment.gaps_of(array.id)]
-    gaps = [check_clearance(assessment.project, assessment.rules, arrays, row) for row in rows]
-    return InputCase(array=farther, changed=changed, gaps=gaps)
-
-
-def cases(assessment: Assessment, evidence: Evidence) -> Iterator[InputCase]:
-    """Yield what would change the verdict on an array or exceed its prescriptive displacement."""
-    slow = assessment.low_velocity
-    all_cases = (
-        *(slow.case_of(item.id) for item in slow.arrays),
-        building_case(assessment, evidence),
-    )
-    for case in filter(None, all_cases):
-        now = next(item for item in assessment.arrays if item.id == case.array.id)
-        most_m = case.array.prescriptive.value_m
-        is_short = any(gap.ok for gap in assessment.gaps_of(now.id)) and case.short
-        if is_short or now.design_m <= most_m < nan_is_worst(case.array.design_m):
-            yield case
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

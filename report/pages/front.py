@@ -17,7 +17,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from report.assessment.arrays import ArrayAssessment, Route
-from report.assessment.evidence import Evidence, cases
+from report.assessment.evidence import Evidence
 from report.assessment.friction import mus_words
 from report.assessment.plan_clearances import plan_gaps
 from report.assessment.project import ChangeKind, Changes
@@ -118,7 +118,7 @@ def _what_if(package: PackageData, evidence: Evidence) -> Iterator[str]:
     """Yield what another input comes to, of the conditions and of the comparison, each once."""
     assessment, us_first = package.assessment, package.fmt.us_first
     of_rows = [row.outcome for row in assessment.conditions if row.outcome]
-    of_cases = [case.words(us_first) for case in cases(assessment, evidence)]
+    of_cases = [case.words(us_first) for case in evidence.cases]
     yield from dict.fromkeys((*of_rows, *of_cases))
 
 
@@ -193,7 +193,7 @@ def comparison(package: PackageData, evidence: Evidence) -> Mapping[str, object]
     arrays = package.assessment.arrays
     checks = [(item.id, check) for item in arrays for check in item.prescriptive_checks]
     return {
-        "cases": list(cases(package.assessment, evidence)),
+        "cases": evidence.cases,
         "faults": {item.id: analysis_faults(package, item) for item in arrays},
         "years": list(_years(package)),
         "routes": check_table(package, checks, ("satisfied", "not satisfied")),

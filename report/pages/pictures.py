@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.evidence import Evidence, cases
+from report.assessment.evidence import Evidence
 from report.drawing.on_paper import printed_plan
 from report.pages import friction_tests
 from report.pages.parts import PackageData
@@ -61,7 +61,7 @@ def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
     roof = [part for part in shown.spectra if not part.is_ground]
     ground = [part for part in shown.spectra if part.is_ground]
     runs = list(zip(package.assessment.alike, shown.histories, strict=True))
-    others_m = {case.array.id: case.array.design_m for case in cases(package.assessment, shown)}
+    others_m = {case.array.id: case.array.design_m for case in shown.cases}
     drawings: dict[str, Sequence[Any]] = {
         "comparison": [
             comparison(some, us_first, others_m, names)
