@@ -19,6 +19,7 @@ from report.assessment.neighbors import PlanNeighbor
 from report.assessment.requirement_rows import fire_lane_rows, friction_rows, hazard_rows
 from report.assessment.verdict import (
     NOT_GIVEN,
+    PLAN_ROW,
     STAYS,
     STRENGTH_ROW,
     VELOCITY_ROW,
@@ -313,7 +314,7 @@ def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Requi
     """
     return tuple(
         Requirement(
-            id="neighbors",
+            id=PLAN_ROW,
             title=title,
             cause=f"{lowered(title)} {NOT_GIVEN}" if neighbor.is_missing else "",
             subject=neighbor.array,
@@ -327,18 +328,19 @@ def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Requi
         for neighbor in nearby
         for title in (f"Clearance {neighbor.names}",)
         for gap, limit in (_found_and_required(neighbor, data.us_first),)
-        for text in neighbor.shortcomings(data.us_first)
+        for text in neighbor.shortcomings()
     )
 
 
 def _found_and_required(neighbor: PlanNeighbor, us_first: bool) -> tuple[str, str]:
     """Return what is found of a clearance, and what is required."""
     if not neighbor.is_short:
+        gap = pair(neighbor.gap_m, Quantity.SIZE, us_first)
         if neighbor.is_missing:
-            return NOT_GIVEN, "a clearance, as in the plan"
+            near = "within twice the design displacement"
+            return f"{NOT_GIVEN}; {gap} in plan, {near}", "a clearance, as in the plan"
         entered = {row.clearance.provided_m for row in neighbor.contradictions}
         sizes = " and ".join(pair(each, Quantity.SIZE, us_first) for each in sorted(entered))
-        gap = pair(neighbor.gap_m, Quantity.SIZE, us_first)
         return f"differs from the plan: {sizes} entered, {gap} measured", "as in the plan"
     required_m = neighbor.required_m
     least, gap = compared_pairs(required_m, neighbor.gap_m, Quantity.SIZE, us_first)

@@ -20,7 +20,7 @@ from report.sheet.schema.choices import DistanceBasis, ObjectKind
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import Array, Clearance
 from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape, gap_m, sides, spans_near
-from report.text.units import Quantity, beside, no_less, pair, ratio
+from report.text.units import Quantity, beside, no_less, ratio
 from solver.model import INCH_M
 
 if TYPE_CHECKING:
@@ -224,39 +224,26 @@ class PlanNeighbor(ComparedGap):
             row for row in self.given if abs(row.clearance.provided_m - self.gap_m) > AGREES_M
         )
 
-    def shortcomings(self, us_first: bool) -> tuple[str, ...]:
-        """Return in words what is missing or contradicts the plan, with the cell to change."""
-        apart = f"{self.array} and {self.other} are {_both(self.gap_m, us_first)} apart in plan"
+    def shortcomings(self) -> tuple[str, ...]:
+        """Return what is to be done where it is missing or contradicts the plan, by its cell."""
         if self.is_missing:
             what = (
                 "add the edge as an object, and a clearance to it"
                 if self.kind is NearbyKind.BARE_EDGE
                 else "add a row with their clearance, or run roofslip plan clearances"
             )
-            within = "twice the design displacement"
-            if math.isnan(self.required_m):
-                within += ", or the prescriptive one where none is permitted"
-            near = (
-                f"within {within} ({_both(self.reach_m, us_first)})"
-                if self.gap_m <= self.reach_m
-                else "nearer than is required"
-            )
-            return (f"{self.to_add}: {apart}, {near}, and no clearance is given; {what}",)
+            return (f"{self.to_add}: {what}",)
         are_boxes = isinstance(self.near, Rectangle) and isinstance(self.far, Rectangle)
         shortcomings = []
         for row in self.contradictions:
             provided_m = row.clearance.provided_m
             breaks = self.gap_m < self.required_m <= provided_m  # sufficient only as given
             shortcomings.append(
-                f"{row.cell}: provided clearance is {_both(provided_m, us_first)}, but {apart}"
-                f"{', which would be NG' if breaks else ''}; correct the clearance or the "
-                f"{'rectangles' if are_boxes else 'outlines'}"
+                f"{row.cell}: correct the clearance or the"
+                f" {'rectangles' if are_boxes else 'outlines'}"
+                f"{'; as measured, it would be NG' if breaks else ''}"
             )
         return tuple(shortcomings)
-
-
-def _both(value_m: float, us_first: bool) -> str:
-    return pair(value_m, Quantity.SIZE, us_first)
 
 
 def plan_pairs(

@@ -109,12 +109,31 @@ class Requirement(BaseModel):
 
     @property
     def asked(self) -> tuple[str, ...]:
-        """What is printed of it beside its subject and what is found there."""
+        """What is printed of it beside its subject and what is found there.
+
+        Of a clearance what is printed beside its names and its cell.
+        """
+        if self.id == PLAN_ROW:
+            return self.consequence.value, self.found, self.limit, self._cell_and_words[1]
         return self.consequence.value, self.title, self.limit, self.remedy
+
+    @property
+    def _cell_and_words(self) -> tuple[str, ...]:
+        return tuple(self.remedy.split(": ", 1))
 
 
 def as_one(rows: Sequence[Requirement]) -> Requirement:
-    """Return rows that ask the same as one; what only some find has their subject before it."""
+    """Return rows that ask the same as one; what only some find has their subject before it.
+
+    Clearances are named in its title, with their cells before its remedy.
+    """
+    if rows[0].id == PLAN_ROW and rows[1:]:
+        names = ", ".join(row.title.removeprefix("Clearance ") for row in rows)
+        cells, words = zip(*(row._cell_and_words for row in rows), strict=True)
+        text = f"{', '.join(dict.fromkeys(cells))}: {words[0]}"
+        return rows[0].model_copy(
+            update={"subject": "", "title": f"Clearances {names}", "remedy": text}
+        )
     parts = [row.found.split("; ") for row in rows]
     alike = [part for part in parts[0] if all(part in others for others in parts)]
     own = grouped_by(
@@ -138,6 +157,8 @@ def worst(verdicts: Iterable[Verdict]) -> Verdict:
 NOT_GIVEN = "not given"
 VELOCITY_ROW = "friction_velocity"
 """Id of the requirement on friction beyond the velocities tested."""
+PLAN_ROW = "neighbors"
+"""Id of the requirement that clearances are given as the plan has them."""
 STRENGTH_ROW = "interconnection"
 """Id of the requirement on the strength between the parts of an array."""
 STAYS = "The condition stays for the plan checker."

@@ -57,11 +57,11 @@ class RequirementRow(Entity):
     """A requirement or a limit in a table of both."""
 
     subject: Annotated[str, words("Item", 0.95), Column()]
-    title: Annotated[str, words("Requirement", 2.7), Column()]
-    found: Annotated[str, words("Found", 3.65), Column()]
-    limit: Annotated[str, words("Required", 2.35), Column()]
-    basis: Annotated[str, words("Basis", 2.3), Column()]
-    verdict: Annotated[Verdict, centered("Verdict", 1.3), Column()]
+    title: Annotated[str, words("Requirement", 3.1), Column()]
+    found: Annotated[str, words("Found", 3.95), Column()]
+    limit: Annotated[str, words("Required", 2.45), Column()]
+    basis: Annotated[str, words("Basis", 1.85), Column()]
+    verdict: Annotated[Verdict, centered("Verdict", 1.1), Column()]
     remedy: Annotated[str, Column("What must be done")]
 
 

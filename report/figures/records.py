@@ -137,7 +137,7 @@ def _spectra(axes: Axes, records: Sequence[Record], periods_s: Floats, sa_g: Flo
     labeled(axes, "Period T [s]", "Pseudo-acceleration [g]", title)
 
 
-_ROW_IN, _TOP_IN, _FOOT_IN = 0.24, 0.22, 0.3
+_ROW_IN, _TOP_IN, _FOOT_IN = 0.21, 0.22, 0.3
 _ROW_POINTS = 360  # in a history; with fewer the peaks stand apart as if the motion were slow
 _LABELS = 0.14  # width of the labels of the rows, in columns
 _BAR = 0.8  # a bar at most, of the largest peak and of the longest motion; at least 0.32 of them

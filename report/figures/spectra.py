@@ -37,7 +37,7 @@ from report.figures.base import (
 from solver.model import Floats
 from solver.synthesis.matching import SpectrumFit
 
-_ROW_IN, _TITLE_IN, _FOOT_IN, _TOP_IN = 0.7, 0.26, 0.5, 0.24
+_ROW_IN, _TITLE_IN, _FOOT_IN, _TOP_IN = 0.6, 0.26, 0.5, 0.24
 _LEFT_IN, _FIRST_IN, _APART_IN, _RIGHT_IN = 0.46, 1.6, 0.52, 0.1
 _FEW_S, _MANY_S = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0), (0.03, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
 _LEVELS = tuple(step * 10.0**power for power in range(-4, 2) for step in (1, 2, 5))

@@ -1,4 +1,4 @@
-"""What the letter, the summary, the roof plan and the basis need beside the package.
+"""What the letter, the summary and the basis need beside the package.
 
 Computes nothing. Read `report.pages.parts` first.
 
@@ -13,20 +13,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.evidence import Evidence
-from report.assessment.friction import mus_words
-from report.assessment.plan_clearances import plan_gaps
 from report.assessment.project import ChangeKind, Changes
 from report.assessment.requirement_rows import tested
 from report.assessment.runs import nan_is_worst
 from report.assessment.spectra import departures
 from report.assessment.verdict import LOWERING, Verdict
-from report.drawing.labels import alike_arrays
-from report.drawing.sheet import unit_format
 from report.entities.clearance import ClearanceResult
 from report.pages.limits import analysis_faults, check_table, troubles
 from report.pages.parts import PackageData, statistic
@@ -126,17 +121,6 @@ def _worst(clearances: Sequence[ClearanceResult]) -> Sequence[ClearanceResult]:
     """Return the clearances with the largest D/C: three, or all that are not OK."""
     ordered = sorted(clearances, key=lambda gap: -nan_is_worst(gap.demand_capacity))
     return ordered[: max(N_WORST, sum(gap.verdict != Verdict.OK for gap in clearances))]
-
-
-def plan(package: PackageData) -> Mapping[str, object]:
-    """Return what the tables and notes of the roof plan need beside its drawings."""
-    fmt = replace(unit_format(package.assessment), systems=1, none="none")
-    return {
-        "fmt": fmt,
-        "arrays": alike_arrays(package.assessment, fmt),
-        "friction": mus_words(package.data.arrays),
-        "drawn": list(plan_gaps(package.assessment)),
-    }
 
 
 def basis(package: PackageData) -> Mapping[str, object]:

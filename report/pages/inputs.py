@@ -1,4 +1,4 @@
-"""Inputs: site parameters in the order of a permit sheet, arrays, objects.
+"""Inputs: site parameters in the order of a permit sheet, arrays, friction tests.
 
 Seismic parameters of the site that are not given; their table is in its template.
 """
@@ -6,14 +6,12 @@ Seismic parameters of the site that are not given; their table is in its templat
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import partial
-from typing import Any
 
 from report.assessment.friction import mu_words
 from report.assessment.project import Assessment
 from report.assessment.runs import REQUESTED_MODELS
-from report.assessment.verdict import NOT_GIVEN
 from report.document.tables import Table, listed
 from report.entities.shown import Shown, length, plain, text, words
 from report.motions.history import ac156
@@ -22,9 +20,7 @@ from report.pages.parts import PackageData
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import RiskCategory
 from report.sheet.schema.project import Site
-from report.sheet.schema.scene import Array, RoofObject
-from report.sheet.schema.shapes import Polygon, Shape
-from report.text.counts import grouped_by, ranged
+from report.text.counts import grouped_by, ids_by, ranged
 from report.text.units import Quantity, digits_up, no_less, number, pair
 from solver.building.structure import approximate_period_s
 from solver.rules import hazard
@@ -116,7 +112,7 @@ def below(_: PackageData) -> tuple[tuple[str, str], ...]:
     """Return the parts below, in order."""
     return (
         ("inputs-site", "Site and seismic parameters"),
-        ("inputs-arrays", "Arrays and objects"),
+        ("inputs-arrays", "Arrays"),
         ("inputs-friction", "Friction tests"),
     )
 
@@ -133,10 +129,8 @@ def inputs(package: PackageData) -> Mapping[str, object]:
         "arrays": _arrays(package),
         "asked": [array.id for array in data.arrays if array.model in REQUESTED_MODELS],
         "takes_base": package.assessment.rules.low_profile_length is LowProfileLength.BASE,
-        "sizes": _sizes(package),
-        "outlined": {"arrays": _outlined(data.arrays), "objects": _outlined(data.objects)},
+        "made": ids_by(data.arrays, lambda array: (array.construction, array.mu_report)),
         "links": _links(package),
-        "places": _places(package),
         "friction": friction_tests.page(package),
     }
 
@@ -145,35 +139,15 @@ def _arrays(package: PackageData) -> Table:
     columns = (
         (words("Array", 0.9), lambda array: array.id),
         (plain("Slope", 2, "deg", 0.7), lambda array: math.degrees(array.slope_rad)),
-        (plain("Slope", 1, "%", 0.7), lambda array: 100.0 * math.tan(array.slope_rad)),
-        (plain("Downslope", 0, "deg in plan"), lambda array: array.downslope_deg),
+        (plain("Slope", 1, "%", 0.6), lambda array: 100.0 * math.tan(array.slope_rad)),
+        (plain("Down", 0, "deg", 0.7), lambda array: array.downslope_deg),
         (text("μ", share=package.mu_share), lambda array: mu_words(array.friction)),
-        (words("Friction test report", 2.3), lambda array: array.mu_report or NOT_GIVEN),
-        (words("Construction", 2.5), lambda array: array.construction),
-    )
-    return listed(package.data.arrays, columns, package.fmt)
-
-
-def _sizes(package: PackageData) -> Table:
-    columns = (
-        (words("Array", 0.9), lambda array: array.id),
-        (Shown(head="Weight", quantity=Quantity.WEIGHT), lambda array: array.weight_n),
+        (Shown(head="Weight", quantity=Quantity.WEIGHT, share=0.95), lambda array: array.weight_n),
         (Shown(head="Weight per area", quantity=Quantity.PRESSURE), lambda array: array.weight_pa),
         (length("Center of gravity"), lambda array: array.cg_height_m),
         (length("Support spacing"), lambda array: array.support_spacing_m),
-        (_in_plan("Plan x"), lambda array: _sides(array.shape)[1] - _sides(array.shape)[0]),
-        (_in_plan("Plan y"), lambda array: _sides(array.shape)[3] - _sides(array.shape)[2]),
     )
-    return listed(package.data.arrays, columns, package.fmt)
-
-
-def _in_plan(head: str) -> Shown:
-    return Shown(head=head, quantity=Quantity.PLAN)
-
-
-def _outlined(rows: Sequence[Array | RoofObject]) -> Sequence[tuple[str, int]]:
-    """Return which rows are drawn by an outline, with the number of its vertices."""
-    return [(row.id, len(row.placed.points)) for row in rows if isinstance(row.placed, Polygon)]
+    return listed(package.data.arrays, columns, package.fmt, kind="compact")
 
 
 def _links(package: PackageData) -> Table:
@@ -191,30 +165,3 @@ def _links(package: PackageData) -> Table:
         (plain("Link damping", 3, "of critical", 1.3), lambda row: row.damping_ratio),
     )
     return listed(package.data.links, columns, package.fmt)
-
-
-def _places(package: PackageData) -> Table:
-    """Return where arrays, objects and roof edges are in plan, and how high the latter."""
-    data = package.data
-    rows = [
-        *((array.id, "array", None, array.placed) for array in data.arrays if array.placed),
-        *((item.id, item.kind.value, item.height_m, item.placed) for item in data.objects),
-    ]
-    columns = (
-        (words("Item", 1.2), lambda row: row[0]),
-        (words("Kind", 2.5), lambda row: row[1]),
-        (length("Height"), lambda row: "—" if row[2] is None else row[2]),
-        (_in_plan("x from"), lambda row: _sides(row[3])[0]),
-        (_in_plan("x to"), lambda row: _sides(row[3])[1]),
-        (_in_plan("y from"), lambda row: _sides(row[3])[2]),
-        (_in_plan("y to"), lambda row: _sides(row[3])[3]),
-    )
-    return listed(rows, columns, package.fmt, kind="compact")
-
-
-def _sides(shape: Shape | None) -> tuple[Any, ...]:
-    """Return x from, x to, y from and y to of the rectangle around a shape."""
-    if shape is None:
-        return ("—",) * 4
-    box = shape.bounds
-    return box.x_from_m, box.x_to_m, box.y_from_m, box.y_to_m

@@ -1,6 +1,6 @@
 """Limits, requirements and interconnection strength, and what of them the summary says.
 
-The part on clearances: what its template needs beside the clearances themselves.
+The part with the roof plan: its tables and notes, what is near each array, and the parapets.
 
 The provisions behind the numbers, overrides and departures.
 """
@@ -8,25 +8,34 @@ The provisions behind the numbers, overrides and departures.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
 
 from markupsafe import Markup, escape
 
 from report.assessment.arrays import ArrayAssessment, Route
+from report.assessment.friction import mus_words
 from report.assessment.neighbors import Cover
+from report.assessment.plan_clearances import plan_gaps
 from report.assessment.precheck import findings
-from report.assessment.verdict import STRENGTH_ROW, as_one
+from report.assessment.verdict import STRENGTH_ROW, Verdict, as_one
 from report.document.tables import Table, listed, table_of
+from report.drawing.labels import alike_arrays
+from report.drawing.sheet import unit_format
 from report.entities.array import array_results
 from report.entities.evidence import NeighborResult
 from report.entities.requirement import UNVERIFIED, dagger, requirement_rows
-from report.entities.shown import centered, length, text, words
+from report.entities.shown import Shown, centered, length, text, words
 from report.pages.model import link_troubles, model_troubles
 from report.pages.parts import NG, OK, PackageData, verdict
 from report.pages.symbols import with_symbols
 from report.sheet.checking.findings import lines
 from report.sheet.schema.choices import ObjectKind
 from report.sheet.schema.fields import Level
+from report.sheet.schema.scene import Array, RoofObject
+from report.sheet.schema.shapes import Polygon, Shape
 from report.text.counts import grouped_by, ranged
+from report.text.units import Quantity
 from report.typeset.equations import symbol
 from solver.rules.limit import Consequence, Limit
 from solver.rules.provisions import OVERRIDABLE, Basis, Neighbor
@@ -66,8 +75,15 @@ def troubles(package: PackageData) -> Mapping[str, Sequence[object]]:
 
 
 def _requirements(package: PackageData) -> Table:
-    """Return the requirements beside the numeric limits, those that ask the same as one."""
-    others = (row for row in package.assessment.rows if row.id != STRENGTH_ROW)
+    """Return the requirements beside the numeric limits that are satisfied or notes.
+
+    The summary has the others. Those that ask the same are one.
+    """
+    others = (
+        row
+        for row in package.assessment.rows
+        if row.id != STRENGTH_ROW and (row.is_satisfied or row.verdict is Verdict.NOTE)
+    )
     alike = grouped_by(others, lambda row: (*row.asked, row.basis, row.verdict))
     each = (
         as_one(rows).model_copy(update={"subject": ranged(row.subject for row in rows)})
@@ -134,21 +150,33 @@ def _warnings(package: PackageData) -> Iterator[Sequence[str]]:
         yield line.cells, f"{line.finding.text}.", line.finding.reason or "not acknowledged"
 
 
-def clearances(package: PackageData) -> Mapping[str, object]:
-    """Return the part on clearances, without its chart."""
-    near = list(map(NeighborResult.of, package.assessment.neighbors))
-    beyond = [pair for pair in package.assessment.pairs if not pair.is_listed]
+_APART = {Cover.SHORT, Cover.SUFFICIENT, Cover.DIFFERS}
+"""Of pairs whose clearance is not given, or not as in the plan."""
+
+
+def plan(package: PackageData) -> Mapping[str, object]:
+    """Return what the part needs beside its drawings."""
+    given = package.assessment
+    near = list(map(NeighborResult.of, given.neighbors))
+    beyond = [pair for pair in given.pairs if not pair.is_listed]
+    fmt = replace(unit_format(given), systems=1, none="none")
     return {
-        "neighbors": [pair for pair in near if pair.cover is not Cover.BEYOND],
-        "farther": [
-            row.clearance for pair in near if pair.cover is Cover.BEYOND for row in pair.given
+        "fmt": fmt,
+        "arrays": alike_arrays(given, fmt),
+        "friction": mus_words(package.data.arrays),
+        "drawn": list(plan_gaps(given)),
+        "neighbors": [pair for pair in near if pair.cover in _APART],
+        "as_drawn": [
+            row.clearance for pair in near if pair.cover not in _APART for row in pair.given
         ],
         "n_beyond": len(beyond),
         "nearest": min(beyond, key=lambda pair: pair.gap_m, default=None),
         "factors": _factors(package),
         "clauses": dict.fromkeys(row.clause for row in package.clearances),
         "parapets": _parapets(package),
-        "is_least": any(gap.is_minimum_value for gap in package.assessment.clearances),
+        "places": _places(package),
+        "outlined": _outlined((*package.data.arrays, *package.data.objects)),
+        "is_least": any(gap.is_minimum_value for gap in given.clearances),
     }
 
 
@@ -190,14 +218,51 @@ def _parapets(package: PackageData) -> Table:
     return listed(rows, columns, package.fmt, kind="compact")
 
 
+def _places(package: PackageData) -> Table:
+    """Return where arrays, objects and roof edges are in plan, and how high the latter."""
+    data = package.data
+    rows = [
+        *((array.id, "array", None, array.placed) for array in data.arrays if array.placed),
+        *((item.id, item.kind.value, item.height_m, item.placed) for item in data.objects),
+    ]
+    columns = (
+        (words("Item", 1.2), lambda row: row[0]),
+        (words("Kind", 2.5), lambda row: row[1]),
+        (length("Height"), lambda row: "—" if row[2] is None else row[2]),
+        (_in_plan("x from"), lambda row: _sides(row[3])[0]),
+        (_in_plan("x to"), lambda row: _sides(row[3])[1]),
+        (_in_plan("y from"), lambda row: _sides(row[3])[2]),
+        (_in_plan("y to"), lambda row: _sides(row[3])[3]),
+    )
+    return listed(rows, columns, package.fmt, kind="compact")
+
+
+def _sides(shape: Shape | None) -> tuple[Any, ...]:
+    """Return x from, x to, y from and y to of the rectangle around a shape."""
+    if shape is None:
+        return ("—",) * 4
+    box = shape.bounds
+    return box.x_from_m, box.x_to_m, box.y_from_m, box.y_to_m
+
+
+def _in_plan(head: str) -> Shown:
+    return Shown(head=head, quantity=Quantity.PLAN)
+
+
+def _outlined(rows: Sequence[Array | RoofObject]) -> Sequence[tuple[str, int]]:
+    """Return which rows are drawn by an outline, with the number of its vertices."""
+    return [(row.id, len(row.placed.points)) for row in rows if isinstance(row.placed, Polygon)]
+
+
 def provisions(package: PackageData) -> Mapping[str, object]:
     """Return every number of the rule set in two columns, and the overrides."""
     rules = package.assessment.rules
     named = [(_sentence_case(OVERRIDABLE[key]), value) for key, value in rules.values.items()]
+    own = rules.name.removeprefix("SEAOC ") + " "  # before its clauses
     columns = (
-        (words("Provision", 4.6), lambda row: row[0]),
-        (text("Value", share=0.75), lambda row: f"{row[1].value:.4g}" + dagger(row[1])),
-        (words("Clause", 2.4), lambda row: row[1].clause),
+        (words("Provision", 5.4), lambda row: row[0]),
+        (text("Value", share=0.8), lambda row: f"{row[1].value:.4g}" + dagger(row[1])),
+        (words("Clause", 1.6), lambda row: row[1].clause.removeprefix(own)),
     )
     middle = (len(named) + 1) // 2
     halves = named[:middle], named[middle:]

@@ -74,8 +74,7 @@ def _complete(id: str, title: str, fill: Fill) -> Page:
 PAGES = (
     Page("summary", "Summary", front.summary),
     Page("comparison", "Comparison with the prescriptive displacement", front.comparison),
-    Page("plan", "Roof plan and schedule of clearances", _alone(front.plan)),
-    Page("clearances", "Parapets and neighbors", _alone(limits.clearances)),
+    Page("plan", "Roof plan and schedule of clearances", _alone(limits.plan)),
     Page("basis", "Basis and limits of the method", _alone(front.basis)),
     Page("model", "Model used", _alone(model.page)),
     Page("limits", "Limits and requirements", _alone(limits.limits)),

@@ -56,9 +56,15 @@ def answers(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str, ob
         return {}
     printed = _printed(package.assessment, remedies)
     # Of a clearance all arrays together; what is of none, each array by itself.
-    groups = grouped_by(printed, lambda answer: answer.remedy.clearance or answer.remedy.array)
+    ways = grouped_by(printed, lambda answer: answer.remedy.clearance or answer.remedy.array)
+    each = [_group(package, group) for group in ways.values()]
+    # Clearances that nothing satisfies, for the same reasons, together.
+    groups = grouped_by(
+        each, lambda of: tuple(of["in_vain"]) if of["gap"] and not of["ways"] else id(of)
+    )
     return {
-        "groups": [_group(package, group) for group in groups.values()],
+        "groups": list(groups.values()),
+        "told": sum(bool(of["number"]) for of in each),
         "bases": dict.fromkeys(
             (remedy.kind.value, remedy.basis)
             for remedy in remedies
@@ -97,7 +103,7 @@ def _answer(assessment: Assessment, remedy: Remedy) -> PrintedRemedy:
     )
 
 
-def _group(package: PackageData, group: Sequence[PrintedRemedy]) -> Mapping[str, object]:
+def _group(package: PackageData, group: Sequence[PrintedRemedy]) -> Mapping[str, Any]:
     """Return the ways to satisfy a clearance, or to give an array final values, each by itself."""
     first = group[0].remedy
     frictions = [answer for answer in group if answer.remedy.kind is RemedyKind.FRICTION]

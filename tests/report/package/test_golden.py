@@ -24,7 +24,7 @@ SETS = {
 ALIKE = {"contents", "plan", "echo", "symbols"}
 """Parts that other projects print as the first one does."""
 
-SHIPPED = {"summary", "basis", "inputs", "motions", "comparison", "clearances", "limits", "model"}
+SHIPPED = {"summary", "basis", "inputs", "motions", "comparison", "limits", "model"}
 
 CHANGING = (
     (r"\b[0-9a-f]{64}\b", "<SHA-256>"),

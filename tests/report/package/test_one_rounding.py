@@ -17,7 +17,7 @@ pytestmark = pytest.mark.quick
 INCH = 0.0254
 # On the sheets of results a value in one direction, which is another one, may be the lower number.
 PAGES = (
-    "letter", "summary", "plan", "comparison", "clearances", "method", "model",
+    "letter", "summary", "plan", "comparison", "method", "model",
     "accuracy",
 )  # fmt: skip
 

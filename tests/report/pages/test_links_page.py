@@ -38,7 +38,7 @@ def test_an_array_for_which_one_block_is_not_adequate_is_ng_by_that_alone(both):
     assert [done.array_verdict(item).is_permitted for item in done.arrays] == [False, True]
     assert [design[-1] for design in held(both)[2]] == ["NG", "OK"]
     assert "Marked NG: 1 of 2 arrays." in printed(both, "summary")
-    assert "(part 6 compares A1, A2 with a row" in printed(both, "basis")
+    assert "(part 5 compares A1, A2 with a row" in printed(both, "basis")
 
 
 def test_a_row_without_a_displacement_says_so_and_is_ng():

@@ -87,7 +87,6 @@ def test_fewer_runs_are_said_where_a_polarity_is_not_requested():
     said = printed(package, "model")
     assert "in the polarities that the workbook requests: two runs for each motion" in said
     assert "in either polarity: four runs for each motion" in printed(scene(), "model")
-    assert printed(package, "basis").line("0 of 3 motions are run both as recorded and reversed.")
 
 
 def test_a_stable_array_has_its_tipping_ratios():

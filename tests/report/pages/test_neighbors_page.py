@@ -22,20 +22,21 @@ PARTS = ["Array", "Neighbor", "Kind", "In plan [in]", "Twice displ. [in]", "Clea
 
 def page(**changes):
     package = scenes.package(**{"arrays": ARRAYS, "objects": [], "clearances": []} | changes)
-    return printed(package, "clearances")
+    return printed(package, "plan")
 
 
 def test_a_row_has_the_distance_the_reach_and_the_number_of_the_clearance():
-    rows = [stand_in.clearance("A1", "RTU-9", FOOT), stand_in.clearance("A2", "A1", 120 * FOOT)]
+    rows = [
+        stand_in.clearance("A1", "RTU-9", 2 * FOOT), stand_in.clearance("A2", "A1", 120 * FOOT),
+    ]  # fmt: skip
     made = page(objects=[NEAR, FAR], clearances=rows)
     table = made.table(CAPTION)
     assert [[row[part] for part in PARTS] for row in table.rows] == [
-        ["A1", "RTU-9", "fixed object", "12.0", "81.6", "No. 1", "provided as in plan"]
+        ["A1", "RTU-9", "fixed object", "12.0", "81.6", "No. 1", "provided differs from plan"]
     ]
-    assert table.notes[0].endswith(
-        " Clearances to neighbors farther away, provided as in plan: No. 2. "
-        "The other three pairs of the plan are farther apart, and no less than is required; the "
-        "nearest are A2 and RTU-8, 240.0 in (6096 mm)."
+    assert made.line("Clearances provided as in the plan: No. 2.").endswith(
+        " The other three pairs of the plan are farther apart than twice the design displacement, "
+        "and no less than is required; the nearest are A2 and RTU-8, 240.0 in (6096 mm)."
     )
 
 
@@ -44,15 +45,15 @@ def test_twice_a_design_displacement_is_rounded_up():
     made = scenes.package(arrays=arrays, objects=[NEAR], clearances=[], options=options)
     (near,) = made.assessment.neighbors
     assert near.reach_m / 0.0254 % 0.1 < 0.05  # rounded it would print less
-    row = printed(made, "clearances").table(CAPTION).row("RTU-9")
+    row = printed(made, "plan").table(CAPTION).row("RTU-9")
     assert float(row["Twice displ. [in]"]) > near.reach_m / 0.0254
 
 
-def test_clearances_to_neighbors_farther_away_are_named_and_not_listed():
-    made = page(clearances=[stand_in.clearance("A1", "A2", 120 * FOOT)])
-    line = made.line("No array, object or roof edge of the plan is within twice the design")
-    assert line.endswith(" Clearances to neighbors farther away, provided as in plan: all.")
-    assert CAPTION not in made
+@pytest.mark.parametrize("other", [("A2", 120 * FOOT), ("RTU-9", FOOT)])
+def test_clearances_that_are_as_in_the_plan_are_named_and_not_listed(other):
+    made = page(objects=[NEAR], clearances=[stand_in.clearance("A1", *other)])
+    assert made.line("Clearances provided as in the plan: all.")
+    assert (CAPTION in made) is (other[0] == "A2")  # the near unit has no clearance
 
 
 def test_a_neighbor_without_a_clearance_is_listed_with_its_verdict():
@@ -65,16 +66,16 @@ def test_a_neighbor_without_a_clearance_is_listed_with_its_verdict():
 def test_what_has_no_place_in_plan_is_named_and_not_measured():
     lost = NOWHERE | {"id": "LOST"}
     made = page(objects=[NOWHERE, lost], clearances=[stand_in.clearance("A1", "OLD", 9.0)])
-    assert made.line("Not measured").endswith("the object has no place in plan: No. 1 (A1 to OLD).")
+    line = made.line("To the scale stated")
+    assert "Neither drawn nor measured, because a place in plan is not given: clearance 1." in line
     assert made.line("Neither a place").endswith("LOST.")
     assert CAPTION not in made
 
 
 def test_without_a_neighbor_the_nearest_pair_is_named():
-    line = page().line("No array, object or roof edge of the plan is within twice the design")
-    assert line.endswith(
-        " The other pair of the plan is farther apart, and no less than is required: A1 and A2, "
-        "1440.0 in (36576 mm)."
+    assert page().line("The other pair of the plan is farther apart") == (
+        "The other pair of the plan is farther apart than twice the design displacement, and no "
+        "less than is required: A1 and A2, 1440.0 in (36576 mm)."
     )
     assert "of the plan" not in page(arrays=ARRAYS[:1])
 
@@ -86,10 +87,9 @@ def test_edges_are_those_of_the_outline_where_it_is_given(is_given):
 
 
 def test_no_pair_is_said_to_have_what_is_required_where_that_is_not_known():
-    made = printed(scenes.unpermitted(), "clearances")
-    (note,) = (note for note in made.table(CAPTION).notes if "Twice displ." in note)
-    assert "or the prescriptive one where none is permitted. " in note
-    assert "The other seven pairs of the plan are farther apart; the nearest are A1 and" in note
+    made = printed(scenes.unpermitted(), "plan")
+    line = made.line("The other seven pairs of the plan are farther apart")
+    assert "twice the design displacement; the nearest are A1 and" in line
 
 
 def drawn(**changes):
@@ -107,10 +107,9 @@ def test_a_distance_from_the_drawing_is_a_condition_of_its_arrays_and_to_be_meas
     (row,) = (row for row in package.assessment.rows if row.id == "drawing_distances")
     assert (row.subject, row.found, row.is_satisfied) == ("A1", "not confirmed", False)
     assert row.verdict is Verdict.CONDITION
-    made = printed(package, "clearances")
+    made = printed(package, "plan")
     words = " Distances provided: drawing, not confirmed No. 1; measured No. 2."
     assert made.line("Factor").endswith(words)
-    assert made.table(CAPTION).rows[0]["Remark"] == "from plan; not confirmed"
     line = printed(package, "notes").line("Gaps to be measured first")
     assert line.endswith("because their distance is from the drawing and not confirmed: No. 1.")
 
@@ -121,10 +120,9 @@ def test_name_and_date_confirm_every_distance_from_the_drawing():
     (row,) = (row for row in package.assessment.rows if row.id == "drawing_distances")
     assert row.is_satisfied
     assert row.found == "confirmed by MT, 2026-03-05"
-    made = printed(package, "clearances")
+    made = printed(package, "plan")
     words = " Distances provided: drawing, confirmed No. 1; measured No. 2."
     assert made.line("Factor").endswith(words)
-    assert made.table(CAPTION).rows[0]["Remark"] == "from plan; confirmed"
     assert "Gaps to be measured first" not in printed(package, "notes")
 
 

@@ -72,7 +72,7 @@ def test_a_drift_over_its_limit_prints_larger():
     ("options", "words"),
     [
         ({}, "the factor ×, importance included, times Δ, of two"),
-        (DEPARTURE, "importance included, times the displacement toward it (part 4), of"),
+        (DEPARTURE, "importance included, times the displacement toward it, of"),
     ],
 )
 def test_the_plan_says_which_displacement_a_separation_takes(options, words):
@@ -83,7 +83,7 @@ def test_the_plan_says_which_displacement_a_separation_takes(options, words):
 def test_a_parapet_that_is_too_low_does_not_qualify():
     edge = stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=20 * INCH)
     package = scenes.package(objects=[edge], clearances=[stand_in.clearance("A3", "N", 6.0)])
-    row = printed(package, "clearances").table("Parapets").row("N")
+    row = printed(package, "plan").table("Parapets").row("N")
     assert (row["Beside"], row["Result"]) == ("A3", "does not qualify")
     assert row["Top above the roof [in]"] == "20.0"
     of_center = float(row["Center of gravity [in]"])
@@ -124,10 +124,6 @@ def test_a_limit_that_may_be_exceeded_is_nowhere_said_to_be_satisfied(clearances
     for key in ("letter", "summary"):
         text = f"All limits are satisfied or, where permitted, exceeded{gaps}"
         assert text in printed(package, key)
-    text = (
-        "OK: every limit (unless permitted to be exceeded), clearance and requirement is satisfied"
-    )
-    assert text in printed(package, "basis")
 
 
 @pytest.mark.quick

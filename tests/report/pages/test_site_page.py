@@ -22,7 +22,7 @@ def package(sections=None, **site):
 
 
 def table(made):
-    return printed(made, "inputs").table("9.1 Site and seismic parameters")
+    return printed(made, "inputs").table("8.1 Site and seismic parameters")
 
 
 def rows(made):

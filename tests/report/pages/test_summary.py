@@ -57,6 +57,20 @@ def test_a_condition_that_says_the_same_of_several_arrays_is_said_once():
     assert "not given" in page.line("Arrays A1 to A3, interconnection strength")
 
 
+def test_clearances_that_differ_alike_from_the_plan_are_one_condition_that_names_them():
+    arrays = [stand_in.array(f"A{k}", 0.5, x=120 * k, y=20) for k in (1, 2, 3)]
+    rows = [stand_in.clearance("A1", "A2", 2.0), stand_in.clearance("A2", "A3", 2.0)]
+    data = stand_in.project(arrays=arrays, clearances=rows, objects=[])
+    done = stand_in.assess_input(data, stand_in.motions(1, seconds=4.0))
+    differing = [row for row in done.conditions if row.id == "neighbors"]
+    (one,) = [row for row, _ in done.alike_conditions if row.id == "neighbors"]
+    assert (len(differing), one.title) == (2, "Clearances A1 to A2, A2 to A3")
+    cells = [row.remedy.split(":")[0] for row in differing]
+    assert one.remedy.startswith(f"{', '.join(dict.fromkeys(cells))}: correct the clearance")
+    line = printed(done, "summary").line("Clearances A1 to A2, A2 to A3: differs from the plan")
+    assert "required: as in the plan" in line
+
+
 def test_a_requirement_that_is_found_differently_is_one_row_with_each_array_before_its_own():
     given = {"A1": 10.0, "A2": 20.0, "A3": 20.0}
     arrays = [
