@@ -1,7 +1,7 @@
 """Margins and confidence of the design values: friction, slope, directions that are not run.
 
-Runs the solver and collects numbers; `report.pages.accuracy` prints the margins, results.json
-has the grid, which the page draws. Read `uncertainty`.
+Runs the solver and collects numbers; `report.pages.accuracy` prints the margins, and
+`report.web.views` draws the grid of `surface`. Read `uncertainty`.
 """
 
 from __future__ import annotations
@@ -98,7 +98,6 @@ class RotatedRun:
 class Uncertainty:
     """Margins and confidence of the design values."""
 
-    surface: ResponseSurface
     margins: tuple[Margin, ...]  # for each clearance, one for each array that it involves
     motion: MotionRun  # the governing motion of the governing array, as run for the package
     turned: tuple[RotatedRun, ...]  # empty for a motion with one horizontal component
@@ -129,7 +128,6 @@ def uncertainty(assessment: Assessment) -> Uncertainty | None:
     angles = ANGLES_DEG if motion.motion.has_transverse else ()
     with ThreadPoolExecutor(THREADS) as pool:
         return Uncertainty(
-            surface=surface(assessment, governing, pool),
             margins=tuple(_margins(assessment, pool)),
             motion=motion,
             turned=tuple(pool.map(partial(_turned, governing), angles)),
@@ -137,7 +135,7 @@ def uncertainty(assessment: Assessment) -> Uncertainty | None:
         )
 
 
-def surface(assessment: Assessment, item: ArrayAssessment, pool: Executor) -> ResponseSurface:
+def surface(assessment: Assessment, item: ArrayAssessment) -> ResponseSurface:
     """Return the mean PRD of an array over a grid of friction and slope around all arrays."""
     arrays = [array.array for array in assessment.arrays]
     mus = _axis([array.mu for array in arrays], item.array.mu, N_MUS, unit=0.01, room=0.05)
@@ -150,7 +148,8 @@ def surface(assessment: Assessment, item: ArrayAssessment, pool: Executor) -> Re
     )
     slopes = np.radians(degrees)
     cells = [(slope, mu) for slope in slopes.tolist() for mu in mus.tolist()]
-    results = list(pool.map(partial(_cell, item), cells))
+    with ThreadPoolExecutor(THREADS) as pool:
+        results = list(pool.map(partial(_cell, item), cells))
     means = [sum(run.prd_m for run in cell) / len(cell) for cell in results]
     statuses = [run.status for cell in results for run in cell]
     return ResponseSurface(

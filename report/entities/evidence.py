@@ -123,23 +123,6 @@ class NeighborResult(Entity):
     """Kind of the object, in words; for others as `kind`."""
 
 
-class SurfaceResult(Entity):
-    """The mean PRD of an array over friction and slope."""
-
-    array: Annotated[str, at("array.id")]
-    """Array that is varied."""
-    mus: tuple[float, ...]
-    """Friction coefficients at low velocity of the grid."""
-    slopes_rad: tuple[float, ...]
-    """Slopes of the grid."""
-    mean_prd_m: tuple[tuple[Number, ...], ...]
-    """Mean PRD of the motions: a row by slope, a value by friction coefficient."""
-    n_unfinished: int
-    """Runs that still slide at the end of their record."""
-    n_runs: int
-    """Runs on the grid."""
-
-
 class MarginResult(Entity):
     """The margin of a clearance in friction."""
 
@@ -186,8 +169,6 @@ class AnglesResult(Entity):
 class UncertaintyResult(Entity):
     """Margins and confidence of the displacements."""
 
-    surface: SurfaceResult
-    """Mean PRD over friction and slope."""
     margins: tuple[MarginResult, ...]
     """Margin of each clearance in friction."""
     angles: AnglesResult
@@ -245,15 +226,5 @@ def remedy_result(item: Remedy, us_first: bool) -> RemedyResult:
 
 
 def uncertainty_result(item: Uncertainty) -> UncertaintyResult:
-    """Return the grid over friction and slope, the margins, and the directions not run."""
-    surface = item.surface
-    return UncertaintyResult.of(
-        item,
-        surface=SurfaceResult.of(
-            surface,
-            mus=surface.mus.tolist(),
-            slopes_rad=surface.slopes_rad.tolist(),
-            mean_prd_m=surface.mean_m.tolist(),
-        ),
-        angles=AnglesResult.of(item),
-    )
+    """Return the margins, and the directions not run."""
+    return UncertaintyResult.of(item, angles=AnglesResult.of(item))

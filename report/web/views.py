@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict
 from typing import Any, TypeVar
 
@@ -18,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.project import THREADS, Assessment
+from report.assessment.project import Assessment
 from report.assessment.runs import MotionRun, OrientedRun
 from report.assessment.uncertainty import ResponseSurface, surface
 from report.document.templates import sentence
@@ -155,7 +154,7 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
 
 
 def contour(assessment: Assessment, array_id: str) -> Json:
-    """Return the mean PRD of an array over friction and slope: the grid of the package.
+    """Return the mean PRD of an array over friction and slope.
 
     Raises
     ------
@@ -163,8 +162,7 @@ def contour(assessment: Assessment, array_id: str) -> Json:
         For an array that the project does not have.
     """
     item, fmt = _array(assessment, array_id), unit_format(assessment)
-    with ThreadPoolExecutor(THREADS) as pool:
-        contours = surface(assessment, item, pool)
+    contours = surface(assessment, item)
     row = int(np.argmin(np.abs(contours.slopes_rad - item.array.slope_rad)))
     column = int(np.argmin(np.abs(contours.mus - item.array.mu)))
     here_m, unit = float(contours.mean_m[row, column]), fmt.units()[0]

@@ -6,7 +6,7 @@ import pytest
 import scenes
 import stand_in
 from one_by_one import prd_m, slid
-from report.assessment.uncertainty import uncertainty
+from report.assessment.uncertainty import surface, uncertainty
 from solver.model import Friction
 
 PEER = {"peer_reviewed": True}
@@ -23,6 +23,11 @@ def usual():
     return assessment, uncertainty(assessment)
 
 
+@pytest.fixture(scope="module")
+def grid(usual):
+    return surface(usual[0], usual[0].governing)
+
+
 def mean_m(governing, **changes):
     """The mean PRD of an array over its motions, each in its governing orientation, solved."""
     peaks = []
@@ -36,32 +41,32 @@ def mean_m(governing, **changes):
     return sum(peaks) / len(peaks)
 
 
-def test_the_grid_has_eight_by_six_points_around_the_arrays_and_that_of_the_governing_one(usual):
-    assessment, found = usual
-    surface = found.surface
-    assert surface.mean_m.shape == (6, 8)
+def test_the_grid_has_eight_by_six_points_around_the_arrays_and_that_of_the_governing_one(
+    usual, grid
+):
+    assessment, _ = usual
+    assert grid.mean_m.shape == (6, 8)
     mus = [one.array.mu for one in assessment.arrays]
     slopes = [one.array.slope_rad for one in assessment.arrays]
-    assert surface.mus[0] < min(mus) < max(mus) < surface.mus[-1]
-    assert surface.slopes_rad[0] <= min(slopes) < max(slopes) < surface.slopes_rad[-1]
-    assert assessment.governing.array.mu in surface.mus
-    assert (np.diff(surface.mus) > 0).all()
-    assert (np.diff(surface.slopes_rad) > 0).all()
-    assert surface.n_runs == 6 * 8 * 3
+    assert grid.mus[0] < min(mus) < max(mus) < grid.mus[-1]
+    assert grid.slopes_rad[0] <= min(slopes) < max(slopes) < grid.slopes_rad[-1]
+    assert assessment.governing.array.mu in grid.mus
+    assert (np.diff(grid.mus) > 0).all()
+    assert (np.diff(grid.slopes_rad) > 0).all()
+    assert grid.n_runs == 6 * 8 * 3
 
 
-def test_the_grid_agrees_with_runs_one_by_one_and_with_the_package(usual):
-    assessment, found = usual
-    surface, governing = found.surface, assessment.governing
+def test_the_grid_agrees_with_runs_one_by_one_and_with_the_package(usual, grid):
+    governing = usual[0].governing
     for row, column in ((0, 0), (5, 0), (3, 4), (5, 7)):
         point = {
-            "mu": float(surface.mus[column]),
-            "slope_rad": float(surface.slopes_rad[row]),
+            "mu": float(grid.mus[column]),
+            "slope_rad": float(grid.slopes_rad[row]),
         }
-        assert surface.mean_m[row, column] == pytest.approx(mean_m(governing, **point), rel=2e-3)
-    row = int(np.argmin(abs(surface.slopes_rad - governing.array.slope_rad)))
-    column = int(np.argmin(abs(surface.mus - governing.array.mu)))
-    assert surface.mean_m[row, column] == pytest.approx(governing.analysis.mean_m, rel=2e-3)
+        assert grid.mean_m[row, column] == pytest.approx(mean_m(governing, **point), rel=2e-3)
+    row = int(np.argmin(abs(grid.slopes_rad - governing.array.slope_rad)))
+    column = int(np.argmin(abs(grid.mus - governing.array.mu)))
+    assert grid.mean_m[row, column] == pytest.approx(governing.analysis.mean_m, rel=2e-3)
 
 
 # In the second and the third the governing headings pass a value that other headings refute.
@@ -119,10 +124,11 @@ def test_the_reversed_vertical_is_run_in_every_heading(usual):
 
 @pytest.mark.quick
 def test_one_component_has_no_angles_and_no_vertical_to_reverse():
-    found = uncertainty(made(scenes.along(SHORT)))
+    assessment = made(scenes.along(SHORT))
+    found = uncertainty(assessment)
     assert found.turned == ()
     assert math.isnan(found.reversed_m)
-    assert (found.surface.mean_m > 0).all()
+    assert (surface(assessment, assessment.governing).mean_m > 0).all()
 
 
 def test_a_clearance_without_a_permitted_route_has_no_margin():
@@ -147,7 +153,7 @@ def test_a_law_by_velocity_is_scaled_as_a_whole_and_the_other_arrays_are_named()
         stand_in.array("A3", 3.0, mu=0.3, mu_fast=0.36, **law),
     ]
     assessment = made(arrays=arrays, clearances=[])
-    found = uncertainty(assessment).surface
+    found = surface(assessment, assessment.governing)
     assert assessment.governing.id == "A3"
     assert found.others == ("A1",)
     mu = float(found.mus[-1])
@@ -158,6 +164,6 @@ def test_a_law_by_velocity_is_scaled_as_a_whole_and_the_other_arrays_are_named()
 
 @pytest.mark.quick
 def test_a_block_that_lifts_off_leaves_holes_and_no_margin():
-    found = uncertainty(made(tuple(stand_in.lifting(f"L{k}", signs=(1,)) for k in range(3))))
-    assert np.isnan(found.surface.mean_m).all()
-    assert all(math.isnan(margin.minimum_mu) for margin in found.margins)
+    lifting = made(tuple(stand_in.lifting(f"L{k}", signs=(1,)) for k in range(3)))
+    assert np.isnan(surface(lifting, lifting.governing).mean_m).all()
+    assert all(math.isnan(one.minimum_mu) for one in uncertainty(lifting).margins)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import stand_in
+from report.assessment import uncertainty
 from report.assessment.runs import REQUESTED_MODELS
-from report.assessment.uncertainty import uncertainty
 from report.web import views
 from report.web.run_forces import during, run_forces, slips_of
 from solver.model import InputError
@@ -212,8 +212,8 @@ def test_a_slip_that_the_record_cuts_off_ends_with_it():
     assert answer["friction"]["series"][0]["v"][-1] == 0.45
 
 
-def test_the_contour_of_the_governing_array_is_that_of_the_package(usual):
-    surface = uncertainty(usual).surface
+def test_the_contour_is_the_surface_of_the_array(usual):
+    surface = uncertainty.surface(usual, usual.governing)
     answer = views.contour(usual, usual.governing.array.id)
     assert answer["mus"] == surface.mus.tolist()
     assert answer["prd_m"] == surface.mean_m.tolist()
