@@ -45,10 +45,8 @@ from report.assessment.neighbors import PlanNeighbor, plan_pairs, reaches_of
 from report.assessment.precheck import building_limits
 from report.assessment.project import THREADS, Assessment
 from report.assessment.runs import (
-    CONTINUED,
     MotionRun,
-    reference,
-    run_along,
+    largest_two,
     run_motion,
     scene_key,
 )
@@ -65,8 +63,8 @@ from solver.model import Motion
 from solver.records.acceptance import Acceptance
 from solver.rules.provisions import RuleSet
 
-Reference = Mapping[str, Mapping[str, Mapping[str, Any]]]
-"""By array and motion, what `runs.reference` gives: data for JSON."""
+Reference = Mapping[str, Mapping[str, Sequence[str]]]
+"""By array and motion, the orientations with the largest PRDs: data for JSON."""
 
 
 def assess(
@@ -137,36 +135,32 @@ def reassess(assessment: Assessment, project: ProjectInput) -> Assessment:
 
 
 def anticipate(sheet: Sheet, shaking: Shaking, known: Reference) -> Assessment:
-    """Assess a workbook in one axis, continued from the last full assessment (`run_along`)."""
+    """Assess a workbook in the orientations that gave the largest PRDs in a full assessment.
 
-    def along(array: Array, motion: Motion) -> MotionRun:
-        return run_along(array, motion, known.get(array.id, {}).get(motion.id))
+    At its values, and as long as these two stay the largest, with the displacements of all.
+    """
+    has_all = sheet.project.options.directional  # each direction may have another largest one
+
+    def names_of(array: Array) -> Mapping[str, Sequence[str]]:
+        return {} if has_all else known.get(array.id, {})
+
+    def run(array: Array, motion: Motion) -> MotionRun:
+        return run_motion(array, motion, names=names_of(array).get(motion.id, ()))
 
     def key(array: Array) -> Hashable:
-        # Arrays that are alike now may have had other runs at the reference.
-        return scene_key(array), json.dumps(known.get(array.id))
+        # Arrays that are alike now may have had others at the reference.
+        return scene_key(array), json.dumps(names_of(array))
 
     data = outdated(sheet.project, shaking.hashes)
     acceptance = shaking_acceptance(shaking, targets(data))
-    return _by_own_models(sheet, shaking, data, acceptance, along, key)
+    return _by_own_models(sheet, shaking, data, acceptance, run, key)
 
 
 def reference_of(done: Assessment) -> Reference:
-    """Return what `anticipate` continues."""
-    each: dict[Hashable, Mapping[str, Any]] = {}
-    for item in done.arrays:
-        if (alike := scene_key(item.array)) not in each:
-            each[alike] = {run.motion.id: reference(item.array, run) for run in item.motions}
-    return {item.id: each[scene_key(item.array)] for item in done.arrays}
-
-
-def not_continued(provisional: Assessment) -> Sequence[str]:
-    """Return the arrays of what `anticipate` gave whose values continue no full ones."""
-    return [
-        item.id
-        for item in provisional.arrays
-        if any(run.governing.solution.reason != CONTINUED for run in item.motions)
-    ]
+    """Return what `anticipate` runs."""
+    return {
+        item.id: {run.motion.id: largest_two(run) for run in item.motions} for item in done.arrays
+    }
 
 
 def _by_own_models(

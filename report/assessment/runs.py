@@ -7,16 +7,13 @@ Integrates nothing itself (`solver.sliding.least_model` does) and knows no code 
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Collection, Hashable, Mapping, Sequence
+from dataclasses import dataclass, field
 from operator import attrgetter
-from typing import Any
 
 from report.sheet.schema.choices import Direction, ModelChoice
 from report.sheet.schema.scene import Array
-from solver.forces import friction_demand
 from solver.model import Motion, Orientation, Scene, SlideHistory, SlideResult, Status
-from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model
 from solver.sliding.least_model import Model, Settings, Solution
 from solver.sliding.uplift import Uplift, uplift
@@ -27,11 +24,6 @@ REQUESTED_MODELS: Mapping[ModelChoice, Model] = {
     ModelChoice.TWO_AXES: Model.TWO_AXES,
 }
 """The models that a workbook can request."""
-
-CONTINUED = "continued from the last full run"
-"""Reason of a run in one axis whose excursions are multiplied by those of a full run."""
-
-_ANY = Direction.ANY.value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -123,84 +115,25 @@ def run_motion(
     array: Array,
     motion: Motion,
     model: ModelChoice | None = None,
+    names: Collection[str] = (),
 ) -> MotionRun:
     """Run one array under one motion in all of its runs.
 
     Parameters
     ----------
-    model : Model, optional
+    model : ModelChoice, optional
         Replaces the model of the array.
+    names : collection of str, optional
+        Of orientations: those of them that the motion has are run alone, which is not for design.
     """
-    return motion_run(motion, [run_oriented(array, motion, h, model) for h in motion.orientations])
+    wanted = [each for each in motion.orientations if each.name in names] or motion.orientations
+    return motion_run(motion, [run_oriented(array, motion, each, model) for each in wanted])
 
 
-def reference(array: Array, done: MotionRun) -> Mapping[str, Any]:
-    """Return a finished motion beside its governing run in one axis, as data for JSON.
-
-    What `run_along` continues: excursions [m] by direction, None where there is none.
-    """
-    along = _oriented_along(array, done.motion, done.governing.orientation)
-    return {
-        "orientation": done.governing.orientation.name,
-        "model": int(done.governing.solution.model),
-        "full_m": {d.value: _finite(done.peak_m(d)) for d in Direction},
-        "along_m": {d.value: _finite(along.excursion_m(d)) for d in Direction},
-    }
-
-
-def run_along(array: Array, motion: Motion, known: Mapping[str, Any] | None) -> MotionRun:
-    """Run one array under one motion in one axis: quick, and not for design.
-
-    The horizontal component that governs in a reference acts along the slope together with the
-    vertical one, and its excursions are multiplied by full / one axis of the reference: at the
-    values of the reference they are the full ones. Without such a factor they are those of one
-    axis, and the reason of the run is not `CONTINUED`.
-
-    Parameters
-    ----------
-    known : mapping, optional
-        What `reference` gave for the array and the motion.
-    """
-    names = {each.name: each for each in motion.orientations}
-    if known is None or known["orientation"] not in names:
-        return motion_run(motion, [_oriented_along(array, motion, h) for h in names.values()])
-    run = _oriented_along(array, motion, names[known["orientation"]])
-    return motion_run(motion, [_continued(run, known)])
-
-
-def _continued(run: OrientedRun, known: Mapping[str, Any]) -> OrientedRun:
-    full, along, result = known["full_m"], known["along_m"], run.result
-    if run.solution.model is Model.NO_SLIP:  # of all components: exact
-        return replace(run, solution=replace(run.solution, reason=CONTINUED))
-    if not (full[_ANY] and along[_ANY]) or result.status is not Status.OK:
-        return run
-
-    def length_m(direction: Direction) -> float:
-        start = direction if along[direction.value] else Direction.ANY
-        change = run.excursion_m(start) / float(along[start.value])  # 1 exactly, at rest
-        return float(full[direction.value]) * change
-
-    result = replace(
-        result,
-        prd_m=length_m(Direction.ANY),
-        down_m=length_m(Direction.DOWN),
-        up_m=length_m(Direction.UP),
-        across_m=length_m(Direction.ACROSS),
-    )
-    model = Model(known["model"])
-    solution = replace(run.solution, model=model, reason=CONTINUED, result=result)
-    return replace(run, solution=solution)
-
-
-def _oriented_along(array: Array, motion: Motion, orientation: Orientation) -> OrientedRun:
-    scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
-    if friction_demand(scene) <= scene.friction.mu_static:
-        return OrientedRun(orientation=orientation, scene=scene, solution=least_model.solve(scene))
-    scene = replace(scene, ay_mps2=NO_RECORD)
-    # Nothing else models velocity-dependent friction than the choice of a model.
-    forced = Model.ONE_AXIS_VERTICAL if scene.friction.is_constant else None
-    solution = least_model.solve(scene, Settings(forced=forced))
-    return OrientedRun(orientation=orientation, scene=scene, solution=solution)
+def largest_two(done: MotionRun) -> list[str]:
+    """Return the names of the orientations with the two largest PRDs."""
+    runs = sorted(done.runs, key=lambda run: nan_is_worst(run.prd_m), reverse=True)
+    return [run.orientation.name for run in runs[:2]]
 
 
 def motion_run(motion: Motion, runs: Sequence[OrientedRun]) -> MotionRun:
@@ -220,10 +153,6 @@ def run_oriented(
     scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
     solution = least_model.solve(scene, Settings(forced=forced))
     return OrientedRun(orientation=orientation, scene=scene, solution=solution)
-
-
-def _finite(value_m: float) -> float | None:
-    return None if math.isnan(value_m) else value_m
 
 
 def nan_is_worst(value: float) -> float:

@@ -6,12 +6,11 @@ Computes nothing: every number and verdict is that of `report.assessment`. Read 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
 from report.assessment.arrays import NOT_PERMITTED
-from report.assessment.assess import not_continued
 from report.assessment.causes import outcome, short_clearances, short_words
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.project import Assessment
@@ -37,8 +36,8 @@ MOST_SHORT = 3
 """Clearances that are NG, up to which each is a cause of its own."""
 
 _PROVISIONAL = (
-    "Provisional: each motion in one axis with vertical, in the orientation that governed at rest, "
-    "times full / one axis there. The full model follows when the slider rests."
+    "Provisional: each motion in the two orientations with the largest PRD at rest. All of them "
+    "follow when the slider rests."
 )
 
 
@@ -58,7 +57,6 @@ def answer(
     gaps = list(clearance_results(marked, dict(enumerate(assessment.clearances, start=1))))
     missing = [near for near in assessment.neighbors if near.is_missing]
     designs = {item.id: _design(item, fmt, is_provisional) for item in arrays}
-    dim = set(not_continued(assessment)) if is_provisional else set()
 
     def verdict(verdict: Verdict, text: str = "") -> Cell | None:
         return None if is_provisional else stamp(verdict, text)
@@ -84,7 +82,7 @@ def answer(
         "clearances": {
             "caption": "Clearances",
             "heads": heads(ClearanceResult, _CLEARANCE, array="From, to"),
-            "rows": _rows(gaps, missing, fmt, verdict, dim),
+            "rows": _rows(gaps, missing, fmt, verdict),
         },
         "bars": {
             "heads": ["Motion", "Bar", "PRD"],
@@ -94,8 +92,7 @@ def answer(
                 for item, assessed in zip(arrays, assessment.arrays, strict=True)
             },
         },
-        "dim": sorted(dim),  # arrays whose values are those of one axis alone
-        "tips": _tips(assessment, arrays, designs, gaps, dim),
+        "tips": _tips(assessment, arrays, designs, gaps),
         "plan": plan(assessment, designs, (gaps, missing), fmt, verdict, room_px),
     }
 
@@ -141,18 +138,12 @@ def _rows(
     missing: Sequence[PlanNeighbor],
     fmt: UnitFormat,
     verdict: ShowVerdict,
-    dim: Collection[str],
 ) -> list[list[Cell | None]]:
     """Return the clearances in the order of the workbook, then pairs of the plan without one."""
     rows = []
     for gap in gaps:
-        others: dict[str, Cell | None] = {
-            "array": _between(gap.array, gap.object, gap.direction.value),
-            "verdict": verdict(gap.verdict),
-        }
-        if not {gap.array, gap.object}.isdisjoint(dim):
-            others["demand_capacity"] = {"text": fmt.none}
-        rows.append(cells(gap, _CLEARANCE, fmt, **others))
+        names = _between(gap.array, gap.object, gap.direction.value)
+        rows.append(cells(gap, _CLEARANCE, fmt, array=names, verdict=verdict(gap.verdict)))
     return [*rows, *(_missing(near, fmt, verdict) for near in missing)]
 
 
@@ -176,14 +167,8 @@ def _tips(
     arrays: Sequence[ArrayResult],
     designs: Mapping[str, Cell],
     gaps: Sequence[ClearanceResult],
-    dim: Collection[str],
 ) -> dict[str, str]:
     """Return what the plan tells of each array, object and clearance, by name and by number."""
-
-    def with_ratio(text: str, gap: ClearanceResult, of: str = "") -> str:
-        is_known = {gap.array, gap.object}.isdisjoint(dim)
-        return f"{text}, D/C {gap.short('demand_capacity', fmt)}{of}" if is_known else text
-
     fmt = unit_format(assessment)
     tips = {item.id: f"{item.id}: Δ {designs[item.id].get('title', fmt.none)}" for item in arrays}
     tips |= {row.id: f"{row.id}: {row.kind.value}" for row in assessment.project.objects}
@@ -191,14 +176,15 @@ def _tips(
     for gap in gaps:
         provided, required = (gap.both(name, fmt) for name in ("provided_m", "required_m"))
         text = f"{gap.count}, {gap.array} to {gap.object}: {provided}, required {required}"
-        tips[f"#{gap.count}"] = with_ratio(text, gap)
+        tips[f"#{gap.count}"] = f"{text}, D/C {gap.short('demand_capacity', fmt)}"
         for name in (gap.array, gap.object):
             known = worst.get(name)
             if known is None or not gap.demand_capacity <= known.demand_capacity:
                 worst[name] = gap
     for name, gap in worst.items():
         other = gap.object if name == gap.array else gap.array
-        tips[name] = with_ratio(tips.get(name, name), gap, f" to {other}")
+        ratio = gap.short("demand_capacity", fmt)
+        tips[name] = f"{tips.get(name, name)}, D/C {ratio} to {other}"
     return tips
 
 

@@ -17,7 +17,7 @@ from typing import Any
 from openpyxl.utils import coordinate_to_tuple
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.assessment.assess import Reference, anticipate, assess, reference_of
+from report.assessment.assess import anticipate, assess, reference_of
 from report.assessment.neighbors import NearbyKind
 from report.assessment.plan_clearances import missing_rows
 from report.assessment.project import Assessment
@@ -125,8 +125,7 @@ def perform(job: Json) -> Json:
         reply = {"answer": _JOBS[job["do"]](workbook, job)}
         is_complete = job["do"] in ("state", "assess") and not job.get("moving")
         if is_complete and not reply["answer"].get("problems"):
-            key = _key(workbook, job.get("values", {}))
-            reply["reference"] = _reference(workbook, _wider(json.loads(key)))
+            reply["reference"] = reference_of(_at_rest(workbook, job.get("values", {})))
         return reply
     except InputError as error:
         return {"problems": problems(workbook, error)}
@@ -170,7 +169,7 @@ def _lacks_motions(workbook: Path) -> bool:
 
 
 def answer_at(workbook: Path, job: Json) -> Json:
-    """Return the answer at values: of runs in one axis while a slider moves, else complete."""
+    """Return the answer at values: of the largest runs while a slider moves, else complete."""
     opened = _given(workbook, _key(workbook, job["values"]))
     if job["moving"]:
         reply = anticipate(opened.sheet, opened.shaking, job.get("reference", {}))
@@ -273,12 +272,6 @@ def _assessment(workbook: Path, key: str) -> Assessment:
     elif given.shaking is _open(workbook).shaking:  # friction and slope: no motion
         former = _as_typed(workbook)
     return assess(given.sheet, given.shaking, former)
-
-
-@lru_cache(KEPT_ANSWERS)
-def _reference(workbook: Path, key: str) -> Reference:
-    """Return the reference of values without that of the clearances, which changes no run."""
-    return reference_of(_complete(workbook, key))
 
 
 def _wider(values: Values) -> str:

@@ -161,9 +161,12 @@ def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
         return _in_plane(scene, settings, Model.SPEED_FRICTION, why, demand)
     vertical = one_axis.run(scene)
     bound = settings.bound_m(vertical.prd_m)
-    level = one_axis.run(_level(scene)) if scene.az_mps2.size else vertical
     both = two_axes.run(scene, settings.tolerance) if scene.ay_mps2.any() else vertical
-    less, lesser = _left_out(vertical, both), _left_out(level, vertical, both)
+    less = lesser = _left_out(vertical, both)
+    # Otherwise the level run is farther than the bound from one of both: they are twice it apart.
+    if less <= 2.0 * bound:
+        level = one_axis.run(_level(scene)) if scene.az_mps2.size else vertical
+        lesser = _left_out(level, vertical, both)
     if lesser <= bound:
         why = "the motion has no other component"
         if scene.az_mps2.size or scene.ay_mps2.size:

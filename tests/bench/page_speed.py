@@ -1,7 +1,7 @@
 """Claim: the page follows a slider at once.
 
-In the browser, from the event to the drawn answer: the first answer to a move; two axes from when
-it is let go, once that answer is drawn. The first is in one axis unless the full one is there
+In the browser, from the event to the drawn answer: the first answer to a move; the full one from
+when it is let go, once that answer is drawn. The first is provisional unless the full one is there
 sooner: the figures say how many were. Each move is to another value, half a second after the answer
 before. Wall time: other programs on the same cores slow it down.
 
@@ -65,7 +65,7 @@ def in_the_browser() -> None:
     """Move four sliders of the example, by their own steps."""
     with chromium() as browser, served() as (address, _), quiet_page(browser) as page:
         opened(page, address)
-        for name, is_let_go in (("one axis", False), ("two axes", True)):
+        for name, is_let_go in (("a provisional", False), ("a full", True)):
             every: list[tuple[float, str]] = []
             for slider, (first, step) in STEPS.items():
                 values = [round(first + step * move, 2) for move in range(1 + MOVES)]
@@ -75,11 +75,11 @@ def in_the_browser() -> None:
                 page.mouse.up()
                 page.wait_for_selector("body[data-phase=rest]")
             half, most = np.percentile([time_ms for time_ms, _ in every], [50, 95])
-            figure(f"a move drawn in {name}, median", float(half), "ms")
-            figure(f"a move drawn in {name}, 95th percentile", float(most), "ms")
+            figure(f"{name} answer drawn, median", float(half), "ms")
+            figure(f"{name} answer drawn, 95th percentile", float(most), "ms")
             if not is_let_go:
                 provisional = sum(values == "provisional" for _, values in every)
-                figure("moves whose first answer was in one axis", provisional / len(every))
+                figure("moves whose first answer was provisional", provisional / len(every))
         by_pointer(page)
 
 

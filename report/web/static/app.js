@@ -245,9 +245,8 @@ function keepFormer() {
 }
 
 function showPicked() {
-  const picks = { dim: answer.dim, pick: pickOnPlan };
-  showTable(part("arrays"), answer.arrays, { ...picks, picked: chosen.array, key: ([name]) => name.text });
-  showTable(part("clearances"), answer.clearances, { ...picks, picked: onPlan, key: ([count]) => count?.text && `#${count.text}`, named: 1 });
+  showTable(part("arrays"), answer.arrays, { pick: pickOnPlan, picked: chosen.array, key: ([name]) => name.text });
+  showTable(part("clearances"), answer.clearances, { pick: pickOnPlan, picked: onPlan, key: ([count]) => count?.text && `#${count.text}`, named: 1 });
   if (chosen.array in answer.bars.arrays) showBars(part("bars"), answer.bars, chosen.array); // not of a project that was open before
 }
 

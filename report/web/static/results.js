@@ -56,9 +56,9 @@ function reasonItem({ level, text, parts: grouped }) {
 
 /**
  * Show a table as the server words it: `named` is the column that names its rows. `pick` gets the key
- * of a row that has one, by its cells; rows of arrays in `dim` are pale.
+ * of a row that has one, by its cells.
  */
-export function showTable(element, { caption, heads, rows }, { named = 0, picked, pick, key, dim }) {
+export function showTable(element, { caption, heads, rows }, { named = 0, picked, pick, key }) {
   // A new body keeps no focus: the button that had it gets it back.
   const focused = element.contains(document.activeElement) ? document.activeElement.dataset.name : null;
   const name = (cell, id) => {
@@ -66,9 +66,8 @@ export function showTable(element, { caption, heads, rows }, { named = 0, picked
     return html("th", { scope: "row", title: cell.text }, id ? pickButton(said, id, id === picked, pick) : said, cell.note ? html("small", {}, cell.note) : null);
   };
   const row = (cells) => {
-    const [id, { text, from, to }] = [key(cells), cells[named]];
-    const look = [id && id === picked && "is-picked", [text, from, to].some((one) => dim.includes(one)) && "is-dim"];
-    return html("tr", { class: look.filter(Boolean).join(" ") || null }, cells.map((cell, k) => (k === named ? name(cell, id) : value(cell))));
+    const id = key(cells);
+    return html("tr", { class: id && id === picked ? "is-picked" : null }, cells.map((cell, k) => (k === named ? name(cell, id) : value(cell))));
   };
   update(element, html("caption", {}, caption), headings(heads), html("tbody", {}, rows.map(row)));
   if (focused) element.querySelector(`[data-name="${CSS.escape(focused)}"]`)?.focus();

@@ -1,8 +1,8 @@
-// The values and their answer: one axis while a slider moves, the full model when it rests.
+// The values and their answer: provisional while a slider moves, the full model when it rests.
 
 const REST_MS = 160;
 const STILL_MS = 50; // after which the full model is asked ahead, in case the slider rests here
-const STEP_MS = 400; // after which a step is answered in one axis, if the full answer is not there
+const STEP_MS = 400; // after which a step is answered provisionally, if the full answer is not there
 
 /**
  * Return the session's runner of assessments.
@@ -60,7 +60,7 @@ export function createSession(assess, show, fail) {
     values: () => ({ ...values }),
     /** Take the values of a project; nothing is asked, and what was asked is dropped. */
     load: (all) => changed(all, false),
-    /** A slider moves: answer in one axis, and in full once it rests; a step, at first, in full at once. */
+    /** A slider moves: answer provisionally, and in full once it rests; a step, at first, in full at once. */
     move(id, value, isStep = false) {
       const rests = isStep && !isMoving;
       changed({ [id]: value }, true, rests);

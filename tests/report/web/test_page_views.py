@@ -205,7 +205,7 @@ CLEARANCES = """async (cells) => {
   table.style.width = '352px'; // beside the plan, on a screen of 1280 pixels
   const { showTable } = await import('/static/results.js');
   const heads = ["No.", "From, to", "Provided", "Required", "D/C", "Verdict"];
-  const how = { named: 1, key: () => null, dim: [] };
+  const how = { named: 1, key: () => null };
   showTable(table, { caption: "Clearances", heads, rows: [cells] }, how);
   await document.fonts.ready;
   return table.getBoundingClientRect().width;
