@@ -164,15 +164,13 @@ def listen(host: str, port: int) -> socket.socket:
 def _server(folder: Path, keys: Keys, hosts: Sequence[str]) -> uvicorn.Server:
     import uvicorn
 
-    from report.web.access import Strangers
     from report.web.app import made
 
-    strangers = Strangers()
     return uvicorn.Server(
         uvicorn.Config(
-            made(keys, folder, hosts, strangers),
-            http=strangers.protocol(),
-            ws="none",  # its connections would not be told
+            made(keys, folder, hosts),
+            http="h11",  # holds a body to its Content-Length
+            ws="none",
             proxy_headers=False,
             log_level="warning",
             access_log=False,  # the first address has the token

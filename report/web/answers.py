@@ -26,7 +26,7 @@ from report.pages.registry import package_data
 from report.pages.summary import attention
 from report.text.units import beside, no_less
 from report.typeset.pdf import TEMPLATES
-from report.web.plan import USUAL_PX, Cell, ShowVerdict, cells, heads, plan, stamp
+from report.web.plan import USUAL_PX, Cell, ShowVerdict, cells, described, heads, plan, stamp
 from solver.rules.limit import Consequence
 
 _ARRAY = "id mean_prd_m design_m prescriptive_m verdict"
@@ -86,7 +86,6 @@ def answer(
         },
         "bars": {
             "heads": ["Motion", "Bar", "PRD"],
-            "scale_m": _scale_m(assessment),
             "arrays": {
                 item.id: _bars(item, assessed.motions, fmt, designs[item.id])
                 for item, assessed in zip(arrays, assessment.arrays, strict=True)
@@ -174,9 +173,7 @@ def _tips(
     tips |= {row.id: f"{row.id}: {row.kind.value}" for row in assessment.project.objects}
     worst: dict[str, ClearanceResult] = {}
     for gap in gaps:
-        provided, required = (gap.both(name, fmt) for name in ("provided_m", "required_m"))
-        text = f"{gap.count}, {gap.array} to {gap.object}: {provided}, required {required}"
-        tips[f"#{gap.count}"] = f"{text}, D/C {gap.short('demand_capacity', fmt)}"
+        tips[f"#{gap.count}"] = f"{described(gap, fmt)}, D/C {gap.short('demand_capacity', fmt)}"
         for name in (gap.array, gap.object):
             known = worst.get(name)
             if known is None or not gap.demand_capacity <= known.demand_capacity:
@@ -224,13 +221,3 @@ def _whole(assessment: Assessment) -> str:
 def finite(value: float) -> float | None:
     """Return a number, or none for NaN and infinity, which JSON does not have."""
     return value if math.isfinite(value) else None
-
-
-def _scale_m(assessment: Assessment) -> float:
-    """Return the largest length that the bars show [m]."""
-    lengths = [
-        length_m
-        for item in assessment.arrays
-        for length_m in (item.design_m, item.prescriptive.value_m, *_prds_m(item.motions))
-    ]
-    return max(filter(math.isfinite, lengths), default=0.0)

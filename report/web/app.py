@@ -21,8 +21,8 @@ from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
-from report.web.access import ENTRY, TOKEN_HEADER, Access, Keys, Strangers
-from report.web.downloads import keys_of, package_routes, workbook
+from report.web.access import ENTRY, TOKEN_HEADER, Access, Keys
+from report.web.downloads import package_routes, workbook
 from report.web.receiving import is_alone, receive_json, received, remove
 from report.web.session import (
     EXAMPLE,
@@ -51,12 +51,12 @@ mimetypes.add_type("text/javascript", ".js")
 mimetypes.add_type("image/svg+xml", ".svg")
 
 
-def made(keys: Keys, folder: Path, hosts: Collection[str], strangers: Strangers) -> Starlette:
+def made(keys: Keys, folder: Path, hosts: Collection[str]) -> Starlette:
     """Return the application, with what is uploaded and made in a folder.
 
     Parameters
     ----------
-    hosts, strangers
+    hosts
         As `Access` has them.
     """
     desk = Desk(folder)
@@ -83,7 +83,7 @@ def made(keys: Keys, folder: Path, hosts: Collection[str], strangers: Strangers)
             Mount("/static/fonts", StaticFiles(directory=FONTS)),
             Mount("/static", StaticFiles(directory=STATIC)),
         ],
-        middleware=[Middleware(Access, keys=keys, hosts=hosts, strangers=strangers)],
+        middleware=[Middleware(Access, keys=keys, hosts=hosts)],
         exception_handlers={
             InputError: _refused,
             RefusedError: _refused,
@@ -108,6 +108,12 @@ _JOBS = {
     "paths": ("array",),
 }
 """What the page has computed, each with what must be named; a run may be."""
+
+
+def keys_of(request: Request) -> Keys:
+    """Return the keys of the server."""
+    keys: Keys = request.app.state.keys
+    return keys
 
 
 async def _index(request: Request) -> Response:

@@ -15,7 +15,6 @@ from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 
 from report.making import OUTPUTS
-from report.web.access import Keys
 from report.web.receiving import receive_json, received, remove
 from report.web.session import RefusedError, desk_of
 from report.web.worker import PROJECT, TYPES, Package, State, copied, motions_made
@@ -29,8 +28,7 @@ def package_routes() -> list[Route]:
         Route("/api/motions", _motions, methods=["POST"]),
         Route("/api/package/{id}", _about, methods=["GET"]),
         Route("/api/package/{id}", _cancel, methods=["DELETE"]),
-        Route("/api/package/{id}/{name}", _ticket, methods=["POST"]),
-        Route("/file/{ticket}", _file, methods=["GET"]),
+        Route("/api/package/{id}/{name}", _file, methods=["GET"]),
     ]
 
 
@@ -87,19 +85,11 @@ async def _cancel(request: Request) -> Response:
     return JSONResponse(package.about)
 
 
-async def _ticket(request: Request) -> Response:
-    """Return an address of a file that is good once: a link has no header for the key."""
+async def _file(request: Request) -> Response:
     package, name = _package(request), request.path_params["name"]
     path = package.out / name
     if package.state is not State.DONE or name not in (*OUTPUTS, PROJECT) or not path.is_file():
         raise HTTPException(404, "There is no such file of this package")
-    return JSONResponse({"url": f"/file/{keys_of(request).ticket(path)}"})
-
-
-async def _file(request: Request) -> Response:
-    path = keys_of(request).redeem(request.path_params["ticket"])
-    if path is None:
-        raise HTTPException(404, "A link to a file is good once; save it from the page again")
     return _attached(FileResponse(path, media_type=TYPES[path.suffix]), path.name)
 
 
@@ -115,9 +105,3 @@ def _package(request: Request) -> Package:
     if package is None:
         raise HTTPException(404, "There is no such package")
     return package
-
-
-def keys_of(request: Request) -> Keys:
-    """Return the keys of the server."""
-    keys: Keys = request.app.state.keys
-    return keys

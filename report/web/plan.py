@@ -106,7 +106,7 @@ def plan(
     return {
         "title": "Roof plan to scale",
         "described": [
-            *({"text": _sentence(row, fmt), "verdict": verdict(row.verdict)} for row in shown),
+            *({"text": described(row, fmt), "verdict": verdict(row.verdict)} for row in shown),
             *(
                 {
                     "text": f"{near.array} to {near.other}: no clearance given, "
@@ -129,7 +129,8 @@ def _sheet_px(room_px: int) -> tuple[int, int]:
     return _LEAST_PX + steps * _STEP_PX, _LEAST_PX + (steps + 1) * _STEP_PX
 
 
-def _sentence(row: ClearanceResult, fmt: UnitFormat) -> str:
+def described(row: ClearanceResult, fmt: UnitFormat) -> str:
+    """Return a clearance in words."""
     provided, required = (row.both(name, fmt) for name in ("provided_m", "required_m"))
     name = f"Clearance {row.count}, {row.array} to {row.object}, {row.direction}"
     return f"{name}: provided {provided}, required {required}"

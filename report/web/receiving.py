@@ -1,4 +1,4 @@
-"""Bodies of requests, counted while they arrive: JSON, and files to be stored.
+"""Bodies of requests, no longer than allowed: JSON, and files to be stored.
 
 Read `received`.
 
@@ -22,7 +22,6 @@ from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import FormData, UploadFile
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
-from starlette.types import Message
 
 from report.sheet.writing.filled import BEFORE
 from report.web.session import Asked, OtherProjectError, desk_of
@@ -226,11 +225,11 @@ async def receive_json(request: Request) -> Asked:
     ------
     InputError, HTTPException, OtherProjectError
     """
-    capped = _capped(request, MOST_JSON)
+    _check_length(request, MOST_JSON)
     if request.headers.get("content-type", "").partition(";")[0] != "application/json":
         raise HTTPException(415, "Send JSON")
     try:
-        asked = Asked.model_validate_json(await capped.body())
+        asked = Asked.model_validate_json(await request.body())
     except ValidationError as error:
         raise InputError("the request is not one of the page; load the page again") from error
     if asked.opened not in (None, desk_of(request).opened):
@@ -264,9 +263,9 @@ async def received(request: Request, folder: Path) -> Path:
 
 async def _form(request: Request) -> FormData:
     """Return the files of a request; errors of the form are those of what was dropped."""
-    capped = _capped(request, MOST_SENT)
+    _check_length(request, MOST_SENT)
     try:
-        return await capped.form(max_files=MOST_FILES, max_fields=_MOST_FIELDS)
+        return await request.form(max_files=MOST_FILES, max_fields=_MOST_FIELDS)
     except HTTPException as error:
         if error.status_code != 400:
             raise
@@ -277,20 +276,8 @@ async def _form(request: Request) -> FormData:
         raise InputError("the files did not arrive whole; drop them again") from error
 
 
-def _capped(request: Request, maximum: int) -> Request:
-    """Return a request whose body ends in an error where it is too long."""
-    length = request.headers.get("content-length", "0")
-    too_long = HTTPException(413, f"More than {maximum / MB:g} MB; drop fewer records")
+def _check_length(request: Request, maximum: int) -> None:
+    """Refuse a body that is too long, or does not say how long it is, as that of every browser."""
+    length = request.headers.get("content-length", "")
     if not length.isdecimal() or int(length) > maximum:
-        raise too_long
-    left = maximum
-
-    async def receive() -> Message:
-        nonlocal left
-        message = await request.receive()
-        left -= len(message.get("body", b""))
-        if left < 0:
-            raise too_long
-        return message
-
-    return Request(request.scope, receive)
+        raise HTTPException(413, f"More than {maximum / MB:g} MB; drop fewer records")

@@ -94,9 +94,8 @@ export function createApi(announce, room) {
     startPackage: (values) => asked("/api/package", about({ values })),
     packageState: (id) => asked(`/api/package/${id}`, { signal: AbortSignal.timeout(PATIENCE_MS) }),
     cancelPackage: (id) => asked(`/api/package/${id}`, { method: "DELETE" }),
-    file: (id, name) => asked(`/api/package/${id}/${name}`, { method: "POST" }),
+    file: (id, name) => downloaded(`/api/package/${id}/${name}`),
     startMotions: (files) => asked("/api/motions", { method: "POST", body: form(files) }),
-    downloaded,
     workbook: (values) => downloaded("/api/workbook", about({ values })),
   };
 }

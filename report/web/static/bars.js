@@ -5,7 +5,9 @@ import { headings, html, svg, update } from "./make.js";
 const WIDE = 100; // units of the drawing; it stretches with its cell
 
 /** Show the bars of an array at the scale of the answer. */
-export function showBars(element, { heads, scale_m: scale, arrays }, id) {
+export function showBars(element, { heads, arrays }, id) {
+  const lengths = Object.values(arrays).flatMap((one) => [...one.lines.map(({ length_m: length }) => length), ...one.rows.map(({ prd_m: prd }) => prd)]);
+  const scale = Math.max(...lengths);
   const { caption, lines, rows } = arrays[id];
   const at = (meters) => (WIDE * meters) / scale;
   const marked = lines.filter(({ length_m: length }) => length !== null);

@@ -28,8 +28,7 @@ export function mountMotions(element, api, { open, fail }) {
   }
 
   async function goOn(id) {
-    const { url } = await api.file(id, PROJECT);
-    const { blob } = await api.downloaded(url);
+    const { blob } = await api.file(id, PROJECT);
     await open(() => api.upload([{ file: blob, path: PROJECT }]));
     say(element, api, "The motions are made and listed in the workbook.");
     element.append(button("Save workbook and records (zip)", () => saveFile(api, id, PROJECT).catch(fail)));

@@ -2,6 +2,7 @@
 
 import { isSame } from "./changes.js";
 import { button, html, note, replace } from "./make.js";
+import { save } from "./saving.js";
 
 const POLL_MS = 500;
 const WHAT = "The package and the workbook get the values of the page.";
@@ -125,10 +126,10 @@ function showFiles(status, api, { id, files }, guarded) {
   replace(status, html("p", { class: "made" }, made, madeWith()));
 }
 
-/** Save a file of a package: its address is good once. */
+/** Save a file of a package. */
 export async function saveFile(api, id, name) {
-  const { url } = await api.file(id, name);
-  html("a", { href: url, download: name }).click();
+  const { blob } = await api.file(id, name);
+  save(blob, name);
 }
 
 function madeWith() {

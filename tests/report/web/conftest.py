@@ -3,7 +3,7 @@
 import pytest
 from starlette.testclient import TestClient
 
-from report.web.access import KEY_HEADER, Keys, Strangers
+from report.web.access import KEY_HEADER, Keys
 from report.web.app import made
 from report.web.session import Desk
 
@@ -18,7 +18,7 @@ def keys():
 @pytest.fixture(scope="session")
 def serving(keys, tmp_path_factory):
     """The server, ended with the tests."""
-    app = made(keys, tmp_path_factory.mktemp("served"), [HOST], Strangers())
+    app = made(keys, tmp_path_factory.mktemp("served"), [HOST])
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Desk, "start", lambda _: None)  # one process less
         patch.setattr(Desk, "prepare", lambda *_: None)

@@ -42,6 +42,7 @@ def test_a_tab_that_is_closed_while_files_arrive_is_no_internal_error(client, de
         "host": client.base_url.netloc.decode(),
         KEY_HEADER.lower(): client.headers[KEY_HEADER],
         "content-type": "multipart/form-data; boundary=x",
+        "content-length": "1000",
     }
     scope = {
         "type": "http",

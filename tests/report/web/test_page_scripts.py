@@ -507,8 +507,7 @@ MOTIONS = """
       startMotions: async (files) => (sent.push(files), state),
       packageState: async () => state,
       cancelPackage: async () => (state = { ...state, ...canceled }),
-      file: async (id, name) => ({ url: `#${id}/${name}` }),
-      downloaded: async (url) => ({ blob: url }),
+      file: async (id, name) => ({ blob: `#${id}/${name}` }),
       upload: async (files) => (opened.push(files), {}),
     };
     const open = async (fetched) => { await fetched(); motions.offer(null); };
