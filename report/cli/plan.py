@@ -17,12 +17,12 @@ import click
 
 from report.cli.options import Number, SectionedGroup
 from report.cli.terminal import SOURCE, Progress, input_errors, no_collections, plain, say_next
-from report.text.counts import command, grouped_by, numbered
+from report.text.counts import command, numbered
 
 if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment
     from report.drawing.ballast import Load
-    from report.drawing.plan_read import DrawnOutline, RoofPlan
+    from report.drawing.plan_read import DrawnOutline
     from report.drawing.roof_drawing import RoofDrawing
     from report.sheet.schema.choices import LayerKind
     from report.sheet.schema.fields import DraftRow
@@ -93,12 +93,12 @@ def choose(
 def _table(
     drawing: RoofDrawing, outlines: Mapping[str, int], kinds: Mapping[str, LayerKind | None]
 ) -> Iterator[str]:
+    from report.drawing.drawing_names import drawn_on
     from report.text.formats import aligned
 
     rows = [("layer", "closed lines", "drawn", "proposed")]
     for layer, kind in list(kinds.items())[:_MOST_ROWS]:
-        counts = sorted((of, count) for (at, of), count in drawing.counts.items() if at == layer)
-        drawn = ", ".join(f"{count} {of}" for of, count in counts)
+        drawn = drawn_on(drawing, layer)
         rows.append((layer[:_MOST_LETTERS], str(outlines[layer]), drawn, kind or "none"))
     yield from aligned(rows, "<><<")
 
@@ -152,11 +152,9 @@ def read(
     blocks. Equal rectangles of the size of modules are joined into arrays. Everything else in the
     workbook is kept. If it has no other errors, the clearances follow as by plan clearances.
     """
-    from report.drawing.fill import changes, matched
-    from report.drawing.plan_read import check_size, known_layers, plan_of
+    from report.drawing.fill import changes, layers_of, plan_as_rows, unread
     from report.sheet.checking.plan_checks import us_first
     from report.sheet.reading.read import read_book
-    from report.sheet.schema.choices import LayerKind
     from report.sheet.writing.filled import changing, withdrawn
     from report.text.units import LENGTHS
     from solver.model import InputError
@@ -165,20 +163,11 @@ def read(
     with input_errors(project), no_collections(), changing(project) as change:
         draft = read_book(change.book).draft
         is_us = us_first(draft)
-        known = (row for row in draft["layers"] if {"layer", "kind"} <= row.keys())
-        named = {row["layer"]: row["kind"] for row in known}
         with input_errors(drawing):
             drawn, unit_m = _read(drawing, units)
             drawn, turn = _turned(drawn, rotate)
-            layers = choose(drawn, named, kinds, accept)
-            roof_plan = plan_of(drawn, unit_m, {**named, **layers}, gap_m, is_us)
-            known_now = known_layers({**named, **layers})
-            unknown = [line.layer for line in drawn.lines if line.layer.casefold() not in known_now]
-            layers |= dict.fromkeys(unknown, LayerKind.NOT_READ)
-        _check_found(roof_plan, drawn)
-        with input_errors(drawing):
-            check_size(roof_plan, unit_m, is_us)
-            told = matched(roof_plan, draft)
+            layers = choose(drawn, layers_of(draft), kinds, accept)
+            roof_plan, told, layers = plan_as_rows(drawn, unit_m, draft, layers, gap_m)
         change.fill(changes(change.book, told, layers, replace=replace))
         try:
             more = _add_clearances(change)
@@ -195,7 +184,7 @@ def read(
             _line(place, gap_m, is_us)
             for place in (*roof_plan.roof, *told.plan.arrays, *told.plan.objects)
         ),
-        *_unread(roof_plan),
+        *unread(roof_plan),
         *(f"layer {name}: {kind.value}" for name, kind in layers.items()),
         f"{change.book.path}: the plan is filled in: {change.areas}",
         *told.lines(replace=replace),
@@ -286,23 +275,6 @@ def _turned(drawn: RoofDrawing, rotate: float) -> tuple[RoofDrawing, list[str]]:
     return drawn, lines
 
 
-def _check_found(roof_plan: RoofPlan, drawn: RoofDrawing) -> None:
-    """Refuse a drawing from which nothing is filled in."""
-    from solver.model import InputError
-
-    if roof_plan.roof or roof_plan.arrays or roof_plan.objects:
-        return
-    if not drawn.lines:
-        if names := ", ".join(drawn.layouts):
-            text = f"its closed lines are in the layout {names}, not in model space"
-            raise InputError(f"{text}; move them there in CAD")
-        text = "the drawing has no closed lines; draw roof, arrays and objects as such in CAD"
-        raise InputError([text, *_unread(roof_plan)])
-    raise InputError(
-        ["nothing to fill in: give the layers on the sheet Layers", *_unread(roof_plan)]
-    )
-
-
 def _line(place: DrawnOutline, gap_m: float, is_us: bool) -> str:
     from report.drawing.plan_read import own_axes
     from report.text.units import Quantity, pair
@@ -322,16 +294,6 @@ def _line(place: DrawnOutline, gap_m: float, is_us: bool) -> str:
         )
         made += f" of {sizes} with gaps of at most {pair(gap_m, Quantity.SIZE, is_us)}"
     return f"{place.name}: {made}, {count} vertices, {wide} by {tall}{askew}{source}{note}"
-
-
-def _unread(roof_plan: RoofPlan) -> Iterator[str]:
-    """Yield what was not understood, once for each cause, with its layers and some handles."""
-    from report.sheet.checking.findings import listed
-
-    for reason, items in grouped_by(roof_plan.unread, lambda item: item.reason).items():
-        layers = listed(item.layer for item in items)
-        handles = listed(f"{item.handle} {item.detail}".strip() for item in items)
-        yield f"not read: {reason}: {len(items)} on {layers} ({handles})"
 
 
 @plan.command()

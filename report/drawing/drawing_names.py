@@ -13,6 +13,7 @@ from collections.abc import Iterable
 from fractions import Fraction
 from typing import NamedTuple
 
+from report.drawing.roof_drawing import RoofDrawing
 from report.sheet.schema.choices import LayerKind
 from report.text.units import LENGTHS
 
@@ -55,6 +56,12 @@ def proposed(layer: str) -> LayerKind | None:
     # A reference that is bound to the drawing has its name before that of the layer.
     name = re.sub(r"[ _]+", "-", re.split(r"[|$]", layer)[-1].upper())
     return next((kind for pattern, kind in _PATTERNS if pattern.search(name)), None)
+
+
+def drawn_on(drawing: RoofDrawing, layer: str) -> str:
+    """Return what is drawn on a layer, such as `3 LWPOLYLINE, 2 TEXT`."""
+    counts = sorted((of, count) for (at, of), count in drawing.counts.items() if at == layer)
+    return ", ".join(f"{count} {of}" for of, count in counts)
 
 
 _NUMBER = r"\d{1,6}(?:\.\d{1,6})?"

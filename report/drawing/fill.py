@@ -11,8 +11,18 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import NoReturn
 
-from report.drawing.plan_read import DrawnOutline, RoofPlan, free_name
+from report.drawing.modules import GAP_M
+from report.drawing.plan_read import (
+    DrawnOutline,
+    RoofPlan,
+    check_size,
+    free_name,
+    known_layers,
+    plan_of,
+)
+from report.drawing.roof_drawing import RoofDrawing
 from report.sheet.checking.findings import listed
 from report.sheet.checking.plan_checks import shapes_of, us_first
 from report.sheet.reading.archive import OpenBook
@@ -25,6 +35,7 @@ from report.sheet.schema.fields import Draft, DraftRow
 from report.sheet.schema.scene import DRAWING, DRAWN_MODULES, ROOF, SIDES
 from report.sheet.schema.shapes import Polygon, Rectangle, Shape, gap_m, mean, solid
 from report.sheet.writing.filled import MOVE
+from report.text.counts import grouped_by
 from report.text.formats import aligned
 from report.text.units import Quantity, Unit
 from solver.model import InputError
@@ -224,6 +235,60 @@ def _place(shape: Shape, unit: Unit) -> str:
     sides = ((box.x_from_m, box.x_to_m), (box.y_from_m, box.y_to_m))
     x, y = (" to ".join(f"{end / unit.si:.{unit.decimals}f}" for end in side) for side in sides)
     return f"x {x}, y {y} {unit.symbol}"
+
+
+def layers_of(draft: Draft) -> dict[str, LayerKind]:
+    """Return what the sheet Layers says of layers."""
+    known = (row for row in draft["layers"] if {"layer", "kind"} <= row.keys())
+    return {row["layer"]: row["kind"] for row in known}
+
+
+def plan_as_rows(
+    drawn: RoofDrawing,
+    unit_m: float,
+    draft: Draft,
+    layers: Mapping[str, LayerKind],
+    joined_m: float = GAP_M,
+) -> tuple[RoofPlan, MatchedPlan, dict[str, LayerKind]]:
+    """Return the plan of a drawing, as rows of a workbook, and what is said of its layers.
+
+    Parameters
+    ----------
+    layers : mapping of str to LayerKind
+        In addition to the sheet Layers; a layer that nobody says anything of is not read.
+    joined_m : float
+        Largest gap between modules of one array [m].
+
+    Raises
+    ------
+    InputError
+        If there is nothing to fill in, or its size is not that of a roof.
+    """
+    is_us, said = us_first(draft), {**layers_of(draft), **layers}
+    found, known = plan_of(drawn, unit_m, said, joined_m, is_us), known_layers(said)
+    if not (found.roof or found.arrays or found.objects):
+        _refuse(found, drawn)
+    check_size(found, unit_m, is_us)
+    unknown = [line.layer for line in drawn.lines if line.layer.casefold() not in known]
+    return found, matched(found, draft), {**layers, **dict.fromkeys(unknown, LayerKind.NOT_READ)}
+
+
+def _refuse(found: RoofPlan, drawn: RoofDrawing) -> NoReturn:
+    if not drawn.lines:
+        if names := ", ".join(drawn.layouts):
+            text = f"its closed lines are in the layout {names}, not in model space"
+            raise InputError(f"{text}; move them there in CAD")
+        text = "the drawing has no closed lines; draw roof, arrays and objects as such in CAD"
+        raise InputError([text, *unread(found)])
+    raise InputError(["nothing to fill in: give the layers on the sheet Layers", *unread(found)])
+
+
+def unread(found: RoofPlan) -> Iterator[str]:
+    """Yield what was not understood, once for each cause, with its layers and some handles."""
+    for reason, items in grouped_by(found.unread, lambda item: item.reason).items():
+        layers = listed(item.layer for item in items)
+        handles = listed(f"{item.handle} {item.detail}".strip() for item in items)
+        yield f"not read: {reason}: {len(items)} on {layers} ({handles})"
 
 
 _NAMED: Mapping[str, Sequence[str]] = {

@@ -76,6 +76,7 @@ def made(keys: Keys, folder: Path, hosts: Collection[str]) -> Starlette:
             Route("/api/state", _state),
             Route("/api/example", _example, methods=["POST"]),
             Route("/api/upload", partial(_open_new, store=received), methods=["POST"]),
+            Route("/api/plan", partial(_open_new, store=_with_plan), methods=["POST"]),
             Route("/api/clearances", _clearances, methods=["POST"]),
             *(Route(f"/api/{name}", _job, methods=["POST"]) for name in _JOBS),
             Route("/api/workbook", workbook, methods=["POST"]),
@@ -157,6 +158,16 @@ async def _with_clearances(request: Request, folder: Path) -> Path:
     workbook = folder / "project" / current.name
     await run_in_threadpool(copied, current, workbook.parent)
     await desk.ask({"do": "add_clearances", "workbook": str(current), "to": str(workbook)})
+    return workbook
+
+
+async def _with_plan(request: Request, folder: Path) -> Path:
+    """Store a workbook whose plan is filled in from the drawing that is sent with it."""
+    desk, workbook = desk_of(request), await received(request, folder)
+    desk.filled = desk.folder / f"filled-{folder.name}" / workbook.name
+    desk.filled.parent.mkdir()
+    fields = {name: request.state.fields.get(name, "") for name in ("layers", "unit")}
+    await desk.ask({"do": "read_plan", "workbook": str(workbook), "to": str(desk.filled), **fields})
     return workbook
 
 

@@ -22,8 +22,9 @@ from solver.model import InputError
 
 
 def package_routes() -> list[Route]:
-    """Return the routes of packages and of their files."""
+    """Return the routes of packages and of their files, and of a workbook that was filled in."""
     return [
+        Route("/api/plan", _filled),
         Route("/api/package", _begin, methods=["POST"]),
         Route("/api/motions", _motions, methods=["POST"]),
         Route("/api/package/{id}", _about, methods=["GET"]),
@@ -43,6 +44,11 @@ async def workbook(request: Request) -> Response:
     finally:
         await run_in_threadpool(path.unlink, missing_ok=True)
     return _attached(Response(data, media_type=TYPES[".xlsx"]), name)
+
+
+async def _filled(request: Request) -> Response:
+    path = desk_of(request).filled
+    return _attached(FileResponse(path, media_type=TYPES[".xlsx"]), path.name)
 
 
 async def _begin(request: Request) -> Response:

@@ -8,7 +8,7 @@ Input errors as data: cell, what was found, what would do, and the row of the sh
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
@@ -21,16 +21,22 @@ from report.assessment.assess import anticipate, assess, reference_of
 from report.assessment.neighbors import NearbyKind
 from report.assessment.plan_clearances import missing_rows
 from report.assessment.project import Assessment
+from report.drawing.drawing_names import drawn_on, proposed
+from report.drawing.fill import changes, layers_of, plan_as_rows
+from report.drawing.plan_read import known_layers
+from report.drawing.read_dxf import read_dxf
 from report.sheet.checking.findings import Group, grouped, listed
 from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.locate import find_table
 from report.sheet.reading.parts import changed
 from report.sheet.reading.positions import CellPosition, found_at
-from report.sheet.reading.read import read
+from report.sheet.reading.read import read, read_book
 from report.sheet.reading.what_if import cells
 from report.sheet.schema import SECTIONS
+from report.sheet.schema.choices import LayerKind
 from report.sheet.writing.filled import WorkbookChange, withdrawn
 from report.text.counts import cut
+from report.text.units import LENGTHS
 from report.web import views
 from report.web.answers import answer
 from report.web.controls import Opened, check, controls, opened, shown, with_values
@@ -137,7 +143,11 @@ def state(workbook: Path, job: Json) -> Json:
         opened = _open(workbook)
     except InputError as error:
         reply = {"project": None, "problems": problems(workbook, error), "answer": None}
-        return {**reply, "lacks_motions": _lacks_motions(workbook)}
+        return {
+            **reply,
+            "lacks_motions": _lacks_motions(workbook),
+            "drawing": _drawing(workbook),
+        }
     answered = answer_at(workbook, {"values": {}, "moving": False, "room": USUAL_PX})
     return {
         "project": {
@@ -149,6 +159,7 @@ def state(workbook: Path, job: Json) -> Json:
             ),
         },
         "problems": [],
+        "drawing": _drawing(workbook),
         "warnings": [line["text"] for line in answered["reasons"] if line["level"] == "warning"],
         **controls(opened),
         "views": {
@@ -186,6 +197,52 @@ def prepare(workbook: Path, _: Json) -> Json:
     return {}
 
 
+def _drawing(workbook: Path) -> Json | None:
+    """Return the first DXF beside a workbook, with what its layers may be; None for none."""
+    if (path := next(_drawings(workbook), None)) is None:
+        return None
+    found = {"name": path.name, "kinds": list(LayerKind), "units": list(LENGTHS)}
+    try:
+        drawn, known = read_dxf(path), known_layers(layers_of(read(workbook).draft))
+    except InputError as error:
+        return {**found, "refused": error.problems[0]}
+    layers = sorted({line.layer for line in drawn.lines})
+    return {
+        **found,
+        "unit": drawn.unit,
+        "layers": [
+            {
+                "layer": layer,
+                "drawn": drawn_on(drawn, layer),
+                "kind": known.get(layer.casefold()) or proposed(layer) or LayerKind.NOT_READ,
+            }
+            for layer in layers
+        ],
+    }
+
+
+def _drawings(workbook: Path) -> Iterator[Path]:
+    return (path for path in sorted(workbook.parent.iterdir()) if path.suffix.lower() == ".dxf")
+
+
+def read_plan(workbook: Path, job: Json) -> Json:
+    """Fill in the plan of a workbook from the drawing beside it; keep a copy at another path.
+
+    Places that are filled are replaced: what was sent stays as it is where it came from.
+    """
+    if job["unit"] not in LENGTHS:
+        raise InputError("nobody says the unit of the drawing; choose it")
+    change, unit_m = WorkbookChange(open_book(workbook)), LENGTHS[job["unit"]]
+    drawn = read_dxf(next(_drawings(workbook)), unit_m)
+    layers = {layer: LayerKind(kind) for layer, kind in json.loads(job["layers"]).items()}
+    _, told, layers = plan_as_rows(drawn, unit_m, read_book(change.book).draft, layers)
+    change.fill(changes(change.book, told, layers, replace=True))
+    withdrawn(change)
+    for path in (workbook, Path(job["to"])):
+        path.write_bytes(change.book.data)
+    return {}
+
+
 def write(workbook: Path, job: Json) -> Json:
     """Write the workbook with the values in its cells to another path."""
     opened = _open(workbook)
@@ -216,6 +273,7 @@ _JOBS: Mapping[str, Callable[[Path, Json], Json]] = {
     "prepare": prepare,
     "write": write,
     "add_clearances": add_clearances,
+    "read_plan": read_plan,
     "verdict": _view(lambda a, _: stamp(a.verdict, a.verdict.value)),
     "slide": _view(lambda a, job: views.slide(a, job["array"], job["motion"], job["run"])),
     "contour": _view(lambda a, job: views.contour(a, job["array"])),

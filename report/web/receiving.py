@@ -195,10 +195,7 @@ def _workbook(paths: Sequence[Path]) -> Path:
         return top[0]
     if not top:
         if drawings := [path.name for path in paths if path.suffix.lower() == ".dxf"]:
-            raise InputError(
-                f"{drawings[0]} came without a workbook; run roofslip plan read {drawings[0]} "
-                "FOLDER to fill in the plan of a workbook, then drop its folder"
-            )
+            raise InputError(f"{drawings[0]} came without a workbook; drop both together")
         raise InputError("no workbook (.xlsx) was sent; drop it together with its records")
     names = ", ".join(sorted(path.name for path in top)[:5])
     raise InputError(f"{len(top)} workbooks were sent ({names}); name the one to use input.xlsx")
@@ -244,10 +241,14 @@ async def received(request: Request, folder: Path) -> Path:
     ------
     InputError, HTTPException
         The folder is then removed.
+
+    What the form says beside its files is `request.state.fields` then.
     """
     try:
         form = await _form(request)
         try:
+            texts = ((name, text) for name, text in form.items() if isinstance(text, str))
+            request.state.fields = dict(texts)
             files = [
                 (part.filename or "", part.file)
                 for part in form.getlist("files")

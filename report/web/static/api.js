@@ -86,6 +86,8 @@ export function createApi(announce, room) {
     state: () => open("/api/state"),
     example: () => open("/api/example", { method: "POST" }),
     upload: (files) => open("/api/upload", { method: "POST", body: form(files) }),
+    readPlan: (files, fields) => open("/api/plan", { method: "POST", body: form(files, fields) }),
+    filledWorkbook: () => downloaded("/api/plan"),
     addClearances: () => open("/api/clearances", about({})),
     assess: (moving, values) => computed("assess", { moving, values, room: room() }, moving ? "moving" : "assess"),
     computed,
@@ -113,8 +115,9 @@ async function enter() {
   }
 }
 
-function form(files) {
+function form(files, fields = {}) {
   const body = new FormData();
+  for (const [name, text] of Object.entries(fields)) body.append(name, text);
   for (const { file, path } of files) body.append("files", file, path);
   return body;
 }

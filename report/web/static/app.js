@@ -5,6 +5,7 @@ import { showBars } from "./bars.js";
 import { changes } from "./changes.js";
 import { fromFragment, toFragment } from "./link.js";
 import { button, html, replace } from "./make.js";
+import { mountDrawing } from "./drawing.js";
 import { mountMotions } from "./motions.js";
 import { mountPlan } from "./plan.js";
 import { showProblems } from "./problems.js";
@@ -55,6 +56,8 @@ const takeaway = mountTakeaway(
 );
 
 const motions = mountMotions(part("no-motions"), api, { open: opening, fail });
+
+const offerDrawing = mountDrawing(part("drawing"), api, { open: opening, filled: putBack, fail });
 
 let dropped = null; // the files of the last upload
 let state = null; // of the project that is open
@@ -108,6 +111,13 @@ function take(files) {
   opening(() => api.upload(files));
 }
 
+// What is sent again has the workbook as it was filled in.
+function putBack({ name, blob }) {
+  const at = ({ path }) => path.split("/").length;
+  const [workbook] = dropped.filter(({ path }) => path.split("/").at(-1) === name).toSorted((a, b) => at(a) - at(b));
+  dropped = dropped.map((one) => (one === workbook ? { ...one, file: blob } : one));
+}
+
 function showBusy(text) {
   part("busy").textContent = text;
   part("busy").hidden = text === "";
@@ -130,6 +140,7 @@ async function opening(fetched, isRestored = false) {
 
 function open(next, isRestored) {
   motions.offer(next.lacks_motions ? dropped : null);
+  offerDrawing(dropped, dropped && next.drawing);
   showSteps(next);
   if (next.problems.length > 0) {
     showErrors(next);
@@ -154,9 +165,6 @@ function showSteps({ lacks_motions: lacksMotions, project }) {
   part("next-step").textContent = NEXT[step] ?? "";
   part("add-clearances").hidden = step !== "clearances";
   for (const name of Object.keys(NEXT)) part(`step-${name}`).ariaCurrent = name === step ? "step" : null;
-  const drawing = project?.is_example ? null : dropped?.find(({ path }) => /\.dxf$/i.test(path));
-  part("drawing").hidden = !drawing;
-  if (drawing) part("drawing").textContent = `This page does not read ${drawing.path}. If the plan in the workbook is not from it yet, run: roofslip plan read ${drawing.path} FOLDER. Then drop the folder again.`;
 }
 
 // A workbook with errors is not opened: what was open stays so.

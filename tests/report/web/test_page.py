@@ -18,10 +18,12 @@ from pypdf import PdfReader
 
 import cells
 from browsing import DESK, PHONE, TABLET, at_rest, moved, opened, processes_of, quiet_page, served
+from inputs import FT
 from nightly import by_day
 from places import ROOT
 from report.sheet.reading.read import read
-from sheets import SECTIONS, make, type_into
+from sheets import SECTIONS, blank, make, type_into
+from sketch import BOX_FT, ROOF_FT, Sketch
 
 EXAMPLE = ROOT / "projects" / "example"
 CONDITIONS = ROOT / "projects" / "conditions"
@@ -536,7 +538,7 @@ def test_a_folder_that_is_dropped_is_read_with_its_paths(page):
 def test_real_files_that_are_dragged_onto_the_page_are_opened(page, tmp_path):
     folder = tmp_path / "small"
     shutil.copytree(CONDITIONS, folder, ignore=shutil.ignore_patterns("out"))
-    (folder / "roof.dxf").write_text("0\nEOF\n")
+    (folder / "roof.dxf").write_text("no drawing")
     drag = page.context.new_cdp_session(page)
     for kind in ("dragEnter", "dragOver", "drop"):
         files = {"items": [], "files": [str(folder)], "dragOperationsMask": 1}
@@ -546,10 +548,35 @@ def test_real_files_that_are_dragged_onto_the_page_are_opened(page, tmp_path):
     page.wait_for_selector("h1:has-text('Small Warehouse')")
     at_rest(page)
     said = page.inner_text("#drawing")
-    assert said.startswith("This page does not read small/roof.dxf.")
-    assert "roofslip plan read small/roof.dxf" in said
+    assert said.startswith("roof.dxf: ")
+    assert page.locator("#drawing button").count() == 0
     page.click("#example")
     page.wait_for_selector("#drawing", state="hidden")
+
+
+@pytest.mark.nightly
+def test_the_plan_is_read_from_a_drawing_beside_the_workbook(page, tmp_path):
+    folder = tmp_path / "new"
+    folder.mkdir()
+    blank(folder / "input.xlsx")
+    sketch = Sketch("R2018")
+    sketch.ring("PV MODULES", BOX_FT, "A2")
+    sketch.ring("X-9", ROOF_FT)
+    sketch.saved(folder)
+    page.set_input_files("#folder", folder)
+    page.wait_for_selector("#drawing .layers")
+    kinds = page.locator("#drawing td select")
+    assert [each.input_value() for each in kinds.all()] == ["array", "not read"]
+    kinds.last.select_option("roof")
+    page.click("text=Fill in the plan")
+    page.wait_for_selector("text=The plan is filled in from")
+    name, content = saved(page, lambda: page.click("text=Save filled workbook"))
+    assert name == "input.xlsx"
+    (tmp_path / name).write_bytes(content)
+    draft = read(tmp_path / name).draft
+    assert [row["id"] for row in draft["arrays"]] == ["A2"]
+    assert draft["roof"][0]["x_to_m"] == pytest.approx(240 * FT, abs=1e-6)
+    assert {row["layer"]: row["kind"] for row in draft["layers"]}["X-9"] == "roof"
 
 
 def sent(page, project, folder):

@@ -146,5 +146,5 @@ def test_the_workbook_is_found_among_the_files(names, found, tmp_path):
 
 
 def test_a_drawing_without_a_workbook_is_told_what_reads_it(tmp_path):
-    with pytest.raises(InputError, match=r"run roofslip plan read roof\.dxf FOLDER"):
+    with pytest.raises(InputError, match=r"roof\.dxf came without a workbook; drop both"):
         store(sent("roof.dxf"), tmp_path)
