@@ -82,6 +82,11 @@ def read_column(
     _check_units(book, heading, units)
     below = _filled(cells_below(book, heading))
     values = _numbers(below, units)
+    said = _said(book, heading)
+    if said.is_magnitude and min(values, default=-1.0) >= 0.0:
+        raise InputError(
+            f"{heading.address} is '{said.text}', the magnitude of a vector; give a component"
+        )
     times = _check_times(book, heading, len(values), dt_s)
     # 1 gal = 1 cm/s2; the solver's table has one name for each unit.
     units = "cm/s2" if units == "gal" else units

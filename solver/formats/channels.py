@@ -184,6 +184,13 @@ def motion_file(
         records.append(Record(name=name, dt_s=float(channel.dt_s), a_mps2=a_mps2))
         told = (*gravity, *channel.notes)
         all_notes += told if alone else [f"{name}: {note}" for note in told]
+    mean = np.array([record.a_mps2.mean() for record in records])
+    if (
+        len(mean) == 3
+        and has_gravity(float(np.linalg.norm(mean)))
+        and not any(map(has_gravity, mean))
+    ):
+        all_notes.append("the means of the three are about 1 g together: gravity is in them")
     return MotionFile(
         name=source.name,
         format=form,

@@ -21,7 +21,7 @@ import numpy as np
 from solver.formats.numbers import DECIMAL_COMMA, NUMBER, field_problem
 from solver.formats.source import Source
 from solver.model import Floats, InputError
-from solver.records.record import is_other_unit, raise_any, unit_size
+from solver.records.record import is_other_unit, is_raw, raise_any, unit_size
 
 _TIMES = {"t", "time", "times", "zeit", "tiempo", "temps", "tempo", "sec", "secs", "seconds"}
 _SECONDS = (
@@ -36,7 +36,15 @@ _INDEXES = {
 }
 
 _NOT_ACCELERATIONS = re.compile(
-    r"(?<![a-z])(?:vel|veloc|velocity|velocities|disp|displ|displacement|displacements)(?![a-z])",
+    r"(?<![a-z])(?:vel|veloc|velocity|velocities|disp|displ|displacements?|temp|temperature"
+    r"|batt|battery|voltage|gyro|gyroscope|gyr|rotation|mag(?=[ _]?[xyz]\b)|magnet[a-z]*|pressure"
+    r"|humidity|altitude|latitude|longitude|pitch|roll|yaw|quat[a-z]*|strain|jerk)(?![a-z])",
+    re.IGNORECASE,
+)
+# Of the length of the vector, as loggers write it beside its components: phyphox, Physics Toolbox.
+_MAGNITUDE = re.compile(
+    r"(?<![a-z])(?:abs|absolute|(?:absolut)?betrag|res|resultante?|vector ?sum|sum|total|combined|mag"
+    r"|magnitude|norm|modulus|srss)(?![a-z])|\|.*\||(?:at|tgf)$",
     re.IGNORECASE,
 )
 _ACCELERATION = re.compile(r"(?<![a-z])acc", re.IGNORECASE)
@@ -57,6 +65,10 @@ _UNITS_OF = re.compile(
 )
 _STATES_UNITS = re.compile(r"\bunits?\b", re.IGNORECASE)
 _IN_PROSE = re.compile(r"\bin\s+([^\s,;]+)", re.IGNORECASE)
+_RATE = re.compile(
+    r"\bsampl(?:ing|e)[ _]?(?:rate|freq(?:uency)?)\s*+[:=]\s*(\d+(?:\.\d+)?)\s*Hz\b",
+    re.ASCII | re.IGNORECASE,
+)
 _STEP = re.compile(
     r"\b(?:dt|time[ _]step)(?:_s\b|\b)\s*+(?:[\[(]s[\])]\s*+)?[:=]\s*"
     r"([+-]?[0-9.]+(?:[eE][+-]?\d+)?)\s*(ms\b)?",
@@ -101,6 +113,11 @@ class Heading:
     kind: Kind
     unit: str
     seconds: float
+
+    @property
+    def is_magnitude(self) -> bool:
+        """Whether it is a word for the length of a vector, if no value is below zero."""
+        return bool(_MAGNITUDE.search(self.name.replace("_", " ")))
 
     @property
     def is_index(self) -> bool:
@@ -174,6 +191,8 @@ def stated_units(line: str) -> list[str]:
 
 def step_in(line: str) -> tuple[str, float]:
     """Time step stated in a line of text, as printed ("" for none), and its unit [s]."""
+    if (rate := _RATE.search(line)) and float(rate[1]) > 0.0:
+        return repr(1.0 / float(rate[1])), 1.0
     match = _STEP.search(line)
     return (match[1], 0.001 if match[2] else 1.0) if match else ("", 1.0)
 
@@ -203,9 +222,9 @@ def _is_unit(text: str, *, bracketed: bool) -> bool:
     plain = text.strip().lower()
     if bracketed and (plain in _SECONDS or (len(plain) > 2 and _is_time_unit(plain))):
         return True
-    # After an underscore, `in` and `ft` may as well be words.
-    other = is_other_unit(text) and (bracketed or text.lower() not in ("in", "ft"))
-    return other or not math.isnan(unit_size(text))
+    # After an underscore, `in` and `deg` may as well be words.
+    other = is_other_unit(text) and (bracketed or "/" in text or text.lower() in ("mm", "cm", "m"))
+    return other or is_raw(text) or not math.isnan(unit_size(text))
 
 
 def _is_time(name: str) -> bool:
@@ -222,7 +241,7 @@ def _kind(name: str, unit: str) -> tuple[Kind, float]:
     # A velocity in g is a velocity or an acceleration: no unit decides what a name denies.
     if _NOT_ACCELERATIONS.search(name) and not _ACCELERATION.search(name):
         return Kind.OTHER, 1.0
-    if not math.isnan(unit_size(unit)):
+    if not math.isnan(unit_size(unit)) or is_raw(unit):
         return Kind.ACCELERATION, 1.0
     if unit and is_other_unit(unit):
         return Kind.OTHER, 1.0

@@ -22,6 +22,7 @@ from solver.records.record import BEYOND, is_finite_number, raise_any, shown
 
 NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)
+_GROUPED = re.compile(r"[+-]?\d{1,3}(?:,\d{3})+\.\d*", re.ASCII)
 _FORMAT = re.compile(r"\s*(\d{1,2})\s*(?:[A-Z]{1,2})\s*(\d{1,2})(\D|$)", re.ASCII | re.IGNORECASE)
 
 _NUMBERS = re.compile(r"[\s+\-.*eEdD]*\d[\s\d+\-.*eEdD]*", re.ASCII)
@@ -192,6 +193,8 @@ def field_problem(field: str) -> str:
         return ""
     if field and not field.strip("*"):
         return f"found {shown(field)}, a number too large for its columns; give a wider file"
+    if _GROUPED.fullmatch(field):
+        return f"found {shown(field)}; give a number without commas for thousands"
     point = " with a decimal point" if DECIMAL_COMMA.match(field) else ""
     return f"found {shown(field)}; give a number{point}"
 

@@ -15,7 +15,14 @@ from pathlib import Path
 
 from solver.files import check_length
 from solver.model import InputError
-from solver.records.record import UNIT_CHOICES, is_finite_number, raise_any, shown, unit_size
+from solver.records.record import (
+    UNIT_CHOICES,
+    is_finite_number,
+    is_raw,
+    raise_any,
+    shown,
+    unit_size,
+)
 from solver.suggestions import meant
 
 _CONVERT = (
@@ -27,7 +34,7 @@ _AS_RECORD = "give the record itself, such as the file that its download page of
 _TEXTS = (
     (re.compile(r"(?i)\s*<(?:!doctype html|html)"), "a web page", _AS_RECORD),
     (re.compile(r"(?i)\s*<\?xml|\s*<[a-z]+[ >]"), "XML, such as StationXML", _AS_RECORD),
-    (re.compile(r"(?i)\s*[\[{]"), "JSON", _COLUMNS),
+    (re.compile(r"""\s*(?:\{|\[\s*+(?:[\[{"'\d-]|$))"""), "JSON", _COLUMNS),
     (re.compile(r"(?i)#?\s*(?:Station ?Code|InstrumentKind)\b"), "a file of CWA, Taiwan", _COLUMNS),
     (re.compile(r"(?i)TIMESERIES "), "TSPAIR or SLIST of EarthScope", _CONVERT),
     (re.compile(r"(?i)(?:WID[12]|BEGIN GSE2|BEGIN IMS)\b"), "GSE2", _CONVERT),
@@ -79,6 +86,8 @@ MAX_LINE = 1000
 MAX_LINES = 1_000_000
 """As many as are read within 10 s if the last one is at fault."""
 MAX_NAME = 255
+
+RAW_COUNTS = "raw counts are no acceleration without the response of the instrument"
 
 # Text has no control characters except tab, line ends and form feed.
 _CONTROL = re.compile(rb"[\x00-\x08\x0b\x0e-\x1f]")
@@ -139,6 +148,10 @@ class Source:
     def scale(self, stated: str, index: int) -> float:
         """Value [m/s2] of the unit stated in the file; the caller's, if any, must be equal."""
         size = unit_size(stated)
+        if is_raw(stated):
+            raise InputError(
+                f"{self.at(index)}: found unit {shown(stated)}: {RAW_COUNTS}; give an acceleration"
+            )
         if math.isnan(size):
             known = ", ".join(UNIT_CHOICES)
             raise InputError(

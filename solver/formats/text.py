@@ -45,6 +45,11 @@ _HOLD = re.compile(rf"\b{re.escape(HOLD)} (\d+(?:\.\d+)?) s\b", re.ASCII)
 
 _MAX_REMARKS = 200
 
+_MAGNITUDE_WITHIN = 0.01  # of its peak: digits are printed apart
+# Of times without a unit: more are milliseconds or numbers of samples, but in a sketch of a pulse.
+_LONGEST_STEP, _FEW = 1.0, 10
+_CLOCK = re.compile(r"\d+([-/:.])\d+\1\d+(?:[:.,T ].*)?", re.ASCII)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Table:
@@ -88,13 +93,16 @@ def read(source: Source) -> MotionFile:
         )
     timed = _has_times(source, table)
     columns = range(int(timed), table.values.shape[1])
-    others = [i for i, heading in enumerate(table.headings) if heading.kind is Kind.OTHER]
-    taken = [i for i in columns if i not in others]
-    left = [table.headings[i].text for i in columns if i not in taken]
+    others = [i for i in columns if table.headings and table.headings[i].kind is Kind.OTHER]
+    left = dict.fromkeys(others, "not an acceleration")
+    magnitudes = _magnitudes(table, [i for i in columns if i not in others])
+    left |= dict.fromkeys(magnitudes, "the magnitude of a vector, not a component")
+    taken = [i for i in columns if i not in left]
     if not taken:
+        beside = (f"{shown(table.headings[i].text)}, {why}" for i, why in left.items())
         raise InputError(
-            f"{source.name}: found no column of accelerations beside "
-            f"{', '.join(shown(text) for text in left)}; give one a heading such as acc_g"
+            f"{source.name}: found no component of acceleration beside {'; '.join(beside)}: give"
+            " one a heading such as acc_g"
         )
     even = _evened(source, table, table.values[:, taken].T, timed)
     channels = [
@@ -106,7 +114,9 @@ def read(source: Source) -> MotionFile:
         )
         for i, values in zip(taken, even.columns, strict=True)
     ]
-    notes = [f"column {shown(text)} is ignored: it is not an acceleration" for text in left]
+    notes = [
+        f"column {shown(table.headings[i].text)} is ignored: it is {why}" for i, why in left.items()
+    ]
     if not source.is_ended:
         notes.append(
             "the last line has no line end: if the file was cut there, its last value or further"
@@ -114,6 +124,25 @@ def read(source: Source) -> MotionFile:
         )
     file = motion_file(source, "text", channels, [*even.notes, *notes])
     return replace(file, hold_s=_hold_s(table))
+
+
+def _magnitudes(table: _Table, columns: Sequence[int]) -> list[int]:
+    """Columns of the length of a vector, by their heading or as the root of the sum of squares."""
+    found = []
+    for i in columns:
+        values = table.values[:, i]
+        before = [k for k in columns if k != i and k not in found]
+        vectors = [before[:count] for count in (2, 3, len(before)) if 1 < count <= len(before)]
+        roots = (np.linalg.norm(table.values[:, vector], axis=1) for vector in vectors)
+        is_named = bool(table.headings) and table.headings[i].is_magnitude
+        within = _MAGNITUDE_WITHIN * values.max()
+        if (
+            values.min() >= 0.0
+            and values.any()
+            and (is_named or any(np.abs(values - root).max() <= within for root in roots))
+        ):
+            found.append(i)
+    return found
 
 
 def _check_count(source: Source, table: _Table) -> None:
@@ -209,6 +238,12 @@ def _seconds(source: Source, table: _Table) -> float:
             f"{source.at(table.heading_index)}: found times in {shown(heading.unit)}; give them in"
             " s, ms or min, such as time_s"
         )
+    step = float(np.median(np.diff(table.values[:, 0])))
+    if not heading.unit and step >= _LONGEST_STEP and len(table.values) > _FEW:
+        raise InputError(
+            f"{source.at(table.heading_index)}: found {shown(heading.text)} with steps of {step:g};"
+            " give the unit of the times, such as time_s or time_ms"
+        )
     return heading.seconds
 
 
@@ -285,6 +320,11 @@ def _table(source: Source) -> _Table:
     fields = first[1].split(separator)
     if any(field.strip(" *") and is_heading(field.strip()) for field in fields):
         raise InputError(f"{source.at(first[0])}: {likely_text(source.lines, first[0])}")
+    if any(_CLOCK.fullmatch(field.strip()) for field in fields[:2]):
+        raise InputError(
+            f"{source.at(first[0])}: found {shown(fields[0].strip())}, a date or a time of day;"
+            " give seconds from the start in the first column, such as time_s"
+        )
     width, remarks = len(fields), _remarks(source.lines, start)
     if due := source.values_per_line or _told_across(source, start, separator, remarks):
         numbers = across(source, start, separator, due)

@@ -218,7 +218,7 @@ def check_gaps(name: str, a_mps2: Floats) -> None:
         )
 
 
-def has_gravity(a_mps2: Floats) -> bool:
+def has_gravity(a_mps2: Floats | float) -> bool:
     """Whether the mean of a component is about 1 g: its instrument measured gravity, too."""
     return bool(0.8 < abs(float(np.mean(a_mps2))) / UNITS["g"] < 1.2)
 
@@ -289,7 +289,10 @@ _SIZES = UNITS | {
 }
 
 _LENGTHS = "mm|cm|m|ft|in"
-_NOT_ACCELERATION = re.compile(rf"({_LENGTHS})(/s)?|[a-z]+/s2", re.ASCII)
+_NOT_ACCELERATION = re.compile(
+    rf"({_LENGTHS})(/s)?|[a-z]+/s[23]|rad|(rad|deg|°)/s|dps|deg|°[cf]?|m?volts?|mv|h?k?pa|psi|%|[uµμ]t"
+)
+_RAW = {"count", "counts", "lsb", "digits", "adc"}
 
 
 def unit_size(text: str) -> float:
@@ -298,8 +301,13 @@ def unit_size(text: str) -> float:
 
 
 def is_other_unit(text: str) -> bool:
-    """Whether the text is a unit of length, of velocity, or of an acceleration not known here."""
-    return bool(_NOT_ACCELERATION.fullmatch(_plain(text)))
+    """Whether the text is the unit of another quantity, or of an acceleration not known here."""
+    return bool(_NOT_ACCELERATION.fullmatch(_plain(text))) and math.isnan(unit_size(text))
+
+
+def is_raw(text: str) -> bool:
+    """Whether the text names the steps of a digitizer, which are no unit."""
+    return text.strip().lower() in _RAW
 
 
 def _plain(text: str) -> str:

@@ -104,6 +104,8 @@ def test_a_pasted_column_may_be_shown_with_its_units(paste):
           " one"]),
         (pasted([0.1, 0.2], header="PSA [g]", name="Pasted!PSA [g]"),
          ["Pasted!B3 is 'PSA [g]', which is no acceleration by time; give the column of one"]),
+        (pasted([0.1, 0.2], header="Total [g]", name="Pasted!Total [g]"),
+         ["Pasted!B3 is 'Total [g]', the magnitude of a vector; give a component"]),
         (pasted([0.1, -999, 0.2]),
          ["Pasted!North: sample 2 is -999 where no other exceeds 0.2 g: it is a code for missing"
           " data; give a record without gaps"]),

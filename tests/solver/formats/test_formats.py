@@ -245,7 +245,7 @@ FAULTS = [
     ("cosmos.v2c", [("   21 accel", "   20 accel")], ":49: states 20 values, found more in line"),
     ("cosmos.v2c", [("(1E15.6)", "(free)")], ":49: found format (free); give one as (8F10.3)"),
     ("cosmos.v2c", [("cm/sec2(04)", "counts(50)")], ":49: found unit 'counts', code 50; give a f"),
-    ("cosmos.v2c", [("cm/sec2(04)", "counts")], ":49: found unit 'counts'; give an acceleration"),
+    ("cosmos.v2c", [("cm/sec2(04)", "counts")], ":49: found unit 'counts': raw counts are no"),
     ("cosmos.v2c", [("cm/sec2(04)", "g(04)")], ":49: found unit 'g' with code 4, which is cm/s2;"),
     ("cosmos.v2c", [("approx  0 secs", "approx  9 secs")], ":49: states about 9 s, count times st"),
     ("cosmos.v2c", [("Real-header", "Some")], ":1: found no block ... Real-header values follow"),

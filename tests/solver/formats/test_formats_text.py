@@ -227,6 +227,33 @@ def test_headings_name_channels_and_each_has_its_unit(file):
     assert motion_file.notes == ("column 'vel_cm/s' is ignored: it is not an acceleration",)
 
 
+LOGGER = "t [s];Acc x [m/s2];Acc y [m/s2];Acc z [m/s2];{};Temperature [°C];gyro_x [rad/s]\n"
+
+
+@pytest.mark.parametrize("name", ["Absolute acceleration [m/s2]", "Betrag [m/s2]", "a4 [m/s2]"])
+def test_a_logger_column_of_the_magnitude_is_named_and_left_out(file, name):
+    rows = "0,00;2,0;-1,0;2,0;3,0;21,5;0,1\n0,01;6,0;-2,0;3,0;7,0;21,5;0,1\n"
+    motion_file = read_motion_file(file(LOGGER.format(name) + rows))
+    assert [record.a_mps2.tolist() for record in motion_file.channels] == [[2, 6], [-1, -2], [2, 3]]
+    others = [f"column '{other}' is ignored: it is not an acceleration"
+              for other in ("Temperature [°C]", "gyro_x [rad/s]")]  # fmt: skip
+    magnitude = f"column '{name}' is ignored: it is the magnitude of a vector, not a component"
+    assert motion_file.notes == (*others, magnitude)
+
+
+@pytest.mark.parametrize("name", ["Absolute acceleration", "total", "acc_mag"])
+def test_a_component_that_changes_its_sign_is_no_magnitude(file, name):
+    assert read_record(file(f"t_s,{name} [m/s2]\n0,1\n1,-2\n")).a_mps2.tolist() == [1, -2]
+
+
+def test_gravity_is_found_across_the_axes_of_a_tilted_logger(file):
+    rows = "0,0.58,0.01,0.79\n1,0.62,-0.01,0.78\n"
+    motion_file = read_motion_file(file(f"t_s,x_g,y_g,z_g\n{rows}"))
+    assert motion_file.notes == (
+        "the means of the three are about 1 g together: gravity is in them",
+    )
+
+
 LETTERS = "time_s,ch_f,ch_g,ch_h\n0,1,2,3\n1,4,5,6\n"
 
 
@@ -285,10 +312,30 @@ REFUSED = {
         " delete the column and give the time step dt")
        for dt_s in (math.nan, 0.005)},
     **{f"only {heading}": (f"time_s,{heading}\n0,1\n1,2\n", {},
-        f": found no column of accelerations beside '{heading}'; give one a heading such as acc_g")
+        f": found no component of acceleration beside '{heading}', not an acceleration: give one a"
+         " heading such as acc_g")
        for heading in ("vel_cm/s", "velocity_g", "velocity", "Disp. [gal]")},
+    **{f"only a magnitude {name}": (f"time_s,{name} [g]\n0,1\n1,2\n", {},
+        f": found no component of acceleration beside '{name} [g]', the magnitude of a vector, not"
+        " a component: give one a heading such as acc_g")
+       for name in ("Abs", "Resultant", "Vector sum", "|a|", "Total", "acc_mag", "aT", "SRSS")},
+    **{f"raw counts {name}": (f"time_s,{name}\n0,1\n1,2\n", {},
+        ":1: found unit 'counts': raw counts are no acceleration without the response of the"
+        " instrument; give an acceleration") for name in ("x_counts", "EW (counts)")},
+    **{f"a time of day {time}": (f"time,a_g\n{time},1\n{time},2\n", {},
+        f":2: found {time!r}, a date or a time of day; give seconds from the start in the first"
+        " column, such as time_s")
+       for time in ("10:11:12:130", "2024-03-05T10:11:12.5Z", "5/3/2024")},
+    **{f"no unit of {name}": (f"{name},a_g\n" + "".join(f"{5 * k},0\n" for k in range(20)), {},
+        f":1: found {name!r} with steps of 5; give the unit of the times, such as time_s or"
+        " time_ms") for name in ("time", "timestamp")},
+    "a rate contradicts": ("# Sampling rate: 100 Hz\ntime_s,a_g\n0,1\n0.02,2\n", {},
+        ":1: states a step of 0.01 s, the times have 0.02 s; give a file in which they agree"),
+    "commas for thousands": ("t_s;a_gal\n0;1.5\n1;1,234.5\n", NONE,
+        ":3: found '1,234.5'; give a number without commas for thousands"),
     "only a heading with blanks": ("Time (sec)   Vel (m/s)\n0.0 0.0\n0.012 1.0\n0.02 2.0\n", {},
-        ": found no column of accelerations beside 'Vel (m/s)'; give one a heading such as acc_g"),
+        ": found no component of acceleration beside 'Vel (m/s)', not an acceleration: give one a"
+        " heading such as acc_g"),
 }  # fmt: skip
 
 
