@@ -129,20 +129,11 @@ _OF_RECORDER = re.compile(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Channel:
-    """One component as read.
+    """One component as read."""
 
-    Attributes
-    ----------
-    name : str
-        As printed in the file; "" if it has none.
-    dt_s : float
-    a_mps2 : array, shape (n,)
-    notes : tuple of str
-    """
-
-    name: str
+    name: str  # as printed in the file; empty if it has none
     dt_s: float
-    a_mps2: Floats
+    a_mps2: Floats  # shape (n,)
     notes: tuple[str, ...]
 
 
@@ -256,6 +247,18 @@ def peak_notes(source: Source, index: int, stated_mps2: float, a_mps2: Floats) -
     if not stated / _PEAK_FACTOR <= reached <= stated * _PEAK_FACTOR:
         raise InputError(f"{source.at(index)}: {words}; give a file whose header and values agree")
     return () if abs(reached - stated) <= _PEAK_WITHIN * stated else (words,)
+
+
+def centered_peak_notes(
+    source: Source, index: int, stated_mps2: float, a_mps2: Floats
+) -> tuple[str, ...]:
+    """As `peak_notes`, of a stated peak that may be that without the mean."""
+    centered = a_mps2 - a_mps2.mean() if len(a_mps2) else a_mps2
+    alike = min(
+        (a_mps2, centered),
+        key=lambda each: abs(float(np.abs(each).max(initial=0.0)) - abs(stated_mps2)),
+    )
+    return peak_notes(source, index, stated_mps2, alike)
 
 
 def check_length(source: Source, stated: Stated, reached_s: float, dt_s: float) -> None:

@@ -88,7 +88,12 @@ def recognizes(lines: Sequence[str]) -> bool:
 
 def read(source: Source) -> MotionFile:
     """Read the accelerations of all channels of a file."""
-    _check_not_raw(source)
+    for index, text in enumerate(source.lines):
+        if (match := _FIRST.match(text)) and match[1].upper() == "RAW":
+            raise InputError(
+                f"{source.at(index)}: found raw counts; give the volume 1 or 2 file, of uncorrected"
+                " or corrected acceleration"
+            )
     series = _parts(source)
     raise_any(_heading_problems(source, series))
     parts = [part for part in series if "ACCEL" in part.line[2].upper()]
@@ -157,32 +162,23 @@ def _channel(source: Source, part: _Part) -> Channel:
     stop, notes = _stop(source, part)
     block = Block(first=part.at + 1, stop=stop, count=int(line[1]), promised=part.at)
     values = fixed_values(source, block, layout) * scale
-    _check_about(source, part, len(values) * dt_s, dt_s)
-    check_length(source, _real(reals, _SERIES_LENGTH_S), len(values) * dt_s, dt_s)
+    stated_s, length_s = printed(line[3], part.at).value, len(values) * dt_s
+    if abs(length_s - stated_s) > 1.0 + dt_s + 0.01 * stated_s:  # it is in whole seconds
+        raise InputError(
+            f"{source.at(part.at)}: states about {stated_s:g} s, count times step is {length_s:g}"
+            " s; give a file whose headings agree"
+        )
+    check_length(source, _real(reals, _SERIES_LENGTH_S), length_s, dt_s)
     peak = _real(reals, _PEAK)
     notes = (*notes, *peak_notes(source, peak.index, peak.value * scale, values))
-    heading = source.lines[part.first : part.at]
+    top, *heading = source.lines[part.first : part.at]
+    is_uncorrected = top.strip().upper().startswith("UN")
     return Channel(
         name=next((text for text in heading if _NAME.match(text)), ""),
         dt_s=dt_s,
         a_mps2=values,
-        notes=(*notes, *offset_notes(values)) if _stage(source, part) == "UNCORRECTED" else notes,
+        notes=(*notes, *offset_notes(values)) if is_uncorrected else notes,
     )
-
-
-def _stage(source: Source, part: _Part) -> str:
-    """Whether the values are UNCORRECTED or CORRECTED."""
-    match = _FIRST.match(source.lines[part.first])
-    return match[1].upper() if match else ""
-
-
-def _check_not_raw(source: Source) -> None:
-    for index, line in enumerate(source.lines):
-        if (match := _FIRST.match(line)) and match[1].upper() == "RAW":
-            raise InputError(
-                f"{source.at(index)}: found raw counts; give the volume 1 or 2 file, of uncorrected"
-                " or corrected acceleration"
-            )
 
 
 def _scale(source: Source, part: _Part) -> float:
@@ -229,16 +225,6 @@ def _step(part: _Part, reals: Sequence[Stated]) -> Stated:
             value, rounding = number.value * seconds, number.rounding * seconds
             return Stated(value=float(f"{value:.12g}"), rounding=rounding, index=number.index)
     return replace(_UNKNOWN, index=reals[0].index if reals else part.first)
-
-
-def _check_about(source: Source, part: _Part, length_s: float, dt_s: float) -> None:
-    """Compare count times step with the length in whole seconds stated in the data line."""
-    stated = printed(part.line[3], part.at).value
-    if abs(length_s - stated) > 1.0 + dt_s + 0.01 * stated:
-        raise InputError(
-            f"{source.at(part.at)}: states about {stated:g} s, count times step is {length_s:g} s;"
-            " give a file whose headings agree"
-        )
 
 
 def _stop(source: Source, part: _Part) -> tuple[int, tuple[str, ...]]:

@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from solver.formats.channels import (
     Channel,
@@ -48,32 +49,52 @@ _VOLUME_2 = re.compile(r"^\s*CORRECTED ACCELEROGRAM\b", re.IGNORECASE)
 _VOLUME_3 = re.compile(r"^\s*RESPONSE AND FOURIER AMPLITUDE SPECTRA", re.IGNORECASE)
 _END = re.compile(r"\s*/&")
 
-# Lines of text, then 16I5 on 7 lines, then 8F10.3.
-_TEXT_1, _TEXT_2, _WHOLE = 13, 25, 7
-_REALS_1, _REALS_2 = 50, 100
+# 16I5 on 7 lines below the text, then 8F10.3.
+_WHOLE = 7
 _REAL = FieldFormat(per_line=8, width=10)
 _PAIRS = FieldFormat(per_line=10, width=7)
-
-# Positions of real numbers, from 1: length of the record [s], and its step [s].
-_LENGTH_1, _LENGTH_2, _STEP_2 = 3, 44, 45
+_STEP_2 = 45  # position of the step among the real numbers of volume 2, from 1
 
 _POINTS = re.compile(r"NO\. OF POINTS\s*=\s*(\d+)", re.ASCII | re.IGNORECASE)
 _PAIR_UNIT = re.compile(
     r"UNITS OF UNCOR\s+\w+\s+(?:ARE\s+SEC\s+AND|IS)\s+([A-Z/0-9]+)", re.IGNORECASE
 )
-_EVEN_1 = re.compile(
+_RATE_LINE = re.compile(
     r"(?<!\d)(\d+)\s+ACCELEROGRAM POINTS AT\s+([\d.]+)\s*PTS/SEC IN UNITS OF\s+([A-Z/0-9]++)"
     r".*FORMAT:\s*\(([^)]*)\)",
     re.ASCII | re.IGNORECASE,
 )
-_EVEN_2 = re.compile(
+_STEP_LINE = re.compile(
     r"(?<!\d)(\d+)\s+POINTS OF ACCEL DATA EQUALLY SPACED AT\s+([\d.]+)\s*SEC[.,\s(]*(?:UNITS:|IN)"
     r"\s*([A-Z/0-9]+)[.\s)]*(?:\(([^)]*)\))?",
     re.ASCII | re.IGNORECASE,
 )
-_ANY_2 = re.compile(r"\s*\d+\s+POINTS OF (VELOC|DISPL|ACCEL)", re.ASCII | re.IGNORECASE)
+_SERIES = re.compile(r"\s*\d+\s+POINTS OF (VELOC|DISPL|ACCEL)", re.ASCII | re.IGNORECASE)
 _PEAK_1 = re.compile(r"\bMAX\s*=\s*([-+\d.]+)\s*([A-Z/0-9]+)", re.ASCII | re.IGNORECASE)
 _PEAK_2 = re.compile(r"PEAK ACCELERATION\s*=\s*([-+\d.]+)\s*([A-Z/0-9]+)", re.ASCII | re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Volume:
+    """The shape of a volume: how many lines of text and real numbers, and what is where."""
+
+    first: re.Pattern[str]
+    text: int
+    reals: int
+    length: int  # position of the length [s] among the real numbers, from 1
+    even: tuple[re.Pattern[str], ...]  # lines above evenly spaced values
+    peak: re.Pattern[str]
+
+    @property
+    def heading(self) -> int:
+        """Number of lines above the values, or above the line that states their layout."""
+        return self.text + _WHOLE + _REAL.lines(self.reals)
+
+
+_ONE = _Volume(
+    first=_VOLUME_1, text=13, reals=50, length=3, even=(_RATE_LINE, _STEP_LINE), peak=_PEAK_1
+)
+_TWO = _Volume(first=_VOLUME_2, text=25, reals=100, length=44, even=(_STEP_LINE,), peak=_PEAK_2)
 
 
 def recognizes(lines: Sequence[str]) -> bool:
@@ -86,34 +107,36 @@ def read(source: Source) -> MotionFile:
     """Read the accelerations of all channels of a file."""
     if _VOLUME_3.match(source.line(0)):
         raise InputError(f"{source.at(0)}: found spectra; give a file of volume 1 or 2")
-    if _VOLUME_2.match(source.line(0)):
-        parts = parts_of(source, _VOLUME_2)
-        channels = each(lambda p: _volume_2(source, p), parts)
-        return motion_file(source, "CSMIP V2", channels, recorder_notes(source, len(parts)))
-    parts = parts_of(source, _VOLUME_1)
-    text = " ".join(source.lines[:_TEXT_1]).upper()
-    form = "RENADIC V1" if "RENADIC" in text else "CSMIP V1"
-    channels = each(lambda p: _volume_1(source, p), parts)
-    return motion_file(source, form, channels, recorder_notes(source, len(parts)))
+    volume = _TWO if _VOLUME_2.match(source.line(0)) else _ONE
+    text = " ".join(source.lines[: volume.text]).upper()
+    name = "RENADIC" if volume is _ONE and "RENADIC" in text else "CSMIP"
+    parts = parts_of(source, volume.first)
+    channels = each(lambda part: _channel(source, part, volume), parts)
+    notes = recorder_notes(source, len(parts))
+    return motion_file(source, f"{name} V{1 if volume is _ONE else 2}", channels, notes)
 
 
-def _volume_1(source: Source, part: range) -> Channel:
-    if even := _search(source, part, _EVEN_1):
-        at, line = even
-        rate = printed(line[2], at).value
-        step = Stated(value=1.0 / rate if rate > 0.0 else 0.0, rounding=0.0, index=at)
-        dt_s, values, notes = _even_values(source, part, at, line, step)
-    elif even := _search(source, part, _EVEN_2):
-        at, line = even
-        dt_s, values, notes = _even_values(source, part, at, line, printed(line[2], at))
-    else:
+def _channel(source: Source, part: range, volume: _Volume) -> Channel:
+    found = (_search(source, part, pattern) for pattern in volume.even)
+    place = next(filter(None, found), None)
+    if place:
+        dt_s, values, notes = _even_values(source, part, volume, *place)
+    elif volume is _ONE:
         dt_s, values, notes = _pair_values(source, part)
-    at, peak_mps2 = _peak(source, part, _PEAK_1)
+    else:
+        raise InputError(
+            f"{source.at(part.start)}: found no line ... POINTS OF ACCEL DATA EQUALLY SPACED AT"
+            " ...; give the whole file"
+        )
+    at, peak = _search(source, part, volume.peak) or (part.start, None)
+    peak_mps2 = printed(peak[1], at).value * unit_size(peak[2]) if peak else 0.0
+    notes = (*notes, *peak_notes(source, at, peak_mps2, values))
+    heading = (source.lines[index] for index in part[: volume.text])
     return Channel(
-        name=_name(source, part, _TEXT_1),
+        name=next((line for line in heading if line.strip().upper().startswith("CHAN")), ""),
         dt_s=dt_s,
         a_mps2=values,
-        notes=(*notes, *peak_notes(source, at, peak_mps2, values), *offset_notes(values)),
+        notes=(*notes, *offset_notes(values)) if volume is _ONE else notes,
     )
 
 
@@ -127,7 +150,7 @@ def _pair_values(source: Source, part: range) -> tuple[float, Floats, tuple[str,
             f"{source.at(part.start)}: found no line {wanted} = ...; give the whole file"
         )
     scale = source.scale(unit[1][1], unit[0])
-    first = part.start + _TEXT_1 + _WHOLE + _REAL.lines(_REALS_1)
+    first = part.start + _ONE.heading
     stop, ended = _stop(source, first, part.stop)
     block = Block(first=first, stop=stop, count=2 * int(points[1][1]), promised=points[0])
     pairs = fixed_values(source, block, _PAIRS).reshape(-1, 2)
@@ -135,65 +158,41 @@ def _pair_values(source: Source, part: range) -> tuple[float, Floats, tuple[str,
         raise InputError(f"{source.at(points[0])}: found {len(pairs)} points; give at least 2")
     per_line = _PAIRS.per_line // 2
     even = sampled(source, pairs[:, 0], pairs[:, 1:].T, lambda i: first + i // per_line)
-    length = _reals_1(source, part)[_LENGTH_1 - 1]
-    check_length(source, length, float(pairs[-1, 0]), even.dt_s)
+    check_length(source, _real(source, part, _ONE, _ONE.length), float(pairs[-1, 0]), even.dt_s)
     return even.dt_s, even.columns[0] * scale, (*even.notes, *ended)
 
 
 def _even_values(
-    source: Source, part: range, at: int, match: re.Match[str], step: Stated
+    source: Source, part: range, volume: _Volume, at: int, line: re.Match[str]
 ) -> tuple[float, Floats, tuple[str, ...]]:
     """Evenly spaced values after a line with their count, rate or step, unit and maybe format."""
-    _check_heading(source, part, at, _TEXT_1 + _WHOLE + _REAL.lines(_REALS_1))
-    layout = layout_of(match[4]) if match[4] else None
-    if not step.value > 0.0 or (match[4] and not layout):
+    if at - part.start != volume.heading:
         raise InputError(
-            f"{source.at(at)}: found {match[2]} points per second in format ({match[4]}); give a"
-            " rate above 0 and a format as (8f9.6)"
+            f"{source.at(at)}: found {at - part.start} lines of heading above this one, where the"
+            f" format has {volume.heading}; give the whole file"
         )
-    dt_s = source.step(step)
-    scale = source.scale(match[3], at)
+    layout = layout_of(line[4]) if line[4] else (None if volume is _ONE else _REAL)
+    if line[4] and not layout:
+        raise InputError(f"{source.at(at)}: found format ({line[4]}); give one as (8f10.3)")
+    dt_s = source.step(_step(source, part, volume, at, line))
     stop, ended = _stop(source, at + 1, part.stop)
-    block = Block(first=at + 1, stop=stop, count=int(match[1]), promised=at)
+    others = (i for i in range(at + 1, stop) if _SERIES.match(source.lines[i]))
+    block = Block(first=at + 1, stop=next(others, stop), count=int(line[1]), promised=at)
     numbers = fixed_values(source, block, layout) if layout else free_values(source, block)
-    values = numbers * scale
-    length = _reals_1(source, part)[_LENGTH_1 - 1]
-    check_length(source, length, len(values) * dt_s, dt_s)
+    values = numbers * source.scale(line[3], at)
+    check_length(source, _real(source, part, volume, volume.length), len(values) * dt_s, dt_s)
     return dt_s, values, ended
 
 
-def _volume_2(source: Source, part: range) -> Channel:
-    place = _search(source, part, _EVEN_2)
-    if not place:
-        raise InputError(
-            f"{source.at(part.start)}: found no line ... POINTS OF ACCEL DATA EQUALLY SPACED AT"
-            " ...; give the whole file"
-        )
-    at, line = place
-    _check_heading(source, part, at, _TEXT_2 + _WHOLE + _REAL.lines(_REALS_2))
-    dt_s = source.step(_step_2(source, part, printed(line[2], at)))
-    scale = source.scale(line[3], at)
-    others = (i for i in range(at + 1, part.stop) if _ANY_2.match(source.lines[i]))
-    stop, ended = _stop(source, at + 1, part.stop)
-    block = Block(first=at + 1, stop=next(others, stop), count=int(line[1]), promised=at)
-    layout = layout_of(line[4]) if line[4] else _REAL
-    if not layout:
-        raise InputError(f"{source.at(at)}: found format ({line[4]}); give one as (8f10.3)")
-    values = fixed_values(source, block, layout) * scale
-    length = _reals_2(source, part)[_LENGTH_2 - 1]
-    check_length(source, length, len(values) * dt_s, dt_s)
-    peak_at, peak_mps2 = _peak(source, part, _PEAK_2)
-    return Channel(
-        name=_name(source, part, _TEXT_2),
-        dt_s=dt_s,
-        a_mps2=values,
-        notes=(*ended, *peak_notes(source, peak_at, peak_mps2, values)),
-    )
-
-
-def _step_2(source: Source, part: range, stated: Stated) -> Stated:
-    """Step of the real heading, which has more digits than the line above the values."""
-    exact = _reals_2(source, part)[_STEP_2 - 1]
+def _step(source: Source, part: range, volume: _Volume, at: int, line: re.Match[str]) -> Stated:
+    """Step of the line above the values; in volume 2 that of the heading, with more digits."""
+    stated = printed(line[2], at)
+    if line.re is _RATE_LINE:
+        step_s = 1.0 / stated.value if stated.value > 0.0 else 0.0
+        return Stated(value=step_s, rounding=0.0, index=at)
+    if volume is _ONE:
+        return stated
+    exact = _real(source, part, volume, _STEP_2)
     if math.isnan(exact.value):
         raise InputError(
             f"{source.at(exact.index)}: found no step as real number {_STEP_2} of the heading; give"
@@ -205,29 +204,16 @@ def _step_2(source: Source, part: range, stated: Stated) -> Stated:
     return exact
 
 
-def _check_heading(source: Source, part: range, at: int, due: int) -> None:
-    """Raise if the heading above the line of values has more or fewer lines than the format."""
-    length = at - part.start
-    if length != due:
-        raise InputError(
-            f"{source.at(at)}: found {length} lines of heading above this one, where the format has"
-            f" {due}; give the whole file"
-        )
-
-
-def _reals_1(source: Source, part: range) -> list[Stated]:
-    return header_values(source, part.start + _TEXT_1 + _WHOLE, _REALS_1, _REAL)
-
-
-def _reals_2(source: Source, part: range) -> list[Stated]:
-    return header_values(source, part.start + _TEXT_2 + _WHOLE, _REALS_2, _REAL)
+def _real(source: Source, part: range, volume: _Volume, place: int) -> Stated:
+    first = part.start + volume.text + _WHOLE
+    return header_values(source, first, volume.reals, _REAL)[place - 1]
 
 
 def _search(
     source: Source, part: range, pattern: re.Pattern[str]
 ) -> tuple[int, re.Match[str]] | None:
     """First line of a channel's heading that contains the pattern."""
-    for index in part[: _TEXT_2 + _WHOLE + _REAL.lines(_REALS_2) + 1]:
+    for index in part[: _TWO.heading + 1]:
         if match := pattern.search(source.lines[index]):
             return index, match
     return None
@@ -240,16 +226,3 @@ def _stop(source: Source, first: int, stop: int) -> tuple[int, tuple[str, ...]]:
             check_only_blank(source, index + 1, stop, "the end of a channel")
             return index, ()
     return stop, ("no end-of-data line (/&) follows the values: the file may be truncated",)
-
-
-def _peak(source: Source, part: range, pattern: re.Pattern[str]) -> tuple[int, float]:
-    place = _search(source, part, pattern)
-    if not place:
-        return part.start, 0.0
-    index, match = place
-    return index, printed(match[1], index).value * unit_size(match[2])
-
-
-def _name(source: Source, part: range, lines: int) -> str:
-    heading = (source.lines[index] for index in part[:lines])
-    return next((line for line in heading if line.strip().upper().startswith("CHAN")), "")

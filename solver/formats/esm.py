@@ -16,19 +16,17 @@ import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 
-import numpy as np
-
 from solver.formats.channels import (
     Channel,
     MotionFile,
+    centered_peak_notes,
     check_length,
     motion_file,
     offset_notes,
-    peak_notes,
 )
 from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.source import Source
-from solver.model import Floats, InputError
+from solver.model import InputError
 from solver.records.record import raise_any, shown
 
 _LONGEST_HEADING = 100
@@ -81,7 +79,7 @@ def _asc(source: Source, heading: _Heading, dt_s: float, block: Block) -> list[C
     check_length(source, printed(length, at), len(values) * dt_s, dt_s)
     peak, at = heading.get(_PEAK, ("", 0))
     name, _ = heading.get("STREAM", heading.get("COMPONENT", ("", 0)))
-    notes = _peak_notes(source, at, 0.01 * printed(peak, at).value, values)
+    notes = centered_peak_notes(source, at, 0.01 * printed(peak, at).value, values)
     return [Channel(name=name, dt_s=dt_s, a_mps2=values, notes=notes)]
 
 
@@ -103,19 +101,8 @@ def _afad(
     return [
         Channel(name=name, dt_s=dt_s, a_mps2=values, notes=(*notes, *offset_notes(values)))
         for name, values in zip(names, columns, strict=True)
-        for notes in (_peak_notes(source, at, stated.get(name.upper(), 0.0), values),)
+        for notes in (centered_peak_notes(source, at, stated.get(name.upper(), 0.0), values),)
     ]
-
-
-def _peak_notes(source: Source, at: int, stated_mps2: float, values: Floats) -> tuple[str, ...]:
-    """Compare values with a stated peak, which may be that without the mean."""
-    if not len(values):
-        return ()
-    alike = min(
-        (values, values - values.mean()),
-        key=lambda each: abs(float(np.abs(each).max()) - abs(stated_mps2)),
-    )
-    return peak_notes(source, at, stated_mps2, alike)
 
 
 def _heading(lines: Sequence[str]) -> _Heading:

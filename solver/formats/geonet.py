@@ -68,15 +68,12 @@ def read(source: Source) -> MotionFile:
             f"{source.at(parts[-1].start)}: found the heading of component {len(parts)}, the last"
             f" one, where the format has {_COMPONENTS} components; give the whole file"
         )
-    form = "GeoNet V1A" if _is_uncorrected(source) else "GeoNet V2A"
-    return motion_file(source, form, each(lambda part: _component(source, part), parts))
+    is_raw = source.line(0).strip().upper().startswith("UN")
+    channels = each(lambda part: _component(source, part, is_raw), parts)
+    return motion_file(source, "GeoNet V1A" if is_raw else "GeoNet V2A", channels)
 
 
-def _is_uncorrected(source: Source) -> bool:
-    return source.line(0).strip().upper().startswith("UN")
-
-
-def _component(source: Source, part: range) -> Channel:
+def _component(source: Source, part: range, is_raw: bool) -> Channel:
     whole = header_values(source, part.start + _TEXT, _WHOLES, _WHOLE)
     real = header_values(source, part.start + _TEXT + _WHOLE.lines(_WHOLES), _REALS, _WHOLE)
     count = whole[_ACCELERATIONS - 1]
@@ -86,11 +83,16 @@ def _component(source: Source, part: range) -> Channel:
         )
     dt_s = source.step(_step(source, part, real[_STEP - 1]))
     scale = _scale(source, part)
-    block = _block(part, whole)
+    first = part.start + _HEADING
+    end = first + _WHOLE.lines(int(count.value))
+    is_alone = not whole[_VELOCITIES - 1].value > 0.0
+    stop = part.stop if is_alone else min(end, part.stop)
+    block = Block(first=first, stop=stop, count=int(count.value), promised=count.index)
     values = fixed_values(source, block, _WHOLE) * scale
-    _check_length(source, part, len(values) * dt_s, dt_s)
-    uncorrected = _is_uncorrected(source)
-    peak = real[(_PEAK_1 if uncorrected else _PEAK_2) - 1]
+    at = part.start + _LENGTH_LINE - 1
+    if match := _LENGTH.search(source.line(at)):
+        check_length(source, printed(match[1], at), len(values) * dt_s, dt_s)
+    peak = real[(_PEAK_1 if is_raw else _PEAK_2) - 1]
     notes = (
         *_rest(source, part, whole),
         *peak_notes(source, peak.index, peak.value * scale, values),
@@ -99,17 +101,8 @@ def _component(source: Source, part: range) -> Channel:
         name=source.line(part.start + _COMPONENT_LINE - 1),
         dt_s=dt_s,
         a_mps2=values,
-        notes=(*notes, *offset_notes(values)) if uncorrected else notes,
+        notes=(*notes, *offset_notes(values)) if is_raw else notes,
     )
-
-
-def _block(part: range, whole: Sequence[Stated]) -> Block:
-    """Lines of the accelerations: up to the velocities, if there are any."""
-    first, count = part.start + _HEADING, whole[_ACCELERATIONS - 1]
-    end = first + _WHOLE.lines(int(count.value))
-    alone = not whole[_VELOCITIES - 1].value > 0.0
-    stop = part.stop if alone else min(end, part.stop)
-    return Block(first=first, stop=stop, count=int(count.value), promised=count.index)
 
 
 def _step(source: Source, part: range, exact: Stated) -> Stated:
@@ -124,13 +117,6 @@ def _step(source: Source, part: range, exact: Stated) -> Stated:
         return stated
     check_steps(source, stated, exact)
     return exact if exact.rounding <= stated.rounding else stated
-
-
-def _check_length(source: Source, part: range, reached_s: float, dt_s: float) -> None:
-    """Compare count times step with the duration in the text."""
-    at = part.start + _LENGTH_LINE - 1
-    if match := _LENGTH.search(source.line(at)):
-        check_length(source, printed(match[1], at), reached_s, dt_s)
 
 
 def _scale(source: Source, part: range) -> float:

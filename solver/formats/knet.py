@@ -19,13 +19,20 @@ from contextlib import suppress
 
 import numpy as np
 
-from solver.formats.channels import Channel, MotionFile, motion_file, offset_notes, peak_notes
+from solver.formats.channels import (
+    Channel,
+    MotionFile,
+    centered_peak_notes,
+    motion_file,
+    offset_notes,
+)
 from solver.formats.numbers import (
     COMPARED,
     Block,
-    field_problem,
+    check_last,
+    field_problems,
     free_values,
-    is_cut_short,
+    number_in,
     printed,
 )
 from solver.formats.source import Source, Stated
@@ -70,18 +77,9 @@ def _csv(source: Source, at: int) -> MotionFile:
         for index, fields in rows
         if len(fields) != len(heads)
     )
-    raise_any(
-        f"{source.at(index)}: {problem}"
-        for index, fields in rows
-        for field in fields[1:]
-        if (problem := field_problem(field.strip()))
-    )
-    if is_cut_short([fields[-1].strip() for _, fields in rows[-COMPARED:]]):
-        raise InputError(
-            f"{source.at(rows[-1][0])}: found {shown(rows[-1][1][-1])} at the end, with fewer"
-            " digits than all other values; give the whole file"
-        )
-    table = np.array([[float(field) for field in fields[1:]] for _, fields in rows])
+    raise_any(problem for i, fields in rows for problem in field_problems(source, i, fields[1:]))
+    check_last(source, rows[-1][0], [fields[-1].strip() for _, fields in rows[-COMPARED:]])
+    table = np.array([[number_in(field) for field in fields[1:]] for _, fields in rows])
     even = sampled(source, table[:, 0], table[:, 1:].T, lambda i: rows[i][0])
     channels = []
     for head, values in zip(heads[2:], even.columns, strict=True):
@@ -126,8 +124,7 @@ def _counts(source: Source) -> MotionFile:
     values = free_values(source, block) * _scale(source)
     peak, at = _entry(source, "Max. Acc. (gal)", "Max Acc. (gal)")
     stated_mps2 = 0.01 * printed(peak, at).value
-    centered = values - values.mean() if len(values) else values
-    notes = [*peak_notes(source, at, stated_mps2, centered), *offset_notes(values)]
+    notes = [*centered_peak_notes(source, at, stated_mps2, values), *offset_notes(values)]
     direction, _ = _entry(source, "Dir.")
     name = _KIK_NET.get(direction, direction)
     if name.endswith("1"):

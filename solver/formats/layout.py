@@ -18,7 +18,7 @@ from itertools import islice
 
 import numpy as np
 
-from solver.formats.numbers import DECIMAL_COMMA, NUMBER, field_problem
+from solver.formats.numbers import DECIMAL_COMMA, NUMBER, field_problems, number_in
 from solver.formats.source import Source
 from solver.model import Floats, InputError
 from solver.records.record import is_other_unit, is_raw, raise_any, unit_size
@@ -41,10 +41,10 @@ _NOT_ACCELERATIONS = re.compile(
     r"|humidity|altitude|latitude|longitude|pitch|roll|yaw|quat[a-z]*|strain|jerk)(?![a-z])",
     re.IGNORECASE,
 )
-# Of the length of the vector, as loggers write it beside its components: phyphox, Physics Toolbox.
+# The length of the vector, as loggers write it beside its components.
 _MAGNITUDE = re.compile(
-    r"(?<![a-z])(?:abs|absolute|(?:absolut)?betrag|res|resultante?|vector ?sum|sum|total|combined|mag"
-    r"|magnitude|norm|modulus|srss)(?![a-z])|\|.*\||(?:at|tgf)$",
+    r"(?<![a-z])(?:abs|absolute|(?:absolut)?betrag|res|resultante?|vector ?sum|sum|total|combined"
+    r"|mag|magnitude|norm|modulus|srss)(?![a-z])|\|.*\||(?:at|tgf)$",
     re.IGNORECASE,
 )
 _ACCELERATION = re.compile(r"(?<![a-z])acc", re.IGNORECASE)
@@ -93,26 +93,13 @@ class Kind(Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Heading:
-    """Heading of one column.
+    """Heading of one column."""
 
-    Attributes
-    ----------
-    text : str
-        As written.
-    name : str
-        The heading without its unit.
-    kind : Kind
-    unit : str
-        As written; "" if there is none.
-    seconds : float
-        Value [s] of the unit of a time, NaN if it is not known; 1 if there is none.
-    """
-
-    text: str
-    name: str
+    text: str  # as written
+    name: str  # without its unit
     kind: Kind
-    unit: str
-    seconds: float
+    unit: str  # as written; empty if there is none
+    seconds: float  # value [s] of the unit of a time, NaN if it is not known; 1 if there is none
 
     @property
     def is_magnitude(self) -> bool:
@@ -417,10 +404,5 @@ def across(source: Source, start: int, separator: str | None, due: int) -> Float
         for index, fields in rows
         if len(fields) > due or (len(fields) < due and index != rows[-1][0])
     )
-    raise_any(
-        f"{source.at(index)}: {problem}"
-        for index, fields in rows
-        for field in fields
-        if (problem := field_problem(field.strip()))
-    )
-    return np.array([float(field) for _, fields in rows for field in fields]).reshape(-1, 1)
+    raise_any(problem for i, fields in rows for problem in field_problems(source, i, fields))
+    return np.array([number_in(field) for _, fields in rows for field in fields]).reshape(-1, 1)

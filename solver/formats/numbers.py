@@ -57,21 +57,12 @@ class FieldFormat:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Block:
-    """Location of the values of a record, and the line that states their number.
+    """Location of the values of a record, and the line that states their number."""
 
-    Attributes
-    ----------
-    first, stop : int
-        Index of the first line of values, and of the line after the last one that may have values.
-    count : int
-    promised : int
-        Index of the line that states the count.
-    """
-
-    first: int
-    stop: int
+    first: int  # index of the first line of values
+    stop: int  # index of the line after the last one that may have values
     count: int
-    promised: int
+    promised: int  # index of the line that states the count
 
 
 def layout_of(text: str) -> FieldFormat | None:
@@ -129,7 +120,7 @@ def free_values(source: Source, block: Block) -> Floats:
     if len(written) == len(values):
         _check_halved(source, written)
     last = " ".join(row for _, row in written[-COMPARED:])
-    _check_last(source, block, _apart(last.translate(_FORTRAN)))
+    check_last(source, written[-1][0], _apart(last.translate(_FORTRAN)))
     return values
 
 
@@ -148,13 +139,12 @@ def _check_halved(source: Source, rows: Sequence[tuple[int, str]]) -> None:
         )
 
 
-def _check_last(source: Source, block: Block, fields: Sequence[str]) -> None:
+def check_last(source: Source, index: int, fields: Sequence[str]) -> None:
     """Refuse a last value with fewer digits than all others: a file cut within it, not before."""
     if is_cut_short(fields[-COMPARED:]):
-        at = next(k for k in reversed(range(block.first, block.stop)) if source.lines[k].strip())
         raise InputError(
-            f"{source.at(at)}: found {shown(fields[-1])} at the end, with fewer digits than all "
-            "other values; give the whole file"
+            f"{source.at(index)}: found {shown(fields[-1])} at the end, with fewer digits than all"
+            " other values; give the whole file"
         )
 
 
@@ -197,6 +187,11 @@ def field_problem(field: str) -> str:
         return f"found {shown(field)}; give a number without commas for thousands"
     point = " with a decimal point" if DECIMAL_COMMA.match(field) else ""
     return f"found {shown(field)}; give a number{point}"
+
+
+def number_in(field: str) -> float:
+    """Value of a field without errors, whose exponent may be behind a D."""
+    return float(field.translate(_FORTRAN))
 
 
 def is_row(fields: Sequence[str]) -> bool:
@@ -258,7 +253,7 @@ def _fixed_problems(
         if len(fields) != due and number < len(rows) - 1:
             values = "1 value" if len(fields) == 1 else f"{len(fields)} values"
             yield f"{source.at(at)}: found {values}; give {due}"
-        yield from _field_problems(source, at, fields)
+        yield from field_problems(source, at, fields)
     if count != block.count:
         yield _wrong_count(source, block, count)
 
@@ -269,7 +264,7 @@ def _row_by_row(
     problems = (
         problem
         for number, row in enumerate(rows)
-        for problem in _field_problems(source, block.first + number, split(row))
+        for problem in field_problems(source, block.first + number, split(row))
     )
     return _values(rows, split, problems)
 
@@ -293,8 +288,9 @@ def _problem(field: str) -> str:
     return field_problem(field) if field_problem(field.translate(_FORTRAN)) else ""
 
 
-def _field_problems(source: Source, index: int, fields: Iterable[str]) -> Iterator[str]:
-    problems = (_problem(field) for field in fields)
+def field_problems(source: Source, index: int, fields: Iterable[str]) -> Iterator[str]:
+    """Errors of the fields of the line at an index that are no numbers."""
+    problems = (_problem(field.strip()) for field in fields)
     return (f"{source.at(index)}: {problem}" for problem in problems if problem)
 
 

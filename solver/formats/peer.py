@@ -21,7 +21,7 @@ from solver.formats.channels import Channel, MotionFile, motion_file
 from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.source import Source
 from solver.model import InputError
-from solver.records.record import shown, unit_size
+from solver.records.record import shown
 
 # The count is in the first lines of a file: the heading has four, or seven and more.
 _HEADING_LINES, _LONGEST_HEADING = 6, 20
@@ -102,10 +102,7 @@ def _check_acceleration(source: Source, heading: Sequence[str]) -> None:
 
 def _scale(source: Source, heading: Sequence[str]) -> float:
     stated = [(u[1] or u[2], i) for i, line in enumerate(heading) if (u := _UNIT.search(line))]
-    if len({unit_size(unit) for unit, _ in stated}) > 1:
-        units = " and ".join(dict.fromkeys(unit for unit, _ in stated))
-        raise InputError(f"{source.at(stated[-1][1])}: found units {units}; correct one of them")
-    return source.scale(*stated[0]) if stated else source.given_scale()
+    return source.stated_scale(stated)
 
 
 def _component(heading: Sequence[str]) -> str:

@@ -49,12 +49,20 @@ def recognizes(lines: Sequence[str]) -> bool:
 
 def read(source: Source) -> MotionFile:
     """Read the one component of a file of type 1 (uncorrected) or 2 (corrected)."""
-    kind = _kind(source)
+    match = _FIRST.match(source.line(0))
+    kind = match[1].upper() if match else ""
+    if "ACCEL" not in kind:
+        raise InputError(f"{source.at(0)}: found {kind.lower()}; give a file of acceleration")
     whole = header_values(source, _TEXT, _WHOLES, _WHOLE)
     real = header_values(source, _TEXT + _WHOLE.lines(_WHOLES), _REALS, _REAL)
     scale = source.scale("cm/s2", 0)
     block, more = _block(source, whole)
-    dt_s, values, told = _samples(source, real[_RATE - 1], block)
+    rate = real[_RATE - 1]
+    if _known(rate) > 0.0:
+        dt_s = source.step(Stated(value=1.0 / rate.value, rounding=0.0, index=rate.index))
+        values, told = fixed_values(source, block, _VALUES), tuple[str, ...]()
+    else:
+        dt_s, values, told = _uneven(source, block)
     values, notes = values * scale, [*more, *told]
     if whole[_FLAG - 1].value == 1.0:
         notes.append("the heading flags a problem with this record: read its comments")
@@ -62,23 +70,10 @@ def read(source: Source) -> MotionFile:
     notes += peak_notes(source, real[_LARGEST - 1].index, peak, values)
     if kind.startswith("UNCORRECTED"):
         notes += offset_notes(values)
-    channel = Channel(name=_name(source), dt_s=dt_s, a_mps2=values, notes=tuple(notes))
+    named = _COMPONENT.search(source.line(5))
+    name = named[1].strip() if named else ""
+    channel = Channel(name=name, dt_s=dt_s, a_mps2=values, notes=tuple(notes))
     return motion_file(source, "USGS SMC", [channel])
-
-
-def _samples(source: Source, rate: Stated, block: Block) -> tuple[float, Floats, tuple[str, ...]]:
-    if not _known(rate) > 0.0:
-        return _uneven(source, block)
-    dt_s = source.step(Stated(value=1.0 / rate.value, rounding=0.0, index=rate.index))
-    return dt_s, fixed_values(source, block, _VALUES), ()
-
-
-def _kind(source: Source) -> str:
-    match = _FIRST.match(source.line(0))
-    kind = match[1].upper() if match else ""
-    if "ACCEL" not in kind:
-        raise InputError(f"{source.at(0)}: found {kind.lower()}; give a file of acceleration")
-    return kind
 
 
 def _block(source: Source, whole: Sequence[Stated]) -> tuple[Block, tuple[str, ...]]:
@@ -130,8 +125,3 @@ def _uneven(source: Source, block: Block) -> tuple[float, Floats, tuple[str, ...
 
 def _known(number: Stated) -> float:
     return 0.0 if math.isnan(number.value) or abs(number.value) > _UNKNOWN else number.value
-
-
-def _name(source: Source) -> str:
-    match = _COMPONENT.search(source.line(5))
-    return match[1].strip() if match else ""

@@ -110,31 +110,14 @@ class Stated:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Source:
-    """Lines of a file, and the units and step given by the caller.
-
-    Attributes
-    ----------
-    name : str
-    lines : list of str
-        Without line ends.
-    units : str
-        One of `UNIT_CHOICES`, or "" if the caller gives none.
-    dt_s : float
-        Sampling interval [s], or NaN if the caller gives none.
-    values_per_line : int
-        As the caller says of values that follow each other across the lines; else 0.
-    is_ended : bool
-        Whether the last line ends with a line end, which a file that was cut rarely does.
-    content : bytes
-        The file.
-    """
+    """Lines of a file, and the units and step given by the caller."""
 
     name: str
-    lines: list[str]
-    units: str
-    dt_s: float
-    values_per_line: int = 0
-    is_ended: bool = True
+    lines: list[str]  # without line ends
+    units: str  # one of `UNIT_CHOICES`, or empty if the caller gives none
+    dt_s: float  # sampling interval [s], or NaN if the caller gives none
+    values_per_line: int = 0  # as the caller says of values across the lines
+    is_ended: bool = True  # with a line end, which a file that was cut rarely has
     content: bytes = b""
 
     def at(self, index: int) -> str:
@@ -164,8 +147,13 @@ class Source:
             )
         return size
 
-    def given_scale(self) -> float:
-        """Value [m/s2] of the caller's unit, for a file that states none."""
+    def stated_scale(self, stated: Sequence[tuple[str, int]]) -> float:
+        """Value [m/s2] of the unit of lines of text, each with its index, else the caller's."""
+        if len({unit_size(unit) for unit, _ in stated}) > 1:
+            units = " and ".join(dict.fromkeys(unit for unit, _ in stated))
+            raise InputError(f"{self.at(stated[-1][1])}: found units {units}; correct one of them")
+        if stated:
+            return self.scale(*stated[0])
         if not self.units:
             raise InputError(
                 f"{self.name}: found no unit of acceleration; give units, one of"

@@ -17,7 +17,6 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from solver.formats import layout
 from solver.formats.channels import Channel, MotionFile, motion_file
@@ -53,26 +52,13 @@ _CLOCK = re.compile(r"\d+([-/:.])\d+\1\d+(?:[:.,T ].*)?", re.ASCII)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Table:
-    """Numbers of a text, with its headings.
+    """Numbers of a text, with its headings."""
 
-    Attributes
-    ----------
-    values : array, shape (n, k)
-    start : int
-        Index of the first line that may hold numbers.
-    headings : list of Heading
-        One for each column, or none.
-    heading_index : int
-        Index of the line of headings.
-    remarks : list of (int, str)
-        Index and text of the other lines above the first row.
-    """
-
-    values: Floats
-    start: int
-    headings: list[Heading]
-    heading_index: int
-    remarks: list[Row]
+    values: Floats  # shape (n, k)
+    start: int  # index of the first line that may hold numbers
+    headings: list[Heading]  # one for each column, or none
+    heading_index: int  # of their line
+    remarks: list[Row]  # the other lines above the first row
 
 
 def recognizes(lines: Sequence[str]) -> bool:
@@ -123,7 +109,8 @@ def read(source: Source) -> MotionFile:
             " samples are missing"
         )
     file = motion_file(source, "text", channels, [*even.notes, *notes])
-    return replace(file, hold_s=_hold_s(table))
+    held = [found for _, line in table.remarks if (found := _HOLD.search(line))]
+    return replace(file, hold_s=float(held[0][1])) if held else file
 
 
 def _magnitudes(table: _Table, columns: Sequence[int]) -> list[int]:
@@ -171,12 +158,6 @@ def _check_last(source: Source, table: _Table) -> None:
         )
 
 
-def _hold_s(table: _Table) -> float:
-    """Hold of the envelope [s] that a generated file states; NaN for none."""
-    stated = [match for _, line in table.remarks if (match := _HOLD.search(line))]
-    return float(stated[0][1]) if stated else math.nan
-
-
 def _has_times(source: Source, table: _Table) -> bool:
     """Whether the first column holds times."""
     if table.values.shape[1] == 1:
@@ -195,20 +176,29 @@ def _has_times(source: Source, table: _Table) -> bool:
 
 
 def _evened(source: Source, table: _Table, columns: Floats, timed: bool) -> Sampled:
+    stated = _step_in(table)
     if not timed:
-        return Sampled(dt_s=_stated_step(source, table), columns=columns, notes=())
+        if math.isnan(stated.value) and math.isnan(source.dt_s):
+            what = "one column," if table.values.shape[1] == 1 else "columns"
+            raise InputError(f"{source.name}: found {what} without times; give the time step dt")
+        dt_s = source.dt_s if math.isnan(stated.value) else source.step(stated)
+        return Sampled(dt_s=dt_s, columns=columns, notes=())
     unit_s = _seconds(source, table)
     times = table.values[:, 0] * unit_s
     _check_is_time(source, table, times)
     _check_decimal_comma(source, table, times)
 
     @cache
-    def indexes() -> NDArray[np.int64]:
-        rows = rows_of(source.lines, table.start)
-        return np.fromiter((index for index, _ in rows), dtype=np.int64)
+    def indexes() -> list[int]:
+        return [index for index, _ in rows_of(source.lines, table.start)]
 
-    even = sampled(source, times, columns, lambda i: int(indexes()[i]), unit_s)
-    _check_step(source, table, even)
+    even = sampled(source, times, columns, lambda i: indexes()[i], unit_s)
+    # Where the times are even, they have the step that a remark states.
+    if not even.notes and abs(even.dt_s - stated.value) > stated.rounding + 1e-4 * even.dt_s:
+        raise InputError(
+            f"{source.at(stated.index)}: states a step of {stated.value:.6g} s, the times have"
+            f" {even.dt_s:.6g} s; give a file in which they agree"
+        )
     return even
 
 
@@ -247,18 +237,6 @@ def _seconds(source: Source, table: _Table) -> float:
     return heading.seconds
 
 
-def _check_step(source: Source, table: _Table, even: Sampled) -> None:
-    """Compare the step of even times with the one that a remark states."""
-    stated = _step_in(table)
-    if math.isnan(stated.value) or even.notes:
-        return
-    if abs(even.dt_s - stated.value) > stated.rounding + 1e-4 * even.dt_s:
-        raise InputError(
-            f"{source.at(stated.index)}: states a step of {stated.value:.6g} s, the times have"
-            f" {even.dt_s:.6g} s; give a file in which they agree"
-        )
-
-
 def _step_in(table: _Table) -> Stated:
     """Step [s] that a remark states; NaN for none."""
     for index, line in table.remarks:
@@ -270,28 +248,12 @@ def _step_in(table: _Table) -> Stated:
     return Stated(value=math.nan, rounding=0.0, index=-1)
 
 
-def _stated_step(source: Source, table: _Table) -> float:
-    stated = _step_in(table)
-    if stated.index >= 0:
-        return source.step(stated)
-    if math.isnan(source.dt_s):
-        raise InputError(
-            f"{source.name}: found one column, without times; give the time step dt"
-            if table.values.shape[1] == 1
-            else f"{source.name}: found columns without times; give the time step dt"
-        )
-    return source.dt_s
-
-
 def _scale(source: Source, table: _Table, column: int) -> float:
     """Value [m/s2] of a column's unit: from its heading, the text above, or the caller."""
     if table.headings and table.headings[column].unit:
         return _heading_scale(source, table, table.headings[column])
     stated = [(unit, i) for i, line in table.remarks for unit in layout.units_in(line)]
-    if len({unit_size(unit) for unit, _ in stated}) > 1:
-        units = " and ".join(dict.fromkeys(unit for unit, _ in stated))
-        raise InputError(f"{source.at(stated[-1][1])}: found units {units}; give one")
-    return source.scale(*stated[0]) if stated else source.given_scale()
+    return source.stated_scale(stated)
 
 
 def _heading_scale(source: Source, table: _Table, heading: Heading) -> float:

@@ -30,19 +30,11 @@ _MAX_GAPS = 3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sampled:
-    """Columns at an even step.
-
-    Attributes
-    ----------
-    dt_s : float
-    columns : array, shape (k, n)
-    notes : tuple of str
-        One or more if the columns were resampled.
-    """
+    """Columns at an even step."""
 
     dt_s: float
-    columns: Floats
-    notes: tuple[str, ...]
+    columns: Floats  # shape (k, n)
+    notes: tuple[str, ...]  # one or more if the columns were resampled
 
 
 def sampled(

@@ -290,7 +290,8 @@ REFUSED = {
         " heading such as acc_g"),
     "another unit is given": ("# x\ntime_s,acc_gal\n0,100\n1,200\n", {},
         ":2: the file is in gal but units are g; give the units of the file, or none"),
-    "two units": ("# in g\n# units: gal\n0,1\n1,2\n", NONE, ":2: found units g and gal; give one"),
+    "two units": ("# in g\n# units: gal\n0,1\n1,2\n", NONE, ":2: found units g and gal;"
+        " correct one of them"),
     "a comment contradicts": (TWO_UNITS, NONE,
         f":2: {WHICH} Correct one of them, or give the units"),
     "a third unit": (TWO_UNITS, {"units": "m/s2"},
