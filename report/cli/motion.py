@@ -55,6 +55,8 @@ def _reading(command: Callable[..., None]) -> Callable[..., None]:
 _per_line = click.option("--values-per-line", type=click.IntRange(1), default=None, callback=lambda
                          *given: given[2] or 0, help="The values follow each other across the "
                          "lines, so many in each but the last.")  # fmt: skip
+_response = click.option("--response", default="", metavar="STATION.xml|NUMBER", help="Of raw "
+                         "counts, as in miniSEED: StationXML, or the counts per m/s2.")  # fmt: skip
 _channel = click.option("--channel", default="", metavar="NAME",
                         help="One channel: its name or its number in the file.")  # fmt: skip
 
@@ -72,6 +74,7 @@ def _picture(_: click.Context, __: click.Parameter, path: Path | None) -> Path |
 @click.argument("file", metavar="FILE", type=SOURCE)
 @_channel
 @_per_line
+@_response
 @_reading
 @AS_JSON
 @click.option("--plot", metavar="OUT.svg|OUT.png", type=SOURCE, callback=_picture,
@@ -109,6 +112,7 @@ def info(file: Path, channel: str, as_json: bool, plot: Path | None, **how: Any)
 @click.option("--factor", type=Number(), default=1.0, help="Multiply the samples, by -1 for a "
               "vertical record that is positive downward.")  # fmt: skip
 @_per_line
+@_response
 @_reading
 def convert(file: Path, out: Path, channel: str, factor: float, **how: Any) -> None:
     """Write FILE as CSV: time in s, acceleration in g.
@@ -320,10 +324,10 @@ def _targets(
     return ac156_targets(**whole), []
 
 
-def _read(path: Path, units: str | None, dt_s: float, values_per_line: int) -> MotionFile:
+def _read(path: Path, units: str | None, **how: Any) -> MotionFile:
     from solver.formats import read_motion_file
 
-    return read_motion_file(path, units=units or "", dt_s=dt_s, values_per_line=values_per_line)
+    return read_motion_file(path, units=units or "", **how)
 
 
 def _write(record: Record, out: Path) -> None:

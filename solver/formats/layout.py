@@ -43,7 +43,7 @@ _NOT_ACCELERATIONS = re.compile(
 )
 # The length of the vector, as loggers write it beside its components.
 _MAGNITUDE = re.compile(
-    r"(?<![a-z])(?:abs|absolute|(?:absolut)?betrag|res|resultante?|vector ?sum|sum|total|combined"
+    r"(?<![a-z])(?:abs|absolute|[a-z]*betrag|res|resultante?|vector ?sum|sum|total|combined"
     r"|mag|magnitude|norm|modulus|srss)(?![a-z])|\|.*\||(?:at|tgf)$",
     re.IGNORECASE,
 )

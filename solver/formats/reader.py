@@ -11,9 +11,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
-from solver.formats import cosmos, csmip, esm, geonet, knet, peer, smc, text
+from solver.formats import cosmos, csmip, esm, geonet, knet, peer, seed, smc, text
 from solver.formats.channels import MotionFile
-from solver.formats.source import Source, open_source
+from solver.formats.source import Source, open_source, waveform_format
 from solver.records.record import Record
 
 
@@ -27,15 +27,20 @@ _FORMATS: tuple[_Format, ...] = (cosmos, geonet, csmip, smc, knet, esm, peer, te
 
 
 def read_motion_file(
-    path: str | Path, *, units: str = "", dt_s: float = math.nan, values_per_line: int = 0
+    path: str | Path,
+    *,
+    units: str = "",
+    dt_s: float = math.nan,
+    values_per_line: int = 0,
+    response: str | Path = "",
 ) -> MotionFile:
     """Read all channels of a record file.
 
     The format is identified by content: PEER AT2; COSMOS V1.20; CSMIP volumes 1 and 2; RENADIC;
     USGS SMC; GeoNet V1A and V2A; K-NET and KiK-net, ASCII and CSV; ESM, ITACA and AFAD; a line of
-    count and step (eqsig, RSPMatch); or text of one column (acceleration) or more (time [s],
-    accelerations). No sample is filtered and no offset is removed. Records with uneven
-    times are resampled by linear interpolation, with a note.
+    count and step (eqsig, RSPMatch); miniSEED and SAC, where ObsPy is installed; or text of one
+    column (acceleration) or more (time [s], accelerations). No sample is filtered and no offset is
+    removed. Records with uneven times are resampled by linear interpolation, with a note.
 
     Parameters
     ----------
@@ -49,6 +54,8 @@ def read_motion_file(
         For a text without a heading whose values follow each other across the lines, as programs
         such as OpenSees and SAP2000 read them: their number in each line but the last. 0 for
         columns.
+    response : str or Path
+        For raw counts: the StationXML of the instrument, or its counts per m/s2.
 
     Returns
     -------
@@ -64,8 +71,15 @@ def read_motion_file(
     >>> read_motion_file("projects/example/records/RM1-x.csv").channels
     (Record('RM1-x.csv', 6001 samples at 0.005 s),)
     """
-    source = open_source(Path(path), units=units, dt_s=dt_s, values_per_line=values_per_line)
-    found = next(form for form in _FORMATS if form.recognizes(source.lines)).read(source)
+    source = open_source(
+        Path(path),
+        units=units,
+        dt_s=dt_s,
+        values_per_line=values_per_line,
+        response=str(response),
+    )
+    reader = next(form for form in _FORMATS if form.recognizes(source.lines))
+    found = (seed if waveform_format(source.content) else reader).read(source)
     return replace(found, content=source.content)
 
 
@@ -76,12 +90,13 @@ def read_record(
     dt_s: float = math.nan,
     channel: str = "",
     values_per_line: int = 0,
+    response: str | Path = "",
 ) -> Record:
     """Read one channel of a record file.
 
     Parameters
     ----------
-    path, units, dt_s, values_per_line
+    path, units, dt_s, values_per_line, response
         As in `read_motion_file`.
     channel : str
         Its name or number in the file; may be omitted where there is only one.
@@ -100,5 +115,7 @@ def read_record(
     >>> read_record("projects/example/records/RM1-x.csv")
     Record('RM1-x.csv', 6001 samples at 0.005 s)
     """
-    file = read_motion_file(path, units=units, dt_s=dt_s, values_per_line=values_per_line)
+    file = read_motion_file(
+        path, units=units, dt_s=dt_s, values_per_line=values_per_line, response=response
+    )
     return file.channel(channel)

@@ -46,7 +46,7 @@ _TEXTS = (
 _LOOKED_AT = 15
 
 _BYTES = (
-    (re.compile(rb"\d{6}[DRQM][ \x00]|MS\x03"), "miniSEED", _CONVERT),
+    (re.compile(rb"MS\x03"), "miniSEED 3", _CONVERT),
     (re.compile(rb"\d{6}[VAST] "), "SEED", _CONVERT),
     (re.compile(rb"PK\x03\x04"), "a zip or a workbook", "unpack it, or save its sheet as CSV"),
     (re.compile(rb"\x1f\x8b"), "a gzip", "unpack it"),
@@ -55,6 +55,7 @@ _BYTES = (
     (re.compile(rb"MATLAB"), "a file of MATLAB", _COLUMNS),
     (re.compile(rb"\x93NUMPY"), "an array of numpy", _COLUMNS),
 )
+_MINISEED = re.compile(rb"\d{6}[DRQM][ \x00]")
 _SAC_HEADING, _SAC_VERSION_AT, _SAC_VERSIONS = 632, 304, {6, 7}
 
 
@@ -75,10 +76,17 @@ def likely_bytes(data: bytes) -> str:
     for pattern, name, remedy in _BYTES:
         if pattern.match(data):
             return f"{name}; {remedy}"
+    return ""
+
+
+def waveform_format(data: bytes) -> str:
+    """Return what ObsPy calls the format of a binary record that it reads; "" for another file."""
+    if _MINISEED.match(data):
+        return "MSEED"
     heading = data[_SAC_VERSION_AT : _SAC_VERSION_AT + 4]
     versions = [int.from_bytes(heading, order) for order in ("little", "big")]
     is_sac = len(data) > _SAC_HEADING and not _SAC_VERSIONS.isdisjoint(versions)
-    return f"SAC; {_CONVERT}" if is_sac else ""
+    return "SAC" if is_sac else ""
 
 
 MAX_BYTES = 64_000_000
@@ -86,8 +94,6 @@ MAX_LINE = 1000
 MAX_LINES = 1_000_000
 """As many as are read within 10 s if the last one is at fault."""
 MAX_NAME = 255
-
-RAW_COUNTS = "raw counts are no acceleration without the response of the instrument"
 
 # Text has no control characters except tab, line ends and form feed.
 _CONTROL = re.compile(rb"[\x00-\x08\x0b\x0e-\x1f]")
@@ -117,6 +123,7 @@ class Source:
     units: str  # one of `UNIT_CHOICES`, or empty if the caller gives none
     dt_s: float  # sampling interval [s], or NaN if the caller gives none
     values_per_line: int = 0  # as the caller says of values across the lines
+    response: str = ""  # of raw counts: a file of StationXML, or the counts per m/s2
     is_ended: bool = True  # with a line end, which a file that was cut rarely has
     content: bytes = b""
 
@@ -132,13 +139,16 @@ class Source:
         """Value [m/s2] of the unit stated in the file; the caller's, if any, must be equal."""
         size = unit_size(stated)
         if is_raw(stated):
-            raise InputError(
-                f"{self.at(index)}: found unit {shown(stated)}: {RAW_COUNTS}; give an acceleration"
-            )
+            return self.counts_scale(f"{self.at(index)}: found unit {shown(stated)}")
         if math.isnan(size):
             known = ", ".join(UNIT_CHOICES)
             raise InputError(
                 f"{self.at(index)}: found unit {shown(stated)}; give an acceleration in {known}"
+            )
+        if self.response:
+            raise InputError(
+                f"{self.at(index)}: the file is in {stated} and a response is given, which is that"
+                " of raw counts; give the file alone"
             )
         if self.units and not math.isclose(unit_size(self.units), size):
             raise InputError(
@@ -147,6 +157,24 @@ class Source:
             )
         return size
 
+    @property
+    def counts_per_mps2(self) -> float:
+        """Raw counts for 1 m/s2, where the caller gives that number; else NaN."""
+        try:
+            return float(self.response)
+        except ValueError:
+            return math.nan
+
+    def counts_scale(self, what: str) -> float:
+        """Value [m/s2] of a raw count, if the caller gives their number."""
+        if not 0.0 < self.counts_per_mps2 < math.inf:
+            raise InputError(
+                f"{what}: raw counts are no acceleration without the response of the instrument;"
+                " give it (motion convert --response), as StationXML for miniSEED and SAC, or as"
+                " counts per m/s2"
+            )
+        return 1.0 / self.counts_per_mps2
+
     def stated_scale(self, stated: Sequence[tuple[str, int]]) -> float:
         """Value [m/s2] of the unit of lines of text, each with its index, else the caller's."""
         if len({unit_size(unit) for unit, _ in stated}) > 1:
@@ -154,6 +182,8 @@ class Source:
             raise InputError(f"{self.at(stated[-1][1])}: found units {units}; correct one of them")
         if stated:
             return self.scale(*stated[0])
+        if self.response and not self.units:
+            return self.counts_scale(f"{self.name}: found no unit")
         if not self.units:
             raise InputError(
                 f"{self.name}: found no unit of acceleration; give units, one of"
@@ -182,7 +212,9 @@ class Source:
         return self.dt_s
 
 
-def open_source(path: Path, *, units: str, dt_s: float, values_per_line: int = 0) -> Source:
+def open_source(
+    path: Path, *, units: str, dt_s: float, values_per_line: int = 0, response: str = ""
+) -> Source:
     """Read the lines of a file.
 
     Raises
@@ -200,14 +232,17 @@ def open_source(path: Path, *, units: str, dt_s: float, values_per_line: int = 0
         problems.append(f"{name}: values per line is {shown(values_per_line)}; give a whole number")
     elif values_per_line < 0:
         problems.append(f"{name}: values per line is {values_per_line}; give 1 or more")
+    if units and response:
+        problems.append(f"{name}: units and a response are given; give one of them")
     raise_any(problems)
     data = _bytes(path)
     return Source(
         name=name,
-        lines=_lines(name, data),
+        lines=[] if waveform_format(data) else _lines(name, data),
         units=units,
         dt_s=float(dt_s),
         values_per_line=values_per_line,
+        response=str(response),
         is_ended=data.rstrip(b"\x00\x1a ").endswith((b"\n", b"\r")),
         content=data,
     )

@@ -30,10 +30,8 @@ def test_what_is_no_text_is_refused(file, content):
 @pytest.mark.parametrize(
     ("content", "kind"),
     [
-        (b"000001D STA  \x00\x01", "miniSEED; convert it to times and accelerations, for example"),
+        (b"MS\x03\x00", "miniSEED 3; convert it to times and accelerations, for example"),
         (b"PK\x03\x04\x14\x00", "a zip or a workbook; unpack it, or save its sheet as CSV"),
-        (bytes(304) + b"\x06\0\0\0" + bytes(328), "SAC; convert it to times and accelerations,"),
-        (bytes(304) + b"\0\0\0\x07" + bytes(328), "SAC; convert it to times and accelerations,"),
         (b"%PDF-1.7\n\x00\x01", "a PDF; give the record itself"),
     ],
 )

@@ -115,7 +115,8 @@ ACROSS = "0.1 0.2 0.3\n0.4 0.5 0.6\n0.7\n"
 
 def test_values_across_the_lines_are_read_where_their_number_in_a_line_is_told(file):
     expected = [k * G / 10 for k in range(1, 8)]
-    for content in (ACROSS, ACROSS.replace(" ", ", ").replace("\n", ",\n")):
+    commas = ACROSS.replace(" ", ", ").replace("\n", ",\n")
+    for content in (ACROSS, commas, ACROSS.replace("0.6", "6.0D-01")):
         record = read_record(file(content), units="g", dt_s=0.01, values_per_line=3)
         assert record.a_mps2 == pytest.approx(expected, rel=1e-15)
     told = read_record(file(f"# number of points: 7, in g\n{ACROSS}"), dt_s=0.01)
@@ -280,6 +281,10 @@ def test_channels_of_one_name_are_told_apart(file):
     assert [record.name for record in motion_file.channels] == ["x", "X (2)", "channel 3"]
 
 
+RAW = (
+    "raw counts are no acceleration without the response of the instrument; give it (motion convert"
+    " --response), as StationXML for miniSEED and SAC, or as counts per m/s2"
+)
 NONE, WHICH = {"units": ""}, "the comment states gal, the heading 'acc_g' states g: which is it?"
 REFUSED = {
     "no unit": ("time,acc\n0,100\n1,200\n", NONE,
@@ -321,8 +326,7 @@ REFUSED = {
         " a component: give one a heading such as acc_g")
        for name in ("Abs", "Resultant", "Vector sum", "|a|", "Total", "acc_mag", "aT", "SRSS")},
     **{f"raw counts {name}": (f"time_s,{name}\n0,1\n1,2\n", {},
-        ":1: found unit 'counts': raw counts are no acceleration without the response of the"
-        " instrument; give an acceleration") for name in ("x_counts", "EW (counts)")},
+        f":1: found unit 'counts': {RAW}") for name in ("x_counts", "EW (counts)")},
     **{f"a time of day {time}": (f"time,a_g\n{time},1\n{time},2\n", {},
         f":2: found {time!r}, a date or a time of day; give seconds from the start in the first"
         " column, such as time_s")
@@ -338,6 +342,14 @@ REFUSED = {
         ": found no component of acceleration beside 'Vel (m/s)', not an acceleration: give one a"
         " heading such as acc_g"),
 }  # fmt: skip
+
+
+def test_raw_counts_of_a_text_take_the_sensitivity_that_is_told(file):
+    for heading in ("time_s,x_counts", "t,x"):
+        record = read_record(file(f"{heading}\n0,100\n1,200\n"), response="50")
+        assert record.a_mps2.tolist() == [2.0, 4.0]
+    for how in ({"response": "50"}, {"response": "50", "units": "g"}):
+        assert len(refused(read_record, file("time_s,x_g\n0,100\n1,200\n"), **how)) == 1
 
 
 @pytest.mark.parametrize(("content", "how", "problem"), REFUSED.values(), ids=REFUSED)

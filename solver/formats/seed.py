@@ -1,0 +1,127 @@
+"""MiniSEED and SAC, which ObsPy reads, an optional package: from the samples of traces to channels.
+
+Handles these formats only. Whole numbers are raw counts: they are divided by the sensitivity of the
+instrument that the caller gives, and refused without. Read `read` first.
+
+Source: SEED reference manual, version 2.4 (data records); SAC manual, data file format (IDEP: 6
+displacement, 7 velocity, 8 acceleration, whose unit by the manual, nm/s2, is often not kept); FDSN
+StationXML 1.2 (InstrumentSensitivity: output for one unit of the input).
+"""
+
+from __future__ import annotations
+
+import io
+import math
+import warnings
+from collections import Counter
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from solver.formats.channels import Channel, MotionFile, motion_file, offset_notes
+from solver.formats.source import Source, Stated, waveform_format
+from solver.model import Floats, InputError
+from solver.records.record import shown, unit_size
+
+_NAMES = {"MSEED": "miniSEED", "SAC": "SAC"}
+_OTHER_SAC = {6: "displacement", 7: "velocity", 50: "volts"}
+_INSTALL = (
+    "is read by ObsPy, which is not installed; type the command of ./roofslip motion with a name"
+    " that ends with .mseed or .sac (the launcher installs it then), or: pip install"
+    " 'roofslip[seismic]'"
+)
+
+
+def read(source: Source) -> MotionFile:
+    """Read all traces of a file, each of which must be without gaps."""
+    form = waveform_format(source.content)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # its own of deprecated parts of Python
+            obspy = import_module("obspy")
+    except ImportError as error:
+        raise InputError(f"{source.name}: {_NAMES[form]} {_INSTALL}") from error
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # so a record whose check fails is not read
+            traces = list(obspy.read(io.BytesIO(source.content), format=form))
+            start = min(trace.stats.starttime for trace in traces).datetime
+    except Exception as error:  # its readers raise whatever they meet in a damaged file
+        raise _damaged(source, form) from error
+    if form == "MSEED" and len(source.content) % min(t.stats.mseed.record_length for t in traces):
+        raise _damaged(source, form)
+    name, pieces = Counter(trace.id for trace in traces).most_common(1)[0]
+    if pieces > 1:
+        raise InputError(
+            f"{source.name}: {name} has {pieces} pieces with gaps or overlaps between them; give"
+            " one piece without gaps"
+        )
+    channels = [_channel(source, obspy, trace) for trace in traces]
+    return motion_file(source, _NAMES[form], channels, start=start)
+
+
+def _damaged(source: Source, form: str) -> InputError:
+    return InputError(f"{source.name}: damaged or cut {_NAMES[form]}; give the whole file")
+
+
+def _channel(source: Source, obspy: Any, trace: Any) -> Channel:
+    sac = trace.stats.get("sac")
+    quantity = _OTHER_SAC.get(int(sac.get("idep", 0))) if sac else None
+    if quantity or trace.data.dtype.kind not in "if":
+        raise InputError(
+            f"{source.name}: {trace.id} has {quantity or 'text'}; give a record of acceleration"
+        )
+    if not np.isfinite(trace.data).all():
+        raise InputError(f"{source.name}: {trace.id} has values that are no numbers")
+    values: Floats = trace.data.astype(np.float64)
+    delta_s = float(trace.stats.delta)
+    # SAC has it as a number of 24 bits, which is no multiple of a decimal.
+    step = Stated(value=float(f"{delta_s:.7g}") if sac else delta_s, rounding=0.0, index=0)
+    scale, notes = _scale(source, obspy, trace, values)
+    a_mps2 = values * scale
+    notes = (*notes, *(offset_notes(a_mps2) if a_mps2.any() else ()))
+    return Channel(name=trace.id, dt_s=source.step(step), a_mps2=a_mps2, notes=notes)
+
+
+def _scale(source: Source, obspy: Any, trace: Any, values: Floats) -> tuple[float, tuple[str, ...]]:
+    """Value [m/s2] of one of the samples: of a count by the response, else of the caller's unit."""
+    is_whole = bool((values == np.rint(values)).all())
+    if not source.response and not is_whole:
+        return source.stated_scale(()), ()
+    notes = () if is_whole else ("the samples are no whole numbers, and are read as counts",)
+    if not source.response or not math.isnan(source.counts_per_mps2):
+        return source.counts_scale(f"{source.name}: found {trace.id}"), notes
+    per_mps2, at_hz = _sensitivity(source, obspy, trace)
+    note = f"raw counts / {per_mps2:.6g} per m/s2, the sensitivity at {at_hz:g} Hz"
+    return 1.0 / per_mps2, (*notes, f"{note}; the response at other frequencies is not removed")
+
+
+def _sensitivity(source: Source, obspy: Any, trace: Any) -> tuple[float, float]:
+    """Counts per m/s2 of the instrument of a trace, and the frequency [Hz] where it has them."""
+    path = Path(source.response)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            inventory = obspy.read_inventory(io.BytesIO(path.read_bytes()))
+    except Exception as error:
+        raise InputError(
+            f"{path.name}: cannot be read as a response; give StationXML, or counts per m/s2"
+        ) from error
+    try:
+        whole = inventory.get_response(trace.id, trace.stats.starttime).instrument_sensitivity
+        value, at_hz, units = float(whole.value), float(whole.frequency), whole.input_units or ""
+        is_digital = "count" in str(whole.output_units).lower()
+    except Exception as error:  # it raises a plain Exception where there is no such channel
+        raise InputError(
+            f"{path.name}: has no sensitivity of {trace.id} at {trace.stats.starttime}; give the"
+            " StationXML of its instrument"
+        ) from error
+    size = unit_size(units)
+    if math.isnan(size) or not is_digital or not value > 0.0:
+        raise InputError(
+            f"{path.name}: the sensitivity of {trace.id} is {value:g} {whole.output_units} per"
+            f" {shown(units)}; give that of an accelerometer, in counts"
+        )
+    return value / size, at_hz
