@@ -26,8 +26,8 @@ from report.sheet.schema.fields import Place
 from solver.formats import MotionFile, read_motion_file
 from solver.formats.layout import Heading, Kind, is_spectral, parse
 from solver.formats.source import Source
-from solver.formats.times import Sampled, sampled
-from solver.model import Floats, InputError, Problem
+from solver.formats.times import sampled
+from solver.model import InputError, Problem
 from solver.records.record import Record, record_from_values, unit_size
 
 HEADING_ROWS = 10
@@ -36,13 +36,7 @@ MAX_TOLD = 5
 
 
 def heading_on(book: OpenBook, title: str, header: str) -> CellPosition:
-    """Return the cell of a heading on a sheet.
-
-    Raises
-    ------
-    InputError
-        If it is not there, or twice.
-    """
+    """Return the cell of a heading on a sheet; raises `InputError` if it is not there, or twice."""
     extent, sheet = book.extent(title), book.book[title]
     spots = [
         CellPosition(title, row, column)
@@ -66,12 +60,8 @@ def read_column(
 ) -> tuple[Record, list[Found]]:
     """Return the record below a heading, and the cells that it is read from.
 
-    It is in the units and at the time step of its motion.
-
-    Raises
-    ------
-    InputError
-        For a cell without a number, and where the sheet says something else.
+    It is in the units and at the time step of its motion. Raises `InputError` for a cell without a
+    number, and where the sheet says something else.
     """
     extent = book.extent(heading.sheet)
     if extent.last_row > heading.row + MAX_SAMPLES:
@@ -135,33 +125,25 @@ def _check_times(book: OpenBook, heading: CellPosition, count: int, dt_s: float)
     cells = cells_below(book, at)[:count]
     t_s = unit_s * np.array(_numbers(cells, _said(book, at).unit or "s"))
     source = _Times(name=at.address, lines=[], units="", dt_s=math.nan, heading=at)
-    even = _evened(source, t_s, unit_s)
+    none = np.zeros((1, count))  # samples, of which there is no need
+    even = sampled(source, t_s, none, lambda index: index, unit_s)
     if even.notes:
-        raise InputError(_uneven(source, t_s))
+        steps = np.diff(t_s)
+        usual = np.median(steps)
+        i = int(np.abs(steps - usual).argmax())
+        raise InputError(
+            f"{source.at(i + 1)} is {t_s[i + 1]:.6g} s, {steps[i]:.3g} s after the row above it,"
+            f" but the typical step is {usual:.3g} s; fill in the missing rows, or give the record"
+            " as a file, which is resampled"
+        )
     try:
-        _evened(replace(source, dt_s=dt_s), t_s, unit_s)
+        sampled(replace(source, dt_s=dt_s), t_s, none, lambda index: index, unit_s)
     except InputError as error:
         raise InputError(
             f"{at.address} has times at a step of {even.dt_s:.6g} s, but the time step is"
             f" {dt_s:.6g} s; correct one of them"
         ) from error
     return [found_at(book, at), *cells]
-
-
-def _evened(source: Source, t_s: Floats, unit_s: float) -> Sampled:
-    """Return times as those of a file are evened; there is no need of samples."""
-    return sampled(source, t_s, np.zeros((1, len(t_s))), lambda index: index, unit_s)
-
-
-def _uneven(source: Source, t_s: Floats) -> str:
-    steps = np.diff(t_s)
-    usual = np.median(steps)
-    i = int(np.abs(steps - usual).argmax())
-    return (
-        f"{source.at(i + 1)} is {t_s[i + 1]:.6g} s, {steps[i]:.3g} s after the row above it, but"
-        f" the typical step is {usual:.3g} s; fill in the missing rows, or give the record as a"
-        " file, which is resampled"
-    )
 
 
 def _heading_of_times(book: OpenBook, heading: CellPosition) -> CellPosition | None:
@@ -265,10 +247,7 @@ def read_component(
 def find_file(book: OpenBook, name: str) -> tuple[Path, str]:
     """Return the file of a name and the channel, empty if none is named.
 
-    Raises
-    ------
-    InputError
-        If it does not exist, or is outside the workbook's folder.
+    Raises `InputError` if it does not exist, or is outside the workbook's folder.
     """
     file, _, channel = name.partition(BAR)
     sheets = (sheet.values for sheet in book.book.worksheets if sheet.title == "Motions")
@@ -291,10 +270,7 @@ def bytes_of(book: OpenBook, names: Set[str]) -> int:
 def find_heading(book: OpenBook, name: str) -> CellPosition | None:
     """Return the heading of a pasted column; None for a file.
 
-    Raises
-    ------
-    InputError
-        If there is neither a sheet nor a file of that name.
+    Raises `InputError` if there is neither a sheet nor a file of that name.
     """
     if "!" not in name:
         return None

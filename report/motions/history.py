@@ -152,9 +152,7 @@ def shake(
 ) -> tuple[tuple[Motion, PreparedMotion], ...]:
     """Return the motions of a project as run, each with its processing and scaling.
 
-    Raises
-    ------
-    InputError
+    Raises `InputError`.
     """
     return tuple(
         _shake(data, row, components)

@@ -44,10 +44,13 @@ class _Given:
     shape: Floats
 
     def repeats(self, other: _Given) -> bool:
-        """Whether it is another one again, at any scale and of either sign."""
-        return _overlap(self.row, other.row) and bool(
-            np.abs(self.shape - other.shape).max() <= ALIKE
-        )
+        """Whether it is another one again, at any scale and of either sign.
+
+        Times that two motions take of their records may be apart: a file may hold two.
+        """
+        (start, end), (other_start, other_end) = map(_times, (self.row, other.row))
+        overlaps = start < other_end and other_start < end
+        return overlaps and bool(np.abs(self.shape - other.shape).max() <= ALIKE)
 
 
 def repeated(
@@ -94,12 +97,6 @@ def _given(
             at = int(np.abs(a).argmax())
             if a[at] != 0.0:
                 yield (len(a), at), _Given(Place("motions", index, field), row, a / a[at])
-
-
-def _overlap(row: DraftRow, other: DraftRow) -> bool:
-    """Whether the times that two motions take of their records overlap: a file may hold two."""
-    (start, end), (other_start, other_end) = map(_times, (row, other))
-    return start < other_end and other_start < end
 
 
 def _times(row: DraftRow) -> tuple[float, float]:
@@ -166,10 +163,8 @@ _NOT_READ = ("the records from here on are not read", "correct those before it f
 def prepare(sheet: Sheet) -> Shaking:
     """Read the records that a workbook names and prepare its motions.
 
-    Raises
-    ------
-    InputError
-        With every problem of the workbook and of its records, in the order of the template.
+    Raises `InputError` with every problem of the workbook and of its records, in the order of the
+    template.
     """
     return shaking(sheet, read_records(sheet))
 
@@ -200,10 +195,7 @@ def read_records(sheet: Sheet) -> tuple[Components, ...]:
 def shaking(sheet: Sheet, by_motion: Sequence[Components]) -> Shaking:
     """Scale the records of each motion and carry them to the roof.
 
-    Raises
-    ------
-    InputError
-        With the problems of the workbook.
+    Raises `InputError` with the problems of the workbook.
     """
     shaken = shake(sheet.project, by_motion)
     motions = tuple(motion for motion, _ in shaken)

@@ -101,12 +101,8 @@ def sets_of(
 ) -> tuple[Sets, Sequence[Left]]:
     """Return the sets of three in a folder and the folders in it, and what is left.
 
-    Two horizontal records alone are a set where that is asked.
-
-    Raises
-    ------
-    InputError
-        If it has more than `MOST_FILES` files.
+    Two horizontal records alone are a set where that is asked. Raises `InputError` if it has more
+    than `MOST_FILES` files.
     """
     paths = sorted(
         path

@@ -114,10 +114,7 @@ def ac156_targets(
 def table_targets(table: TargetTable, *, s_ds_g: float, tail: Tail) -> SuiteTargets:
     """Return the targets of a table; if it has no vertical, the vertical is AC156 for S_DS.
 
-    Raises
-    ------
-    InputError
-        If the table has no vertical and S_DS is NaN.
+    Raises `InputError` if the table has no vertical and S_DS is NaN.
     """
     slowest_s = 1.0 / table.freq_hz[0]
     lines = [
@@ -180,10 +177,7 @@ class Seeds:
 def read_seeds(names: Sequence[str], *, units: str = "", dt_s: float = math.nan) -> Seeds:
     """Read the seed records: one motion for each name; a name may be files joined by commas.
 
-    Raises
-    ------
-    InputError
-        With the problems of every file.
+    Raises `InputError` with the problems of every file.
     """
     groups: list[tuple[Record, ...]] = []
     by_path: dict[str, MotionFile] = {}
@@ -230,10 +224,7 @@ def _named(file: MotionFile, record: Record) -> Record:
 def check_folder(folder: Path, count: int) -> None:
     """Refuse a folder in which motions of an earlier suite would remain beside the new ones.
 
-    Raises
-    ------
-    InputError
-        With their names.
+    Raises `InputError` with their names.
     """
     names = sorted(path.name for path in folder.iterdir()) if folder.is_dir() else []
     new = {f"motion-{k:02d}-{axis}.csv" for k in range(1, count + 1) for axis in "xyz"}
@@ -251,10 +242,8 @@ _CODE_OF = {name: code for code, name in CODES.items()}
 def site_targets(sheet: Sheet) -> tuple[SuiteTargets, list[str]]:
     """Return the AC156 spectra of the site of a workbook, and what of them is from which cells.
 
-    Raises
-    ------
-    InputError
-        With the cells of each value that the workbook does not give, or is out of range.
+    Raises `InputError` with the cells of each value that the workbook does not give, or is out of
+    range.
     """
     site, target = ([*sheet.draft[key], {}][0] for key in ("site", "target"))
     parameters = site_parameters(site)

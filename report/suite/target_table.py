@@ -5,8 +5,8 @@ Independent of code rules; `report.sheet.reading.archive` checks the workbook. R
 
 from __future__ import annotations
 
-import codecs
 import csv
+import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -18,34 +18,26 @@ from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.cells import CellError, Found, check_saved, number
 from report.sheet.reading.positions import CellPosition, found_at
 from report.sheet.reading.typed_text import separator
+from solver.formats.source import open_source
 from solver.model import Floats, InputError, Problem
 from solver.suggestions import meant
 from solver.synthesis.matching import BAND_HZ
 
 MAX_ROWS = 2000
 MAX_COLUMNS = 30
-MAX_BYTES = 1_000_000
 HEADING_ROWS = 10
 MAX_TOLD = 10
 
 _FREQUENCY, _PERIOD, _HORIZONTAL, _VERTICAL = "frequency", "period", "horizontal", "vertical"
-_NAMES = {
-    "frequency": _FREQUENCY,
-    "freq": _FREQUENCY,
-    "f": _FREQUENCY,
-    "period": _PERIOD,
-    "t": _PERIOD,
-    "horizontal": _HORIZONTAL,
-    "sa": _HORIZONTAL,
-    "vertical": _VERTICAL,
+_KINDS = {
+    _FREQUENCY: ("frequency freq f", "Hz", 1e-3, 1e3),
+    _PERIOD: ("period t", "s", 1e-3, 1e3),
+    _HORIZONTAL: ("horizontal sa", "g", 1e-6, 100.0),
+    _VERTICAL: ("vertical", "g", 1e-6, 100.0),
 }
-_LIMITS = {
-    _FREQUENCY: (1e-3, 1e3),
-    _PERIOD: (1e-3, 1e3),
-    _HORIZONTAL: (1e-6, 100.0),
-    _VERTICAL: (1e-6, 100.0),
-}
-_SHOWN = {_FREQUENCY: "Hz", _PERIOD: "s", _HORIZONTAL: "g", _VERTICAL: "g"}
+"""Of each kind of column: its names, its unit, and the range of its values."""
+
+_NAMES = {name: kind for kind, (names, *_) in _KINDS.items() for name in names.split()}
 _HEADING = re.compile(r"([a-z]+)\s*(?:_|\[|\()?\s*([^\s\])]*)\s*[\])]?")
 _WANTED = "frequency [Hz] or period [s], horizontal [g] and, optionally, vertical [g]"
 # Allows for band limits given as rounded periods, such as 3.33 s.
@@ -84,12 +76,8 @@ def read_target(named: str) -> TargetTable:
 
     One of the first ten rows has the headings frequency [Hz] or period [s], horizontal [g] and,
     optionally, vertical [g]; other columns are ignored. The rows below may be in any order; the
-    spectrum is interpolated on log-log axes.
-
-    Raises
-    ------
-    InputError
-        With every problem, each with its cell or ``file:LINE``.
+    spectrum is interpolated on log-log axes. Raises `InputError` with every problem, each with its
+    cell or ``file:LINE``.
     """
     path, sheet = _split(named)
     if path.suffix.lower() == ".xlsx":
@@ -134,7 +122,10 @@ def _sheet_rows(book: OpenBook, title: str) -> _Rows:
 
 
 def _text_rows(path: Path) -> _Rows:
-    lines = _text(path).splitlines()
+    if not path.is_file():
+        wanted = f"give BOOK.xlsx!Sheet or a CSV file with {_WANTED}"
+        raise InputError(f"{path}: no such file; {meant(path) or wanted}")
+    lines = open_source(path, units="", dt_s=math.nan).lines
     try:
         rows = list(csv.reader(lines, delimiter=separator(lines), strict=True))
     except csv.Error as error:
@@ -145,25 +136,6 @@ def _text_rows(path: Path) -> _Rows:
         [_Field(sheet=path.name, cell=str(k), value=field.strip()) for field in row]
         for k, row in enumerate(rows, start=1)
     ]
-
-
-def _text(path: Path) -> str:
-    try:
-        if not path.is_file():
-            wanted = f"give BOOK.xlsx!Sheet or a CSV file with {_WANTED}"
-            raise InputError(f"{path}: no such file; {meant(path) or wanted}")
-        if path.stat().st_size > MAX_BYTES:
-            raise InputError(f"{path.name}: larger than 1 MB; give at most {MAX_ROWS} rows")
-        data = path.read_bytes()
-        is_utf_16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
-        text = data.decode("utf-16" if is_utf_16 else "utf-8-sig")
-    except (OSError, ValueError) as error:
-        if isinstance(error, InputError):
-            raise
-        raise InputError(f"{path}: cannot be read as text; give CSV with {_WANTED}") from error
-    if re.search(r"[\x00-\x08\x0e-\x1f]", text):
-        raise InputError(f"{path.name}: not a text file; give CSV with {_WANTED}")
-    return text
 
 
 def _table(source: str, rows: _Rows) -> TargetTable:
@@ -206,8 +178,8 @@ def _columns(row: Sequence[Found], headings: Sequence[tuple[str, str]]) -> Mappi
     for column, (cell, (kind, unit)) in enumerate(zip(row, headings, strict=True)):
         if not kind:
             continue
-        if unit not in ("", _SHOWN[kind].casefold()):
-            wanted = f"give {kind} [{_SHOWN[kind]}]"
+        if unit not in ("", _KINDS[kind][1].casefold()):
+            wanted = f"give {kind} [{_KINDS[kind][1]}]"
             problems.append(Problem(f"is '{cell.shown.strip()}'", wanted, cell.address))
         if kind in columns:
             problems.append(Problem(f"a second {kind} column", "delete one", cell.address))
@@ -226,16 +198,16 @@ def _value(row: Sequence[Found], column: int, kind: str, problems: list[Problem]
         place = row[min(column, len(row) - 1)].address
         problems.append(Problem(f"{kind} is blank", "give a number greater than 0", place))
         return float("nan")
-    cell, wanted = row[column], f"give a number greater than 0 [{_SHOWN[kind]}]"
+    _, shown, least, most = _KINDS[kind]
+    cell, wanted = row[column], f"give a number greater than 0 [{shown}]"
     try:
         check_saved(cell)
-        value = number(cell, wanted, _SHOWN[kind])
+        value = number(cell, wanted, shown)
     except CellError as error:
         problems.append(error.parts[0].at(cell.address, kind))
         return float("nan")
-    least, most = _LIMITS[kind]
     if not least <= value <= most:
-        wanted = f"give a number from {least:g} to {most:g} [{_SHOWN[kind]}]"
+        wanted = f"give a number from {least:g} to {most:g} [{shown}]"
         problems.append(Problem(f"{kind} is {value:g}", wanted, cell.address))
     return value
 

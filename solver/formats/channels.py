@@ -234,10 +234,8 @@ def check_number(source: Source, channels: int) -> None:
 def peak_notes(source: Source, index: int, stated_mps2: float, a_mps2: Floats) -> tuple[str, ...]:
     """Compare values with the peak stated in a header; NaN or 0 if it states none.
 
-    Raises
-    ------
-    InputError
-        If they differ by a factor of two or more: the unit, the scale or the values are wrong.
+    Raises `InputError` if they differ by a factor of two or more: the unit, the scale or the values
+    are wrong.
     """
     stated, reached = abs(stated_mps2), float(np.abs(a_mps2).max(initial=0.0))
     if not 0.0 < stated < np.inf:

@@ -18,17 +18,8 @@ from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from solver.formats.channels import (
-    Channel,
-    MotionFile,
-    check_length,
-    check_number,
-    check_only_blank,
-    motion_file,
-    offset_notes,
-    peak_notes,
-    recorder_notes,
-)
+from solver.formats import channels
+from solver.formats.channels import MotionFile
 from solver.formats.numbers import Block, each, fixed_values, header_values, layout_of, printed
 from solver.formats.source import Source, Stated
 from solver.model import InputError
@@ -97,16 +88,16 @@ def read(source: Source) -> MotionFile:
     series = _parts(source)
     raise_any(_heading_problems(source, series))
     parts = [part for part in series if "ACCEL" in part.line[2].upper()]
-    channels = each(lambda part: _channel(source, part), parts)
-    notes = recorder_notes(source, len({part.first for part in series}))
-    return motion_file(source, "COSMOS V1.20", channels, notes)
+    read = each(lambda part: _channel(source, part), parts)
+    notes = channels.recorder_notes(source, len({part.first for part in series}))
+    return channels.motion_file(source, "COSMOS V1.20", read, notes)
 
 
 def _parts(source: Source) -> list[_Part]:
     """All series: several may follow one heading, or each may have its own."""
     headings = [i for i, line in enumerate(source.lines) if _FIRST.match(line)]
     lines = [(i, match) for i, line in enumerate(source.lines) if (match := _DATA.match(line))]
-    check_number(source, len(lines))
+    channels.check_number(source, len(lines))
     borders = sorted([*headings, *(i for i, _ in lines), len(source.lines)])
     return [
         _Part(
@@ -129,30 +120,24 @@ def _heading_problems(source: Source, series: Sequence[_Part]) -> Iterator[str]:
                 " values; give the whole file"
             )
     for part in {part.first: part for part in reversed(series)}.values():
-        yield from _block_problems(source, part)
+        starts = [
+            (index, int(match[group]), what)
+            for index in range(part.first, part.at)
+            for pattern, group, what in _BLOCKS
+            if (match := pattern.search(source.lines[index]))
+        ]
+        if all(what != _REAL_NUMBERS for _, _, what in starts):
+            continue
+        ends = [*(index for index, _, _ in starts[1:]), part.at]
+        for (index, stated, what), end in zip(starts, ends, strict=True):
+            if (lines := end - index - 1 + (what == _TEXT)) != stated:
+                yield (
+                    f"{source.at(index)}: states {stated} lines of {what}, found {lines}; give the"
+                    " whole file"
+                )
 
 
-def _block_problems(source: Source, part: _Part) -> Iterator[str]:
-    """Problems of the blocks above the first series of a heading; each states its lines."""
-    starts = [
-        (index, int(match[group]), what)
-        for index in range(part.first, part.at)
-        for pattern, group, what in _BLOCKS
-        if (match := pattern.search(source.lines[index]))
-    ]
-    if all(what != _REAL_NUMBERS for _, _, what in starts):
-        return
-    ends = [*(index for index, _, _ in starts[1:]), part.at]
-    for (index, stated, what), end in zip(starts, ends, strict=True):
-        lines = end - index - 1 + (what == _TEXT)
-        if lines != stated:
-            yield (
-                f"{source.at(index)}: states {stated} lines of {what}, found {lines}; give the"
-                " whole file"
-            )
-
-
-def _channel(source: Source, part: _Part) -> Channel:
+def _channel(source: Source, part: _Part) -> channels.Channel:
     line, layout = part.line, layout_of(part.line[6])
     if not layout:
         raise InputError(f"{source.at(part.at)}: found format ({line[6]}); give one as (8F10.3)")
@@ -168,16 +153,16 @@ def _channel(source: Source, part: _Part) -> Channel:
             f"{source.at(part.at)}: states about {stated_s:g} s, count times step is {length_s:g}"
             " s; give a file whose headings agree"
         )
-    check_length(source, _real(reals, _SERIES_LENGTH_S), length_s, dt_s)
+    channels.check_length(source, _real(reals, _SERIES_LENGTH_S), length_s, dt_s)
     peak = _real(reals, _PEAK)
-    notes = (*notes, *peak_notes(source, peak.index, peak.value * scale, values))
+    notes = (*notes, *channels.peak_notes(source, peak.index, peak.value * scale, values))
     top, *heading = source.lines[part.first : part.at]
     is_uncorrected = top.strip().upper().startswith("UN")
-    return Channel(
+    return channels.Channel(
         name=next((text for text in heading if _NAME.match(text)), ""),
         dt_s=dt_s,
         a_mps2=values,
-        notes=(*notes, *offset_notes(values)) if is_uncorrected else notes,
+        notes=(*notes, *channels.offset_notes(values)) if is_uncorrected else notes,
     )
 
 
@@ -231,7 +216,7 @@ def _stop(source: Source, part: _Part) -> tuple[int, tuple[str, ...]]:
     """Index of the line that ends a series, with a note if there is none."""
     for index in range(part.at + 1, part.stop):
         if _END.match(source.lines[index]):
-            check_only_blank(source, index + 1, part.stop, "the end of a series")
+            channels.check_only_blank(source, index + 1, part.stop, "the end of a series")
             return index, ()
     if part.stop < len(source.lines):
         return part.stop, ()

@@ -17,18 +17,8 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from solver.formats.channels import (
-    Channel,
-    MotionFile,
-    check_length,
-    check_only_blank,
-    check_steps,
-    motion_file,
-    offset_notes,
-    parts_of,
-    peak_notes,
-    recorder_notes,
-)
+from solver.formats import channels
+from solver.formats.channels import MotionFile
 from solver.formats.numbers import (
     Block,
     FieldFormat,
@@ -110,13 +100,13 @@ def read(source: Source) -> MotionFile:
     volume = _TWO if _VOLUME_2.match(source.line(0)) else _ONE
     text = " ".join(source.lines[: volume.text]).upper()
     name = "RENADIC" if volume is _ONE and "RENADIC" in text else "CSMIP"
-    parts = parts_of(source, volume.first)
-    channels = each(lambda part: _channel(source, part, volume), parts)
-    notes = recorder_notes(source, len(parts))
-    return motion_file(source, f"{name} V{1 if volume is _ONE else 2}", channels, notes)
+    parts = channels.parts_of(source, volume.first)
+    form = f"{name} V{1 if volume is _ONE else 2}"
+    read = each(lambda part: _channel(source, part, volume), parts)
+    return channels.motion_file(source, form, read, channels.recorder_notes(source, len(parts)))
 
 
-def _channel(source: Source, part: range, volume: _Volume) -> Channel:
+def _channel(source: Source, part: range, volume: _Volume) -> channels.Channel:
     found = (_search(source, part, pattern) for pattern in volume.even)
     place = next(filter(None, found), None)
     if place:
@@ -130,13 +120,13 @@ def _channel(source: Source, part: range, volume: _Volume) -> Channel:
         )
     at, peak = _search(source, part, volume.peak) or (part.start, None)
     peak_mps2 = printed(peak[1], at).value * unit_size(peak[2]) if peak else 0.0
-    notes = (*notes, *peak_notes(source, at, peak_mps2, values))
+    notes = (*notes, *channels.peak_notes(source, at, peak_mps2, values))
     heading = (source.lines[index] for index in part[: volume.text])
-    return Channel(
+    return channels.Channel(
         name=next((line for line in heading if line.strip().upper().startswith("CHAN")), ""),
         dt_s=dt_s,
         a_mps2=values,
-        notes=(*notes, *offset_notes(values)) if volume is _ONE else notes,
+        notes=(*notes, *channels.offset_notes(values)) if volume is _ONE else notes,
     )
 
 
@@ -158,7 +148,8 @@ def _pair_values(source: Source, part: range) -> tuple[float, Floats, tuple[str,
         raise InputError(f"{source.at(points[0])}: found {len(pairs)} points; give at least 2")
     per_line = _PAIRS.per_line // 2
     even = sampled(source, pairs[:, 0], pairs[:, 1:].T, lambda i: first + i // per_line)
-    check_length(source, _real(source, part, _ONE, _ONE.length), float(pairs[-1, 0]), even.dt_s)
+    length = _real(source, part, _ONE, _ONE.length)
+    channels.check_length(source, length, float(pairs[-1, 0]), even.dt_s)
     return even.dt_s, even.columns[0] * scale, (*even.notes, *ended)
 
 
@@ -180,7 +171,8 @@ def _even_values(
     block = Block(first=at + 1, stop=next(others, stop), count=int(line[1]), promised=at)
     numbers = fixed_values(source, block, layout) if layout else free_values(source, block)
     values = numbers * source.scale(line[3], at)
-    check_length(source, _real(source, part, volume, volume.length), len(values) * dt_s, dt_s)
+    length = _real(source, part, volume, volume.length)
+    channels.check_length(source, length, len(values) * dt_s, dt_s)
     return dt_s, values, ended
 
 
@@ -200,7 +192,7 @@ def _step(source: Source, part: range, volume: _Volume, at: int, line: re.Match[
         )
     if not exact.value > 0.0:
         return stated
-    check_steps(source, stated, exact)
+    channels.check_steps(source, stated, exact)
     return exact
 
 
@@ -223,6 +215,6 @@ def _stop(source: Source, first: int, stop: int) -> tuple[int, tuple[str, ...]]:
     """Index of the line that ends a channel, with a note if there is none."""
     for index in range(first, stop):
         if _END.match(source.lines[index]):
-            check_only_blank(source, index + 1, stop, "the end of a channel")
+            channels.check_only_blank(source, index + 1, stop, "the end of a channel")
             return index, ()
     return stop, ("no end-of-data line (/&) follows the values: the file may be truncated",)

@@ -15,17 +15,8 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from solver.formats.channels import (
-    Channel,
-    MotionFile,
-    check_length,
-    check_only_blank,
-    check_steps,
-    motion_file,
-    offset_notes,
-    parts_of,
-    peak_notes,
-)
+from solver.formats import channels
+from solver.formats.channels import MotionFile
 from solver.formats.numbers import Block, FieldFormat, each, fixed_values, header_values, printed
 from solver.formats.source import Source, Stated
 from solver.model import InputError
@@ -62,18 +53,18 @@ def recognizes(lines: Sequence[str]) -> bool:
 
 def read(source: Source) -> MotionFile:
     """Read the accelerations of all components of a file."""
-    parts = parts_of(source, _FIRST)
+    parts = channels.parts_of(source, _FIRST)
     if len(parts) != _COMPONENTS:
         raise InputError(
             f"{source.at(parts[-1].start)}: found the heading of component {len(parts)}, the last"
             f" one, where the format has {_COMPONENTS} components; give the whole file"
         )
     is_raw = source.line(0).strip().upper().startswith("UN")
-    channels = each(lambda part: _component(source, part, is_raw), parts)
-    return motion_file(source, "GeoNet V1A" if is_raw else "GeoNet V2A", channels)
+    read = each(lambda part: _component(source, part, is_raw), parts)
+    return channels.motion_file(source, "GeoNet V1A" if is_raw else "GeoNet V2A", read)
 
 
-def _component(source: Source, part: range, is_raw: bool) -> Channel:
+def _component(source: Source, part: range, is_raw: bool) -> channels.Channel:
     whole = header_values(source, part.start + _TEXT, _WHOLES, _WHOLE)
     real = header_values(source, part.start + _TEXT + _WHOLE.lines(_WHOLES), _REALS, _WHOLE)
     count = whole[_ACCELERATIONS - 1]
@@ -91,17 +82,17 @@ def _component(source: Source, part: range, is_raw: bool) -> Channel:
     values = fixed_values(source, block, _WHOLE) * scale
     at = part.start + _LENGTH_LINE - 1
     if match := _LENGTH.search(source.line(at)):
-        check_length(source, printed(match[1], at), len(values) * dt_s, dt_s)
+        channels.check_length(source, printed(match[1], at), len(values) * dt_s, dt_s)
     peak = real[(_PEAK_1 if is_raw else _PEAK_2) - 1]
     notes = (
         *_rest(source, part, whole),
-        *peak_notes(source, peak.index, peak.value * scale, values),
+        *channels.peak_notes(source, peak.index, peak.value * scale, values),
     )
-    return Channel(
+    return channels.Channel(
         name=source.line(part.start + _COMPONENT_LINE - 1),
         dt_s=dt_s,
         a_mps2=values,
-        notes=(*notes, *offset_notes(values)) if is_raw else notes,
+        notes=(*notes, *channels.offset_notes(values)) if is_raw else notes,
     )
 
 
@@ -115,7 +106,7 @@ def _step(source: Source, part: range, exact: Stated) -> Stated:
     stated = printed(match[1], at)
     if not exact.value > 0.0:
         return stated
-    check_steps(source, stated, exact)
+    channels.check_steps(source, stated, exact)
     return exact if exact.rounding <= stated.rounding else stated
 
 
@@ -143,6 +134,6 @@ def _rest(source: Source, part: range, whole: Sequence[Stated]) -> tuple[str, ..
     lines = sum(_WHOLE.lines(int(count)) for count in [whole[_ACCELERATIONS - 1].value, *counts])
     end = part.start + _HEADING + lines
     if end <= part.stop:
-        check_only_blank(source, end, part.stop, "the values of a component")
+        channels.check_only_blank(source, end, part.stop, "the values of a component")
         return ()
     return ("velocities or displacements are incomplete: the file may be truncated",)

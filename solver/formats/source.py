@@ -217,10 +217,7 @@ def open_source(
 ) -> Source:
     """Read the lines of a file.
 
-    Raises
-    ------
-    InputError
-        If the arguments are invalid, or the file is missing, too large or not text.
+    Raises `InputError` if the arguments are invalid, or the file is missing, too large or not text.
     """
     name, problems = _name(path), []
     if not isinstance(units, str) or (units and units not in UNIT_CHOICES):
