@@ -1,9 +1,9 @@
-"""Draws the pictures of README and docs anew, from the example and from the verification.
+"""Draws the pictures of README and docs anew; `tests/bench/work_precision.py` draws the chart.
 
     .venv/bin/python docs/pictures.py
 
-Needs what `./roofslip test` installs, Chromium included. Sheets of the package and a chart of the
-manual are cut at their last line; the page is shot as a browser shows it.
+Needs what `./roofslip test` installs, Chromium included. Sheets of the package are cut at their
+last line; the page is shot as a browser shows it.
 """
 
 from __future__ import annotations
@@ -15,8 +15,6 @@ from tempfile import TemporaryDirectory
 
 import pypdfium2
 from PIL import Image, ImageChops
-
-from report.figures.base import FAMILY
 
 ROOT = Path(__file__).resolve().parents[1]
 PICTURES = ROOT / "docs" / "pictures"
@@ -38,9 +36,8 @@ def main() -> None:
     with TemporaryDirectory() as folder:
         out = Path(folder)
         _run("report", "projects/example", "--out", str(out / "package"), "--quiet")
-        _run("verify", "--out", str(out / "manual"))
         _sheets(out / "package" / "calc-package.pdf")
-        _browser(out / "manual" / "charts")
+        _browser(out)
 
 
 def _run(*words: str) -> None:
@@ -62,38 +59,21 @@ def _sheets(path: Path) -> None:
         _save(image.crop((0, round(scale * top), image.width, round(scale * below))), name)
 
 
-def _browser(charts: Path) -> None:
+def _browser(folder: Path) -> None:
     from browsing import at_rest, chromium, moved, opened, quiet_page, served
 
-    with chromium() as browser, quiet_page(browser) as page:
-        drawn = (charts / "work-percent.svg").read_text(encoding="utf-8")
-        (charts / "chart.html").write_text(f"<style>{_faces()}</style>{drawn}", encoding="utf-8")
-        page.goto((charts / "chart.html").as_uri())
-        page.evaluate("document.fonts.ready")
-        page.locator("svg").screenshot(path=charts / "chart.png")
-        _save(Image.open(charts / "chart.png"), "work-precision.png")
-        with served() as (address, _):
-            opened(page, address)
-            moved(page, "friction", 0.8)
-            at_rest(page)
-            page.screenshot(path=charts / "page.png")
-            _save(Image.open(charts / "page.png"), "browser.png")
-            moved(page, "friction", 1.0)
-            at_rest(page)
-            page.get_by_role("tab", name="Watch it slide").click()
-            page.get_by_role("slider", name="Time").fill("23.3")
-            page.screenshot(path=charts / "slide.png")
-            _save(Image.open(charts / "slide.png"), "browser-slide.png")
-
-
-def _faces() -> str:
-    """Return where a browser finds the fonts of the charts."""
-    weights = {"Regular": 400, "Semibold": 600}
-    return "".join(
-        f"@font-face {{ font-family: '{FAMILY}'; font-weight: {weight};"
-        f" src: url('{(ROOT / 'templates/fonts').as_uri()}/SourceSans3-{name}.ttf') }}"
-        for name, weight in weights.items()
-    )
+    with chromium() as browser, quiet_page(browser) as page, served() as (address, _):
+        opened(page, address)
+        moved(page, "friction", 0.8)
+        at_rest(page)
+        page.screenshot(path=folder / "page.png")
+        _save(Image.open(folder / "page.png"), "browser.png")
+        moved(page, "friction", 1.0)
+        at_rest(page)
+        page.get_by_role("tab", name="Watch it slide").click()
+        page.get_by_role("slider", name="Time").fill("23.3")
+        page.screenshot(path=folder / "slide.png")
+        _save(Image.open(folder / "slide.png"), "browser-slide.png")
 
 
 def _save(image: Image.Image, name: str) -> None:

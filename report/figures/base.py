@@ -16,7 +16,6 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cache
-from itertools import cycle
 from typing import Any
 
 import matplotlib as mpl
@@ -257,6 +256,8 @@ _STYLES = (
     ("^", DASHDOT, ACCENT, ACCENT),
     ("v", DOTTED, INK, INK),
     ("D", _LONG, GRAY, GRAY),
+    ("h", "none", ACCENT, ACCENT),
+    ("p", "none", ACCENT, "white"),
     ("X", DASHED, GRAY, GRAY),
     ("P", "none", GRAY, GRAY),
 )
@@ -279,7 +280,7 @@ def _look(label: str, marker: str, line: object, color: str, fill: str) -> dict[
 
 LOOKS: Mapping[str, dict[str, Any]] = {
     method.name: _look(method.label, *style)
-    for method, style in zip(METHODS.values(), cycle(_STYLES), strict=False)
+    for method, style in zip(METHODS.values(), _STYLES, strict=True)
 }
 """Keywords for a line with markers, by the name of the method; styles in the order of the methods.
 """

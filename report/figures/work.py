@@ -6,12 +6,14 @@ Comparison of models: effect of each fuller model on the PRD; accuracy against r
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import asdict
+from typing import Any, TypeVar
 
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from report.figures.base import (
     ACCENT,
@@ -31,7 +33,10 @@ from report.figures.base import (
     ticks,
 )
 from report.text.counts import lettered
-from solver.verification.evidence import BoundRatios, ModelChange
+from solver.verification.evidence import BoundRatios, ModelChange, PeerPoint
+from solver.verification.peers import ONE_AXIS
+
+T = TypeVar("T")
 
 MEASURES = ("PRD", "residual")
 
@@ -63,21 +68,28 @@ def curve(runs: pd.DataFrame) -> pd.DataFrame:
     return medians.dropna()
 
 
-def overview(runs: pd.DataFrame, unit: str, floor: float) -> str:
+def overview(
+    runs: pd.DataFrame,
+    floor: float,
+    peers: Iterable[PeerPoint] = (),
+    painted: Callable[[Figure], T] = svg_text,  # type: ignore[assignment]
+) -> T:
     """Return the medians of every method: one panel for PRD and one for the residual.
 
     Parameters
     ----------
-    unit : str
-        `%` or `m`.
     floor : float
-        Error of the exact method in that unit, from its checks.
+        Error of the exact method [%], from its checks.
+    peers : iterable of PeerPoint
+        Other programs on the same runs, which know the PRD alone.
+    painted : callable
+        Makes the picture of the figure.
     """
     with style():
-        margins = {"left": 0.085, "right": 0.99, "above": 0.221, "below": 1.02, "wspace": 0.08}
-        figure, grid = panels(1, 2, 3.4, **margins, sharey=True)
+        margins = {"left": 0.085, "right": 0.99, "above": 0.221, "below": 1.9, "wspace": 0.08}
+        figure, grid = panels(1, 2, 4.3, **margins, sharey=True)
         for axes, measure in zip(grid.flat, MEASURES, strict=True):
-            for name, own in drawn(runs, f"{measure} error [{unit}]", floor).items():
+            for name, own in drawn(runs, f"{measure} error [%]", floor).items():
                 medians = curve(own)
                 size = {"markersize": 10} if name == "exact" else {}
                 axes.plot(medians["seconds"], medians["middle"], **LOOKS[name] | size)
@@ -91,10 +103,26 @@ def overview(runs: pd.DataFrame, unit: str, floor: float) -> str:
                     )
             labeled(axes, "Time per run [s]", title=f"Error in {measure}")
             logarithmic(axes, 9, 12)
-        grid[0, 0].set_ylabel(f"Median error over analysis cases [{unit}]")
+        _peers(grid[0, 0], peers, floor)
+        grid[0, 0].set_ylabel("Median error over analysis cases [%]")
         lines = grid[0, 0].get_legend_handles_labels()
-        figure.legend(*lines, loc="lower center", ncols=4, handlelength=2.6, columnspacing=0.9)
-        return svg_text(figure)
+        title = "Compiled, except where interpreted; by steps: a call from Python at each step"
+        figure.legend(*lines, title=title, loc="lower center", ncols=3, handlelength=2.6)
+        return painted(figure)
+
+
+def _peers(axes: Axes, peers: Iterable[PeerPoint], floor: float) -> None:
+    """Draw the medians of each program, with its model of friction, over its runs in one axis."""
+    points = pd.DataFrame([asdict(peer) for peer in peers if peer.model == ONE_AXIS])
+    if points.empty:
+        return
+    answered = points.dropna(subset=["seconds", "prd_error_percent"])
+    for marker, (name, own) in zip("1+x2", answered.groupby("peer", sort=False), strict=False):
+        medians = own[["seconds", "prd_error_percent"]].median()
+        axes.plot(
+            medians["seconds"], max(medians["prd_error_percent"], floor), linestyle="",
+            marker=marker, markersize=9, color=INK, label=name,
+        )  # fmt: skip
 
 
 def by_method(runs: pd.DataFrame, measure: str, floor: float) -> str:

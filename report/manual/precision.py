@@ -43,27 +43,19 @@ def work(verification: Verification) -> Section:
         "manual/work",
         "Accuracy against run time",
         cases=len(runs[["record", "case"]].drop_duplicates()),
+        is_own=set(runs["record"]) <= set(verification.records),
         lost=lost.groupby("method", sort=False).size().to_dict(),
         floor_percent=100.0 * least,
         least_percent=power_of_ten(LEAST_PERCENT),
         envelopes=envelopes,
         medians=_medians(runs),
         charts={
-            "work-percent": figures.overview(runs, "%", 100.0 * least),
-            "work-meters": figures.overview(runs, "m", least * _typical_prd_m(runs)),
+            "work-percent": figures.overview(runs, 100.0 * least, verification.peers),
             **{
                 name: figures.by_method(runs, measure, LEAST_PERCENT)
                 for measure, name in envelopes.items()
             },
         },
-    )
-
-
-def _typical_prd_m(runs: pd.DataFrame) -> float:
-    """Return the median PRD [m], from errors given both in meters and in percent of the PRD."""
-    off = runs[runs["PRD error [%]"] > 0.0]
-    return (
-        float((100.0 * off["PRD error [m]"] / off["PRD error [%]"]).median()) if len(off) else 1.0
     )
 
 
@@ -97,7 +89,7 @@ def _setting(method: str, value: float) -> str:
     knob = METHODS[method].knob
     if knob == "substeps":
         return f"P = {value:g}"
-    form = {"stiffness_per_m": "k = {} /m", "tolerance": "tol. {}"}
+    form = {"stiffness_per_m": "k = {} /m", "velocity_mps": "v₀ = {} m/s"}
     return form[knob].format(power_of_ten(value)) if knob in form else "none"
 
 

@@ -160,7 +160,9 @@ def _quantity(row: Check) -> str:
 
 def peers(points: Sequence[PeerPoint]) -> Section:
     """Return the results of other programs, each run below its program and model."""
-    groups = grouped_by(points, lambda peer: f"{peer.peer} {peer.version}: {peer.note}")
+    groups = grouped_by(
+        points, lambda peer: f"{peer.peer} {peer.version}: {peer.model}; {peer.note}"
+    )
     return section(
         "manual/peers",
         "Other programs",

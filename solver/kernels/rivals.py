@@ -257,6 +257,62 @@ def slide_link(ax, az, dt, sn, cs, mu, g, scale, substeps, k, implicit, history)
 
 
 @njit(cache=KEPT)
+def line_rate(t, y, push, rise):
+    """Rates of s and w of a block that slides one way, net acceleration `push` + `rise` t."""
+    return np.array((y[1], push + rise * t))
+
+
+@njit(cache=KEPT)
+def plane_rate(t, state, x, y, c, rx, ry, rc):
+    """Rates of position and velocity in two axes: G = (x, y) + (rx, ry) t, mu N = c + rc t."""
+    vx, vy = state[2], state[3]
+    f = (c + rc * t) / math.sqrt(vx * vx + vy * vy)
+    return np.array((vx, vy, x + rx * t - f * vx, y + ry * t - f * vy))
+
+
+@njit(cache=KEPT)
+def regularized_rate(t, y, rows, dt, v0):
+    """Rates of position and velocity with friction mu N tanh(w / v0), in one axis or in two.
+
+    y has the positions, then the velocities; rows has G, along each axis, and mu N at the samples.
+    """
+    d = y.size // 2
+    i = min(int(t / dt), rows.shape[0] - 2)
+    part, w = t / dt - i, 0.0
+    for k in range(d, 2 * d):
+        w += y[k] * y[k]
+    w = math.sqrt(w)
+    cap = rows[i, d] + (rows[i + 1, d] - rows[i, d]) * part
+    f = cap * math.tanh(w / v0) / w if w > 0.0 else cap / v0
+    rates = np.empty(2 * d)
+    for k in range(d):
+        rates[k] = y[d + k]
+        rates[d + k] = rows[i, k] + (rows[i + 1, k] - rows[i, k]) * part - f * y[d + k]
+    return rates
+
+
+@njit(cache=KEPT)
+def regularized_jacobian(t, y, rows, dt, v0):
+    """Jacobian of `regularized_rate`."""
+    d = y.size // 2
+    i = min(int(t / dt), rows.shape[0] - 2)
+    w = 0.0
+    for k in range(d, 2 * d):
+        w += y[k] * y[k]
+    w = math.sqrt(w)
+    cap, tanh = rows[i, d] + (rows[i + 1, d] - rows[i, d]) * (t / dt - i), math.tanh(w / v0)
+    f = cap * tanh / w if w > 0.0 else cap / v0
+    rise = (cap * (1.0 - tanh * tanh) / v0 - f) / (w * w) if w > 0.0 else 0.0
+    slopes = np.zeros((2 * d, 2 * d))
+    for k in range(d):
+        slopes[k, d + k] = 1.0
+        slopes[d + k, d + k] = -f
+        for j in range(d):
+            slopes[d + k, d + j] -= rise * y[d + k] * y[d + j]
+    return slopes
+
+
+@njit(cache=KEPT)
 def slide_fixed(g, dt, cs, substeps, holds):
     """Solve the motion under G and mu N with `substeps` steps in each interval.
 

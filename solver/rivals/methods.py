@@ -2,7 +2,7 @@
 
 Checks no input (`solver.sliding.arguments`), builds no results (`solver.sliding.one_axis`) and
 integrates nothing itself (`solver.kernels.one_axis`, `solver.kernels.rivals`,
-`solver.rivals.regularized`). Read `METHODS` first.
+`solver.rivals.by_scipy`). Read `METHODS` first.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import numpy as np
 from solver.kernels import one_axis, rivals
 from solver.model import Floats
 from solver.records.record import read_only
-from solver.rivals import regularized
+from solver.rivals import by_scipy
 
 NO_RECORD = read_only(np.empty(0))
 
@@ -201,10 +201,25 @@ def _link(scene: AxisScene, parameters: Parameters, samples: Floats, *, implicit
     return _outcome(rivals.slide_link(*_letters(scene), p, k, implicit, samples))
 
 
+def _by_events(scene: AxisScene, _: Parameters, samples: Floats, *, solver: str) -> Outcome:
+    return Outcome(*by_scipy.line(*drive_and_cap(scene), scene.dt, solver, samples))
+
+
 def _regularized(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
-    drive, cap = drive_and_cap(scene)
-    velocity, tolerance = parameters["velocity_mps"], parameters["tolerance"]
-    return Outcome(*regularized.slide(drive, cap, scene.dt, velocity, tolerance, samples))
+    """Run friction without stick; a block slower than v0 at the end counts as at rest."""
+    v0 = parameters["velocity_mps"]
+    rows = np.column_stack(drive_and_cap(scene))
+    s, w = history = by_scipy.regularized(rows, scene.dt, v0, parameters["tolerance"])
+    if samples.size:
+        samples[:] = history
+    peak = int(np.abs(s).argmax())
+    moving = np.sign(w) * (np.abs(w) > v0)
+    n_stops = int(((moving[:-1] != 0.0) & (moving[1:] != moving[:-1])).sum())
+    end = float(w[-1]) if moving[-1] else 0.0
+    found = bool(np.isfinite(history).all())
+    return Outcome(
+        found, float(s.max()), float(s.min()), float(s[-1]), end, peak * scene.dt, n_stops
+    )
 
 
 def drive_and_cap(scene: AxisScene) -> tuple[Floats, Floats]:
@@ -242,10 +257,9 @@ WANTED: Mapping[str, tuple[str, Callable[[float], bool]]] = {
 ANY_NUMBER = ("a finite number", math.isfinite)
 """What a parameter of a method of your own accepts."""
 
-# What methods have in common: those by the exact kernel, by sub-steps, and with a link.
-_by_events = partial(
+# What methods have in common: those without a setting, by sub-steps, and with a link.
+_without_setting = partial(
     Method,
-    ceiling=1e-12,
     parameters=MappingProxyType({}),
     knob="",
     sweep=(),
@@ -265,10 +279,11 @@ _by_link = partial(
 )
 
 _ALL = (
-    _by_events(
+    _without_setting(
         name="exact",
         title="Exact, event by event",
         label="exact",
+        ceiling=1e-12,
         invalid_when="Never, if the model is one rigid block with one friction coefficient.",
         source="solver.kernels.one_axis.slide_exact: roots of the cubic motion between samples",
         follow=_exact,
@@ -338,27 +353,45 @@ _ALL = (
         source="OpenSees flatSliderBearing with Newmark gamma 0.5, beta 0.25 and Newton's method",
         follow=partial(_link, implicit=True),
     ),
+    *(
+        _without_setting(
+            name=f"events-{solver.lower()}",
+            title=f"Coulomb friction, SciPy's {solver} with events",
+            label=f"SciPy {solver}, events (interpreted)",
+            ceiling=1e-11,
+            invalid_when=(
+                "Never, as the exact method: restarted at each sample and event it is as accurate. "
+                "Its steps run in Python; the right-hand side is compiled."
+            ),
+            source=f"scipy.integrate.{solver}, scipy.optimize.brentq",
+            follow=partial(_by_events, solver=solver),
+        )
+        for solver in ("DOP853", "RK45")
+    ),
     Method(
         name="regularized",
-        title="Friction mu N tanh(v / v0), adaptive Runge-Kutta",
-        label="regularized friction",
+        title="Friction mu N tanh(v / v0), SciPy's LSODA",
+        label="SciPy LSODA, regularized (by steps)",
         ceiling=0.01,
-        parameters=MappingProxyType({"velocity_mps": 0.01, "tolerance": 1e-3}),
-        knob="tolerance",
-        sweep=(1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8),
+        parameters=MappingProxyType({"velocity_mps": 1e-4, "tolerance": 1e-4}),
+        knob="velocity_mps",
+        sweep=(1e-2, 1e-3, 1e-4, 1e-5),
         order=math.nan,
         takes_vertical=True,
         invalid_when=(
-            "On any slope: the block creeps at v0 atanh(tan(theta) / mu) when it should stick. "
-            "No tolerance corrects that, and a small v0 makes the equation stiff."
+            "On any slope: the block creeps at v0 atanh(tan(theta) / mu) when it should stick, for "
+            "any tolerance. Its steps are compiled, and call the compiled right-hand side through "
+            "Python."
         ),
-        source="scipy.integrate.solve_ivp, RK45: Dormand and Prince, J. Comp. Appl. Math. 6 (1980)",
+        source="scipy.integrate.odeint with a Jacobian: LSODA, Petzold, SIAM J. Sci. Stat. "
+        "Comput. 4 (1983)",
         follow=_regularized,
     ),
-    _by_events(
+    _without_setting(
         name="frozen-normal",
         title="Constant normal force, m g cos(theta)",
         label="normal force frozen",
+        ceiling=1e-12,
         invalid_when="On any slope and with vertical shaking: both change the normal force.",
         source="As in SLAMMER's dual-slope analysis and with an elastic-plastic spring",
         follow=_frozen,

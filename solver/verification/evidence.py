@@ -269,6 +269,7 @@ class PeerPoint:
 
     peer: str
     version: str
+    model: str  # such as `peers.ONE_AXIS`
     record: str
     scene: str
     seconds: float  # [s]; NaN for a failed run

@@ -15,10 +15,10 @@ import numpy as np
 from solver.forces import friction_demand
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Motion, Scene, Status, coulomb
 from solver.records.record import read_only
+from solver.rivals import by_scipy
 from solver.sliding import least_model, one_axis, two_axes
 from solver.sliding.least_model import Model, Settings
 from solver.sliding.row import BlockRow, slide_row
-from solver.verification import plane_scipy
 from solver.verification.checks import slip_checks
 from solver.verification.evidence import Check
 from solver.verification.random_pairs import bound_ratios
@@ -29,6 +29,7 @@ from solver.verification.study import (
     cut,
     faded,
     flat_scene,
+    samples_of,
     scene_of,
     scenes_of,
 )
@@ -58,7 +59,7 @@ def model_checks(triples: Sequence[Motion], *, quick: bool) -> Iterator[Check]:
     yield from _stop()
     yield from _choices(kept[0])
     yield from _random_pairs(quick=quick)
-    if plane_scipy.is_installed():
+    if by_scipy.is_installed():
         recorded = [triple for triple in kept if triple.source == RECORDED]
         for triple in [kept[0], *recorded][: 1 if quick else 3]:
             yield from _against_scipy(triple, REFERENCE_SAMPLES[not quick])
@@ -267,7 +268,8 @@ def _against_scipy(triple: Motion, samples: int) -> Iterator[Check]:
     row = partial(Check, "TA-13", source, "Position error / PRD", "1")
     case, part = MODEL_CASES[1], cut(triple, samples)
     scene = scene_of(part, case, coulomb(case.mu))
-    x, y = plane_scipy.reference(scene)
+    s, y, _, _ = by_scipy.plane(samples_of(scene), scene.dt_s)
+    x = math.cos(scene.slope_rad) * s
     for tolerance in (1e-4, 1e-6, 1e-8, 1e-10):
         history = two_axes.run_history(scene, tolerance)
         off = float(np.hypot(history.u_m - x, history.across_m - y).max()) / history.result.prd_m

@@ -22,9 +22,8 @@ from solver.records.record import Record
 from solver.sliding import checked, one_axis, two_axes
 from solver.verification import model_checks
 from solver.verification.evidence import PeerPoint, percent_off
-from solver.verification.plane_scipy import samples_of
-from solver.verification.scenes import CASES, Case
-from solver.verification.study import MODEL_CASES, clocked, cut, posed, scene_of
+from solver.verification.scenes import Case
+from solver.verification.study import MODEL_CASES, clocked, cut, posed, samples_of, scene_of
 
 SUBSTEPS = 10
 MOTIONS = 3
@@ -53,18 +52,20 @@ class Peer:
 
 def peer_points(
     judges: Mapping[str, Sequence[Peer]],
-    records: Sequence[Record],
+    runs: Sequence[tuple[Record, Case]],
     triples: Sequence[Motion],
     *,
     quick: bool,
 ) -> Iterator[PeerPoint]:
-    """Run the installed programs of each model: one axis on records, others on parts of motions.
+    """Run the installed programs of each model: one axis on runs, others on parts of motions.
 
     Uses the strongest parts of the first motions whose vertical does not lift the block.
     """
     kept = [triple for triple in triples if model_checks.stays(triple)][:MOTIONS]
     scenes = {
-        ONE_AXIS: list(_record_scenes(records, quick)),
+        ONE_AXIS: [
+            (record.name, case, posed(checked.scene, record, case)()) for record, case in runs
+        ],
         VERTICAL: list(_motion_scenes(kept, quick, second=False)),
         TWO_AXES: list(_motion_scenes(kept, quick, second=True)),
     }
@@ -72,12 +73,6 @@ def peer_points(
         for peer in peers:
             if importlib.util.find_spec(peer.module) is not None:
                 yield from (_point(peer, model, *named) for named in scenes[model])
-
-
-def _record_scenes(records: Sequence[Record], quick: bool) -> Iterator[_Named]:
-    for record in records:
-        for case in CASES[:2] if quick else CASES[:4]:
-            yield record.name, case, posed(checked.scene, record, case)()
 
 
 def _motion_scenes(triples: Sequence[Motion], quick: bool, *, second: bool) -> Iterator[_Named]:
@@ -89,16 +84,17 @@ def _motion_scenes(triples: Sequence[Motion], quick: bool, *, second: bool) -> I
 
 def _point(peer: Peer, model: str, record: str, case: Case, scene: Scene) -> PeerPoint:
     exact = two_axes.run(scene) if scene.ay_mps2.size else one_axis.run(scene)
-    note, seconds = f"{model}; {peer.note}", math.nan
+    note, seconds = peer.note, math.nan
     try:
         importlib.import_module(peer.module)
         prd_m, seconds = clocked(partial(peer.prd_m, scene))
         if not math.isfinite(prd_m):
             seconds, note = math.nan, f"{note}; did not converge"
     except Exception as error:  # another program may raise anything
-        prd_m, note = math.nan, f"{model}; {type(error).__name__}: {error}"
+        prd_m, note = math.nan, f"{type(error).__name__}: {error}"
     return PeerPoint(
         peer=peer.name,
+        model=model,
         version=_version(peer.module),
         record=record,
         scene=str(case),
@@ -214,22 +210,22 @@ def _mujoco(contact: str, scene: Scene) -> float:
 
 
 _OPENSEES = Peer(
-    name="OpenSeesPy",
+    name="OpenSeesPy (by steps)",
     module="openseespy",
     note=f"flatSliderBearing, {STIFFNESS_PER_M:,.0f} /m, Newmark, {SUBSTEPS} sub-steps",
     prd_m=_opensees,
 )
 _MUJOCOS = tuple(
     Peer(
-        name="MuJoCo",
+        name=f"MuJoCo, {words} contact (by steps)",
         module="mujoco",
-        note=f"box on a plane, elliptic cone, no-slip solver, {SUBSTEPS} sub-steps, {words}",
+        note=f"box on a plane, elliptic cone, no-slip solver, {SUBSTEPS} sub-steps",
         prd_m=partial(_mujoco, contact),
     )
-    for contact, words in (("", "default contact"), (_STIFF, "stiffest contact for its step"))
+    for contact, words in (("", "default"), (_STIFF, "stiffest"))
 )
 _PYSLAMMER = Peer(
-    name="pySLAMMER",
+    name="pySLAMMER (interpreted)",
     module="pyslammer",
     note="rigid block that slides in one direction only, larger of both directions, step of record",
     prd_m=_pyslammer,

@@ -24,7 +24,7 @@ from solver.verification import (
 )
 from solver.verification.building import FloorRecords
 from solver.verification.evidence import Check, Verification
-from solver.verification.scenes import own_records
+from solver.verification.scenes import compared_runs, own_records
 from solver.verification.shake_table import SHIPPED, TableTest, compare
 from solver.verification.study import own_triples
 
@@ -72,8 +72,9 @@ def verify(
     triples = (*own_triples(quick), *(motions[:1] if quick else motions))
     rows += model_checks.model_checks(triples, quick=quick)
     models = model_study.model_evidence(triples, quick=quick)
-    progress(f"Accuracy against run time: every method on {len(records)} records")
-    work = workprecision.work_points(records, quick=quick)
+    runs = compared_runs(quick)
+    progress(f"Accuracy against run time: every method in {len(runs)} runs")
+    work = workprecision.work_points(runs, quick=quick)
     progress("Stability: maps of error over two parameters")
     maps = tuple(stability.maps(records[0], quick=quick))
     progress("Sensitivity to small changes of friction")
@@ -89,7 +90,7 @@ def verify(
     progress("The paper's design curves (Figs. 10 to 12)")
     curves = tuple(paper_studies.design_curves(record) for record in records)
     progress("Other programs, if installed")
-    judged = tuple(peers.peer_points(peers.JUDGES, records[:3], triples, quick=quick))
+    judged = tuple(peers.peer_points(peers.JUDGES, runs, triples, quick=quick))
     return Verification(
         checks=tuple(rows),
         work=work,

@@ -6,17 +6,23 @@ Generates the project's records, identical on every machine; runs nothing. Read
 
 from __future__ import annotations
 
+import importlib.util
+import itertools
 import math
+from dataclasses import replace
 from functools import lru_cache
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
+from solver.formats import read_record
 from solver.model import STANDARD_GRAVITY_MPS2, Floats
 from solver.records.record import Record, read_only
+from solver.rivals import by_scipy
+from solver.rivals.methods import METHODS, Method
 from solver.rules.spectra import Target
 from solver.synthesis.suite import SuiteMotion, make_suite
-from solver.verification import plane_scipy
 
 SEED = 2003
 """Seed of the project's generated records."""
@@ -93,6 +99,26 @@ def strongest(energy: Floats, count: int) -> slice:
     return slice(first, first + count)
 
 
-def is_runnable(method: str) -> bool:
-    """Whether the method's library is installed: SciPy for regularized friction."""
-    return method != "regularized" or plane_scipy.is_installed()
+def runnable_methods() -> list[Method]:
+    """Return the methods, without those of SciPy where it is not installed."""
+    scipy = by_scipy.is_installed()
+    return [m for m in METHODS.values() if scipy or not m.source.startswith("scipy")]
+
+
+def real_records() -> tuple[Record, ...]:
+    """Return the records that the package pyslammer carries, if installed; it is not imported."""
+    spec = importlib.util.find_spec("pyslammer")
+    places = spec.submodule_search_locations if spec else None
+    paths = sorted(Path((places or [""])[0]).glob("sample_ground_motions/*.csv"))
+    return tuple(replace(read_record(path, units="g"), name=path.stem) for path in paths)
+
+
+def compared_runs(quick: bool) -> list[tuple[Record, Case]]:
+    """Return the runs on which methods are compared: the real records, a case each in turn.
+
+    Where these are not installed, and if quick, the project's records with every case.
+    """
+    real = () if quick else real_records()
+    if real:
+        return list(zip(real, itertools.cycle(CASES), strict=False))
+    return list(itertools.product(own_records(quick), CASES[:3] if quick else CASES))

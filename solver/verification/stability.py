@@ -9,15 +9,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 
 import numpy as np
 
-from solver.model import STANDARD_GRAVITY_MPS2, Floats
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction
 from solver.records.record import Record
 from solver.rivals.methods import METHODS, link_frequency
+from solver.sliding import checked, two_axes
 from solver.sliding.sweep import sweep
 from solver.verification.evidence import Conditioning, StabilityMap, percent_off
-from solver.verification.scenes import CASES, Case, is_runnable, scale_to, shortened
+from solver.verification.scenes import CASES, Case, scale_to, shortened
 from solver.verification.study import run
 
 SLOPE_DEG = 4.0
@@ -41,8 +43,7 @@ def maps(record: Record, *, quick: bool) -> Iterator[StabilityMap]:
     )
     for name in ("paper", "linear"):  # "adaptive" gives the same results as "paper"
         yield from near_rest_maps(part, name, quick=quick)
-    if is_runnable("regularized"):
-        yield tolerance_map(shortened(record, 1.0), quick=quick)
+    yield from step_limit_maps(shortened(record, 3.0), quick=quick)
 
 
 def link_map(record: Record, name: str, *, quick: bool) -> StabilityMap:
@@ -104,25 +105,39 @@ def near_rest_maps(record: Record, name: str, *, quick: bool) -> Iterator[Stabil
         )
 
 
-def tolerance_map(record: Record, *, quick: bool) -> StabilityMap:
-    """Map the tolerance of the regularized method over its velocity v_0."""
-    velocities = np.geomspace(1e-3, 1.0, 4) if quick else np.geomspace(1e-4, 1.0, 9)
-    tolerances = np.geomspace(1e-2, 1e-5, 4) if quick else np.geomspace(1e-2, 1e-8, 7)
-    case, name = CASES[1], "regularized"
-    cells = [
-        [[(case, {"velocity_mps": v, "tolerance": tolerance})] for v in velocities.tolist()]
-        for tolerance in tolerances.tolist()
-    ]
-    return StabilityMap(
-        title=f"{METHODS[name].title}: tolerance against velocity",
-        note=f"{record.name}. {case}. At the right, the block creeps where it should stick; a "
-        "tighter tolerance does not reduce this error.",
-        x_label="Velocity v₀ [m/s]",
-        x=velocities,
-        y_label="Relative tolerance",
-        y=tolerances,
-        error_percent=_errors(record, name, cells),
-    )
+def step_limit_maps(record: Record, *, quick: bool) -> Iterator[StabilityMap]:
+    """Map where two axes end without a result: sampling interval against rate of friction laws."""
+    rates = np.geomspace(1e1, 1e9, 9 if quick else 17)
+    steps_s = np.geomspace(0.5, 0.005, 3 if quick else 9)
+    case, fast = CASES[0], 1.5
+    for way, slow_share, fast_share in (("rises", 1.0, fast), ("falls", fast, 1.0)):
+        slow, last = slow_share * case.mu, fast_share * case.mu
+        of_rate = partial(Friction, mu_slow=slow, mu_fast=last, mu_static=slow)
+        laws = [of_rate(rate_s_per_m=rate) for rate in rates.tolist()]
+        yield StabilityMap(
+            title=f"This program in two axes: sampling interval against rate, μ {way}",
+            note=f"{record.name}, its samples at other intervals. {case.slope_deg:g}°, μ from "
+            f"{slow:g} at rest to {last:g}, PPA = {case.ppa_g:g} g. Shading: the stated error. "
+            "Hatched: the run exceeds its limit on steps.",
+            x_label="Rate of the friction law [s/m]",
+            x=rates,
+            y_label="Sampling interval [s]",
+            y=steps_s,
+            error_percent=np.array(
+                [
+                    [_stated_percent(record, case, law, dt) for law in laws]
+                    for dt in steps_s.tolist()
+                ]
+            ),
+        )
+
+
+def _stated_percent(record: Record, case: Case, law: Friction, dt_s: float) -> float:
+    """Return the error that a run in two axes states, in percent; NaN of one without a result."""
+    scale = scale_to(record, case.ppa_g)
+    scene = checked.scene(record.a_mps2, dt_s, slope_rad=case.slope_rad, mu=law, scale=scale)
+    result = two_axes.run(scene)
+    return float(percent_off(result.prd_m + result.error_m, result.prd_m))
 
 
 def _errors(record: Record, name: str, cells: Sequence[Sequence[_Cell]]) -> Floats:

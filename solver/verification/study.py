@@ -18,6 +18,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from solver.forces import forces
 from solver.formats import read_motion_file
 from solver.model import (
     STANDARD_GRAVITY_MPS2,
@@ -161,6 +162,13 @@ def flat_scene(ax_mps2: Floats, ay_mps2: Floats, dt_s: float, friction: Friction
         scale=1.0,
         g_mps2=STANDARD_GRAVITY_MPS2,
     )
+
+
+def samples_of(scene: Scene) -> Floats:
+    """Return downslope G, cross-slope G and mu N at the samples, shape (n, 3) [m/s2]."""
+    on = forces(scene)
+    cap = scene.friction.mu_slow * on.normal_mps2
+    return np.column_stack([on.down_mps2, on.across_mps2, cap])
 
 
 def faded(scene: Scene, share: float) -> Scene:

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import argparse
-import importlib.util
 import os
 import statistics
 import subprocess
@@ -28,13 +27,6 @@ RECORDS: Path | None = _given.records
 def made_records() -> list[Path]:
     """Return the first components of the motions of the example."""
     return sorted((ROOT / "projects" / "example" / "records").glob("*-x.csv"))
-
-
-def real_records() -> list[Path]:
-    """Return the records that the package pyslammer carries; its code is never imported."""
-    spec = importlib.util.find_spec("pyslammer")
-    places = spec.submodule_search_locations if spec else None
-    return sorted(Path((places or [""])[0]).glob("sample_ground_motions/*.csv"))
 
 
 def figure(name: str, value: float | str, unit: str = "", *, digits: int = 2) -> None:

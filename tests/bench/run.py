@@ -3,8 +3,9 @@
     .venv/bin/python tests/bench/run.py [--smoke] [--records FOLDER] [NAME ...]
 
 With --smoke each takes seconds, and nothing is written. A table of README or docs between
-`<!-- figures of NAME -->` and `<!-- end -->` holds all figures of a benchmark; a figure in a
-sentence stands before `<!-- NAME: FIGURE -->`, and is "?" where none was printed.
+`<!-- figures of NAME -->` and `<!-- end -->` holds all figures of a benchmark; a line between
+`<!-- machine of NAME -->` and the end holds its date, its machine and its first figure; a figure in
+a sentence stands before `<!-- NAME: FIGURE -->`, and is "?" where none was printed.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ DOCS = (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
 COLUMNS = ("script", "figure", "value", "unit", "machine", "date")
 NAMES = sorted({path.stem for path in HERE.glob("*.py")} - {"measure", "run"})
 _TABLE = re.compile(r"(<!-- figures of (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
+_MACHINE = re.compile(r"(<!-- machine of (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 _QUOTED = re.compile(r"[^\s(]+(?=<!-- (\w+): (.+?) -->)")
 
 Row = dict[str, str]
@@ -87,7 +89,12 @@ def with_figures(text: str, rows: list[Row]) -> str:
         )
         return found[1] + "\n" + head + "\n".join(lines) + "\n\n" + found[3]
 
-    text = _TABLE.sub(table, text)
+    def measured_on(found: re.Match[str]) -> str:
+        row = next(row for row in rows if row["script"] == found[2])
+        words = "{date}; {machine}; {figure}: {value} {unit}.".format_map(row)
+        return f"{found[1]}\n{words}\n\n{found[3]}"
+
+    text = _MACHINE.sub(measured_on, _TABLE.sub(table, text))
     return _QUOTED.sub(lambda found: values.get((found[1], found[2]), "?"), text)
 
 

@@ -14,7 +14,7 @@ import statistics
 from dataclasses import replace
 
 import numpy as np
-from measure import RECORDS, SMOKE, figure, made_records, real_records
+from measure import RECORDS, SMOKE, figure, made_records
 
 import oracle
 import plane_oracle
@@ -24,7 +24,7 @@ from solver.model import Floats, coulomb
 from solver.rivals.methods import NO_RECORD
 from solver.sliding.checked import slide
 from solver.sliding.two_axes import follow
-from solver.verification.scenes import Case
+from solver.verification.scenes import Case, real_records
 from solver.verification.study import cut, own_triples, recorded_triples, scene_of
 
 # Slope [deg], friction coefficient, PPA [g].
@@ -45,8 +45,7 @@ def made() -> list[tuple[Floats, Floats | None, float]]:
 
 def real() -> list[tuple[Floats, Floats | None, float]]:
     """Return the records that the package pyslammer carries."""
-    records = [read_record(path, units="g") for path in real_records()]
-    return [(record.a_mps2, None, record.dt_s) for record in records]
+    return [(record.a_mps2, None, record.dt_s) for record in real_records()]
 
 
 def one_axis(kind: str, records: list[tuple[Floats, Floats | None, float]]) -> None:

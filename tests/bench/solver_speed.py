@@ -3,8 +3,9 @@
 Ratios measured side by side in one run, medians of repeats in turns, processor time, one core. Over
 the grid of the paper (29 slopes x 15 frictions x 16 PPA) the mean time of a run is held against one
 streaming pass over the record (the sum of its samples, jitted) and against the paper's algorithm at
-P = 64 over every 97th of these runs, jitted too: "as listed", equation by equation, and
-"optimized", as `method="paper"` runs it. Records: the example's, and 18 real ones of pyslammer.
+P = 64 over every 97th of these runs, jitted too: "optimized", as `method="paper"` runs it, with
+sub-steps in slip only (`method="adaptive"`), and "as listed", equation by equation. A call from
+Python is that of `solver.slide`. Records: the example's, and 18 real ones of pyslammer.
 """
 
 from __future__ import annotations
@@ -12,25 +13,26 @@ from __future__ import annotations
 import itertools
 import math
 import statistics
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
-from pathlib import Path
 
 import numpy as np
-from measure import SMOKE, figure, made_records, real_records, seconds
+from measure import SMOKE, figure, made_records, seconds
 from numba import njit
 
 from solver.formats import read_record
 from solver.kernels import one_axis, rivals
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Friction, Scene, coulomb
+from solver.records.record import Record
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model, two_axes
 from solver.sliding import one_axis as one_axis_run
+from solver.sliding.checked import slide
 from solver.sliding.row import slide_row
 from solver.sliding.sweep import order_alike
 from solver.verification.model_study import by_speed, row_of
-from solver.verification.scenes import Case
+from solver.verification.scenes import Case, real_records
 from solver.verification.study import own_triples, scene_of
 
 SLOPES = [math.radians(0.5 * k) for k in range(-14, 15)]
@@ -102,47 +104,61 @@ def run_listed(ax: Floats, dt: float, peak: float, grid: Floats) -> Floats:
     )
 
 
-def run_fast(ax: Floats, dt: float, peak: float, grid: Floats) -> Floats:
+def run_fast(ax: Floats, dt: float, peak: float, grid: Floats, *, skips: bool = False) -> Floats:
     """PRD of every row of the grid by the paper's algorithm as fast as it goes."""
     prd_m = np.empty(len(grid))
     for k, (slope, mu, ppa) in enumerate(grid):
         sn, cs, scale = math.sin(slope), math.cos(slope), ppa * G / peak
         scene = ax, NO_RECORD, dt, sn, cs, mu, G, scale
-        _, s_max, s_min, *_ = rivals.slide_constant(*scene, SUBSTEPS, False, NO_HISTORY)
+        _, s_max, s_min, *_ = rivals.slide_constant(*scene, SUBSTEPS, skips, NO_HISTORY)
         prd_m[k] = cs * max(s_max, -s_min)
     return prd_m
 
 
-def of_a_run(path: Path) -> tuple[float, float, float, float]:
-    """Return the time of a run [s]: exact, one pass, the paper as listed and optimized."""
-    record = read_record(path, units="g")
+def run_checked(record: Record, peak: float, grid: Floats) -> None:
+    """Call every row of the grid as a user does, with the checks of its arguments."""
+    for slope, mu, ppa in grid:
+        slide(record, slope_rad=slope, mu=mu, scale=ppa * G / peak)
+
+
+def of_a_run(record: Record) -> list[float]:
+    """Return the time of a run [s]: exact, one pass, the paper optimized, sub-stepping in slip
+    only, and as listed, and a call from Python.
+    """
     ax, dt = record.a_mps2, record.dt_s
     x, peak, few = one_axis.bounds(ax), float(np.abs(ax).max()), GRID[::97]
     listed, fast = run_listed(ax, dt, peak, few), run_fast(ax, dt, peak, few)
     np.testing.assert_allclose(fast, listed, rtol=1e-9, atol=1e-9)
-    exact, passes, listed_s, fast_s = seconds(
+    exact, passes, *others = seconds(
         lambda: run_exact(ax, x, dt, peak, GRID),
         lambda: [total(ax) for _ in range(PASSES)],
-        lambda: run_listed(ax, dt, peak, few),
         lambda: run_fast(ax, dt, peak, few),
+        lambda: run_fast(ax, dt, peak, few, skips=True),
+        lambda: run_listed(ax, dt, peak, few),
+        lambda: run_checked(record, peak, few),
         repeats=REPEATS,
     )
-    return exact / len(GRID), passes / PASSES, listed_s / len(few), fast_s / len(few)
+    return [exact / len(GRID), passes / PASSES, *(other / len(few) for other in others)]
 
 
-def runs(kind: str, paths: list[Path]) -> None:
+def runs(kind: str, records: Sequence[Record]) -> None:
     """Print the geometric means over records."""
     logs = []
-    for path in paths[: 1 if SMOKE else None]:
-        exact, passed, listed, fast = of_a_run(path)
-        ratios = exact * 1e6, exact / passed, listed / exact, fast / exact
-        print(f"{path.stem:32}", *(f"{ratio:10.3g}" for ratio in ratios), flush=True)
-        logs.append(np.log(ratios))
-    means = [float(mean) for mean in np.exp(np.mean(logs, axis=0))]
-    figure(f"an exact run, {kind} records", means[0], "us")
-    figure(f"an exact run relative to one pass over its record, {kind} records", means[1])
-    figure(f"the paper's algorithm as listed relative to an exact run, {kind} records", means[2])
-    figure(f"the same algorithm, optimized, relative to it, {kind} records", means[3])
+    for record in records[: 1 if SMOKE else None]:
+        times = of_a_run(record)
+        print(f"{record.name:32}", *(f"{each * 1e6:10.3g}" for each in times), flush=True)
+        logs.append(np.log(times))
+    exact, passed, fast, skipping, listed, call = np.exp(np.mean(logs, axis=0)).tolist()
+    figure(f"an exact run, {kind} records", exact * 1e6, "us")
+    figure(f"the same called from Python, with its checks, {kind} records", call * 1e6, "us")
+    figure(f"an exact run relative to one pass over its record, {kind} records", exact / passed)
+    figure(
+        f"the paper's algorithm, optimized, relative to an exact run, {kind} records", fast / exact
+    )
+    figure(
+        f"the same with sub-steps in slip only, relative to it, {kind} records", skipping / exact
+    )
+    figure(f"the same as listed, relative to it, {kind} records", listed / exact)
 
 
 @njit
@@ -210,7 +226,7 @@ def models() -> None:
 
 def main() -> None:
     """Print the figures of runs, of their parts, and of the models."""
-    runs("made", made_records())
+    runs("made", [read_record(path, units="g") for path in made_records()])
     runs("real", real_records())
     parts()
     models()

@@ -17,13 +17,14 @@ from pathlib import Path
 import duckdb
 import numpy as np
 import pandas as pd
-from measure import SMOKE, figure, made_records, real_records
+from measure import SMOKE, figure, made_records
 
 from report.study.manifest import manifest_of
 from report.study.parts import begin, done_parts, peaks, read_part, run_missing
 from solver import read_record, sweep
 from solver.model import Motion
 from solver.studies.runs import Campaign, Runner, grid, run_part
+from solver.verification.scenes import real_records
 from studied import frozen, motion
 
 SLOPES = np.radians(np.linspace(-7.0, 7.0, 29))
@@ -132,7 +133,7 @@ def one_suite() -> None:
 
 def many_records() -> None:
     """Print what runs under records of unequal length cost."""
-    given = [read(path) for path in real_records()][:COUNT]
+    given = [made(real.name, real.dt_s, real.a_mps2) for real in real_records()][:COUNT]
     campaign = over([*given, *stand_ins(COUNT - len(given))], 15)
     with tempfile.TemporaryDirectory() as name:
         cpu = studied(campaign, Path(name) / "runs")

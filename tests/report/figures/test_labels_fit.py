@@ -25,7 +25,8 @@ from solver.rivals.methods import METHODS
 from solver.studies.capacity import Capacities
 from solver.studies.fragility import fragility
 from solver.studies.uncertainty import Bar
-from solver.verification.evidence import StabilityMap
+from solver.verification import peers
+from solver.verification.evidence import PeerPoint, StabilityMap
 
 DPI = 400  # extents are rounded to pixels
 TOUCH_IN = 0.01
@@ -141,11 +142,19 @@ def limit_state(name, words, capacity):
     return LimitState(name=name, words=words, limit_m=0.3, fragility=fitted, effects={})
 
 
+def judges():
+    """A run by each program that is compared."""
+    point = {"version": "1", "record": "r", "scene": "s", "note": "", "seconds": 1e-2}
+    for model, programs in peers.JUDGES.items():
+        for each in programs:
+            yield PeerPoint(peer=each.name, model=model, prd_error_percent=2.0, **point)
+
+
 def test_in_the_accuracy_of_every_method_against_run_time(drawn):
     runs = pd.DataFrame({"method": [*METHODS], "setting": 1.0, "time per run [s]": 1e-5})
     for error in ("PRD error [%]", "residual error [%]"):
         runs[error] = 0.5
-    work.overview(runs, "%", 1e-12)
+    work.overview(runs, 1e-12, judges())
     assert not list(faults(drawn))
 
 

@@ -8,7 +8,7 @@ import pytest
 from solver.kernels import rivals
 from solver.sliding import two_axes
 from solver.verification.model_checks import stopped_scene
-from solver.verification.plane_scipy import samples_of
+from solver.verification.study import samples_of
 
 pytestmark = pytest.mark.quick
 

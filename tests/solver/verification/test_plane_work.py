@@ -1,11 +1,10 @@
 """Work against precision in two axes: errors fall with the settings; a stop is a stop."""
 
-import sys
-
 import numpy as np
 import pytest
 
-from solver.verification import plane_scipy, workprecision
+from solver.rivals import by_scipy
+from solver.verification import workprecision
 from solver.verification.study import own_triples
 
 pytestmark = pytest.mark.quick
@@ -22,26 +21,29 @@ def of(points, method):
 
 def test_every_tolerance_of_the_series_is_kept(points):
     ours = of(points, workprecision.OURS)
-    assert (ours["PRD error [%]"] <= 100.0 * np.array(workprecision.TOLERANCES)).all()
+    assert (ours["residual error [%]"] <= 100.0 * np.array(workprecision.TOLERANCES)).all()
     assert (ours["time per run [s]"] > 0.0).all()
 
 
 @pytest.mark.parametrize("method", [workprecision.HOLDING, workprecision.CHATTERING])
 def test_fixed_steps_gain_with_their_number_and_stay_far_behind(points, method):
     mine, ours = (
-        of(points, name)["PRD error [%]"].tolist() for name in (method, workprecision.OURS)
+        of(points, name)["residual error [%]"].tolist() for name in (method, workprecision.OURS)
     )
     assert mine[-1] < 0.1 * mine[0]
     assert mine[-1] > 1e3 * ours[4]
 
 
-def test_scipy_takes_part_where_it_is_installed(points):
-    count = points["method"].str.startswith("SciPy").sum()
-    assert count == (6 if plane_scipy.is_installed() else 0)
+def test_scipy_takes_part_where_it_is_installed_and_gains_with_its_settings(points):
+    counts = points[points["method"].str.startswith("SciPy")].groupby("method").size()
+    assert counts.tolist() == ([3, 4, 3] if by_scipy.is_installed() else [])
+    for method in counts.index:
+        off = of(points, method)["residual error [%]"].tolist()
+        assert off[-1] < 0.05 * off[0]
 
 
 def test_without_scipy_the_rest_is_there_and_the_series_rest_where_they_should(monkeypatch):
-    monkeypatch.setitem(sys.modules, "scipy", None)
+    monkeypatch.setattr(by_scipy, "is_installed", lambda: False)
     points = workprecision.work(own_triples(True)[0], quick=True)
     stops = workprecision.stops()
     assert not any("SciPy" in method for method in (*points["method"], *stops["method"]))

@@ -9,9 +9,10 @@ import pytest
 
 import oracle
 import verified
+from solver.rivals import by_scipy
 from solver.rivals.methods import METHODS
 from solver.sliding.checked import slide
-from solver.verification import checks, paper_studies, plane_scipy, reference, study
+from solver.verification import checks, paper_studies, reference, study
 from solver.verification.evidence import ROUNDING, Check, DesignCurves, percent_off
 from solver.verification.features import FEATURES, statuses
 from solver.verification.scenes import Case, near_fault_pulse, own_records, scale_to, shortened
@@ -69,7 +70,7 @@ def test_every_check_that_a_feature_names_ran_and_every_check_belongs_to_one(ver
     extra = {id for feature in FEATURES for id in feature.extra}
     assert named <= ran
     assert ran <= named | extra
-    assert extra <= ran or not plane_scipy.is_installed()
+    assert extra <= ran or not by_scipy.is_installed()
     for status in statuses(verification.checks, ()):
         assert status.is_verified == bool(status.feature.checks), status
 

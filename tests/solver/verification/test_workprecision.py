@@ -10,8 +10,8 @@ import pytest
 
 from solver.model import Status
 from solver.rivals.methods import METHODS
-from solver.verification import study, workprecision
-from solver.verification.scenes import CASES, near_fault_pulse, shortened
+from solver.verification import scenes, study, workprecision
+from solver.verification.scenes import CASES, compared_runs, near_fault_pulse, shortened
 
 pytestmark = pytest.mark.quick
 
@@ -23,18 +23,16 @@ def record():
 
 @pytest.fixture(scope="module")
 def points(record):
-    return workprecision.work_points([record], quick=True)
+    return workprecision.work_points([(record, case) for case in CASES[:3]], quick=True)
 
 
 def test_every_method_runs_in_every_case_over_its_settings(points):
     assert set(points["method"]) == set(METHODS)
     for name, method in METHODS.items():
         mine = points[points["method"] == name]
-        is_slow = name == "regularized"
-        cases, chosen = (2, slice(2)) if is_slow else (3, slice(None, None, 2))
-        assert mine["case"].nunique() == cases
-        wanted = list(method.sweep[chosen]) if method.knob else [math.nan]
-        np.testing.assert_array_equal(mine["setting"], wanted * cases)
+        assert mine["case"].nunique() == 3
+        wanted = list(method.sweep[::2]) if method.knob else [math.nan]
+        np.testing.assert_array_equal(mine["setting"], wanted * 3)
 
 
 def test_the_full_run_takes_every_setting_of_the_sweep(record):
@@ -54,17 +52,30 @@ def test_the_exact_method_has_no_error_and_finer_settings_have_less(points):
         assert median[sweep[-1]] < 0.1 * median[sweep[0]]
 
 
+def test_scipy_with_events_is_as_accurate_as_the_exact_method(points):
+    events = points[points["method"].str.startswith("events-")]
+    assert (events["PRD error [%]"] < 1e-9).all()
+
+
+def test_the_runs_are_real_records_a_case_each_where_they_are_installed(record, monkeypatch):
+    real = [record] * 18
+    monkeypatch.setattr(scenes, "real_records", lambda: real)
+    given, cases = zip(*compared_runs(False), strict=True)
+    assert list(given) == real
+    assert cases == 3 * CASES
+    assert len(compared_runs(True)) == 2 * 3
+
+
 def test_every_point_that_came_through_has_a_time(points):
     assert (points["time per run [s]"] > 0.0).all()
     assert set(points["status"]) <= {Status.OK, Status.SLIDING_AT_END}
 
 
 def test_a_failed_run_is_a_hole_with_its_status(record, monkeypatch):
-    name = "penalty-explicit"
-    stiff = replace(METHODS[name], sweep=(1e8,), link_steps_per_radian=0.0)
-    monkeypatch.setattr(workprecision, "METHODS", {name: stiff})
-    failed = workprecision.work_points([record], quick=True)
-    assert failed["status"].tolist() == [Status.DIVERGED] * 3
+    stiff = replace(METHODS["penalty-explicit"], sweep=(1e8,), link_steps_per_radian=0.0)
+    monkeypatch.setattr(workprecision, "runnable_methods", lambda: [stiff])
+    failed = workprecision.work_points([(record, CASES[0])], quick=True)
+    assert failed["status"].tolist() == [Status.DIVERGED]
     measured = failed[["time per run [s]", "PRD error [m]", "residual error [%]"]]
     assert measured.isna().all(axis=None)
 
@@ -77,7 +88,7 @@ def test_what_is_timed_is_what_is_run(record):
 
 
 def test_results_are_the_same_every_time_but_for_the_seconds(record, points):
-    again = workprecision.work_points([record], quick=True)
+    again = workprecision.work_points([(record, case) for case in CASES[:3]], quick=True)
     pd.testing.assert_frame_equal(
         *(runs.drop(columns="time per run [s]") for runs in (again, points)), check_exact=True
     )
