@@ -301,10 +301,10 @@ def rates(array_years: ArrayYears, curve: HazardCurve, unit: Unit, along: str) -
     with style():
         margins = {"left": 0.085, "right": 0.985, "above": 0.15, "below": 0.55}
         figure, ((left, right),) = panels(1, 2, 3.2, **margins, wspace=0.16, sharey=True)
-        levels = array_years.responses.levels
+        low, top = array_years.responses.levels.min(), array_years.responses.levels.max()
         left.plot(curve.intensity, curve.rate, color=INK, linewidth=1.2, marker="o", markersize=3.0)
-        left.axvspan(levels[0], levels[-1], color=PALE, linewidth=0.0, zorder=0)
-        left.set_xlim(0.2 * levels[0], 2.0 * levels[-1])
+        left.axvspan(low, top, color=PALE, linewidth=0.0, zorder=0)
+        left.set_xlim(0.2 * low, 2.0 * top)
         shown = array_years.limits_m > 0.0
         x = array_years.limits_m[shown] / unit.si
         right.fill_between(x, *array_years.rates_band[:, shown], color=PALE, linewidth=0.0)

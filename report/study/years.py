@@ -17,6 +17,7 @@ from report.study.array_capacities import curves_of
 from report.study.plan import ArrayPlan, StudyPlan
 from solver.model import Floats
 from solver.studies.lives import (
+    BELOW_UPLIFT,
     Draws,
     LifeStatistics,
     Responses,
@@ -126,11 +127,11 @@ def years_of(plan: StudyPlan, curve: HazardCurve, array: ArrayPlan, runner: Runn
                       if key in plan.predicted)  # fmt: skip
     mus = predicted[0].quantiles if predicted else (array.mu,)
     slope_deg, motions = array.array.slope_deg, len(runner.campaign.motions[0])
-    curves = [one for mu in mus for one in curves_of(runner, array, mu, slope_deg)]
-    slip = min(one.first_slip() for one in curves)
+    slip = min(one.first_slip() for one in curves_of(runner, array, mus[0], slope_deg))
     tracks = runner.tracks[array.building]
-    lifted = max(uplift_intensity(track, math.radians(slope_deg)) for track in tracks)
-    top = min(curve.top, lifted)
+    lifted = [uplift_intensity(track, math.radians(slope_deg)) for track in tracks]
+    ends = np.minimum(curve.top, BELOW_UPLIFT * np.array(lifted))
+    top = float(ends.max())
     low = min(max(slip, float(curve.intensity[0])), 0.5 * top)
     draws = draw(
         np.random.default_rng(array.seed), curve, low=low, top=top, runs=len(tracks),
@@ -139,7 +140,7 @@ def years_of(plan: StudyPlan, curve: HazardCurve, array: ArrayPlan, runner: Runn
     responses, change = settled_responses(
         partial(run_levels, tracks, math.radians(slope_deg), mus),
         low,
-        top,
+        ends,
         partial(_measured, curve, array, draws),
     )
     limits_m, by_run = _by_run(curve, array, responses)

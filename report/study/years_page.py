@@ -43,7 +43,8 @@ def years(results: StudyResults, array_years: ArrayYears) -> Section:
         first=float(curve.intensity[0]),
         end=float(curve.intensity[-1]),
         end_years=1.0 / float(curve.rate[-1]),
-        top=float(array_years.responses.levels[-1]),
+        first_end=float(array_years.responses.levels.max(axis=1).min()),
+        top=float(array_years.responses.levels.max()),
         recurrences=[
             *zip(rates.RECURRENCES, prd_m, *map(finites, array_years.prd_band_m), strict=True)
         ],

@@ -28,6 +28,9 @@ RESPONSES = ("prd_m", "down_m", "up_m", "across_m", "residual_m", "residual_acro
 FIRST_STEPS, MOST_STEPS = 16, 512
 """Intervals of intensity to begin with, and at most."""
 
+BELOW_UPLIFT = 1.0 - 1e-9
+"""Share of the intensity of uplift that is still run."""
+
 SETTLED, SETTLED_M = 0.005, 1e-4
 """Change of the results, relative to them or in meters, below which no more intensities are run."""
 
@@ -38,8 +41,8 @@ class Responses:
 
     Attributes
     ----------
-    levels : array, shape (m,)
-        Intensities, equally spaced in their logarithm.
+    levels : array, shape (runs, m)
+        Intensities, equally spaced in their logarithm up to the last of the run, which repeats.
     values : array, shape (frictions, runs, m, 6)
         `RESPONSES` of a motion in an orientation [m]; NaN without a final value.
     """
@@ -67,21 +70,20 @@ def uplift_intensity(track: Track, slope_rad: float) -> float:
 def run_levels(
     tracks: Sequence[Track], slope_rad: float, mus: Sequence[float], levels: Floats
 ) -> Floats:
-    """Run tracks at friction coefficients and intensities; return `Responses.values`."""
+    """Run tracks at friction coefficients and their levels; return `Responses.values`."""
 
-    def run(case: tuple[float, Track]) -> list[list[float]]:
-        mu, track = case
-        most = uplift_intensity(track, slope_rad)
-        return [
+    def run(case: tuple[float, tuple[Track, Floats]]) -> Floats:
+        mu, (track, of_track) = case
+        once, at = np.unique(of_track, return_inverse=True)
+        rows = [
             _response(track, np.array([slope_rad, mu, track.scene.scale * x]))
-            if x < most
-            else [math.nan] * len(RESPONSES)
-            for x in levels.tolist()
+            for x in once.tolist()
         ]
+        return np.array(rows)[at]
 
     with ThreadPoolExecutor(THREADS) as pool:
-        rows = list(pool.map(run, product(mus, tracks)))
-    return np.array(rows).reshape(len(mus), len(tracks), levels.size, len(RESPONSES))
+        rows = list(pool.map(run, product(mus, zip(tracks, levels, strict=True))))
+    return np.array(rows).reshape(len(mus), *levels.shape, len(RESPONSES))
 
 
 def _response(track: Track, slope_mu_scale: Floats) -> list[float]:
@@ -93,7 +95,7 @@ def _response(track: Track, slope_mu_scale: Floats) -> list[float]:
 def settled_responses(
     run: Callable[[Floats], Floats],
     low: float,
-    top: float,
+    ends: Floats,
     measured: Callable[[Responses], Floats],
 ) -> tuple[Responses, float]:
     """Return responses at intensities so close that halving their steps changes little.
@@ -102,8 +104,10 @@ def settled_responses(
     ----------
     run : callable
         From levels to `Responses.values`.
-    low, top : float
-        The first and the last intensity.
+    low : float
+        The first intensity.
+    ends : array, shape (runs,)
+        The last one of each run.
     measured : callable
         From responses to the displacements that must settle [m]; inf for none.
 
@@ -113,19 +117,23 @@ def settled_responses(
     float
         Largest change of a result by more than `SETTLED_M` in the last halving, relative to it.
     """
-    levels = np.geomspace(low, top, FIRST_STEPS + 1)
+
+    def spaced(count: int) -> Floats:
+        return np.minimum(np.geomspace(low, ends.max(), count), ends[:, None])
+
+    levels = spaced(FIRST_STEPS + 1)
     coarse = Responses(levels=levels, values=run(levels))
     before = measured(coarse)
     while True:
-        levels = np.geomspace(low, top, 2 * coarse.levels.size - 1)
-        values = np.empty((*coarse.values.shape[:2], levels.size, len(RESPONSES)))
-        values[:, :, ::2], values[:, :, 1::2] = coarse.values, run(levels[1::2])
+        levels = spaced(2 * levels.shape[1] - 1)
+        values = np.empty((len(coarse.values), *levels.shape, len(RESPONSES)))
+        values[:, :, ::2], values[:, :, 1::2] = coarse.values, run(levels[:, 1::2])
         fine = Responses(levels=levels, values=values)
         after = measured(fine)
         with np.errstate(invalid="ignore"):
             moved = np.abs(after - before) > SETTLED_M
         change = np.abs(before[moved] / after[moved] - 1.0).max(initial=0.0)
-        if change < SETTLED or levels.size > MOST_STEPS:
+        if change < SETTLED or levels.shape[1] > MOST_STEPS:
             return fine, float(change)
         coarse, before = fine, after
 
@@ -196,10 +204,12 @@ def distances(draws: Draws, responses: Responses, recenter_m: float) -> Floats:
         In two axes the largest is an upper bound (`solver.kernels.lives`) [m]; inf for a life with
         an event without a final value.
     """
-    levels, x = responses.levels, draws.intensity
-    level = np.clip(np.searchsorted(levels, x, side="right") - 1, 0, levels.size - 2)
-    weight = np.clip((np.minimum(x, levels[-1]) - levels[level]) / np.diff(levels)[level], 0, 1)
-    level[np.isinf(x)] = -1
+    level, weight = np.full(draws.run.size, -1), np.zeros(draws.run.size)
+    for run, levels in enumerate(responses.levels):
+        of = np.flatnonzero((draws.run == run) & (draws.intensity <= levels[-1]))
+        x = draws.intensity[of]
+        level[of] = low = np.maximum(np.searchsorted(levels, x) - 1, 0)
+        weight[of] = np.maximum((x - levels[low]) / (levels[low + 1] - levels[low]), 0.0)
     out = np.empty((2, draws.friction.size))
     kernel.live(
         draws.first, draws.friction, draws.run, level, weight, draws.side, responses.values,

@@ -88,7 +88,9 @@ class HazardCurve:
         return np.asarray(np.exp(np.interp(-np.log(rate), -np.log(rates), np.log(intensity))))
 
 
-def contributions(curve: HazardCurve, levels: Floats, prd_m: Floats, limit_m: float) -> Floats:
+def contributions(
+    curve: HazardCurve, levels: Floats, rate: Floats, prd_m: Floats, limit_m: float
+) -> Floats:
     """Return the annual rate at which runs exceed a limit, by the interval of intensities.
 
     The PRD is linear between the levels; one that is NaN exceeds every limit, from the level below
@@ -96,8 +98,10 @@ def contributions(curve: HazardCurve, levels: Floats, prd_m: Floats, limit_m: fl
 
     Parameters
     ----------
-    levels : array, shape (m,)
-        Increasing intensities.
+    levels : array, shape (m,) or (runs, m)
+        Increasing intensities; the last one of a run may repeat.
+    rate : array, shape (m,) or (runs, m)
+        Of the curve at the levels.
     prd_m : array, shape (..., m)
 
     Returns
@@ -105,25 +109,25 @@ def contributions(curve: HazardCurve, levels: Floats, prd_m: Floats, limit_m: fl
     array, shape (..., m)
         The last one is of intensities beyond the levels, which exceed every limit.
     """
-    rate, prd = curve.at(levels), np.where(np.isnan(prd_m), np.inf, prd_m)
-    low, high = prd[..., :-1], prd[..., 1:]
-    below, above = np.broadcast_to(rate[:-1], low.shape), np.broadcast_to(rate[1:], low.shape)
+    levels, rate = np.broadcast_to(levels, prd_m.shape), np.broadcast_to(rate, prd_m.shape)
+    prd = np.where(np.isnan(prd_m), np.inf, prd_m)
+    low, high, below, above = prd[..., :-1], prd[..., 1:], rate[..., :-1], rate[..., 1:]
     rises, falls = (low <= limit_m) & (high > limit_m), (low > limit_m) & (high <= limit_m)
     crosses = rises | falls
     share = np.ones(low.shape)
     known = crosses & np.isfinite(low)
     share[known] = (limit_m - low[known]) / (high[known] - low[known])
     crossing = below.copy()
-    crossing[crosses] = curve.at((levels[:-1] + share * np.diff(levels))[crosses])
+    crossing[crosses] = curve.at((levels[..., :-1] + share * np.diff(levels))[crosses])
     rates = np.where(low > limit_m, below - crossing * falls - above * ~falls, 0.0)
     rates = np.where(rises, crossing - above, rates)
-    beyond = np.broadcast_to(rate[-1:], (*rates.shape[:-1], 1))
-    return np.concatenate([rates, beyond], axis=-1)
+    return np.concatenate([rates, rate[..., -1:]], axis=-1)
 
 
 def exceedance_rates(curve: HazardCurve, levels: Floats, prd_m: Floats, limits_m: Floats) -> Floats:
     """Return the annual rate at which each run exceeds each limit, shape (limits, ...)."""
-    return np.array([contributions(curve, levels, prd_m, d).sum(axis=-1) for d in limits_m])
+    rate = curve.at(levels)
+    return np.array([contributions(curve, levels, rate, prd_m, d).sum(axis=-1) for d in limits_m])
 
 
 def deaggregated(
@@ -142,13 +146,12 @@ def deaggregated(
         Their sum is 1; zeros where the limit is never exceeded.
     """
     shares = np.zeros(edges.size - 1)
-    middles = np.append(np.sqrt(levels[:-1] * levels[1:]), levels[-1])
+    middles = np.append(np.sqrt(levels[..., :-1] * levels[..., 1:]), levels[..., -1:], axis=-1)
     for factor, weight in zip(*curve.factors, strict=True):
         shifted = HazardCurve(intensity=factor * curve.intensity, rate=curve.rate)
-        rates = contributions(shifted, levels, prd_m, limit_m)
-        inside = np.clip(middles / factor, edges[0], edges[-1])
-        by_level = rates.reshape(-1, middles.size).mean(axis=0)
-        shares += weight * np.histogram(inside, edges, weights=by_level)[0]
+        rates = contributions(shifted, levels, shifted.at(levels), prd_m, limit_m)
+        inside = np.broadcast_to(np.clip(middles / factor, edges[0], edges[-1]), rates.shape)
+        shares += weight * np.histogram(inside, edges, weights=rates)[0]
     return shares / (shares.sum() or 1.0)
 
 

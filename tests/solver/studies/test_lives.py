@@ -10,6 +10,7 @@ from solver import solve
 from solver.kernels import lives as kernel
 from solver.model import coulomb
 from solver.studies.lives import (
+    BELOW_UPLIFT,
     RESPONSES,
     Draws,
     Responses,
@@ -43,7 +44,7 @@ def responses(frictions=2, runs=6, *, is_plane=True):
     # The PRD of a path is at most the distance of a corner of the rectangle around it.
     corner = np.hypot(np.maximum(down, up), values[..., kernel.ACROSS])
     values[..., kernel.PRD] = 0.9 * corner if is_plane else np.maximum(down, up)
-    return Responses(levels=LEVELS, values=values)
+    return Responses(levels=np.tile(LEVELS, (runs, 1)), values=values)
 
 
 def drawn(rng=None, *, runs=6, frictions=2, lives=100_000, years=YEARS):
@@ -64,7 +65,7 @@ def in_numpy(draws, given, recenter_m):
         of = given.values[draws.friction[alive], draws.run[event]]
         at = np.array(
             [
-                [np.interp(x, given.levels, rows[:, k]) for k in range(6)]
+                [np.interp(x, LEVELS, rows[:, k]) for k in range(6)]
                 for x, rows in zip(draws.intensity[event], of, strict=True)
             ]
         )
@@ -116,7 +117,7 @@ def test_equal_events_have_the_mean_of_a_renewal_process():
     values = np.zeros((1, 1, LEVELS.size, 6))
     values[..., [kernel.PRD, kernel.DOWN, kernel.RESIDUAL]] = 0.1
     draws = drawn(runs=1, frictions=1, lives=400_000, years=2.0)
-    _, last = distances(draws, Responses(levels=LEVELS, values=values), 0.25)
+    _, last = distances(draws, Responses(levels=LEVELS[None], values=values), 0.25)
     mean_events = 2.0 * CURVE.at(LEVELS[:1])[0]
     roots = np.exp(2j * np.pi * np.arange(3) / 3)
     of_rest = [(np.exp(mean_events * (roots - 1.0)) * roots**-j).mean().real for j in range(3)]
@@ -124,7 +125,7 @@ def test_equal_events_have_the_mean_of_a_renewal_process():
     known = np.isfinite(last)
     assert last[known].mean() == pytest.approx(0.1 * of_rest[1] + 0.2 * of_rest[2], rel=5e-3)
     # Without re-centering each event adds its residual (Wald).
-    _, last = distances(draws, Responses(levels=LEVELS, values=values), math.inf)
+    _, last = distances(draws, Responses(levels=LEVELS[None], values=values), math.inf)
     assert last[known].mean() == pytest.approx(0.1 * mean_events, rel=5e-3)
 
 
@@ -170,7 +171,7 @@ def test_an_event_without_a_value_leaves_its_life_without_a_distance():
 def test_responses_are_those_of_single_runs():
     given = Campaign(motions=((motion(1, "xyz"),),), cases=grid(1, [0.0], [0.3], [1.0]))
     tracks, levels = Runner(given).tracks[0], np.array([0.4, 0.9])
-    found = run_levels(tracks, 0.03, [0.3, 0.4], levels)
+    found = run_levels(tracks, 0.03, [0.3, 0.4], np.tile(levels, (4, 1)))
     assert found.shape == (2, 4, 2, 6)
     orientation = given.motions[0][0].orientations[2]
     one = dataclasses.replace(given.motions[0][0], scale=0.9)
@@ -193,7 +194,11 @@ def test_a_block_lifts_off_from_its_intensity_on():
     ]
     assert runs[0] != "UPLIFT"
     assert runs[1] == "UPLIFT"
-    assert np.isnan(run_levels([track], 0.05, [0.3], np.array([1.001 * most]))).all()
+    ends = np.array([[BELOW_UPLIFT * most, BELOW_UPLIFT * most, 1.001 * most]])
+    found = run_levels([track], 0.05, [0.3], ends)[0, 0]
+    assert np.isfinite(found[0]).all()
+    assert (found[0] == found[1]).all()
+    assert np.isnan(found[2]).all()
     level = Campaign(motions=((motion(1, "x"),),), cases=grid(1, [0.0], [0.3], [1.0]))
     assert uplift_intensity(Runner(level).tracks[0][0], 0.0) == math.inf
 
@@ -202,15 +207,32 @@ def test_levels_are_halved_until_the_results_settle():
     calls = []
 
     def run(levels):
-        calls.append(levels.size)
-        return np.repeat((levels**3)[None, None, :, None], 6, axis=3)
+        calls.append(levels.shape[1])
+        return np.repeat((levels**3)[None, :, :, None], 6, axis=3)
 
     def measured(given):
-        middle = np.interp(2.345, given.levels, given.prd_m[0, 0])
+        middle = np.interp(2.345, given.levels[0], given.prd_m[0, 0])
         return np.array([middle, 0.0, math.inf])
 
-    given, change = settled_responses(run, 0.01, 100.0, measured)
+    given, change = settled_responses(run, 0.01, np.array([100.0, 30.0]), measured)
     assert calls == [17, 16, 32]
-    assert given.levels.size == 65
+    assert given.levels.shape == (2, 65)
+    assert given.levels[1].max() == 30.0
     assert change < 0.005
-    assert given.prd_m[0, 0] == pytest.approx(given.levels**3, rel=1e-12)
+    assert given.prd_m[0] == pytest.approx(given.levels**3, rel=1e-12)
+
+
+def test_a_run_that_ends_exceeds_every_limit_from_its_end_on():
+    """Not from the level below it: the intensity of uplift is known."""
+    ends = np.array([100.0, 3.0])
+    levels = np.minimum(np.geomspace(0.2, 100.0, 12), ends[:, None])
+    values = np.repeat((0.1 * levels)[None, :, :, None], 6, axis=3)
+    given = Responses(levels=levels, values=values)
+    first, second = exceedance_rates(CURVE, levels, given.prd_m, np.array([0.25, 9.0]))[:, 0].T
+    assert first == pytest.approx(CURVE.at(np.array([2.5, 90.0])), rel=1e-12)
+    assert second == pytest.approx(CURVE.at(np.array([2.5, 3.0])), rel=1e-12)
+    each = np.arange(5)
+    draws = Draws(first=each, friction=np.zeros(4, dtype=int), run=np.array([0, 1, 0, 1]),
+                  side=np.ones(4), intensity=np.array([3.1, 3.1, 2.9, 2.9]))  # fmt: skip
+    largest, _ = distances(draws, given, math.inf)
+    assert largest == pytest.approx([0.31, math.inf, 0.29, 0.29], rel=1e-12)

@@ -59,7 +59,7 @@ def test_a_dispersion_of_the_events_has_the_rate_of_cornell(beta):
 def test_a_prd_that_falls_again_counts_where_it_is_larger():
     levels, prd_m = np.array([1.0, 2.0, 3.0, 4.0]), np.array([[0.0, 1.0, 0.0, 2.0]])
     curve = power()
-    found = contributions(curve, levels, prd_m, 0.5)[0]
+    found = contributions(curve, levels, curve.at(levels), prd_m, 0.5)[0]
     edges = curve.at(np.array([1.5, 2.0, 2.5, 3.25, 4.0]))
     assert found == pytest.approx(
         [edges[0] - edges[1], edges[1] - edges[2], edges[3] - edges[4], edges[4]], rel=1e-12
