@@ -5,6 +5,7 @@ Computes no rates (`solver.studies.rates` does). Read `hazard_curves`.
 
 from __future__ import annotations
 
+import codecs
 import csv
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -12,13 +13,18 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from report.sheet.reading.linked_files import path_beside
+from report.sheet.reading.typed_text import separator
 from report.sheet.schema.fields import Finding, Place
 from report.study.read import StudySheet
 from report.study.schema import Intensity
+from report.text.counts import numbered
 from solver.model import Floats, InputError
 from solver.studies.rates import HazardCurve
 
 MAX_BYTES = 1_000_000
+
+MOST_RATE = 10.0
+"""Most events a year: a greater number is no annual rate, and lives of as many fill the memory."""
 
 _NAMES: Mapping[bool, re.Pattern[str]] = {
     False: re.compile(r"\bPGA\b|peak ground", re.IGNORECASE),
@@ -48,10 +54,10 @@ def hazard_curves(sheet: StudySheet) -> tuple[HazardCurve, ...]:
         if hazard.file:
             place = Place("hazard", 0, "file")
             path = path_beside(sheet.path.parent, hazard.file, MAX_BYTES, "hazard-pga.csv")
-            points = points_of(
-                path.read_text(encoding="utf-8-sig", errors="replace"),
-                is_spectral=study_input.study.intensity is Intensity.SA1,
-            )
+            data = path.read_bytes()
+            is_utf_16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+            text = data.decode("utf-16" if is_utf_16 else "utf-8-sig", errors="replace")
+            points = points_of(text, is_spectral=study_input.study.intensity is Intensity.SA1)
         x, rate = _checked(points)
     except InputError as error:
         sheet.refuse([Finding.error(place, p.found, p.remedy) for p in error.parts])
@@ -74,7 +80,13 @@ def points_of(text: str, *, is_spectral: bool) -> list[tuple[float, float]]:
     InputError
         If it has neither, or no single curve of the measure.
     """
-    rows = [row for row in csv.reader(text.splitlines()) if any(cell.strip() for cell in row)]
+    lines = text.splitlines()
+    mark = separator(lines)
+    read = [[cell.strip() for cell in row] for row in csv.reader(lines, delimiter=mark)]
+    if mark == ";":
+        read = [[cell.replace(",", ".") for cell in row] for row in read]
+    # A spreadsheet pads the shorter rows with blanks.
+    rows = [row[: max(k for k, cell in enumerate(row) if cell) + 1] for row in read if any(row)]
     if curves := list(_saved_curves(rows)):
         names = [name for name, _ in curves]
         fits = [points for name, points in curves if _NAMES[is_spectral].search(name)]
@@ -86,7 +98,7 @@ def points_of(text: str, *, is_spectral: bool) -> list[tuple[float, float]]:
     first = next((k for k, values in enumerate(columns) if values), len(rows))
     wrong = [k for k, values in enumerate(columns) if k >= first and len(values) != 2]
     if wrong or first == len(rows):
-        shown = ",".join(rows[wrong[0]])[:60] if wrong else text[:60].strip()
+        shown = mark.join(rows[wrong[0]])[:60] if wrong else text[:60].strip()
         raise InputError(f"has '{shown}'; {_TWO}")
     return [(values[0], values[1]) for values in columns[first:]]
 
@@ -96,7 +108,7 @@ def _saved_curves(rows: Sequence[Sequence[str]]) -> Iterator[tuple[str, list[tup
     for k in range(1, len(rows) - 1):
         x, y = _numbers(rows[k][1:]), _numbers(rows[k + 1][1:])
         if len(x) > 1 and len(x) == len(y) and not (_numbers(rows[k][:1]) or _numbers(rows[k - 1])):
-            yield ", ".join(cell.strip() for cell in rows[k - 1]), list(zip(x, y, strict=True))
+            yield ", ".join(rows[k - 1]), list(zip(x, y, strict=True))
 
 
 def _numbers(cells: Sequence[str]) -> list[float]:
@@ -111,10 +123,19 @@ def _checked(points: Sequence[tuple[float, float]]) -> tuple[Floats, Floats]:
     """Return intensities and rates, without the points of rate 0 at the end."""
     x, rate = np.array(points, dtype=float).reshape(-1, 2).T
     known = int(np.count_nonzero(rate))
-    wrong = not np.isfinite(points).all() or (x <= 0.0).any() or (np.diff(x) <= 0.0).any()
-    if wrong or (np.diff(rate[:known]) >= 0.0).any() or (rate[:known] <= 0.0).any() or known < 2:
+    if known < 2:
         raise InputError(
-            f"the curve has {len(points)} points; give two or more, with intensities that increase"
-            " and rates that decrease, above 0 but for the last ones"
+            f"the curve has {numbered(known, 'point')} with a rate above 0; give two or more"
+        )
+    fits = (x > 0.0) & np.isfinite(x) & (rate <= MOST_RATE)
+    fits[1:] &= np.diff(x) > 0.0
+    fits[1:known] &= np.diff(rate[:known]) < 0.0
+    fits[:known] &= rate[:known] > 0.0
+    if not fits.all():
+        at = int(np.flatnonzero(~fits)[0])
+        raise InputError(
+            f"point {at + 1} of the curve is {x[at]:g} at {rate[at]:g} a year; give intensities"
+            f" that increase, and rates of at most {MOST_RATE:g} that decrease, above 0 but for the"
+            " last ones"
         )
     return x[:known], rate[:known]

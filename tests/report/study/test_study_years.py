@@ -48,9 +48,13 @@ def hazard(**changes):
     return Hazard(**{**about, **changes})
 
 
+def curve(*points):
+    return tuple(HazardPoint(intensity=x, annual_rate=rate) for x, rate in points)
+
+
 def yearly(**changes):
     """A study with a typed curve, an array and six friction runs."""
-    rows = tuple(HazardPoint(intensity=x, annual_rate=rate) for x, rate in POINTS)
+    rows = curve(*POINTS)
     values = ((Surface.DRY, 0.47), (Surface.DRY, 0.44), (Surface.DRY, 0.46),
               (Surface.WET, 0.38), (Surface.WET, 0.40), (Surface.WET, 0.42))  # fmt: skip
     runs = tuple(
@@ -79,6 +83,9 @@ def test_files_of_two_columns_and_of_the_tool_are_read():
     assert points_of(TWO, is_spectral=False) == list(POINTS)
     assert points_of(SAVED, is_spectral=False) == [(0.01, 0.5), (0.1, 0.05), (1.0, 1e-4)]
     assert points_of(SAVED, is_spectral=True) == [(0.02, 0.3), (0.2, 0.03)]
+    padded = SAVED.replace("IMT,PGA", "IMT,PGA,,").replace(",0.03\n", ",0.03,\n")
+    assert points_of(padded, is_spectral=True) == [(0.02, 0.3), (0.2, 0.03)]
+    assert points_of("im;rate\n0,01;0,5\n0,1;0,05\n", is_spectral=False) == list(POINTS[:2])
 
 
 @pytest.mark.parametrize(
@@ -105,7 +112,7 @@ def test_a_file_is_read_to_the_roof(tmp_path):
     assert curve.beta == 0.3
     (tmp_path / "curve.csv").write_text("0.1,0.2\n0.05,0.1\n")
     assert "<" not in (said := problems(tmp_path))
-    assert "the curve has 2 points" in said
+    assert "point 2 of the curve is 0.05 at 0.1 a year" in said
     assert said.startswith("Hazard!")
 
 
@@ -122,6 +129,10 @@ def test_a_file_is_read_to_the_roof(tmp_path):
         ({"hazard_points": ()}, ["Site is given without a hazard curve"]),
         ({"intensity": Intensity.PPV}, ["has no hazard curve"]),
         ({"study_arrays": ()}, ["but no array is"]),
+        ({"hazard_points": curve((0.1, 0.5), (1.0, 0.6))}, ["point 2 of the curve is 1 at 0.6"]),
+        ({"hazard_points": curve((0.1, 0.0), (1.0, 0.6))}, ["has 1 point with a rate above 0"]),
+        ({"hazard_points": curve((0.1, 0.5), (1.0, 0.0), (2.0, 0.1))}, ["point 2 of the curve is"]),
+        ({"hazard_points": curve((0.1, 50.0), (1.0, 2.0))}, ["point 1 of the curve is 0.1 at 50"]),
         ({"friction_runs": (StudyFrictionRun(mat="Z", surface=Surface.DRY, number=1, mu=0.5),)},
          ["mat 'Z' is not on the sheet Mats"]),
         ({"friction_runs": (StudyFrictionRun(mat="A", surface=Surface.DRY, number=1, mu=0.5),)},
