@@ -11,6 +11,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from projects.curves.equation import Equation
 from projects.curves.make import INCH, PERIODS_S, Response, halves, peaks, prescriptive_m
 from report.figures.base import (
     ACCENT,
@@ -26,7 +27,6 @@ from report.figures.base import (
     style,
 )
 from solver.model import Floats
-from solver.studies.design_equation import Equation
 
 WIDE_IN, TALL_IN = 7.5, 6.2
 MUS = (0.4, 0.5, 0.6, 0.8)

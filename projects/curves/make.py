@@ -23,13 +23,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from solver.building.roof import to_roof
-from solver.building.structure import building_of_periods
-from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
-from solver.records.spectrum import response_spectrum
-from solver.sliding.sweep import sweep
-from solver.studies.curves import first_allowed
-from solver.studies.design_equation import (
+from projects.curves.equation import (
     RoofRuns,
     ambraseys_menu_m,
     fit_equation,
@@ -37,6 +31,12 @@ from solver.studies.design_equation import (
     saygili_rathje_m,
     scatter,
 )
+from solver.building.roof import to_roof
+from solver.building.structure import building_of_periods
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
+from solver.records.spectrum import response_spectrum
+from solver.sliding.sweep import sweep
+from solver.studies.curves import first_allowed
 
 HERE = Path(__file__).resolve().parent
 PICTURES = HERE.parents[1] / "docs" / "pictures"

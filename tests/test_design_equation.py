@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from solver.model import STANDARD_GRAVITY_MPS2, InputError
-from solver.studies.design_equation import (
+from projects.curves.equation import (
     LEAST_PRD_M,
     Equation,
     RoofRuns,
@@ -14,6 +13,7 @@ from solver.studies.design_equation import (
     saygili_rathje_m,
     scatter,
 )
+from solver.model import STANDARD_GRAVITY_MPS2, InputError
 
 pytestmark = pytest.mark.quick
 
