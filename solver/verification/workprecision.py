@@ -149,8 +149,8 @@ def _measured_in_plane(scene: Scene, runs: Iterable[_Run]) -> pd.DataFrame:
     truth = two_axes.run(scene, TIGHT)
     place = truth.residual_m, truth.residual_across_m
     rows = []
-    for method, setting, run in runs:
-        *_, x_m, y_m, speed_mps = run()
+    for method, setting, solve in runs:
+        *_, x_m, y_m, speed_mps = solve()
         off_m = math.dist((x_m, y_m), place)
         rows.append(
             {
