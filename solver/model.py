@@ -63,7 +63,8 @@ class InputError(ValueError):
 
     Attributes
     ----------
-    parts : tuple of Problem
+    parts : tuple
+        The problems, each with its place.
     problems : tuple of str
         One line for each problem.
     """
@@ -139,9 +140,9 @@ class SlideResult:
     error_m : float
         Largest difference of any displacement from the exact motion under the interpolated record
         [m]: the method's own bound in two axes; in one axis an allowance for rounding error by the
-        method `exact` (`one_axis.rounding`), and NaN for the other methods. If friction decreases
-        with velocity or at breakaway there is no bound: the value is then twice the difference
-        between runs at two tolerances.
+        method `exact`, and NaN for the other methods. If friction decreases with velocity or at
+        breakaway there is no bound: the value is then 16 times the difference between runs at two
+        tolerances.
     """
 
     status: Status

@@ -180,9 +180,9 @@ def at_roof(motion: Motion, building: Building, transverse: Building | None = No
     """Return a ground motion as the roof of an elastic building has it.
 
     The horizontal components are carried through the modes of the building by exact oscillators
-    (Nigam and Jennings, Bull. Seism. Soc. Am. 59 (1969) 909-922; `solver.building.roof.to_roof`);
-    the vertical one is unchanged. The motion is longer than that of the ground, by free vibration,
-    and its step is finer where a mode needs it.
+    (Nigam and Jennings, Bull. Seism. Soc. Am. 59 (1969) 909-922); the vertical one is unchanged.
+    The motion is longer than that of the ground, by free vibration, and its step is finer where a
+    mode needs it.
 
     Parameters
     ----------

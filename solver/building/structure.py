@@ -236,9 +236,9 @@ def building_of_periods(
     """Return a uniform building whose first modes have the given periods.
 
     The roof factors, and the ratios of the periods of higher modes to the last one given, are those
-    of a beam in shear and bending (Miranda and Taghavi, J. Struct. Eng. 131 (2005) 203-211;
-    `beam_modes`). With few stories the lumped floor masses matter: one story has a roof factor
-    of 1, whereas the first mode of a continuous beam has up to 1.57.
+    of a beam in shear and bending (Miranda and Taghavi, J. Struct. Eng. 131 (2005) 203-211).
+    With few stories the lumped floor masses matter: one story has a roof
+    factor of 1, whereas the first mode of a continuous beam has up to 1.57.
 
     Parameters
     ----------
@@ -247,7 +247,7 @@ def building_of_periods(
     damping : sequence of float
         Fraction of critical damping of the first modes; the last value applies to all others.
     alpha0 : float
-        Lateral stiffness ratio, see `beam_modes`; infinity: shear building.
+        Lateral stiffness ratio H sqrt(GA/EI); infinity: shear building.
     stories : int
         Number of equal stories with equal floor masses; 0 for a continuous beam.
 

@@ -67,7 +67,7 @@ def spectrum(
     """Return the response spectra of a record, or of a motion with its scale.
 
     Pseudo-spectral accelerations, exact for the linearly interpolated record: Nigam and Jennings,
-    Bull. Seism. Soc. Am. 59 (1969) 909-922; see `solver.records.spectrum.response_spectrum`.
+    Bull. Seism. Soc. Am. 59 (1969) 909-922.
 
     Parameters
     ----------

@@ -81,13 +81,13 @@ def ac156_horizontal(
 
     Parameters
     ----------
-    edition : Edition
-        Of `solver.EDITIONS`, such as ``EDITIONS["ASCE 7-16"]``.
+    edition
+        A value of `solver.EDITIONS`, such as ``EDITIONS["ASCE 7-16"]``.
     s_ds_g : float
         Design spectral acceleration at short periods [g].
     z_over_h : float
         Height of the array / height of the roof, from 0 to 1.
-    tail : Tail
+    tail : str
         Below 1.3 Hz: ``"AC156"`` or ``"1/T"``.
 
     Returns
@@ -117,7 +117,7 @@ def ac156_vertical(*, s_ds_g: float, tail: Tail = Tail.AC156) -> RequiredSpectru
     ----------
     s_ds_g : float
         Design spectral acceleration at short periods [g].
-    tail : Tail
+    tail : str
         Below 1.3 Hz: ``"AC156"`` or ``"1/T"``.
 
     Returns

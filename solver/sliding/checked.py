@@ -276,8 +276,7 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
     """Solve a scene with the simplest adequate model.
 
     The model is the simplest whose displacements agree, within `Settings.bound_m`, with those of
-    all more complete models, which are run for the comparison; see
-    `solver.sliding.least_model.solve`.
+    all more complete models, which are run for the comparison.
 
     Parameters
     ----------

@@ -52,8 +52,7 @@ class Settings:
         A component is not modeled if its effect on the PRD, every excursion and the residual is at
         most the larger of the first [m] and the second as a fraction of the PRD.
     tolerance : float
-        Tolerance in two axes and with velocity-dependent friction, relative to the PRD
-        (`two_axes.TOLERANCES`).
+        Tolerance in two axes and with velocity-dependent friction, 1e-10 to 1e-2 of the PRD.
     forced : Model or None
         Use this model only.
     """

@@ -103,7 +103,7 @@ class StudyRuns:
         """Return the lognormal fragility of a limit on the PRD of a motion.
 
         The capacity of each motion is searched by runs of its own up to the greatest intensity; a
-        run without a final value exceeds the limit. Needs scipy; see `solver.studies.fragility`.
+        run without a final value exceeds the limit. Needs SciPy, which `./roofslip study` installs.
         """
         from solver.studies.fragility import fragility
 

@@ -227,12 +227,12 @@ def make_suite(
     Sinusoids under an envelope, matched in frequency and then in time (Gasparini and Vanmarcke,
     MIT R76-4, 1976; Lilhanand and Tseng, 9th World Conf. Earthquake Eng. II (1988) 819-824).
 
-    Motion k of a seed is the same for any count. Every component alone satisfies the rows of
-    `solver.records.acceptance` where its target is given and the duration has three cycles: it is
-    scaled so that its spectrum touches the target at the lowest point of `GRIDS` grids of 1/6
-    octave. It is drawn again if it departs from its target by more than `GREATEST` or `MEAN_OFF`,
-    correlates with another component (`MOST_CORRELATION`) or has a significant duration shorter
-    than the hold of the envelope.
+    Motion k of a seed is the same for any count. Every component alone satisfies the limits on
+    motions for analysis where its target is given and the duration has three cycles: it is scaled
+    so that its spectrum touches the target at the lowest point of 100 grids of 1/6 octave. It is
+    drawn again if it exceeds its target by more than 30 % anywhere or 7 % in the mean, correlates
+    with another component by more than 0.3, or has a significant duration shorter than the hold of
+    the envelope.
 
     Records, if given, replace the noise. The phases of a record's strongest part are preserved, and
     with them its pulses and the order of its frequencies. The envelope replaces its level over a

@@ -67,6 +67,24 @@ def test_the_example_of_a_public_function_is_true(name, monkeypatch):
     assert runner.run(test, out=told.append).failed == 0, "".join(told)
 
 
+def test_docstrings_of_public_names_point_to_public_names():
+    parts = {
+        f"{name}.{part}": member
+        for name in public.__all__
+        if inspect.isclass(found := getattr(public, name))
+        for part, member in [("", found), *vars(found).items()]
+        if not part.startswith("_") and (inspect.isroutine(member) or not part)
+    }
+    wrong = [
+        (name, path)
+        for name, each in (FUNCTIONS | parts).items()
+        for path in re.findall(r"`([a-z_]+\.(?!xlsx)[\w.]+)`", inspect.getdoc(each) or "")
+        if path.partition(".")[2] not in public.__all__
+    ]
+    assert len(parts) > 30
+    assert wrong == []
+
+
 def test_a_name_that_is_not_public_is_no_attribute():
     with pytest.raises(AttributeError):
         _ = solver.slope
