@@ -53,10 +53,16 @@ def study(
     A study that was killed goes on where it was. `roofslip new DIR --study` writes a blank
     workbook.
     """
+    from report.study.manifest import NEEDED, extra
+
+    with input_errors(source):
+        for name in NEEDED:
+            extra(name)
+
     from report.results.publish import check_apart, check_of_workbook, output_folder
     from report.study.exports import EXPORTS
     from report.study.files import TABLE
-    from report.study.manifest import ARROW, NAME, extra
+    from report.study.manifest import NAME
     from report.study.run import estimate, planned
 
     folder = out or workbook_of(source).parent / "out/study"
@@ -64,7 +70,6 @@ def study(
         () if dry_run else [folder / name for name in ("study.pdf", "curves.csv", TABLE, *EXPORTS)]
     )
     with input_errors(source, outputs=outputs):
-        extra(ARROW)
         plan, beside = planned(source)
         for cell, text in plan.warnings:
             click.echo(plain(f"warning: {cell}: {text}"), err=True)

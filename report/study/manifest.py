@@ -237,3 +237,5 @@ def extra(name: str) -> Any:
 
 ARROW = "pyarrow.parquet"
 DASK = "distributed"
+NEEDED = ("scipy", ARROW)
+"""By every study; the modules that import them need not be loaded to say so."""

@@ -258,7 +258,7 @@ def test_a_dry_run_prints_and_writes_nothing(tmp_path):
     assert not (folder / "out").exists()
 
 
-@pytest.mark.parametrize("missing", ["pyarrow", "pyarrow.parquet"])
+@pytest.mark.parametrize("missing", ["pyarrow", "pyarrow.parquet", "scipy"])
 def test_without_the_extra_the_command_says_what_to_type(tmp_path, monkeypatch, missing):
     monkeypatch.delitem(sys.modules, "pyarrow.parquet", raising=False)  # of another test
     monkeypatch.setitem(sys.modules, missing, None)
