@@ -2,26 +2,28 @@
 
     .venv/bin/python docs/make.py
 
-`commands.md` is the command line's own help, `workbook-fields.md` the schema of the input sheets
-and `results-json.md` that of results.json, each with its further pages; `examples.md` lists the
-scripts of `docs/examples` with their own first words. A test compares the pages with what this
-would write.
+`commands.md` is the command line's own help, `workbook-fields*.md` the schema of the input sheets;
+`results-json.md` has the first keys of results.json, `api.md` a table of the public names, and
+`examples.md` the scripts of `docs/examples` with their own first words. A test compares the pages
+with what this would write.
 """
 
 from __future__ import annotations
 
+import inspect
 import re
-from collections.abc import Iterator, Mapping
-from itertools import chain, starmap
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import click
 
+import report
 from report.cli.main import main
 from report.entities import results
 from report.sheet.schema import SECTIONS
 from report.sheet.schema.fields import Entry, entries
+from solver import public
 
 HERE = Path(__file__).resolve().parent
 
@@ -31,53 +33,52 @@ EXAMPLES = (
 )  # fmt: skip
 
 
-MOST_LINES = 244
-"""Of a page; what is longer goes on with the next one."""
-
-COMMANDS = "As `./roofslip COMMAND --help` prints them."
-FIELDS = "Every sheet, block and table of the input workbook, as the reader checks them."
-RESULTS = "All quantities are SI; a key ends with its unit. As JSON schema: `./roofslip schema`."
-
 ATTRIBUTES = "\n\nAttributes\n----------\n"
 
+MOTIONS = {"Motions", "Building", "Spectrum", "Options", "Acknowledged"}
+"""Sheets of the second page of fields; the first one has the project and its roof."""
+
+NOT_SI = {"g": "g, 9.80665 m/s²", "deg": "degrees", "percent": "percent", "km": "kilometers"}
+"""Last words of keys of results.json whose value is in no SI unit."""
+
+_NAMES = re.compile(r"(<!-- names -->\n).*?(<!-- end -->)", re.DOTALL)
+
 Parts = Iterator[tuple[str, str]]
-"""Headings, each with what is below it; `{Name}` is a link to the heading Name."""
+"""Headings, each with what is below it."""
 
 
 def pages() -> Mapping[Path, str]:
     """Return every page that is made."""
-    long = (
-        ("commands", "Commands", COMMANDS, _commands()),
-        ("workbook-fields", "Fields of the workbook", FIELDS, _fields()),
-        ("results-json", "results.json", RESULTS, _results()),
-    )
-    made = dict(chain.from_iterable(starmap(_paged, long)))
-    return {HERE / "examples.md": "\n".join(_examples())} | made
+    sheets = list(_fields())
+    split = [part for part in sheets if part[0].partition(":")[0] in MOTIONS]
+    roof = [part for part in sheets if part not in split]
+    made = {
+        "commands": _page("Commands", "As `./roofslip COMMAND --help` prints them.", _commands()),
+        "workbook-fields": _page(
+            "Fields of the workbook: project and roof",
+            "As the reader checks them. Motions, building and options: "
+            "[the other sheets](workbook-fields-motions.md).",
+            roof,
+        ),
+        "workbook-fields-motions": _page(
+            "Fields of the workbook: motions, building and options",
+            "As the reader checks them. Project, site, arrays, objects and clearances: "
+            "[the other sheets](workbook-fields.md).",
+            split,
+        ),
+        "results-json": "\n".join(_results()),
+        "examples": "\n".join(_examples()),
+        "api": _NAMES.sub(
+            lambda found: f"{found[1]}\n{_names()}\n\n{found[2]}",
+            (HERE / "api.md").read_text(encoding="utf-8"),
+        ),
+    }
+    return {HERE / f"{name}.md": text for name, text in made.items()}
 
 
-def _paged(name: str, title: str, about: str, parts: Parts) -> Iterator[tuple[Path, str]]:
-    """Yield the pages of a long text, none longer than it may be."""
-    made: list[list[tuple[str, str]]] = [[]]
-    for part in parts:
-        if sum(text.count("\n") + 4 for _, text in (*made[-1], part)) > MOST_LINES:
-            made.append([])
-        made[-1].append(part)
-    files: list[str] = []
-    titles: list[str] = []
-    links: dict[str, str] = {}
-    for count, page in enumerate(made, start=1):
-        first, last = (heading.partition(":")[0] for heading, _ in (page[0], page[-1]))
-        files.append(f"{name}-{count}.md" if count > 1 else f"{name}.md")
-        titles.append(f"{title}, {first} to {last}" if count > 1 else title)
-        links |= {f"{{{each}}}": f"[{each}]({files[-1]}#{each.lower()})" for each, _ in page}
-    listed = [f"[{title}]({file})" for title, file in zip(titles, files, strict=True)]
-    for file, title, page in zip(files, titles, made, strict=True):
-        goes_on = f"{about} It goes on in {', '.join(listed[1:])}."
-        head = goes_on if file == files[0] else f"Begins in {listed[0]}."
-        text = "\n".join(f"## {heading}\n\n{text}\n" for heading, text in page)
-        for mark, link in links.items():
-            text = text.replace(mark, link)
-        yield HERE / file, f"# {title}\n\n{head}\n\n{text}"
+def _page(title: str, about: str, parts: Iterable[tuple[str, str]]) -> str:
+    text = "\n".join(f"## {heading}\n\n{text}\n" for heading, text in parts)
+    return f"# {title}\n\n{about}\n\n{text}"
 
 
 def _commands() -> Parts:
@@ -94,11 +95,39 @@ def _named(command: click.Command, words: tuple[str, ...]) -> Iterator[tuple[tup
             yield from _named(below, (*words, name))
 
 
+def _names() -> str:
+    """Return the public names, and the keys of the two mappings among them."""
+    offered = [*((public, name) for name in public.__all__), *((report, n) for n in report.__all__)]
+    objects = {name: getattr(package, name) for package, name in offered}
+    rows = ["| function | does |", "|---|---|"]
+    for name, found in objects.items():
+        if inspect.isfunction(found):
+            given = ", ".join(inspect.signature(found).parameters)
+            rows.append(f"| `{name}({given})` | {_first(found)} |")
+    rows += ["", "| class | is |", "|---|---|"]
+    rows += [
+        f"| `{n}` | {_first(found)} |" for n, found in objects.items() if inspect.isclass(found)
+    ]
+    keys = ", ".join(f'`"{key}"`' for key in public.EDITIONS)
+    rows += ["", f"Keys of `EDITIONS`: {keys}. Keys of `METHODS`, the methods in one axis:", ""]
+    rows += ["| key | method | parameters |", "|---|---|---|"]
+    for key, method in public.METHODS.items():
+        given = ", ".join(f"`{name}` = {value:g}" for name, value in method.parameters.items())
+        rows.append(f'| `"{key}"` | {method.title} | {given} |')
+    return "\n".join(rows)
+
+
+def _first(found: object) -> str:
+    sentence = (inspect.getdoc(found) or "").partition("\n\n")[0]
+    return " ".join(sentence.split()).replace("|", "\\|")
+
+
 def _examples() -> Iterator[str]:
     yield "# Examples\n"
     yield (
-        "Scripts that run in the checkout, each in a minute or less. Jupyter (with jupytext) and "
-        "editors that know `# %%` open them as notebooks. Each saves its plots where it runs.\n"
+        "Scripts that run in the checkout: `.venv/bin/python docs/examples/slip.py`. Jupyter (with "
+        "jupytext) and editors that know `# %%` open them as notebooks. Each saves its plots where "
+        "it runs. `fragility.py` needs SciPy, which the first `./roofslip study` installs.\n"
     )
     for name in EXAMPLES:
         title, *words = _first_cell(HERE / "examples" / f"{name}.py")
@@ -147,38 +176,64 @@ def _range(entry: Entry) -> str:
     return "; ".join(said) if entry.bounds.words() else ""
 
 
-def _results() -> Parts:
+RESULTS = """# results.json
+
+All results of a package. `./roofslip schema` prints its JSON schema: every key of every object with
+its type, its heading, and below `description` what it means:
+
+```sh
+./roofslip schema > results.schema.json
+```
+
+A key ends with its unit, in SI: `_m`, `_s`, `_rad`, `_n`, `_pa`, `_mps`, `_mps2`; a key without one
+is a count, a ratio, a text or an object. Keys in other units:
+"""
+
+
+def _results() -> Iterator[str]:
     schema = results.schema()
     models = schema["$defs"]
-    for name, model in (("results.json", schema), *models.items()):
-        if "properties" in model:
-            told, _, attributes = model.get("description", "").partition(ATTRIBUTES)
-            said = dict(_attributes(attributes))
-            keys = [
-                (f"`{key}`", _type(field, models), _text(_meaning(key, field, said)))
-                for key, field in model["properties"].items()
-            ]
-            rows = [("key", "type", "meaning"), ("---",) * 3, *keys]
-            table = "\n".join(f"| {' | '.join(row)} |" for row in rows)
-            yield name, f"{_text(told)}\n\n{table}"
+    objects = [model.get("properties", {}) for model in (schema, *models.values())]
+    keys = sorted({key for each in objects for key in each})
+    yield RESULTS
+    for unit, words in NOT_SI.items():
+        found = [f"`{key}`" for key in keys if key.endswith(f"_{unit}")]
+        yield f"- {words}: {', '.join(found)}"
+    yield (
+        "- as typed: `slope_value` in `slope_unit`, `scale_value` (a factor, or a PPA in g), and "
+        "the `value` of an override"
+    )
+    said = attributes(schema)
+    yield "\nThe file itself, an object with these keys:\n"
+    yield "| key | holds | meaning |\n|---|---|---|"
+    for key, field in schema["properties"].items():
+        yield f"| `{key}` | {_type(field, models)} | {_text(meaning(key, field, said))} |"
+    yield (
+        "\n`schema_version` is raised where a key changes its name or meaning. "
+        "`report --since` reads files of the same version.\n"
+    )
 
 
-def _attributes(section: str) -> Iterator[tuple[str, str]]:
-    """Yield the names of a section Attributes, each with its text, or its type if it has none."""
-    for names, kind, text in re.findall(r"^(\S.*?) : (.*)((?:\n    .*)*)", section, re.M):
-        yield from ((name, text or kind) for name in names.split(", "))
+def attributes(model: Mapping[str, Any]) -> Mapping[str, str]:
+    """Return what the section Attributes of a model says of each, or its type alone."""
+    section = model.get("description", "").partition(ATTRIBUTES)[2]
+    return {
+        name: text or kind
+        for names, kind, text in re.findall(r"^(\S.*?) : (.*)((?:\n    .*)*)", section, re.M)
+        for name in names.split(", ")
+    }
 
 
-def _meaning(key: str, field: Mapping[str, Any], said: Mapping[str, str]) -> str:
+def meaning(key: str, field: Mapping[str, Any], said: Mapping[str, str]) -> str:
     """Return what a field says of itself, or the heading or label under which it is shown."""
     return str(field.get("description") or said.get(key) or field["title"])
 
 
 def _type(field: Mapping[str, Any], models: Mapping[str, Any]) -> str:
-    """Return what a field holds; a link where that is described on its own."""
+    """Return what a field holds; an object by its name in the schema."""
     if "$ref" in field:
         name = str(field["$ref"]).rpartition("/")[2]
-        return f"{{{name}}}" if "properties" in models[name] else _type(models[name], models)
+        return f"`{name}`" if "properties" in models[name] else _type(models[name], models)
     if "anyOf" in field:
         return " or ".join(_type(each, models) for each in field["anyOf"])
     if "enum" in field:

@@ -1,20 +1,30 @@
-"""Draws the pictures of README and docs anew; `tests/bench/work_precision.py` draws the chart.
+"""Draws the pictures of README and docs anew, from the example and from the verification.
 
     .venv/bin/python docs/pictures.py
 
-Needs what `./roofslip test` installs, Chromium included. Sheets of the package are cut at their
-last line; the page is shot as a browser shows it.
+Needs what `./roofslip test` installs, Chromium included. Sheets of the package and a chart of the
+manual are cut at their last line; the page is shot as a browser shows it.
 """
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
+from collections import Counter
+from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from textwrap import fill
 
 import pypdfium2
+from matplotlib.figure import Figure
 from PIL import Image, ImageChops
+
+import report
+from report.figures.base import ACCENT, FAMILY, style
+from report.figures.plan import array_section
+from solver import Model
 
 ROOT = Path(__file__).resolve().parents[1]
 PICTURES = ROOT / "docs" / "pictures"
@@ -27,6 +37,12 @@ SHEETS = {
     "model.png": ("6 Model used", 0.55),
 }
 """Of the package: the heading of a part, and how much of a sheet is shown from there down."""
+CHARTS = {
+    "stability-1": "where-methods-fail.png",
+    "free-body": "free-body.png",
+}
+"""Of the manual, and the section of the method page."""
+PROJECTS = ("conditions", "campus", "school", "example")
 ABOVE_PT = 14.0
 """Of the sheet above a heading."""
 
@@ -36,8 +52,11 @@ def main() -> None:
     with TemporaryDirectory() as folder:
         out = Path(folder)
         _run("report", "projects/example", "--out", str(out / "package"), "--quiet")
+        _run("verify", "--out", str(out / "manual"))
+        _run("study", "projects/study", "--out", str(out / "study"), "--quiet")
         _sheets(out / "package" / "calc-package.pdf")
-        _browser(out)
+        _browser(out / "manual" / "charts")
+        _models(out / "study" / "manifest.json")
 
 
 def _run(*words: str) -> None:
@@ -59,21 +78,83 @@ def _sheets(path: Path) -> None:
         _save(image.crop((0, round(scale * top), image.width, round(scale * below))), name)
 
 
-def _browser(folder: Path) -> None:
+def _browser(charts: Path) -> None:
     from browsing import at_rest, chromium, moved, opened, quiet_page, served
 
-    with chromium() as browser, quiet_page(browser) as page, served() as (address, _):
-        opened(page, address)
-        moved(page, "friction", 0.8)
-        at_rest(page)
-        page.screenshot(path=folder / "page.png")
-        _save(Image.open(folder / "page.png"), "browser.png")
-        moved(page, "friction", 1.0)
-        at_rest(page)
-        page.get_by_role("tab", name="Watch it slide").click()
-        page.get_by_role("slider", name="Time").fill("23.3")
-        page.screenshot(path=folder / "slide.png")
-        _save(Image.open(folder / "slide.png"), "browser-slide.png")
+    with chromium() as browser, quiet_page(browser) as page:
+        example = report.read_project("projects/example").project
+        free_body = array_section(example.arrays[-1], us_first=True)
+        (charts / "free-body.svg").write_text(free_body, encoding="utf-8")
+        for chart, name in CHARTS.items():
+            drawn = (charts / f"{chart}.svg").read_text(encoding="utf-8")
+            html = charts / "chart.html"
+            html.write_text(f"<style>{_faces()}</style>{drawn}", encoding="utf-8")
+            page.goto(html.as_uri())
+            page.evaluate("document.fonts.ready")
+            page.locator("svg").screenshot(path=charts / "chart.png")
+            _save(Image.open(charts / "chart.png"), name)
+        with served() as (address, _):
+            opened(page, address)
+            moved(page, "friction", 0.8)
+            at_rest(page)
+            page.screenshot(path=charts / "page.png")
+            _save(Image.open(charts / "page.png"), "browser.png")
+            moved(page, "friction", 1.0)
+            at_rest(page)
+            page.get_by_role("tab", name="Watch it slide").click()
+            page.get_by_role("slider", name="Time").fill("23.3")
+            page.screenshot(path=charts / "slide.png")
+            _save(Image.open(charts / "slide.png"), "browser-slide.png")
+
+
+def _models(manifest: Path) -> None:
+    """Draw the runs of each project by the model that was chosen, with a reason for the last."""
+    runs: dict[str, Counter[Model]] = {}
+    reasons: dict[str, str] = {}
+    for name in PROJECTS:
+        solutions = [
+            run.solution
+            for array in report.assess_project(ROOT / "projects" / name).arrays
+            for run in array.runs
+        ]
+        runs[name] = Counter(solution.model for solution in solutions)
+        largest = max(solutions, key=lambda solution: (solution.model, solution.result.prd_m))
+        reasons[name] = largest.reason
+    counted = json.loads(manifest.read_text(encoding="utf-8"))["models"]
+    runs["study"] = Counter({model: counted.get(model.title, 0) for model in Model}) + Counter()
+    simpler = sum(count for model, count in runs["study"].items() if model < Model.TWO_AXES)
+    share = simpler / runs["study"].total()
+    reasons["study"] = f"the second horizontal component; {share:.0%} of the runs do without it"
+    with style():
+        figure = Figure(figsize=(8.0, 3.1), dpi=200)
+        axes = figure.add_axes((0.1, 0.02, 0.45, 0.74))
+        for row, (name, count) in enumerate(runs.items()):
+            for model, found in count.items():
+                axes.barh(-row, 0.9, left=model - 0.45, height=0.62, color=ACCENT)
+                axes.text(model, -row, f"{found:,}", ha="center", va="center", color="white")
+            axes.text(4.75, -row, fill(reasons[name], 52), va="center")
+        used = [model for model in Model if model <= Model.SPEED_FRICTION]
+        axes.set_xticks(used, [fill(f"{model:d}: {model.title}", 13) for model in used])
+        axes.text(4.75, 0.9, "Why the most complete of these", va="bottom", weight="semibold")
+        axes.xaxis.tick_top()
+        axes.set_yticks([-row for row in range(len(runs))], list(runs))
+        axes.set_xlim(-0.5, 4.5)
+        axes.tick_params(length=0)
+        for side in axes.spines.values():
+            side.set_visible(False)
+        drawn = BytesIO()
+        figure.savefig(drawn)
+        _save(Image.open(drawn), "models.png")
+
+
+def _faces() -> str:
+    """Return where a browser finds the fonts of the charts."""
+    weights = {"Regular": 400, "Semibold": 600}
+    return "".join(
+        f"@font-face {{ font-family: '{FAMILY}'; font-weight: {weight};"
+        f" src: url('{(ROOT / 'templates/fonts').as_uri()}/SourceSans3-{name}.ttf') }}"
+        for name, weight in weights.items()
+    )
 
 
 def _save(image: Image.Image, name: str) -> None:

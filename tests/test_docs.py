@@ -1,7 +1,6 @@
-"""Every command and every line of Python in README and docs runs, in a separate folder.
+"""Every command of README and docs runs as it is pasted, in order, in a fresh copy; Python too.
 
-The report of the example runs as by a script, the other commands in this process. What the reader
-is to fill in is here a small project; the study has fewer motions, slopes and intensities.
+The launcher's set-up is that of tests/test_roofslip.py. The study has fewer slopes and intensities.
 """
 
 import json
@@ -11,24 +10,24 @@ import shlex
 import shutil
 import subprocess
 import sys
+import tomllib
 from dataclasses import replace
 from functools import cache
 from importlib.util import module_from_spec, spec_from_file_location
+from itertools import chain
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 
 import packages
-import report.typeset.pdf
 import solver.public
 from cells import cell
-from places import ROOT
-from report.cli.main import main
+from places import RECORDS, ROOT
 from report.results.publish import STAMP
-from report.typeset.pdf import lay_out
-from sheets import edit, make
+from report.sheet.schema.choices import RuleSetName
+from sheets import edit
 from solver.model import Friction
+from solver.rules.rulesets import RULE_SETS
 from solver.sliding.checked import scene, slide
 from solver.sliding.two_axes import run as run_in_two_axes
 
@@ -48,14 +47,12 @@ def blocks(language):
     ]
 
 
-COMMANDS = list(
-    dict.fromkeys(
-        line.split("#")[0].strip()
-        for block in blocks("sh")
-        for line in block.splitlines()
-        if line.startswith("./roofslip")
-    )
-)
+COMMANDS = [
+    line.split("#")[0].strip()
+    for block in blocks("sh")
+    for line in block.splitlines()
+    if line.strip()
+]
 
 
 _SPEC = spec_from_file_location("make_docs", ROOT / "docs" / "make.py")
@@ -64,67 +61,50 @@ _SPEC.loader.exec_module(make_docs)
 
 REPORT = ["report", "projects/example"]
 ELSEWHERE = (
-    REPORT,  # run by `reported`
-    ["test"],  # runs this test
-    ["serve"],  # until Ctrl+C: run by tests/report/web/test_page.py
-    ["verify", "--quick"],  # run by tests/report/cli/test_verify.py
-    # A certificate is needed: run by tests/report/proof/test_sign.py.
-    ["sign", "projects/yours/out/calc-package.pdf", "--p12", "yours.p12"],
+    "./roofslip test",  # runs this test
+    "./roofslip serve",  # until Ctrl+C: run by tests/report/web/test_page.py
+    "./roofslip verify --quick",  # run by tests/report/cli/test_verify.py
 )
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """Example and study alone, as in a fresh checkout; of the study's seven motions three.
-
-    The example has its records and a small workbook: `reported` reports on its own.
-    """
+    """The records of the example, as in a checkout."""
     top = tmp_path_factory.mktemp("checkout")
-    for name, others in (("example", ()), ("study", ("RM[4-7]-*",))):
-        ignored = shutil.ignore_patterns("out", *others)
-        shutil.copytree(ROOT / "projects" / name, top / "projects" / name, ignore=ignored)
-    make(top / "projects" / "example")
+    records = "projects/example/records"
+    shutil.copytree(ROOT / records, top / records)
     return top
 
 
 @pytest.fixture(scope="module")
 def reported(tmp_path_factory):
     """The example with its report as by a script."""
-    assert shlex.join(["./roofslip", *REPORT]) in COMMANDS
     return packages.reported(tmp_path_factory, "example", by_script=True)
 
 
 @pytest.fixture(scope="module")
-def commanded(folder):
-    """The folder after the other commands, and what each printed.
-
-    What one command has laid out the next ones are given. `report` of several projects starts no
-    processes: it does in tests/report/cli/test_several.py.
-    """
-    laid_out, printed = {}, {}
-
-    def kept(html, attached=()):
-        files = tuple(attached)
-        if (html, files) not in laid_out:
-            laid_out[html, files] = lay_out(html, files)
-        return laid_out[html, files]
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(folder)
-        patch.setattr(report.typeset.pdf, "lay_out", kept)
-        for command in COMMANDS:
-            words = shlex.split(command)[1:]
-            if words in ELSEWHERE:
-                continue
-            done = CliRunner().invoke(main, words)
-            assert done.exit_code == 0, command + done.output
-            printed[shlex.join(words)] = done.output
-            if words == ["new", "projects/yours"]:
-                assert (folder / "projects" / "yours" / "input.xlsx").is_file()
-                make(folder / "projects" / "yours")
-            elif words == ["study", "projects/study", "--dry-run"]:
-                edit(folder / "projects" / "study" / "input.xlsx", few_cases)
-    return folder, printed
+def pasted(tmp_path_factory):
+    """A fresh copy after every command, and what each printed."""
+    top = tmp_path_factory.mktemp("copy")
+    listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, check=True)
+    for name in filter(None, listed.stdout.decode().split("\0")):
+        if (ROOT / name).is_file():
+            (top / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / name, top / name)
+    launcher = f'#!/bin/sh\nPYTHONPATH=. exec {shlex.quote(sys.executable)} -m report.cli "$@"\n'
+    (top / "roofslip").write_text(launcher)
+    printed = []
+    for command in COMMANDS:
+        if command in ELSEWHERE:
+            continue
+        done = subprocess.run(
+            ["sh", "-c", command], cwd=top, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 0, command + "\n" + done.stdout + done.stderr
+        printed.append((command, done.stdout))
+        if "--dry-run" in command:
+            edit(top / "projects" / "study" / "input.xlsx", few_cases)
+    return top, printed
 
 
 def few_cases(book):
@@ -134,19 +114,20 @@ def few_cases(book):
 
 
 @pytest.mark.nightly
-def test_every_command_of_the_readme_runs(commanded):
-    folder, printed = commanded
-    assert {command.split()[1] for command in COMMANDS} >= {"report", "test", "new", "check"}
-    assert len(printed) + len(ELSEWHERE) == len({tuple(shlex.split(line)) for line in COMMANDS})
-    assert (folder / "projects" / "yours" / "out" / "calc-package.pdf").is_file()
+def test_every_command_of_readme_and_docs_runs_as_it_is_pasted(pasted):
+    top, printed = pasted
+    assert {command.split()[1] for command, _ in printed} >= {"report", "new", "check", "plan"}
+    assert len(printed) + sum(command in ELSEWHERE for command in COMMANDS) == len(COMMANDS) > 30
+    for name in ("example", "trial", "warehouse"):
+        assert (top / "projects" / name / "out" / "calc-package.pdf").is_file()
 
 
 @pytest.mark.nightly
-def test_the_study_of_the_readme_has_its_curves(commanded):
-    folder, printed = commanded
+def test_the_study_of_the_docs_has_its_curves(pasted):
+    top, printed = pasted
     # Three mats on eight slopes at twenty intensities, and the cases of the array.
-    assert printed["study projects/study --dry-run"].startswith("557 cases, ")
-    out = folder / "projects" / "study" / "out" / "study"
+    assert dict(printed)["./roofslip study projects/study --dry-run"].startswith("557 cases, ")
+    out = top / "projects" / "study" / "out" / "study"
     assert len((out / "curves.csv").read_text().splitlines()) == 1 + 3 * 3 * 10
     assert (out / "study.pdf").stat().st_size > 10_000
 
@@ -239,6 +220,70 @@ def test_every_page_is_in_the_contents_and_none_is_long():
     assert len(README.split()) <= 1500
 
 
+def test_every_page_is_found_from_the_home_page():
+    home = DOCS[ROOT / "docs" / "index.md"]
+    assert set(re.findall(r"\]\(([\w-]+\.md)", home)) == set(NAV) - {"index.md"}
+
+
+@pytest.mark.quick
+def test_the_readme_says_what_each_dependency_is_for():
+    said = README.partition("Dependencies: ")[2].partition("\n\n")[0]
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    needed = [*project["dependencies"], *chain(*project["optional-dependencies"].values())]
+    names = {re.match(r"[\w-]+", each)[0] for each in needed}
+    assert names <= set(re.findall(r"[\w-]+", said))
+
+
+@pytest.mark.quick
+def test_the_architecture_names_files_and_what_is_in_them():
+    page = DOCS[ROOT / "docs" / "architecture.md"]
+    rows = re.findall(r"^\| [^|]+ \| `([\w/.]+)` \| (.+) \|$", page, re.MULTILINE)
+    assert len(rows) == 10
+    for path, names in rows:
+        text = (ROOT / path).read_text()
+        assert [name for name in re.findall(r"`(\w+)`", names) if name not in text] == [], path
+    paths = re.findall(r"`((?:solver|report|templates|tests)/[\w/.]+)`", page)
+    assert [path for path in paths if not (ROOT / path).exists()] == []
+
+
+def integrated(a_mps2, dt_s, mu, parts=200):
+    """The PRD of a block on a level surface [m]: v' = -a - mu g sign v in sub-steps."""
+    v = s = peak = 0.0
+    h = dt_s / parts
+    for a in np.interp(np.arange(0, a_mps2.size - 1, 1 / parts) + 0.5 / parts,
+                       np.arange(a_mps2.size), a_mps2).tolist():  # fmt: skip
+        free = v - a * h
+        before, v = v, max(free - mu * 9.80665 * h, 0.0) + min(free + mu * 9.80665 * h, 0.0)
+        s += 0.5 * (before + v) * h
+        peak = max(peak, abs(s))
+    return peak
+
+
+@pytest.mark.parametrize("record", ["made", pytest.param("Lixouri", marks=pytest.mark.nightly)])
+def test_the_published_spectrum_is_computed_as_the_page_says(record, tmp_path, monkeypatch, capsys):
+    page = DOCS[ROOT / "docs" / "other-programs.md"]
+    (program,) = re.findall(r"```text\n(import numpy.*?)```", page, re.DOTALL)
+    path = re.search(r'loadtxt\("(.*?)"\)', program)[1]
+    theirs = RECORDS / path.rpartition("/")[2]
+    (tmp_path / path).parent.mkdir(parents=True)
+    t_s = np.arange(4601, 6600) * 0.005
+    a_mps2 = 6.0 * np.sin(7.0 * t_s) * np.sin(0.3 * (t_s - 23.0)) ** 2
+    np.savetxt(tmp_path / path, np.transpose([t_s, 100.0 * a_mps2]))
+    if record == "Lixouri":
+        if not theirs.is_file():
+            pytest.skip("the record is not here; the page says where it is")
+        shutil.copy(theirs, tmp_path / path)
+    monkeypatch.chdir(tmp_path)
+    exec(compile(program, "page", "exec"), {})
+    computed = dict(line.split() for line in capsys.readouterr().out.splitlines())
+    if record == "Lixouri":
+        assert computed == dict(re.findall(r"^\| (0\.\d\d) \| [\d.]+ \| ([\d.]+) \|$", page, re.M))
+    else:
+        for mu, prd_m in computed.items():
+            assert float(prd_m) == pytest.approx(integrated(a_mps2, 0.005, float(mu)), abs=2e-4)
+    assert len(computed) == 5
+
+
 def test_the_answers_have_the_numbers_of_the_example(reported):
     page = DOCS[ROOT / "docs" / "questions.md"]
     found = json.loads((reported.out / "results.json").read_text())
@@ -254,12 +299,31 @@ def test_the_answers_have_the_numbers_of_the_example(reported):
 
 
 @pytest.mark.quick
+def test_the_answers_on_slopes_and_roofs_have_the_numbers_of_the_rules_and_curves():
+    page = DOCS[ROOT / "docs" / "questions.md"]
+    pv1, asce = (RULE_SETS[RuleSetName(name)] for name in ("SEAOC PV1-2012", "ASCE 7-22"))
+    for rules, route, said in (
+        (pv1, "prescriptive", "3° for the prescriptive displacement"),
+        (pv1, "analysis", "7° for the\nanalysis"),
+        (asce, "prescriptive", "(2.86°) for both"),
+        (asce, "analysis", "(2.86°) for both"),
+        (pv1, "ibc", "(4.76°) for every"),
+    ):
+        assert re.search(r"[\d.]+", said)[0] == f"{rules[f'{route}_max_slope_deg']:.3g}"
+        assert said in page
+    curves = DOCS[ROOT / "docs" / "design-curves.md"]
+    rock, *roofs = map(float, re.findall(r"^\| (?:rock|roof, .*?) \| ([\d.]+) \|", curves, re.M))
+    said = f"{min(roofs) / rock:.1f} to {max(roofs) / rock:.1f} times in the median"
+    assert said in page
+
+
+@pytest.mark.quick
 def test_every_key_of_results_json_has_a_meaning_that_is_more_than_its_name():
+    schema = make_docs.results.schema()
     rows = [
-        row
-        for path, text in make_docs.pages().items()
-        if path.name.startswith("results-json")
-        for row in re.findall(r"^\| `(\w+)` \| .*? \| (.*?) \|$", text, re.MULTILINE)
+        (key, make_docs.meaning(key, field, make_docs.attributes(model)))
+        for model in (schema, *schema["$defs"].values())
+        for key, field in model.get("properties", {}).items()
     ]
     assert len(rows) > 400
     named = [
@@ -290,5 +354,5 @@ def test_the_site_is_built_without_a_broken_link_or_reference(tmp_path):
     told = os.environ | {"DISABLE_MKDOCS_2_WARNING": "true"}
     done = subprocess.run(words, cwd=ROOT, env=told, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
-    api = (tmp_path / "api.html").read_text()
+    api = (tmp_path / "api-reference.html").read_text()
     assert [name for name in solver.public.__all__ if f'id="solver.public.{name}"' not in api] == []

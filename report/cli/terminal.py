@@ -102,7 +102,7 @@ is asked for; not all could be compared; cut off by Ctrl+C."""
 
 QUIET = click.option("--quiet", is_flag=True, help="Print errors only.")
 AS_JSON = click.option(
-    "--json", "as_json", is_flag=True, help="Print JSON in SI units, with the units in the keys."
+    "--json", "as_json", is_flag=True, help="Print JSON, with the units in the keys."
 )
 FAIL_ON_NG = click.option(
     "--fail-on-ng", is_flag=True, help=f"Exit with code {NOT_OK} where the verdict is not OK."

@@ -1,4 +1,4 @@
-"""results.json as one model: the assessment and its evidence in SI units.
+"""results.json as one model: the assessment and its evidence, with units in the keys.
 
 Computes nothing. Read `Results`; `report.results.results_json` writes and reads it.
 """

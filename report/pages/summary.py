@@ -158,7 +158,7 @@ def without_motions(assessment: Assessment) -> str:
 
 
 def document(assessment: Assessment) -> dict[str, Any]:
-    """Return the same for JSON, in SI units, with null for no value."""
+    """Return the same for JSON, with units in the keys and null for no value."""
     return {
         "verdict": assessment.verdict.value,
         "arrays": [_array(assessment, item) for item in assessment.arrays],

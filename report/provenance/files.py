@@ -243,7 +243,7 @@ _KINDS = {
     "record": ("Data", "Record of motion"),
     "document": ("Supplement", "Document that the workbook names"),
     "former": ("Source", "Results of the former revision"),
-    "results": ("Data", "Results in SI units"),
+    "results": ("Data", "Results, with units in their keys"),
     "manifest": ("Supplement", "What the package is computed from, and by which software"),
 }
 

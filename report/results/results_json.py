@@ -1,4 +1,4 @@
-"""results.json: a dump of `report.entities.results`, in SI units with null for no value.
+"""results.json: a dump of `report.entities.results`, with units in the keys and null for no value.
 
 Computes nothing.
 
