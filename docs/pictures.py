@@ -34,6 +34,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 SHEETS = {
     "summary.png": ("1 Summary", 1.0),
     "comparison.png": ("2 Comparison with the prescriptive displacement", 0.66),
+    "comparison-chart.png": ("2 Comparison with the prescriptive displacement", 0.283),
     "model.png": ("6 Model used", 0.55),
 }
 """Of the package: the heading of a part, and how much of a sheet is shown from there down."""
