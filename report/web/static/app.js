@@ -54,9 +54,7 @@ const takeaway = mountTakeaway(
   api,
   { values: session.values, words: (values) => changes(values, state), fail, forget: hideError },
 );
-
 const motions = mountMotions(part("no-motions"), api, { open: opening, fail });
-
 const offerDrawing = mountDrawing(part("drawing"), api, { open: opening, filled: putBack, fail });
 
 let dropped = null; // the files of the last upload
@@ -113,8 +111,7 @@ function take(files) {
 
 // What is sent again has the workbook as it was filled in.
 function putBack({ name, blob }) {
-  const at = ({ path }) => path.split("/").length;
-  const [workbook] = dropped.filter(({ path }) => path.split("/").at(-1) === name).toSorted((a, b) => at(a) - at(b));
+  const [workbook] = dropped.filter(({ path }) => path.split("/").at(-1) === name).toSorted((a, b) => a.path.split("/").length - b.path.split("/").length);
   dropped = dropped.map((one) => (one === workbook ? { ...one, file: blob } : one));
 }
 
