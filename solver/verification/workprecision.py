@@ -156,7 +156,7 @@ def _measured_in_plane(scene: Scene, runs: Iterable[_Run]) -> pd.DataFrame:
             {
                 "method": method,
                 "parameters": setting,
-                "time per run [s]": math.nan if math.isnan(off_m) else minimum_seconds(run),
+                "time per run [s]": math.nan if math.isnan(off_m) else minimum_seconds(solve),
                 "residual error [%]": 100.0 * off_m / truth.prd_m,
                 "position error [m]": off_m,
                 "final velocity [m/s]": speed_mps,
