@@ -6,8 +6,8 @@ Margins and confidence: clearances, directions, smaller events.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from report.assessment.arrays import ArrayAssessment, by_id
 from report.assessment.evidence import Accuracy, Cumulative, Evidence
@@ -114,58 +114,42 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "percent": _PERCENT,
         "no_slip": Model.NO_SLIP,
         "two_axes": Model.TWO_AXES,
-        "friction": _friction_table(package, tuple(_by_array(accuracy))),
+        "friction": _friction_table(package, accuracy),
         "n_more_unfinished": _unfinished(accuracy.at_reduced_friction)
         - _unfinished(accuracy.given),
     }
 
 
-@dataclass(frozen=True, slots=True)
-class _Varied:
-    """Arrays that share their runs, by one of them: its friction as given, less and more.
+def _friction_table(package: PackageData, accuracy: Accuracy) -> Table:
+    """Return arrays that share their runs, by one of them: friction as given, less and more."""
+    assessments = (accuracy.at_reduced_friction, accuracy.given, accuracy.at_increased_friction)
+    heads = (f"{_PERCENT} less", "As given", f"{_PERCENT} more")
 
-    Without a design displacement as given where no route is permitted.
-    """
+    def of(group: Sequence[ArrayAssessment], place: int) -> ArrayAssessment:
+        # Without a design displacement as given where no route is permitted.
+        array = by_id(assessments[place].arrays, group[0].id)
+        return replace(array, design_m=array.permitted_m)
 
-    ids: Sequence[str]
-    given: ArrayAssessment
-    at_reduced_friction: ArrayAssessment
-    at_increased_friction: ArrayAssessment
-
-
-def _by_array(accuracy: Accuracy) -> Iterator[_Varied]:
-    assessments = (accuracy.given, accuracy.at_reduced_friction, accuracy.at_increased_friction)
-    for group in accuracy.given.alike:
-        arrays = (by_id(assessment.arrays, group[0].id) for assessment in assessments)
-        varied = (replace(array, design_m=array.permitted_m) for array in arrays)
-        yield _Varied([array.id for array in group], *varied)
-
-
-def _friction_table(package: PackageData, arrays: Sequence[_Varied]) -> Table:
-    columns = (
-        (words("Array", 1.2), lambda row: ranged(row.ids)),
-        (text("μ", share=package.mu_share), lambda row: mu_words(row.given.array.friction)),
-        _design(package, f"{_PERCENT} less", lambda row: row.at_reduced_friction),
-        _design(package, "As given", lambda row: row.given),
-        _design(package, f"{_PERCENT} more", lambda row: row.at_increased_friction),
-        (
-            text("Change", f"{_PERCENT} less"),
-            lambda row: _change(row.at_reduced_friction.design_m, row.given.design_m),
+    columns: Sequence[Column] = (
+        (words("Array", 1.2), lambda group: ranged(array.id for array in group)),
+        (text("μ", share=package.mu_share), lambda group: mu_words(group[0].array.friction)),
+        *(
+            (
+                required(head),
+                lambda group, k=k: of(group, k).design_m,
+                lambda group, k=k: package.design_mark(of(group, k)),
+            )
+            for k, head in enumerate(heads)
         ),
-        (
-            text("Change", f"{_PERCENT} more"),
-            lambda row: _change(row.at_increased_friction.design_m, row.given.design_m),
+        *(
+            (
+                text("Change", heads[k]),
+                lambda group, k=k: _change(of(group, k).design_m, of(group, 1).design_m),
+            )
+            for k in (0, 2)
         ),
     )
-    return listed(arrays, columns, package.fmt, kind="compact")
-
-
-def _design(package: PackageData, head: str, which: Callable[[_Varied], ArrayAssessment]) -> Column:
-    return (
-        required(head),
-        lambda row: which(row).design_m,
-        lambda row: package.design_mark(which(row)),
-    )
+    return listed(accuracy.given.alike, columns, package.fmt, kind="compact")
 
 
 def _change(value: float, base: float) -> str:

@@ -97,7 +97,7 @@ def test_every_page_is_whole(state):
     assert [found[0] for found in re.finditer(f".{{0,40}}({broken})", words)] == []
 
     body = ElementTree.fromstring(html).find("body")
-    listed = {one.get("data-no") for one in body.iterfind(".//ul[@class='toc']//a")}
+    listed = {one.get("data-no") for one in body.iterfind(".//section[@class='contents']//a")}
     references = re.findall(r"\b(?:part (\d+(?:\.\d+)?)|appendix ([A-Z]))\b", words)
     assert len(references) > 10
     assert {number or letter for number, letter in references} <= listed

@@ -105,8 +105,8 @@ def test_a_law_is_fitted_to_four_velocities_and_drawn():
     shown = printed(scenes.package(arrays=arrays, friction_runs=wet, clearances=[]), "inputs")
     assert "no dry runs are given" in shown
     assert shown.line("Wet, 4 velocities").startswith(
-        "Wet, 4 velocities: least squares gives 0.380 at low velocity, 0.460 at high velocity and"
-        " a rate of 20.0 s/m. Root mean square residual 0.0000, with one coefficient instead 0.0"
+        "Wet, 4 velocities: fit μ = 0.380 at low and 0.460 at high velocity, rate 20.0 s/m;"
+        " rms residual 0.0000, of one coefficient 0.0"
     )
     assert shown.line("Array A1: mean of μ(v) at the tested velocities")
     assert "Dashed: laws fitted" in shown
