@@ -53,7 +53,7 @@ _USUAL = "out"
 
 @click.command()
 @click.option("--out", type=SOURCE, help="Folder for the outputs; default: out.")
-@click.option("--quick", is_flag=True, help="Run fewer records, cases and settings; takes seconds.")
+@click.option("--quick", is_flag=True, help="Run fewer records, cases and settings.")
 @click.option("--records", type=_FOLDER, help="Folder of recorded motions. Files with three "
               "components are run with every model; roof_575_market (ground and floor records of "
               "575 Market Street) is compared with the building model.")  # fmt: skip
