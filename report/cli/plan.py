@@ -154,14 +154,13 @@ def read(
     """
     from report.drawing.fill import changes, layers_of, plan_as_rows, unread
     from report.sheet.checking.plan_checks import us_first
-    from report.sheet.reading.read import read_book
     from report.sheet.writing.filled import changing, withdrawn
     from report.text.units import LENGTHS
     from solver.model import InputError
 
     gap_m = gap[0] * LENGTHS[gap[1]]
     with input_errors(project), no_collections(), changing(project) as change:
-        draft = read_book(change.book).draft
+        draft = change.sheet_before.draft
         is_us = us_first(draft)
         with input_errors(drawing):
             drawn, unit_m = _read(drawing, units)
@@ -221,7 +220,8 @@ def _add_clearances(change: WorkbookChange) -> Sequence[str]:
     from report.sheet.reading.read import read_book, without_motions
     from solver.model import InputError
 
-    sheet, not_run = read_book(change.book), []
+    sheet = read_book(change.book) if change.written else change.sheet_before
+    not_run: list[str] = []
     without_motions(sheet)  # an error in it does not wait for the compiler, which these load
     from report.assessment.assess import assess
     from report.assessment.plan_clearances import missing_rows, without_clearances

@@ -13,6 +13,7 @@ import os
 from collections.abc import Iterator, Mapping, Sequence, Set
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import groupby, starmap
 from pathlib import Path
 
@@ -44,7 +45,7 @@ _OPEN_ELSEWHERE = ("~${}", ".~lock.{}#")
 """Files that Excel and LibreOffice put beside a workbook while they have it open."""
 
 
-@dataclass(slots=True)
+@dataclass
 class WorkbookChange:
     """A workbook that is being changed, and files that are written beside it by their names."""
 
@@ -64,6 +65,11 @@ class WorkbookChange:
     def note(self, cells: Mapping[CellPosition, Value]) -> None:
         """Change cells that no formula refers to."""
         self.book = book_of(self.book.path, changed(self.book.data, cells, recalculates=False))
+
+    @cached_property
+    def sheet_before(self) -> Sheet:
+        """What was read from the workbook as it was."""
+        return read_book(self.before)
 
     @property
     def areas(self) -> str:
@@ -183,7 +189,7 @@ def _area(reference: str, title: str) -> tuple[str, tuple[int, int, int, int] | 
 
 def withdrawn(change: WorkbookChange) -> list[str]:
     """Empty who confirmed the distances from the drawing, and when, if they changed; say so."""
-    before = read_book(change.before)
+    before = change.sheet_before
     stated = {
         Place("project", 0, field): row[field]
         for row in before.draft["project"]
