@@ -17,8 +17,6 @@ import re
 from collections.abc import Sequence
 from contextlib import suppress
 
-import numpy as np
-
 from solver.formats.channels import (
     Channel,
     MotionFile,
@@ -26,19 +24,11 @@ from solver.formats.channels import (
     motion_file,
     offset_notes,
 )
-from solver.formats.numbers import (
-    COMPARED,
-    Block,
-    check_last,
-    field_problems,
-    free_values,
-    number_in,
-    printed,
-)
+from solver.formats.numbers import COMPARED, Block, check_last, dated_table, free_values, printed
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
 from solver.model import InputError
-from solver.records.record import raise_any, shown
+from solver.records.record import shown
 
 _HEADING_LINES = 20
 _SCALE = re.compile(r"([\d.]+)\s*\(\s*([A-Z]+)\s*\)\s*/\s*([\d.]+)", re.ASCII | re.IGNORECASE)
@@ -72,14 +62,8 @@ def _csv(source: Source, at: int) -> MotionFile:
     rows = [(i, row.split(",")) for i, row in enumerate(source.lines) if i > at and row.strip()]
     if len(rows) < 2:
         raise InputError(f"{source.at(at)}: found {len(rows)} rows below it; give the whole file")
-    raise_any(
-        f"{source.at(index)}: found {len(fields)} columns; give {len(heads)}"
-        for index, fields in rows
-        if len(fields) != len(heads)
-    )
-    raise_any(problem for i, fields in rows for problem in field_problems(source, i, fields[1:]))
+    table = dated_table(source, rows, len(heads))
     check_last(source, rows[-1][0], [fields[-1].strip() for _, fields in rows[-COMPARED:]])
-    table = np.array([[number_in(field) for field in fields[1:]] for _, fields in rows])
     even = sampled(source, table[:, 0], table[:, 1:].T, lambda i: rows[i][0])
     channels = []
     for head, values in zip(heads[2:], even.columns, strict=True):

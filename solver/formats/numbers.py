@@ -46,6 +46,11 @@ class FieldFormat:
     per_line: int
     width: int
 
+    @property
+    def whole(self) -> int:
+        """Characters of a full line."""
+        return self.per_line * self.width
+
     def lines(self, count: int) -> int:
         """Number of lines for `count` values."""
         return -(-count // self.per_line)
@@ -75,15 +80,8 @@ def layout_of(text: str) -> FieldFormat | None:
 def fixed_values(source: Source, block: Block, layout: FieldFormat) -> Floats:
     """Values of a block of fixed columns, in which every line but the last is full.
 
-    Returns
-    -------
-    array, shape (block.count,)
-
-    Raises
-    ------
-    InputError
-        With every invalid field, or if there are fewer values than stated, or if a line is cut
-        within a number.
+    Raises `InputError` with every invalid field, or if there are fewer values than stated, or if a
+    line is cut within a number.
     """
     _check_enough(source, block)
     last = min(block.first + layout.lines(block.count), block.stop)
@@ -151,10 +149,7 @@ def check_last(source: Source, index: int, fields: Sequence[str]) -> None:
 def is_cut_short(fields: Sequence[str]) -> bool:
     """Whether the last of some numbers has fewer digits than all others, which have equally many.
 
-    Parameters
-    ----------
-    fields : sequence of str
-        The last ones of a file, at most `COMPARED`.
+    They are the last ones of a file, at most `COMPARED`.
     """
     *others, last = map(_digits, fields)
     is_even = len(others) >= _ENOUGH and len({*others}) == 1 and others[0][0] > 0
@@ -172,7 +167,7 @@ def header_values(source: Source, first: int, count: int, layout: FieldFormat) -
     values = [
         printed(field.translate(_FORTRAN), first + row)
         for row in range(layout.lines(count))
-        for field in _padded(_cut(source.line(first + row).rstrip(), layout), layout)
+        for field in _cut(source.line(first + row)[: layout.whole].ljust(layout.whole), layout)
     ]
     return values[:count]
 
@@ -192,6 +187,17 @@ def field_problem(field: str) -> str:
 def number_in(field: str) -> float:
     """Value of a field without errors, whose exponent may be behind a D."""
     return float(field.translate(_FORTRAN))
+
+
+def dated_table(source: Source, rows: Sequence[tuple[int, list[str]]], width: int) -> Floats:
+    """Numbers of rows, each with the index of its line, but of the first column, a date."""
+    raise_any(
+        f"{source.at(index)}: found {len(fields)} columns; give {width}"
+        for index, fields in rows
+        if len(fields) != width
+    )
+    raise_any(problem for i, fields in rows for problem in field_problems(source, i, fields[1:]))
+    return np.array([[number_in(field) for field in fields[1:]] for _, fields in rows])
 
 
 def is_row(fields: Sequence[str]) -> bool:
@@ -237,10 +243,6 @@ def _check_enough(source: Source, block: Block) -> None:
 
 def _cut(row: str, layout: FieldFormat) -> list[str]:
     return [row[i : i + layout.width].strip() for i in range(0, len(row), layout.width)]
-
-
-def _padded(fields: Sequence[str], layout: FieldFormat) -> list[str]:
-    return [*fields, *[""] * layout.per_line][: layout.per_line]
 
 
 def _fixed_problems(

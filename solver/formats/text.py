@@ -34,7 +34,14 @@ from solver.formats.layout import (
     rows_of,
     separator_of,
 )
-from solver.formats.numbers import COMPARED, DECIMAL_COMMA, field_problem, is_cut_short, printed
+from solver.formats.numbers import (
+    COMPARED,
+    DECIMAL_COMMA,
+    field_problems,
+    is_cut_short,
+    number_in,
+    printed,
+)
 from solver.formats.source import Source, Stated, likely_text
 from solver.formats.times import Sampled, is_even, sampled
 from solver.model import Floats, InputError
@@ -360,20 +367,18 @@ def _parse_fast(lines: Sequence[str], separator: str | None, width: int) -> Floa
 
 def _parse_slowly(source: Source, start: int, separator: str | None, width: int) -> Floats:
     """Read a table that has an error row by row, to report all its errors."""
-    raise_any(
-        f"{source.at(index)}: {problem}"
-        for index, content in rows_of(source.lines, start)
-        for problem in _row_problems(content.split(separator), width)
+    rows = [(index, row.split(separator)) for index, row in rows_of(source.lines, start)]
+    problems = (
+        field_problems(source, index, fields)
+        if len(fields) == width
+        else [
+            f"{source.at(index)}: found {len(fields)} column{'s' * (len(fields) > 1)}; give {width}"
+            " as in the first row"
+        ]
+        for index, fields in rows
     )
-    rows = rows_of(source.lines, start)
-    return np.array([[float(field) for field in row.split(separator)] for _, row in rows])
-
-
-def _row_problems(fields: Sequence[str], width: int) -> list[str]:
-    if len(fields) != width:
-        columns = "1 column" if len(fields) == 1 else f"{len(fields)} columns"
-        return [f"found {columns}; give {width} as in the first row"]
-    return [problem for field in fields if (problem := field_problem(field.strip()))]
+    raise_any(itertools.chain.from_iterable(problems))
+    return np.array([[number_in(field) for field in fields] for _, fields in rows])
 
 
 def _check_decimal_comma(source: Source, table: _Table, times: Floats) -> None:

@@ -51,21 +51,9 @@ def sampled(
     sample by more than `LOSS` of the peak: a step chosen from the times alone would cut off peaks
     between its samples. If even the finest step allowed changes more, the note states how much.
 
-    Parameters
-    ----------
-    source : Source
-    t_s : array, shape (n,)
-        Times [s], n >= 2.
-    columns : array, shape (k, n)
-    line_of : function of int
-        Index of the line of a time; called only for times that a message mentions.
-    unit_s : float
-        Unit in which the times are printed [s].
-
-    Raises
-    ------
-    InputError
-        If times do not increase, or a step given by the caller does not agree.
+    Times `t_s` [s], shape (n,), are printed in units of `unit_s` [s]; `columns` has shape (k, n).
+    `line_of` gives the index of the line of a time, for those that a message mentions. Raises
+    `InputError` if times do not increase, or a step given by the caller does not agree.
     """
     _check_rising(source, t_s, line_of)
     step, blur = _even_step(t_s, unit_s)
@@ -137,10 +125,13 @@ def _resampled(
     # Rounded, because differences of times have errors in their last binary digits.
     usual, length = float(f"{np.median(steps):.9g}"), float(t_s[-1] - t_s[0])
     best = None
-    for step in _candidates(usual):
+    power = math.floor(math.log10(usual))
+    candidates = (float(f"{m}e{k}") for k in range(power, power - 4, -1) for m in (5, 2, 1))
+    for step in (step for step in candidates if usual / _FINEST <= step <= usual):
         if len(columns) * length / step > MAX_SAMPLES:
             break
-        even = _interpolated(t_s, columns, step)
+        times = t_s[0] + step * np.arange(math.ceil(length / step - 1e-6) + 1)
+        even = np.array([np.interp(times, t_s, column) for column in columns])
         best = (step, even, _loss(t_s, columns, even, step))
         if best[2] <= LOSS:
             break
@@ -156,19 +147,6 @@ def _resampled(
         f" {step:g} s by linear interpolation, which changes no sample{moved}"
     )
     return Sampled(dt_s=step, columns=even, notes=(note, *_gaps(source, t_s, usual, line_of)))
-
-
-def _candidates(usual: float) -> list[float]:
-    """Steps of 1, 2, 5 times a power of ten, from `usual` down to `usual` / `_FINEST`."""
-    power = math.floor(math.log10(usual))
-    steps = [float(f"{m}e{k}") for k in range(power, power - 4, -1) for m in (5, 2, 1)]
-    return [step for step in steps if usual / _FINEST <= step <= usual]
-
-
-def _interpolated(t_s: Floats, columns: Floats, step: float) -> Floats:
-    count = math.ceil((t_s[-1] - t_s[0]) / step - 1e-6) + 1
-    even = t_s[0] + step * np.arange(count)
-    return np.array([np.interp(even, t_s, column) for column in columns])
 
 
 def _loss(t_s: Floats, columns: Floats, even: Floats, step: float) -> float:
