@@ -1,4 +1,4 @@
-"""Accuracy against run time: medians and envelopes over the analysis cases.
+"""Accuracy against run time: medians over the analysis cases.
 
 Comparison of models: effect of each fuller model on the PRD; accuracy against run time.
 """
@@ -20,8 +20,6 @@ from report.figures.base import (
     GRAY,
     INK,
     LOOKS,
-    PALE,
-    Broken,
     bare,
     boxed,
     framed,
@@ -41,31 +39,15 @@ T = TypeVar("T")
 MEASURES = ("PRD", "residual")
 
 
-def drawn(runs: pd.DataFrame, error: str, floor: float) -> dict[str, pd.DataFrame]:
-    """Return method, setting, seconds and error of the runs of each method: NaN of a failed run.
+def medians(runs: pd.DataFrame, error: str, floor: float) -> pd.DataFrame:
+    """Return the median time and error of each method and setting that gave a result.
 
     Errors below the floor are set to it: rounding error limits them, and a log scale has no 0.
     """
-    seconds, errors = runs["time per run [s]"], runs[error]
-    shown = runs[["method", "setting"]].assign(
-        seconds=seconds.where(errors.notna()), error=errors.where(seconds.notna()).clip(floor)
-    )
-    return {str(name): own for name, own in shown.groupby("method", sort=False)}
-
-
-def curve(runs: pd.DataFrame) -> pd.DataFrame:
-    """Return median time, and range and median of the error, for each setting that gave a result.
-
-    In the order of the runs of a method, from coarse to fine.
-    """
-    by_setting = runs.groupby("setting", sort=False, dropna=False)
-    medians = by_setting.agg(
-        seconds=("seconds", "median"),
-        low=("error", "min"),
-        middle=("error", "median"),
-        high=("error", "max"),
-    )
-    return medians.dropna()
+    seconds = "time per run [s]"
+    answered = runs.dropna(subset=[seconds, error])
+    found = answered.groupby(["method", "setting"], sort=False, dropna=False)[[seconds, error]]
+    return found.median().assign(**{error: lambda each: each[error].clip(floor)})
 
 
 def overview(
@@ -89,14 +71,15 @@ def overview(
         margins = {"left": 0.085, "right": 0.99, "above": 0.221, "below": 1.9, "wspace": 0.08}
         figure, grid = panels(1, 2, 4.3, **margins, sharey=True)
         for axes, measure in zip(grid.flat, MEASURES, strict=True):
-            for name, own in drawn(runs, f"{measure} error [%]", floor).items():
-                medians = curve(own)
+            found = medians(runs, f"{measure} error [%]", floor)
+            for name in found.index.unique("method"):
+                own = found.loc[name]
                 size = {"markersize": 10} if name == "exact" else {}
-                axes.plot(medians["seconds"], medians["middle"], **LOOKS[name] | size)
+                axes.plot(*own.to_numpy().T, **LOOKS[name] | size)
                 if name == "exact":
                     axes.annotate(
                         "exact: rounding error",
-                        (medians["seconds"].iloc[0], medians["middle"].iloc[0]),
+                        own.iloc[0],
                         (9, 0),
                         textcoords="offset points",
                         va="center",
@@ -123,49 +106,6 @@ def _peers(axes: Axes, peers: Iterable[PeerPoint], floor: float) -> None:
             medians["seconds"], max(medians["prd_error_percent"], floor), linestyle="",
             marker=marker, markersize=9, color=INK, label=name,
         )  # fmt: skip
-
-
-def by_method(runs: pd.DataFrame, measure: str, floor: float) -> str:
-    """Return a panel for each rival: a dot per run, the median as a line, the range as a band.
-
-    The medians of the other methods are drawn in light gray behind each panel.
-    """
-    drawn_runs = drawn(runs[runs["method"] != "exact"], f"{measure} error [%]", floor)
-    medians = {name: own_curve for name, own in drawn_runs.items() if len(own_curve := curve(own))}
-    others = Broken()
-    for other in medians.values():
-        others.add(other["seconds"], other["middle"])
-    rows = math.ceil(len(medians) / 4)
-    margins = {"left": 0.085, "right": 0.99, "above": 0.2, "below": 0.42}
-    between = {"wspace": 0.1, "hspace": 0.22}
-    with style():
-        figure, grid = panels(
-            rows, 4, 1.75 * rows + 0.45, **margins, **between, sharex=True, sharey=True
-        )
-        for axes in grid.flat[len(medians) :]:
-            axes.set_axis_off()
-        for axes, (name, own_curve) in zip(grid.flat, medians.items(), strict=False):
-            axes.plot(others.x, others.y, color=PALE, linewidth=1.0, zorder=1)
-            _panel(axes, name, drawn_runs[name], own_curve)
-        for axes in grid[:, 0]:
-            axes.set_ylabel("Error [%]")
-        for axes in grid.flat[max(len(medians) - 4, 0) : len(medians)]:
-            axes.set_xlabel("Time per run [s]")
-            axes.tick_params(labelbottom=True)
-        return svg_text(figure)
-
-
-def _panel(axes: Axes, name: str, runs: pd.DataFrame, medians: pd.DataFrame) -> None:
-    dots: dict[str, Any] = {"linestyle": "", "marker": ".", "markersize": 2.2, "color": GRAY}
-    axes.plot(runs["seconds"], runs["error"], **dots, zorder=2)
-    seconds, low, high = medians["seconds"], medians["low"], medians["high"]
-    axes.fill_between(seconds, low, high, facecolor="#c9d5e3", edgecolor="none", zorder=1.5)
-    axes.plot(seconds, medians["middle"], **LOOKS[name] | {"markersize": 3.8}, zorder=3)
-    if len(medians) == 1:
-        axes.vlines(seconds, low, high, color=INK, linewidth=0.8, zorder=2.5)
-    labeled(axes)
-    axes.set_title(LOOKS[name]["label"], loc="left")
-    logarithmic(axes, 5, 6)
 
 
 _RATIOS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
@@ -230,7 +170,7 @@ def work(runs: pd.DataFrame) -> str:
             own = answered[answered["method"] == name]
             axes.plot(
                 own["time per run [s]"],
-                own["PRD error [%]"].clip(LEAST_PERCENT),
+                own["residual error [%]"].clip(LEAST_PERCENT),
                 **look,
                 markersize=3.6,
                 markerfacecolor="white" if look["color"] == GRAY else look["color"],
@@ -238,7 +178,7 @@ def work(runs: pd.DataFrame) -> str:
                 label=lettered(name),
             )
         logarithmic(axes, 9, 8)
-        _finish(axes, "Time per run [s]", "Error [% of the PRD]")
+        _finish(axes, "Time per run [s]", "Position error [% of the PRD]")
         return svg_text(figure)
 
 

@@ -37,9 +37,8 @@ _CHANGE = (
 _WORK = (
     (words("Method", 3.2), lambda row: row[0]),
     (words("Setting", 1.2), lambda row: _setting(row[1]["parameters"])),
-    (text("Steps"), lambda row: row[1]["steps"]),
     (text("Time per run", share=1.2), lambda row: seconds(row[1]["time per run [s]"])),
-    (text("Error", share=1.2), lambda row: _error(row[1])),
+    (text("Position error", share=1.2), lambda row: _error(row[1])),
 )
 
 _BOUND = (
@@ -56,7 +55,6 @@ _BOUND = (
 _STOP = (
     (words("Method", 3.4), lambda run: lettered(run["method"])),
     (words("Setting", 1.1), lambda run: _setting(run["parameters"])),
-    (text("Steps"), lambda run: run["steps"]),
     (text("Position error", "mm", 1.3), lambda run: _position(run["position error [m]"])),
     (
         text("Final velocity", "mm/s", 1.3),
@@ -156,7 +154,7 @@ def _setting(words: str) -> str:
 
 
 def _error(run: Mapping[Hashable, Any]) -> str:
-    return "failed" if math.isnan(run["time per run [s]"]) else percent(run["PRD error [%]"])
+    return "failed" if math.isnan(run["time per run [s]"]) else percent(run["residual error [%]"])
 
 
 def _position(error_m: float) -> str:

@@ -24,9 +24,6 @@ from solver.rivals.methods import METHODS
 from solver.verification import paper_studies
 from solver.verification.evidence import DesignCurves, LinkComparison, Verification
 
-LEAST_PERCENT = 1e-6
-"""Smallest error drawn in the charts of single methods; smaller ones are drawn there."""
-
 
 def floor(verification: Verification) -> float:
     """Return the largest relative error of the exact method against 50-digit arithmetic."""
@@ -38,7 +35,7 @@ def work(verification: Verification) -> Section:
     """Return accuracy against run time."""
     runs, least = verification.work, floor(verification)
     lost = runs[runs[["time per run [s]", "PRD error [m]"]].isna().any(axis=1)]
-    envelopes = {measure: f"work-each-{slug(measure)}" for measure in figures.MEASURES}
+    events = runs[runs["method"].str.startswith("events-")]
     return section(
         "manual/work",
         "Accuracy against run time",
@@ -46,15 +43,10 @@ def work(verification: Verification) -> Section:
         is_own=set(runs["record"]) <= set(verification.records),
         lost=lost.groupby("method", sort=False).size().to_dict(),
         floor_percent=100.0 * least,
-        least_percent=power_of_ten(LEAST_PERCENT),
-        envelopes=envelopes,
+        events_percent=events["PRD error [%]"].max() if len(events) else None,
         medians=_medians(runs),
         charts={
             "work-percent": figures.overview(runs, 100.0 * least, verification.peers),
-            **{
-                name: figures.by_method(runs, measure, LEAST_PERCENT)
-                for measure, name in envelopes.items()
-            },
         },
     )
 

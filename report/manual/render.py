@@ -187,7 +187,7 @@ _CHECK = (
     "id", "section", "problem", "source", "quantity", "unit", "expected", "computed", "error",
     "tolerance",
 )  # fmt: skip
-_OF_TWO_AXES = ["method", "parameters", "case", "time per run [s]", "PRD error [%]"]
+_OF_TWO_AXES = ["method", "parameters", "case", "time per run [s]", "residual error [%]"]
 """Columns of the table: of a check, and of a run in two axes."""
 
 

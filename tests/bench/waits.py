@@ -5,6 +5,7 @@ Medians of repeats; set-up is that of a fresh clone, whose packages are in the c
 
 from __future__ import annotations
 
+import re
 import statistics
 import subprocess
 import tempfile
@@ -56,6 +57,8 @@ def waits(top: Path) -> Iterator[tuple[str, list[str]]]:
     anew = ["sh", "-c", 'rm -rf "$0"; exec "$@"', str(top / "study")]
     study = command("study", str(PROJECTS / "study"), "--out", str(top / "study"), "--quiet")
     yield "study of projects/study", [*anew, *study]
+    yield "verify --quick", command("verify", "--quick", "--out", str(top / "quick"))
+    yield "verify", command("verify", "--out", str(top / "full"))
     clone = str(top / "clone")
     subprocess.run(["git", "clone", "--quiet", str(ROOT), clone], check=True)
     set_up = 'rm -rf "$0/.venv"; "$0/roofslip" report "$0/projects/example" --quiet'
@@ -72,11 +75,13 @@ def main() -> None:
             taken = []
             for _ in range(REPEATS):
                 started = time.monotonic()
-                processor_s, _, _ = finished(words)
+                processor_s, _, printed = finished(words)
                 taken.append((processor_s, time.monotonic() - started))
             processor, elapsed = map(statistics.median, zip(*taken, strict=True))
             figure(name, processor, "s")
             figure(f"{name}, elapsed", elapsed, "s")
+            if passed := re.search(r"PASS: (\d+) of \1 checks", printed):
+                figure(f"checks that pass in {name}", int(passed[1]))
 
 
 if __name__ == "__main__":

@@ -121,5 +121,5 @@ def test_the_charts_are_the_same_every_time(evidence):
 def test_the_runs_are_in_the_table_of_the_verification(evidence):
     table = pd.read_csv(io.BytesIO(verification_csv(only(models=(evidence,)))))
     assert set(table["kind"]) == {"run in two axes"}
-    for column in ("PRD error [%]", "parameters", "case"):
+    for column in ("residual error [%]", "parameters", "case"):
         assert table[column].tolist() == evidence.work[column].tolist()
