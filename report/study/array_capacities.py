@@ -8,7 +8,7 @@ How much the spectra of the motions of a study differ from record to record.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,26 +33,13 @@ SHARES = (0.0, 0.5, 1.0)
 """Limits on the PRD of a motion, as shares of the clearance; 0 is the beginning of slip."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ArrayCapacities:
-    """The capacities of an array.
+def array_capacities(
+    plan: StudyPlan, array: ArrayPlan, runner: Runner
+) -> tuple[tuple[Capacities, ...], list[dict[str, float]], int]:
+    """Return the capacities of an array for each of `SHARES`, what disperses them, and its runs.
 
-    Attributes
-    ----------
-    found : tuple of Capacities
-        For each of `SHARES`.
-    effects : tuple of mappings of str to float
-        Dispersion of the capacity due to friction and slope, by the names of `ArrayPlan.shifts`,
-        for each of `SHARES`; NaN if not determined.
+    The dispersions due to friction and slope have the names of `ArrayPlan.shifts`.
     """
-
-    found: tuple[Capacities, ...]
-    effects: tuple[Mapping[str, float], ...]
-    runs: int
-
-
-def array_capacities(plan: StudyPlan, array: ArrayPlan, runner: Runner) -> ArrayCapacities:
-    """Return the capacities of an array, and the dispersions that follow from those beside it."""
     levels = np.array(plan.input.intensities)
     capacities = _searched(plan, array, runner, (array.mu, array.array.slope_deg), levels, SCAN)
     searches = [capacities]
@@ -68,7 +55,7 @@ def array_capacities(plan: StudyPlan, array: ArrayPlan, runner: Runner) -> Array
             effect[name] = first_order_beta(median, (low, high))
     orientations = [len(motion.orientations) for motion in runner.campaign.motions[0]]
     runs = sum(int(one[0].searched @ orientations) for one in searches)
-    return ArrayCapacities(found=capacities, effects=tuple(effects), runs=runs)
+    return capacities, effects, runs
 
 
 def maximum_runs(plan: StudyPlan, array: ArrayPlan) -> int:

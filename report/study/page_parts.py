@@ -96,7 +96,7 @@ def length(results: StudyResults, value_m: float) -> str:
 
 def design_length(results: StudyResults, value_m: float) -> str:
     """Return a length that is designed for, rounded up; "none" for no value."""
-    return "none" if math.isnan(value_m) else no_less(value_m, length_unit(results))
+    return no_less(value_m, length_unit(results)) if math.isfinite(value_m) else "none"
 
 
 def basis(results: StudyResults) -> Section:

@@ -30,6 +30,8 @@ from solver.model import Floats, InputError
 from solver.sliding.least_model import Model
 from solver.studies.runs import LENGTHS, STATUSES, Campaign, Rows, Runner, run_part
 
+Flags = np.ndarray[Any, np.dtype[np.bool_]]
+
 _PARTS = "part-?????.parquet"
 
 BYTES_A_ROW = 40.0
@@ -176,24 +178,16 @@ def signed(content: bytes, key: bytes) -> bytes:
     return before + said + after
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Peaks:
-    """What the statistics need of a part, by case and motion.
+def peaks(content: bytes, campaign: Campaign) -> tuple[Floats, Flags]:
+    """Return what the statistics need of a part, each of shape (cases, motions).
 
-    Attributes
-    ----------
-    prd_m : array, shape (cases, motions)
+    Returns
+    -------
+    prd_m : array
         Largest PRD of the orientations [m]; NaN if one of them has no final value.
-    slips : array of bool, shape (cases, motions)
+    slips : array of bool
         Whether the friction demand exceeds the coefficient at any orientation.
     """
-
-    prd_m: Floats
-    slips: np.ndarray[Any, np.dtype[np.bool_]]
-
-
-def peaks(content: bytes, campaign: Campaign) -> Peaks:
-    """Return the peaks of a part."""
     pa = extra(ARROW)
     columns = ["prd_m", "status", "model"]
     table = pa.parquet.read_table(pa.BufferReader(content), columns=columns, use_threads=False)
@@ -203,9 +197,9 @@ def peaks(content: bytes, campaign: Campaign) -> Peaks:
     numbers = np.array([number for number, _ in campaign.columns])
     starts = np.flatnonzero(np.diff(numbers, prepend=-1))
     shape = (-1, len(numbers))
-    return Peaks(
-        prd_m=np.maximum.reduceat(prd.reshape(shape), starts, axis=1),  # NaN wins
-        slips=np.logical_or.reduceat(slips.reshape(shape), starts, axis=1),
+    return (
+        np.maximum.reduceat(prd.reshape(shape), starts, axis=1),  # NaN wins
+        np.logical_or.reduceat(slips.reshape(shape), starts, axis=1),
     )
 
 

@@ -11,6 +11,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -45,7 +46,6 @@ from solver.studies.rates import HazardCurve
 from solver.studies.runs import Campaign, Cases, cases_of, grid, joined
 from solver.studies.uncertainty import (
     Spread,
-    all_combinations,
     latin_hypercube,
     one_at_a_time,
 )
@@ -163,8 +163,6 @@ class StudyPlan:
 
     Attributes
     ----------
-    workbook : str
-        Name of its file.
     campaign : Campaign
         The first cases are the grid of building, slope, friction and intensity.
     hazard : tuple of HazardCurve
@@ -305,8 +303,10 @@ def _array(
     levels = [(building, slope, friction.center, x) for x in study_input.intensities]
     samples, bars = [], []
     if study.site_intensity:
-        samples = [_case(building, *row) for row in _samples(study_input, array, spreads, seed)]
-        bars = [_case(building, *row) for row in one_at_a_time(spreads)]
+        samples, bars = (
+            [(building, math.radians(slope_deg), mu, x) for mu, slope_deg, x in rows]
+            for rows in (_samples(study_input, array, spreads, seed), one_at_a_time(spreads))
+        )
     edges = [start]
     for part in (levels, samples, bars):
         edges.append(edges[-1] + len(part))
@@ -348,12 +348,6 @@ def _shifts(
     return shifts
 
 
-def _case(
-    building: int, mu: float, slope_deg: float, intensity: float
-) -> tuple[int, float, float, float]:
-    return building, math.radians(slope_deg), mu, intensity
-
-
 def _samples(
     study_input: StudyInput, array: StudyArray, spreads: Mapping[str, Spread], seed: int
 ) -> list[list[float]]:
@@ -361,9 +355,8 @@ def _samples(
     if study.sampling is Sampling.ALL_COMBINATIONS:
         off = study.slope_tolerance_deg
         slopes = [array.slope_deg + d for d in ((-off, 0.0, off) if off else (0.0,))]
-        combined = all_combinations(
-            [study_input.tests(array.mat), slopes, [spreads[INTENSITY].center]]
-        )
-    else:
-        combined = latin_hypercube(list(spreads.values()), study.samples, seed=seed)
-    return [list(map(float, row)) for row in combined]
+        return [
+            *map(list, product(study_input.tests(array.mat), slopes, [spreads[INTENSITY].center]))
+        ]
+    rows = latin_hypercube(list(spreads.values()), study.samples, seed=seed)
+    return [list(map(float, row)) for row in rows]

@@ -6,7 +6,7 @@ Reads one part at a time; runs the capacities of the motions. Read `results_of`.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
@@ -45,7 +45,8 @@ class LimitState:
     limit_m : float
         PRD above which it is exceeded [m]; 0 for the beginning of slip.
     effects : mapping of str to float
-        As in `ArrayCapacities`.
+        Dispersion of the capacity due to friction and slope, by the names of `ArrayPlan.shifts`;
+        NaN if not determined.
     """
 
     name: str
@@ -136,29 +137,35 @@ class StudyResults:
 
         From it on, no friction of the study has a displacement above the allowed one.
         """
-        values, mus = self.displacements[name][building], np.array(self.plan.input.mus)
-
-        def least(prd_m: Floats) -> float:
-            mu = first_allowed(mus, prd_m, allowed_m)
-            # Rounded up, unless it is one of the study or none is between.
-            return mu if mu in mus else min(round_up(mu, FRICTION_DECIMALS), float(mus[-1]))
-
-        return np.apply_along_axis(least, 1, values)
+        mus = np.array(self.plan.input.mus)
+        # Rounded up, unless none of the study is between.
+        return self._answers(
+            building, name, mus, 1, allowed_m,
+            lambda mu: min(round_up(mu, FRICTION_DECIMALS), float(mus[-1])),
+        )  # fmt: skip
 
     def largest_slopes(self, building: int, name: str, allowed_m: float) -> Floats:
         """Return the largest slope [deg], rounded down, by friction and intensity; NaN for none.
 
         Up to it, no slope of the study has a displacement above the allowed one.
         """
-        values, slopes = self.displacements[name][building], np.array(self.plan.input.slopes_deg)
+        slopes = np.array(self.plan.input.slopes_deg)
+        # Rounded down, unless none of the study is between.
+        return self._answers(
+            building, name, slopes[::-1], 0, allowed_m,
+            lambda slope: max(round_down(slope, SLOPE_DECIMALS), float(slopes[0])),
+        )  # fmt: skip
 
-        def largest(prd_m: Floats) -> float:
-            slope = first_allowed(slopes[::-1], prd_m[::-1], allowed_m)
-            # Rounded down, unless it is one of the study or none is between.
-            least = float(slopes[0])
-            return slope if slope in slopes else max(round_down(slope, SLOPE_DECIMALS), least)
+    def _answers(
+        self, building: int, name: str, values: Floats, axis: int, allowed_m: float,
+        rounded: Callable[[float], float],
+    ) -> Floats:  # fmt: skip
+        def answer(prd_m: Floats) -> float:
+            found = first_allowed(values, prd_m, allowed_m)
+            return found if found in values else rounded(found)
 
-        return np.apply_along_axis(largest, 0, values)
+        prd_m = self.displacements[name][building]
+        return np.apply_along_axis(answer, axis, prd_m if axis else prd_m[::-1])
 
 
 def results_of(
@@ -176,12 +183,12 @@ def results_of(
     kept: list[Floats] = []
     slips: list[NDArray[np.bool_]] = []
     for number, part in enumerate(campaign.parts):
-        part_peaks = peaks(read_part(folder, done[number]), campaign)
+        prd, slip = peaks(read_part(folder, done[number]), campaign)
         # The grid comes first; one part may hold its last cases and the first of the arrays.
         cut = min(max(on_grid - part.start, 0), part.stop - part.start)
-        on_curves.append(statistics(part_peaks.prd_m[:cut]))
-        kept.append(part_peaks.prd_m[cut:])
-        slips.append(part_peaks.slips[cut:])
+        on_curves.append(statistics(prd[:cut]))
+        kept.append(prd[cut:])
+        slips.append(slip[cut:])
     names = [field.name for field in fields(Statistics)]
     whole = {name: np.concatenate([getattr(one, name) for one in on_curves]) for name in names}
     curves = Statistics(**{name: values.reshape(plan.shape) for name, values in whole.items()})
@@ -241,7 +248,7 @@ def _array(
     counts = ~lost if study.no_value is NoValue.CENSORED else np.ones_like(lost)
     reaches = array.array.reaches or "the object or edge"
     words = ("slip begins", "half the clearance is used", f"{reaches} is reached")
-    searched = array_capacities(plan, array, runner)
+    found, effects, runs = array_capacities(plan, array, runner)
     states = [
         LimitState(
             name=f"LS{k + 1}",
@@ -252,10 +259,10 @@ def _array(
                 # A run without a value exceeds every limit; whether it counts is `counts`.
                 ~(peaks_m <= share * clearance) if share else slips | lost,
                 counts,
-                searched.found[k],
+                found[k],
                 seed=array.seed,
             ),
-            effects=searched.effects[k],
+            effects=effects[k],
         )
         for k, share in enumerate(SHARES)
     ]
@@ -272,5 +279,5 @@ def _array(
         exceedances=exceedances,
         bars=bars,
         center_m=center,
-        capacity_runs=searched.runs,
+        capacity_runs=runs,
     )

@@ -10,9 +10,8 @@ import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from report.study.array_capacities import maximum_runs
 from report.study.manifest import (
@@ -54,15 +53,8 @@ RUNS = "runs"
 """Folder of the parts, in the folder of the outputs."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Estimate:
-    """What a study takes.
-
-    Attributes
-    ----------
-    capacity_runs : int
-        Most runs for the capacities of the arrays, beside those.
-    """
+class Estimate(NamedTuple):
+    """What a study takes; the capacities of the arrays take at most as many runs more."""
 
     cases: int
     runs: int
@@ -113,7 +105,6 @@ def run_study(
 
     Parameters
     ----------
-    plan : StudyPlan
     out : str or Path
         Folder of the outputs; the parts are in its folder `RUNS`.
     scheduler : str
@@ -123,7 +114,7 @@ def run_study(
     trust_parts : bool
         Take over parts that are not signed with the user's key; the results say how many.
     progress : callable
-        Called with a line of text.
+        Of a line of text.
 
     Raises
     ------

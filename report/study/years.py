@@ -35,6 +35,7 @@ from solver.studies.rates import (
     deaggregated,
     displacements_at,
     exceedance_rates,
+    probability,
     realizations,
 )
 from solver.studies.runs import Runner
@@ -115,6 +116,21 @@ class ArrayYears:
         return np.array([self.rates[at], *self.rates_band[:, at]])
 
     @property
+    def recurrences(self) -> list[tuple[float, ...]]:
+        """Years, PRD and its quantiles [m] by mean recurrence interval."""
+        return list(zip(RECURRENCES, self.prd_m, *self.prd_band_m, strict=True))
+
+    @property
+    def chances(self) -> Mapping[float, list[float]]:
+        """Probability that the clearance is exceeded and its quantiles, by years of `SPANS`."""
+        return {span: [probability(rate, span) for rate in self.clearance_rates] for span in SPANS}
+
+    @property
+    def bins(self) -> list[tuple[float, float, float]]:
+        """Bounds of the intensity, and share of the rate."""
+        return list(zip(self.edges[:-1], self.edges[1:], self.shares, strict=True))
+
+    @property
     def statistics(self) -> Mapping[str, tuple[LifeStatistics, LifeStatistics]]:
         """Of the largest and the last distance, by when the array is put back."""
         of = partial(life_statistics, clearance_m=self.plan.array.clearance_m)
@@ -123,8 +139,8 @@ class ArrayYears:
 
 def years_of(plan: StudyPlan, curve: HazardCurve, array: ArrayPlan, runner: Runner) -> ArrayYears:
     """Return the rates and the lives of an array."""
-    predicted = tuple(plan.predicted[key] for key in [array.array.mat.casefold()]
-                      if key in plan.predicted)  # fmt: skip
+    of_mat = plan.predicted.get(array.array.mat.casefold())
+    predicted = (of_mat,) if of_mat else ()
     mus = predicted[0].quantiles if predicted else (array.mu,)
     slope_deg, motions = array.array.slope_deg, len(runner.campaign.motions[0])
     slip = min(one.first_slip() for one in curves_of(runner, array, mus[0], slope_deg))
@@ -151,7 +167,8 @@ def years_of(plan: StudyPlan, curve: HazardCurve, array: ArrayPlan, runner: Runn
     clearance_m = array.array.clearance_m
     edges = np.geomspace(low, top, _BINS + 1)
     required = _required_mu(mus, by_mu[:, RECURRENCES.index(VERDICT_YEARS)], clearance_m)
-    recenter = {NEVER: math.inf, ABOVE: plan.input.hazard.recenter_m, ALWAYS: 0.0}
+    above = plan.input.hazard.recenter_m
+    recenter = {NEVER: math.inf, **({ABOVE: above} if above else {}), ALWAYS: 0.0}
     return ArrayYears(
         plan=array,
         predicted=predicted,
@@ -167,11 +184,7 @@ def years_of(plan: StudyPlan, curve: HazardCurve, array: ArrayPlan, runner: Runn
         prd_by_mu_m=by_mu,
         edges=edges,
         shares=deaggregated(curve, responses.levels, responses.prd_m, clearance_m, edges),
-        lives={
-            name: distances(draws, responses, above)
-            for name, above in recenter.items()
-            if above is not None
-        },
+        lives={name: distances(draws, responses, above) for name, above in recenter.items()},
         required_mu=required,
         more_runs=predicted[0].more_runs(required) if predicted else math.nan,
     )

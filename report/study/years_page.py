@@ -5,9 +5,7 @@ Computes nothing but units and probabilities. Read `years`.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from report.document.templates import Section, section
@@ -21,7 +19,7 @@ from report.study.wording import on_building
 from report.study.years import ArrayYears
 from report.text.formats import slug
 from solver.studies import lives, predictive
-from solver.studies.rates import LEAST_RATE, probability
+from solver.studies.rates import LEAST_RATE
 
 Row = Sequence[Any]
 
@@ -31,7 +29,7 @@ def years(results: StudyResults, array_years: ArrayYears) -> Section:
     plan = array_years.plan
     name = f"{plan.array.id}{on_building(results, plan.building, ', building ')}"
     (curve,), unit = results.plan.hazard, length_unit(results)
-    prd_m = [finite(value) for value in array_years.prd_m]
+    ends = array_years.responses.levels.max(axis=1)
     return section(
         "study/years",
         f"Rates and {rates.LIFE_YEARS:g} years of {name}",
@@ -40,16 +38,10 @@ def years(results: StudyResults, array_years: ArrayYears) -> Section:
         array=array_years.plan.array,
         hazard=results.plan.input.hazard,
         curve=curve,
-        first=float(curve.intensity[0]),
-        end=float(curve.intensity[-1]),
-        end_years=1.0 / float(curve.rate[-1]),
-        first_end=float(array_years.responses.levels.max(axis=1).min()),
-        top=float(array_years.responses.levels.max()),
-        recurrences=[
-            *zip(rates.RECURRENCES, prd_m, *map(finites, array_years.prd_band_m), strict=True)
-        ],
+        first_end=float(ends.min()),
+        top=float(ends.max()),
         of_friction=[
-            (mu, [design_length(results, finite(value)) for value in row])
+            (mu, [design_length(results, prd_m) for prd_m in row])
             for mu, row in zip(array_years.mus, array_years.prd_by_mu_m, strict=True)
         ],
         recurrence_heads=[
@@ -57,15 +49,7 @@ def years(results: StudyResults, array_years: ArrayYears) -> Section:
         ],
         first_motion=results.plan.motions.motions[0][0],
         SUPPORTING=SUPPORTING,
-        chances=[
-            [probability(rate, span) for rate in array_years.clearance_rates]
-            for span in rates.SPANS
-        ],
-        bins=[*zip(array_years.edges[:-1], array_years.edges[1:], array_years.shares, strict=True)],
-        statistics=array_years.statistics,
         surfaces=results.plan.input.surfaces(array_years.plan.array.mat),
-        verdict_m=prd_m[rates.RECURRENCES.index(rates.VERDICT_YEARS)],
-        finite=finite,
         LEAST_RATE=LEAST_RATE,
         lives=lives,
         predictive=predictive,
@@ -75,16 +59,6 @@ def years(results: StudyResults, array_years: ArrayYears) -> Section:
             "lives": figures.lives(array_years, unit),
         },
     )
-
-
-def finite(value: float) -> float:
-    """Return a value, NaN for inf, which no table shows as a number."""
-    return float(value) if math.isfinite(value) else math.nan
-
-
-def finites(values: Iterable[float]) -> list[float]:
-    """Return `finite` of values."""
-    return [finite(value) for value in values]
 
 
 def sheets(results: StudyResults) -> Iterator[tuple[str, Row, list[Row]]]:
@@ -135,17 +109,12 @@ def _hazard(results: StudyResults) -> Iterator[Row]:
 def _values(results: StudyResults, array_years: ArrayYears) -> Iterator[Row]:
     """Yield what, case, value, its quantiles and its unit."""
     unit, none = length_unit(results), ("", "")
-    for span, prd_m, band_m in zip(
-        rates.RECURRENCES, array_years.prd_m, array_years.prd_band_m.T, strict=True
-    ):
-        yield "PRD", f"{span:g} years", prd_m / unit.si, *band_m / unit.si, unit.symbol
+    for span, *lengths_m in array_years.recurrences:
+        yield "PRD", f"{span:g} years", *(d / unit.si for d in lengths_m), unit.symbol
     yield "Clearance exceeded", "annual rate", *array_years.clearance_rates, "1/year"
-    for span in rates.SPANS:
-        chances = [probability(rate, span) for rate in array_years.clearance_rates]
+    for span, chances in array_years.chances.items():
         yield "Clearance exceeded", f"in {span:g} years", *chances, "probability"
-    for low, high, share in zip(
-        array_years.edges[:-1], array_years.edges[1:], array_years.shares, strict=True
-    ):
+    for low, high, share in array_years.bins:
         yield "Clearance exceeded", f"{low:.3g} to {high:.3g}", share, *none, "share of the rate"
     for name, distances in array_years.statistics.items():
         for which, distance in zip(("Largest", "Last"), distances, strict=True):
@@ -193,10 +162,6 @@ def years_json(results: StudyResults) -> bytes:
 
 
 def _of_array(results: StudyResults, array_years: ArrayYears) -> YearsOfArray:
-    def distances(at: int) -> dict[str, Distance]:
-        statistics = {name: asdict(both[at]) for name, both in array_years.statistics.items()}
-        return {name: Distance(**_known(values)) for name, values in statistics.items()}
-
     building, array = _who(results, array_years)
     return YearsOfArray(
         array=array,
@@ -205,13 +170,9 @@ def _of_array(results: StudyResults, array_years: ArrayYears) -> YearsOfArray:
         mu=array_years.predicted[0].mean if array_years.predicted else array_years.plan.mu,
         clearance_m=array_years.plan.array.clearance_m,
         clearance_rate=float(array_years.clearance_rates[0]),
-        prd_m=_known(
-            {f"{span:g}": d for span, d in zip(rates.RECURRENCES, array_years.prd_m, strict=True)}
-        ),
-        largest=distances(0),
-        last=distances(1),
+        prd_m={f"{span:g}": prd_m for span, prd_m, *_ in array_years.recurrences},
+        largest={
+            name: Distance.model_validate(of[0]) for name, of in array_years.statistics.items()
+        },
+        last={name: Distance.model_validate(of[1]) for name, of in array_years.statistics.items()},
     )
-
-
-def _known(values: Mapping[str, float]) -> dict[str, Any]:
-    return {name: float(v) if math.isfinite(v) else None for name, v in values.items()}

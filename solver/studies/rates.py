@@ -54,15 +54,12 @@ class HazardCurve:
         z, weights = np.polynomial.hermite_e.hermegauss(_NODES)
         return np.exp(self.beta * z), weights / weights.sum()
 
-    def plain_at(self, intensity: Floats) -> Floats:
-        """Return the rate of the curve itself, without the factor."""
-        x, y = np.log(self.intensity), np.log(self.rate)
-        return np.asarray(np.exp(np.interp(np.log(intensity), x, y)))
-
     def at(self, intensity: Floats) -> Floats:
         """Return the rate at which the intensity times its factor is exceeded."""
         factors, weights = self.factors
-        return np.asarray(self.plain_at(np.divide.outer(intensity, factors)) @ weights)
+        at_site = np.log(np.divide.outer(intensity, factors))
+        plain = np.exp(np.interp(at_site, np.log(self.intensity), np.log(self.rate)))
+        return np.asarray(plain @ weights)
 
     @cached_property
     def _grid(self) -> tuple[Floats, Floats]:

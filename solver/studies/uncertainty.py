@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
 from statistics import NormalDist
 
 import numpy as np
@@ -96,11 +95,6 @@ def latin_hypercube(spreads: Sequence[Spread], count: int, *, seed: int) -> Floa
         # A uniform draw may be 0 exactly, where a lognormal has no quantile.
         columns.append([spread.quantile(max(chance, math.ulp(1.0))) for chance in chances])
     return np.array(columns).T.reshape(count, len(spreads))
-
-
-def all_combinations(values: Sequence[Sequence[float]]) -> Floats:
-    """Return every combination of equally likely values, shape (combinations, variables)."""
-    return np.array(list(product(*values)), dtype=float)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

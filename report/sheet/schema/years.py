@@ -5,10 +5,11 @@ Lengths in meters; null for none. Read `StudyYears`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from typing import Final, Literal
+from typing import Annotated, Final, Literal
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, BeforeValidator, ConfigDict
 
 SUPPORTING: Final = "Supporting analysis, not a code value"
 FILE = "years.json"
@@ -16,15 +17,22 @@ NEVER, ABOVE, ALWAYS = "never", "above a distance", "after every event"
 """When an array is put back where it was installed."""
 
 
+Meters = Annotated[
+    float | None, BeforeValidator(lambda v: None if isinstance(v, float) and math.isinf(v) else v)
+]
+
+
 class _Written(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", allow_inf_nan=False, from_attributes=True
+    )
 
 
 class Distance(_Written):
     """A distance from the installed place over lives, as in `LifeStatistics`."""
 
-    mean_m: float | None
-    p95_m: float | None
+    mean_m: Meters
+    p95_m: Meters
     beyond: float
     without_value: float
 
@@ -38,7 +46,7 @@ class YearsOfArray(_Written):
     mu: float
     clearance_m: float
     clearance_rate: float
-    prd_m: Mapping[str, float | None]  # by mean recurrence interval in years
+    prd_m: Mapping[str, Meters]  # by mean recurrence interval in years
     largest: Mapping[str, Distance]  # by when the array is put back
     last: Mapping[str, Distance]
 

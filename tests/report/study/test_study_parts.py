@@ -99,11 +99,11 @@ def test_peaks_are_the_largest_of_the_headings_and_none_without_a_final_value(st
     )
     done = done_parts(folder, c, manifest["identity"], KEY)
     found = [peaks(read_part(folder, done[k]), c) for k in sorted(done)]
-    prd = np.concatenate([part.prd_m for part in found])
+    prd = np.concatenate([prd_m for prd_m, _ in found])
     assert np.array_equal(prd.ravel(), wanted.to_numpy(), equal_nan=True)
     assert np.isnan(prd).any()
     slips = (rows["model"] != "no slip").groupby([rows[k] for k in keys], observed=True, sort=False)
-    assert np.concatenate([part.slips for part in found]).ravel().tolist() == slips.any().tolist()
+    assert np.concatenate([slips for _, slips in found]).ravel().tolist() == slips.any().tolist()
 
 
 @pytest.mark.parametrize("place", ["rows", "footer", b"roofslip sha256=", b" hmac=", b"computed"])

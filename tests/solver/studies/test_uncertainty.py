@@ -9,7 +9,6 @@ from scipy.stats import norm
 from solver.model import InputError
 from solver.studies.uncertainty import (
     Spread,
-    all_combinations,
     exceedance,
     latin_hypercube,
     one_at_a_time,
@@ -52,12 +51,6 @@ def test_tested_values_give_their_geometric_mean_and_deviation():
     assert found.beta == pytest.approx(math.log(1.25), rel=1e-12)
     with pytest.raises(InputError, match="2 tested values"):
         spread_of_tests([0.4, 0.5])
-
-
-def test_all_combinations_are_the_product():
-    found = all_combinations([(0.4, 0.5), (1.0, 2.0, 3.0)])
-    assert found.shape == (6, 2)
-    assert {tuple(row) for row in found} == {(m, s) for m in (0.4, 0.5) for s in (1.0, 2.0, 3.0)}
 
 
 def test_the_chance_is_the_fraction_that_exceeds():
