@@ -122,10 +122,7 @@ FREQ_HZ = POINTS_HZ[:: len(POINTS_HZ) // 13]
 class SpectralSpread:
     """Standard deviation of ln Sa between the motions, over frequencies, components and buildings.
 
-    Attributes
-    ----------
-    median, largest : float
-        NaN for a single motion, or one with a component of zeros.
+    NaN for a single motion, or one with a component of zeros.
     """
 
     median: float
@@ -140,11 +137,6 @@ class SpectralSpread:
     def is_one_spectrum(self) -> bool:
         """Whether the motions differ by less than motions matched to one spectrum may."""
         return self.median < 1.0 - LEAST_RATIO
-
-    @property
-    def is_record_to_record(self) -> bool:
-        """Whether the motions are known to differ by more than those matched to one spectrum."""
-        return self.is_known and not self.is_one_spectrum
 
 
 def spectral_spread(buildings: Sequence[Sequence[Motion]]) -> SpectralSpread:

@@ -72,7 +72,14 @@ def _exported(
     columns = (
         (words("State", 0.7), lambda state: state.name),
         *(_part(by_name[k], k, by_state) for k in known),
-        (text("β exported"), lambda state: _total(results, result, state)),
+        (
+            text("β exported"),
+            lambda state: (
+                "not exported"
+                if is_refused(results)
+                else _beta(exported(results, result, state).beta)
+            ),
+        ),
     )
     return {
         "lacking": [
@@ -92,14 +99,11 @@ def _part(
     """Return the column of a dispersion: its name, and its source in the states that have it."""
     source = next(part.source for part in parts if part.beta)
     head = text(f"{NAMES[at].capitalize()}: {source}", share=1.7)
-    return head, lambda state: _beta(by_state[state.name][at])
+    return (
+        head,
+        lambda state: _beta(by_state[state.name][at].beta) or by_state[state.name][at].source,
+    )
 
 
-def _beta(part: Dispersion) -> str:
-    return number(round_up(part.beta, 3), 3) if part.beta else part.source
-
-
-def _total(results: StudyResults, result: ArrayStudyResult, state: LimitState) -> str:
-    if is_refused(results):
-        return "not exported"
-    return number(round_up(exported(results, result, state).beta, 3), 3)
+def _beta(beta: float) -> str:
+    return number(round_up(beta, 3), 3) if beta else ""

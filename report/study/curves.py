@@ -47,7 +47,8 @@ def curves(results: StudyResults, building: int) -> Section:
     study_input = results.plan.input
     shown = some(study_input.mus, MOST_FRICTIONS)
     sloped = shown if len(study_input.slopes_deg) > 1 else []
-    sheets = list(_sheets(results, building))
+    sheets, beside = list(_sheets(results, building)), some(study_input.slopes_deg, MOST_LINES)
+    values, mean = _drawn(results, building)
     return section(
         "study/curves",
         f"Design curves{on_building(results, building, ', building ')}",
@@ -59,7 +60,12 @@ def curves(results: StudyResults, building: int) -> Section:
         middle=study_input.intensities[len(study_input.intensities) // 2],
         displacements=_displacements(results, building),
         charts={
-            **{f"intensity-{m}": _against_intensity(results, building, m) for m in shown},
+            **{
+                f"intensity-{m}": by_intensity(
+                    results, values, m, beside=[mean[s, m] for s in beside]
+                )
+                for m in shown
+            },
             **{f"slope-{m}": _against_slope(results, building, m) for m in sloped},
             **{f"sheet-{name}": svg for name, svg, _ in sheets},
         },
@@ -70,12 +76,6 @@ def _drawn(results: StudyResults, building: int) -> tuple[Floats, Floats]:
     """Return the leading displacement and the mean beside it; NaN where the mean leads."""
     values, mean = results.displacements[results.leading][building], results.curves.mean_m[building]
     return values, mean if results.plan.design_rule.has_value else np.full_like(mean, np.nan)
-
-
-def _against_intensity(results: StudyResults, building: int, m: int) -> str:
-    values, mean = _drawn(results, building)
-    shown = some(results.plan.input.slopes_deg, MOST_LINES)
-    return by_intensity(results, values, m, beside=[mean[s, m] for s in shown])
 
 
 def _against_slope(results: StudyResults, building: int, m: int) -> str:
@@ -205,18 +205,10 @@ def _allowed_table(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Prescribed:
-    """Value from analysis / prescriptive displacement, by slope, friction and intensity.
+    """Value from analysis / prescriptive displacement, by slope, friction and intensity."""
 
-    Attributes
-    ----------
-    ratio : array, shape (slopes, frictions, intensities)
-        NaN for no value.
-    permitted : array of bool, shape (slopes, frictions)
-        Whether the rule set permits the prescriptive displacement.
-    """
-
-    ratio: Floats
-    permitted: NDArray[np.bool_]
+    ratio: Floats  # shape (slopes, frictions, intensities); NaN for no value
+    permitted: NDArray[np.bool_]  # by the rule set, shape (slopes, frictions)
 
     @property
     def unsafe(self) -> NDArray[np.bool_]:
@@ -251,6 +243,7 @@ def compare(results: StudyResults, building: int) -> tuple[Prescribed, ...]:
 def prescribed(results: StudyResults, building: int, prescribed: Prescribed) -> Section:
     """Return the section on the prescriptive displacement."""
     study_input, rules = results.plan.input, results.plan.design_rule.rules
+    limits = ((rules.name, results.plan.design_rule.prescriptive_m),)
     names = {
         m: friction_name(results, study_input.mus[m]) for m in some(study_input.mus, MOST_FRICTIONS)
     }
@@ -265,7 +258,10 @@ def prescribed(results: StudyResults, building: int, prescribed: Prescribed) -> 
         steepest_mu=required_mu(rules, math.radians(rules["prescriptive_max_slope_deg"])),
         names=names,
         margins=_prescribed_table(results, prescribed),
-        charts={f"prescribed-{m}": _chart(results, building, m) for m in names},
+        charts={
+            f"prescribed-{m}": by_intensity(results, results.analysis_m[building], m, limits=limits)
+            for m in names
+        },
     )
 
 
@@ -276,12 +272,6 @@ def _extent(results: StudyResults, cases: NDArray[np.bool_]) -> tuple[list[float
         [study_input.slopes_deg[s] for s in np.flatnonzero(cases.any(axis=(1, 2)))],
         [study_input.mus[m] for m in np.flatnonzero(cases.any(axis=(0, 2)))],
     )
-
-
-def _chart(results: StudyResults, building: int, m: int) -> str:
-    rule = results.plan.design_rule
-    limits = ((rule.rules.name, rule.prescriptive_m),)
-    return by_intensity(results, results.analysis_m[building], m, limits=limits)
 
 
 def _prescribed_table(results: StudyResults, prescribed: Prescribed) -> Table:

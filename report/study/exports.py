@@ -25,7 +25,7 @@ from report.study.wording import (
     dispersions,
     exported,
     is_refused,
-    warning,
+    sentence,
 )
 from report.text.counts import capitalized
 from report.text.formats import csv_text
@@ -231,7 +231,7 @@ def _nrml(results: StudyResults) -> bytes:
 
 
 def _warned(results: StudyResults) -> str:
-    return f" {text}" if (text := warning(results)) else ""
+    return f" {text}" if (text := sentence(results, "warnings")) else ""
 
 
 def _said(results: StudyResults, name: str, of: tuple[str, str], **more: object) -> str:

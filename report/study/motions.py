@@ -41,18 +41,10 @@ _TRUNCATION = 0.05
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StudyMotions:
-    """The motions of a study.
+    """The motions of a study."""
 
-    Attributes
-    ----------
-    buildings : tuple of str
-        Names; `ROOF` alone for roof motions.
-    motions : tuple of tuple of Motion
-        By building; `Motion.scale` makes the intensity one.
-    """
-
-    buildings: tuple[str, ...]
-    motions: tuple[tuple[Motion, ...], ...]
+    buildings: tuple[str, ...]  # names; `ROOF` alone for roof motions
+    motions: tuple[tuple[Motion, ...], ...]  # by building, scaled to an intensity of one
     files: tuple[RecordFile, ...]
 
 

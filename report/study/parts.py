@@ -51,26 +51,14 @@ def part_name(number: int) -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class About:
-    """What a part says of itself.
+    """What a part says of itself."""
 
-    Attributes
-    ----------
-    identity : str
-        Of the manifest of its study.
-    models : mapping of str to int
-        Number of runs by model.
-    seconds : float
-        Processor time of its thread [s].
-    computed : datetime
-        When, by the clock of the machine that computed it.
-    """
-
-    identity: str
+    identity: str  # of the manifest of its study
     number: int
-    models: Mapping[str, int]
-    seconds: float
+    models: Mapping[str, int]  # runs by model
+    seconds: float  # of processor time
     machine: str
-    computed: datetime
+    computed: datetime  # by the clock of that machine
 
 
 _AS_JSON = TypeAdapter(About)
@@ -78,22 +66,12 @@ _AS_JSON = TypeAdapter(About)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Done:
-    """A part that was run and is whole.
-
-    Attributes
-    ----------
-    rows : int
-        One for each run.
-    sha256 : str
-        Of its file.
-    is_own : bool
-        Whether it is signed with the user's key.
-    """
+    """A part that was run and is whole."""
 
     about: About
-    rows: int
-    sha256: str
-    is_own: bool
+    rows: int  # one for each run
+    sha256: str  # of its file
+    is_own: bool  # signed with the user's key
 
 
 OnDone = Callable[[Done], None]
@@ -273,10 +251,16 @@ def begin(folder: Path, manifest: Mapping[str, Any], former: int) -> None:
     Raises
     ------
     InputError
-        If another file has the name of a part and no study wrote it.
+        If another file has the name of a part and no study wrote it: it would be replaced.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    _check_own(folder, former)
+    ours = {part_name(number) for number in range(former)}
+    for path in sorted(folder.glob(_PARTS)):
+        if path.name not in ours and _ABOUT not in path.read_bytes():
+            raise InputError(
+                f"{path}: has the name of a part of a study, but no study wrote it; move it to "
+                "another folder, or choose another one with --out"
+            )
     write_all({NAME: json.dumps(manifest, indent=1).encode() + b"\n"}, folder.parent)
 
 
@@ -291,21 +275,6 @@ def check_places(out: Path, folder: Path) -> None:
     check_plain(folder, out, is_folder=True)
     for path in folder.glob(_PARTS):
         check_plain(path, out)
-
-
-def _check_own(folder: Path, former: int) -> None:
-    """Refuse files that only have the names of parts: they would be replaced or removed."""
-    ours = {part_name(number) for number in range(former)}
-    foreign = [
-        path.name
-        for path in sorted(folder.glob(_PARTS))
-        if path.name not in ours and _ABOUT not in path.read_bytes()
-    ]
-    if foreign:
-        raise InputError(
-            f"{folder / foreign[0]}: has the name of a part of a study, but no study wrote it; move"
-            " it to another folder, or choose another one with --out"
-        )
 
 
 def run_missing(

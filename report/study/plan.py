@@ -58,18 +58,14 @@ SDC, I_E = "D", 1.0
 class DesignRule:
     """How the design displacement follows from the PRDs of the motions.
 
-    Attributes
-    ----------
-    prescriptive_m, floor_m : array, shape (intensities,)
-        Prescriptive displacement, and the minimum of the value from analysis without peer review
-        [m]; empty unless the intensity is S_DS, from which they follow.
+    Its arrays have the shape (intensities,); empty unless the intensity is S_DS.
     """
 
     rules: RuleSet
     n_motions: int
     basis: Basis
     prescriptive_m: Floats
-    floor_m: Floats
+    floor_m: Floats  # minimum of the value from analysis without peer review
 
     @property
     def has_value(self) -> bool:
@@ -134,53 +130,33 @@ Shift = tuple[float, float]
 class ArrayPlan:
     """The cases of one array on one building.
 
-    Attributes
-    ----------
-    spreads : mapping of str to Spread
-        Friction, slope [deg] and intensity.
-    shifts : mapping of str to pairs of (float, float)
-        Friction and slope [deg] where one of them, by its name, is one standard deviation below and
-        above its center; of those alone whose distribution is given.
-    fragility, samples, bars : slice
-        Cases of its fragility, of its exceedance and of its tornado chart; the last two are empty
-        without an intensity at the site.
+    `shifts` has friction and slope [deg] where one of them, by its name, is one standard deviation
+    below and above its center; of those alone whose distribution is given.
     """
 
     array: StudyArray
     building: int
     seed: int
     mu: float
-    spreads: Mapping[str, Spread]
+    spreads: Mapping[str, Spread]  # of friction, slope [deg] and intensity
     shifts: Mapping[str, tuple[Shift, Shift]]
-    fragility: slice
-    samples: slice
-    bars: slice
+    fragility: slice  # cases
+    samples: slice  # of its exceedance; empty without an intensity at the site
+    bars: slice  # of its tornado chart; the same
 
 
 @dataclass(frozen=True, kw_only=True)
 class StudyPlan:
-    """A study ready to run.
-
-    Attributes
-    ----------
-    campaign : Campaign
-        The first cases are the grid of building, slope, friction and intensity.
-    hazard : tuple of HazardCurve
-        Of the intensity of the motions; empty for none.
-    predicted : mapping of str to Predictive
-        By the folded ID of each mat with tests.
-    warnings : tuple of (str, str)
-        Cell and text of each warning on the workbook.
-    """
+    """A study ready to run; the first cases are the grid of the curves."""
 
     workbook: str
     input: StudyInput
     motions: StudyMotions
     campaign: Campaign
     arrays: tuple[ArrayPlan, ...]
-    hazard: tuple[HazardCurve, ...]
-    predicted: Mapping[str, Predictive]
-    warnings: tuple[tuple[str, str], ...]
+    hazard: tuple[HazardCurve, ...]  # of the intensity of the motions; empty for none
+    predicted: Mapping[str, Predictive]  # by the folded ID of each mat with tests
+    warnings: tuple[tuple[str, str], ...]  # cell and text of each, on the workbook
 
     @property
     def shape(self) -> tuple[int, int, int, int]:

@@ -36,83 +36,44 @@ FRICTION_DECIMALS, SLOPE_DECIMALS = 2, 1
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LimitState:
-    """A limit state of an array with its fragility.
+    """A limit state of an array with its fragility."""
 
-    Attributes
-    ----------
-    name, words : str
-        Such as LS2, and what it is.
-    limit_m : float
-        PRD above which it is exceeded [m]; 0 for the beginning of slip.
-    effects : mapping of str to float
-        Dispersion of the capacity due to friction and slope, by the names of `ArrayPlan.shifts`;
-        NaN if not determined.
-    """
-
-    name: str
+    name: str  # such as LS2
     words: str
-    limit_m: float
+    limit_m: float  # PRD above which it is exceeded; 0 for the beginning of slip
     fragility: Fragility
-    effects: Mapping[str, float]
+    effects: Mapping[str, float]  # dispersion by names of `ArrayPlan.shifts`; NaN for none
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArrayStudyResult:
-    """The results of one array on one building.
-
-    Attributes
-    ----------
-    exceedances : tuple of Exceedance
-        That the clearance is exceeded at the site; empty without an intensity there.
-    center_m : float
-        Mean PRD with all variables at their centers [m]; NaN without an intensity at the site.
-    capacity_runs : int
-        Runs of its own for the capacities.
-    """
+    """The results of one array on one building."""
 
     plan: ArrayPlan
     states: tuple[LimitState, ...]
-    exceedances: tuple[Exceedance, ...]
+    exceedances: tuple[Exceedance, ...]  # of the clearance; empty without an intensity at the site
     bars: tuple[Bar, ...]
-    center_m: float
+    center_m: float  # mean PRD with all variables at their centers; NaN without that intensity
     capacity_runs: int
 
 
 @dataclass(frozen=True, kw_only=True)
 class StudyResults:
-    """The results of a study.
-
-    Attributes
-    ----------
-    manifest : mapping
-        Of the finished runs.
-    curves : Statistics
-        Of shape (buildings, slopes, frictions, intensities).
-    analysis_m, design_m : array
-        Value from analysis, and design displacement, of the same shape [m]; NaN for none.
-    spread : SpectralSpread
-        Of the motions' spectra.
-    ppa_g : array, shape (buildings,)
-        Mean peak horizontal acceleration at the roof for an intensity of 1 [g].
-    fits : tuple of Fit or str
-        By building; a text says why there is none.
-    years : tuple of ArrayYears
-        In the order of the arrays; empty without a hazard curve.
-    allow_matched : bool
-        Whether fragilities without a record-to-record dispersion are exported, with a warning.
-    """
+    """The results of a study; those of the grid have the shape of its four axes, NaN for none."""
 
     plan: StudyPlan
-    manifest: Mapping[str, Any]
+    manifest: Mapping[str, Any]  # of the finished runs
     curves: Statistics
-    analysis_m: Floats
+    analysis_m: Floats  # value from analysis
     design_m: Floats
-    spread: SpectralSpread
-    ppa_g: Floats
-    fits: tuple[Fit | str, ...]
+    spread: SpectralSpread  # of the motions' spectra
+    ppa_g: (
+        Floats  # mean peak horizontal acceleration at the roof for an intensity of 1, by building
+    )
+    fits: tuple[Fit | str, ...]  # by building; a text says why there is none
     arrays: tuple[ArrayStudyResult, ...]
-    years: tuple[ArrayYears, ...]
-    allow_matched: bool
+    years: tuple[ArrayYears, ...]  # in the order of the arrays; empty without a hazard curve
+    allow_matched: bool  # fragilities without a record-to-record dispersion are exported
 
     @property
     def displacements(self) -> Mapping[str, Floats]:

@@ -17,15 +17,15 @@ from report.entities.requirement import UNVERIFIED
 from report.entities.shown import UnitFormat
 from report.results.sheets import text_workbook
 from report.sheet.schema.years import SUPPORTING
+from report.study.plan import ArrayPlan
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.wording import (
     NAMES,
-    analysis_words,
-    design_words,
     dispersions,
     exported,
     is_exportable,
     is_refused,
+    sentence,
     taken_over,
 )
 from report.text.counts import capitalized
@@ -66,6 +66,11 @@ def length_unit(results: StudyResults) -> Unit:
     return UnitFormat(results.plan.input.study.units_first.is_us).units()[0]
 
 
+def who(results: StudyResults, plan: ArrayPlan) -> tuple[str, str]:
+    """Return building and ID of an array."""
+    return results.plan.motions.buildings[plan.building], plan.array.id
+
+
 def study_xlsx(results: StudyResults, more: Iterable[tuple[str, Row, Iterable[Row]]] = ()) -> bytes:
     """Return the summaries as a workbook: never a row for each run.
 
@@ -79,9 +84,14 @@ def study_xlsx(results: StudyResults, more: Iterable[tuple[str, Row, Iterable[Ro
     book = text_workbook(buffer, study_input.study.date, study_input.study.title)
     head_format = book.add_format({"bold": True, "text_wrap": True, "bottom": 1})
     measure = study_input.study.intensity.value
+    lengths = [f"{capitalized(name)} [{unit.symbol}]" for name in results.displacements]
     for title, head, rows in (
         ("Study", ("What", "Value"), _about(results)),
-        ("Curves", _curve_head(results, unit), _curves(results, unit)),
+        (
+            "Curves",
+            ("Building", "Slope [deg]", "Friction", measure, *lengths, "Motions without a value"),
+            _curves(results, unit),
+        ),
         (
             "Least friction",
             ("Building", "Displacement", "Slope [deg]", measure, "Least friction"),
@@ -126,14 +136,8 @@ def _about(results: StudyResults) -> Iterator[Row]:
     yield "Identity of the manifest", manifest["identity"]
     yield from manifest["program"].items()
     yield "Agreement of a repetition", manifest["agreement"]
-    yield "Design displacement", design_words(results)
+    yield "Design displacement", sentence(results, "design")
     yield "Marks", UNVERIFIED
-
-
-def _curve_head(results: StudyResults, unit: Unit) -> Row:
-    measure = results.plan.input.study.intensity.value
-    lengths = [f"{capitalized(name)} [{unit.symbol}]" for name in results.displacements]
-    return ("Building", "Slope [deg]", "Friction", measure, *lengths, "Motions without a value")
 
 
 def _curves(results: StudyResults, unit: Unit) -> Iterator[Row]:
@@ -168,8 +172,7 @@ def _fragilities(results: StudyResults, unit: Unit) -> Iterator[Row]:
         for state in result.states:
             f = state.fragility
             yield (
-                results.plan.motions.buildings[result.plan.building],
-                result.plan.array.id,
+                *who(results, result.plan),
                 state.name,
                 state.words,
                 state.limit_m / unit.si,
@@ -204,8 +207,7 @@ def _exceedances(results: StudyResults, unit: Unit) -> Iterator[Row]:
     for result in results.arrays:
         for exceedance in result.exceedances:
             yield (
-                results.plan.motions.buildings[result.plan.building],
-                result.plan.array.id,
+                *who(results, result.plan),
                 result.plan.array.clearance_m / unit.si,
                 unit.symbol,
                 exceedance.value,
@@ -221,7 +223,11 @@ def _formula(results: StudyResults) -> Iterator[Row]:
         if not isinstance(fit, Fit):
             yield building, "none", fit
             continue
-        yield building, "fitted, Δ_RHA", f"value from analysis: {analysis_words(results)}, in m"
+        yield (
+            building,
+            "fitted, Δ_RHA",
+            f"value from analysis: {sentence(results, 'analysis')}, in m",
+        )
         for number, value in enumerate(fit.coefficients):
             yield building, f"b{number}", value
         yield building, "p [g]", fit.ppa_g

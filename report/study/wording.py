@@ -34,21 +34,11 @@ MASS = "Mass has no effect: each array is one rigid block with Coulomb friction"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Dispersion:
-    """A part of the dispersion of a capacity, independent of the others.
+    """A part of the dispersion of a capacity, independent of the others."""
 
-    Attributes
-    ----------
-    name : str
-        One of `NAMES`.
-    source : str
-        Where it is from, or why it is not included.
-    beta : float
-        Standard deviation of the logarithm of the capacity; 0 where it is not included.
-    """
-
-    name: str
-    source: str
-    beta: float
+    name: str  # one of `NAMES`
+    source: str  # where it is from, or why it is not included
+    beta: float  # standard deviation of the logarithm of the capacity; 0 if not included
 
 
 def dispersions(
@@ -102,7 +92,8 @@ def is_exportable(results: StudyResults) -> bool:
 
 def lacks_record_spread(results: StudyResults) -> bool:
     """Whether neither the motions nor the workbook give a record-to-record dispersion."""
-    return results.plan.input.study.record_beta is None and not results.spread.is_record_to_record
+    differ = results.spread.is_known and not results.spread.is_one_spectrum
+    return results.plan.input.study.record_beta is None and not differ
 
 
 def is_refused(results: StudyResults) -> bool:
@@ -165,19 +156,9 @@ def on_building(results: StudyResults, building: int, before: str = " on ") -> s
     return before + names[building] if len(names) > 1 else ""
 
 
-def analysis_words(results: StudyResults) -> str:
-    """Return what the value from analysis is; it must have one."""
-    return said(TEMPLATES, _SENTENCES, "analysis", context(results))
-
-
-def design_words(results: StudyResults) -> str:
-    """Return what the design displacement is, or that there is none."""
-    return said(TEMPLATES, _SENTENCES, "design", context(results))
-
-
-def warning(results: StudyResults) -> str:
-    """Return what each exported file says of its dispersion and its runs, if anything."""
-    return said(TEMPLATES, _SENTENCES, "warnings", context(results))
+def sentence(results: StudyResults, macro: str) -> str:
+    """Return a sentence that the tables and exports share with the pages; empty for none."""
+    return said(TEMPLATES, _SENTENCES, macro, context(results))
 
 
 def taken_over(results: StudyResults) -> list[str]:

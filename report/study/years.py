@@ -56,53 +56,25 @@ _BINS = 8
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArrayYears:
-    """The rates and the lives of an array on a building.
-
-    Attributes
-    ----------
-    predicted : tuple of Predictive
-        Distribution of the friction coefficient; empty without tests.
-    mus : tuple of float
-        Coefficients, equally likely.
-    slip : float
-        Intensity at which the first motion slips with the least of them.
-    responses : Responses
-    change : float
-        Of the results, by halving the steps of intensity.
-    limits_m, rates : array, shape (m,)
-        Displacements [m] and the annual rates at which a PRD exceeds them.
-    rates_band : array, shape (2, m)
-        Quantiles of `rates.BAND`.
-    prd_m, prd_band_m : array, shape (5,), (2, 5)
-        PRD of `RECURRENCES`, and its quantiles [m]; inf for none.
-    prd_by_mu_m : array, shape (frictions, 5)
-        The same for each coefficient alone.
-    edges, shares : array, shape (n + 1,), (n,)
-        Intensities, and shares of the rate at which the clearance is exceeded.
-    lives : mapping of str to array, shape (2, `LIVES`)
-        `distances`, by when the array is put back.
-    required_mu, more_runs : float
-        Friction coefficient with which the PRD of `VERDICT_YEARS` is the clearance, and how many
-        more runs make it the lowest of the predictive distribution; NaN without tests.
-    """
+    """The rates and the lives of an array on a building; arrays of limits have the shape (m,)."""
 
     plan: ArrayPlan
-    predicted: tuple[Predictive, ...]
-    mus: tuple[float, ...]
-    slip: float
+    predicted: tuple[Predictive, ...]  # distribution of friction; empty without tests
+    mus: tuple[float, ...]  # equally likely
+    slip: float  # intensity at which the first motion slips with the least of them
     responses: Responses
-    change: float
+    change: float  # of the results, by halving the steps of intensity
     limits_m: Floats
-    rates: Floats
-    rates_band: Floats
-    prd_m: Floats
-    prd_band_m: Floats
-    prd_by_mu_m: Floats
-    edges: Floats
-    shares: Floats
-    lives: Mapping[str, Floats]
-    required_mu: float
-    more_runs: float
+    rates: Floats  # at which a PRD exceeds the limits [1/year]
+    rates_band: Floats  # its quantiles of `rates.BAND`, shape (2, m)
+    prd_m: Floats  # of `RECURRENCES`; inf for none
+    prd_band_m: Floats  # its quantiles, shape (2, 5)
+    prd_by_mu_m: Floats  # of each coefficient alone, shape (frictions, 5)
+    edges: Floats  # intensities, shape (n + 1,)
+    shares: Floats  # of the rate at which the clearance is exceeded, shape (n,)
+    lives: Mapping[str, Floats]  # `distances` by when the array is put back
+    required_mu: float  # with it the PRD of `VERDICT_YEARS` is the clearance; inf or 0 beyond
+    more_runs: float  # until it is the lowest of the predictive distribution; NaN without tests
 
     @property
     def runs(self) -> int:

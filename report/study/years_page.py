@@ -5,8 +5,7 @@ Computes nothing but units and probabilities. Read `years`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import Any
+from collections.abc import Iterator
 
 from report.document.templates import Section, section
 from report.sheet.schema.years import SUPPORTING, Distance, StudyYears, YearsOfArray
@@ -14,14 +13,12 @@ from report.study import figures
 from report.study import years as rates
 from report.study.page_parts import axis, design_length
 from report.study.results import StudyResults
-from report.study.tables import length_unit
+from report.study.tables import Row, length_unit, who
 from report.study.wording import on_building
 from report.study.years import ArrayYears
 from report.text.formats import slug
 from solver.studies import lives, predictive
 from solver.studies.rates import LEAST_RATE
-
-Row = Sequence[Any]
 
 
 def years(results: StudyResults, array_years: ArrayYears) -> Section:
@@ -70,7 +67,7 @@ def sheets(results: StudyResults) -> Iterator[tuple[str, Row, list[Row]]]:
         "Displacement hazard",
         ("Building", "Array", f"PRD [{unit.symbol}]", "Annual rate", *quantiles),
         [
-            (*_who(results, array_years), d / unit.si, rate, *band)
+            (*who(results, array_years.plan), d / unit.si, rate, *band)
             for array_years in many
             for d, rate, band in zip(
                 array_years.limits_m, array_years.rates, array_years.rates_band.T, strict=True
@@ -81,15 +78,11 @@ def sheets(results: StudyResults) -> Iterator[tuple[str, Row, list[Row]]]:
         "25 years",
         ("Building", "Array", "What", "Case", "Value", *quantiles, "Unit"),
         [
-            (*_who(results, array_years), *row)
+            (*who(results, array_years.plan), *row)
             for array_years in many
             for row in _values(results, array_years)
         ],
     )
-
-
-def _who(results: StudyResults, array_years: ArrayYears) -> Row:
-    return results.plan.motions.buildings[array_years.plan.building], array_years.plan.array.id
 
 
 def _hazard(results: StudyResults) -> Iterator[Row]:
@@ -162,7 +155,7 @@ def years_json(results: StudyResults) -> bytes:
 
 
 def _of_array(results: StudyResults, array_years: ArrayYears) -> YearsOfArray:
-    building, array = _who(results, array_years)
+    building, array = who(results, array_years.plan)
     return YearsOfArray(
         array=array,
         building=building,

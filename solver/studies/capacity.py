@@ -42,40 +42,20 @@ GREATEST_INTENSITY = 1e9
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Capacities:
-    """The capacities of motions for one limit.
+    """The capacities of motions for one limit, each field an array of shape (motions,)."""
 
-    Attributes
-    ----------
-    intensity : array, shape (motions,)
-        Capacity, from below; of a censored motion the intensity up to which it is not reached.
-    is_censored : array of bool, shape (motions,)
-    end : array, shape (motions,)
-        Intensity above which the motion would be censored.
-    falls : array of bool, shape (motions,)
-        Whether the PRD is at or below the limit again at a greater intensity that was run.
-    searched : array of int, shape (motions,)
-        Intensities run for the capacities of all limits together, each once by orientation.
-    """
-
-    intensity: Floats
+    intensity: Floats  # from below; if censored, up to which the limit is not reached
     is_censored: Flags
-    end: Floats
-    falls: Flags
-    searched: NDArray[np.int64]
+    end: Floats  # intensity above which the motion would be censored
+    falls: Flags  # whether the PRD is at or below the limit again at a greater intensity
+    searched: NDArray[np.int64]  # intensities run for all limits together, each once by orientation
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Curve:
-    """The PRD of one motion, the largest of its orientations, over intensity.
+    """The PRD of one motion, the largest of its orientations, over intensity."""
 
-    Attributes
-    ----------
-    tracks : sequence of Track
-        One for each orientation.
-    slope_rad, mu : float
-    """
-
-    tracks: Sequence[Track]
+    tracks: Sequence[Track]  # one for each orientation
     slope_rad: float
     mu: float
 
@@ -132,8 +112,6 @@ def capacities(
 
     Parameters
     ----------
-    curves : sequence of Curve
-        One for each motion.
     limits_m : sequence of float
         0 or above [m].
     levels : array, shape (m,)
@@ -141,8 +119,6 @@ def capacities(
     is_censoring : bool
         Whether a run without a value ends what is known of its motion; otherwise it counts as an
         exceedance.
-    steps : int
-        Number of the equal steps.
     """
     of_motion = partial(
         _of_motion, limits_m=limits_m, levels=levels, is_censoring=is_censoring, steps=steps

@@ -26,18 +26,12 @@ SETTLED = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Normals:
-    """The most likely normal of each sample; NaN with fewer than two different known values.
-
-    Attributes
-    ----------
-    of_mean, of_log : array, shape (r,)
-        Standard errors of the mean and of the logarithm of the deviation.
-    """
+    """The most likely normal of each sample; NaN with fewer than two different known values."""
 
     mean: Floats
     deviation: Floats
-    of_mean: Floats
-    of_log: Floats
+    of_mean: Floats  # its standard error
+    of_log: Floats  # standard error of the logarithm of the deviation
 
 
 def inverse_mills(z: Floats) -> Floats:

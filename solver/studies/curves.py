@@ -114,12 +114,9 @@ class Fit:
         b0 to b4, for a PRD in meters, to `DIGITS`.
     ppa_g : float
         p, mean peak acceleration of the motions per unit of intensity [g], to `DIGITS`.
-    sigma_ln : float
-        Standard deviation of ln(exact / fitted), with the degrees of freedom that are left.
-    minimum_ratio, maximum_ratio : float
-        Extremes of exact / fitted.
-    cases : int
-        Number of cases fitted.
+    sigma_ln, minimum_ratio, maximum_ratio : float
+        Standard deviation of ln(exact / fitted), with the degrees of freedom that are left, and
+        extremes of exact / fitted, in the cases fitted.
     domain : mapping of str to (float, float)
         Least and greatest slope [rad], friction, intensity, r and PRD [m] of the cases fitted.
     """
@@ -140,13 +137,15 @@ class Fit:
         InputError
             Outside the domain, with the ranges.
         """
-        r = _ratio(slope_rad, mu, self.ppa_g * intensity)
+        r = math.tan(math.atan(mu) - slope_rad) / (self.ppa_g * intensity)
         inputs = {"slope_rad": slope_rad, "mu": mu, "intensity": intensity, "r": r}
+        # A case that was fitted is in the domain whatever the rounding error of its units.
         problems = [
             f"{name} is {value:.4g}; the formula holds from {low:.4g} to {high:.4g}"
             for name, value in inputs.items()
             for low, high in [self.domain[name]]
-            if not _within(value, low, high)
+            for slack in [1e-9 * max(abs(low), abs(high))]
+            if not low - slack <= value <= high + slack
         ]
         if problems:
             raise InputError(problems)
@@ -160,16 +159,6 @@ class Fit:
         except InputError:
             return False
         return True
-
-
-def _within(value: float, low: float, high: float) -> bool:
-    # A case that was fitted is in the domain whatever the rounding error of its units.
-    slack = 1e-9 * max(abs(low), abs(high))
-    return low - slack <= value <= high + slack
-
-
-def _ratio(slope_rad: float, mu: float, peak_g: float) -> float:
-    return math.tan(math.atan(mu) - slope_rad) / peak_g
 
 
 def _terms(slope: Floats, mu: Floats, x: Floats, r: Floats) -> Floats:

@@ -132,10 +132,8 @@ def first_order_beta(median: float, around: tuple[float, float]) -> float:
 
     Parameters
     ----------
-    median : float
-        With the variable at its center.
-    around : tuple of float
-        Below and above.
+    median, around : float, tuple of float
+        With the variable at its center, and below and above.
 
     Returns
     -------
@@ -163,21 +161,24 @@ def fragility(
         Intensities above 0.
     exceeds, counts : array of bool, shape (motions, m)
         Whether the limit state is exceeded, and whether the run is counted.
-    capacities : Capacities
-    seed : int
     """
-    k, n = exceeds & counts, counts
     fitted = fit_lognormal(capacities)
     theta_range, beta_range, unfitted = UNKNOWN_RANGE, UNKNOWN_RANGE, 0
     if fitted.is_known and capacities.is_censored.any():
         theta_range, beta_range, unfitted = _drawn_ranges(capacities, fitted, seed)
     elif fitted.is_known:
-        theta_range, beta_range = _exact_ranges(capacities.intensity.size, fitted)
-    p_value = _p_value(capacities, fitted)
+        free = capacities.intensity.size - 1
+        far = float(student.ppf(TAILS[1], free)) * fitted.beta / math.sqrt(free + 1)
+        theta_range = fitted.theta * math.exp(-far), fitted.theta * math.exp(far)
+        low, high = (fitted.beta * math.sqrt(free / chi2.ppf(1.0 - t, free)) for t in TAILS)
+        beta_range = low, high
+    p_value, motions = math.nan, capacities.intensity.size
+    if fitted.is_known and motions >= 4 and not capacities.is_censored.any():
+        p_value = lilliefors_p(float(lilliefors(np.log(capacities.intensity))), motions)
     return Fragility(
         levels=levels,
-        exceeded=k.sum(axis=0).astype(np.int64),
-        counted=n.sum(axis=0).astype(np.int64),
+        exceeded=(exceeds & counts).sum(axis=0).astype(np.int64),
+        counted=counts.sum(axis=0).astype(np.int64),
         censored=int(counts.size - counts.sum()),
         capacities=capacities,
         fitted=fitted,
@@ -185,21 +186,11 @@ def fragility(
         beta_range=beta_range,
         unfitted=unfitted,
         p_value=p_value,
-        critical=math.nan
-        if math.isnan(p_value)
-        else lilliefors_critical(capacities.intensity.size),
+        critical=math.nan if math.isnan(p_value) else lilliefors_critical(motions),
     )
 
 
 TAILS = (0.5 * (1.0 - CONFIDENCE), 0.5 * (1.0 + CONFIDENCE))
-
-
-def _exact_ranges(motions: int, fitted: Lognormal) -> tuple[Range, Range]:
-    """Return the intervals of theta and beta of uncensored capacities."""
-    free = motions - 1
-    far = float(student.ppf(TAILS[1], free)) * fitted.beta / math.sqrt(motions)
-    low, high = (fitted.beta * math.sqrt(free / chi2.ppf(1.0 - tail, free)) for tail in TAILS)
-    return (fitted.theta * math.exp(-far), fitted.theta * math.exp(far)), (low, high)
 
 
 def _drawn_ranges(capacities: Capacities, fitted: Lognormal, seed: int) -> tuple[Range, Range, int]:
@@ -265,9 +256,3 @@ def _drawn_distances(motions: int) -> Floats:
     """Return the distances of normal samples, increasing."""
     drawn = np.random.default_rng(1967).standard_normal((LILLIEFORS_REPEATS, motions))
     return np.sort(lilliefors(drawn))
-
-
-def _p_value(capacities: Capacities, fitted: Lognormal) -> float:
-    if not fitted.is_known or capacities.is_censored.any() or capacities.intensity.size < 4:
-        return math.nan
-    return lilliefors_p(float(lilliefors(np.log(capacities.intensity))), capacities.intensity.size)

@@ -75,21 +75,17 @@ def run_levels(
     def run(case: tuple[float, tuple[Track, Floats]]) -> Floats:
         mu, (track, of_track) = case
         once, at = np.unique(of_track, return_inverse=True)
-        rows = [
-            _response(track, np.array([slope_rad, mu, track.scene.scale * x]))
-            for x in once.tolist()
-        ]
-        return np.array(rows)[at]
+        rows = np.full((once.size, len(RESPONSES)), math.nan)
+        for row, x in zip(rows, once, strict=True):
+            scene = scene_of(track.scene, np.array([slope_rad, mu, track.scene.scale * x]))
+            result = least_model.solve(scene).result
+            if result.status is Status.OK:
+                row[:] = [getattr(result, name) for name in RESPONSES]
+        return rows[at]
 
     with ThreadPoolExecutor(THREADS) as pool:
         rows = list(pool.map(run, product(mus, zip(tracks, levels, strict=True))))
     return np.array(rows).reshape(len(mus), *levels.shape, len(RESPONSES))
-
-
-def _response(track: Track, slope_mu_scale: Floats) -> list[float]:
-    result = least_model.solve(scene_of(track.scene, slope_mu_scale)).result
-    is_final = result.status is Status.OK
-    return [getattr(result, name) if is_final else math.nan for name in RESPONSES]
 
 
 def settled_responses(
@@ -140,23 +136,13 @@ def settled_responses(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Draws:
-    """The events of lives: those of life i are from first[i] to first[i + 1].
-
-    Attributes
-    ----------
-    first, friction : array of int, shape (lives + 1,), (lives,)
-        Friction: index of the coefficient, the same in all events of a life.
-    run : array of int, shape (events,)
-        Index of the motion and its orientation.
-    side, intensity : array, shape (events,)
-        Sign of the cross-slope component; intensity, inf beyond the greatest that is run.
-    """
+    """The events of lives: those of life i are from first[i] to first[i + 1]."""
 
     first: Indices
-    friction: Indices
-    run: Indices
-    side: Floats
-    intensity: Floats
+    friction: Indices  # of each life: index of the coefficient
+    run: Indices  # of each event: index of the motion and its orientation
+    side: Floats  # sign of the cross-slope component
+    intensity: Floats  # inf beyond the greatest that is run
 
 
 def draw(
@@ -220,20 +206,12 @@ def distances(draws: Draws, responses: Responses, recenter_m: float) -> Floats:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LifeStatistics:
-    """Statistics of a distance over lives; one without a distance is beyond all others.
+    """Statistics of a distance over lives; one without a distance is beyond all others."""
 
-    Attributes
-    ----------
-    mean_m, p95_m : float
-        Mean of the lives that have a distance, and 95th percentile of all [m]; inf for none.
-    beyond, without_value : float
-        Shares of the lives beyond a clearance, and of those without a distance.
-    """
-
-    mean_m: float
-    p95_m: float
-    beyond: float
-    without_value: float
+    mean_m: float  # of the lives that have a distance; inf for none
+    p95_m: float  # of all
+    beyond: float  # share of the lives beyond a clearance
+    without_value: float  # share of the lives without a distance
 
 
 def life_statistics(distances_m: Floats, clearance_m: float) -> LifeStatistics:

@@ -36,16 +36,9 @@ LEAST_PARTS, MOST_PARTS = 32, 4_000
 
 @dataclass(frozen=True, slots=True)
 class Cases:
-    """Cases in the order of the rows.
+    """Cases in the order of the rows, each field an array of shape (m,)."""
 
-    Attributes
-    ----------
-    building : array of int, shape (m,)
-        Index of the motions at the roof of a building.
-    slope_rad, mu, intensity : array, shape (m,)
-    """
-
-    building: NDArray[np.int64]
+    building: NDArray[np.int64]  # index of the motions at its roof
     slope_rad: Floats
     mu: Floats
     intensity: Floats
@@ -127,19 +120,11 @@ LENGTHS = ("prd_m", "down_m", "up_m", "across_m", "residual_m")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rows:
-    """Outcomes of the runs of a part, of shape (cases, columns).
+    """Outcomes of the runs of a part, of shape (cases, columns)."""
 
-    Attributes
-    ----------
-    lengths : array, shape (5, cases, columns)
-        `LENGTHS`, as in `SlideResult` [m]; NaN for none.
-    status, model : array of uint8
-        Index into `STATUSES`; `Model`.
-    """
-
-    lengths: Floats
-    status: NDArray[np.uint8]
-    model: NDArray[np.uint8]
+    lengths: Floats  # `LENGTHS` first, as in `SlideResult`; NaN for none
+    status: NDArray[np.uint8]  # index into `STATUSES`
+    model: NDArray[np.uint8]  # `Model`
 
 
 def empty_rows(shape: tuple[int, int]) -> Rows:
@@ -191,19 +176,11 @@ def _track(motion: Motion, orientation: Orientation) -> Track:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Track:
-    """A motion at one orientation, prepared.
+    """A motion at one orientation, prepared."""
 
-    Attributes
-    ----------
-    scene : Scene
-        With the factor for an intensity of 1.
-    x, z : array
-        `kernel.bounds` of its horizontal and vertical record; z None for none.
-    """
-
-    scene: Scene
-    x: Floats
-    z: Floats | None
+    scene: Scene  # with the factor for an intensity of 1
+    x: Floats  # `kernel.bounds` of its horizontal record
+    z: Floats | None  # and of its vertical one
 
     def fill(self, cases: Cases, chosen: NDArray[np.intp], rows: Rows, column: int) -> None:
         """Run the chosen cases and fill their rows of a column."""

@@ -25,21 +25,11 @@ CHANCE_CONFIDENCE = 0.90
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Spread:
-    """Distribution of one variable: lognormal, or uniform about its center.
+    """Distribution of one variable: lognormal, or uniform about its center."""
 
-    Attributes
-    ----------
-    center : float
-        Median of the lognormal, middle of the uniform distribution.
-    beta : float
-        Standard deviation of the logarithm; 0 for none.
-    half : float
-        Half the width of the uniform distribution; 0 for none.
-    """
-
-    center: float
-    beta: float = 0.0
-    half: float = 0.0
+    center: float  # median of the lognormal, middle of the uniform distribution
+    beta: float = 0.0  # standard deviation of the logarithm
+    half: float = 0.0  # half the width of the uniform distribution
 
     @property
     def is_fixed(self) -> bool:
@@ -99,23 +89,15 @@ def latin_hypercube(spreads: Sequence[Spread], count: int, *, seed: int) -> Floa
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Exceedance:
-    """Probability that a limit is exceeded.
+    """Probability that a limit is exceeded, with its interval of `CHANCE_CONFIDENCE`.
 
-    Attributes
-    ----------
-    value : float
-        Fraction of all samples and motions, equally likely.
-    low, high : float
-        Confidence interval of `CHANCE_CONFIDENCE` by bootstrap over the motions.
-    without_value : int
-        Runs without a value, which count as exceedances.
-    runs : int
+    The interval is by bootstrap over the motions.
     """
 
-    value: float
+    value: float  # fraction of all samples and motions, equally likely
     low: float
     high: float
-    without_value: int
+    without_value: int  # runs that count as exceedances
     runs: int
 
 
@@ -126,8 +108,6 @@ def exceedance(prd_m: Floats, limit_m: float, *, seed: int) -> Exceedance:
     ----------
     prd_m : array, shape (samples, motions)
         NaN for a run without a value, which counts as an exceedance.
-    limit_m : float
-    seed : int
     """
     by_motion = (~(prd_m <= limit_m)).mean(axis=0)
     rng = np.random.default_rng(seed)
@@ -149,7 +129,6 @@ class Bar:
 
     Attributes
     ----------
-    name : str
     at_low, at_high : float
         The variable at its 5 % and 95 % quantile.
     prd_low_m, prd_high_m : float
@@ -184,7 +163,6 @@ def tornado(spreads: Mapping[str, Spread], means_m: Floats) -> tuple[Bar, ...]:
 
     Parameters
     ----------
-    spreads : mapping of str to Spread
     means_m : array, shape (1 + 2 variables,)
         Mean PRD of the cases of `one_at_a_time` [m].
     """

@@ -39,7 +39,7 @@ from report.study.files import study_html
 from report.study.run import estimate, planned, run_study
 from report.study.schema import Intensity, NoValue, StudyArray, StudyBuilding
 from report.study.tables import curves_csv, study_xlsx
-from report.study.wording import design_words, headline
+from report.study.wording import headline, sentence
 from report.text.units import Quantity
 from report.typeset.pdf import lay_out
 from solver import solve
@@ -312,7 +312,7 @@ def test_the_workbook_holds_summaries_only(made, results):
     ):
         assert curve[head] == pytest.approx(values[0, 0, 0, 11] / 0.0254)
     about = {row["What"]: row["Value"] for row in sheet_rows(results, "Study")}
-    assert about["Design displacement"] == design_words(results)
+    assert about["Design displacement"] == sentence(results, "design")
     for row, state in zip(sheet_rows(results, "Fragility"), results.arrays[0].states, strict=False):
         wanted = state.fragility.fitted.theta
         assert row["Median theta"] == ("none" if math.isnan(wanted) else pytest.approx(wanted))

@@ -20,7 +20,7 @@ from report.study.page_parts import design_length
 from report.study.results import STATISTICS
 from report.study.run import planned, run_study
 from report.study.schema import Intensity, Mat, RuleSetName, StudyArray
-from report.study.wording import both, design_words, headline
+from report.study.wording import both, headline, sentence
 from solver.rules.provisions import (
     RULE_SETS,
     analysis_floor_m,
@@ -91,7 +91,7 @@ def test_the_rule_set_and_the_number_of_motions_decide(tmp_path, motions, rule_s
         )
         wanted = max(analysis_value(rules, prd).value_m, least)
         assert found.design_m[0, 1, 0, x] == pytest.approx(wanted, rel=1e-12)
-    said = design_words(found)
+    said = sentence(found, "design")
     assert rule_set in said
     assert ("1.1† times the mean PRD" in said) == (motions >= 7)
     assert ("1.1† times the largest PRD" in said) == (motions < 7)

@@ -20,7 +20,7 @@ from report.study.plan import FRICTION, SLOPE, ArrayPlan
 from report.study.results import ArrayStudyResult, LimitState
 from report.study.run import planned, run_study
 from report.study.schema import StudyArray
-from report.study.wording import headline, warning
+from report.study.wording import headline, sentence
 from solver.studies.capacity import Capacities
 from solver.studies.fragility import Fragility, Lognormal
 from solver.studies.uncertainty import Spread
@@ -141,7 +141,7 @@ def test_allow_matched_writes_the_warning_in_each_file(results):
         "the median, as motions matched to one spectrum do, and β does not contain the "
         "record-to-record dispersion of earthquakes. Written with --allow-matched."
     )
-    assert warning(found) == wanted
+    assert sentence(found, "warnings") == wanted
     assert all(wanted in content.decode() for content in made.values())
     assert headline(found)[-1] == wanted.rstrip(".")
 
