@@ -18,6 +18,7 @@ from itertools import chain
 
 import numpy as np
 import pytest
+from pypdfium2 import PdfDocument
 
 import packages
 import solver.public
@@ -296,6 +297,17 @@ def test_the_answers_have_the_numbers_of_the_example(reported):
         f"{required_in:.3f} / {provided_in:.0f} = {required_in / provided_in:.4f}",
     ):
         assert said in page
+
+
+@pytest.mark.nightly
+def test_the_example_of_the_first_package_has_the_numbers_of_its_pages(reported):
+    told = DOCS[ROOT / "docs" / "first-package.md"].partition("## The example")[2]
+    told = told.partition("`out/calc-package.pdf` begins")[0]
+    sheets = PdfDocument(reported.out / "calc-package.pdf")
+    pages = "".join(sheet.get_textpage().get_text_range() for sheet in sheets)
+    numbers = re.findall(r"(\d+\.\d) in\b|D/C (\d\.\d+)|smallest tested, (\d\.\d+)", told)
+    assert len(numbers) > 8
+    assert [each for each in map("".join, numbers) if not re.search(rf"\b{each}\b", pages)] == []
 
 
 @pytest.mark.quick

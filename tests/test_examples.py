@@ -1,6 +1,9 @@
 """The examples of the docs run as scripts in a folder of their own, and open as notebooks."""
 
+import os
 import runpy
+import subprocess
+import sys
 from importlib.util import module_from_spec, spec_from_file_location
 
 import pytest
@@ -36,6 +39,24 @@ def test_an_example_runs_and_saves_what_it_shows(name, tmp_path, monkeypatch, ca
         (row,) = load_tabular(tmp_path / "fragility.csv").to_dict("records")
         assert row["LS1", "Family"] == "lognormal"
         assert 0.0 < row["LS1", "Theta_0"] < row["LS2", "Theta_0"]
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("name", listed())
+def test_an_example_needs_no_extra_but_where_the_page_says_so(name, tmp_path):
+    extras = ["distributed", "pyarrow", "scipy", "starlette", "xarray"]
+    program = f"import runpy, sys; sys.modules |= dict.fromkeys({extras}); "
+    program += "runpy.run_path(sys.argv[1])"
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(EXAMPLES / f"{name}.py")],
+        cwd=tmp_path,
+        env=os.environ | {"MPLBACKEND": "agg"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    page = (ROOT / "docs" / "examples.md").read_text()
+    assert (done.returncode != 0) == (f"`{name}.py` needs SciPy" in page), done.stderr
 
 
 @pytest.mark.parametrize("name", listed())
