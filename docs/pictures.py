@@ -1,8 +1,8 @@
-"""Draws the pictures of README and docs anew, from the example and from the verification.
+"""Draws the pictures of README and docs anew, from the projects and the verification.
 
     .venv/bin/python docs/pictures.py
 
-Needs what `./roofslip test` installs, Chromium included. Sheets of the package and a chart of the
+Needs what `./roofslip test` installs, Chromium included. Sheets of the package and charts of the
 manual are cut at their last line; the page is shot as a browser shows it.
 """
 
@@ -83,7 +83,7 @@ def _browser(charts: Path) -> None:
     from browsing import at_rest, chromium, moved, opened, quiet_page, served
 
     with chromium() as browser, quiet_page(browser) as page:
-        example = report.read_project("projects/example").project
+        example = report.read_project(ROOT / "projects" / "example").project
         free_body = array_section(example.arrays[-1], us_first=True)
         (charts / "free-body.svg").write_text(free_body, encoding="utf-8")
         for chart, name in CHARTS.items():
