@@ -35,7 +35,7 @@ SHEETS = {
     "summary.png": ("1 Summary", 1.0),
     "comparison.png": ("2 Comparison with the prescriptive displacement", 0.66),
     "comparison-chart.png": ("2 Comparison with the prescriptive displacement", 0.283),
-    "model.png": ("6 Model used", 0.55),
+    "model.png": ("Model used, by array", 0.5),
 }
 """Of the package: the heading of a part, and how much of a sheet is shown from there down."""
 CHARTS = {

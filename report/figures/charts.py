@@ -55,7 +55,7 @@ def comparison(
     """
     first, second = UnitFormat(us_first).units()
     with style():
-        height = 1.18 + _row_in(len(groups)) * len(groups)
+        height = 1.26 + _row_in(len(groups)) * len(groups)
         names = [cut(printed(ranged(array.id for array in group)), 32) for group in groups]
         figure, axes = framed(height, _label_in(names), 0.1, 0.48, 0.75)
         for row, group in enumerate(groups):
@@ -64,7 +64,7 @@ def comparison(
             if others:
                 axes.plot(others, [row] * len(others), **_OTHER, label=_LEGEND[-1])
         axes.set_yticks(range(len(groups)), names)
-        axes.set_ylim(len(groups) - 0.45, -0.68)  # the first row has room for a note
+        axes.set_ylim(len(groups) - 0.45, -0.92)  # the first row has room for a note
         axes.set_xlim(0, None)
         axes.set_xlabel(f"Horizontal displacement [{first.symbol}]")
         _second_scale(axes, first, second)
