@@ -33,9 +33,9 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 
 SHEETS = {
     "summary.png": ("1 Summary", 1.0),
-    "comparison.png": ("2 Comparison with the prescriptive displacement", 0.66),
+    "comparison.png": ("2 Comparison with the prescriptive displacement", 0.54),
     "comparison-chart.png": ("2 Comparison with the prescriptive displacement", 0.283),
-    "model.png": ("Model used, by array", 0.5),
+    "model.png": ("Model used, by array", 0.475),
 }
 """Of the package: the heading of a part, and how much of a sheet is shown from there down."""
 CHARTS = {
@@ -70,7 +70,9 @@ def _sheets(path: Path) -> None:
             text = page.get_textpage()
             if head in text.get_text_range().splitlines():
                 break
-        index, _ = text.search(head).get_next()
+        found, index = text.search(head), 0
+        while hit := found.get_next():  # the contents name it above its heading
+            index, _ = hit
         high = page.get_height() - text.get_charbox(index)[3]
         top = 0.0 if part == 1.0 else high - ABOVE_PT
         scale = WIDTH / page.get_width()
