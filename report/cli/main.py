@@ -17,10 +17,8 @@ from __future__ import annotations
 
 import json
 import os
-import platform
 import sys
 from collections.abc import Callable, Iterator
-from importlib.metadata import requires, version
 from typing import Any
 
 import click
@@ -45,7 +43,7 @@ from report.cli.terminal import (
     unwritten,
 )
 from report.cli.verify import sign, verify, verify_package
-from report.libraries import library, stay_apart
+from report.libraries import stay_apart
 from report.text.counts import as_typed, called
 
 VARIABLE = "_ROOFSLIP_COMPLETE"
@@ -101,6 +99,11 @@ def doctor() -> None:
 
 def _checks() -> Iterator[tuple[str, Callable[[str], str | None], str]]:
     """Yield each check: a name, what finds it, and what to do where it finds nothing or fails."""
+    import platform
+    from importlib.metadata import requires, version
+
+    from report.libraries import library
+
     yield "Python", lambda _: f"{platform.python_version()}, {platform.platform()}", ""
     yield "cores", lambda _: str(os.cpu_count()), ""
     launcher = os.path.join(".", "roofslip")

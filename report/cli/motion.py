@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import math
 import os
-import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fnmatch import fnmatchcase
@@ -283,6 +282,8 @@ def rows(
 
 def _in_library(source: Path) -> Path:
     """Return a folder or zip as given, or of that name in the user's library of motions."""
+    import tomllib
+
     from solver.model import InputError
     from solver.suggestions import meant
 

@@ -15,11 +15,14 @@ from places import ROOT
 from sheets import arrays, at, make, project
 
 EXAMPLE = ROOT / "projects" / "example"
-MANY = ("numpy", "numba", "pandas", "openpyxl", "matplotlib", "ezdxf", "ziamath")
+MANY = (
+    "numpy", "numba", "pandas", "openpyxl", "matplotlib", "ezdxf", "ziamath",
+    "ctypes", "importlib.metadata", "tomllib",
+)  # fmt: skip
 
 
 def loaded_by(code):
-    """What Python prints, and which of the large packages it has then loaded."""
+    """What Python prints, and which modules that are slow to load it has then loaded."""
     code += f"; import sys; print(*sorted({set(MANY)} & set(sys.modules)))"
     command = [sys.executable, "-c", code]
     done = subprocess.run(command, capture_output=True, text=True, check=True)

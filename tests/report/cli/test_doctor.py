@@ -36,7 +36,7 @@ def test_a_native_library_that_is_missing_is_named_with_its_package(monkeypatch)
 
 def test_a_package_that_is_missing_is_named(monkeypatch):
     needed = ["numpy", "no-such-package", "other-package; extra == 'sign'"]
-    monkeypatch.setattr(main, "requires", lambda _: needed)
+    monkeypatch.setattr("importlib.metadata.requires", lambda _: needed)
     done = run("doctor")
     assert done.exit_code == 1
     assert "no-such-package: install it" in done.stderr
