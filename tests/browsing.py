@@ -117,8 +117,8 @@ def opened(page, address):
 
 
 def at_rest(page):
-    """Wait until the full model has answered."""
-    page.wait_for_selector("body[data-phase=rest]")
+    """Wait until the full model has answered, with what less friction changes."""
+    page.wait_for_selector("body[data-phase=rest] #verdict:not([aria-busy])")
 
 
 def moved(page, slider, value):

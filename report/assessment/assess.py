@@ -72,6 +72,8 @@ def assess(
     shaking: Shaking,
     former: Assessment | None = None,
     project: ProjectInput | None = None,
+    *,
+    has_less_friction: bool = True,
 ) -> Assessment:
     """Run every array under every motion and check every limit and clearance.
 
@@ -82,6 +84,9 @@ def assess(
         arrays with the same slope, friction and model.
     project : ProjectInput, optional
         Assessed in place of that of the sheet; what the building code's rule set gives is left out.
+    has_less_friction : bool
+        Whether the verdicts are compared with those for less friction: half of the runs. Without,
+        an OK may still be one with conditions; every other verdict stays.
 
     Raises
     ------
@@ -94,13 +99,18 @@ def assess(
         begun = begin(run_motion, data, check_models=True, former=former.arrays if former else ())
         # The runs with less friction follow without a pause, while motions and arrays are checked.
         reduced = with_friction(data, 1.0 - SHIFT)
+        less: PendingRuns = ()
         known = former.at_reduced_friction.arrays if former and former.at_reduced_friction else ()
-        less = begin(run_motion, reduced, check_models=False, former=known)
+        if has_less_friction:
+            less = begin(run_motion, reduced, check_models=False, former=known)
         known = former.low_velocity.arrays if former else ()
         slow = begin(run_motion, with_low_velocity(data), check_models=False, former=known)
         acceptance = former.acceptance if former else shaking_acceptance(shaking, targets(data))
         whole = partial(_assess, sheet, shaking, acceptance=acceptance, pool=pool)
-        at_reduced_friction = partial(whole, reduced, begun=less, has_pairs=False)
+
+        def at_reduced_friction() -> Assessment | None:
+            return whole(reduced, begun=less, has_pairs=False) if has_less_friction else None
+
         done = whole(data, begun=begun, slow=slow, reduced_friction=at_reduced_friction)
         other = under_code(data)
         if other is data or project is not None:
@@ -186,7 +196,7 @@ def _assess(
     begun: PendingRuns,
     slow: PendingRuns = (),
     has_pairs: bool = True,
-    reduced_friction: Callable[[], Assessment] | None = None,
+    reduced_friction: Callable[[], Assessment | None] | None = None,
 ) -> Assessment:
     """Assess an input from its runs.
 

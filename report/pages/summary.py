@@ -198,7 +198,9 @@ def attention(assessment: Assessment, *, may_run: bool = True) -> Iterator[Conce
     """Yield what is not satisfied, what makes it NG first, and what would do, with runs or not."""
     for reason in reasons(assessment):
         yield Concern(Consequence.NG.value, reason)
-    if best := best_words(assessment, may_run=may_run):
+    # The verdict with a remedy depends on less friction as well.
+    is_whole = assessment.at_reduced_friction is not None
+    if is_whole and (best := best_words(assessment, may_run=may_run)):
         yield Concern("remedy", best)
     for row, ids in assessment.alike_conditions:
         if row.verdict.is_permitted:

@@ -39,6 +39,7 @@ _PROVISIONAL = (
     "Provisional: each motion in the two orientations with the largest PRD at rest. All of them "
     "follow when the slider rests."
 )
+_LESS = "What less friction would change is being computed."
 
 
 def answer(
@@ -58,19 +59,26 @@ def answer(
     missing = [near for near in assessment.neighbors if near.is_missing]
     designs = {item.id: _design(item, fmt, is_provisional) for item in arrays}
 
+    is_whole = is_provisional or assessment.at_reduced_friction is not None
+    may_change = not is_whole and assessment.verdict is Verdict.OK
+
     def verdict(verdict: Verdict, text: str = "") -> Cell | None:
         return None if is_provisional else stamp(verdict, text)
 
     return {
         "model_text": (_PROVISIONAL if is_provisional else _whole(assessment))
         + (f" {MEANING}." if assessment.is_overridden else ""),
-        "verdict": verdict(assessment.verdict, assessment.verdict.value),
-        "line": "" if is_provisional else _line(assessment),
+        "verdict": {"text": "OK so far", "look": "provisional"}
+        if may_change
+        else verdict(assessment.verdict, assessment.verdict.value),
+        "line": "" if is_provisional else _LESS if may_change else _line(assessment),
         # What it rests on; the reasons are listed below it.
         "verdict_text": None
-        if is_provisional
+        if is_provisional or may_change
         else sentence(TEMPLATES, "verdict", package_data(assessment), "here"),
         "reasons": [] if is_provisional else _reasons(assessment, fmt),
+        # Of what is not whole, the rest is asked next.
+        "pending": "" if is_whole else _LESS,
         "arrays": {
             "caption": "Arrays: displacement",
             "heads": heads(ArrayResult, _ARRAY, mean_prd_m="Mean PRD"),

@@ -21,6 +21,7 @@ from report.assessment.assess import anticipate, assess, reference_of
 from report.assessment.neighbors import NearbyKind
 from report.assessment.plan_clearances import missing_rows
 from report.assessment.project import Assessment
+from report.assessment.verdict import Verdict
 from report.drawing.drawing_names import drawn_on, proposed
 from report.drawing.fill import changes, layers_of, plan_as_rows
 from report.drawing.plan_read import known_layers
@@ -131,7 +132,8 @@ def perform(job: Json) -> Json:
         reply = {"answer": _JOBS[job["do"]](workbook, job)}
         is_complete = job["do"] in ("state", "assess") and not job.get("moving")
         if is_complete and not reply["answer"].get("problems"):
-            reply["reference"] = reference_of(_at_rest(workbook, job.get("values", {})))
+            key = _key(workbook, job.get("values", {}))
+            reply["reference"] = reference_of(_complete(workbook, key))
         return reply
     except InputError as error:
         return {"problems": problems(workbook, error)}
@@ -185,7 +187,7 @@ def answer_at(workbook: Path, job: Json) -> Json:
     if job["moving"]:
         reply = anticipate(opened.sheet, opened.shaking, job.get("reference", {}))
     else:
-        reply = _at_rest(workbook, job["values"])
+        reply = _at_rest(workbook, job["values"], is_whole=job.get("whole", True))
     shows = answer(reply, is_provisional=job["moving"], room_px=job["room"])
     return {**shows, "shown": shown(opened)}
 
@@ -263,8 +265,16 @@ def add_clearances(workbook: Path, job: Json) -> Json:
     return {}
 
 
+def verdict(workbook: Path, job: Json) -> Json:
+    """Return the verdict at values, which less friction changes only where it is OK."""
+    found = _at_rest(workbook, job["values"], is_whole=False).verdict
+    if found is Verdict.OK:
+        found = _at_rest(workbook, job["values"]).verdict
+    return stamp(found, found.value)
+
+
 def _view(draw: Callable[[Assessment, Json], Json]) -> Callable[[Path, Json], Json]:
-    return lambda workbook, job: draw(_at_rest(workbook, job["values"]), job)
+    return lambda workbook, job: draw(_at_rest(workbook, job["values"], is_whole=False), job)
 
 
 _JOBS: Mapping[str, Callable[[Path, Json], Json]] = {
@@ -274,7 +284,7 @@ _JOBS: Mapping[str, Callable[[Path, Json], Json]] = {
     "write": write,
     "add_clearances": add_clearances,
     "read_plan": read_plan,
-    "verdict": _view(lambda a, _: stamp(a.verdict, a.verdict.value)),
+    "verdict": verdict,
     "slide": _view(lambda a, job: views.slide(a, job["array"], job["motion"], job["run"])),
     "contour": _view(lambda a, job: views.contour(a, job["array"])),
     "paths": _view(lambda a, job: views.paths(a, job["array"])),
@@ -286,9 +296,10 @@ def _open(workbook: Path) -> Opened:
     return opened(workbook)
 
 
-def _at_rest(workbook: Path, values: Values) -> Assessment:
-    """Return the complete assessment at values."""
-    return _complete(workbook, _key(workbook, values))
+def _at_rest(workbook: Path, values: Values, *, is_whole: bool = True) -> Assessment:
+    """Return the complete assessment at values; unless whole, without less friction."""
+    key = _key(workbook, values)
+    return _whole(workbook, key) if is_whole else _complete(workbook, key)
 
 
 def _key(workbook: Path, values: Values) -> str:
@@ -311,7 +322,7 @@ def _given(workbook: Path, key: str) -> Opened:
 
 
 def _complete(workbook: Path, key: str) -> Assessment:
-    """Return the complete assessment at values, given as JSON."""
+    """Return the assessment at values, given as JSON; other than typed, without less friction."""
     return _as_typed(workbook) if key == _AS_TYPED else _assessment(workbook, key)
 
 
@@ -329,6 +340,15 @@ def _assessment(workbook: Path, key: str) -> Assessment:
         former = _complete(workbook, _wider(values))
     elif given.shaking is _open(workbook).shaking:  # friction and slope: no motion
         former = _as_typed(workbook)
+    return assess(given.sheet, given.shaking, former, has_less_friction=False)
+
+
+@lru_cache(KEPT_ANSWERS)
+def _whole(workbook: Path, key: str) -> Assessment:
+    given, found, values = _given(workbook, key), _complete(workbook, key), json.loads(key)
+    if found.at_reduced_friction is not None:
+        return found
+    former = _whole(workbook, _wider(values)) if _CLEARANCE in values else found
     return assess(given.sheet, given.shaking, former)
 
 

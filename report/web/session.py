@@ -67,6 +67,7 @@ class Asked(BaseModel):
     opened: str | None = None
     values: dict[str, int | float | str] = Field({}, max_length=40)
     moving: bool = False
+    whole: bool = True
     room: int = Field(USUAL_PX, le=10_000)
     array: str | None = None
     motion: str | None = None

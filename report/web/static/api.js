@@ -89,7 +89,7 @@ export function createApi(announce, room) {
     readPlan: (files, fields) => open("/api/plan", { method: "POST", body: form(files, fields) }),
     filledWorkbook: () => downloaded("/api/plan"),
     addClearances: () => open("/api/clearances", about({})),
-    assess: (moving, values) => computed("assess", { moving, values, room: room() }, moving ? "moving" : "assess"),
+    assess: (moving, values, whole = false) => computed("assess", { moving, whole, values, room: room() }, moving ? "moving" : "assess"),
     computed,
     // Of no page: it makes nothing stale that the page shows.
     verdict: (values) => asked("/api/verdict", about({ values })),

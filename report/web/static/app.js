@@ -267,7 +267,7 @@ function showMoving(phase, next) {
 
 function showRest() {
   showVerdict(part("verdict"), answer);
-  announce(`${answer.verdict.text}. ${answer.line}. ${answer.verdict_text} ${answer.model_text}`);
+  if (!answer.pending) announce(`${answer.verdict.text}. ${answer.line}. ${answer.verdict_text} ${answer.model_text}`);
   const fragment = toFragment(session.values(), [...state.sliders, ...state.choices]);
   if (`#${fragment}` !== (location.hash || "#")) history.pushState({ depth: history.state.depth + 1, opened: state.opened }, "", fragment ? `#${fragment}` : location.pathname);
   part("undo").disabled = history.state.depth < 1;

@@ -8,9 +8,10 @@ function tag(verdict) {
 }
 
 /** Show the verdict of a full answer on one line; its causes, and what else needs attention, fold open. */
-export function showVerdict(element, { verdict, line, verdict_text: text, reasons, model_text: model }) {
+export function showVerdict(element, { verdict, line, verdict_text: text, reasons, model_text: model, pending }) {
   const count = reasons.filter(({ level }) => level !== "remedy").length;
-  showLine(element, [tag(verdict), " ", line], `Causes and conditions: ${count}`, [html("p", {}, text), list(reasons), note(model)]);
+  element.ariaBusy = pending ? "true" : null;
+  showLine(element, [tag(verdict), " ", line], `Causes and conditions: ${count}`, [html("p", {}, text), list(reasons), pending && note(pending), note(model)]);
 }
 
 /** Show what a provisional answer is; it has no verdict. */

@@ -33,26 +33,15 @@ function drawing(panel) {
     const { parentElement: element } = node;
     if (!node.data.trim() || element.closest(`svg, ${NOT_DRAWN}`) || !element.checkVisibility()) continue;
     const { color, fontSize, fontWeight } = getComputedStyle(element);
-    for (const { text, box } of lines(node)) {
-      all.append(svg("text", { x: box.x - x, y: box.bottom - y - 4, fill: color, "font-size": fontSize, "font-weight": fontWeight, ...fitted(box.width) }, text));
+    for (const { index, 0: word } of node.data.matchAll(/\S+/g)) {
+      const range = document.createRange();
+      range.setStart(node, index);
+      range.setEnd(node, index + word.length);
+      const box = range.getBoundingClientRect();
+      all.append(svg("text", { x: box.x - x, y: box.bottom - y - 4, fill: color, "font-size": fontSize, "font-weight": fontWeight, ...fitted(box.width) }, word));
     }
   }
   return all;
-}
-
-// The words of a node, line by line as the page breaks them.
-function lines(node) {
-  const found = [];
-  for (const { index, 0: word } of node.data.matchAll(/\S+/g)) {
-    const range = document.createRange();
-    const last = found.at(-1);
-    range.setStart(node, index);
-    range.setEnd(node, index + word.length);
-    if (last && Math.abs(last.box.bottom - range.getBoundingClientRect().bottom) < 2) range.setStart(node, last.start);
-    else found.push({ start: index });
-    Object.assign(found.at(-1), { box: range.getBoundingClientRect(), text: range.toString() });
-  }
-  return found;
 }
 
 // As wide as on the page, whatever fonts a reader has.

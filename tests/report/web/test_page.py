@@ -155,13 +155,13 @@ def test_while_a_slider_moves_there_is_no_verdict_and_the_page_says_which_model(
     # It goes on moving until its values are shown, as under a finger.
     for step in range(100):
         moved(page, "friction", 0.7 + step % 2 / 100)
-        if "in one axis" in page.locator("#verdict").text_content():
+        if "two orientations" in page.locator("#verdict").text_content():
             break
     at_rest(page)
     moving = [(tags, words) for phase, tags, words in page.evaluate("seen") if phase == "moving"]
     assert moving
     assert all(tags == ["Provisional"] for tags, _ in moving)
-    assert any("in one axis" in words for _, words in moving)
+    assert any("two orientations" in words for _, words in moving)
     assert "Full model" in page.locator("#verdict").text_content()
     assert verdicts(page)[0] == "NG"
     failing = numbers(page, "clearances", 6).count("NG")

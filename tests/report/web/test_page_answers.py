@@ -5,6 +5,8 @@ import pytest
 from places import ROOT
 from report.assessment.assess import assess, reassess
 from report.assessment.friction import with_friction
+from report.assessment.project import Assessment
+from report.assessment.verdict import Verdict
 from report.web import answers
 from report.web.answers import answer
 from report.web.controls import opened
@@ -39,6 +41,13 @@ def test_pairs_of_the_plan_without_a_clearance_are_rows_below_those_of_the_workb
     east = next(row for row in table["rows"] if row[1]["text"] == "A3 to EAST")
     assert [cell["text"] for cell in east[2:4]] == ["120.0 in", "93.4 in"]
     assert len(names) == len(missing) + 2
+
+
+def test_an_ok_that_less_friction_may_change_is_not_said(assessed, monkeypatch):
+    monkeypatch.setattr(Assessment, "verdict", property(lambda _: Verdict.OK))
+    found = answer(assessed, is_provisional=False)
+    assert (found["verdict"]["text"], found["verdict_text"]) == ("OK so far", None)
+    assert found["line"] == found["pending"] != ""
 
 
 def test_a_row_keeps_its_place_while_provisional_and_has_no_verdict_then(assessed):

@@ -42,8 +42,9 @@ def test_a_link_that_names_no_value_changes_nothing(page):
 
 SESSION = """
     const asked = [], shown = [];
-    const assess = (moving, values) => new Promise((done, failed) => {
-      asked.push({ moving, values, done: () => done({ of: values.x, moving }), failed });
+    const assess = (moving, values, whole) => new Promise((done, failed) => {
+      const answered = (more) => done({ of: values.x, moving, ...more });
+      asked.push({ moving, values, whole, done: answered, failed });
     });
     const failed = [];
     const fail = (error) => failed.push(error);
@@ -112,16 +113,16 @@ STAYED = """
         await new Promise((done) => setTimeout(done, 400));
         for (const k of g) { asked[k].done(); await tick(); }
         return [asked.map(({ moving }) => moving), answers()];"""
-SHOWN = {(0, 1): [["moving", 1], ["rest", 1]], (1, 0): [["rest", 1]]}
+SHOWN = {(0, 1): [["settling", 1], ["rest", 1]], (1, 0): [["rest", 1]]}
 
 
 @pytest.mark.parametrize("order", SHOWN)
-def test_of_a_slow_provisional_and_the_full_answer_asked_ahead_the_first_is_shown(page, order):
+def test_of_a_slow_provisional_and_the_full_answer_the_first_is_shown(page, order):
     shown = called(page, "session", SESSION + STAYED, order)
     assert shown == [[True, False], SHOWN[order]]
 
 
-def test_what_was_asked_ahead_is_asked_again_where_the_slider_went_on(page):
+def test_a_full_answer_is_asked_again_where_the_slider_went_on(page):
     steps = """
         session.move("x", 1);
         await new Promise((done) => setTimeout(done, 100));
@@ -133,6 +134,15 @@ def test_what_was_asked_ahead_is_asked_again_where_the_slider_went_on(page):
         return [asked.map(({ moving, values }) => [moving, values.x]), early, answers()];"""
     asked = [[True, 1], [False, 1], [False, 2]]
     assert session(page, steps) == [asked, [], [["rest", 2]]]
+
+
+def test_what_an_answer_lacks_is_asked_next_and_shown_in_its_place(page):
+    steps = """
+        session.set({ x: 1 });
+        asked[0].done({ pending: "less" }); await tick();
+        asked[1].done(); await tick();
+        return [asked.map(({ whole }) => whole), answers()];"""
+    assert session(page, steps) == [[False, True], [["rest", 1], ["rest", 1]]]
 
 
 def test_a_step_that_is_no_drag_is_answered_in_full_at_once(page):
@@ -154,7 +164,7 @@ def test_after_a_step_the_slider_may_go_on(page):
     assert session(page, steps) == [asked, [["moving", 2], ["rest", 2]]]
 
 
-def test_a_step_whose_full_answer_takes_long_is_answered_in_one_axis_meanwhile(page):
+def test_a_step_whose_full_answer_takes_long_is_answered_provisionally_meanwhile(page):
     steps = """
         session.move("x", 1, true);
         while (asked.length < 2) await new Promise((done) => setTimeout(done, 20));
@@ -162,7 +172,7 @@ def test_a_step_whose_full_answer_takes_long_is_answered_in_one_axis_meanwhile(p
         const phase = shown.at(-1).phase;
         asked[0].done(); await tick();
         return [asked.map(({ moving }) => moving), phase, answers()];"""
-    assert session(page, steps) == [[False, True], "settling", [["moving", 1], ["rest", 1]]]
+    assert session(page, steps) == [[False, True], "settling", [["settling", 1], ["rest", 1]]]
 
 
 UNITS = {

@@ -40,10 +40,11 @@ def written(project, values, folder):
     return opened(folder)
 
 
-def at_rest(project, **values):
+def at_rest(project, *, is_whole=True, **values):
     """What the page gets for values at rest."""
     workbook = str(PROJECTS / project / "input.xlsx")
     job = {"do": "assess", "workbook": workbook, "values": values, "moving": False, "room": 780}
+    job["whole"] = is_whole
     return jobs.perform(job)["answer"]
 
 
@@ -102,6 +103,23 @@ def test_at_rest_every_number_and_verdict_is_that_of_the_written_workbook(
     assert json.dumps(found) == json.dumps({**whole, "shown": shown(again)})
     # The values do change what is shown.
     assert found["arrays"] != at_rest(project)["arrays"]
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize(("project", "friction", "tag"), [
+    ("example", 0.8, "NG"), ("example", 0.99, "OK with conditions"),
+])  # fmt: skip
+def test_an_answer_without_less_friction_has_the_values_and_the_verdict(project, friction, tag):
+    first, whole = (
+        at_rest(project, friction=friction, is_whole=is_whole) for is_whole in (False, True)
+    )
+    # The last column has verdicts, which may become those with conditions.
+    numbers, known = ([row[:-1] for row in one["arrays"]["rows"]] for one in (first, whole))
+    assert numbers == known
+    assert first["bars"] == whole["bars"]
+    assert first["verdict"]["text"] == tag
+    assert whole["verdict"] == first["verdict"]
+    assert (bool(first["pending"]), whole["pending"]) == (True, "")
 
 
 @pytest.mark.parametrize("project", ["example", "school", "conditions"])
