@@ -17,17 +17,14 @@ export function createSession(assess, show, fail) {
   let isMoving = false; // a slider moved since the full model was last asked
   let isFull = true; // nothing is to be computed
 
-  // Ask, and show the answer where it still is one.
   async function ask(moving, whole = false) {
     const asked = version;
-    const isCurrent = () => asked === version && !isFull;
-    const isWanted = () => (moving ? isMoving || isCurrent() : asked === version);
+    const isWanted = () => (moving && isMoving) || (asked === version && !(moving && isFull));
     try {
       const answer = await assess(moving, { ...values }, whole);
       if (!answer || !isWanted()) return;
       isFull = !moving;
-      const provisional = isMoving ? "moving" : "settling";
-      show({ phase: moving ? provisional : "rest", answer });
+      show({ phase: moving ? provisional(isMoving) : "rest", answer });
       if (answer.pending) await ask(false, true);
     } catch (error) {
       if (isWanted()) fail(error, moving);
@@ -83,6 +80,8 @@ export function createSession(assess, show, fail) {
     again: () => isMoving || askFull(),
   };
 }
+
+const provisional = (isMoving) => (isMoving ? "moving" : "settling");
 
 /** Return a function that runs a task once at a time; calls meanwhile become one more run. */
 export function createLane(task) {
