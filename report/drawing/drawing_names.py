@@ -14,6 +14,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from report.drawing.roof_drawing import RoofDrawing
+from report.sheet.reading.typed_text import plain_marks
 from report.sheet.schema.choices import LayerKind
 from report.text.units import LENGTHS
 
@@ -21,7 +22,9 @@ _PATTERNS: tuple[tuple[re.Pattern[str], LayerKind], ...] = (
     (re.compile(r"-(ANNO|DIMS|IDEN|NPLT|PATT|TTLB)(-|$)"), LayerKind.NOT_READ),
     (re.compile(r"^PVC(SETBACK|INSTALLATIONAREA|SHADOW|WINDZONES)$"), LayerKind.NOT_READ),
     (
-        re.compile(r"^(A-)?ROOF(-(OTLN|OUTLINE|BOUNDARY|PERIMETER))?(-[A-Z])?$|^PVCROOF$"),
+        re.compile(
+            r"^(A-)?ROOF(-(OTLN|OUTLINE|BOUNDARY|PERIMETER))?(-[A-Z])?$|^PVCROOF$|^BUILDING-(OUTLINE|FOOTPRINT)$"
+        ),
         LayerKind.ROOF,
     ),
     (re.compile(r"PARAPET"), LayerKind.EDGE_WITH_PARAPET),
@@ -35,7 +38,8 @@ _PATTERNS: tuple[tuple[re.Pattern[str], LayerKind], ...] = (
     (
         re.compile(
             r"-EQPM(-|$)|^PVCOBSTRUCTION$|(^|-)(OBSTRUCTION|OBSTACLE|RTU|SKYLIGHT|VENT|CHIMNEY)S?(-|$)"
-            r"|(^|-)(HVAC|HATCH(ES)?|KEEP-?OUTS?|EQUIPMENT|MECH-EQUIP)$"
+            r"|(^|-)(HVAC|HATCH(ES)?|KEEP-?OUTS?|EQUIPMENT|MECH-EQUIP|EXHAUST-FANS?)$"
+            r"|^(MECH(ANICAL)?|ROOFTOP|HVAC|AC)-UNITS?$"
         ),
         LayerKind.FIXED,
     ),
@@ -54,7 +58,7 @@ them, nor one of the layers that HelioScope, Aurora and PVcase export.
 def proposed(layer: str) -> LayerKind | None:
     """Return what is likely drawn on a layer; None where its name does not say."""
     # A reference that is bound to the drawing has its name before that of the layer.
-    name = re.sub(r"[ _]+", "-", re.split(r"[|$]", layer)[-1].upper())
+    name = re.sub(r"[ _-]+", "-", re.split(r"[|$]", layer)[-1].upper())
     return next((kind for pattern, kind in _PATTERNS if pattern.search(name)), None)
 
 
@@ -64,24 +68,26 @@ def drawn_on(drawing: RoofDrawing, layer: str) -> str:
     return ", ".join(f"{count} {of}" for of, count in counts)
 
 
-_NUMBER = r"\d{1,6}(?:\.\d{1,6})?"
-_KEYWORD = re.compile(r"\b(?:(HT|HEIGHT|ELEV)[.:= ]*|(H) ?= ?)(?=\d)", re.IGNORECASE)
+_NUMBER, _SHARE = r"\d{1,6}(?:\.\d{1,6})?", r"\d{1,2}/[1-9]\d?"
+_KEYWORD = re.compile(r"\b(?:(HT|HGT|HEIGHT|ELEV)(?: OF)?[.:= ]*|(H) ?[=:] ?)(?=\d)", re.IGNORECASE)
+_DIGITS = r"\d(?:[\d .'/-]|,(?=\d)){0,16}?"
 # As sizes of equipment are written: a number with its unit before a lone H.
 _BEFORE = re.compile(
-    r"(?<![\w./'\"-])(?P<value>\d[\d .'/-]{0,16}?(?:['\"]|ft|feet|inches|inch|in|mm|cm|m))"
-    r" ?(?:H|HT|HIGH|TALL)\b(?![.:= ]*\d)",
+    rf"(?<![\w./'\"-])(?P<value>(?:{_DIGITS}(?:ft|feet)\.?[ -]{{0,3}})?"
+    rf"{_DIGITS}(?:['\"]|(?:ft|feet|inches|inch|in|mm|cm|m)\.?))"
+    r"[ -]?(?:H|HT|HIGH|TALL)\b(?![.:= ]*\d)",
     re.IGNORECASE,
 )
 _OTHER_SIZES = re.compile(r"(?:[\d.'\"/-]{1,12}+ ?+[WLD]?+ ?+[x×] ?+){1,3}+$", re.IGNORECASE)
+_METRIC = re.compile(r"(?<![\w.,'\"/-])(\d{1,6}),(\d{1,2})(?= ?(?:mm|cm|m)\b)", re.IGNORECASE)
 _VALUE = re.compile(
-    rf"(?:(?P<feet>{_NUMBER}) ?(?:'|ft|feet)[ -]{{0,3}})?"
-    rf"(?:(?P<number>{_NUMBER})(?:[ -](?P<share>\d{{1,2}}/[1-9]\d?))?"
-    r" ?(?P<unit>\"|inches|inch|in|mm|cm|m)?)?"
+    rf"(?:(?P<feet>{_NUMBER})(?: (?P<of_foot>{_SHARE}))?[ -]?(?:'|(?:ft|feet)\b\.?)[ -]{{0,3}})?"
+    rf"(?:(?P<number>{_NUMBER})(?:[ -](?P<share>{_SHARE}))?"
+    r"(?:[ -]?(?P<unit>\"|(?:inches|inch|in|mm|cm|m)(?![a-z]))\.?)?)?"
     # Nothing of the number is left: neither `42x60` nor `42-48` is a height of 42.
-    r"(?![\w./'\"]|\s{0,3}[-/]\s{0,3}\d)",
+    r"(?![\w./'\"]|,\d|\s{0,3}[-/]\s{0,3}\d)",
     re.IGNORECASE,
 )
-_MARKS = {"\u2019": "'", "\u2032": "'", "\u201d": '"', "\u2033": '"', "''": '"'}
 _UNITS = LENGTHS | dict.fromkeys(('"', "inch", "inches"), LENGTHS["in"])
 
 
@@ -95,8 +101,7 @@ class Height(NamedTuple):
 
 def read_line(text: str, unit_m: float) -> tuple[str, Height | None]:
     """Return the name and the height in a line, whose height without a unit is in `unit_m` [m]."""
-    for mark, plain in _MARKS.items():
-        text = text.replace(mark, plain)
+    text = _METRIC.sub(r"\1.\2", plain_marks(text))
     word = _KEYWORD.search(text)
     if word:
         match, start, said = _VALUE.match(text, word.end()), word.start(), word[1] or word[2]
@@ -111,8 +116,11 @@ def read_line(text: str, unit_m: float) -> tuple[str, Height | None]:
     unit = match["unit"] or ('"' if match["feet"] else "")
     if word and not unit and text[match.end() :].lstrip()[:1].isalnum():
         return name, unclear  # such as `42 yd` or `42 1/0`
-    value = float(match["number"] or 0.0) + float(Fraction(match["share"] or 0))
-    value_m = value * _UNITS.get(unit.lower(), unit_m) + float(match["feet"] or 0.0) * _UNITS["ft"]
+    value, feet = (
+        float(match[number] or 0.0) + float(Fraction(match[share] or 0))
+        for number, share in (("number", "share"), ("feet", "of_foot"))
+    )
+    value_m = value * _UNITS.get(unit.lower(), unit_m) + feet * _UNITS["ft"]
     return name, Height(value_m, said.upper(), bool(unit))
 
 

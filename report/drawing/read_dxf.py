@@ -195,7 +195,7 @@ class _Reader:
             elif hidden and not (kind == "INSERT" and hidden == "off"):
                 reason = f"on a layer that is {hidden}"
             elif kind == "INSERT":
-                reason = self._take_insert(entity, layer, handle, block.depth + 1)
+                reason = self._take_insert(entity, layer, handle, block)
             elif kind in _TEXTS:
                 reason = self._take_text(entity, layer, kind)
             elif kind in HATCHES or is_mesh(entity):
@@ -308,8 +308,9 @@ class _Reader:
         unread = Unread(handle=handle, layer=layer, reason=cause, detail=detail)
         self.drawing.unread.append(unread)
 
-    def _take_insert(self, insert: Any, layer: str, handle: str, depth: int) -> str:
-        """Add what a block shows, or return why it shows nothing."""
+    def _take_insert(self, insert: Any, layer: str, handle: str, outer: _Block) -> str:
+        """Add what a block shows, or return why; what it does not say, the one around it says."""
+        depth = outer.depth + 1
         block_of, shown = insert.block(), f"'{_printable(insert.dxf.name)}'"
         if block_of is None:
             return f"a block that the drawing does not have: {shown}"
@@ -325,7 +326,8 @@ class _Reader:
         for copy in insert.multi_insert() if count > 1 else (insert,):
             self.blocks += 1
             _check_expanded(self.blocks)
-            block = _Block(self.blocks, depth, handle, name, heights)
+            says = (name or outer.name, heights or outer.heights)
+            block = _Block(self.blocks, depth, handle, *says)
             before = len(self.drawing.lines)
             for entity in copy.virtual_entities():
                 # Layer 0 within a block is the layer that the block is put on.

@@ -258,11 +258,11 @@ def number(cell: Found, wanted: str = "give a number", unit: str = "") -> float:
 
 def _check_remark(text: str, entry: Entry) -> None:
     """Raise if the remark behind a number is what another column of its row says."""
-    remark = remark_in(text)
-    for other in entries(entry.model) if remark else ():
-        if remark.casefold() in other.choices:
-            wanted = f"write the number alone, and {remark} in the column {other.cell.label}"
-            raise CellError(f"is '{cut(text)}'", wanted)
+    for word in remark_in(text).casefold().replace(",", " ").split():
+        for other in entries(entry.model):
+            if word in other.choices:
+                wanted = f"write the number alone, and {word} in the column {other.cell.label}"
+                raise CellError(f"is '{cut(text)}'", wanted)
 
 
 def _number_in_text(text: str, wanted: str, unit: str) -> float:

@@ -25,31 +25,46 @@ _SHARE = r"[0-9]{1,3}/[1-9][0-9]{0,2}"
 _NUMBER = re.compile(rf"[+-]?{_DIGITS}(?:[eE][+-]?[0-9]+)?")
 _DECIMAL_COMMA = re.compile(r"([+-]?[0-9]*),([0-9]+)")
 _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:,[0-9]{3})+(?:\.[0-9]+)?")
+_MIXED = re.compile(rf"([0-9]+)[\s-]+({_SHARE})")
+_WORD = r"(?:wet|dry|tested|measured|mean|average|avg\.?|typ\.?|typical|est\.?|estimated)"
 _REMARK = re.compile(
-    r"(.{0,40}?)\s{0,3}\(\s{0,3}(wet|dry|tested|measured|mean|average|avg\.?|typ\.?|typical)"
-    r"\s{0,3}\)",
+    rf"(?:(?:\u03bc|\u00b5|mu)\s{{0,3}}=\s{{0,3}})?(.{{0,40}}?)"
+    rf"(?:(?:\s|\s{{0,3}}[(\[]\s{{0,3}})({_WORD}(?:,? {_WORD}){{0,2}})\s{{0,3}}[)\]]?)?",
     re.IGNORECASE,
 )
 _FEET = re.compile(
     rf"(?P<sign>[+-]?)(?:(?P<feet>{_DIGITS})\s*')?[\s-]*"
     rf"(?:(?P<inches>{_DIGITS})(?:[\s-]+(?P<share>{_SHARE}))?\s*\"|(?P<only>{_SHARE})\s*\")?"
 )
-_RISE = re.compile(rf"(?:({_DIGITS})|(?:([0-9]+)[\s-]+)?({_SHARE}))\s*(?::|in)\s*12")
+_RISE = re.compile(
+    rf"(?:({_DIGITS})|(?:([0-9]+)[\s-]+)?({_SHARE}))\s*(?:\"|in\.?)?"
+    r"\s*(?:(?:/|per)\s*(?:ft\.?|foot)|:\s*12\"?|(?<=in)\s*12)"
+)
+_ONE_IN = re.compile(rf"1\s*:\s*({_DIGITS})")
 _MARKS = {"\u2018": "'", "\u2019": "'", "\u2032": "'", "\u201d": '"', "\u2033": '"', "''": '"'}
+_SHARES = {"\u00bc": "1/4", "\u00bd": "1/2", "\u00be": "3/4"}
 _INCHES_PER_FOOT = 12.0
 
-_DATES = ("%b %d, %Y", "%B %d, %Y", "%b %d %Y", "%B %d %Y", "%b. %d, %Y", "%d %b %Y", "%d %B %Y",
-          "%d-%b-%Y", "%Y/%m/%d")  # fmt: skip
+_DATES = ("%b %d %Y", "%B %d %Y", "%d %b %Y", "%d %B %Y", "%Y %m %d")
+_BESIDE_DATE = re.compile(
+    r"(?:mon|tues|wednes|thurs|fri|satur|sun)day\b|(?<=[0-9])(?:st|[nr]d|th)\b"
+)
+_LABEL = re.compile(r"(?:(?:site|risk|sdc|class|category) )+(?=\S)")
+"""Begins a choice as it is spoken: site class D, risk category II."""
+
 _SLASHED = re.compile(r"([0-9]{1,2})[/.-]([0-9]{1,2})[/.-]([0-9]{4})")
 
 
 def number_in(text: str) -> float:
-    """Return the number in a text: `0.45`, `0,5`, `1,234.5`, `0.45 (wet)`; NaN for none, or two.
+    """Return the number in a text: `0.45`, `0,5`, `1,234.5`, `4 1/2`, `0.45 (wet)`; NaN for none.
 
-    A comma before three digits may be either.
+    A comma before three digits has two meanings.
     """
     if remark := _REMARK.fullmatch(text):
         text = remark[1]
+    mixed = _MIXED.fullmatch(plain_marks(text))
+    if mixed and Fraction(mixed[2]) < 1:
+        return float(mixed[1]) + float(Fraction(mixed[2]))
     if comma := _DECIMAL_COMMA.fullmatch(text):
         text = text if _THOUSANDS.fullmatch(text) else f"{comma[1]}.{comma[2]}"
     elif _THOUSANDS.fullmatch(text):
@@ -65,26 +80,44 @@ def in_thousands(text: str) -> str:
 def remark_in(text: str) -> str:
     """Return the remark behind a number: `wet` of `0.45 (wet)`; empty for none."""
     remark = _REMARK.fullmatch(text)
-    return remark[2] if remark else ""
+    return (remark[2] or "") if remark else ""
+
+
+def plain_marks(text: str) -> str:
+    """Return a text with plain marks of feet and inches, and fractions of two numbers."""
+    for mark, plain in _MARKS.items():
+        text = text.replace(mark, plain)
+    for mark, share in _SHARES.items():
+        text = re.sub(rf"(?<=[0-9]) ?{mark}", f" {share}", text).replace(mark, share)
+    return text
 
 
 def inches_in(text: str) -> float:
-    """Return a length with marks [in]: `28'-6"`, `4'`, `3 1/2"`; NaN for another text."""
-    for mark, plain in _MARKS.items():
-        text = text.replace(mark, plain)
+    """Return a length with marks [in]: `28'-6"`, `4'`, `3 1/2"`; NaN for another text.
+
+    Inches beside feet are less than 12: more are a slip of the finger.
+    """
+    text = plain_marks(text)
     match = _FEET.fullmatch(text)
     if not match or not text.endswith(("'", '"')):
         return math.nan
     share = Fraction(match["share"] or match["only"] or 0)
     inches = float(match["inches"] or 0.0) + float(share)
+    if match["feet"] and inches >= _INCHES_PER_FOOT:
+        return math.nan
     return (_INCHES_PER_FOOT * float(match["feet"] or 0.0) + inches) * (
         -1.0 if match["sign"] == "-" else 1.0
     )
 
 
 def rise_in(text: str) -> float:
-    """Return the rise of a slope in 12: `1/2:12`, `0.5 in 12`, `1 1/2:12`; NaN for another text."""
-    match = _RISE.fullmatch(text)
+    """Return the rise of a slope in 12: `1/2:12`, `0.5 in 12`, `1/4"/ft`; NaN for another text.
+
+    Of `1:24` it is 0.5.
+    """
+    if (one_in := _ONE_IN.fullmatch(text)) and float(one_in[1]) >= 1.0:
+        return 12.0 / float(one_in[1])
+    match = _RISE.fullmatch(plain_marks(text))
     if not match:
         return math.nan
     return float(match[1] or 0.0) + float(match[2] or 0.0) + float(Fraction(match[3] or 0))
@@ -93,7 +126,7 @@ def rise_in(text: str) -> float:
 def dates_in(text: str) -> list[date]:
     """Return the dates that a text may mean: one of `Nov 20, 2026`, two of `3/5/2026`."""
     try:
-        return [date.fromisoformat(text)]
+        return [datetime.fromisoformat(text).date()]
     except ValueError:
         pass
     if slashed := _SLASHED.fullmatch(text):
@@ -105,7 +138,8 @@ def dates_in(text: str) -> list[date]:
             except ValueError:
                 continue
         return dates
-    plain = " ".join(text.split()).removesuffix(".").replace("Sept ", "Sep ")
+    plain = " ".join(re.sub(r"[.,/-]", " ", _BESIDE_DATE.sub("", text.casefold())).split())
+    plain = plain.replace("sept ", "sep ")
     for pattern in _DATES:
         try:
             return [datetime.strptime(plain, pattern).date()]
@@ -125,7 +159,8 @@ def choice_in(text: str, choices: Iterable[str]) -> str:
 
     It is that choice but for capitals and blanks, or its first words.
     """
-    said = " ".join(text.split()).casefold()
+    said = " ".join(text.split()).casefold().replace("w/o ", "without ").replace("w/ ", "with ")
+    said = _LABEL.sub("", said)
     choices = list(choices)
     same = [choice for choice in choices if choice.casefold() == said]
     if not same and len(_bare(said)) > 3:

@@ -121,7 +121,8 @@ class SlopeUnit(StrEnum):
 
     @classmethod
     def _missing_(cls, value: object) -> SlopeUnit | None:
-        return {"°": cls.DEGREES, "%": cls.PERCENT}.get(str(value))
+        named = {"°": cls.DEGREES, "deg": cls.DEGREES, "%": cls.PERCENT, "in/ft": cls.IN_PER_12}
+        return named.get(str(value))
 
 
 class LayerKind(StrEnum):

@@ -128,9 +128,12 @@ def test_blocks_are_read_where_they_are_put_with_their_attribute_as_name(tmp_pat
         sketch.space.add_blockref("UNIT", at, dxfattribs=look).add_attrib("TAG", name)
     outer = sketch.document.blocks.new("OUTER")
     outer.add_blockref("UNIT", (1, 1), dxfattribs={"layer": "OBJECT"})
-    sketch.space.add_blockref("OUTER", (200, 100))
+    put = sketch.space.add_blockref("OUTER", (200, 100))  # what is nested has its attributes
+    put.add_attrib("TAG", "AC-1")
+    put.add_attrib("HT", "4")
     found = plan(sketch.saved(tmp_path)).objects
-    assert [place.name for place in found] == ["RTU-1", "RTU-2", "OBJ-1"]
+    assert [place.name for place in found] == ["RTU-1", "RTU-2", "AC-1"]
+    assert found[2].height_m == pytest.approx(4 * FT)
     wanted = [(100, 108, 50, 54), (46, 50, 20, 28), (201, 205, 101, 103)]
     for place, sides in zip(found, wanted, strict=True):
         box = place.shape.bounds

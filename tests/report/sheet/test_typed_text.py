@@ -31,6 +31,12 @@ pytestmark = pytest.mark.quick
         ("0.45 (wet)", 0.45),
         ("0,45 (Wet)", 0.45),
         ("36 (typ.)", 36.0),
+        ("0.45 wet", 0.45),
+        ("\u03bc = 0.45 (tested, wet)", 0.45),
+        ("mu=0,45", 0.45),
+        ("9 (est.)", 9.0),
+        ("4 1/2", 4.5),
+        ("28\u00bd", 28.5),
     ],
 )
 def test_a_number_with_one_meaning_is_read(text, value):
@@ -40,7 +46,8 @@ def test_a_number_with_one_meaning_is_read(text, value):
 @pytest.mark.parametrize(
     "text",
     ["", "0,4,5", "1.2.3", "0.45 (0.5)", "0.45 (dry 0.5)", "36 (m)",
-     "42 (kip)", "2 (x 3)", "(wet)", "٣", "1_000", "nan", "inf", "0x1f", "4 5"],
+     "42 (kip)", "2 (x 3)", "(wet)", "٣", "1_000", "nan", "inf", "0x1f", "4 5", "0.45*",
+     "4 5/2", "1/2", "0.45 (not wet)", "mu 0.45"],
 )  # fmt: skip
 def test_a_number_with_two_meanings_or_none_is_not(text):
     assert not math.isfinite(number_in(text))
@@ -66,26 +73,44 @@ def test_a_comma_before_three_digits_may_be_either(text):
         ("2.5'", 30.0),
         ("0'-6\"", 6.0),
         ("28'6\"", 342.0),
+        ('6\u00bd"', 6.5),
+        ("28'-6 \u00bd\"", 342.5),
     ],
 )
 def test_a_length_with_marks_is_read(text, inches):
     assert inches_in(text) == pytest.approx(inches)
 
 
-@pytest.mark.parametrize("text", ["", "'", '"', "28", "28'-6", "6\"-28'", "4'x2'", '1/0"', "9 in"])
+@pytest.mark.parametrize(
+    "text", ["", "'", '"', "28", "28'-6", "6\"-28'", "4'x2'", '1/0"', "9 in", "28'-13\""]
+)
 def test_what_is_no_length_with_marks_is_not(text):
     assert math.isnan(inches_in(text))
 
 
 @pytest.mark.parametrize(
     ("text", "rise"),
-    [("1/2:12", 0.5), ("1/4 : 12", 0.25), ("1 1/2:12", 1.5), ("0.5 in 12", 0.5), ("2:12", 2.0)],
+    [
+        ("1/2:12", 0.5),
+        ("1/4 : 12", 0.25),
+        ("1 1/2:12", 1.5),
+        ("0.5 in 12", 0.5),
+        ("2:12", 2.0),
+        ("1:24", 0.5),
+        ("1 : 48", 0.25),
+        ('1/4"/ft', 0.25),
+        ("1/4 in per ft", 0.25),
+        ('1/4" per foot', 0.25),
+        ('1/2":12"', 0.5),
+        ("1:12", 1.0),
+    ],
 )
 def test_a_rise_in_12_is_read(text, rise):
     assert rise_in(text) == rise
 
 
-@pytest.mark.parametrize("text", ["1/2", "1:20", "1/2:1", "2/12", ":12", "-1/2:12", "1/0:12"])
+@pytest.mark.parametrize("text", ["1/2", "2:24", "1/2:1", "2/12", ":12", "-1/2:12", "1/0:12",
+                                  "1:0", "1/2 12", "1/2 in"])  # fmt: skip
 def test_another_ratio_is_no_rise_in_12(text):
     assert math.isnan(rise_in(text))
 
@@ -102,6 +127,12 @@ DAY = dt.date(2026, 11, 20)
         ("Nov. 20, 2026", [DAY]),
         ("20 Nov 2026", [DAY]),
         ("20-Nov-2026", [DAY]),
+        ("November 20th, 2026", [DAY]),
+        ("Friday, November 20, 2026", [DAY]),
+        ("2026.11.20", [DAY]),
+        ("2026-11-20 00:00:00", [DAY]),
+        ("Sept. 5, 2026", [dt.date(2026, 9, 5)]),
+        ("20-Nov-26", []),
         ("2026/11/20", [DAY]),
         ("2026-11-20", [DAY]),
         ("11/20/2026", [DAY]),
@@ -129,6 +160,12 @@ KINDS = ("fixed object", "unlike array", "edge with parapet", "edge without para
         ("  Fixed   OBJECT ", KINDS, "fixed object"),
         ("edge", KINDS, ""),
         ("edge with", KINDS, "edge with parapet"),
+        ("edge w/o parapet", KINDS, "edge without parapet"),
+        ("edge w/ parapet", KINDS, "edge with parapet"),
+        ("Site Class D", ("C", "D"), "D"),
+        ("category II", ("I", "II"), "II"),
+        ("SDC D", ("C", "D"), "D"),
+        ("class", ("C", "D"), ""),
         ("parapet", KINDS, ""),
         ("f", KINDS, ""),
         ("", KINDS, ""),
@@ -161,6 +198,7 @@ def test_a_choice_is_told_by_its_first_words(text, choices, choice):
         ("Objects/RTU-1/Kind", "fixed", "objects", 0, "kind", "fixed object"),
         ("Clearances/1/Direction", "downslope", "clearances", 0, "direction", "down"),
         ("Arrays/A1/Slope unit", "%", "arrays", 0, "slope_unit", "percent"),
+        ("Arrays/A1/Slope unit", "in/ft", "arrays", 0, "slope_unit", "in/12"),
     ],
 )
 def test_a_cell_is_read_as_it_is_typed(tmp_path, cell, typed, section, row, field, value):
