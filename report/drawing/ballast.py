@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from report.drawing.roof_drawing import MB
-from report.sheet.reading.typed_text import number_in, separator
+from report.sheet.reading.typed_text import number_in, separator, unit_named, with_point
 from report.sheet.schema.shapes import Point, Shape, solid
 from report.text.counts import cut
 from report.text.units import LENGTHS
@@ -61,6 +61,8 @@ def read_map(path: Path, unit_m: float) -> Any:
         mark = separator(content)
         lines = csv.reader(content, delimiter=mark, strict=True)
         rows = [(lines.line_num, row) for row in lines if any(map(str.strip, row))]
+        if rows and rows[0][1][0].casefold().startswith("sep="):  # as Excel begins one
+            del rows[0]
     except (UnicodeDecodeError, csv.Error) as error:
         raise InputError("not a CSV in UTF-8 or UTF-16; save it as one") from error
     heads = []
@@ -69,7 +71,7 @@ def read_map(path: Path, unit_m: float) -> Any:
         name, *units = words.groups(default="") if words else ("",)
         heads.append(_NAMES.get(name, name))
         unit = "".join(units)
-        if name in ("x", "y") and unit and LENGTHS.get(unit) != unit_m:
+        if name in ("x", "y") and unit and LENGTHS.get(unit_named(unit)) != unit_m:
             text = f"line 1: the heading is '{cut(heading)}'"
             raise InputError(f"{text}, and --units says another unit")
     if missing := [name for name in COLUMNS if heads.count(name) != 1]:
@@ -79,9 +81,7 @@ def read_map(path: Path, unit_m: float) -> Any:
     rows_read, wrong = [], []
     for line, row in rows[1:]:
         cells = [row[k].strip() if k < len(row) else "" for k in map(heads.index, COLUMNS)]
-        x, y, blocks = (
-            number_in(text.replace(",", ".") if mark == ";" else text) for text in cells
-        )
+        x, y, blocks = (number_in(with_point(text, mark)) for text in cells)
         for name, text, value in zip(COLUMNS, cells, (x, y, blocks), strict=True):
             if not math.isfinite(value):
                 wrong.append(f"line {line}: {name} is '{cut(text)}'; give a number")

@@ -17,7 +17,7 @@ import numpy as np
 from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.cells import CellError, Found, check_saved, number
 from report.sheet.reading.positions import CellPosition, found_at
-from report.sheet.reading.typed_text import separator
+from report.sheet.reading.typed_text import separator, with_point
 from solver.formats.source import open_source
 from solver.model import Floats, InputError, Problem
 from solver.suggestions import meant
@@ -127,13 +127,17 @@ def _text_rows(path: Path) -> _Rows:
         raise InputError(f"{path}: no such file; {meant(path) or wanted}")
     lines = open_source(path, units="", dt_s=math.nan).lines
     try:
-        rows = list(csv.reader(lines, delimiter=separator(lines), strict=True))
+        mark = separator(lines)
+        rows = list(csv.reader(lines, delimiter=mark, strict=True))
     except csv.Error as error:
         raise InputError(f"{path.name}: not CSV; give {_WANTED}") from error
     if len(rows) > MAX_ROWS + HEADING_ROWS:
         raise InputError(f"{path.name}: has {len(rows)} lines; give at most {MAX_ROWS} rows")
     return [
-        [_Field(sheet=path.name, cell=str(k), value=field.strip()) for field in row]
+        [
+            _Field(sheet=path.name, cell=str(k), value=with_point(field.strip(), mark))
+            for field in row
+        ]
         for k, row in enumerate(rows, start=1)
     ]
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import date, datetime
 from fractions import Fraction
@@ -23,7 +23,7 @@ from openpyxl.formula.tokenizer import Token, TokenizerError
 _DIGITS = r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)"
 _SHARE = r"[0-9]{1,3}/[1-9][0-9]{0,2}"
 _NUMBER = re.compile(rf"[+-]?{_DIGITS}(?:[eE][+-]?[0-9]+)?")
-_DECIMAL_COMMA = re.compile(r"([+-]?[0-9]*),([0-9]+)")
+_DECIMAL_COMMA = re.compile(r"([+\u2212-]?[0-9]*),([0-9]+)")
 _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:,[0-9]{3})+(?:\.[0-9]+)?")
 _MIXED = re.compile(rf"([0-9]+)[\s-]+({_SHARE})")
 _WORD = r"(?:wet|dry|tested|measured|mean|average|avg\.?|typ\.?|typical|est\.?|estimated)"
@@ -62,6 +62,7 @@ def number_in(text: str) -> float:
     """
     if remark := _REMARK.fullmatch(text):
         text = remark[1]
+    text = text.replace("\u2212", "-")
     mixed = _MIXED.fullmatch(plain_marks(text))
     if mixed and Fraction(mixed[2]) < 1:
         return float(mixed[1]) + float(Fraction(mixed[2]))
@@ -148,10 +149,15 @@ def dates_in(text: str) -> list[date]:
     return []
 
 
-def separator(lines: Iterable[str]) -> str:
-    """Return what separates the columns of a CSV: a semicolon or tab if any, else a comma."""
-    text = "\n".join(lines)
-    return next((mark for mark in ";\t" if mark in text), ",")
+def separator(lines: Collection[str]) -> str:
+    """Return what separates the columns of a CSV: what most of its lines have, `;` before `,`."""
+    return max(";\t,", key=lambda mark: sum(mark in line for line in lines))
+
+
+def with_point(text: str, separated_by: str) -> str:
+    """Return a number with a decimal point, of a CSV whose columns a semicolon separates."""
+    comma = _DECIMAL_COMMA.fullmatch(text) if separated_by == ";" else None
+    return f"{comma[1]}.{comma[2]}" if comma else text
 
 
 def choice_in(text: str, choices: Iterable[str]) -> str:
@@ -258,7 +264,7 @@ def shows_nothing(code: str, value: object) -> bool:
 def _misleading(section: _Section, unit: str) -> str:
     if scale := _SCALE.search(section.digits):
         return f"divided by {1000 ** len(scale[1]):,}" if len(scale[1]) < 5 else "divided"
-    own, named = _unit(unit) or unit, list(_units_named(section.text))
+    own, named = unit_named(unit) or unit, list(_units_named(section.text))
     if not named or own in (name for _, name in named):
         return ""
     return f"in {named[0][0]}"
@@ -268,12 +274,12 @@ def _units_named(text: str) -> Iterator[tuple[str, str]]:
     """Yield the words of a text that name a unit, each with the symbol of the unit."""
     for word in _WORDS.findall(text):
         bare = word.strip(".-–+~&!<>$_") or word
-        if (unit := _unit(bare)) and bare.casefold() not in _ALSO_A_WORD:
+        if (unit := unit_named(bare)) and bare.casefold() not in _ALSO_A_WORD:
             yield bare, unit
 
 
 @lru_cache(maxsize=256)
-def _unit(word: str) -> str:
+def unit_named(word: str) -> str:
     """Return the symbol of a unit, of whatever name; empty if it is none."""
     plain = word.replace("²", "2").replace("³", "3")
     parts = [_single(part) for part in re.split(r"[/·*-]", plain)]

@@ -65,12 +65,19 @@ def test_a_map_is_read_in_its_unit_with_any_columns_beside(tmp_path):
         "x_ft;y ft;Number of blocks\n35.125;155;2\n",
         "x,y,blocks\r\n35.125,155,2\r\n".encode("utf-16"),
         "\ufeffx\ty\tblocks\n35.125\t155\t2\n".encode("utf-16-be"),
+        'x [feet],y [foot],blocks,note\n35.125,155,2,"a; b"\n',
     ],
 )
 def test_a_map_is_read_with_the_separators_of_spreadsheets(tmp_path, content):
     path = tmp_path / "map.csv"
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
     assert read_map(path, FT).tolist() == [[2, pytest.approx(35.125 * FT), 155 * FT, 2]]
+
+
+def test_a_map_that_says_its_separator_is_read(tmp_path):
+    path = tmp_path / "map.csv"
+    path.write_text("sep=;\nx;y;blocks\n\u22121,500;2;3\n", encoding="utf-8")
+    assert read_map(path, 1.0).tolist() == [[3, -1.5, 2.0, 3]]
 
 
 def test_the_center_of_gravity_is_that_of_blocks_and_modules():

@@ -72,6 +72,11 @@ def test_csv_of_frequencies_is_read_without_a_vertical(tmp_path, separator):
     assert not target.has_vertical
 
 
+def test_a_comma_is_decimal_where_a_semicolon_separates(tmp_path):
+    lines = ["frequency;horizontal", "0,1;0,2", "1,3;1,234", "33,3;1,2"]
+    assert read_target(text(tmp_path, "\n".join(lines))).horizontal_g.tolist() == [0.2, 1.234, 1.2]
+
+
 def test_every_invalid_cell_is_reported_by_its_address(tmp_path):
     rows = [list(row) for row in ROWS]
     rows[1][1] = "1,5,0"
