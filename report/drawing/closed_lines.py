@@ -254,10 +254,7 @@ def is_mesh(entity: Any) -> bool:
 def boundaries(hatch: Any, sagitta: float, tolerance: float) -> list[Any] | str:
     """Return the boundaries of a hatch as polygons, or why it has none.
 
-    Parameters
-    ----------
-    sagitta, tolerance : float
-        Largest distance of an arc from its chords, and between ends that meet.
+    Arcs are within the sagitta of their chords, and ends that meet within the tolerance.
     """
     kind = hatch.dxftype()
     if not is_parallel(hatch):

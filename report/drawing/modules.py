@@ -69,12 +69,8 @@ def joined(
     """Return lines without modules, the arrays of modules in reading order, and lines they overlap.
 
     Modules are equal rectangles of one layer, at least `LEAST_ALIKE`, with sides within `SIDES_M`.
-    Parallel ones are an array where the gaps along their sides are at most `gap_m` [m].
-
-    Parameters
-    ----------
-    turned_deg : float
-        By how much the drawing is turned since it was saved, with coordinates rounded or not.
+    Parallel ones are an array where the gaps along their sides are at most `gap_m` [m]. Coordinates
+    were rounded before the drawing was turned by `turned_deg`.
 
     Raises
     ------

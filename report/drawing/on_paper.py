@@ -158,10 +158,7 @@ def plan_on_paper(
 ) -> PlanSheet:
     """Return the plan with its labels, at a round scale, or on a screen as large as it can be.
 
-    Parameters
-    ----------
-    designs : mapping of str to str, optional
-        The design displacement of each array in words.
+    The design displacement of each array may be given in words.
     """
     extent = _extent(assessment)
     paper, key = _empty(extent, size, _scale(assessment, extent, size))

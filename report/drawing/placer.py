@@ -101,10 +101,7 @@ class Placer:
     def take_first(self, frames: Sequence[Frame], within: Sequence[Frame] = ()) -> int | None:
         """Reserve the first of some frames that touches no label and no line; None if all do.
 
-        Parameters
-        ----------
-        within : sequence of Frame, optional
-            The part of each that touches no wall.
+        The part of each that is given as `within` touches no wall either.
         """
         if not frames:
             return None
@@ -137,16 +134,9 @@ class Placer:
     ) -> Frame | None:
         """Reserve and return the frame of a label nearest to a point; None if there is no room.
 
-        A straight leader from the point to the label crosses no other label and no wall.
-
-        Parameters
-        ----------
-        within : Frame, optional
-            Where it must lie; the page if not given.
-        maximum : float
-            Largest distance of its center from the point [in].
-        may_cross : bool
-            Whether the leader may cross labels and walls, as few as there can be.
+        It lies on the page, or within a frame, with its center at most so far from the point [in].
+        A straight leader to it crosses no other label and no wall, or if it may, as few as there
+        can be.
         """
         page = self._page if within is None else within
         if wide > page.wide or tall > page.tall:

@@ -90,18 +90,10 @@ def plan_of(
     gap_m: float = GAP_M,
     us_first: bool = True,
 ) -> RoofPlan:
-    """Return the plan of a drawing.
+    """Return the plan of a drawing in a unit [m].
 
-    Parameters
-    ----------
-    unit_m : float
-        Size of the unit of the drawing [m].
-    layers : mapping of str to LayerKind
-        What is drawn on layers, in addition to `LAYERS`; capitals do not distinguish layers.
-    gap_m : float
-        Largest gap between modules of one array [m].
-    us_first : bool
-        Whether heights are noted in US units first.
+    What is drawn on layers is given in addition to `LAYERS`, without regard to capitals, and so is
+    the largest gap between modules of one array [m]. Heights are noted in US units first or not.
     """
     kinds = known_layers(layers)
     passed = LayerKind.NOT_READ

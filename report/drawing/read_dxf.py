@@ -61,12 +61,7 @@ _HEIGHTS = ("HT", "HEIGHT", "ELEV")
 
 
 def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
-    """Read a roof drawing.
-
-    Parameters
-    ----------
-    unit_m : float, optional
-        Size of its unit [m], where it states none: arcs become chords by it.
+    """Read a roof drawing; arcs become chords by the size of its unit [m] where it states none.
 
     Raises
     ------

@@ -212,14 +212,14 @@ def cut(text: str, maximum: int = SHOWN) -> str:
     return text if len(text) <= maximum else f"{text[: maximum - 1]}…"
 
 
-def latin(text: str) -> str:
-    """Return a text with Latin letters for those that look like them."""
-    return text.translate(_ALIKE)
+def looks(name: str) -> str:
+    """Return a name as it looks, whatever its alphabet and capitals are."""
+    return name.translate(_ALIKE).casefold()
 
 
 def foreign_letters(text: str) -> str:
     """Return which letters of a text only look Latin, with their alphabets; empty for none."""
-    foreign = dict.fromkeys(letter for letter in text if latin(letter) != letter)
+    foreign = dict.fromkeys(letter for letter in text if ord(letter) in _ALIKE)
     said = (
         f"'{one}' is a {unicodedata.name(one).split()[0].capitalize()} letter" for one in foreign
     )

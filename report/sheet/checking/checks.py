@@ -28,7 +28,7 @@ from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
 from report.sheet.schema.motions import coefficients
 from report.sheet.schema.scene import slope_rad
 from report.sheet.schema.shapes import Rectangle, Shape, gap_m
-from report.text.counts import cut, foreign_letters, latin
+from report.text.counts import cut, foreign_letters, looks
 from report.text.units import Quantity, pair
 from solver.model import INCH_M
 from solver.rules.rulesets import ALLOWED, OVERRIDABLE, RULE_SETS
@@ -74,14 +74,9 @@ def _tables(draft: Draft, where: Where) -> Iterator[Finding]:
 def _ids(draft: Draft, where: Where) -> Iterator[Finding]:
     # Arrays come first, so that a duplicate is reported at the object.
     for sections in UNIQUE:
-        for place, value, first in repeated(column(draft, sections, "id"), _looks):
+        for place, value, first in repeated(column(draft, sections, "id"), looks):
             text, said = f"ID is '{value}', already used at {where(first)}", foreign_letters(value)
             yield Finding.error(place, text + (f"; {said}" if said else ""), "give a unique ID")
-
-
-def _looks(name: str) -> str:
-    """Return a name as it looks, whatever its letters and capitals are."""
-    return latin(name).casefold()
 
 
 def _arrays(draft: Draft, where: Where) -> Iterator[Finding]:

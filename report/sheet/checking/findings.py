@@ -30,7 +30,7 @@ from report.sheet.schema.fields import (
 from report.sheet.schema.motions import MotionInput
 from report.sheet.schema.project import FrictionTestRow
 from report.sheet.schema.scene import Array, Clearance, RoofObject
-from report.text.counts import foreign_letters, latin
+from report.text.counts import foreign_letters, looks
 from solver.model import Problem
 from solver.suggestions import nearest
 
@@ -98,7 +98,7 @@ def repeated(
 
 def suggestion(value: str, ids: Collection[str]) -> str:
     """Return in words which id may have been meant, or which there are."""
-    same = next((name for name in ids if latin(name).casefold() == latin(value).casefold()), "")
+    same = next((name for name in ids if looks(name) == looks(value)), "")
     if said := same and (foreign_letters(value) or foreign_letters(same)):
         return f"it looks like '{same}', but {said}: retype it"
     if close := nearest(value, ids):

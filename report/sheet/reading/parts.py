@@ -59,16 +59,9 @@ def changed(
 ) -> bytes:
     """Return a workbook with other contents of some cells; formulas are computed when it is opened.
 
-    Parameters
-    ----------
-    changes : mapping of CellPosition to value
-        None leaves a cell blank. Each keeps its format.
-    stale : set of CellPosition, optional
-        Formulas that lose their values: LibreOffice would keep them.
-    looks : mapping of CellPosition to CellPosition, optional
-        Cells that take the format of another one of their sheet.
-    recalculates : bool
-        Not where no formula refers to the cells.
+    None leaves a cell blank; each keeps its format, or takes that of another one of its sheet by
+    `looks`. Stale formulas lose their values, which LibreOffice would keep. It need not be
+    calculated again where no formula refers to the cells.
 
     Raises
     ------

@@ -233,12 +233,7 @@ class _Section:
 def misleading(code: str, unit: str) -> str:
     """Return how a format shows a number as another one, such as `in mm`; empty if it does not.
 
-    Parameters
-    ----------
-    code : str
-        The format code of a cell.
-    unit : str
-        Unit of its number; empty for none. A format may name it.
+    It may name the unit of the number, which is empty for none.
     """
     return next(filter(None, (_misleading(part, unit) for part in _sections(code)[:3])), "")
 

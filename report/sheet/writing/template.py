@@ -33,13 +33,7 @@ def write_template(path: Path, *, units: UnitsFirst, example: ProjectInput | Non
 
 
 def template(units: UnitsFirst, example: ProjectInput | None = None) -> bytes:
-    """Return an input workbook, with the values of a project or blank but for defaults.
-
-    Parameters
-    ----------
-    units : UnitsFirst
-        System of units of the sheets.
-    """
+    """Return an input workbook, with the values of a project or blank but for defaults."""
     book, tables = book_of(SECTIONS, START, units, example)
     write_rules(book, tables)
     write_lookups(book, tables)
