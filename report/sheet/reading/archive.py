@@ -48,7 +48,6 @@ OTHER_KINDS = {
 _WORKBOOK = "xl/workbook.xml"
 _RELATIONS = "xl/_rels/workbook.xml.rels"
 _MACROS = re.compile(rb"<Override\b(?=[^<>]*/xl/workbook\.xml)[^<>]*macroEnabled", re.IGNORECASE)
-_DOTTED = re.compile(rb"""(\bTarget\s*=\s*["'])(/[^"']*)(["'])""")
 SAVE_AS = "save it as .xlsx (Excel Workbook)"
 REL = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}id"
 
@@ -100,7 +99,7 @@ def book_of(path: Path, data: bytes) -> OpenBook:
         _check_kind(archive)
         parts = scan_parts({name: _content(archive, name) for name in archive.namelist()})
         scans = _scans_by_title(archive, parts)
-        book = _load(_plainly_named(archive, data))
+        book = _load(data)
     if book.sheetnames != list(scans):
         raise InputError(f"its sheets cannot all be read; {REOPEN}")
     sha256 = hashlib.sha256(data).hexdigest()
@@ -236,20 +235,6 @@ def sheet_parts(archive: zipfile.ZipFile) -> list[tuple[str, str]]:
         if count > 1:
             raise InputError(f"two sheets have the name '{title}'; rename one")
     return listed
-
-
-def _plainly_named(archive: zipfile.ZipFile, data: bytes) -> bytes:
-    """Return a workbook whose relationships openpyxl resolves: it keeps the dots of `/xl/./`."""
-    old = archive.read(_RELATIONS)
-    plain = _DOTTED.sub(lambda m: m[1] + posixpath.normpath(m[2]) + m[3], old)
-    if plain == old:
-        return data
-    out = io.BytesIO()
-    with zipfile.ZipFile(out, "w") as packed:
-        for member in archive.infolist():
-            is_this = member.filename == _RELATIONS
-            packed.writestr(member, plain if is_this else archive.read(member))
-    return out.getvalue()
 
 
 def _tree(archive: zipfile.ZipFile, name: str) -> Any:
