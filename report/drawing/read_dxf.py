@@ -128,12 +128,6 @@ def _check_expanded(count: int) -> None:
         )
 
 
-def _count(insert: Any) -> int:
-    """Return how many times an insert shows its block."""
-    rows, columns = (max(int(insert.dxf.get(key, 1)), 1) for key in ("row_count", "column_count"))
-    return rows * columns
-
-
 def _printable(text: object) -> str:
     """Return a text of the drawing without what no terminal and no page may print."""
     return trimmed(UNPRINTABLE.sub("", str(text)))
@@ -316,7 +310,8 @@ class _Reader:
         if depth > MAX_DEPTH:
             raise InputError(f"block {shown}: nested more than {MAX_DEPTH} deep; explode it")
         name, heights = _attributes(insert)
-        count, clip = _count(insert), _clip(insert)
+        times = (max(int(insert.dxf.get(key, 1)), 1) for key in ("row_count", "column_count"))
+        count, clip = math.prod(times), _clip(insert)
         _check_expanded(count)
         for copy in insert.multi_insert() if count > 1 else (insert,):
             self.blocks += 1

@@ -39,12 +39,8 @@ def _filled(*fields: str) -> Condition:
     return lambda row, _: any(row.get(field) not in (None, "") for field in fields)
 
 
-def _chosen(field: str, *choices: str) -> Condition:
+def _chosen(field: str, *choices: str | bool) -> Condition:
     return lambda row, _: row.get(field) in choices
-
-
-def _is_directional(row: DraftRow, draft: Draft) -> bool:
-    return row.get("directional") is True
 
 
 def _has_no_outline(row: DraftRow, draft: Draft) -> bool:
@@ -110,7 +106,7 @@ REQUIRED: Mapping[tuple[str, str], Required] = {
     ),
     **{
         ("options", f"directional_{field}"): Required(
-            _is_directional, "give it, or answer No to displacement by direction"
+            _chosen("directional", True), "give it, or answer No to displacement by direction"
         )
         for field in ("reason", "reviewer", "license", "date")
     },

@@ -6,7 +6,7 @@ Combines opening (`archive`), finding (`locate`), converting (`cells`) and check
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -238,7 +238,7 @@ def read_as(
         _read_section(book, section, gathered)
     gathered.take(check(gathered.draft, partial(where, gathered.addresses)))
     hidden = unseen(book, gathered.used)
-    marks = by_cell(hidden)
+    marks, titles = by_cell(hidden), book.book.sheetnames
     return SheetOf(
         path=book.path,
         sha256=book.sha256,
@@ -248,7 +248,10 @@ def read_as(
         draft=gathered.draft,
         echo=tuple(
             replace(row, unseen=marks.get(row.address, ""))
-            for row in sorted(gathered.echo, key=partial(_row_in_book, book.book.sheetnames))
+            for row in sorted(
+                gathered.echo,
+                key=lambda row: (titles.index(row.sheet), coordinate_to_tuple(row.cell)[0]),
+            )
         ),
         problems=tuple(gathered.problems),
         addresses=gathered.addresses,
@@ -260,10 +263,6 @@ def read_as(
             *from_outside(book, Place(sections[0].key)),
         ),
     )
-
-
-def _row_in_book(titles: Sequence[str], row: EchoRow) -> tuple[int, int]:
-    return titles.index(row.sheet), coordinate_to_tuple(row.cell)[0]
 
 
 def where(addresses: Mapping[Place, str], place: Place) -> str:

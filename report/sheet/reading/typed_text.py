@@ -314,18 +314,12 @@ def _sections(code: str) -> tuple[_Section, ...]:
 _COMPUTED = re.compile(r":|\b(?:INDIRECT|OFFSET|TABLE)\b", re.IGNORECASE)
 
 
-def _tokens(formula: str) -> Sequence[Token]:
-    """Return the tokens of a formula; none of one that no program reads."""
+def references(formula: str) -> Sequence[str]:
+    """Return the cells and names that a formula refers to; one is empty where it computes some."""
     try:
         tokens: Sequence[Token] = Tokenizer(formula).items
     except (TokenizerError, IndexError):  # the second of a bracket that closes nothing
-        return ()
-    return tokens
-
-
-def references(formula: str) -> Sequence[str]:
-    """Return the cells and names that a formula refers to; one is empty where it computes some."""
-    tokens = _tokens(formula)
+        return [""]
     others = "".join(token.value for token in tokens if token.type != Token.OPERAND)
     if not tokens or _COMPUTED.search(others):
         return [""]
