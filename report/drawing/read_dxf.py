@@ -29,13 +29,13 @@ from report.drawing.closed_lines import (
 )
 from report.drawing.dxf import APPLICATION
 from report.drawing.roof_drawing import (
+    DAMAGED,
     MAX_ENTITIES,
     UNITS,
     Drawn,
     RoofDrawing,
     Unread,
     Words,
-    damaged,
     limit,
     loaded,
     other_unit,
@@ -74,7 +74,7 @@ def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
     except InputError:
         raise
     except Exception as error:  # a damaged drawing makes the library raise almost anything
-        raise damaged() from error
+        raise InputError(DAMAGED) from error
 
 
 def _read(document: Document, repairs: str, unit_m: float | None) -> RoofDrawing:

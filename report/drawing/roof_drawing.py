@@ -119,6 +119,7 @@ OTHER_UNITS: Mapping[int, tuple[str, str]] = {
 }  # fmt: skip
 """Units that drawings state and roofs are not drawn in, and in which such a drawing mostly is."""
 
+DAMAGED = "not a DXF drawing, or damaged; open it in CAD and save it again"
 _ENDED = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*EOF\s*\Z")
 _ENTITY = re.compile(rb"^[ \t]*0[ \t]*\r?\n[ \t]*[A-Z3_]", re.MULTILINE)
 
@@ -164,11 +165,6 @@ def limit(count: int, most: int, what: str) -> None:
         )
 
 
-def damaged() -> InputError:
-    """Return the error of a drawing that cannot be read."""
-    return InputError("not a DXF drawing, or damaged; open it in CAD and save it again")
-
-
 def loaded(path: Path) -> tuple[Document, str]:
     """Return a drawing, and what to say of its repair if strict reading refuses it.
 
@@ -187,13 +183,13 @@ def loaded(path: Path) -> tuple[Document, str]:
     except Exception as refused:  # a damaged drawing makes the library raise almost anything
         # What is missing at the end of a drawing that was cut off, no repair would tell.
         if not _ENDED.search(path.read_bytes()):
-            raise damaged() from refused
+            raise InputError(DAMAGED) from refused
     try:
         document, audit = recover.readfile(str(path))
     except Exception as error:
-        raise damaged() from error
+        raise InputError(DAMAGED) from error
     if audit.has_errors:  # such as a coordinate that it has guessed
-        raise damaged()
+        raise InputError(DAMAGED)
     count = len(audit.fixes)
     fixes = f", {count} faults repaired" if count > 1 else ", a fault repaired" if count else ""
     return document, f"a damaged drawing, read as far as it can be{fixes}: compare the plan"

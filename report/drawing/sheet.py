@@ -34,9 +34,8 @@ from report.drawing.placer import Frame, Placer, centered
 from report.entities.shown import UnitFormat
 from report.sheet.schema.scene import RoofObject
 from report.sheet.schema.shapes import Point, Rectangle, Shape, room, sides
+from report.text.units import LENGTHS
 from solver.model import INCH_M
-
-FOOT_M = 12.0 * INCH_M
 
 LINE_IN = 1.33 * TYPE_PT / 72.0
 """Distance between lines of a label."""
@@ -62,7 +61,7 @@ def round_scale(least_m_per_in: float, us_first: bool) -> Scale:
     1:150, 1:200, 1:250, 1:300, 1:400, 1:500, 1:600, 1:750 and so on.
     """
     us, si = (1, 1.5, 2, 3, 4, 5, 6, 8), (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 7.5)
-    unit = FOOT_M if us_first else INCH_M
+    unit = LENGTHS["ft"] if us_first else INCH_M
     rounds = (
         round(step * 10**decade)
         for decade, step in product(

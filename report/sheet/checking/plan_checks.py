@@ -124,8 +124,6 @@ REFERENCES: Mapping[tuple[str, str], tuple[str, ...]] = {
 }
 """Fields that name a row of other tables; an outline may be that of the roof."""
 
-OTHER_NAMES: Mapping[tuple[str, str], str] = {("outlines", "name"): ROOF}
-
 MAX_SLOPE_DEG = 45.0
 """Slope of an array from which it is refused."""
 

@@ -6,7 +6,7 @@ Uses `fields` but no section of the workbook. Read `template` next.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from datetime import date
 from enum import StrEnum
 from functools import cache
@@ -203,14 +203,10 @@ def validate(sheet: Worksheet, cells: str, entry: Entry, si: float) -> None:
         _add(sheet, cells, rule, label, message, wish(entry))
 
 
-def offer(
-    sheet: Worksheet, cells: str, choices: Iterable[str] | str, title: str, message: str
-) -> None:
-    """Add a dropdown of texts, or of a range of cells, that accepts nothing else."""
-    names = [] if isinstance(choices, str) else list(choices)
-    formula = choices if isinstance(choices, str) else f'"{",".join(names)}"'
-    wanted = f"choose {', '.join(names)}" if names else "choose from the list"
-    _add(sheet, cells, DataValidation(type="list", formula1=formula), title, message, wanted)
+def offer(sheet: Worksheet, cells: str, choices: Collection[str], title: str, message: str) -> None:
+    """Add a dropdown of texts that accepts nothing else."""
+    rule = DataValidation(type="list", formula1=f'"{",".join(choices)}"')
+    _add(sheet, cells, rule, title, message, f"choose {', '.join(choices)}")
 
 
 def suggest(sheet: Worksheet, cells: str, source: str, title: str, message: str) -> None:
