@@ -105,6 +105,7 @@ def broken(verification):
     work.loc[lost, MEASURED], work.loc[lost, "status"] = math.nan, Status.DIVERGED
     peer = PeerPoint(
         peer="Other",
+        model="one axis",
         version="1.2",
         record="motion-01-x",
         scene="flat",
@@ -271,8 +272,8 @@ def test_a_failed_check_is_said_on_cover_summary_and_in_its_table(verification, 
 
 def test_other_programs_have_a_section_only_where_there_are_any(words, words_of_broken):
     assert "16 Other programs" in words_of_broken
-    assert "Other 1.2: as its example motion-01-x flat 500 ms 1.25 %" in words_of_broken
-    assert "Other 1.2: did not converge motion-01-x flat — failed" in words_of_broken
+    assert "Other 1.2: one axis; as its example motion-01-x flat 500 ms 1.25 %" in words_of_broken
+    assert "Other 1.2: one axis; did not converge motion-01-x flat — failed" in words_of_broken
     assert "Other programs" not in words
 
 
