@@ -37,18 +37,10 @@ SETTLED, SETTLED_M = 0.005, 1e-4
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Responses:
-    """What events of increasing intensity do to an array.
+    """What events of increasing intensity do to an array."""
 
-    Attributes
-    ----------
-    levels : array, shape (runs, m)
-        Intensities, equally spaced in their logarithm up to the last of the run, which repeats.
-    values : array, shape (frictions, runs, m, 6)
-        `RESPONSES` of a motion in an orientation [m]; NaN without a final value.
-    """
-
-    levels: Floats
-    values: Floats
+    levels: Floats  # equally spaced in ln up to the last of the run, which repeats; (runs, m)
+    values: Floats  # `RESPONSES` [m], NaN without a final value; (frictions, runs, m, 6)
 
     @property
     def prd_m(self) -> Floats:

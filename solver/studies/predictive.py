@@ -30,24 +30,14 @@ class Predictive:
     For one more run on the surface with the least mean: mean, and scatter s sqrt(1 + 1/n) with the
     scatter and the degrees of freedom of all surfaces (Gelman et al. 2013, Bayesian Data Analysis,
     3rd ed., section 3.2, with the noninformative prior).
-
-    Attributes
-    ----------
-    mean, runs, freedom : float, int, int
-        Of the runs on that surface; degrees of freedom: of all runs, less one for each surface.
-    within, between : float
-        Standard deviation of runs on one surface, and of the means of the surfaces without what
-        the runs alone scatter (analysis of variance); 0 for one surface.
-    p_value : float
-        Of equal means of the surfaces (F test); NaN for one surface or without any scatter.
     """
 
-    mean: float
+    mean: float  # of the runs on that surface
     runs: int
-    freedom: int
-    within: float
-    between: float
-    p_value: float
+    freedom: int  # of all runs, less one for each surface
+    within: float  # standard deviation of runs on one surface
+    between: float  # of the means of the surfaces without what the runs alone scatter; 0 for one
+    p_value: float  # of equal means (F test); NaN for one surface or without any scatter
 
     @property
     def scale(self) -> float:

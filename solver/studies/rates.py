@@ -33,18 +33,11 @@ class HazardCurve:
 
     Below its first point no event is known. Beyond its last the rate is that of events of unknown
     intensity, which are never left out: it does not decrease.
-
-    Attributes
-    ----------
-    intensity, rate : array, shape (m,)
-        Intensities, increasing, and their rates [1/year], decreasing; all above 0.
-    beta : float
-        Standard deviation of the logarithm of a factor of median 1 on the intensity of each event.
     """
 
-    intensity: Floats
-    rate: Floats
-    beta: float = 0.0
+    intensity: Floats  # increasing, above 0, shape (m,)
+    rate: Floats  # decreasing, above 0 [1/year]
+    beta: float = 0.0  # dispersion of a factor of median 1 on the intensity of each event
 
     @cached_property
     def factors(self) -> tuple[Floats, Floats]:

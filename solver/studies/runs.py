@@ -75,17 +75,9 @@ def joined(parts: Sequence[Cases]) -> Cases:
 
 @dataclass(frozen=True, kw_only=True)
 class Campaign:
-    """All runs of a study.
+    """All runs of a study. All buildings have the same motions, components and signs."""
 
-    Attributes
-    ----------
-    motions : tuple of tuple of Motion
-        By building; `Motion.scale` is the factor for an intensity of 1. All buildings have the same
-        motions with the same components and signs.
-    cases : Cases
-    """
-
-    motions: tuple[tuple[Motion, ...], ...]
+    motions: tuple[tuple[Motion, ...], ...]  # by building, for an intensity of 1
     cases: Cases
 
     @cached_property
