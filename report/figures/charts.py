@@ -55,7 +55,7 @@ def comparison(
     """
     first, second = UnitFormat(us_first).units()
     with style():
-        height = 1.26 + _row_in(len(groups)) * len(groups)
+        height = 1.18 + _row_in(len(groups)) * len(groups)
         names = [cut(printed(ranged(array.id for array in group)), 32) for group in groups]
         figure, axes = framed(height, _label_in(names), 0.1, 0.48, 0.75)
         for row, group in enumerate(groups):
