@@ -8,7 +8,6 @@ Where the native libraries of the PDF renderer are: on Windows in a package, els
 
 from __future__ import annotations
 
-import ctypes.util
 import os
 import sys
 from collections.abc import Iterator
@@ -56,11 +55,15 @@ def library(name: str) -> str | None:
     """Return the path or name of a library, by its name without prefix, number and ending."""
     if sys.platform == "win32":
         return next((str(path) for path in _shipped().glob(f"bin/{name}*.dll")), None)
-    return ctypes.util.find_library(name)
+    from ctypes.util import find_library
+
+    return find_library(name)
 
 
 def load_renderer() -> None:
     """Import the renderer; on Windows with the libraries of the package, whatever else is there."""
+    import ctypes.util
+
     if sys.platform == "win32":
         folder, usual = str(_shipped() / "bin"), os.environ["PATH"]
         os.environ["WEASYPRINT_DLL_DIRECTORIES"] = folder  # where they find each other

@@ -37,7 +37,7 @@ _FEET = re.compile(
     rf"(?:(?P<inches>{_DIGITS})(?:[\s-]+(?P<share>{_SHARE}))?\s*\"|(?P<only>{_SHARE})\s*\")?"
 )
 _RISE = re.compile(
-    rf"(?:({_DIGITS})|(?:([0-9]+)[\s-]+)?({_SHARE}))\s*(?:\"|in\.?)?"
+    rf"(?:({_DIGITS})|(?:([0-9]+)[\s-]+)?({_SHARE}))(?:\s*(?:\"|in\.?))?"
     r"\s*(?:(?:/|per)\s*(?:ft\.?|foot)|:\s*12\"?|(?<=in)\s*12)"
 )
 _ONE_IN = re.compile(rf"1\s*:\s*({_DIGITS})")

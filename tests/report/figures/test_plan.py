@@ -17,10 +17,11 @@ from printed import printed
 from report.assessment.envelopes import keep_clear_words
 from report.drawing.items import TYPE_PT, Text, width_in
 from report.drawing.on_paper import plan_on_paper, printed_plan
-from report.drawing.sheet import FOOT_M, LETTER, PlanSize, round_scale
+from report.drawing.sheet import LETTER, PlanSize, round_scale
 from report.figures.base import style
 from report.figures.plan import painted, paper_svg
 from sketch import L_FT
+from solver.building.structure import FOOT_M
 from solver.model import INCH_M
 from stand_in import FOOT
 

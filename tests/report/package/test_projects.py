@@ -89,7 +89,7 @@ def example(tmp_path_factory):
     return made(packages.reported(tmp_path_factory, "example", by_script=True))
 
 
-def test_the_example_has_at_most_16_sheets(example):
+def test_the_example_has_at_most_15_sheets(example):
     assert len(example.pdf.pages) <= 15
 
 

@@ -249,7 +249,7 @@ def test_a_table_that_does_not_say_where_it_is_is_found_by_its_headings(tmp_path
 def test_a_workbook_that_openpyxl_cannot_read_is_reported(tmp_path):
     path = make(tmp_path)
     (line,) = problems(rewritten(path, STYLES, to(b"<styleSheet/>")))
-    assert line == f"its sheets cannot all be read; {REOPEN}"
+    assert line == f"damaged, or not as Excel writes it; {REOPEN}"
 
 
 @pytest.mark.parametrize(
