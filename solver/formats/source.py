@@ -225,10 +225,8 @@ def open_source(
     unknown = isinstance(dt_s, float) and math.isnan(dt_s)
     if not unknown and not (is_finite_number(dt_s) and dt_s > 0.0):
         problems.append(f"{name}: time step dt is {shown(dt_s)}; give a number of seconds above 0")
-    if isinstance(values_per_line, bool) or not isinstance(values_per_line, int):
-        problems.append(f"{name}: values per line is {shown(values_per_line)}; give a whole number")
-    elif values_per_line < 0:
-        problems.append(f"{name}: values per line is {values_per_line}; give 1 or more")
+    if type(values_per_line) is not int or values_per_line < 0:
+        problems.append(f"{name}: values per line is {shown(values_per_line)}; give 1 or more")
     if units and response:
         problems.append(f"{name}: units and a response are given; give one of them")
     raise_any(problems)

@@ -325,15 +325,9 @@ def _told_across(source: Source, start: int, separator: str | None, remarks: Seq
 
 def _remarks(lines: Sequence[str], start: int) -> list[Row]:
     """Index and text of every line above the first row, without comment signs."""
-    plain = ((index, lines[index].replace("#", " ").strip()) for index in range(start))
-    ahead = [(index, line) for index, line in plain if line]
-    for index in range(start, len(lines)):
-        line = lines[index].strip()
-        if line and not line.startswith("#"):
-            break
-        if line:
-            ahead.append((index, line.replace("#", " ").strip()))
-    return ahead[:_MAX_REMARKS]
+    end = next((index for index, _ in rows_of(lines, start)), len(lines))
+    plain = ((index, lines[index].replace("#", " ").strip()) for index in range(end))
+    return list(itertools.islice(((index, line) for index, line in plain if line), _MAX_REMARKS))
 
 
 def _headings(
