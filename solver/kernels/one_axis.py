@@ -167,12 +167,10 @@ def _next_slip(down, up, band, ax, az, x, z, i):
 
 @njit(cache=KEPT, forceinline=True)
 def _first_stop(w, q, r, h):
-    """First tau in (0, h] where the speed w + q tau + r tau^2 / 2 is zero, or -1.
-
-    The value at the end is not sufficient: the speed may touch or cross zero inside and be positive
-    again at the end, so the vertex is checked as well.
-    """
+    """First tau in (0, h] where the speed w + q tau + r tau^2 / 2 is zero, or -1."""
     ends_moving = w + h * (q + 0.5 * r * h) > 0.0
+    # The value at the end is not sufficient: the speed may touch or cross zero inside and be
+    # positive again at the end, so the vertex is checked as well.
     dips = r > 0.0 and q < 0.0 and -q < r * h
     discriminant = q * q - 2.0 * r * w
     if ends_moving and not (dips and discriminant >= 0.0):
@@ -197,15 +195,12 @@ def _onset(q_0, q_1, tau, dt):
 
 @njit(cache=KEPT, forceinline=True)
 def _move(w, q_0, q_1, tau, dt, rate):
-    """Continue sliding from tau to the end of the interval, or until the speed is zero.
-
-    Returns the time reached, the distance, the final speed, which is 0 only if the block stops, and
-    the speed where it is largest on the way; 0 if it is largest at an end.
-    """
+    """Slide from tau to the interval's end or a stop; time, distance, speed, peak between."""
     r = (q_1 - q_0) * rate
     q, h = q_0 + r * tau, dt - tau
     if w == 0.0:
         q = max(q, 0.0)  # at an onset the push is not negative, except for rounding error
+    # 0 if the speed is largest at an end.
     peak = w - 0.5 * q * q / r if q > 0.0 > q + r * h else 0.0
     step = _first_stop(w, q, r, h) if w > 0.0 or r < 0.0 else -1.0
     if step < 0.0:
@@ -217,15 +212,9 @@ def _move(w, q_0, q_1, tau, dt, rate):
 
 @njit(cache=KEPT, forceinline=True)
 def _slide_on(c, ax, az, w, w_max, i, last, dt):
-    """Slide through whole intervals, up to the first one in which the speed may become zero.
-
-    If the speed is positive at the end of an interval, and would be at its middle under the first
-    push alone, it does not reach zero in the interval. The sum of the cubic distances telescopes:
-    dt (sum of w + half its change) + dt^2 / 12 (q first - q last).
-
-    Returns the sample reached, the distance, the speed there, and the largest speed so far: the
-    larger of `w_max` and those on the way.
-    """
+    """Slide up to the first interval with a possible stop; sample, distance, speed, w_max."""
+    # If the speed is positive at the end of an interval, and would be at its middle under the first
+    # push alone, it does not reach zero in the interval.
     half = 0.5 * dt
     c = (c[0] * half, c[1] * half, c[2] * half)  # q dt / 2 from here on
     q = _net_driving(c, ax, az, i)
@@ -247,6 +236,8 @@ def _slide_on(c, ax, az, w, w_max, i, last, dt):
             total += gained
             gained, q = more, q_next
             i += 1
+        # The sum of the cubic distances telescopes: dt (sum of w + half its change) + dt^2 / 12 (q
+        # first - q last).
         way += dt * ((i - start) * w + (total + 0.5 * gained) + (q_first - q) * SIXTH)
         w_max = max(w_max, w + top)
         w += gained

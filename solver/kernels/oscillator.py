@@ -13,12 +13,10 @@ from solver.kernels.compiler import KEPT
 
 @njit(cache=KEPT)
 def _step(p, zeta):
-    """h, h', and h integrated once and twice, over one step p = omega dt of an oscillator.
-
-    h is the unit impulse response of y'' + 2 zeta y' + y = 0 in the time omega t. For small p the
-    closed forms lose digits by cancellation, up to a factor of p^3, so the Taylor series is summed
-    instead, with h_k+2 = -2 zeta h_k+1 - h_k.
-    """
+    """h, h', and h integrated once and twice, over one step p = omega dt of an oscillator."""
+    # h is the unit impulse response of y'' + 2 zeta y' + y = 0 in the time omega t. For small p the
+    # closed forms lose digits by cancellation, up to a factor of p^3, so the Taylor series is
+    # summed instead, with h_k+2 = -2 zeta h_k+1 - h_k.
     if p >= 1.0:
         kappa = math.sqrt(1.0 - zeta * zeta)
         decay = math.exp(-zeta * p)
@@ -43,10 +41,8 @@ _LANES = 16
 
 @njit(cache=KEPT, error_model="numpy")
 def _top(start, end, first, last):
-    """Largest value, with its sign, of the cubic between two values with these slopes.
-
-    It is start + s (first + s (bend + s twist)), s from 0 to 1; its slope is zero at two places.
-    """
+    """Largest value, with its sign, of the cubic between two values with these slopes."""
+    # start + s (first + s (bend + s twist)), s from 0 to 1; its slope is zero at two places.
     rise = end - start
     bend, twist = 3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise
     root = math.sqrt(max(bend * bend - 3.0 * twist * first, 0.0))
@@ -63,13 +59,10 @@ def _top(start, end, first, last):
 
 @njit(cache=KEPT, error_model="numpy", nogil=True)
 def _advance(w, before, now):
-    """Advance the oscillators of the buffer w by one step; return how many may have a new peak.
-
-    Its parts: seven coefficients, a third of the step in radians, the largest |y| so far, then y
-    and z now and one step before. One array, because the check whether several overlap takes longer
-    than the step. A cubic lies within its Bezier points: its ends, and a third of the slope beside
-    them.
-    """
+    """Advance the oscillators of the buffer w by one step; return how many may have a new peak."""
+    # Parts of w: seven coefficients, a third of the step in radians, the largest |y| so far, then y
+    # and z now and one step before. One array, because the check whether several overlap takes
+    # longer than the step.
     higher = 0
     for k in range(_LANES):
         c0, c1, c2 = w[k], w[_LANES + k], w[2 * _LANES + k]
@@ -81,6 +74,7 @@ def _advance(w, before, now):
         turned = (c2 * z - c1 * y) - (c5 * before + c6 * now)
         w[9 * _LANES + k], w[10 * _LANES + k] = moved, turned
         w[11 * _LANES + k], w[12 * _LANES + k] = y, z
+        # A cubic lies within its Bezier points: its ends, and a third of the slope beside them.
         higher += abs(moved) + third * abs(turned) > largest
     return higher
 

@@ -171,17 +171,11 @@ def _link(x, k, cap):
 
 @njit(cache=KEPT)
 def _solve_sub_step(x, free, lever, k, cap):
-    """Newton's method for x = free - lever F(x), where F is the capped force of the link.
-
-    F has three linear pieces. If a tangent leads to a point on its own piece, that is the root. If
-    lever k = (omega h)^2 / 4 is above 1, the two outer pieces may lead to each other endlessly.
-
-    Returns
-    -------
-    tuple
-        x, and whether it converged.
-    """
+    """Newton's method for x = free - lever F(x), F the capped force; x, whether it converged."""
     _, piece = _link(x, k, cap)
+    # F has three linear pieces. If a tangent leads to a point on its own piece, that is the root.
+    # If lever k = (omega h)^2 / 4 is above 1, the two outer pieces may lead to each other
+    # endlessly.
     for _ in range(ITERATIONS):
         x = free / (1.0 + lever * k) if piece == 0 else free - piece * lever * cap
         _, landed = _link(x, k, cap)

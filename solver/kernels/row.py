@@ -65,15 +65,7 @@ def _value(c, order, x):
 
 @jit()
 def _first_below(c, order):
-    """First x in [0, 1) where a polynomial with p(0) >= 0 falls through zero, or NEVER.
-
-    With a bound M of the second derivative, p + p' d - M d^2 / 2 bounds the polynomial from below,
-    so there is no zero before the root of this bound, not even two close ones. The search repeats
-    from that root. It converges to a simple root as fast as Newton's method and never passes it.
-
-    Returns x and whether p falls through zero there. If p is so flat that the iterations are used
-    up, it does not, and the search has to be resumed from x.
-    """
+    """First x in [0, 1) where p, p(0) >= 0, falls through zero, or NEVER; whether it does."""
     low, total, bend = c[0], abs(c[0]), 0.0
     for j in range(1, order + 1):
         low += min(c[j], 0.0)
@@ -82,6 +74,10 @@ def _first_below(c, order):
     if low > 0.0 or total == 0.0:
         return NEVER, False
     x = 0.0
+    # With a bound M of the second derivative, p + p' d - M d^2 / 2 bounds the polynomial from
+    # below, so there is no zero before the root of this bound, not even two close ones. The search
+    # repeats from that root. It converges to a simple root as fast as Newton's method and never
+    # passes it.
     for _ in range(NEWTON):
         p, slope = _value(c, order, x)
         if p < -ZERO * EPS * total or (p <= ZERO * EPS * total and slope <= 0.0):
@@ -95,6 +91,7 @@ def _first_below(c, order):
             return NEVER, False
         if x >= 1.0:
             return NEVER, False
+    # So flat that the iterations are used up: the search has to be resumed from x.
     return x, False
 
 
@@ -119,11 +116,7 @@ def _largest(c, order, end):
 
 @jit()
 def _series(b, w, e, sigma, mus, m, k, c, h, driving, hold):
-    """Compute the series of all blocks and links; driving and hold: two coefficients of G, N.
-
-    Returns the degree of the series and the magnitude of the motion [m/s]: the sum of all speeds,
-    of all stretches times sqrt(k), and of the terms of the series.
-    """
+    """Series of blocks and links, from two coefficients of G and N; degree, magnitude [m/s]."""
     n, scale = w.size, math.sqrt(k)
     for i in range(n):
         b[W, i, 0] = w[i]
@@ -151,6 +144,7 @@ def _series(b, w, e, sigma, mus, m, k, c, h, driving, hold):
         size += largest
         if p >= 2 and largest <= 0.01 * EPS * size:
             break
+    # The magnitude: all speeds, all stretches times sqrt(k), and the terms of the series.
     degree = p + 1
     for i in range(n):
         b[F, i, degree] = b[T, i, degree] = 0.0
@@ -162,10 +156,7 @@ def _series(b, w, e, sigma, mus, m, k, c, h, driving, hold):
 
 @jit()
 def _room(b, i, side, mu, hold, degree, line):
-    """Fill `line` with the margin of block i against slip in the direction `side`.
-
-    Returns the allowance for rounding error (TIE) that the margin includes.
-    """
+    """Fill `line` with the margin of block i against slip toward `side`; its allowance TIE."""
     total = abs(hold[0]) + abs(hold[1])  # not zero even if both friction and push are
     for p in range(degree + 1):
         line[p] = (mu * hold[p] if p < 2 else 0.0) - side * b[F, i, p]
@@ -176,12 +167,7 @@ def _room(b, i, side, mu, hold, degree, line):
 
 @jit()
 def _next_events(b, sigma, mus, hold, degree, line, when, side):
-    """Fill the time of each block's next event, and the direction in which a resting one slips.
-
-    The direction is 0 if there is no event yet and the search has to be resumed at that time.
-
-    Returns the first of the times (NEVER for none), and the largest allowance of `_room`.
-    """
+    """Fill times of next events and sides of slip; the first time, largest allowance TIE."""
     first, tie = NEVER, 0.0
     for i in range(sigma.size):
         when[i] = NEVER
@@ -189,6 +175,7 @@ def _next_events(b, sigma, mus, hold, degree, line, when, side):
             for p in range(degree + 1):
                 line[p] = sigma[i] * b[W, i, p]
             when[i], falls = _first_below(line, degree)
+            # 0: no event yet, and the search has to be resumed at that time.
             side[i] = 1.0 if falls else 0.0
         else:
             for direction in (1.0, -1.0):
@@ -218,10 +205,7 @@ def _advance(b, s, w, e, links, h, x, degree):
 
 @jit()
 def _switch(b, s, w, sigma, mus, hold, degree, x, when, side, line, peaks):
-    """Let every block whose event is at x stop, reverse or slip.
-
-    Returns the number of stops and the largest velocity that was set to zero.
-    """
+    """Let every block with an event at x stop, reverse or slip; stops, largest w set to 0."""
     n_stops, lost = 0, 0.0
     for i in range(s.size):
         if when[i] != x or side[i] == 0.0:

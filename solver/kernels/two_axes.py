@@ -117,16 +117,14 @@ STIFF = 300.0
 
 @jit()
 def _friction(k, b, c, rc, law):
-    """Write coefficient k of q. With a law q = c (mu_fast - E), where E = drop exp(-rate w).
-
-    The coefficients of E follow from E' = -rate w' E.
-    """
+    """Write coefficient k of q. With a law q = c (mu_fast - E), where E = drop exp(-rate w)."""
     if law is None:
         b[Q, k] = c if k == 0 else (rc if k == 1 else 0.0)
     elif k == 0:
         b[E, 0] = law[1] * math.exp(-law[2] * b[W, 0])
         b[Q, 0] = c * (law[0] - b[E, 0])
     else:
+        # From E' = -rate w' E, coefficient by coefficient.
         total = 0.0
         for j in range(1, k + 1):
             total += j * b[W, j] * b[E, k - j]
@@ -136,10 +134,7 @@ def _friction(k, b, c, rc, law):
 
 @jit()
 def _advance(k, b, ga, gs, ra, rs, span, law):
-    """Write coefficient k + 1 of v and w from those of e and q up to k.
-
-    Returns the magnitude (sum of absolute values) of that of v.
-    """
+    """Write coefficient k + 1 of v and w from those of e and q up to k; return |v|, of that one."""
     along = across = push = 0.0
     for j in range(min(k, 1) + 1 if law is None else k + 1):
         each, m = b[Q, np.uintp(j)], np.uintp(k - j)
@@ -169,10 +164,8 @@ def _part(order, before, last, tol):
 
 @jit(forceinline=True)
 def _begin(w, ga, gs, ra, rs, c, rc, span, law, b):
-    """Write coefficients 0 and 1 of a sliding block's series, along and across its motion.
-
-    Returns 1 / w, or 0 without friction, and its product with coefficient 1 of w.
-    """
+    """Write coefficients 0 and 1 of a sliding series; return 1 / w and (1 / w) W[1]."""
+    # 0 without friction, where the block may have no speed.
     inverse = 1.0 / w if c > 0.0 or rc > 0.0 else 0.0
     b[VA, 0], b[VS, 0], b[W, 0], b[EA, 0], b[ES, 0] = w, 0.0, w, 1.0, 0.0
     _friction(0, b, c, rc, law)
@@ -183,15 +176,9 @@ def _begin(w, ga, gs, ra, rs, c, rc, span, law, b):
 
 @jit(forceinline=True)
 def _sliding(w, ga, gs, ra, rs, c, rc, span, tol, maximum_degree, b):
-    """Compute the series of a sliding block with constant mu, along and across its motion.
-
-    Requires w > 0, or no friction. The recurrence is arranged so that a coefficient of e depends on
-    the one before through a single product; the processor computes the other sums meanwhile and
-    does not wait for them.
-
-    Returns the degree and the fraction of the span in which the series meets tol, estimated from
-    its last two terms.
-    """
+    """Series of a sliding block, constant mu, w > 0 or no friction; its degree, usable fraction."""
+    # A coefficient of e depends on the one before through a single product; the processor computes
+    # the other sums meanwhile and does not wait for them.
     inverse, slows = _begin(w, ga, gs, ra, rs, c, rc, span, None, b)
     ea, es, ea_before, es_before = 0.0, b[ES, 1], 0.0, 0.0
     # Contribution of the constant term of e, (1, 0), which is therefore not in ea_before.
@@ -226,10 +213,7 @@ def _sliding(w, ga, gs, ra, rs, c, rc, span, tol, maximum_degree, b):
 
 @jit(forceinline=True)
 def _sliding_by_law(w, ga, gs, ra, rs, c, rc, span, tol, maximum_degree, swell, law, b):
-    """Compute what `_sliding` does with a friction law, all sums of a degree in one loop.
-
-    The terms of `_friction` and `_advance` that hold the newest coefficients are added last.
-    """
+    """Compute what `_sliding` does with a friction law, all sums of a degree in one loop."""
     inverse, slows = _begin(w, ga, gs, ra, rs, c, rc, span, law, b)
     ea, es, ea_before, es_before = 0.0, b[ES, 1], 1.0, 0.0
     faded, kick, turn = b[E, 0], ra, rs
@@ -247,6 +231,7 @@ def _sliding_by_law(w, ga, gs, ra, rs, c, rc, span, tol, maximum_degree, swell, 
             ahead += rub * x
             aside += rub * y
             fades += b[RISE, i] * b[E, np.uintp(k - j)]
+        # The terms of `_friction` and `_advance` that hold the newest coefficients are added last.
         fades = -law[2] * b[SHARE, np.uintp(k - 1)] * (fades + b[RISE, 1] * faded)
         rub = rc * ((law[0] if k == 1 else 0.0) - faded) - c * fades
         b[E, np.uintp(k)], b[Q, np.uintp(k)], faded = fades, rub, fades
@@ -268,27 +253,21 @@ def _sliding_by_law(w, ga, gs, ra, rs, c, rc, span, tol, maximum_degree, swell, 
 
 @jit()
 def _creeping(w, vs, g, ra, rs, c, rc, span, tol, maximum_degree, swell, law, b):
-    """Compute the series of a slow slip, w >= 0, with direction near that of G, along and across G.
-
-    The equation is stiff for a slow block: its direction approaches that of G within a time of
-    about w / G, much shorter than a step, so `_sliding` would need very short steps. After this
-    transient the motion is smooth. Its series follows from (w e)' + q e = G: the component across
-    the initial G is solved for the coefficient of q e instead of that of (w e)'.
-
-    From rest, w = 0, the recurrence is explicit. This is the beginning of a slip; the series
-    converges after a jump of G, and at an onset it is asymptotic (its terms decrease at first). For
-    w > 0 each coefficient of e also depends on the next one, through a small term. The next one is
-    taken from the previous sweep, and sweeps are repeated until the coefficients agree.
-
-    Returns the degree and the usable fraction of the span as `_sliding`, and the error in v that
-    arises because the actual vs differs from that of the series. The fraction is 0 if the sweeps do
-    not converge or if that error exceeds tol.
-    """
+    """Series of a slow slip, w >= 0, near the direction of G; degree, usable part, error in v."""
+    # The equation is stiff for a slow block: its direction approaches that of G within a time of
+    # about w / G, much shorter than a step, so `_sliding` would need very short steps. After this
+    # transient the motion is smooth. Its series, along and across the initial G, follows from (w
+    # e)' + q e = G: the component across is solved for the coefficient of q e instead of that of (w
+    # e)'.
     for k in range(maximum_degree + 2):
         b[ES, k] = b[W, k] = 0.0
     b[EA, 0], b[W, 0] = 1.0, w
     before = last = change = np.inf
     order, top = maximum_degree, 1 if law is None else maximum_degree
+    # From rest, w = 0, the recurrence is explicit. This is the beginning of a slip; the series
+    # converges after a jump of G, and at an onset it is asymptotic (its terms decrease at first).
+    # For w > 0 each coefficient of e also depends on the next one, through a small term. The next
+    # one is taken from the previous sweep, and sweeps are repeated until the coefficients agree.
     for _ in range(SWEEPS):
         change_before, change, first = change, 0.0, 0.0
         for k in range(order):
@@ -337,6 +316,7 @@ def _creeping(w, vs, g, ra, rs, c, rc, span, tol, maximum_degree, swell, law, b)
         if w == 0.0 or change * (w + abs(b[W, 1])) <= 0.1 * tol:
             part = _part(order, before, last, tol)
             off /= part
+            # The fraction is 0 if the sweeps do not converge, or if the actual vs differs too much.
             return order, part if off <= tol else 0.0, off
         if change > 0.5 * change_before or off > 10.0 * tol + 4.0 * w * change:
             break
@@ -345,13 +325,9 @@ def _creeping(w, vs, g, ra, rs, c, rc, span, tol, maximum_degree, swell, law, b)
 
 @jit(forceinline=True)
 def _series(w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, maximum_degree, slow, law, b):
-    """Compute the series of a step: by `_creeping` if it applies, otherwise by `_sliding`.
-
-    The rates rx, ry and rc are per second; `left` is the time to the end of the interval [s].
-
-    Returns the degree, the usable fraction of the series' unit of time, that unit [s], the error in
-    v from `_creeping` (0 from `_sliding`), and the direction of the series' axis along.
-    """
+    """Series of a step, by `_creeping` where it applies; degree, part, span, error in v, axis."""
+    # The rates rx, ry and rc are per second; `left` is the time to the end of the interval [s]. The
+    # error in v is that of `_creeping`; the axis is the direction along.
     hard, g = slow * c, math.sqrt(gx * gx + gy * gy)
     rate = 0.0 if law is None else law[2]
     span = left
@@ -414,11 +390,7 @@ def _series(w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, maximum_degree, slow, l
 
 @jit()
 def _scale(b, order, part):
-    """Rescale a series so that the fraction `part` of its unit of time becomes the unit.
-
-    Returns, each along and across: the gain of v over the new unit, the mean of that gain over the
-    unit, and the derivative of v at its end; then `moved`, the bound of the change of v.
-    """
+    """Rescale a series so that the fraction `part` of its unit of time becomes the unit."""
     power = 1.0
     along = across = way = aside = along_rate = across_rate = moved = 0.0
     for k in range(1, order + 1):
@@ -430,6 +402,7 @@ def _scale(b, order, part):
         way, aside = way + share * va, aside + share * vs
         along_rate, across_rate = along_rate + k * va, across_rate + k * vs
         moved += abs(va) + abs(vs)
+    # Gain of v over the new unit, mean of that gain, and derivative of v at its end.
     return along, across, way, aside, along_rate, across_rate, moved
 
 
@@ -457,15 +430,13 @@ def _value(b, row, first, order, at):
 
 @jit()
 def _zeros(b, row, first, degree):
-    """Bound of the number of sign changes of a series in (0, 1]: 0, 1, or 2 if not known.
-
-    The leading coefficient less all coefficients of opposite sign bounds |p| from below (`least`),
-    and likewise |p'| (`steady`). If the first is positive, p has no zero. If the second is
-    positive, p is monotone: one zero at most, and none with equal signs at both ends.
-    """
+    """Bound of the number of sign changes of a series in (0, 1]: 0, 1, or 2 if not known."""
     lead, rise = b[row, first], b[row, first + 1]
     sign, way = (1.0 if lead > 0.0 else -1.0), (1.0 if rise > 0.0 else -1.0)
     least, steady, end = abs(lead), abs(rise), lead
+    # The leading coefficient less all coefficients of opposite sign bounds |p| from below
+    # (`least`), and likewise |p'| (`steady`). If the first is positive, p has no zero. If the
+    # second is positive, p is monotone: one zero at most, and none with equal signs at both ends.
     for k in range(first + 1, degree + 1):
         each = b[row, np.uintp(k)]
         end += each
@@ -479,22 +450,16 @@ def _zeros(b, row, first, degree):
 
 @jit()
 def _changes(b, row, degree, maximum_count):
-    """Write into row ROOTS the first `maximum_count` points in (0, 1] where a series changes sign.
-
-    If `_zeros` shows one change at most, only the sign at 1 is checked. Otherwise the sign is
-    checked at SCAN points, which are denser near both ends, and at further points in the first cell
-    from the point up to which the coefficients guarantee the sign (`_keeps`). If the series
-    decreases toward zero from both of two successive points, its extreme between them is checked as
-    well (`_least`).
-
-    Returns the number of points written.
-    """
+    """Write the first `maximum_count` points in (0, 1] where a series changes sign; the count."""
     first = 0
     while first < degree and b[row, first] == 0.0:
         first += 1
     known = _zeros(b, row, first, degree) if first < degree else 0
     if known == 0:
         return 0
+    # If `_zeros` shows one change at most, only the sign at 1 is checked. Otherwise it is checked
+    # at SCAN points, denser near both ends, and at further points in the first cell from the point
+    # up to which the coefficients guarantee the sign (`_keeps`).
     cells, m, n = (SCAN if known > 1 else 1), 1, 0
     near = _keeps(b, row, first, degree) if known > 1 else np.inf
     right, at_right, rise = 0.0, b[row, first], b[row, first + 1]
@@ -510,6 +475,7 @@ def _changes(b, row, degree, maximum_count):
             m, near = m + 1, np.inf
         at_right, rise = _value(b, row, first, degree, right)
         beyond = at_right <= 0.0 if up else at_right >= 0.0
+        # It decreases toward zero from both points: its extreme between them is checked as well.
         if not beyond and falls and (rise > 0.0) == up:
             middle, there = _least(b, row, first, degree, left, right, up)
             if (there <= 0.0) if up else (there >= 0.0):
@@ -542,10 +508,8 @@ def _keeps(b, row, first, degree):
 
 @jit()
 def _least(b, row, first, degree, left, right, up):
-    """Point where a series is nearest to zero or beyond it, and its value, by bisection of p'.
-
-    From both `left` and `right` the series decreases toward zero; `up` is its sign there.
-    """
+    """Point where a series is nearest to zero or beyond it, and its value, by bisection of p'."""
+    # From both `left` and `right` the series decreases toward zero; `up` is its sign there.
     at, there = left, 1.0 if up else -1.0
     while right - left > 1e-12 and (there > 0.0) == up:
         at = 0.5 * (left + right)
@@ -559,10 +523,8 @@ def _least(b, row, first, degree, left, right, up):
 
 @jit()
 def _root(b, row, first, degree, low, at_low, high, at_high, up):
-    """Point where a series changes sign, by the Illinois variant of the false-position method.
-
-    At `low` the series has the sign `up` (or is zero); at `high` it has the other one or is zero.
-    """
+    """Point where a series changes sign, by the Illinois variant of the false-position method."""
+    # At `low` the series has the sign `up` (or is zero); at `high` the other one, or it is zero.
     side = 0
     for _ in range(60):
         if at_high == 0.0 or not abs(high - low) > 1e-15 * high:
@@ -593,13 +555,10 @@ def _rates(b, order, at):
 
 @jit(forceinline=True)
 def _excess(va, vs, w, va_rate, vs_rate, tau, h, gx, gy, rx, ry, ux, uy, c, rc, most_w, law):
-    """Error in velocity that a step of length h would make with a constant defect, that at `tau`.
-
-    The truncated series is the exact solution of the equation with an additional acceleration, the
-    defect d = v' - G + q e. Friction is monotone, so the error in velocity is at most the integral
-    of |d|. Across the motion friction also restores the direction, at the rate q / w, so d acts
-    there for a time of w / q at most; its effect along the motion is of second order.
-    """
+    """Error in velocity that a step of length h makes with a constant defect, that at `tau`."""
+    # The truncated series is the exact solution of the equation with an additional acceleration,
+    # the defect d = v' - G + q e. Friction is monotone, so the error in velocity is at most the
+    # integral of |d|.
     q = c + rc * tau
     if law is not None:
         mu = law[0] - law[1] * math.exp(-law[2] * w)
@@ -608,6 +567,8 @@ def _excess(va, vs, w, va_rate, vs_rate, tau, h, gx, gy, rx, ry, ux, uy, c, rc, 
     da, ds = va_rate * each - (gx * ux + gy * uy), vs_rate * each - (gy * ux - gx * uy)
     each = 1.0 / max(w, 1e-300)
     along, across = abs((da * va + ds * vs) * each + q), abs(ds * va - da * vs) * each
+    # Across the motion friction also restores the direction, at the rate q / w, so d acts there for
+    # a time of w / q at most; its effect along the motion is of second order.
     least = min(q, c)
     lasts = most_w / least if most_w < h * least else h
     return h * (along + across * (1e-3 if across < 1e-3 * q else 1.0)) + across * lasts
@@ -617,15 +578,14 @@ def _excess(va, vs, w, va_rate, vs_rate, tau, h, gx, gy, rx, ry, ux, uy, c, rc, 
 def _miss(
     b, order, va, vs, w, va_rate, vs_rate, h, gx, gy, rx, ry, ux, uy, c, rc, most_w, law
 ):  # fmt: skip
-    """Bound of the error in velocity that a step makes, from the defect at its end.
-
-    The defect grows like time to the power `order`, so its integral over the step is its final
-    value times h / (order + 1); five times that is used. The defect may be zero at the end by
-    chance, so the bound is at least a tenth of the last two terms.
-    """
+    """Bound of the error in velocity that a step makes, from the defect at its end."""
+    # The defect may be zero at the end by chance, so the bound is at least a tenth of the last two
+    # terms.
     last, n = np.uintp(order), np.uintp(order - 1)
     least = abs(b[VA, last]) + abs(b[VS, last]) + abs(b[VA, n]) + abs(b[VS, n])
     excess = _excess(va, vs, w, va_rate, vs_rate, h, h, gx, gy, rx, ry, ux, uy, c, rc, most_w, law)
+    # The defect grows like time to the power `order`, so its integral over the step is its final
+    # value times h / (order + 1); five times that is used.
     return max(excess * (5.0 / (order + 1)), 0.1 * least)
 
 
@@ -645,23 +605,18 @@ def _bend(c, w, law):
 
 @jit()
 def _close(vx, vy, w, gx, gy, rx, ry, c, rc, bend, slack):
-    """Closed-form motion to a stop, with G and q constant; rates are per second.
-
-    With psi the angle from G to v, (w (q + G cos psi))' = G^2 - q^2 gives the time to the stop. The
-    distances along and across G follow from the derivatives of w^2 (G + 2 q cos psi + G cos^2 psi)
-    and of w^2 sin psi (2 q + G cos psi), here written without division by G. The error comes from
-    the change of G and q during that time, and from `bend`, the difference of q from its value at
-    zero speed by a law.
-
-    Returns the time, the displacement (x, y) and a bound of its error; inf, 0, 0, inf if the block
-    may not stop or if the bound exceeds `slack`.
-    """
+    """Time, displacement and bound of error of a stop in closed form, G and q constant; or inf."""
     never = (np.inf, 0.0, 0.0, np.inf)
     square = gx * gx + gy * gy
     if not c * c > square:
         return never
+    # With psi the angle from G to v, (w (q + G cos psi))' = G^2 - q^2 gives the time to the stop.
+    # The distances along and across G follow from the derivatives of w^2 (G + 2 q cos psi + G cos^2
+    # psi) and of w^2 sin psi (2 q + G cos psi), here written without division by G.
     along, less, more = gx * vx + gy * vy, c * c - square, 4.0 * c * c - square
     time, lag = (c * w + along) / less, (2.0 * c * w + along) / more
+    # From the change of G and q during that time (rates per second), and from `bend`, the
+    # difference of q from its value at zero speed by a law.
     change = (math.sqrt(rx * rx + ry * ry) + abs(rc)) * time + bend
     change /= c - math.sqrt(square)
     if change > 0.3 or change * w * time > slack:
@@ -682,11 +637,9 @@ def _see(sx, sy, t, cs, top):
 
 @jit(forceinline=True)
 def _look(b, order, ux, uy, cs, sx, sy, way, aside, vx, vy, w, moved, h, t, top):
-    """Update `top` with the positions inside a step where an extreme may occur.
-
-    Extremes of sx, sy and the distance are at zeros of their rates. These are searched for only if
-    the step may reach beyond the values in `top`. (vx, vy) is v at the end of the step.
-    """
+    """Update `top` with the positions inside a step where an extreme may occur."""
+    # Extremes of sx, sy and the distance are at zeros of their rates. These are searched for only
+    # if the step may reach beyond the values in `top`. (vx, vy) is v at the end of the step.
     reach = h * (w + moved)
     for side in range(2):
         place = sx if side == 0 else sy
@@ -740,16 +693,14 @@ def _returns(b, order, along, across, end, away, w, moved, reach, h):
 
 @jit()
 def _rate(b, order, along, across, ux, uy, cs, h):
-    """Write the series of u . v into row E, to one degree more than v, the degree of u.
-
-    The terms omitted are then as small as those omitted in v. Overwrites rows EA and ES.
-    """
+    """Write the series of u . v into row E, a degree more than v; overwrites rows EA and ES."""
     first, second = cs * cs * ux * ux + uy * uy, cs * cs * uy * uy + ux * ux
     both = (1.0 - cs * cs) * ux * uy
     for k in range(order + 1):
         b[EA, k] = h * (first * b[VA, k] + both * b[VS, k])
         b[ES, k] = h * (both * b[VA, k] + second * b[VS, k])
         b[E, k] = along * b[VA, k] + across * b[VS, k]
+    # To the degree of u, so that the terms omitted are as small as those omitted in v.
     b[E, order + 1] = 0.0
     for k in range(1, order + 2):
         total = 0.0
@@ -820,10 +771,7 @@ def friction_demand(ax, ay, az, sn, cs, g, scale):
 
 @jit()
 def _terms(x, y, z, p, q, most):
-    """Bound of the sum of absolute values of the terms of G and friction.
-
-    Rounding error is relative to this sum.
-    """
+    """Bound of the sum of |terms| of G and friction, to which rounding error is relative."""
     along, across = max(-x[0, -1], x[1, -1]), max(-y[0, -1], y[1, -1])
     up = max(-z[0, -1], z[1, -1])
     drive = abs(p[0]) + abs(p[1]) * up + abs(p[2]) * along + abs(p[3]) * across
@@ -832,10 +780,8 @@ def _terms(x, y, z, p, q, most):
 
 @jit()
 def _is_quiet(x, y, z, block, p, q, hold):
-    """Whether no sample of a block of samples can make the resting block slip.
-
-    Rounding is monotone: what is computed from bounds bounds what is computed from samples.
-    """
+    """Whether no sample of a block of samples can make the resting block slip."""
+    # Rounding is monotone: what is computed from bounds bounds what is computed from samples.
     first, other = p[2] * x[0, block], p[2] * x[1, block]
     up, down = p[1] * z[0, block], p[1] * z[1, block]
     low, high = p[0] + min(up, down), p[0] + max(up, down)
@@ -865,12 +811,9 @@ def _next_slip(ax, ay, az, x, y, z, i, p, q, hold):
 
 @jit()
 def _onset(gx, gy, c, hx, hy, d):
-    """First time in an interval, from 0 to 1, at which |G| exceeds c; 2 for never.
-
-    In the interval (gx, gy) changes linearly to (hx, hy), and c to d. |G| - c is convex in time, so
-    it crosses zero upward at most once.
-    """
+    """First time, 0 to 1, at which |G| exceeds c, both linear to (hx, hy) and d; 2 for never."""
     rx, ry, rc = hx - gx, hy - gy, d - c
+    # |G| - c is convex in time, so it crosses zero upward at most once.
     half = gx * rx + gy * ry - c * rc
     push = gx * gx + gy * gy - c * c
     if push > 0.0:
@@ -884,18 +827,14 @@ def _onset(gx, gy, c, hx, hy, d):
 
 @jit()
 def _rest(gx, gy, c, hx, hy, d, left, hold, slow, dead, error, off):
-    """Stay at rest until |G| exceeds friction by more than rounding error.
-
-    In the time `left` (gx, gy) changes linearly to (hx, hy), and c to d. The exact block may still
-    move, with a speed of at most `off`, until friction stops it. Friction reduces that speed at the
-    rate q - |G|, which is concave in time and not negative at the end of the rest. Its integral is
-    therefore at least half its initial value times the duration.
-
-    Returns when the slip begins / `left` (2 for never), and `error` and `off` at that time.
-    """
+    """Rest until |G| exceeds friction beyond rounding; onset / `left` (2: never), error, off."""
     onset = _onset(gx, gy, hold * c + dead, hx, hy, hold * d + dead)
     pull, h = math.sqrt(gx * gx + gy * gy), left * min(onset, 1.0)
     error += off * h
+    # The exact block may still move, with a speed of at most `off`, until friction stops it.
+    # Friction reduces that speed at the rate q - |G|, which is concave in time and not negative at
+    # the end of the rest. Its integral is therefore at least half its initial value times the
+    # duration.
     off = max(0.0, off - 0.5 * max(slow * c - pull, 0.0) * h)
     if pull > hold * c or math.sqrt(hx * hx + hy * hy) > hold * d:
         off += dead * h
@@ -910,11 +849,9 @@ def _net_driving(gx, gy, c, hx, hy, d):
 
 @jit()
 def _note(events, n, t, kind, sx, sy):
-    """Write event n, if there is room, and return the number of events.
-
-    No rounding puts it before the last one.
-    """
+    """Write event n, if there is room, and return the number of events."""
     if n < events.shape[0]:
+        # No rounding puts it before the last one.
         t = max(t, events[n - 1, 0]) if n else t
         events[n, 0], events[n, 1], events[n, 2], events[n, 3] = t, kind, sx, sy
     return n + 1
