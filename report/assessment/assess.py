@@ -17,11 +17,7 @@ from typing import Any
 
 from report.assessment.arrays import ArrayAssessment, assess_array, by_id
 from report.assessment.causes import outcome
-from report.assessment.clearances import (
-    check_clearance,
-    largest_separation_m,
-    minimum_gap,
-)
+from report.assessment.clearances import check_clearance, largest_separation_m, minimum_gap
 from report.assessment.conditions import (
     array_rows,
     less_friction_rows,
@@ -44,12 +40,7 @@ from report.assessment.motion_runs import PendingRuns, RunMotion, begin_runs, sh
 from report.assessment.neighbors import PlanNeighbor, plan_pairs, reaches_of
 from report.assessment.precheck import building_limits
 from report.assessment.project import THREADS, Assessment
-from report.assessment.runs import (
-    MotionRun,
-    largest_two,
-    run_motion,
-    scene_key,
-)
+from report.assessment.runs import MotionRun, largest_two, run_motion, scene_key
 from report.assessment.verdict import rule_set_of, under_code
 from report.motions.history import targets
 from report.motions.prepare import Shaking
@@ -198,19 +189,9 @@ def _assess(
     has_pairs: bool = True,
     reduced_friction: Callable[[], Assessment | None] | None = None,
 ) -> Assessment:
-    """Assess an input from its runs.
-
-    Parameters
-    ----------
-    slow : PendingRuns, optional
-        Runs of the arrays of `with_low_velocity`; given with `reduced_friction`.
-    has_pairs : bool
-        Whether the plan is measured: with less friction it is the same.
-    reduced_friction : callable, optional
-        Assesses the same with less friction. With it, the verdicts are compared with those for less
-        friction and, where there are motions, one rigid block with a row of linked blocks.
-    """
+    """Assess an input from its runs, and from `slow`, those of `with_low_velocity`."""
     rules = rule_set_of(data)
+    # Of a variation neither its own variations nor its rows of linked blocks are asked for.
     has_runs = bool(reduced_friction and shaking.motions)
     arrays = tuple(
         assess_array(data, rules, array, *wait(), motions_qualify=acceptance.qualifies)
@@ -219,6 +200,7 @@ def _assess(
     links = data.links if has_runs else ()
     linked = tuple(assess_linked(pool, rules, row, by_id(arrays, row.array)) for row in links)
     clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
+    # With less friction the plan is the same, and is not measured again.
     pairs = _plan_pairs(sheet, data, rules, arrays) if has_pairs else ()
     rows = [
         *project_rows(data, shaking.prepared),

@@ -29,10 +29,7 @@ if TYPE_CHECKING:
 
 
 def unshown_cause(assessment: Assessment, item: ArrayAssessment) -> str:
-    """Return the first cause of a verdict and the count of others; nothing where the D/C shows it.
-
-    Nothing for OK.
-    """
+    """Return the first cause of a verdict and the count of others; none if the D/C shows it."""
     verdict, reasons = assessment.array_verdict(item), causes(assessment, item)
     is_shown = any(gap.demand_capacity > 1.0 for gap in assessment.gaps_of(item.id))
     if not reasons or (verdict is Verdict.NG and is_shown):
@@ -108,10 +105,8 @@ def _gap(item: ArrayAssessment, gap: ClearanceCheck) -> str:
 
 
 def reasons(assessment: Assessment) -> Iterator[str]:
-    """Yield what makes a project NG, each with array, value, limit and what would do, in order.
-
-    What the clearances rest on is before them, and of them that with the largest D/C.
-    """
+    """Yield what makes a project NG, each with array, value, limit and what would do, in order."""
+    # What the clearances rest on is before them.
     us_first = assessment.project.us_first
     for check in (check for check in assessment.building_checks if not check.ok):
         yield f"building, {limit_words(check, us_first)}"

@@ -238,13 +238,8 @@ def _ground_motions(
 
 
 def noted(rows: Iterable[Requirement], by_runs: Collection[str]) -> Iterator[Requirement]:
-    """Yield rows; what concerns the analysis alone is a note where nothing follows from it.
-
-    Parameters
-    ----------
-    by_runs : collection of str
-        Arrays whose design displacement follows from their runs.
-    """
+    """Yield rows; what concerns the analysis alone is a note where nothing follows from it."""
+    # `by_runs` are the arrays whose design displacement follows from their runs.
     for row in rows:
         concerned = row.subject in by_runs if row.id == VELOCITY_ROW else bool(by_runs)
         if row.is_satisfied or concerned or row.id not in _OF_ANALYSIS:
@@ -255,10 +250,7 @@ def noted(rows: Iterable[Requirement], by_runs: Collection[str]) -> Iterator[Req
 
 
 def motion_rows(acceptance: Acceptance, routes: Iterable[Route]) -> tuple[Requirement, ...]:
-    """Return the limits on the motions that they miss.
-
-    What makes a value from analysis NG is none where no array takes that value.
-    """
+    """Return the limits on the motions that they miss."""
     takes_analysis = Route.ANALYSIS in routes
     has_records = any(not motion.is_generated for motion in acceptance.motions)
     spectral = next((each for each in acceptance.missed if each.is_ratio_to_target), None)
@@ -308,10 +300,7 @@ def _motion_remedy(is_ng: bool, takes_analysis: bool) -> str:
 
 
 def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Requirement, ...]:
-    """Return what the plan shows near an array and no clearance covers, or contradicts.
-
-    A gap of the plan that no clearance covers, and that is less than is required, is NG.
-    """
+    """Return what the plan shows near an array and no clearance covers, or contradicts."""
     return tuple(
         Requirement(
             id=PLAN_ROW,
@@ -482,14 +471,12 @@ def _provided(
 def pathway_rows(
     data: ProjectInput, arrays: Sequence[ArrayAssessment], clearances: Sequence[ClearanceCheck]
 ) -> Iterator[Requirement]:
-    """Yield what is left of each fire pathway after the arrays beside it have slid into it.
-
-    Arrays that are unlike may slide toward each other: both displacements are subtracted.
-    """
+    """Yield what is left of each fire pathway after the arrays beside it have slid into it."""
     for index, gap in enumerate(clearances):
         row = gap.clearance
         if row.pathway_m is None:
             continue
+        # Arrays that are unlike may slide toward each other: both displacements are subtracted.
         slides = [array.permitted_toward_m(toward) for array, toward in facing(data, arrays, row)]
         if gap.neighbor is Neighbor.LIKE:
             slides = [gap.design_m]
@@ -520,13 +507,7 @@ def less_friction_rows(
     less_arrays: Sequence[ArrayAssessment],
     less_clearances: Sequence[ClearanceCheck],
 ) -> Iterator[Requirement]:
-    """Yield the routes and clearances that are permitted as given, and not with less friction.
-
-    Parameters
-    ----------
-    less_arrays, less_clearances : sequence
-        The same with less friction.
-    """
+    """Yield the routes and clearances that are permitted as given, and not with less friction."""
     friction = f"{number(100.0 * SHIFT, 0)} % less friction"
     row = partial(condition, id="less_friction", is_satisfied=False, basis="sensitivity")
     for array, less in zip(arrays, less_arrays, strict=True):

@@ -29,10 +29,7 @@ ARC_STEPS = 6
 
 
 def design_envelope(array: ArrayAssessment) -> Outline:
-    """Return the outline of an array moved by its design displacement in any direction.
-
-    Empty without a permitted displacement. Arcs are circumscribed: no point is left out.
-    """
+    """Return the outline of an array moved in any direction; empty without a permitted value."""
     if math.isnan(array.permitted_m):
         return ()
     return _swept(array.array.shape, _circle(array.permitted_m))
@@ -54,10 +51,8 @@ def runs_envelope(array: ArrayAssessment) -> Outline:
 
 
 def _region(run: OrientedRun) -> Outline:
-    """Return a region (downslope, cross-slope) that contains the path of a run.
-
-    A circle about the PRD, cut at the largest excursions.
-    """
+    """Return a region (downslope, cross-slope) that contains the path of a run."""
+    # A circle about the PRD, cut at the largest excursions.
     down, up, across, prd = (run.excursion_m(direction) for direction in Direction)
     region = _circle(prd)
     for x, y, limit in ((1, 0, down), (-1, 0, up), (0, 1, across), (0, -1, across)):
@@ -110,15 +105,13 @@ def hull(points: Iterable[Point]) -> Outline:
 
 
 def keep_clear_m(assessment: Assessment, array: ArrayAssessment) -> float:
-    """Return the separation from any fixed object [m]; NaN without a permitted displacement.
-
-    Any object that may come: its I_p is taken as that of the array.
-    """
+    """Return the separation from any fixed object [m]; NaN without a permitted displacement."""
     rules = assessment.rules
     return provisions.required_separation(
         rules,
         Neighbor.FIXED,
         design_m=array.permitted_m,
+        # Any object that may come: its I_p is taken as that of the array.
         importance=array.array.i_p if rules.importance_in_separation else 1.0,
     )
 

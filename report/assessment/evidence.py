@@ -130,13 +130,9 @@ Variations = Sequence[tuple[BuildingInput, AnalysisValue]]
 
 
 def building_case(assessment: Assessment, variations: Variations) -> InputCase | None:
-    """Return the governing array with the period or damping that lets it slide farthest.
-
-    A variation without a value is the worst. None where no motion goes through the building, where
-    that is no farther than as used, and where the design displacement does not follow from one
-    value of the analysis.
-    """
+    """Return the governing array with the period or damping that lets it slide farthest, if any."""
     array = assessment.governing
+    # Such a design displacement does not follow from one value of the analysis.
     if not variations or array.route is not Route.ANALYSIS or array.by_direction:
         return None
     (used, _), *others = variations
@@ -208,13 +204,11 @@ def beyond_corners(assessment: Assessment) -> tuple[Beyond, ...]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cumulative:
-    """Sums for one array: the PRD of the design event and of each smaller one, by motion.
-
-    However the events follow each other, and whatever their directions, the array is nowhere
-    farther from where it began than the sum of their PRDs.
-    """
+    """Sums for one array: the PRD of the design event and of each smaller one, by motion."""
 
     array: ArrayAssessment
+    # However the events follow each other, and whatever their directions, the array is nowhere
+    # farther from where it began than this.
     sums_m: Mapping[str, float]  # by motion [m]; NaN where a run has no final displacement
 
     @property

@@ -81,12 +81,9 @@ class VelocityCheck:
 
     @property
     def is_beyond(self) -> bool:
-        """Whether the array may slide faster than tested; where no test reports its velocity, so.
-
-        An array that never slides is not beyond.
-        """
+        """Whether the array may slide faster than tested, or no test reports its velocity."""
         tested_mps = self.tests.velocity_mps
-        # A run without a velocity, NaN, is beyond.
+        # A run without a velocity, NaN, is beyond; an array that never slides is not.
         return not self.fastest_mps <= (0.0 if math.isnan(tested_mps) else tested_mps)
 
     @property
@@ -124,21 +121,11 @@ def velocity_check(data: ProjectInput, assessed: ArrayAssessment) -> VelocityChe
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InputCase:
-    """An array with another input.
+    """An array with another input."""
 
-    Attributes
-    ----------
-    array : ArrayAssessment
-        With its design displacement then.
-    changed : str
-        The other input, in words.
-    gaps : sequence of ClearanceCheck
-        The clearances that involve the array, then.
-    """
-
-    array: ArrayAssessment
-    changed: str
-    gaps: Sequence[ClearanceCheck]
+    array: ArrayAssessment  # with its design displacement then
+    changed: str  # the other input, in words
+    gaps: Sequence[ClearanceCheck]  # the clearances that involve the array, then
 
     @property
     def short(self) -> Sequence[ClearanceCheck]:
@@ -206,13 +193,7 @@ def low_velocity(
     *,
     motions_qualify: bool,
 ) -> LowVelocityAssessment:
-    """Assess the arrays of `with_low_velocity` beside the others as given.
-
-    Parameters
-    ----------
-    begun : PendingRuns
-        Their runs.
-    """
+    """Assess the arrays of `with_low_velocity`, whose runs have begun, beside the others."""
     changed = {
         array.id: assess_array(data, rules, array, *wait(), motions_qualify=motions_qualify)
         for array, wait in zip(with_low_velocity(data).arrays, begun, strict=True)
@@ -231,12 +212,10 @@ def low_velocity(
 def velocity_rows(
     data: ProjectInput, arrays: Sequence[ArrayAssessment], slow: LowVelocityAssessment
 ) -> Iterator[Requirement]:
-    """Yield for each array whether friction beyond the velocities tested is shown by tests.
-
-    Nothing without test runs: what is missing then is a requirement of its own.
-    """
+    """Yield for each array whether friction beyond the velocities tested is shown by tests."""
     for item in arrays:
         check = velocity_check(data, item)
+        # Test runs that are missing are a requirement of their own.
         if check is not None:
             yield _row(item.id, check, slow, data.us_first)
 

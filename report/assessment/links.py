@@ -102,19 +102,14 @@ class LinkedArray:
 
     @property
     def value_m(self) -> float:
-        """The value from analysis that is multiplied by the ratio [m].
-
-        Where a model is requested and the adequate one gives more, the latter: the floor may cover
-        what the requested model neglects, but not necessarily together with links.
-        """
+        """The value from analysis that is multiplied by the ratio [m]."""
+        # Of the adequate model if that gives more than the one requested: the floor may cover
+        # what the latter neglects, but not necessarily together with links.
         return max(self.design.analysis.value_m, self.design.chosen[Direction.ANY].value_m)
 
     @property
     def estimated_m(self) -> float:
-        """Design displacement with links [m], an estimate; NaN without a value.
-
-        The value from analysis times the ratio, if above 1; not less than the floor.
-        """
+        """Design displacement with links [m], an estimate; NaN without a value."""
         ratio, design = self.ratio, self.design
         if math.isnan(ratio) or math.isnan(design.design_m):
             return math.nan
@@ -124,10 +119,7 @@ class LinkedArray:
 
     @property
     def is_rigid_enough(self) -> bool:
-        """Whether links require no larger displacement than the design, with all runs final.
-
-        Not without a permitted design displacement.
-        """
+        """Whether links require no larger displacement than a permitted design, all runs final."""
         return self.is_final and self.is_within and self.design.is_permitted
 
     @property

@@ -82,10 +82,7 @@ def _done(runs: Sequence[Future[MotionRun]], needed: Sequence[Future[MotionRun]]
 
 
 def shaking_acceptance(shaking: Shaking, targets: Targets) -> Acceptance:
-    """Compare the motions as run with the targets at the roof, and with the other limits.
-
-    Without motions, no limit on them applies.
-    """
+    """Compare the motions as run with the targets at the roof, and with the other limits."""
     if not shaking.motions:
         return Acceptance(rows=(), motions=())
     return acceptance(
@@ -97,11 +94,9 @@ def shaking_acceptance(shaking: Shaking, targets: Targets) -> Acceptance:
 
 
 def _hold_s(prepared: PreparedMotion, files: Sequence[RecordFile]) -> float:
-    """Hold of the envelope that all files of a motion state [s]; NaN if any does not.
-
-    The response of a building no longer has the envelope of the ground motion.
-    """
+    """Hold of the envelope that all files of a motion state [s]; NaN if any does not."""
     holds = [file.hold_s for file in files if file.motion_id == prepared.motion_id]
+    # The response of a building no longer has the envelope of the ground motion.
     is_stated = prepared.recorded_at is RecordedAt.ROOF and not any(map(math.isnan, holds))
     return min(holds, default=math.nan) if is_stated else math.nan
 

@@ -83,19 +83,11 @@ class GivenGap:
 
 
 class ComparedGap(ABC):
-    """A gap whose required separation is compared with what is there, given or in plan.
-
-    Attributes
-    ----------
-    required_m : float
-        Required separation [m]; NaN without a permitted displacement.
-    mark : str
-        Of the required separation.
-    """
+    """A gap whose required separation is compared with what is there, given or in plan."""
 
     __slots__ = ()
-    required_m: float
-    mark: str
+    required_m: float  # required separation [m]; NaN without a permitted displacement
+    mark: str  # of the required separation
 
     @property
     @abstractmethod

@@ -169,10 +169,7 @@ def _written(
 def _renewed(
     table: GrowingTable, data: ProjectInput, pairs: Sequence[PlanNeighbor]
 ) -> tuple[dict[CellPosition, Value], list[str]]:
-    """Return the cells of rows from the drawing that the plan has otherwise, and a line for each.
-
-    The direction is left where a pair has other rows, whose directions differ.
-    """
+    """Return the cells of rows from the drawing that differ from the plan, and a line for each."""
     rows = {table.position(row, "provided_m").address: row for row in table.found.rows}
     cells: dict[CellPosition, Value] = {}
     lines: list[str] = []
@@ -184,7 +181,7 @@ def _renewed(
             turned = near
             if was.array != near.array:
                 turned = replace(near, array=near.other, near=near.far, far=near.near)
-            is_one = len(near.given) == 1
+            is_one = len(near.given) == 1  # the directions of several rows of a pair differ
             direction = _direction(turned, data) if is_one else was.direction
             if abs(was.provided_m - drawn_m) > _NOISE_M or direction is not was.direction:
                 cells |= table.cells(rows[entered.cell], _from_drawing(table, direction, drawn_m))

@@ -13,15 +13,9 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.clearances import (
-    ClearanceCheck,
-)
-from report.assessment.conditions import (
-    MOTIONS_ID,
-)
-from report.assessment.friction import (
-    LowVelocityAssessment,
-)
+from report.assessment.clearances import ClearanceCheck
+from report.assessment.conditions import MOTIONS_ID
+from report.assessment.friction import LowVelocityAssessment
 from report.assessment.links import LinkedArray
 from report.assessment.motion_runs import RunWarning, run_warnings
 from report.assessment.neighbors import ComparedGap, PlanNeighbor
@@ -135,14 +129,12 @@ class Assessment:
         return Verdict.CONDITIONS if verdict is Verdict.CONDITION else verdict
 
     def array_verdict(self, item: ArrayAssessment) -> Verdict:
-        """Return the verdict on an array: its values, limits, rows and clearances.
-
-        NG beside a clearance without a verdict.
-        """
+        """Return the verdict on an array: its values, limits, rows and clearances."""
         return self._verdicts[item.id]
 
     def _array_verdict(self, item: ArrayAssessment) -> Verdict:
         gaps = self.gaps_of(item.id)
+        # Beside a clearance without a verdict it is NG.
         has_verdicts = not math.isnan(item.design_m) and all(gap.is_permitted for gap in gaps)
         is_ok = has_verdicts and self.is_rigid_enough(item) and self.is_sound(item)
         return worst(
@@ -225,10 +217,8 @@ class Assessment:
         return run_warnings(self.arrays, self.project.us_first)
 
     def governing_gap(self, array_id: str = "") -> ComparedGap | None:
-        """Return the gap with the largest D/C, if any; of an array that from either side.
-
-        Of the clearances, and of the pairs that the plan shows to be short and no clearance covers.
-        """
+        """Return the gap with the largest D/C, if any; of an array that from either side."""
+        # Pairs that the plan shows to be short and no clearance covers are gaps as well.
         gaps: Sequence[ComparedGap] = (*self.clearances, *self.missing_gaps)
         concerned = [gap for gap in gaps if not array_id or gap.involves(array_id)]
         return max(concerned, key=lambda gap: nan_is_worst(gap.demand_capacity), default=None)

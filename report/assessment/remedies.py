@@ -52,17 +52,13 @@ _MOST_TRIES = 10  # of the length of a move: more only where it goes past the ot
 def moves(
     assessment: Assessment, number: int, gap: ClearanceCheck
 ) -> tuple[Assessment | None, str]:
-    """Return the project with a clearance as required, and how; or none, and why not.
-
-    The shortest move of an array beside it with which nothing else becomes NG. Where the plan does
-    not show both, the clearance alone is entered.
-    """
+    """Return the project with a clearance as required, and how; or none, and why not."""
     row, data = gap.clearance, assessment.project
     unit = Quantity.SIZE.us if data.us_first else Quantity.SIZE.si
     lack_m = round_up((gap.required_m - row.provided_m) / unit.si, unit.decimals) * unit.si
     more = pair(lack_m, Quantity.SIZE, data.us_first, no_less)
     shapes = shapes_of(assessment)
-    if row.object not in shapes:
+    if row.object not in shapes:  # not in plan: the clearance alone is entered
         rows = list(data.clearances)
         rows[number - 1] = row.model_copy(update={"provided_m": row.provided_m + lack_m + _NOISE_M})
         return entered(assessment, changed(data, clearances=tuple(rows))), f"{more} more"
@@ -70,6 +66,7 @@ def moves(
         _failed(assessment),
         sorted(_ways_to_move(data, shapes, row, lack_m), key=lambda way: way[0]),
     )
+    # The shortest move with which nothing else becomes NG.
     for length_m, array, (dx, dy) in ways:
         by = (dx * length_m, dy * length_m)
         # Most are refused by a neighbor in plan: only the others are assessed.
@@ -203,10 +200,7 @@ class Remedy:
 
 
 def remedies(assessment: Assessment) -> tuple[Remedy, ...]:
-    """Return what would satisfy the clearances marked NG, and each array without final values.
-
-    Of more than `MOST_GAPS` clearances those with the largest D/C.
-    """
+    """Return what would satisfy the clearances marked NG, and each array without final values."""
     with ThreadPoolExecutor(THREADS) as pool:
         return tuple(remedy for way in _ways(assessment, pool) for remedy in way)
 
@@ -230,10 +224,7 @@ def best_remedy(assessment: Assessment, *, may_run: bool = True) -> Sequence[Rem
 def _ways(
     assessment: Assessment, pool: Executor, *, most: int = MOST_GAPS, may_run: bool = True
 ) -> Iterator[Sequence[Remedy]]:
-    """Yield the remedies that are entered together, those that need runs last.
-
-    Of the clearances marked NG, or of that many with the largest D/C.
-    """
+    """Yield the remedies that are entered together, those that need runs last."""
     if assessment.verdict.is_permitted:
         return
     numbered = enumerate(assessment.clearances, start=1)

@@ -77,16 +77,7 @@ def search(satisfies: Callable[[int], bool], start: int, end: int) -> tuple[int,
 
 
 class Trials:
-    """One array under the motions of a project, with other friction, in hundredths.
-
-    Friction that varies with velocity is scaled as a whole; its low-velocity coefficient names it.
-    Results are kept: several clearances of an array ask for the same ones.
-
-    Parameters
-    ----------
-    runs : dict
-        Where the runs are kept: arrays with one slope, friction and model share them.
-    """
+    """One array under the motions of a project, with other friction, in hundredths."""
 
     def __init__(
         self, assessment: Assessment, array: ArrayAssessment, pool: Executor, runs: Runs
@@ -94,7 +85,8 @@ class Trials:
         self.given = assessment
         self.array = array
         self._pool = pool
-        self._runs = runs
+        self._runs = runs  # arrays with one slope, friction and model share them
+        # Several clearances of an array ask for the same ones.
         self._done: dict[tuple[int, bool], ArrayAssessment] = {}
 
     def satisfies(self, row: Clearance | None, *, mu: int) -> bool:

@@ -117,10 +117,7 @@ class Uncertainty:
 
 
 def uncertainty(assessment: Assessment) -> Uncertainty | None:
-    """Return how the governing array and every clearance react to what is not known exactly.
-
-    None without motions.
-    """
+    """Return how the governing array and every clearance react to what is not known exactly."""
     if not assessment.has_motions:
         return None
     governing = assessment.governing

@@ -109,10 +109,7 @@ class Requirement(BaseModel):
 
     @property
     def asked(self) -> tuple[str, ...]:
-        """What is printed of it beside its subject and what is found there.
-
-        Of a clearance what is printed beside its names and its cell.
-        """
+        """What is printed of it beside its subject and what is found there."""
         if self.id == PLAN_ROW:
             return self.consequence.value, self.found, self.limit, self._cell_and_words[1]
         return self.consequence.value, self.title, self.limit, self.remedy
@@ -123,11 +120,8 @@ class Requirement(BaseModel):
 
 
 def as_one(rows: Sequence[Requirement]) -> Requirement:
-    """Return rows that ask the same as one; what only some find has their subject before it.
-
-    Clearances are named in its title, with their cells before its remedy.
-    """
-    if rows[0].id == PLAN_ROW and rows[1:]:
+    """Return rows that ask the same as one; what only some find has their subject before it."""
+    if rows[0].id == PLAN_ROW and rows[1:]:  # named in the title, with cells before the remedy
         names = ", ".join(row.title.removeprefix("Clearance ") for row in rows)
         cells, words = zip(*(row._cell_and_words for row in rows), strict=True)
         text = f"{', '.join(dict.fromkeys(cells))}: {words[0]}"
@@ -166,10 +160,7 @@ STAYS = "The condition stays for the plan checker."
 
 
 def stated(section: str, **parts: tuple[str, object]) -> Mapping[str, Any]:
-    """Return what a block states of several parts, name and value by field, and what it does not.
-
-    With whether it states all, and the cells of those that are missing.
-    """
+    """Return what a block states of several parts, name and value by field, and what it lacks."""
     parts_stated = [str(value) for _, value in parts.values() if value]
     missing = {field: name for field, (name, value) in parts.items() if not value}
     lacks = [f"{', '.join(missing.values())} {NOT_GIVEN}"] if missing else []

@@ -181,25 +181,13 @@ class Part:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Section:
-    """A numbered section.
+    """A numbered section."""
 
-    Attributes
-    ----------
-    id, title : str
-        Anchor and heading.
-    template : str
-        Path below the templates. It heads its subsections with `sub`.
-    content : mapping
-        What the template prints, by name.
-    charts : mapping of str to str
-        SVG by name.
-    """
-
-    id: str
-    title: str
-    template: str
-    content: Mapping[str, Any]
-    charts: Mapping[str, str]
+    id: str  # anchor
+    title: str  # heading
+    template: str  # path below the templates; it heads its subsections with `sub`
+    content: Mapping[str, Any]  # what the template prints, by name
+    charts: Mapping[str, str]  # SVG by name
 
 
 def section(

@@ -162,10 +162,7 @@ RangeOfUnit = Annotated[tuple[Number, Number], _IF_GIVEN]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Shown:
-    """How a field is shown: a quantity in both systems of units, or else as text.
-
-    A text is shown as it is, also in place of a quantity.
-    """
+    """How a field is shown: a quantity in both systems of units, or else as text."""
 
     head: str
     unit: str = ""
@@ -193,6 +190,7 @@ class Shown:
         """Return a value for print in each of its units, or `none` for NaN."""
         if isinstance(value, float) and math.isnan(value):
             return [none] * len(units)
+        # A text is shown as it is, also in place of a quantity.
         if isinstance(value, str) or not self.quantity:
             text = value if isinstance(value, str) else self.text(value)
             return [text + mark if mark else text] * len(units)

@@ -39,23 +39,14 @@ _PAGE_PX, _LEAST_SCALE = 970, 60  # width of a landscape page, and the least sca
 
 
 class SheetRow(Entity):
-    """A row of a sheet: an entity, and what the formulas of its fields take from elsewhere.
-
-    Attributes
-    ----------
-    refs : mapping
-        Cells elsewhere, by the name that formulas give them.
-    formulas : mapping of str to str
-        Those of this row, by field, in place of that of its first column; empty for none.
-    blanks : frozenset of str
-        Fields without a cell in this row.
-    """
+    """A row of a sheet: an entity, and what the formulas of its fields take from elsewhere."""
 
     sheet: ClassVar[str]
 
-    refs: Mapping[str, Any] = {}
+    refs: Mapping[str, Any] = {}  # cells elsewhere, by the name that formulas give them
+    # those of this row, by field, in place of that of its first column; empty for none
     formulas: Mapping[str, str] = {}
-    blanks: frozenset[str] = frozenset()
+    blanks: frozenset[str] = frozenset()  # fields without a cell in this row
 
     @classmethod
     def beside(cls, row: Entity, **more: Any) -> Self:
