@@ -2,8 +2,6 @@
 
 Each function answers from a finished assessment and runs again only what a drawing needs. Values
 are those of the package; a number that does not exist is None. Read `slide`.
-
-Which samples a moving plan or a path needs: few enough to draw, and every peak among them.
 """
 
 from __future__ import annotations
@@ -14,7 +12,7 @@ from dataclasses import asdict
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
+from contourpy import contour_generator
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.project import Assessment
@@ -33,40 +31,10 @@ from solver.records.measures import velocity_displacement
 from solver.records.record import Record
 from solver.sliding import least_model
 
-Indices = NDArray[np.intp]
-
-
-def peaks_kept(values: Floats, maximum: int) -> Indices:
-    """Return the samples of at most `maximum` that have the smallest and largest value of a part.
-
-    The history is divided into equal parts; its ends stay. NaN is neither small nor large.
-    """
-    n = len(values)
-    if n <= maximum:
-        return np.arange(n)
-    size = math.ceil(n / (maximum // 2 - 1))
-    parts = -(-n // size)
-    padded = np.full(parts * size, np.nan)
-    padded[:n] = values
-    lost = np.isnan(padded)
-    low = np.where(lost, math.inf, padded).reshape(parts, size).argmin(axis=1)
-    high = np.where(lost, -math.inf, padded).reshape(parts, size).argmax(axis=1)
-    starts = np.arange(parts) * size
-    kept = np.unique([0, n - 1, *(starts + low), *(starts + high)])
-    return kept[kept < n]
-
-
-def beside(times_s: Floats, dt_s: float, n: int) -> Indices:
-    """Return the samples before and after each of the times."""
-    at = np.floor(times_s / dt_s).astype(np.intp)
-    return np.unique(np.clip(np.concatenate([at, at + 1]), 0, n - 1))
-
-
 Json = dict[str, Any]
 _T = TypeVar("_T")
 
-MOST_ON_TRACK = 1500  # of one direction, beside the events
-MOST_ON_PATH = 200  # of one direction; a path is drawn an inch or two wide
+_FINE = 6  # parts of a cell of the grid, in each direction, between which contours are straight
 
 _TITLES = {
     "acceleration": "Roof acceleration",
@@ -135,7 +103,11 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
             "outline": item.array.shape.points,
             "downslope_deg": item.array.downslope_deg,
         },
-        "track": _track(history, roof, chosen.scene.dt_s),
+        "roof_m": [
+            _numbers(velocity_displacement(component)[1])
+            for component in roof
+            if component.name != "vertical"
+        ],
         "slips": [_slip(k, slips, fmt) for k in range(len(slips))],
         "peak": _peak(history),
         **_panels(chosen, history, roof, slips, fmt),
@@ -166,15 +138,16 @@ def contour(assessment: Assessment, array_id: str) -> Json:
     row = int(np.argmin(np.abs(contours.slopes_rad - item.array.slope_rad)))
     column = int(np.argmin(np.abs(contours.mus - item.array.mu)))
     here_m, unit = float(contours.mean_m[row, column]), fmt.units()[0]
+    lines_at = contour_lines(contours)
     return {
         "mus": contours.mus.tolist(),
         "slopes_deg": np.degrees(contours.slopes_rad).tolist(),
         "prd_m": [_numbers(means) for means in contours.mean_m],
         "levels": [
             {
-                "prd_m": level * unit.si,
                 "text": f"{level:g} {unit.symbol}",
                 "is_major": is_decade(level),
+                "lines": lines_at(level * unit.si),
             }
             for level in drawn_levels(contours, unit.si)
         ],
@@ -195,6 +168,25 @@ def contour(assessment: Assessment, array_id: str) -> Json:
         },
         "texts": _contour_texts(contours, here_m, fmt),
     }
+
+
+def contour_lines(surface: ResponseSurface) -> Callable[[float], list[list[list[float]]]]:
+    """Return what gives the contours of a PRD [m], each as its points (μ, slope [deg]).
+
+    Between grid points the logarithm of PRD is linear; a cell with a lost corner has no contour.
+    """
+    slopes_deg = np.degrees(surface.slopes_rad)
+    logs = np.log10(np.maximum(surface.mean_m, LEAST_M))
+    fine_mus, fine_slopes = _divided(surface.mus), _divided(slopes_deg)
+    rows = np.array([np.interp(fine_mus, surface.mus, row) for row in logs])
+    fine = np.array([np.interp(fine_slopes, slopes_deg, column) for column in rows.T]).T
+    grid = contour_generator(fine_mus, fine_slopes, fine, corner_mask=False)
+    return lambda prd_m: [np.asarray(line).tolist() for line in grid.lines(math.log10(prd_m))]
+
+
+def _divided(axis: Floats) -> Floats:
+    at = np.arange(_FINE * (axis.size - 1) + 1) / _FINE
+    return np.interp(at, np.arange(axis.size), axis)
 
 
 def paths(assessment: Assessment, array_id: str) -> Json:
@@ -256,21 +248,6 @@ def _roof(scene: Scene) -> tuple[Record, ...]:
         Record(name=names[axis], dt_s=scene.dt_s, a_mps2=scene.scaled(a))
         for axis, a in scene.components.items()
     )
-
-
-def _track(history: SlideHistory, roof: Sequence[Record], dt_s: float) -> Json:
-    """Return where the roof and the block are, at common samples."""
-    events = np.array([event.t_s for event in history.events])
-    relative = [history.u_m, history.across_m] if history.across_m.size else [history.u_m]
-    kept = [peaks_kept(values, MOST_ON_TRACK) for values in relative]
-    at = np.unique(np.concatenate([*kept, beside(events, dt_s, len(history.t_s))]))
-    horizontal = [velocity_displacement(record)[1] for record in roof if record.name != "vertical"]
-    nothing = np.zeros(len(history.t_s))
-    return {
-        "i": at.tolist(),
-        "roof_m": [_numbers(values[at]) for values in (*horizontal, nothing)[:2]],
-        "relative_m": [_numbers(values[at]) for values in (*relative, nothing)[:2]],
-    }
 
 
 def _panels(
@@ -391,19 +368,17 @@ def _path(motion: MotionRun, fmt: UnitFormat) -> Json:
     # Cross-slope displacement is positive to the left when facing downslope, which is down here.
     x = history.across_m if history.across_m.size else np.zeros(len(history.u_m))
     y = -history.u_m
-    top = int(np.argmax(np.hypot(x, y)))
-    at = np.unique([*peaks_kept(x, MOST_ON_PATH), *peaks_kept(y, MOST_ON_PATH), top])
     if is_lost := math.isnan(prd_m):
-        at = at[:0]
+        x = y = np.array([])
+    top = None if is_lost else int(np.argmax(np.hypot(x, y)))
     return {
         "name": name,
         "prd": prd,
         "title": f"Path under {name}, {prd}",
         "dt_s": run.scene.dt_s,
-        "i": at.tolist(),
-        "x_m": _numbers(x[at]),
-        "y_m": _numbers(y[at]),
-        "peak": None if is_lost else {"x_m": float(x[top]), "y_m": float(y[top])},
+        "x_m": x.tolist(),
+        "y_m": y.tolist(),
+        "peak": top,
     }
 
 

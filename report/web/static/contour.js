@@ -3,7 +3,6 @@
 import { html, note, points, replace, set, svg } from "./make.js";
 import { filled, measured, reading } from "./reading.js";
 import { scale, ticks, within } from "./view-axes.js";
-import { isolines, refined, surfaceAt } from "./view-contour.js";
 import { onKeys } from "./view-frame.js";
 import { cross, frame, linesAcross, linesUp, onPointer, setSize, textsAcross, textsUp } from "./view-parts.js";
 
@@ -70,6 +69,31 @@ function words({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, units, tex
   return filled(text, { mu: measured(mu, units.mu[0]), slope: measured(slope, units.slope[0]), prd: reading(value, units.displacement) });
 }
 
+/**
+ * Return the value at a point, and whether it is a computed one. `values` has a row for each of `ys`;
+ * values below `least` count as that, null is no value.
+ */
+export function surfaceAt(xs, ys, values, x, y, least) {
+  const [i, p] = cell(xs, x);
+  const [j, q] = cell(ys, y);
+  const corners = [
+    [values[j][i], (1 - p) * (1 - q)],
+    [values[j][i + 1], p * (1 - q)],
+    [values[j + 1][i], (1 - p) * q],
+    [values[j + 1][i + 1], p * q],
+  ].filter(([, share]) => share > 1e-9);
+  if (corners.some(([value]) => value === null)) return { value: null, isComputed: false };
+  if (corners.length === 1) return { value: corners[0][0], isComputed: true };
+  const sum = corners.reduce((total, [value, share]) => total + share * Math.log10(Math.max(value, least)), 0);
+  return { value: 10 ** sum, isComputed: false };
+}
+
+function cell(axis, value) {
+  let k = 0;
+  while (k + 2 < axis.length && axis[k + 1] <= value) k += 1;
+  return [k, (value - axis[k]) / (axis[k + 1] - axis[k])];
+}
+
 // The next computed value of an axis, or a tenth of the way to it.
 function moved(axis, value, way, isFine) {
   if (way === 0) return value;
@@ -112,17 +136,16 @@ function crosses({ mus, slopes_deg: slopes, prd_m: prd }, x, y) {
 }
 
 // Each level with its value on its longest line, where no other label stands.
-function lines({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, levels }, x, y, named) {
+function lines({ levels }, x, y, named) {
   const inside = { x: MARGIN.left, y: MARGIN.top, wide: x.ends[1] - MARGIN.left, tall: HEIGHT - MARGIN.bottom - MARGIN.top };
   const taken = named.flatMap(({ at: [a, b], name }) => [labelBox([a, b], DOT), labelBox([a + 9 + widthOf(name) / 2, b - 11], widthOf(name))]);
-  const fine = refined(mus, slopes, prd, least, 6);
-  return levels.map(({ prd_m: level, text, is_major: isMajor }) => {
-    const found = isolines(...fine, level, least).map((line) => line.map(([mu, slope]) => [x(mu), y(slope)]));
-    const longest = found.toSorted((a, b) => b.length - a.length)[0] ?? [];
+  return levels.map(({ lines: contours, text, is_major: isMajor }) => {
+    const placed = contours.map((line) => line.map(([mu, slope]) => [x(mu), y(slope)]));
+    const longest = placed.toSorted((a, b) => b.length - a.length)[0] ?? [];
     const place = fromMiddle(longest).find((point) => isFree(labelBox(point, widthOf(text)), taken, inside));
     if (place) taken.push(labelBox(place, widthOf(text)));
     return [
-      found.map((line) => svg("polyline", { class: `isoline${isMajor ? " is-major" : ""}`, points: points(line) })),
+      placed.map((line) => svg("polyline", { class: `isoline${isMajor ? " is-major" : ""}`, points: points(line) })),
       place ? svg("text", { class: "label middle-of on-line", x: place[0], y: place[1] + 4 }, text) : null,
     ];
   });

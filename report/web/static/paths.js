@@ -11,6 +11,7 @@ const ROOM = 10; // around the paths
 const TALL = 330; // of all rows of panels, about
 const BAR = 90; // pixels of the scale bar, at most
 const LEAST_M = 1e-3; // extent that fills a panel, at least
+const STEPS = 200; // of the reading by arrow keys, along a path
 
 /** Draw the paths in an element. */
 export function build(element, data) {
@@ -54,7 +55,7 @@ function arrange(extent, count, wide) {
 function createPanel(path, { units, texts }, write) {
   const [first] = units.displacement;
   const dot = svg("circle", { class: "reading-dot", r: 4, visibility: "hidden" });
-  const drawing = svg("svg", { tabindex: path.i.length ? 0 : null, role: path.i.length ? "application" : "img", "aria-label": path.title });
+  const drawing = svg("svg", { tabindex: path.x_m.length ? 0 : null, role: path.x_m.length ? "application" : "img", "aria-label": path.title });
   let pixels = [];
   let at = 0;
 
@@ -64,16 +65,17 @@ function createPanel(path, { units, texts }, write) {
     // Downslope is down the page, and cross-slope to the right of it.
     const [across, down] = [path.x_m[k], -path.y_m[k]];
     const far = reading(Math.hypot(across, down), units.displacement);
-    write(filled(texts.read, { name: path.name, time: measured(path.i[k] * path.dt_s, units.time[0]), far, down: measured(down, first), across: measured(across, first) }));
+    write(filled(texts.read, { name: path.name, time: measured(k * path.dt_s, units.time[0]), far, down: measured(down, first), across: measured(across, first) }));
   }
 
-  if (path.i.length) {
+  if (path.x_m.length) {
     onPointer(drawing, (place) => read(nearest(pixels, place)));
     drawing.addEventListener("focus", () => read(at));
     const go = (to) => read(within(to, 0, pixels.length - 1));
+    const step = (way) => ({ shiftKey }) => go(at + way * Math.ceil(pixels.length / STEPS) * (shiftKey ? 10 : 1));
     onKeys(drawing, {
-      ArrowLeft: ({ shiftKey }) => go(at - (shiftKey ? 10 : 1)),
-      ArrowRight: ({ shiftKey }) => go(at + (shiftKey ? 10 : 1)),
+      ArrowLeft: step(-1),
+      ArrowRight: step(1),
       Home: () => go(0),
       End: () => go(pixels.length - 1),
     });
@@ -87,13 +89,12 @@ function createPanel(path, { units, texts }, write) {
       const to = (x, y) => [left + (x - extent.x) * scale, ROOM + (extent.y + extent.tall - y) * scale];
       setSize(drawing, wide - 8, Math.max(extent.tall, LEAST_M) * scale + 2 * ROOM);
       pixels = path.x_m.map((value, k) => to(value, path.y_m[k]));
-      const peak = path.peak && to(path.peak.x_m, path.peak.y_m);
-      at = peak ? nearest(pixels, peak) : 0;
+      at = path.peak ?? 0;
       replace(
         drawing,
         pixels.length ? svg("polyline", { class: "curve is-first", points: points(pixels) }) : null,
         svg("path", { class: "start", d: cross(to(0, 0), 6) }),
-        peak ? svg("circle", { class: "peak", r: 3.5, cx: peak[0], cy: peak[1] }) : null,
+        pixels.length ? svg("circle", { class: "peak", r: 3.5, cx: pixels[at][0], cy: pixels[at][1] }) : null,
         dot,
       );
       set(dot, { visibility: "hidden" });

@@ -157,39 +157,12 @@ def test_a_curve_of_many_samples_keeps_the_extremes_of_every_column_of_pixels(pa
         assert (points.min(), points.max()) == pytest.approx(extremes, abs=0.006)
 
 
-def isolines(page, xs, ys, values, level):
-    body = "m.isolines(g.xs, g.ys, g.values, g.level, 1e-4)"
-    return called(page, "view-contour", body, xs=xs, ys=ys, values=values, level=level)
-
-
-def test_a_contour_lies_where_the_logarithm_has_its_level(page):
-    xs, ys = [0.0, 1.0, 2.5, 3.0], [0.0, 2.0, 5.0]
-    values = [[10.0 ** (0.5 * x - 0.2 * y) for x in xs] for y in ys]
-    (line,) = isolines(page, xs, ys, values, 3)
-    assert len(line) >= 4
-    for x, y in line:
-        assert 0.5 * x - 0.2 * y == pytest.approx(math.log10(3.0), abs=1e-12)
-    ends = sorted([line[0], line[-1]])
-    assert ends[0][1] == 0.0
-    assert ends[1][0] == pytest.approx(3.0) or ends[1][1] == pytest.approx(5.0)
-
-
-def test_around_a_lost_value_and_across_a_saddle_a_contour_stays_whole(page):
-    lost = [[1.0, 1.0, 1.0], [1.0, None, 100.0], [1.0, 100.0, 100.0]]
-    assert isolines(page, [0, 1, 2], [0, 1, 2], lost, 10) == []
-    lines = isolines(page, [0, 1], [0, 1], [[100.0, 1.0], [1.0, 1000.0]], 10)
-    assert len(lines) == 2
-    for line in lines:  # around the low corners: the middle is above the level
-        assert min(math.dist(point, corner) for point in line for corner in ((1, 0), (0, 1))) < 0.8
-        assert len({(x == 0 or y == 1) for x, y in line}) == 1
-
-
 def test_between_computed_points_the_logarithm_is_linear(page):
     xs, ys = [0.3, 0.4, 0.6], [0.0, 1.0, 3.0]
     values = np.random.default_rng(8).uniform(0.01, 2.0, (3, 3)).tolist()
     at = [[0.3, 0.0], [0.6, 3.0], [0.35, 1.0], [0.57, 2.2]]
     body = "g.at.map(([x, y]) => m.surfaceAt(g.xs, g.ys, g.values, x, y, 1e-4))"
-    found = called(page, "view-contour", body, xs=xs, ys=ys, values=values, at=at)
+    found = called(page, "contour", body, xs=xs, ys=ys, values=values, at=at)
     logs = np.log10(values)
     for (x, y), one in zip(at, found, strict=True):
         rows = [np.interp(x, xs, row) for row in logs]

@@ -2,6 +2,7 @@
 
 import json
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from solver.model import InputError
 from solver.sliding import least_model
 from solver.sliding.least_model import Settings
 
-LONG = stand_in.motions(2, seconds=20.0)  # 4,000 samples: more than are drawn of a path
+LONG = stand_in.motions(2, seconds=20.0)  # 4,000 samples
 X_MPS2, DT_S = LONG[0].ax_mps2, LONG[0].dt_s
 G = stand_in.G
 
@@ -67,11 +68,8 @@ def test_a_run_is_that_of_the_solver_to_the_last_bit(usual, array):
     scene, history = solved(usual, array, "M2", answer["run"])
     assert answer["prd_m"] == history.result.prd_m == named(usual, array).motions[1].governing.prd_m
     assert answer["t_prd_s"] == history.result.t_prd_s
-    track, at = answer["track"], answer["track"]["i"]
-    assert track["relative_m"] == [history.u_m[at].tolist(), history.across_m[at].tolist()]
     slips = [(slip["from_s"], slip["to_s"]) for slip in answer["slips"]]
     assert [t for pair in slips for t in pair] == [event.t_s for event in history.events]
-    assert {math.floor(event.t_s / scene.dt_s) for event in history.events} <= set(at)
     full = {
         "acceleration": [scene.ax_mps2, scene.ay_mps2, scene.az_mps2],
         "relative": [history.u_m, history.across_m],
@@ -98,8 +96,7 @@ def test_the_roof_is_its_acceleration_integrated_by_cubic_sums(usual):
     for before, after in zip(a[:-1].tolist(), a[1:].tolist(), strict=True):
         place.append(place[-1] + dt * velocity[-1] + dt * dt * (before / 3 + after / 6))
         velocity.append(velocity[-1] + dt * (before + after) / 2)
-    at = answer["track"]["i"]
-    assert answer["track"]["roof_m"][0] == pytest.approx(np.array(place)[at], abs=1e-12)
+    assert answer["roof_m"][0] == pytest.approx(place, abs=1e-12)
     assert names_of(answer["velocity"]) == ["down", "cross", "vertical"]
     assert answer["velocity"]["series"][0]["v"] == pytest.approx(np.array(velocity), abs=1e-12)
     assert answer["acceleration"]["series"][0]["v"] == a.tolist()
@@ -170,7 +167,7 @@ def names_of(panel):
 def test_in_one_axis_the_forces_are_those_of_the_model(along):
     answer = views.slide(along, "A2", "M1")
     assert names_of(answer["relative"]) == names_of(answer["acceleration"]) == ["down"]
-    assert set(answer["track"]["relative_m"][1]) == {0.0} == set(answer["track"]["roof_m"][1])
+    assert len(answer["roof_m"]) == 1
     used = values(answer["friction"]["series"][0])
     assert used.max() == 0.45
     assert (used <= 0.45).all()
@@ -224,13 +221,43 @@ def test_the_contour_is_the_surface_of_the_array(usual):
     assert len(surface.others) == 1
 
 
-def test_levels_are_round_in_the_first_unit(usual):
+def test_levels_are_round_in_the_first_unit_and_have_contours(usual):
     answer = views.contour(usual, "A1")
-    prd_m = np.array(answer["prd_m"])
+    prd_in = np.array(answer["prd_m"]) / 0.0254
     assert len(answer["levels"]) >= 3
     for level in answer["levels"]:
-        assert max(prd_m.min(), 1e-4) < level["prd_m"] < prd_m.max()
-        assert level["text"] == f"{level['prd_m'] / 0.0254:g} in"
+        value, unit_text = level["text"].split()
+        assert max(prd_in.min(), 4e-3) < float(value) < prd_in.max()
+        assert unit_text == "in"
+        assert level["lines"]
+
+
+def contours_of(mus, slopes_deg, prd_m, level_m):
+    axes = {"mus": np.array(mus), "slopes_rad": np.radians(slopes_deg)}
+    return views.contour_lines(SimpleNamespace(**axes, mean_m=np.array(prd_m)))(level_m)
+
+
+@pytest.mark.quick
+def test_a_contour_lies_where_the_logarithm_has_its_level():
+    mus, slopes = [0.0, 1.0, 2.5, 3.0], [0.0, 2.0, 5.0]
+    prd_m = [[10.0 ** (0.5 * mu - 0.2 * slope) for mu in mus] for slope in slopes]
+    (line,) = contours_of(mus, slopes, prd_m, 3.0)
+    for mu, slope in line:
+        assert 0.5 * mu - 0.2 * slope == pytest.approx(math.log10(3.0), abs=1e-12)
+    ends = sorted([line[0], line[-1]])
+    assert ends[0][1] == 0.0
+    assert ends[1][0] == pytest.approx(3.0) or ends[1][1] == pytest.approx(5.0)
+
+
+@pytest.mark.quick
+def test_around_a_lost_value_and_across_a_saddle_a_contour_stays_whole():
+    lost = [[1.0, 1.0, 1.0], [1.0, math.nan, 100.0], [1.0, 100.0, 100.0]]
+    assert contours_of([0, 1, 2], [0, 1, 2], lost, 10.0) == []
+    lines = contours_of([0, 1], [0, 1], [[100.0, 1.0], [1.0, 1000.0]], 10.0)
+    assert len(lines) == 2
+    for line in lines:  # around the low corners: the middle is above the level
+        assert min(math.dist(point, corner) for point in line for corner in ((1, 0), (0, 1))) < 0.8
+        assert len({(mu == 0 or slope == 1) for mu, slope in (line[0], line[-1])}) == 1
 
 
 def test_a_grid_where_nothing_slides_says_so_and_has_no_levels():
@@ -241,19 +268,17 @@ def test_a_grid_where_nothing_slides_says_so_and_has_no_levels():
     ]
 
 
-def test_paths_are_those_of_the_governing_runs_and_keep_their_peaks(usual):
+def test_paths_are_those_of_the_governing_runs_with_their_peaks(usual):
     answer = views.paths(usual, "A2")
     ids = [path["name"].split()[0] for path in answer["paths"]]
     assert ids == ["M1", "M2"]
     for id, path, motion in zip(ids, answer["paths"], named(usual, "A2").motions, strict=True):
         _, history = solved(usual, "A2", id, motion.governing.orientation.name)
-        assert path["x_m"] == history.across_m[path["i"]].tolist()
-        assert path["y_m"] == (-history.u_m[path["i"]]).tolist()
-        assert len(path["i"]) <= 402
-        top = math.hypot(path["peak"]["x_m"], path["peak"]["y_m"])
-        assert top == max(map(math.hypot, path["x_m"], path["y_m"]))
-        assert top == pytest.approx(history.result.prd_m, rel=1e-3)
-        assert (min(path["x_m"]), max(path["y_m"])) == (history.across_m.min(), -history.u_m.min())
+        assert path["x_m"] == history.across_m.tolist()
+        assert path["y_m"] == (-history.u_m).tolist()
+        distances = np.hypot(history.u_m, history.across_m)
+        assert distances[path["peak"]] == distances.max()
+        assert distances.max() == pytest.approx(history.result.prd_m, rel=1e-3)
 
 
 @pytest.mark.parametrize(
