@@ -282,26 +282,18 @@ class ArrayAssessment(RouteLimits):
 SEAOC = provisions.RULE_SETS["SEAOC PV1-2012"]
 
 
-def seaoc_displacement(data: ProjectInput) -> Prescriptive:
-    """Return the prescriptive displacement by SEAOC PV1, whatever the rule set."""
+def prescriptive_of(data: ProjectInput, rules: RuleSet) -> Prescriptive:
+    """Return the prescriptive displacement of a project by a rule set."""
     site = data.site
     return provisions.prescriptive_displacement(
-        SEAOC, s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
+        rules, s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
     )
 
 
 def limits_of(
     data: ProjectInput, rules: RuleSet, array: Array, *, n_motions: int, has_value: bool
 ) -> RouteLimits:
-    """Return the limits of an array.
-
-    Parameters
-    ----------
-    n_motions : int
-        Without any, the route is prescriptive.
-    has_value : bool
-        Whether the motions are enough for a value from analysis, and qualify for it.
-    """
+    """Return the limits of an array, whose motions give a value from analysis or not."""
     analysis = provisions.analysis_checks(
         rules,
         slope_rad=array.slope_rad,
@@ -353,26 +345,16 @@ def assess_array(
 ) -> ArrayAssessment:
     """Return an array checked against the rule set.
 
-    Parameters
-    ----------
-    runs : tuple of MotionRun
-        With the model of the array, one for each motion.
-    needed : tuple of MotionRun
-        With the adequate models; `runs` itself where no model is requested.
-    motions_qualify : bool
-        Whether the motions satisfy what the rule set requires for a value from analysis.
+    From its runs and those `needed`, with the adequate models: `runs` itself where no model is
+    requested.
     """
-    site, adopted = data.site, as_adopted(data)
-    prescriptive = provisions.prescriptive_displacement(
-        rules, s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
-    )
+    adopted, prescriptive = as_adopted(data), prescriptive_of(data, rules)
     basis = statistic_basis(data)
     directions = _by_direction(rules, runs, basis)
     analysis = directions[Direction.ANY]
     floor_m = provisions.analysis_floor_m(rules, prescriptive, is_reviewed=data.is_peer_reviewed)
     has_value = motions_qualify and analysis.basis is not Basis.TOO_FEW
     limits = limits_of(data, rules, array, n_motions=len(runs), has_value=has_value)
-    each = [run for motion in runs for run in motion.runs]
     return ArrayAssessment(
         array=array,
         motions=runs,
@@ -383,12 +365,12 @@ def assess_array(
         needed=needed,
         prescriptive=prescriptive,
         floor_m=floor_m,
-        **{each.name: getattr(limits, each.name) for each in fields(limits)},
+        **{field.name: getattr(limits, field.name) for field in fields(limits)},
         is_permitted=(motions_qualify or limits.route is Route.PRESCRIPTIVE)
         and all(check.ok for check in limits.of_route),
         design_m=_design_m(limits.route, runs, analysis, prescriptive, floor_m),
         by_direction=data.options.directional,
-        tipping=_nearest_to_tipping(array, each),
+        tipping=_nearest_to_tipping(array, runs),
         uplift=min(
             (motion.uplift for motion in runs),
             key=lambda most_uplifted: most_uplifted.n_min_g,
@@ -400,7 +382,7 @@ def assess_array(
         if adopted is data
         else assess_array(
             adopted,
-            provisions.RULE_SETS[site.rule_set],
+            provisions.RULE_SETS[data.site.rule_set],
             array,
             runs,
             needed,
@@ -417,10 +399,11 @@ def interconnection_n(data: ProjectInput, rules: RuleSet, array: Array) -> float
     )
 
 
-def _nearest_to_tipping(array: Array, runs: Sequence[OrientedRun]) -> Tipping:
+def _nearest_to_tipping(array: Array, motions: Sequence[MotionRun]) -> Tipping:
     supports = Supports(height_m=array.cg_height_m, spacing_m=array.support_spacing_m)
     # Both ratios of the check rise with the friction that a run demands. Without runs, friction
     # alone limits what is transmitted.
+    runs = (run for motion in motions for run in motion.runs)
     demand = max((run.solution.friction_demand for run in runs), default=math.inf)
     return tipping_at(demand, array.friction, supports)
 

@@ -1,18 +1,6 @@
 """Supporting results that only the package prints, each computed once.
 
 Draws nothing. Read `support`; `report.pages` prints it.
-
-Sensitivity of the design to the friction coefficient.
-
-The governing array with other periods and other damping of the building, one at a time.
-
-What arrays come to with another input in place of one that is not certain.
-
-Effect of the high-pass filter on the slip.
-
-Cumulative displacement of the design event and smaller ones, where the workbook asks for it.
-
-What an analysis could save, where there are no motions and the displacement is prescriptive.
 """
 
 from __future__ import annotations
@@ -23,7 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
 
-from report.assessment.arrays import ArrayAssessment, Route, statistic_basis
+from report.assessment.arrays import ArrayAssessment, Route, by_id, statistic_basis
 from report.assessment.assess import reassess
 from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.friction import SHIFT, InputCase, with_friction
@@ -92,7 +80,11 @@ PERIOD_FACTORS = (0.8, 1.2)
 DAMPING_PERCENT = (2.0, 3.0, 5.0, 7.0)
 
 
-def building_variations(assessment: Assessment) -> tuple[tuple[BuildingInput, AnalysisValue], ...]:
+Variations = Sequence[tuple[BuildingInput, AnalysisValue]]
+"""The building as used and with other periods and damping, each with its value from analysis."""
+
+
+def building_variations(assessment: Assessment) -> Variations:
     """Return the building as used, then each variation, with the governing array's value from
     analysis; nothing where no motion goes through the building."""
     data, array, prepared = assessment.project, assessment.governing, assessment.shaking.prepared
@@ -125,10 +117,6 @@ def _prd_m(array: Array, data: ProjectInput, row: MotionInput, prepared: Prepare
     return run_motion(array, through_building(data, row, prepared)).peak_m(Direction.ANY)
 
 
-Variations = Sequence[tuple[BuildingInput, AnalysisValue]]
-"""The building as used and with other periods and damping, each with its value from analysis."""
-
-
 def building_case(assessment: Assessment, variations: Variations) -> InputCase | None:
     """Return the governing array with the period or damping that lets it slide farthest, if any."""
     array = assessment.governing
@@ -156,12 +144,9 @@ def building_case(assessment: Assessment, variations: Variations) -> InputCase |
 def cases(assessment: Assessment, variations: Variations) -> Iterator[InputCase]:
     """Yield what would change the verdict on an array or exceed its prescriptive displacement."""
     slow = assessment.low_velocity
-    all_cases = (
-        *(slow.case_of(item.id) for item in slow.arrays),
-        building_case(assessment, variations),
-    )
-    for case in filter(None, all_cases):
-        now = next(item for item in assessment.arrays if item.id == case.array.id)
+    by_velocity = (slow.case_of(item.id) for item in slow.arrays)
+    for case in filter(None, (*by_velocity, building_case(assessment, variations))):
+        now = by_id(assessment.arrays, case.array.id)
         most_m = case.array.prescriptive.value_m
         is_short = any(gap.ok for gap in assessment.gaps_of(now.id)) and case.short
         if is_short or now.design_m <= most_m < nan_is_worst(case.array.design_m):
@@ -262,7 +247,7 @@ class Evidence:
     # margins in friction, and directions of shaking that are not run; none without motions
     uncertainty: Uncertainty | None
     cumulative: tuple[Cumulative, ...]  # for each array, if the workbook names smaller events
-    building: tuple[tuple[BuildingInput, AnalysisValue], ...]  # with other periods and damping
+    building: Variations
     cases: tuple[InputCase, ...]  # other inputs that would change a verdict or the route
 
 
@@ -302,23 +287,20 @@ class Saving:
 
 def saving(assessment: Assessment) -> Saving:
     """Return what an analysis could save in a project without motions."""
+    first = assessment.arrays[0]  # the prescriptive displacement is the same for every array
+    floor_m = analysis_floor_m(assessment.rules, first.prescriptive)
     at_floor = [
-        _at_floor(assessment, item) if item.may_be_analyzed else item for item in assessment.arrays
+        replace(displaced(item, 0.0, floor_m), is_permitted=True) if item.may_be_analyzed else item
+        for item in assessment.arrays
     ]
     short = [gap.clearance for gap in assessment.clearances if not gap.ok]
     checks = [check_clearance(assessment.project, assessment.rules, at_floor, row) for row in short]
-    first = assessment.arrays[0]  # the prescriptive displacement is the same for every array
     return Saving(
         ids=[item.id for item in assessment.arrays if item.may_be_analyzed],
         others=[item.id for item in assessment.arrays if not item.may_be_analyzed],
         is_lifted_by_review=review_lifts_slope(assessment.rules, assessment.project.site.sdc),
         prescriptive_m=first.prescriptive.value_m,
-        floor_m=analysis_floor_m(assessment.rules, first.prescriptive),
+        floor_m=floor_m,
         n_short=len(short),
         n_satisfied=sum(check.ok for check in checks),
     )
-
-
-def _at_floor(assessment: Assessment, item: ArrayAssessment) -> ArrayAssessment:
-    floor_m = analysis_floor_m(assessment.rules, item.prescriptive)
-    return replace(displaced(item, 0.0, floor_m), is_permitted=True)

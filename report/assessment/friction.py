@@ -1,8 +1,6 @@
 """The friction of arrays: in words, as it was run; and inputs with other friction.
 
 Runs nothing. `report.assessment.requirement_rows` compares it with tests.
-
-Friction at the velocities at which arrays slide, against the velocities tested.
 """
 
 from __future__ import annotations

@@ -1,10 +1,6 @@
 """The runs of arrays under motions, begun side by side and waited for where they are needed.
 
 Runs nothing itself (`report.assessment.runs` does). Read `begin_runs`.
-
-Acceptance of the motions of a project, as run at the roof.
-
-Runs whose displacement is missing or not final, in words: a sentence for each outcome.
 """
 
 from __future__ import annotations
@@ -47,17 +43,8 @@ def begin_runs(
     key: Callable[[Array], Hashable] = scene_key,
     former: Sequence[ArrayAssessment] = (),
 ) -> PendingRuns:
-    """Begin the runs of an input.
-
-    Parameters
-    ----------
-    check_models : bool
-        Whether requested models are compared with adequate ones.
-    key : callable
-        Arrays with one key share their runs.
-    former : sequence of ArrayAssessment
-        Those with the key of an array have its runs already.
-    """
+    """Begin the runs of an input; `check_models` compares requested models with adequate ones."""
+    # Arrays with one key share their runs: those of a former assessment have them already.
     known = {key(item.array): (item.motions, item.needed) for item in former}
 
     def begun(array: Array) -> Callable[[], Runs]:
@@ -102,9 +89,6 @@ def _hold_s(prepared: PreparedMotion, files: Sequence[RecordFile]) -> float:
 
 
 _MOST_NAMED = 4  # motions in a sentence; more are counted, and the results have each
-
-
-_ORDER = list(Status)
 _WHAT_WOULD_DO = {
     Status.SLIDING_AT_END: "give a longer record, or Zero padding on the sheet Motions",
     Status.UPLIFT: "anchor the array, or replace the motion",
@@ -134,7 +118,7 @@ def run_warnings(arrays: Sequence[ArrayAssessment], us_first: bool) -> tuple[Run
     return tuple(
         RunWarning(f"{_place(same)}: {_outcome(status, [each[2] for each in same], us_first)}.", do)
         for (status, do), same in sorted(
-            by_status.items(), key=lambda item: _ORDER.index(item[0][0])
+            by_status.items(), key=lambda item: list(Status).index(item[0][0])
         )
     )
 

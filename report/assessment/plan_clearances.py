@@ -1,8 +1,6 @@
 """The clearances that a plan calls for, before any run or after it, and rows that a workbook lacks.
 
 Writes nothing (`report.sheet.writing.filled`). Read `pairs_before_runs`, then `missing_rows`.
-
-The gaps that a plan shows: each clearance, and each gap without one that is less than required.
 """
 
 from __future__ import annotations
@@ -11,8 +9,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from report.assessment.arrays import ArrayAssessment
-from report.assessment.clearances import separation_m
+from report.assessment.arrays import ArrayAssessment, prescriptive_of
+from report.assessment.clearances import ClearanceCheck, separation_m
 from report.assessment.neighbors import REACH_FACTOR, NearbyKind, PlanNeighbor, plan_pairs
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict, rule_set_of
@@ -27,7 +25,6 @@ from report.sheet.schema.shapes import Point, Shape, closest
 from report.text.counts import numbered
 from report.text.units import Quantity, pair, round_down
 from solver.model import INCH_M
-from solver.rules import provisions
 from solver.rules.provisions import Neighbor
 
 US_STEP_M, SI_STEP_M = 0.1 * INCH_M, 0.001
@@ -44,10 +41,7 @@ def pairs_before_runs(
 ) -> tuple[PlanNeighbor, ...]:
     """Return the pairs of the plan as a package has them at the prescriptive displacement.
 
-    Parameters
-    ----------
-    arrays : sequence of ArrayAssessment, optional
-        As run, whose design displacements count where they are larger.
+    Of arrays that have been run, larger design displacements count.
     """
     rules, least_m = rule_set_of(data), design_before_runs_m(data)
     slides = {array.id: least_m for array in data.arrays} | _larger_m(arrays, least_m)
@@ -64,18 +58,13 @@ def pairs_before_runs(
 
 
 def design_before_runs_m(data: ProjectInput) -> float:
-    """Return the design displacement that is taken before any run [m]: the prescriptive one.
-
-    No floor on the displacement from analysis exceeds it, overridden or not.
-    """
-    site = data.site
-    return provisions.prescriptive_displacement(
-        rule_set_of(data), s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
-    ).value_m
+    """Return the design displacement that is taken before any run [m]: the prescriptive one."""
+    # No floor on the displacement from analysis exceeds it, overridden or not.
+    return prescriptive_of(data, rule_set_of(data)).value_m
 
 
 def _larger_m(arrays: Sequence[ArrayAssessment], least_m: float) -> dict[str, float]:
-    """Return the design displacements by array that are larger; NaN, not permitted, is none."""
+    # NaN, of a displacement that is not permitted, is not larger.
     return {array.id: array.permitted_m for array in arrays if array.permitted_m > least_m}
 
 
@@ -259,32 +248,23 @@ class PlanGap:
 def plan_gaps(assessment: Assessment) -> Iterator[PlanGap]:
     """Yield the clearances between shapes in plan, and after them what is NG without one."""
     shapes = shapes_of(assessment)
-    for count, gap in enumerate(assessment.clearances, start=1):
-        row = gap.clearance
-        if row.array in shapes and row.object in shapes:
+    gaps: list[tuple[int, ClearanceCheck | PlanNeighbor]]
+    gaps = [*enumerate(assessment.clearances, start=1)]
+    for number, gap in (*gaps, *((0, missing) for missing in assessment.missing_gaps)):
+        array, other = gap.between
+        far = gap.far if isinstance(gap, PlanNeighbor) else shapes.get(other)
+        if far is not None:  # an object may have no place in plan
             yield PlanGap(
-                number=count,
-                array=row.array,
-                other=row.object,
-                near=shapes[row.array],
-                far=shapes[row.object],
-                provided_m=row.provided_m,
+                number=number,
+                array=array,
+                other=other,
+                near=shapes[array],
+                far=far,
+                provided_m=gap.provided_m,
                 required_m=gap.required_m,
                 mark=gap.mark,
                 verdict=gap.verdict,
             )
-    for missing in assessment.missing_gaps:
-        yield PlanGap(
-            number=0,
-            array=missing.array,
-            other=missing.other,
-            near=missing.near,
-            far=missing.far,
-            provided_m=missing.gap_m,
-            required_m=missing.required_m,
-            mark=missing.mark,
-            verdict=Verdict.NG,
-        )
 
 
 def shapes_of(assessment: Assessment) -> dict[str, Shape]:

@@ -1,8 +1,6 @@
 """An assessed project as one record: arrays, clearances, requirements, and what they come to.
 
 Runs nothing: `report.assessment.assess` does.
-
-What changed since a former revision, as finished text, and which rows of the package show it.
 """
 
 from __future__ import annotations

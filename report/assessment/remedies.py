@@ -2,8 +2,6 @@
 
 Each is entered and assessed (`report.assessment.assess`); friction is searched with the runs of
 `report.assessment.trials`. `report.pages.summary` prints the results. Read `remedies`.
-
-Where the plan has room for more separation: an array moved along an axis of the plan.
 """
 
 from __future__ import annotations
@@ -16,7 +14,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import partial
 
-from report.assessment.arrays import ArrayAssessment, DesignBasis, Route
+from report.assessment.arrays import DesignBasis, Route
 from report.assessment.assess import changed, entered, refused
 from report.assessment.causes import ProjectOutcome, outcome
 from report.assessment.clearances import ClearanceCheck
@@ -62,10 +60,8 @@ def moves(
         rows = list(data.clearances)
         rows[number - 1] = row.model_copy(update={"provided_m": row.provided_m + lack_m + _NOISE_M})
         return entered(assessment, changed(data, clearances=tuple(rows))), f"{more} more"
-    before, ways = (
-        _failed(assessment),
-        sorted(_ways_to_move(data, shapes, row, lack_m), key=lambda way: way[0]),
-    )
+    before = _failed(assessment)
+    ways = sorted(_ways_to_move(data, shapes, row, lack_m), key=lambda way: way[0])
     # The shortest move with which nothing else becomes NG.
     for length_m, array, (dx, dy) in ways:
         by = (dx * length_m, dy * length_m)
@@ -206,10 +202,8 @@ def remedies(assessment: Assessment) -> tuple[Remedy, ...]:
 
 
 def best_remedy(assessment: Assessment, *, may_run: bool = True) -> Sequence[Remedy]:
-    """Return what is entered together as the best remedy of the governing clearance; or nothing.
-
-    The first with which the project is not NG, or else the first that would do.
-    """
+    """Return what is entered together as the best remedy of the governing clearance; or nothing."""
+    # The first with which the project is not NG, or else the first that would do.
     first: Sequence[Remedy] = ()
     with ThreadPoolExecutor(THREADS) as pool:
         for way in _ways(assessment, pool, most=1, may_run=may_run):
@@ -245,10 +239,12 @@ def _frictions(
     assessment: Assessment, number: int, gap: ClearanceCheck, trials: Mapping[str, Trials]
 ) -> Sequence[Remedy]:
     """Return the friction of each array beside a clearance that is too small for it."""
-    here = [trials[array.id] for array in involved(assessment, gap.clearance)]
-    short = [one for one in here if not _satisfies(one.array, assessment, gap.clearance)]
-    remedies = [_friction(one, number, gap.clearance) for one in short]
-    return _together(assessment, remedies)
+    row, short = gap.clearance, []
+    for array in involved(assessment, row):
+        check = single_array_check(assessment, assessment.project, array, row)
+        if not (is_final(array) and check.ok):
+            short.append(_friction(trials[array.id], number, row))
+    return _together(assessment, short)
 
 
 def _together(assessment: Assessment, remedies: Sequence[Remedy]) -> Sequence[Remedy]:
@@ -265,10 +261,6 @@ def _together(assessment: Assessment, remedies: Sequence[Remedy]) -> Sequence[Re
 def _with_mus(data: ProjectInput, mus: dict[str, float]) -> ProjectInput:
     arrays = (with_mu(row, mus[row.id]) if row.id in mus else row for row in data.arrays)
     return changed(data, arrays=tuple(arrays))
-
-
-def _satisfies(array: ArrayAssessment, assessment: Assessment, row: Clearance) -> bool:
-    return is_final(array) and single_array_check(assessment, assessment.project, array, row).ok
 
 
 def _friction(trials: Trials, number: int, row: Clearance | None) -> Remedy:

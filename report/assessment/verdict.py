@@ -1,8 +1,6 @@
 """The three verdicts, and the requirements that lead to them beside the numeric limits.
 
 What follows from a requirement is stated where it is made. Read `Requirement`, then `worst`.
-
-Overrides of provisions and departures from the rule set that require less of a project.
 """
 
 from __future__ import annotations

@@ -110,14 +110,9 @@ def table_of(
     heads: Mapping[str, str] = {},
     shares: Mapping[str, float] = {},
 ) -> Table:
-    """Return rows of one entity as a table of the named fields.
+    """Return rows of one entity as a table of the named fields, in that order.
 
-    Parameters
-    ----------
-    names : str
-        Of the fields, in order.
-    heads, shares : mapping, optional
-        By field, where this table has another heading or width than the field says.
+    With `heads` and `shares` where this table has another heading or width than a field says.
     """
     fields = [(name, shown_by(type(rows[0]), name)) for name in names.split()] if rows else []
     columns = [
@@ -152,10 +147,7 @@ def by_place(*heads: Shown) -> Sequence[Column]:
 def headed(*columns: Sequence[Any], rows: Iterable[Sequence[Any]] = (), kind: str = "") -> Table:
     """Return a table of a template, with rows of values or none, which `framed` then has.
 
-    Parameters
-    ----------
-    columns : sequence
-        Heading and share of each; then its alignment if it is not left, and its unit if it has one.
+    A column is its heading and share; its alignment if that is not left, and its unit if any.
     """
 
     def shown(head: str, share: float, align: str = "left", unit: str = "") -> Shown:
@@ -173,13 +165,7 @@ def listed(
     whole_rows: int = WHOLE_ROWS,
     style: Callable[[Any], str] = lambda _: "",
 ) -> Table:
-    """Return items that are no entity as a table: each column says its heading and its value.
-
-    Parameters
-    ----------
-    style : callable, optional
-        Gives the style of the row of an item.
-    """
+    """Return items that are no entity as a table: each column says its heading and its value."""
     units = [shown.units(fmt) for shown, *_ in columns]
     return Table(
         columns=tuple(
@@ -232,13 +218,8 @@ def compared_with(table: Table, cells: Sequence[str]) -> Table:
 def merged(table: Table, *fields: str, once: bool = False) -> Table:
     """Return a table with one row for those that differ in names alone, which it lists.
 
-    Parameters
-    ----------
-    fields : str
-        Whose columns have the names, or their headings in a table of no entity; the first column
-        if none is given. Names of the others follow those of the first in their order.
-    once : bool, optional
-        Whether the others have each of their names once instead, those that count on as one.
+    The names are in the columns of the fields, or with these headings; else in the first. Those of
+    the others follow the first in their order, or are said `once` each, that count on as one.
     """
     names = [k for k, column in enumerate(table.columns) if (column.field or column.head) in fields]
     names = names if fields else [0]

@@ -2,8 +2,6 @@
 
 Words are in the templates and numbers in Python: a filter prints a number as every page does.
 A template that is given the data of a package calls it `p`. Owns no content.
-
-Sections of a document, numbered: each is a template with its words and what that prints.
 """
 
 from __future__ import annotations
@@ -201,15 +199,7 @@ def section(
 def filled(
     folder: Path, sections: Sequence[Section], context: Mapping[str, Any]
 ) -> Iterator[tuple[Part, Markup]]:
-    """Yield each section with its numbers, and its HTML below its heading.
-
-    Parameters
-    ----------
-    folder : Path
-        Of the templates.
-    context : mapping
-        What every template may print.
-    """
+    """Yield each section with its numbers, and its HTML; every template may print the context."""
     for count, section in enumerate(sections, start=1):
         yield _filled(folder, section, str(count), context)
 

@@ -11,7 +11,7 @@ from typing import Annotated, ClassVar
 
 from pydantic import BeforeValidator
 
-from report.assessment.arrays import ArrayAssessment, DesignBasis, Route, seaoc_displacement
+from report.assessment.arrays import SEAOC, ArrayAssessment, DesignBasis, Route, prescriptive_of
 from report.assessment.causes import unshown_cause
 from report.assessment.envelopes import keep_clear, keep_clear_m, keep_clear_mark
 from report.assessment.friction import mu_words
@@ -337,7 +337,7 @@ def array_result(
         strength_verdict=next(
             row.verdict for row in assessment.rows_of(item.id) if row.id == STRENGTH_ROW
         ),
-        seaoc_m=seaoc_displacement(assessment.project).value_m,
+        seaoc_m=prescriptive_of(assessment.project, SEAOC).value_m,
         directions={way: direction_result(item, way) for way in item.directions if has_runs},
         peaks=tuple(map(peak_result, motions)),
         runs=tuple(run_result(motion, run) for motion in motions for run in motion.runs),

@@ -1,8 +1,6 @@
-"""Records and motions as they are written and shown.
+"""Records, motions and runs as they are written and shown.
 
 Computes nothing: see `report.motions`.
-
-A run of an array under a motion as it is written and shown, and the peaks of a motion.
 """
 
 from __future__ import annotations

@@ -1,9 +1,7 @@
 """Requirements, limits and warnings as they are written and shown.
 
 Computes nothing. Read `LimitResult`; a requirement is written as it is
-(`report.assessment.verdict`) and shown as a `RequirementRow`.
-
-The marks of numbers: not compared with the adopted document, changed by an override.
+(`report.assessment.verdict`) and shown as a `RequirementRow`. `Marked` marks the numbers.
 """
 
 from __future__ import annotations

@@ -2,10 +2,6 @@
 
 The value of a field is that of the attribute of the assessment with its name, or on the path that
 `at` gives. Owns no entity. Read `Entity`.
-
-A column of a table, and values in both systems of units.
-
-How a field is a column of a sheet of results.xlsx, and how its change is told by `--since`.
 """
 
 from __future__ import annotations
@@ -269,10 +265,7 @@ class Entity(BaseModel):
 
     @classmethod
     def of(cls, item: object, **more: Any) -> Self:
-        """Return the entity of an item of the assessment, with what is not said by its attributes.
-
-        A field takes the attribute with its name, or what is on the path that `at` gives.
-        """
+        """Return the entity of an item, with what its attributes do not say."""
         return cls.model_validate(Beside(item, more))
 
     def styled(self, style: str) -> Self:
@@ -311,13 +304,11 @@ def _title(said: object) -> str:
 
 
 class WrittenSchema(GenerateJsonSchema):
-    """The JSON schema of what is written: without fields that are only printed.
-
-    The heading of a field, or the label of its cell, is its title, its docstring its description.
-    """
+    """The JSON schema of what is written: without fields that are only printed."""
 
     def model_schema(self, schema: Any) -> dict[str, Any]:
         """Return the schema of a model, each field with its docstring or that of a base class."""
+        # The heading of a field, or the label of its cell, is its title.
         written, model = super().model_schema(schema), schema["cls"]
         for name in written["properties"]:
             if title := next(filter(None, map(_title, model.model_fields[name].metadata)), ""):

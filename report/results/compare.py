@@ -38,7 +38,13 @@ def changes(former: Compared, assessment: Assessment) -> Changes:
     items = [
         *_given(former, now, assessment),
         *_one(ChangeKind.SOFTWARE, "Roofslip", former.roofslip_version, now.roofslip_version),
-        *_requirements(former, now),
+        *_rows(
+            ChangeKind.REQUIREMENT,
+            former.requirements,
+            now.requirements,
+            "{row.subject}, {row.title}",
+            "{row.found}: {row.verdict}",
+        ),
         *_one(ChangeKind.VERDICT, "Project", former.verdict, now.verdict),
         *_results((*arrays, *gaps), UnitFormat(us_first=assessment.project.us_first)),
     ]
@@ -85,8 +91,11 @@ def _given(former: Compared, now: Compared, assessment: Assessment) -> Iterator[
     """Yield what changed of what the results follow from."""
     yield from _one(ChangeKind.RULES, "Rule set", former.rule_set, now.rule_set)
     yield from _inputs(former, assessment, assessment.project.us_first)
-    yield from _records(former, now)
-    yield from _documents(former, now)
+    records = former.records, now.records, "{row.motion} {row.component}"
+    yield from _rows(ChangeKind.RECORD, *records, "{row.name}, SHA-256 {row.sha256}")
+    if "documents" in former.model_fields_set:  # earlier versions did not write theirs
+        documents = former.documents, now.documents, "{row.label}"
+        yield from _rows(ChangeKind.DOCUMENT, *documents, "{row.path}, SHA-256 {row.sha256}")
 
 
 def _one(kind: ChangeKind, title: str, before: str, now: str, cell: str = "") -> Iterator[Change]:
@@ -196,28 +205,14 @@ def _shown(entry: Entry, value: Any, us_first: bool) -> str:
     return str(value)
 
 
-def _records(former: Compared, now: Compared) -> Iterator[Change]:
-    pairs = _paired(former.records, now.records, lambda row: (row.motion, row.component))
-    for (motion, component, _), pair in pairs.items():
-        shown = (f"{row.name}, SHA-256 {row.sha256}" if row else NOT_THERE for row in pair)
-        yield from _one(ChangeKind.RECORD, f"{motion} {component}", *shown)
-
-
-def _documents(former: Compared, now: Compared) -> Iterator[Change]:
-    """Yield the documents that changed; earlier versions did not write theirs."""
-    if "documents" in former.model_fields_set:
-        pairs = _paired(former.documents, now.documents, lambda row: (row.label,))
-        for (label, _), pair in pairs.items():
-            shown = (f"{row.path}, SHA-256 {row.sha256}" if row else NOT_THERE for row in pair)
-            yield from _one(ChangeKind.DOCUMENT, label, *shown)
-
-
-def _requirements(former: Compared, now: Compared) -> Iterator[Change]:
-    """Yield the rows whose verdict changed; a row that is not there any more is satisfied."""
-    pairs = _paired(former.requirements, now.requirements, lambda row: (row.subject, row.title))
-    for (subject, title, _), pair in pairs.items():
-        shown = (f"{row.found}: {row.verdict}" if row else NOT_THERE for row in pair)
-        yield from _one(ChangeKind.REQUIREMENT, f"{subject}, {title}".removeprefix(", "), *shown)
+def _rows(
+    kind: ChangeKind, before: Iterable[_Row], now: Iterable[_Row], title: str, text: str
+) -> Iterator[Change]:
+    """Yield the rows whose text changed, by title; both are of a `row` in braces."""
+    pairs = _paired(before, now, lambda row: (title.format(row=row).removeprefix(", "),))
+    for (name, _), pair in pairs.items():
+        shown = (text.format(row=row) if row else NOT_THERE for row in pair)
+        yield from _one(kind, name, *shown)
 
 
 def _differing(row: Entity | None, old: Entity | None) -> Iterator[tuple[str, Told]]:

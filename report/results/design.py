@@ -1,10 +1,7 @@
 """The sheet Design of results.xlsx: from the peaks to the design displacement and the verdicts.
 
-Live formulas, each written with the value from `report.assessment.project`. Read `DesignRow`.
-
-The sheets Peaks and Directions of results.xlsx: from runs to displacements in each direction.
-
-The sheet Inputs of results.xlsx: the numbers that Design and Clearances follow by formula.
+Live formulas, each written with the value from `report.assessment.project`: with the sheets Peaks,
+Directions and Inputs that Design follows from. Read `DesignRow`.
 """
 
 from __future__ import annotations
@@ -258,11 +255,7 @@ def write_design(
 ) -> None:
     """Write the design displacement and the verdict of each array as formulas.
 
-    Parameters
-    ----------
-    results : mapping of str to sequence of str
-        For each array, the cells that hold OK, NG or none: its clearances and its row of linked
-        blocks.
+    From `results`, the cells with OK, NG or none of its clearances and its row of linked blocks.
     """
     rows = []
     for item in assessment.arrays:

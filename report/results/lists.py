@@ -1,8 +1,6 @@
 """The sheets of results.xlsx without formulas: Runs, Motions, Neighbors, Requirements and more.
 
 Computes nothing. Read `report.results.xlsx`.
-
-The sheets LinkRuns and Links of results.xlsx: rows of linked blocks against one rigid block.
 """
 
 from __future__ import annotations
@@ -255,11 +253,8 @@ def link_cells(assessment: Assessment, array_id: str) -> Sequence[str]:
 
 
 def write_links(pages: Pages, assessment: Assessment, designs: Mapping[str, Cells]) -> None:
-    """Write the effect of links on the design displacement of each array, from the sheet LinkRuns.
-
-    The peaks of the motions are below the arrays.
-    """
-    top = TOP + len(assessment.linked) + 2
+    """Write the effect of links on the design displacement of each array, from sheet LinkRuns."""
+    top = TOP + len(assessment.linked) + 2  # of the peaks of the motions, below the arrays
     rows: list[LinkRow] = []
     peaks: list[LinkPeakRow] = []
     first_run = 2

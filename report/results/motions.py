@@ -1,8 +1,6 @@
 """Motions that are added to a project: their records beside the workbook, and rows of Motions.
 
-Read `row_cells`.
-
-What suite.json says of the records beside it, and motions of which a workbook says otherwise.
+Read `row_cells`, then `other_sources`: what suite.json says of the records beside it.
 """
 
 from __future__ import annotations

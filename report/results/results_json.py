@@ -1,8 +1,6 @@
 """results.json: a dump of `report.entities.results`, with units in the keys and null for no value.
 
-Computes nothing.
-
-Reads results.json of a former revision; trusts nothing in it.
+Computes nothing, and trusts nothing in the file of a former revision.
 """
 
 from __future__ import annotations

@@ -85,12 +85,10 @@ def typed(value: float) -> float:
 
 
 def text_workbook(buffer: BytesIO, date: dt.date, title: str = "") -> Workbook:
-    """Return a workbook to write, in which text from an untrusted one is never a formula or link.
-
-    Two runs give the same bytes: its date is that of the project, not the current date.
-    """
+    """Return a workbook to write, in which untrusted text is never a formula or link."""
     as_text = ("strings_to_formulas", "strings_to_urls", "strings_to_numbers")
     workbook = Workbook(buffer, dict.fromkeys(as_text, False) | {"nan_inf_to_errors": True})
+    # Two runs give the same bytes: the date is that of the project, not the current date.
     workbook.set_properties({"title": title, "created": dt.datetime.combine(date, dt.time())})
     return workbook
 
@@ -149,15 +147,8 @@ def lay_out(
 ) -> Sequence[int]:
     """Write headings, fit columns and rows to texts as shown, and make landscape pages legible.
 
-    Parameters
-    ----------
-    keys : int
-        Columns that say which row it is: they stay in sight, and stand on every page.
-
-    Returns
-    -------
-    sequence of int
-        Widths of the columns in letters.
+    Return the widths of the columns [letters]. The first `keys` say which row it is: they stay in
+    sight, and stand on every page.
     """
     sheet.write_row(top, 0, headings, pages.head)
     widths = [_width(head, cells) for head, *cells in zip(headings, *rows, strict=True)]

@@ -2,8 +2,6 @@
 
 Computes nothing: each formula is written with the value from `report.assessment.project`, and that
 value is repeated beside it as a number, so that a checker can trace, change and compare it.
-
-The sheet Clearances of results.xlsx: required and provided separations.
 """
 
 from __future__ import annotations
