@@ -1,10 +1,6 @@
-"""Curves of a drawing as points: lines, polylines, arcs, circles, ellipses and splines as chords.
+"""Curves and areas of a drawing as closed lines: arcs become chords, open lines are joined.
 
 Points are in world coordinates and the unit of the drawing; heights are dropped.
-
-Joins open lines, whose ends meet within a tolerance, to closed ones, where no choice is left.
-
-Areas of a drawing as closed lines: hatches by their boundaries, faces and meshes by outline.
 """
 
 from __future__ import annotations
@@ -32,11 +28,7 @@ _SPLINE_FRAME = 16  # of a vertex that controls a curve and is not on it
 
 
 def curve(entity: Any, sagitta: float) -> tuple[list[Point], bool] | str:
-    """Return a curve as points and whether it is closed, or why it cannot be read.
-
-    There may be one point more than are allowed; the sagitta is the largest distance of an arc from
-    its chords.
-    """
+    """Return a curve as points, chords within a sagitta, and if it is closed; or why it is none."""
     kind = entity.dxftype()
     # The other two are in world coordinates, whatever their direction of extrusion is.
     if kind not in ("LINE", "SPLINE") and not is_parallel(entity):
@@ -58,6 +50,7 @@ def curve(entity: Any, sagitta: float) -> tuple[list[Point], bool] | str:
         exact = (
             _spline(entity, sagitta) if kind == "SPLINE" else _chords(vertices, is_closed, sagitta)
         )
+    # One point more than are allowed tells the caller that there are too many.
     points = [(float(p[0]), float(p[1])) for p in islice(exact, MAX_POINTS + 1)]
     return (points, is_closed) if _are_numbers(points) else no_number
 
@@ -115,13 +108,11 @@ def _is_circle(entity: Any, kind: str) -> bool:
 
 
 def _spline(entity: Any, sagitta: float) -> Iterable[Any]:
-    """Return points of a spline whose chords are within the sagitta of it.
-
-    As the library would, which goes beyond the ends of a spline that is not clamped, such as a
-    closed one of AutoCAD.
-    """
+    """Return points of a spline whose chords are within the sagitta of it."""
     import shapely
 
+    # The library's own points go beyond the ends of a spline that is not clamped, such as a closed
+    # one of AutoCAD.
     tool = entity.construction_tool()
     knots = np.unique(tool.knots()[tool.order - 1 : tool.count + 1])
     spans, parts = len(knots) - 1, _SPAN_PARTS
@@ -139,12 +130,10 @@ def _spline(entity: Any, sagitta: float) -> Iterable[Any]:
 def _chords(
     vertices: Sequence[tuple[float, float, float]], is_closed: bool, sagitta: float
 ) -> Iterator[Point]:
-    """Yield points with arcs as chords.
-
-    A bulge is the tangent of a quarter of the angle of an arc, positive counterclockwise.
-    """
+    """Yield points with arcs as chords."""
     from ezdxf.math import arc_segment_count, bulge_to_arc
 
+    # A bulge is the tangent of a quarter of the angle of an arc, positive counterclockwise.
     following = (*vertices[1:], *(vertices[:1] if is_closed else ()))
     for (x0, y0, bulge), (x1, y1, _) in zip(vertices, following, strict=False):
         yield x0, y0
@@ -163,17 +152,12 @@ OPEN = "an open line that closes no outline"
 BRANCHED = "open lines of which three or more meet at a point"
 
 Line = Sequence[Point]
-
-
 Closed = tuple[list[Point], list[int]]
 """A closed line, and which open ones it consists of."""
 
 
 def join(lines: Sequence[Line], tolerance: float) -> tuple[list[Closed], Mapping[int, str]]:
-    """Return the closed lines that open ones form, and why the rest of these does not.
-
-    The tolerance is the largest distance of ends that meet.
-    """
+    """Return the closed lines of open ones whose ends meet within a tolerance, and why not all."""
     from ezdxf import edgeminer
 
     cells: dict[Point, list[Point]] = defaultdict(list)
@@ -212,11 +196,9 @@ def join(lines: Sequence[Line], tolerance: float) -> tuple[list[Closed], Mapping
 
 
 def _snapped(at: Point, cells: dict[Point, list[Point]], tolerance: float) -> Point:
-    """Return the end that stands for another within the tolerance.
-
-    Two that stand for others are farther apart: so ends that meet one meet each other, and a chain
-    cannot lead around without end.
-    """
+    """Return the end that stands for another within the tolerance."""
+    # Two that stand for others are farther apart: so ends that meet one meet each other, and a
+    # chain cannot lead around without end.
     column, row = (math.floor(value / tolerance) for value in at)
     for i, j in ((i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)):
         for other in cells.get((column + i, row + j), ()):
@@ -252,10 +234,7 @@ def is_mesh(entity: Any) -> bool:
 
 
 def boundaries(hatch: Any, sagitta: float, tolerance: float) -> list[Any] | str:
-    """Return the boundaries of a hatch as polygons, or why it has none.
-
-    Arcs are within the sagitta of their chords, and ends that meet within the tolerance.
-    """
+    """Return the boundaries of a hatch as polygons, chords within a sagitta, or why it has none."""
     kind = hatch.dxftype()
     if not is_parallel(hatch):
         return f"a {kind} that is not parallel to the plan"
@@ -339,11 +318,8 @@ def outlines(areas: Sequence[Any], tolerance: float) -> tuple[list[list[Point]],
 
 
 def is_fill(area: Any, layer: str, lines: Sequence[tuple[Any, str]], tolerance: float) -> bool:
-    """Whether an area fills closed lines, given with their layers, rather than is an outline.
-
-    It is equal to one of any layer, or has an area in common with one of its own.
-    """
-
+    """Whether an area fills closed lines, given with their layers, rather than is an outline."""
+    # It is equal to one of any layer, or has an area in common with one of its own.
     for other, name in lines:
         is_near = np.allclose(other.bounds, area.bounds, rtol=0.0, atol=tolerance)
         if is_near and other.hausdorff_distance(area) <= tolerance:

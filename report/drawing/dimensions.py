@@ -1,9 +1,6 @@
-"""The clearances of a plan: numbered in their gaps, and equal ones dimensioned once.
+"""The clearances of a plan, numbered in their gaps and equal ones dimensioned once; its legend.
 
-A number slides along its gap to where it touches nothing, and only where no place is left has it a
-leader. Required separations are in a table beside the plan. Read `draw_numbers` first.
-
-The legend of the plan: north, scale bar, symbols.
+Required separations are in a table beside the plan. Read `draw_numbers` first.
 """
 
 from __future__ import annotations
@@ -92,6 +89,7 @@ def _numbered(plan: PlanSheet, lane: Lane) -> Lane:
     circle = 2 * RADIUS_IN if gap.of.is_given else 0.0
     ng = (NG_TALL_IN if lane.is_upright else ng_wide()) if is_ng else 0.0
     size = circle + ng, (ng_wide() if is_ng and lane.is_upright else 2 * RADIUS_IN)
+    # It slides along the gap to where it touches nothing; where no place is left it has a leader.
     shifts = list(_steps(0.0, lane.half))
     # With its dimension line, or else where labels leave no place for that, without.
     for across in (max(size[1], lane.narrow), size[1]):

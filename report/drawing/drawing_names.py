@@ -1,8 +1,6 @@
-"""What is likely drawn on the layers of a drawing, by their names.
+"""What names of layers say is drawn, and lines of text such as `RTU-1, height 42 in` of objects.
 
 Proposes and decides nothing: a proposal counts when it is taken (`report.cli.plan`).
-
-Names of outlines and heights of objects in lines of text, such as `RTU-1, height 42 in`.
 """
 
 from __future__ import annotations

@@ -1,8 +1,6 @@
-"""Which cells of a workbook a plan as drawn fills: arrays, objects, the roof, outlines.
+"""Which row of a workbook each outline of a drawing is, and which cells the plan as drawn fills.
 
 Reads no drawing and writes no file (`report.drawing.plan_read`, `report.sheet.reading.parts`).
-
-Which row of a workbook each outline of a drawing is: by its name in the drawing, or by place.
 """
 
 from __future__ import annotations
@@ -65,13 +63,10 @@ class MatchedPlan:
     unit: Unit  # of the table of moves
 
     def lines(self, *, replace: bool) -> Iterator[str]:
-        """Yield what moved, is new or is gone as a table, and modules that are not drawn.
-
-        At first, when nothing was in plan, there is no table. Rows that are gone are taken out with
-        `replace`.
-        """
+        """Yield a table of what moved, is new or is gone with `replace`, and modules not drawn."""
         now = {place.name: place.shape for place in (*self.plan.arrays, *self.plan.objects)}
         moves = []
+        # At first, when nothing was in plan, there is no table.
         for name in {**self.before, **now} if self.before else ():
             was, shape = self.before.get(name), now.get(name)
             if was and shape and solid(was).hausdorff_distance(solid(shape)) < _STILL_M:
@@ -361,10 +356,7 @@ def changes(
 def ballast_changes(
     book: OpenBook, weights_n: Mapping[str, float | None], *, replace: bool
 ) -> dict[CellPosition, Value]:
-    """Return the cells to change so that arrays have a ballast weight [N]; raises as `changes`.
-
-    None is no weight.
-    """
+    """Return the cells for ballast weights [N] of arrays, None for none; raises as `changes`."""
     fill, table = _Fill(book, replace), GrowingTable.of(book, "arrays")
     for name, weight_n in weights_n.items():
         position = table.position(table.rows("id", name)[0], "ballast_n")

@@ -1,13 +1,7 @@
-"""What a plan on paper consists of: outlines, lines, arrows, circles and texts, painted in order.
+"""What a plan consists of: for CAD on layers, and on paper as items that are painted in order.
 
-Positions are in inches on paper, y upward. How an item looks stands with each painter: of the
+On paper positions are in inches, y upward. How an item looks stands with each painter: of the
 package (`report.figures.plan`) and of the page (`report.web.plan`).
-
-A plan as lines, texts and dimensions on layers: what a drawing for CAD consists of.
-
-How wide texts are in the font of the pictures.
-
-How steep the section through an array is drawn: a text beside the picture says it too.
 """
 
 from __future__ import annotations

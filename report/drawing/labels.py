@@ -1,8 +1,6 @@
-"""The names on the roof plan: of arrays with their displacement, of objects and of edges.
+"""The names on the roof plan, and what the tables beside a printed one have room for.
 
 Read `report.drawing.on_paper` first.
-
-What the tables beside a printed plan have, and how much of them its columns have room for.
 """
 
 from __future__ import annotations
@@ -65,10 +63,7 @@ def size_words(shape: Shape, fmt: UnitFormat) -> str:
 
 
 class Schedule(NamedTuple):
-    """What is beside a plan: whether the table of arrays, and rows of the schedule by column.
-
-    On a plan without columns, nothing is: the tables follow it.
-    """
+    """What is beside a plan: whether the table of arrays, and rows of the schedule by column."""
 
     has_arrays: bool
     rows: Sequence[int]
@@ -165,10 +160,8 @@ def _edge_words(plan: PlanSheet, item: RoofObject) -> str:
 
 
 def reserve_name(plan: PlanSheet, array: ArrayAssessment) -> Frame | None:
-    """Keep room for the name of an array, and where possible for all of its label.
-
-    None where the label is written already: on a screen it comes before the clearances.
-    """
+    """Keep room for the name of an array, if possible for its label; None where that is written."""
+    # On a screen it comes before the clearances.
     if plan.size.is_screen and _label_in_middle(plan, array):
         return None
     shown = list(_array_labels(plan, array))

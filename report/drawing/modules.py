@@ -168,11 +168,8 @@ def _arrays(
 def _parallel(
     lines: Sequence[Known], turned_deg: float
 ) -> Iterator[tuple[list[int], Any, Any, complex, float]]:
-    """Yield the modules of a layer that are parallel: lines, sizes [m], boxes and their direction.
-
-    Sizes are those of equal ones; boxes, along their sides, are x from, y from, x to and y to [m].
-    The last is the step that coordinates are rounded to [m].
-    """
+    """Yield the parallel modules of a layer: lines, sizes, boxes, direction, step of rounding."""
+    # Sizes are those of equal ones; boxes, along their sides, are x from, y from, x to and y to.
     four = [
         k for k, (*_, shape) in enumerate(lines)
         if len(shape.points) == 4 and shape.area_m2 <= (SIDES_M[1] + ROUNDED_M[0]) ** 2
@@ -215,10 +212,8 @@ def _parallel(
 
 
 def _rounding(corners: Any) -> tuple[float, bool]:
-    """Return the step that the corners of a layer are rounded to [m], and whether they are turned.
-
-    It is 0 for a fine one, and for a coarse one of a layer along the axes: as that was meant.
-    """
+    """Return the step that the corners of a layer are rounded to [m], and if they are turned."""
+    # It is 0 for a fine one, and for a coarse one of a layer along the axes: as that was meant.
     along = np.diff(corners, axis=1)
     is_turned = bool((np.minimum(abs(along.real), abs(along.imag)) > ROUNDED_M[-1]).any())
     values = np.ravel(corners - corners[:1, :1])

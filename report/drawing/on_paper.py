@@ -2,8 +2,6 @@
 
 Places finished numbers and words; `report.figures.plan` and `report.web.plan` paint them. Read
 `plan_on_paper` first. `report.drawing.plan` has the same plan on layers, for CAD.
-
-What stands still on the roof plan, and where each array may move.
 """
 
 from __future__ import annotations
@@ -156,10 +154,7 @@ def plan_on_paper(
     *,
     has_verdicts: bool = True,
 ) -> PlanSheet:
-    """Return the plan with its labels, at a round scale, or on a screen as large as it can be.
-
-    The design displacement of each array may be given in words.
-    """
+    """Return the plan at a round scale, or for a screen; displacements may be given in words."""
     extent = _extent(assessment)
     paper, key = _empty(extent, size, _scale(assessment, extent, size))
     plan = PlanSheet(

@@ -99,10 +99,7 @@ class Placer:
         self._walls = np.vstack((self._walls, frame))
 
     def take_first(self, frames: Sequence[Frame], within: Sequence[Frame] = ()) -> int | None:
-        """Reserve the first of some frames that touches no label and no line; None if all do.
-
-        The part of each that is given as `within` touches no wall either.
-        """
+        """Reserve the first frame that touches no label, no line and, `within`, no wall, if any."""
         if not frames:
             return None
         low, high = np.split(np.array(frames), 2, axis=1)
@@ -132,11 +129,10 @@ class Placer:
         *,
         may_cross: bool = False,
     ) -> Frame | None:
-        """Reserve and return the frame of a label nearest to a point; None if there is no room.
+        """Reserve the frame of a label, on the page or within a frame, nearest to a point, or None.
 
-        It lies on the page, or within a frame, with its center at most so far from the point [in].
-        A straight leader to it crosses no other label and no wall, or if it may, as few as there
-        can be.
+        A straight leader to it, to its center at most so long [in], crosses no other label and no
+        wall, or if it may, as few as there can be.
         """
         page = self._page if within is None else within
         if wide > page.wide or tall > page.tall:

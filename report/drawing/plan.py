@@ -1,8 +1,6 @@
 """The roof plan as lines, texts and dimensions on layers, in the plan unit of the workbook.
 
 Pure data from an assessment, with no file format (`report.drawing.dxf`). Read `plan_drawing` first.
-
-Texts and dimensions of the plan for CAD, each placed where it touches no other.
 """
 
 from __future__ import annotations

@@ -150,13 +150,7 @@ def _once(known: Sequence[Known], unread: list[Unread]) -> list[Known]:
 
 
 def check_size(plan: RoofPlan, unit_m: float, us_first: bool = True) -> None:
-    """Refuse a roof, or without one arrays, of a size that none has: the unit is another one.
-
-    Raises
-    ------
-    InputError
-        With the units that would do.
-    """
+    """Raise InputError for a roof, or else arrays, of a size that none has, with units that do."""
     places = plan.roof or plan.arrays
     boxes = [place.shape.bounds for place in places]
     long_m = max((max(b.x_to_m - b.x_from_m, b.y_to_m - b.y_from_m) for b in boxes), default=0.0)
@@ -212,10 +206,7 @@ def _named(
     unread: list[Unread],
     us_first: bool,
 ) -> list[DrawnOutline]:
-    """Return the places with their names: written by `report`, of their block, or inside of them.
-
-    A name that is taken leaves its line unread; a line without a name gets one.
-    """
+    """Return the places with their names: written by `report`, of their block, inside, or new."""
     inside = _texts_inside(known, texts, unit_m)
     taken: dict[str, str] = {}
     counts: Counter[LayerKind] = Counter()
@@ -304,13 +295,11 @@ def _height_m(
 def _texts_inside(
     known: Sequence[Known], texts: Sequence[Words], unit_m: float
 ) -> list[list[Words]]:
-    """Return the texts of each line: what `report` wrote of it, and what is inside of it.
-
-    Others belong to the smallest line around them.
-    """
+    """Return the texts of each line: what `report` wrote of it, and what is inside of it."""
     import shapely
 
     inside: list[list[Words]] = [[] for _ in known]
+    # A text belongs to the smallest line around it.
     order = sorted(range(len(known)), key=lambda k: known[k][2].area_m2)
     tree = shapely.STRtree([solid(known[k][2]) for k in order])
     own = {line.name: k for k, (line, *_) in enumerate(known) if line.is_ours}

@@ -1,7 +1,6 @@
 """Reads a roof drawing: its closed lines with their layers and names, and what else there is.
 
-Knows no workbook and no kinds (`report.drawing.plan_read`). Points are in the drawing's world
-coordinates and unit. `report.drawing.roof_drawing` loads the file.
+Knows no workbook and no kinds (`report.drawing.plan_read`). `report.drawing.roof_drawing` loads it.
 """
 
 from __future__ import annotations
@@ -378,17 +377,14 @@ def _clip(insert: Any) -> _Clip | None:
 
 
 def _attributes(insert: Any) -> tuple[str, tuple[str, ...]]:
-    """Return what the attributes of a block say: its name, and heights with their tags.
-
-    The name is that of NAME, ID, TAG or MARK, or of the only one that is no height.
-    """
+    """Return what the attributes of a block say: its name, and heights with their tags."""
     values = {str(a.dxf.tag).casefold(): _printable(a.dxf.text) for a in insert.attribs}
     given = [values.pop(tag.casefold(), "") for tag in _HEIGHTS]
     heights = tuple(f"{tag} {text}" for tag, text in zip(_HEIGHTS, given, strict=True) if text)
-    for tag in ("name", "id", "tag", "mark"):
-        if values.get(tag):
-            return values[tag], heights
-    return next(iter(values.values())) if len(values) == 1 else "", heights
+    # The only other one is the name, whatever its tag is.
+    only = next(iter(values.values())) if len(values) == 1 else ""
+    named = filter(None, map(values.get, ("name", "id", "tag", "mark")))
+    return next(named, only), heights
 
 
 def _own_name(entity: Any) -> str:

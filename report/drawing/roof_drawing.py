@@ -1,8 +1,6 @@
-"""What a roof drawing consists of, as data: closed lines, texts, and what was not understood.
+"""What a roof drawing consists of, as data, and its file: loaded, repaired, or refused.
 
 `report.drawing.read_dxf` fills it, and `report.drawing.plan_read` says what of it is the plan.
-
-Loads a DXF file: refuses what is no drawing in text or too large, and repairs what it may.
 """
 
 from __future__ import annotations

@@ -1,8 +1,6 @@
-"""A roof plan while it is drawn: its paper, what is on the roof, and what found no room.
+"""A roof plan while it is drawn: its paper and scale, what is on the roof, what found no room.
 
 Read `report.drawing.on_paper` first.
-
-The paper that a plan is drawn on: its scale, what is drawn, and where labels still have room.
 """
 
 from __future__ import annotations
@@ -165,15 +163,13 @@ LEADER_IN = 1.5  # farthest label
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanSize:
-    """Size of a plan on paper [in].
-
-    The legend is to the right of the plan, or on a screen below it; that of a full plan is on a
-    paper of its own.
-    """
+    """Size of a plan on paper [in]."""
 
     wide: float
     tall: float  # greatest height
-    key_wide: float = 0.0  # of the legend
+    # The legend is to the right of the plan, or on a screen below it; that of a full plan is on a
+    # paper of its own.
+    key_wide: float = 0.0
     key_tall: float = 0.0
     sheet: str = ""  # the large one of a full plan in the package; none of those of other parts
     columns: int = 0  # of tables beside a full plan
@@ -233,12 +229,10 @@ class PlanSheet:
     paper: Paper
     designs: Mapping[str, str]  # design displacement of each array, where it is worded elsewhere
     has_verdicts: bool  # whether it says which gaps are NG
-    unnamed: list[str] = field(
-        default_factory=list
-    )  # what found no room for its label, and has none
-    crowded: list[str] = field(
-        default_factory=list
-    )  # what found none near its place, or not for all
+    # What found no room for its label, and has none.
+    unnamed: list[str] = field(default_factory=list)
+    # What found none near its place, or not for all.
+    crowded: list[str] = field(default_factory=list)
 
     @cached_property
     def shapes(self) -> Mapping[str, Shape]:
@@ -323,10 +317,7 @@ class PlanSheet:
         *,
         is_last: bool = False,
     ) -> bool:
-        """Write outside of something, with a leader from its middle or a circle about that.
-
-        Return whether there is room for it; if it `is_last`, also far away and across others.
-        """
+        """Write outside of something with a leader if it has room; `is_last`, across others too."""
         maximum = math.inf if is_last else self.leader_in
         label = self.paper.placer.place(
             *text_size(lines), frame.middle, maximum=maximum, may_cross=is_last

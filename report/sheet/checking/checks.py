@@ -1,7 +1,6 @@
 """Checks of the input that involve more than one cell; each fault names the cell to change.
 
 Works on a draft, the rows of readable values, so that one invalid cell hides no other fault.
-`schema` checks single cells; `locate_tables` and `archive` check sheets and files.
 """
 
 from __future__ import annotations

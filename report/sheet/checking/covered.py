@@ -86,16 +86,14 @@ def _changed(then: _Hashes, now: _Hashes) -> Sequence[str]:
 def _dated(
     data: ProjectInput, records: Sequence[str]
 ) -> Iterator[tuple[Place, dt.date, str, _Hashes, _Hashes]]:
-    """Yield of each confirmation its cell, date, what is on record of that date, and the hashes.
-
-    The last are by the sheets of earlier workbooks.
-    """
+    """Yield the cell and date of each confirmation, what is on record of it, and two hashes."""
     for section, dated, covered, covers in CONFIRMATIONS:
         block = getattr(data, section)
         date = getattr(block, dated)
         if date and getattr(block, "peer_reviewed", True):
             of, _, recorded = getattr(block, covered).partition(": ")
             now = _hashes(covers, data, records, {})
+            # By the sheets of earlier workbooks.
             earlier = _hashes(covers, data, records, layout.SHEETS)
             recorded = recorded if of == str(date) else ""
             yield Place(section, 0, covered), date, recorded, now, earlier

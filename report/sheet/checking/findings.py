@@ -1,12 +1,6 @@
-"""Warnings on the input, which an engineer may answer with a reason, and notes.
+"""Findings on an input: equal ones of several cells are one, and a reason may answer a warning.
 
 Owns ids and acknowledgments. Read `report.sheet.checking.plausible` next.
-
-The problems of an input: equal ones of several cells become one.
-
-The cells of a draft that could be read, those that repeat an earlier one, and what a name means.
-
-Warnings on numbers outside the range that the sheet itself prints as usual.
 """
 
 from __future__ import annotations
@@ -123,15 +117,13 @@ def note(place: Place, text: str) -> Finding:
 
 
 def acknowledged(data: ProjectInput, findings: Iterable[Finding]) -> tuple[Finding, ...]:
-    """Return findings in the order of the template, each with the reason that the sheet gives.
-
-    An acknowledgment of no warning is a note.
-    """
+    """Return findings in the order of the template, each with the reason that the sheet gives."""
     all_findings = tuple(findings)
     reasons = {_key(row.warning): row.reason for row in data.acknowledged}
     answered = [
         replace(f, reason=reasons.get(_key(f.id), "") if f.id else "") for f in all_findings
     ]
+    # An acknowledgment of no warning is a note.
     return in_order([*answered, *_idle(data, all_findings)])
 
 

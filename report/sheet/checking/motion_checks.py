@@ -1,8 +1,6 @@
-"""Checks of motions, building and target spectrum that involve more than one cell.
+"""Checks of motions, building, target spectrum and friction that involve more than one cell.
 
 Each fault names the cell to change. Works on a draft, like `checks`, and reads no record.
-
-Checks of the friction tests, and of the friction coefficients that go beyond them.
 """
 
 from __future__ import annotations

@@ -1,9 +1,6 @@
-"""Checks of what the workbook gives in roof plan: rectangles, outlines, and what is on the roof.
+"""Checks of required cells, and of the roof plan: rectangles, outlines, and what is on the roof.
 
-Read `report.sheet.checking.checks` first, which runs them. The geometry is in
-`report.sheet.schema.shapes`.
-
-What makes a cell required that is optional by itself, and what names must be.
+Read `report.sheet.checking.checks` first, which runs them.
 """
 
 from __future__ import annotations

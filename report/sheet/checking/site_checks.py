@@ -124,10 +124,8 @@ def _site_class(row: DraftRow, edition: Edition) -> Iterator[Finding]:
 def _below_table(
     row: DraftRow, edition: Edition, chain: _Chain, table: CoefficientTable, where: Where
 ) -> Iterator[Finding]:
-    """Yield what is below that of the mapped value, the site class and the table of its edition.
-
-    A given coefficient is compared with the table, and `_agreement` compares the rest with it.
-    """
+    """Yield what is below that of the mapped value, the site class and the table of its edition."""
+    # A given coefficient is compared with the table, and `_agreement` compares the rest with it.
     (mapped, symbol), (coefficient, factor), maximum, design = chain
     mapped_g, entered = row.get(mapped), row.get(coefficient)
     tabulated = _tabulated(row, edition, mapped_g, table)
@@ -152,10 +150,8 @@ def _below_table(
 def _tabulated(
     row: DraftRow, edition: Edition, mapped_g: float | None, table: CoefficientTable
 ) -> float:
-    """Return the coefficient of a table; NaN where it has none or a site-specific one may be less.
-
-    Where a table has none, a site-specific analysis is a requirement of the package.
-    """
+    """Return the coefficient of a table; NaN for none, or where a site-specific one may be less."""
+    # Where a table has none, a site-specific analysis is a requirement of the package.
     if edition.name != table.edition or mapped_g is None or "site_class" not in row:
         return math.nan
     site_class = site_class_or_default(row["site_class"])

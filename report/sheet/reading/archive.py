@@ -1,8 +1,7 @@
 """Opens an untrusted workbook, or reports why it cannot be used.
 
 Owns every check that must precede openpyxl: file type, sizes, and that each sheet is a part of the
-file; `scan` checks the content of the parts. Independent of the fields of the sheets. Read
-`report.sheet.reading.read` next.
+file; `scan` checks the content of the parts. Read `report.sheet.reading.read` next.
 """
 
 from __future__ import annotations

@@ -122,13 +122,11 @@ def as_used(value: object, entry: Entry, unit: str) -> str:
 
 
 def stated_unit(entry: Entry, row: Mapping[str, Any], cells: Mapping[str, Found]) -> str:
-    """Return what another cell states of the unit of a number; empty for nothing.
-
-    That cell is among what was read of the row so far, or among the cells of the row, by field.
-    """
+    """Return what another cell states of the unit of a number; empty for nothing."""
     if entry.cell.unit_from is None:
         return ""
     name, unit_of = entry.cell.unit_from
+    # That cell is among what was read of the row so far, or among the cells of the row.
     text = row[name] if name in row else cells[name].value if name in cells else None
     return "" if text is None else unit_of(plain(text).strip())
 
@@ -225,14 +223,7 @@ def _converted(cell: Found, entry: Entry, wanted: str, unit: str, si: float) -> 
 
 
 def number(cell: Found, wanted: str = "give a number", unit: str = "") -> float:
-    """Return the number in a cell, in the cell's unit; numeric text is accepted.
-
-    The number format may name that unit, and no other one.
-
-    Raises
-    ------
-    CellError
-    """
+    """Return the number in a cell or its text, in its unit; raise CellError for a false format."""
     value = cell.value
     if isinstance(value, str):
         return _number_in_text(value.strip(), wanted, unit)

@@ -51,9 +51,7 @@ class Document:
 def path_beside(
     folder: Path, name: str, max_bytes: int, example: str, taken: Iterable[str] = ()
 ) -> Path:
-    """Return the file of a name, which must lie within the workbook's folder.
-
-    Names that are taken, read only if the file is missing, are not those that were meant.
+    """Return the file of a name within the workbook's folder; names that are taken are not meant.
 
     Raises
     ------

@@ -1,8 +1,6 @@
-"""Finds the single inputs of a workbook by defined name and by label; `locate_tables` the others.
+"""Finds the inputs of a workbook: single ones by defined name or label, tables by name or headings.
 
 Never uses positions or styles, which users change. `cells` converts the content of the cells.
-
-Finds the tables of a workbook by their name, or by the headings of their fields.
 """
 
 from __future__ import annotations
@@ -258,13 +256,7 @@ def beside(book: OpenBook, section: SheetSection) -> Mapping[str, list[CellPosit
 def cell_as_column(
     book: OpenBook, section: SheetSection, entry: Entry, position: CellPosition
 ) -> FieldColumn:
-    """Return the unit of a single field, as a column has it: by name, or else next to the value.
-
-    Raises
-    ------
-    InputError
-        If the unit is not accepted, or merged cells cover either.
-    """
+    """Return the unit of a single field; raise InputError if it is not accepted, or covered."""
     if entry.kind not in (int, float):
         check_uncovered(book, position)
         return FieldColumn(number=position.column, unit="", si=1.0, heading=position)
@@ -276,10 +268,8 @@ def cell_as_column(
 
 
 def added_later(book: OpenBook, section: SheetSection) -> tuple[Entry, ...]:
-    """Return the fields that a block lacks because its workbook is of a version before them.
-
-    A workbook that has some of those that came together has lost the others.
-    """
+    """Return the fields that a block lacks because its workbook is of a version before them."""
+    # A workbook that has some of those that came together has lost the others.
     groups = (
         [entry for entry in entries(section.model) if (section.key, entry.name) in added]
         for added in layout.ADDED

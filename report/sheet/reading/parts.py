@@ -1,9 +1,7 @@
 """Changes cells of a workbook within the parts of its file, and leaves all else as it is.
 
-Formats, cached values, formulas, sketches and charts stay, which a load and save would lose. Knows
-no fields: `report.sheet.reading.locate` finds the cells.
-
-A table of a workbook to which rows are added: which row is next, and where its cells are.
+Formats, cached values, formulas, sketches and charts stay, which a load and save would lose. Read
+`changed`, then `GrowingTable`, to which rows are added.
 """
 
 from __future__ import annotations
@@ -136,13 +134,7 @@ def _cells_of(sheet: Any) -> dict[_Place, Any]:
 
 
 def _fill(title: str, sheet: Any, cells: _Cells) -> bool:
-    """Write cells of a sheet, and show columns that are filled; return whether one was a formula.
-
-    Raises
-    ------
-    InputError
-        If a formula is also that of cells which are not changed.
-    """
+    """Write cells of a sheet, and show columns that are filled; return if one was a formula."""
     home, at = sheet.find("{*}sheetData"), _cells_of(sheet)
     rows = {int(row.get("r")): row for row in home.iterfind("{*}row")}
     formulas = {

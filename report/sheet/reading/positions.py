@@ -1,6 +1,6 @@
 """Cells of a workbook by position, and what their labels and names say.
 
-Knows no input; `locate` and `locate_tables` find them with it.
+Knows no input; `locate` finds them with it.
 """
 
 from __future__ import annotations

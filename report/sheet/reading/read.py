@@ -1,7 +1,6 @@
 """Reads an input workbook: every value with its cell, or every error with its cell.
 
-Combines opening (`archive`), finding (`locate`), converting (`cells`) and checking (`checks`);
-`report.motions` reads the records. Start at `read`.
+Combines opening (`archive`), finding (`locate`), converting (`cells`) and checking (`checks`).
 """
 
 from __future__ import annotations
@@ -161,13 +160,7 @@ class SheetOf(Generic[Whole]):
         return where(self.addresses, place)
 
     def refuse(self, faults: Iterable[Finding]) -> None:
-        """Raise the problems of the workbook together with further faults, if there are any.
-
-        Raises
-        ------
-        InputError
-            In the order of the template, each once.
-        """
+        """Raise InputError with all problems and further faults, in order, each once, if any."""
         problems = [*self.problems, *_located(faults, self.addresses, self.unfound)]
         sections = sections_of(self.whole)
         order = {part.key: count for count, part in enumerate(sections)}
@@ -210,12 +203,9 @@ def read_book(book: OpenBook) -> Sheet:
 
 
 def without_motions(sheet: Sheet) -> ProjectInput:
-    """Return the input whatever its motions are, and with clearances that contradict the plan.
+    """Return the input whatever its motions are, with clearances that contradict the plan too.
 
-    Raises
-    ------
-    InputError
-        For what is wrong elsewhere.
+    Raises InputError for what is wrong elsewhere.
     """
     fields, rows = len(entries(SECTION["clearances"].model)), sheet.draft["clearances"]
     # A contradiction has all of its cells.

@@ -80,14 +80,12 @@ class Budget:
 
 @dataclass(slots=True)
 class Scan(ContentHandler):
-    """The extent of values in a part, and its formulas by cell: each with the cell it is of.
-
-    Of the part of the workbook also how it was calculated (ECMA-376-1, 18.2.2).
-    """
+    """The extent of values in a part, and its formulas by cell: each with the cell it is of."""
 
     budget: Budget
     extent: Extent = field(default_factory=Extent)
     formulas: dict[str, tuple[str, str]] = field(default_factory=dict)
+    # Of the part of the workbook, how it was calculated (ECMA-376-1, 18.2.2).
     calculation: dict[str, str] = field(default_factory=dict)
     outside: list[str] = field(default_factory=list)  # what it takes values or pictures from
     twice: str = ""  # a cell, or a defined name, that is there twice: openpyxl keeps the last
@@ -219,12 +217,10 @@ def scan_parts(parts: Mapping[str, bytes]) -> dict[str, Scan]:
 
 
 def _is_xml(name: str, data: bytes) -> bool:
-    """Whether a parser may read it as XML: by its name, or by a first `<`.
-
-    Python's parser knows UTF-16, and encodings that write `<` as ASCII does.
-    """
+    """Whether a parser may read it as XML: by its name, or by a first `<`."""
     if name.lower().endswith((".xml", ".rels")):
         return True
+    # Python's parser knows UTF-16, and encodings that write `<` as ASCII does.
     return data.lstrip(b"\xef\xbb\xbf\xff\xfe\x00 \t\r\n").startswith(b"<")
 
 

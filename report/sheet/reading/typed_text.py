@@ -1,10 +1,6 @@
-"""Numbers, dates and choices in texts as people type them, read where they have one meaning.
+"""Numbers, dates and choices as people type them, number formats, and references of formulas.
 
 Knows no cells (`report.sheet.reading.cells`, which says what would do where there is none).
-
-What a spreadsheet shows of a number by its number format: another unit, thousands, nothing.
-
-The cells and names that a formula refers to. Read `references`.
 """
 
 from __future__ import annotations
@@ -56,16 +52,14 @@ _SLASHED = re.compile(r"([0-9]{1,2})[/.-]([0-9]{1,2})[/.-]([0-9]{4})")
 
 
 def number_in(text: str) -> float:
-    """Return the number in a text: `0.45`, `0,5`, `1,234.5`, `4 1/2`, `0.45 (wet)`; NaN for none.
-
-    A comma before three digits has two meanings.
-    """
+    """Return the number in a text: `0.45`, `0,5`, `1,234.5`, `4 1/2`, `0.45 (wet)`; else NaN."""
     if remark := _REMARK.fullmatch(text):
         text = remark[1]
     text = text.replace("\u2212", "-")
     mixed = _MIXED.fullmatch(plain_marks(text))
     if mixed and Fraction(mixed[2]) < 1:
         return float(mixed[1]) + float(Fraction(mixed[2]))
+    # A comma before three digits has two meanings.
     if comma := _DECIMAL_COMMA.fullmatch(text):
         text = text if _THOUSANDS.fullmatch(text) else f"{comma[1]}.{comma[2]}"
     elif _THOUSANDS.fullmatch(text):
@@ -94,16 +88,14 @@ def plain_marks(text: str) -> str:
 
 
 def inches_in(text: str) -> float:
-    """Return a length with marks [in]: `28'-6"`, `4'`, `3 1/2"`; NaN for another text.
-
-    Inches beside feet are less than 12: more are a slip of the finger.
-    """
+    """Return a length with marks [in]: `28'-6"`, `4'`, `3 1/2"`; NaN for another text."""
     text = plain_marks(text)
     match = _FEET.fullmatch(text)
     if not match or not text.endswith(("'", '"')):
         return math.nan
     share = Fraction(match["share"] or match["only"] or 0)
     inches = float(match["inches"] or 0.0) + float(share)
+    # Of inches beside feet, 12 and more are a slip of the finger.
     if match["feet"] and inches >= _INCHES_PER_FOOT:
         return math.nan
     return (_INCHES_PER_FOOT * float(match["feet"] or 0.0) + inches) * (
@@ -112,10 +104,7 @@ def inches_in(text: str) -> float:
 
 
 def rise_in(text: str) -> float:
-    """Return the rise of a slope in 12: `1/2:12`, `0.5 in 12`, `1/4"/ft`; NaN for another text.
-
-    Of `1:24` it is 0.5.
-    """
+    """Return the rise in 12: `1/2:12`, `0.5 in 12`, `1/4"/ft`, `1:24` is 0.5; NaN for none."""
     if (one_in := _ONE_IN.fullmatch(text)) and float(one_in[1]) >= 1.0:
         return 12.0 / float(one_in[1])
     match = _RISE.fullmatch(plain_marks(text))
@@ -161,10 +150,7 @@ def with_point(text: str, separated_by: str) -> str:
 
 
 def choice_in(text: str, choices: Iterable[str]) -> str:
-    """Return the only choice that a text means; empty for none.
-
-    It is that choice but for capitals and blanks, or its first words.
-    """
+    """Return the only choice that a text is, but for capitals and blanks, or begins; else empty."""
     said = " ".join(text.split()).casefold().replace("w/o ", "without ").replace("w/ ", "with ")
     said = _LABEL.sub("", said)
     choices = list(choices)
@@ -231,10 +217,7 @@ class _Section:
 
 
 def misleading(code: str, unit: str) -> str:
-    """Return how a format shows a number as another one, such as `in mm`; empty if it does not.
-
-    It may name the unit of the number, which is empty for none.
-    """
+    """Return how a format shows a number as another, such as `in mm`; empty for its own unit."""
     return next(filter(None, (_misleading(part, unit) for part in _sections(code)[:3])), "")
 
 

@@ -1,11 +1,7 @@
 """Cells that are read though the workbook does not show them, or shows them struck through.
 
-Knows how a workbook hides: sheets, rows and columns, filters, colors, number formats. Knows no
-field. Read `unseen`, and `warnings` for what is said of it.
-
-Formulas whose saved values may be former ones: not calculated, or taken from elsewhere.
-
-Finds sheets that have the labels of another one, as a sheet copied in Excel has.
+Also formulas whose saved values may be former ones, and sheets that are copies of another one.
+Knows no field. Read `unseen`, and `warnings` for what is said of it.
 """
 
 from __future__ import annotations
@@ -268,16 +264,13 @@ def from_outside(book: OpenBook, whole: Place) -> Iterator[Finding]:
 
 
 def not_calculated(book: OpenBook, used: Used, whole: Place) -> Iterator[Finding]:
-    """Yield a warning if the values of formulas may not follow from the cells that they refer to.
-
-    A workbook that asks to be calculated when it is opened, as a fresh one does, has such values
-    only in formulas that are read.
-    """
+    """Yield a warning if the values of formulas may not follow from the cells they refer to."""
     says = book.calculation
     read = [(place, cell.address) for place, cell in used if cell.formula]
     if says.get("calcCompleted", "1") in ("0", "false"):
         manual = " (calculation is manual)" if says.get("calcMode") == "manual" else ""
         why = f"was saved before its formulas were calculated{manual}"
+    # So does a fresh one, which has such values only in formulas that are read.
     elif read and says.get("fullCalcOnLoad", "0") in ("1", "true"):
         why = "asks to be calculated when it is opened"
     else:

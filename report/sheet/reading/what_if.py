@@ -1,7 +1,6 @@
-"""A workbook as if other values had been typed into some of its cells.
+"""A workbook as if other values had been typed into some of its cells; writes no file.
 
-Reads each new value as a cell is read and checks the whole again; writes no file
-(`report.sheet.reading.parts`). Read `retyped`.
+Read `retyped`.
 """
 
 from __future__ import annotations
@@ -24,10 +23,7 @@ Typed = float | str | None
 
 
 def retyped(sheet: Sheet, typed: Mapping[Place, Typed]) -> Sheet:
-    """Return a workbook with other values in cells that it has; their problems are its own.
-
-    The echo stays that of the file.
-    """
+    """Return a workbook with other values and their problems; the echo stays that of the file."""
     draft = {key: [dict(row) for row in rows] for key, rows in sheet.draft.items()}
     gathered = Gathered(draft=draft, addresses=dict(sheet.addresses), unfound=set(sheet.unfound))
     for place, value in typed.items():

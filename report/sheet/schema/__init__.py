@@ -1,7 +1,6 @@
 """The input workbook as data: fields, units, allowed ranges, labels and help texts.
 
-Template, reader and input echo all come from these models; values are SI. Checks that involve more
-than one cell are in `checks`. Read `report.sheet.reading.read` next.
+Template, reader and input echo all come from these models; values are SI.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """The live formulas beside the inputs: what the package will compute, while the sheet is filled.
 
 Each formula repeats a function of `solver.rules` or `report.assessment` in cells; tests compare
-them. Only functions of Excel 2007 to 2016, no array formulas. The reader reads none of them. Read
-`SITE_ANSWERS`, then `table_answers`.
+them. Only functions of Excel 2007 to 2016, no array formulas. Read `SITE_ANSWERS`.
 """
 
 from __future__ import annotations
@@ -28,15 +27,13 @@ _REFERENCE = re.compile(r"(?<!\w)(\w*)\[(#?)(\w+)\]")
 
 @dataclass(frozen=True, slots=True)
 class FormulaColumn:
-    """A column of formulas in a table.
-
-    In a formula, without its equals sign, `[field]` is the cell of its row, `table[field]` a whole
-    column, and `table[#field]` a heading. It is blank where it gives an error.
-    """
+    """A column of formulas in a table, blank where they give an error."""
 
     name: str
     heading: str
     note: str  # above the heading
+    # Without its equals sign; `[field]` is the cell of its row, `table[field]` a whole column, and
+    # `table[#field]` a heading.
     formula: str
     _: KW_ONLY
     number_format: str = "General"

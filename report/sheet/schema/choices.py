@@ -30,10 +30,8 @@ _DECIMAL = re.compile(r"[0-9]*\.[0-9]+")
 
 
 def decimals(text: str) -> tuple[float, ...]:
-    """Return the numbers of a list such as `0.40, 0.45`; empty if the text is not one.
-
-    Each needs a decimal point, so that a decimal comma never splits one number into two.
-    """
+    """Return the numbers of a list such as `0.40, 0.45`; empty if the text is not one."""
+    # Each needs a decimal point, so that a decimal comma never splits one number into two.
     parts = [part.strip() for part in text.split(",")]
     return tuple(map(float, parts)) if all(map(_DECIMAL.fullmatch, parts)) else ()
 

@@ -1,7 +1,6 @@
 """The parts of an input field: label, unit, range, choices.
 
-Template, reader and echo use this module and never inspect pydantic models themselves. The fields
-are defined in `schema`.
+Template, reader and echo use this module and never inspect pydantic models themselves.
 """
 
 from __future__ import annotations

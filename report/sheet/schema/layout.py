@@ -1,8 +1,6 @@
 """Where the template has put the fields and the answers, and how formulas refer to them.
 
-Only the writing side uses positions: the reader finds cells by name and heading. Read `template`.
-
-Labels, keys and choices of earlier workbooks, which can still be read.
+Also labels, keys and sheets of earlier workbooks, which can still be read.
 """
 
 from __future__ import annotations

@@ -1,10 +1,6 @@
-"""The roof motions, as requested; `report.motions.components` loads them.
+"""The roof motions, the building below them, their target spectra, and rows of linked blocks.
 
-Read `report.sheet.schema` first.
-
-The building between a ground motion and its roof, and the target spectra of the motions.
-
-Rows of linked blocks, requested to check whether one rigid block is adequate for an array.
+Read `report.sheet.schema` first. `report.motions.components` loads the motions.
 """
 
 from __future__ import annotations

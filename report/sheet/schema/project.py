@@ -1,8 +1,6 @@
-"""Project data, and the site with the rules that govern there.
+"""Project data, the site with the rules that govern there, and the friction tests.
 
 Read `report.sheet.schema` first.
-
-Friction tests: the report, and the runs as they are pasted from it.
 """
 
 from __future__ import annotations
@@ -303,10 +301,7 @@ def site_parameters(row: DraftRow) -> SeismicParameters | None:
 
 
 def categories(row: DraftRow) -> tuple[str, str, str]:
-    """Return the SDC of a draft of the site by S_DS, by S_D1 and by S_1, as `design_categories`.
-
-    All are empty if S_DS or the risk category is not known, or a cell could not be read.
-    """
+    """Return the SDC of a draft by S_DS, by S_D1 and by S_1; empty where it cannot be known."""
     parameters, risk_category = site_parameters(row), row.get("risk_category")
     if parameters is None or parameters.s_ds is None or risk_category is None:
         return "", "", ""

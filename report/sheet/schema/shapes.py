@@ -89,10 +89,8 @@ def around(shapes: Iterable[Shape]) -> Rectangle:
 
 
 def gap_m(a: Shape, b: Shape) -> float:
-    """Return the smallest distance of two shapes in plan [m]; negative if they overlap.
-
-    Then it is minus the smaller side of the rectangle around their common area.
-    """
+    """Return the smallest distance of two shapes in plan [m]; negative if they overlap."""
+    # Then it is minus the smaller side of the rectangle around their common area.
     if isinstance(a, Rectangle) and isinstance(b, Rectangle):
         dx = max(a.x_from_m, b.x_from_m) - min(a.x_to_m, b.x_to_m)
         dy = max(a.y_from_m, b.y_from_m) - min(a.y_to_m, b.y_to_m)
@@ -138,13 +136,11 @@ def _nearest(a: tuple[float, float], b: tuple[float, float]) -> tuple[float, flo
 
 
 def _facing_sides(a: Shape, b: Shape) -> tuple[float, Point, Point]:
-    """Return the length [m] over which the closest sides face each other, and midway points.
-
-    Of all sides at the smallest distance, those that face each other over the longest stretch.
-    """
+    """Return the length [m] over which the closest sides face each other, and midway points."""
     import numpy as np
     import shapely
 
+    # Of all sides at the smallest distance, those that face each other over the longest stretch.
     own, others = ([side for side in sides(s.points) if side[0] != side[1]] for s in (a, b))
     distances = shapely.distance(shapely.linestrings(own)[:, None], shapely.linestrings(others))
     near = np.argwhere(distances <= distances.min() + NEAR_M)
@@ -242,10 +238,7 @@ def _ranges(shape: Polygon, axis: int) -> list[tuple[float, float]]:
 
 
 def between(a: Shape, b: Shape) -> Shape | None:
-    """Return the area between two shapes, along facing sides; None if corners are the nearest.
-
-    Where they overlap, their common area.
-    """
+    """Return the area between shapes along facing sides, or common to both; None for corners."""
     if isinstance(a, Rectangle) and isinstance(b, Rectangle):
         x = _span((a.x_from_m, a.x_to_m), (b.x_from_m, b.x_to_m))
         y = _span((a.y_from_m, a.y_to_m), (b.y_from_m, b.y_to_m))

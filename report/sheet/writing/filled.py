@@ -1,10 +1,6 @@
 """Fills cells of a workbook, and is the one way in which a command changes one.
 
-Read `changing`.
-
-The blue cells of a workbook whose formula is gone. Read `overwritten`.
-
-What a workbook of 0.1 lacks, which is read as it is. Read `what_is_new`.
+Read `changing`; then `overwritten` for blue cells whose formula is gone, and `what_is_new`.
 """
 
 from __future__ import annotations
@@ -122,13 +118,10 @@ def changing(source: Path, *, keeps_copy: bool = True) -> Iterator[WorkbookChang
 
 
 def filled(book: OpenBook, cells: Mapping[CellPosition, Value]) -> OpenBook:
-    """Return a workbook with other contents of cells; those of `changed` may be refused.
-
-    Rows that a table has grown by are given their formulas; those that may refer to the cells lose
-    their values.
-    """
+    """Return a workbook with other contents of cells, formulas in new rows; raises as `changed`."""
     if not cells:
         return book
+    # Formulas that may refer to the cells lose their values.
     after = book_of(book.path, changed(book.data, cells, _dependents(book, cells.keys())))
     looks = dict(_grown(book, after))
     # Excel gives the rows that a table has grown by their formulas only where they are typed.
@@ -233,10 +226,8 @@ class Overwritten:
 
 
 def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
-    """Return the blue cells that have lost their formula, by sheet, column and row.
-
-    Start of earlier workbooks has samples of their color alone, and their column Status no use.
-    """
+    """Return the blue cells that have lost their formula, by sheet, column and row."""
+    # Of earlier workbooks the column Status has no use.
     lost = [
         Overwritten(position=position, found=cell, title=title)
         for position in _blue(book)
@@ -254,6 +245,7 @@ def _blue(book: OpenBook) -> Iterator[CellPosition]:
         return
     for sheet in book.book.worksheets:
         for cell in (cell for row in sheet.iter_rows() for cell in row):
+            # Start of earlier workbooks has samples of the color alone.
             if is_answer(cell) and (sheet.title != START or panel[0] == START):
                 yield CellPosition(sheet.title, *coordinate_to_tuple(cell.coordinate))
 

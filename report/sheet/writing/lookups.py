@@ -1,9 +1,6 @@
-"""The sheet Tables: what the formulas look up, each with source and confidence.
+"""The sheets Tables, what the formulas look up, and Provisions, every number of the rule sets.
 
-Site coefficients, limits of the seismic design category, separations in use, units in use, and the
-ids that the sheet Clearances offers. Read `write_lookups`.
-
-The sheet Provisions: every number of the rule sets in words, with value, clause and mark.
+Each has its source and confidence. Read `write_lookups`, then `write_rules`.
 """
 
 from __future__ import annotations

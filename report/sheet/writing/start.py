@@ -1,8 +1,6 @@
 """The sheet Start: the answers, the six steps, links to the sheets, a picture, and the colors.
 
 Has no inputs. Read `write_start`.
-
-The answers on the sheet Start, before any run: displacements, worst clearances, separations.
 """
 
 from __future__ import annotations

@@ -67,11 +67,9 @@ def put(
     size: int = 10,
     wrap: bool = True,
 ) -> Cell:
-    """Write a text in a cell that has no format yet; return the cell.
-
-    Its commands begin as the reader typed the one that writes it.
-    """
+    """Write a text in a cell that has no format yet; return the cell."""
     cell: Any = sheet.cell(row, column)
+    # Its commands begin as the reader typed the one that writes it.
     cell.value, cell.data_type = as_typed(text), "s"
     indent = 1 if wrap and column > 1 else 0
     cell.font = _font(size, color, bold, italic)

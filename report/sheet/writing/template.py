@@ -1,10 +1,7 @@
 """Writes the input workbook from the schema, blank or filled in.
 
 Owns the order of the sheets and what is on each; `grids` writes blocks and tables, `style` owns
-their appearance, `answers` the formulas. `read` finds the cells by names and headings, so positions
-here may change.
-
-The example that comes with the program: its workbook, and its records beside it.
+their appearance, `answers` the formulas. The example comes with its records.
 """
 
 from __future__ import annotations
@@ -45,10 +42,7 @@ def template(units: UnitsFirst, example: ProjectInput | None = None) -> bytes:
 def book_of(
     sections: Iterable[SheetSection], first_sheet: str, units: UnitsFirst, example: object
 ) -> tuple[Workbook, Tables]:
-    """Return a book with the blocks and tables of sections, and their formulas.
-
-    An example has the values of each section as an attribute; None leaves the inputs blank.
-    """
+    """Return a book with the blocks and tables of sections; without an example they are blank."""
     book = Workbook()
     tables: dict[str, TablePlace] = {}
     book.worksheets[0].title = first_sheet
