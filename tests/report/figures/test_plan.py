@@ -278,7 +278,7 @@ def test_a_dollar_sign_in_a_name_is_a_dollar_sign():
     [(3.0, 10), (10.0, 10), (10.1, 20), (60.5, 80), (80.1, 100), (101.0, 150), (151.0, 200)],
 )
 def test_scales_are_those_of_an_engineers_ruler(feet, name):
-    scale = round_scale(feet * FOOT_M, us_first=True)
+    scale = round_scale(feet * FOOT, us_first=True)
     assert (scale.name, scale.m_per_in) == (f"1 in = {name} ft", pytest.approx(name * FOOT))
 
 
