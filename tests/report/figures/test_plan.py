@@ -21,7 +21,6 @@ from report.drawing.sheet import LETTER, PlanSize, round_scale
 from report.figures.base import style
 from report.figures.plan import painted, paper_svg
 from sketch import L_FT
-from solver.building.structure import FOOT_M
 from solver.model import INCH_M
 from stand_in import FOOT
 
