@@ -11,6 +11,7 @@ import datetime as dt
 import math
 import re
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -189,6 +190,14 @@ def motion_file(
         notes=tuple(dict.fromkeys(all_notes)),
         start=start or _start(source),
     )
+
+
+def time_in(text: str, *formats: str) -> dt.datetime | None:
+    """Return the time that a text states in one of some formats; None for none."""
+    for form in formats:
+        with suppress(ValueError):
+            return dt.datetime.strptime(text.strip(), form)
+    return None
 
 
 def _start(source: Source) -> dt.datetime | None:

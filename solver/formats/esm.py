@@ -11,10 +11,8 @@ RECORDS OF TURKIYE, 18 lines) as tadas.afad.gov.tr gives it: there is no written
 
 from __future__ import annotations
 
-import datetime as dt
 import re
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 
 from solver.formats.channels import (
     Channel,
@@ -23,6 +21,7 @@ from solver.formats.channels import (
     check_length,
     motion_file,
     offset_notes,
+    time_in,
 )
 from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.source import Source
@@ -66,7 +65,8 @@ def read(source: Source) -> MotionFile:
         form, channels = "AFAD text", _afad(source, heading, names, dt_s, block)
     else:
         form, channels = "ESM, ITACA, AFAD .asc", _asc(source, heading, dt_s, block)
-    return motion_file(source, form, channels, start=_start(heading))
+    begins = next((heading[key][0] for key in _START if key in heading), "").partition("(")[0]
+    return motion_file(source, form, channels, start=time_in(begins, *_START_FORMATS))
 
 
 def _asc(source: Source, heading: _Heading, dt_s: float, block: Block) -> list[Channel]:
@@ -121,11 +121,3 @@ def _entry(source: Source, heading: _Heading, *keys: str) -> tuple[str, int]:
         if key in heading:
             return heading[key]
     raise InputError(f"{source.name}: found no line {keys[0]}; give the whole heading")
-
-
-def _start(heading: _Heading) -> dt.datetime | None:
-    text = next((heading[key][0] for key in _START if key in heading), "").partition("(")[0]
-    for form in _START_FORMATS:
-        with suppress(ValueError):
-            return dt.datetime.strptime(text.strip(), form)
-    return None

@@ -12,10 +12,8 @@ without the mean). CSV: the files of NIED from 2024 on; the duration is in whole
 
 from __future__ import annotations
 
-import datetime as dt
 import re
 from collections.abc import Sequence
-from contextlib import suppress
 
 from solver.formats.channels import (
     Channel,
@@ -23,6 +21,7 @@ from solver.formats.channels import (
     centered_peak_notes,
     motion_file,
     offset_notes,
+    time_in,
 )
 from solver.formats.numbers import COMPARED, Block, check_last, dated_table, free_values, printed
 from solver.formats.source import Source, Stated
@@ -37,6 +36,8 @@ _LEADING = re.compile(r"[\d.]+", re.ASCII)
 _CSV_HEADING_LINES = 40
 _COLUMNS = re.compile(r"#?\s*Time\s*,\s*RelativeTime\s*\(s\)\s*,", re.IGNORECASE)
 _IN_UNIT = re.compile(r"([^()\s]*+)\s*+\(([^()]+)\)")
+
+_START = "%Y/%m/%d %H:%M:%S.%f"
 
 _BOREHOLE = "the sensor is in the borehole, not at the surface"
 _KIK_NET = {"1": "NS1", "2": "EW1", "3": "UD1", "4": "NS2", "5": "EW2", "6": "UD2"}
@@ -76,7 +77,7 @@ def _csv(source: Source, at: int) -> MotionFile:
         channels.append(Channel(name=name, dt_s=even.dt_s, a_mps2=a_mps2, notes=notes))
     form = "KiK-net CSV" if channels and channels[0].name[-1:].isdecimal() else "K-NET CSV"
     notes = (*even.notes, *_length_notes(source, len(table) * even.dt_s))
-    return motion_file(source, form, channels, notes, _start(rows[0][1][0]))
+    return motion_file(source, form, channels, notes, time_in(rows[0][1][0], _START))
 
 
 def _length_notes(source: Source, length_s: float) -> tuple[str, ...]:
@@ -90,12 +91,6 @@ def _length_notes(source: Source, length_s: float) -> tuple[str, ...]:
     if abs(stated_s - length_s) >= 1.0:
         raise InputError(f"{source.at(at + 1)}: {words}; give the whole file")
     return (words,)
-
-
-def _start(text: str) -> dt.datetime | None:
-    with suppress(ValueError):
-        return dt.datetime.strptime(text.strip(), "%Y/%m/%d %H:%M:%S.%f")
-    return None
 
 
 def _counts(source: Source) -> MotionFile:

@@ -53,18 +53,27 @@ def read(source: Source) -> MotionFile:
     if at < 0:
         at = _bare_line(source.lines)
     heading = source.lines[:at]
-    _check_acceleration(source, heading)
+    for index, line in enumerate(heading):
+        # Another line of the heading may mention velocity, for example of the site.
+        if (other := _OTHER.search(line)) and _UNIT.search(line):
+            raise InputError(
+                f"{source.at(index)}: found {other[1].lower()}; give the file of acceleration"
+            )
     counted = _counted(source.lines[at]) or _BARE.fullmatch(source.lines[at].strip())
     if not counted:
         raise InputError(
             f"{source.at(at)}: found {shown(source.lines[at].strip())}; give the count and the step"
             " as in NPTS=  4000, DT=   .0100 SEC"
         )
-    scale = _scale(source, heading)
+    units = [(u[1] or u[2], i) for i, line in enumerate(heading) if (u := _UNIT.search(line))]
+    scale = source.stated_scale(units)
     dt_s = source.step(printed(counted[2] or "", at))
     block = Block(first=at + 1, stop=len(source.lines), count=int(counted[1]), promised=at)
     values = free_values(source, block) * scale
-    channel = Channel(name=_component(heading), dt_s=dt_s, a_mps2=values, notes=())
+    # The second line has event, date, station and component.
+    _, comma, component = heading[1].rpartition(",") if len(heading) > 1 else ("", "", "")
+    name = component.strip() if comma else ""
+    channel = Channel(name=name, dt_s=dt_s, a_mps2=values, notes=())
     return motion_file(source, form, [channel])
 
 
@@ -89,23 +98,3 @@ def _bare_line(lines: Sequence[str]) -> int:
             is_bare = _BARE.fullmatch(lines[index].strip()) and len(fields) != len(following)
             return index if is_bare and is_row(following) else -1
     return -1
-
-
-def _check_acceleration(source: Source, heading: Sequence[str]) -> None:
-    for index, line in enumerate(heading):
-        # Another line of the heading may mention velocity, for example of the site.
-        if (other := _OTHER.search(line)) and _UNIT.search(line):
-            raise InputError(
-                f"{source.at(index)}: found {other[1].lower()}; give the file of acceleration"
-            )
-
-
-def _scale(source: Source, heading: Sequence[str]) -> float:
-    stated = [(u[1] or u[2], i) for i, line in enumerate(heading) if (u := _UNIT.search(line))]
-    return source.stated_scale(stated)
-
-
-def _component(heading: Sequence[str]) -> str:
-    """Last part of the line of event, date, station and component."""
-    title = heading[1] if len(heading) > 1 else ""
-    return title.rpartition(",")[2].strip() if "," in title else ""

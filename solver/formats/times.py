@@ -150,11 +150,9 @@ def _resampled(
 
 
 def _loss(t_s: Floats, columns: Floats, even: Floats, step: float) -> float:
-    """Largest change of a sample / peak of its column.
-
-    Both records are piecewise linear, with corners at the old and the new samples, and agree at the
-    new samples. The largest difference is therefore at an old sample.
-    """
+    """Largest change of a sample / peak of its column."""
+    # Both records are piecewise linear, with corners at the old and the new samples, and agree at
+    # the new samples. The largest difference is therefore at an old sample.
     times = t_s[0] + step * np.arange(even.shape[1])
     moved = [
         np.abs(np.interp(t_s, times, new) - old).max()
