@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike
 
 from solver.building.structure import Building
 from solver.kernels import oscillator
-from solver.model import Floats, InputError, Motion
-from solver.records.record import read_only
+from solver.model import Floats, Motion
+from solver.records.record import raise_any, read_only
 from solver.records.spectrum import refined
 
 SHARE = 0.05
@@ -264,7 +264,8 @@ def _carried(ground: Floats, dt_s: float, building: Building, cut: _Cut, steps: 
     modal = absolute_accelerations(a, dt, building.periods_s[taken], building.damping[taken])
     roof = a * (1.0 - factors.sum()) + modal @ factors
     top = float(np.abs(roof).max())
-    end = min(max(n, _last_over(roof, RESTING_SHARE * top) + 2), roof.size)
+    (over,) = np.nonzero(np.abs(roof) > RESTING_SHARE * top)
+    end = min(max(n, int(over.max(initial=0)) + 2), roof.size)
     return RoofMotion(
         dt_s=dt,
         a_mps2=read_only(roof[:end]),
@@ -309,11 +310,6 @@ def _steps(n_modes: int, dt_s: float, building: Building) -> int:
     return min(max(math.ceil(FINENESS * dt_s / fastest - 1e-9), 1), MOST_STEPS)
 
 
-def _last_over(a: Floats, limit: float) -> int:
-    over = np.flatnonzero(np.abs(a) > limit)
-    return int(over[-1]) if over.size else 0
-
-
 def _checked(ground_mps2: ArrayLike, dt_s: float, share: float) -> Floats:
     ground = np.asarray(ground_mps2, dtype=np.float64)
     problems = []
@@ -323,6 +319,5 @@ def _checked(ground_mps2: ArrayLike, dt_s: float, share: float) -> Floats:
         problems.append(f"time step dt is {dt_s!r}; give a number of seconds above 0")
     if not 0.0 <= share < 1.0:
         problems.append(f"limit on neglected modes is {share!r}; give 0 to below 1")
-    if problems:
-        raise InputError(problems)
+    raise_any(problems)
     return ground

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from solver.model import Floats, InputError
-from solver.records.record import read_only
+from solver.records.record import raise_any, read_only
 
 MOST_ALPHA0 = 1000.0
 """Largest finite lateral stiffness ratio; infinity is the shear beam."""
@@ -170,11 +170,9 @@ def _sech(beta: Floats) -> Floats:
 
 
 def _weights(gamma: Floats, beta: Floats) -> tuple[Floats, Floats, Floats]:
-    """Coefficients eta of -cos(gamma x), and those of exp(-beta x) and exp(-beta (1 - x)).
-
-    The hyperbolic part of a shape is written with exponentials that decay from either end: the
-    difference of sinh and cosh would lose all digits for beta above 36.
-    """
+    """Coefficients eta of -cos(gamma x), and those of exp(-beta x) and exp(-beta (1 - x))."""
+    # The hyperbolic part of a shape is written with exponentials that decay from either end: the
+    # difference of sinh and cosh would lose all digits for beta above 36.
     sine, cosine, sech = np.sin(gamma), np.cos(gamma), _sech(beta)
     whole = beta**2 + gamma**2 * cosine * sech
     eta = (gamma**2 * sine * sech + gamma * beta * np.tanh(beta)) / whole
@@ -338,8 +336,7 @@ def _check_periods(periods_s: Sequence[float], damping: Sequence[float]) -> None
                 f"damping: found {value}; give a fraction of critical from {LEAST_DAMPING:g} to "
                 f"{MOST_DAMPING:g}"
             )
-    if problems:
-        raise InputError(problems)
+    raise_any(problems)
 
 
 APPROXIMATE_PERIODS = MappingProxyType(
@@ -379,7 +376,6 @@ def approximate_period_s(system: str, height_m: float) -> float:
         )
     if not 0.0 < height_m < math.inf:
         problems.append(f"height: found {height_m} m; give a number above 0")
-    if problems:
-        raise InputError(problems)
+    raise_any(problems)
     coefficient, exponent = APPROXIMATE_PERIODS[system]
     return float(coefficient * (height_m / FOOT_M) ** exponent)

@@ -141,11 +141,9 @@ def _velocity_peaks(a: Floats, dt: float, v: Floats) -> Floats:
 
 
 def _displacement_peaks(a: Floats, dt: float, v: Floats, d: Floats) -> Floats:
-    """Displacements where the velocity is zero inside an interval.
-
-    The velocity is v + a x + r x^2 / 2 at a time x in the interval. The root of larger magnitude is
-    computed without cancellation, and the other one from the product of the roots.
-    """
+    """Displacements where the velocity is zero inside an interval."""
+    # The velocity is v + a x + r x^2 / 2 at a time x in the interval. The root of larger magnitude
+    # is computed without cancellation, and the other one from the product of the roots.
     r = np.diff(a) / dt
     start, speed, place = a[:-1], v[:-1], d[:-1]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -164,11 +162,9 @@ def _cumulative(a: Floats, dt: float) -> Floats:
 
 
 def _time_of(a: Floats, dt: float, cumulative: Floats, wanted: float) -> float:
-    """Time at which the integral of a^2 reaches the value wanted.
-
-    Within an interval the integral is (c^3 - a^3) / (3 r), where c is the acceleration at the time
-    x and c - a = r x. Factoring out c - a gives x without cancellation.
-    """
+    """Time at which the integral of a^2 reaches the value wanted."""
+    # Within an interval the integral is (c^3 - a^3) / (3 r), where c is the acceleration at the
+    # time x and c - a = r x. Factoring out c - a gives x without cancellation.
     i = max(int(np.searchsorted(cumulative, wanted)) - 1, 0)
     start, r = float(a[i]), float(a[i + 1] - a[i]) / dt
     missing = 3.0 * (wanted - float(cumulative[i]))

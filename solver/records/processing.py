@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.model import Floats, InputError
-from solver.records.record import Record, read_only
+from solver.records.record import Record, raise_any, read_only
 
 MAX_DEGREE = 8
 MAX_ORDER = 12
@@ -68,7 +68,9 @@ class Processing:
 
     def words(self) -> str:
         """Describe the processing in one line for a report."""
-        parts = [_trim_words(self), _baseline_words(self.baseline), *_filter_words(self)]
+        names = {-1: "", 0: "mean removed", 1: "straight line removed"}
+        baseline = names.get(self.baseline, f"polynomial of degree {self.baseline} removed")
+        parts = [_trim_words(self), baseline, *_filter_words(self)]
         if self.dt_s > 0.0:
             parts.append(f"resampled at {self.dt_s:g} s")
         if self.pad_s > 0.0:
@@ -146,8 +148,7 @@ def process_together(records: Sequence[Record], processing: Processing) -> tuple
         for other in records[1:]
         if (len(other.a_mps2), other.dt_s) != (len(first.a_mps2), first.dt_s)
     ]
-    if problems:
-        raise InputError(problems)
+    raise_any(problems)
     return tuple(process(record, processing) for record in records)
 
 
@@ -223,21 +224,15 @@ def _resampled(a: Floats, dt_s: float, new_s: float) -> Floats:
 
 
 def _without_aliases(a: Floats, ratio: float, finer: int) -> Floats:
-    """Remove content above the Nyquist frequency of a step coarser by `ratio`.
-
-    The result has `finer` points per old step.
-    """
+    """Remove content above the new Nyquist frequency; the result has `finer` points per step."""
     pad = math.ceil(_RINGING * ratio)
     wide = np.pad(a, pad)
-    spectrum = np.fft.rfft(wide) * _anti_alias(ratio * _frequencies(len(wide), 1.0))
+    # In cycles per new step, of which the gain is zero at 1/2 and above.
+    cycles = ratio * _frequencies(len(wide), 1.0)
+    part = np.clip((2.0 * cycles - _PASSED) / (1.0 - _PASSED), 0.0, 1.0)
+    spectrum = np.fft.rfft(wide) * (0.5 + 0.5 * np.cos(math.pi * part))
     drawn = finer * np.fft.irfft(spectrum, finer * len(wide))
     return np.asarray(drawn[finer * pad : finer * (pad + len(a) - 1) + 1])
-
-
-def _anti_alias(cycles: Floats) -> Floats:
-    """Gain at frequencies in cycles per new step: zero at 1/2 and above."""
-    part = np.clip((2.0 * cycles - _PASSED) / (1.0 - _PASSED), 0.0, 1.0)
-    return np.asarray(0.5 + 0.5 * np.cos(math.pi * part))
 
 
 def _finer(ratio: float) -> int:
@@ -257,11 +252,6 @@ def _trim_words(processing: Processing) -> str:
         return ""
     end = "the end" if math.isinf(processing.to_s) else f"{processing.to_s:g} s"
     return f"cut to {processing.from_s:g} s to {end}"
-
-
-def _baseline_words(degree: int) -> str:
-    names = {-1: "", 0: "mean removed", 1: "straight line removed"}
-    return names.get(degree, f"polynomial of degree {degree} removed")
 
 
 def _filter_words(processing: Processing) -> list[str]:

@@ -14,7 +14,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from solver.kernels import oscillator
 from solver.model import Floats, InputError, Motion
@@ -155,7 +155,9 @@ def response_spectrum(
         omega = 2.0 * math.pi / periods
     rigid = ~np.isfinite(omega)
     spectrum = np.full(omega.shape, np.abs(a).max())
-    steps = _peak_steps(float(dt_s), np.where(rigid, 0.0, omega))
+    # Points per interval at which the peak of an oscillator is evaluated: powers of two.
+    needed = PEAK_FINENESS * float(dt_s) * np.where(rigid, 0.0, omega) / (2.0 * math.pi)
+    steps = (2.0 ** np.ceil(np.log2(np.clip(needed, 1.0, PEAK_STEPS)))).astype(np.int64)
     for each in np.unique(steps[~rigid]).tolist():
         some = ~rigid & (steps == each)
         peak, at = np.empty(some.sum()), np.empty(some.sum(), dtype=np.int64)
@@ -163,12 +165,6 @@ def response_spectrum(
         oscillator.peaks(fine, dt_s / each, omega[some], float(damping), peak, at)
         spectrum[some] = np.abs(peak)
     return spectrum
-
-
-def _peak_steps(dt_s: float, omega: Floats) -> NDArray[np.int64]:
-    """Points per interval at which the peak of an oscillator is evaluated: powers of two."""
-    needed = np.clip(PEAK_FINENESS * dt_s * omega / (2.0 * math.pi), 1.0, PEAK_STEPS)
-    return (2.0 ** np.ceil(np.log2(needed))).astype(np.int64)
 
 
 def refined(a: Floats, steps: int) -> Floats:
@@ -281,8 +277,12 @@ def factor_to_target(
     >>> round(factor_to_target(records, target, (0.2, 2.0)), 3)
     0.359
     """
-    _check_range(periods_s)
     shortest_s, longest_s = periods_s
+    if not 0.0 < shortest_s < longest_s < math.inf:
+        raise InputError(
+            f"period range is {shortest_s:g} s to {longest_s:g} s; give two periods above 0, the "
+            f"second longer"
+        )
     count = math.ceil(PER_DECADE * math.log10(longest_s / shortest_s)) + 1
     periods = np.geomspace(shortest_s, longest_s, max(count, 2))
     logs = [_log_spectrum(record, periods) for record in horizontals]
@@ -297,15 +297,6 @@ def _log_spectrum(record: Record, periods_s: Floats) -> Floats:
     return np.asarray(np.log(spectrum / UNITS["g"]))
 
 
-def _check_range(periods_s: tuple[float, float]) -> None:
-    shortest, longest = periods_s
-    if not 0.0 < shortest < longest < math.inf:
-        raise InputError(
-            f"period range is {shortest:g} s to {longest:g} s; give two periods above 0, the "
-            f"second longer"
-        )
-
-
 def _check_design(s_ds_g: float, s_d1_g: float, t_l_s: float) -> None:
     problems = [
         f"{name} is {value:g} {unit}; give a number above 0"
@@ -318,5 +309,4 @@ def _check_design(s_ds_g: float, s_d1_g: float, t_l_s: float) -> None:
     ]
     if not problems and t_l_s <= s_d1_g / s_ds_g:
         problems = [f"T_L is {t_l_s:g} s; give more than T_S = {s_d1_g / s_ds_g:g} s"]
-    if problems:
-        raise InputError(problems)
+    raise_any(problems)

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from solver.formats.layout import parse
 from solver.model import Floats, Friction, InputError, Motion, Scene, coulomb
-from solver.records.record import UNITS, Record, has_gravity, read_only
+from solver.records.record import UNITS, Record, has_gravity, raise_any, read_only
 from solver.records.record import unit_size as records_unit
 from solver.rivals.methods import ANY_NUMBER, METHODS, NO_RECORD, WANTED, Method, Parameters
 from solver.sliding import two_axes
@@ -59,7 +59,12 @@ def checked_scene(
         name: checked_number(name, value, wanted, fits, problems)
         for name, value, wanted, fits in (
             ("dt_s", dt_s, "a number of seconds above 0", lambda v: 0.0 < v < math.inf),
-            ("slope_rad", slope_rad, "an angle between -pi/2 and pi/2", is_slope),
+            (
+                "slope_rad",
+                slope_rad,
+                "an angle between -pi/2 and pi/2",
+                lambda v: abs(v) < math.pi / 2,
+            ),
             ("scale", scale, "a finite factor", math.isfinite),
             ("g_mps2", g_mps2, "a number of m/s2 above 0", lambda v: 0.0 < v < math.inf),
         )
@@ -70,12 +75,10 @@ def checked_scene(
         problems += _plane_faults(method, parameters)
     else:
         problems += _faults(method_of(method), parameters, records["az_mps2"] is not None)
-    if problems:
-        raise InputError(problems)
+    raise_any(problems)
     numbers["scale"] *= factor
     run = Scene(ax_mps2=ax, ay_mps2=ay, az_mps2=az, friction=friction, **numbers)
-    if faults := overflow(run):
-        raise InputError(faults)
+    raise_any(overflow(run))
     if az.size and has_gravity(az):
         raise InputError(
             f"az_mps2 has a mean of {az.mean():.3g} m/s2: gravity is in it; subtract the mean"
@@ -208,11 +211,6 @@ def overflow(scene: Scene) -> list[str]:
         f"s in steps of {scene.dt_s:.2g} s exceed the floating-point range; change scale, dt_s, mu "
         "or g_mps2"
     ]
-
-
-def is_slope(value: float) -> bool:
-    """Whether the value is a possible roof slope [rad]."""
-    return abs(value) < math.pi / 2
 
 
 def checked_number(

@@ -185,11 +185,9 @@ def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
 
 
 def _left_out(chosen: SlideResult, *fuller: SlideResult) -> float:
-    """Return the largest change of a displacement by more complete models [m]; inf: none.
-
-    Excursions are compared as well: two models may give the same PRD by chance on different paths.
-    So are residuals, which cumulative displacement adds up.
-    """
+    """Return the largest change of a displacement by more complete models [m]; inf: none."""
+    # Excursions are compared as well: two models may give the same PRD by chance on different
+    # paths. So are residuals, which cumulative displacement adds up.
     effects = [
         abs(getattr(result, name) - getattr(chosen, name)) + result.error_m
         for result in fuller

@@ -14,7 +14,8 @@ import numpy as np
 
 from solver.forces import forces
 from solver.kernels import row as kernel
-from solver.model import Floats, InputError, Scene, SlideResult, Status, coulomb
+from solver.model import Floats, Scene, SlideResult, Status, coulomb
+from solver.records.record import raise_any
 from solver.sliding import one_axis
 
 MOST_STEPS = 10_000_000
@@ -124,8 +125,7 @@ def row_history(scene: Scene, row: BlockRow) -> Floats:
 
 def _run(scene: Scene, row: BlockRow, samples: Floats | None) -> RowResult:
     """Run a row; `samples`, if given, is filled with s at the samples."""
-    if problems := _faults(row) or _too_stiff(scene, row):
-        raise InputError(problems)
+    raise_any(_faults(row) or _too_stiff(scene, row))
     rigid = one_axis.run(replace(scene, friction=coulomb(row.mean_mu)))
     if rigid.status is Status.UPLIFT:
         return _nothing(Status.UPLIFT, row, rigid)

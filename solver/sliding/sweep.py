@@ -21,13 +21,12 @@ from solver.kernels.compiler import THREADS
 from solver.model import (
     STANDARD_GRAVITY_MPS2,
     Floats,
-    InputError,
     Scene,
     SlideResult,
     Status,
     coulomb,
 )
-from solver.records.record import Record
+from solver.records.record import Record, raise_any
 from solver.sliding import two_axes
 from solver.sliding.arguments import (
     Given,
@@ -151,11 +150,10 @@ def sweep(
         axis("scales", scales, -math.inf, math.inf, problems),
     ]
     dt, g = (
-        checked_number(name, value, "a number above 0", _is_size, problems)
+        checked_number(name, value, "a number above 0", lambda v: 0.0 < v < math.inf, problems)
         for name, value in (("dt_s", step_s), ("g_mps2", g_mps2))
     )
-    if problems:
-        raise InputError(problems)
+    raise_any(problems)
     _, mu, scale = (float(np.abs(axis).max()) for axis in axes)
     scale *= abs(factor)
     largest = Scene(
@@ -168,8 +166,7 @@ def sweep(
         scale=scale,
         g_mps2=g,
     )
-    if faults := overflow(largest):
-        raise InputError(faults)
+    raise_any(overflow(largest))
     if ay.size:
         return _run_in_plane(largest, axes, factor, progress or (lambda share: None))
     return _run(ax, az, dt, g, axes, factor, progress or (lambda share: None))
@@ -201,10 +198,6 @@ def _run_in_plane(
         residual_m=np.array([each.residual_m for each in results]).reshape(shape),
         status=np.array([STATUSES.index(r.status) for r in results], np.uint8).reshape(shape),
     )
-
-
-def _is_size(value: float) -> bool:
-    return 0.0 < value < math.inf
 
 
 def axis(name: str, values: ArrayLike, above: float, below: float, problems: list[str]) -> Floats:

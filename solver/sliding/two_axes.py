@@ -241,7 +241,8 @@ def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> TwoAxesO
         scene.g_mps2,
         scene.scale,
         step,
-        _degree(step),
+        # The degree that was measured as fastest for the tolerance of a step.
+        min(kernel.ORDER, 4 + math.ceil(-0.5 * math.log(step))),
         _MOST_STEPS + _MOST_STEPS_OF_SAMPLE * len(scene.ax_mps2),
         law,
         events,
@@ -268,8 +269,3 @@ def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> TwoAxesO
         n_steps=n_steps,
         step_tolerance=step,
     )
-
-
-def _degree(step: float) -> int:
-    """Largest degree of a series for a step tolerance: about -ln / 2 was measured as fastest."""
-    return min(kernel.ORDER, 4 + math.ceil(-0.5 * math.log(step)))

@@ -14,7 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.forces import friction_demand, normal_mps2
-from solver.model import Floats, Friction, InputError, Scene
+from solver.model import Floats, Friction, Scene
+from solver.records.record import raise_any
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -164,7 +165,12 @@ def tipping(scene: Scene, supports: Supports) -> Tipping:
 
 def tipping_at(demand: float, friction: Friction, supports: Supports) -> Tipping:
     """Return the same, or its error, from the largest shear over normal force with no slip."""
-    _check(supports)
+    lengths = {"height_m": supports.height_m, "spacing_m": supports.spacing_m}
+    raise_any(
+        f"{name} is {value!r}; give a length in meters above 0"
+        for name, value in lengths.items()
+        if not 0.0 < value < math.inf
+    )
     slips = demand > friction.mu_static
     return Tipping(
         demand=demand,
@@ -179,14 +185,3 @@ def _kinetic(friction: Friction) -> float:
     if friction.rate_s_per_m > 0.0:
         return max(friction.mu_slow, friction.mu_fast)
     return friction.mu_slow
-
-
-def _check(supports: Supports) -> None:
-    lengths = {"height_m": supports.height_m, "spacing_m": supports.spacing_m}
-    problems = [
-        f"{name} is {value!r}; give a length in meters above 0"
-        for name, value in lengths.items()
-        if not 0.0 < value < math.inf
-    ]
-    if problems:
-        raise InputError(problems)

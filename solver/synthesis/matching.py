@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.kernels import oscillator
-from solver.model import Floats, InputError
+from solver.model import Floats
 from solver.records.acceptance import POINTS_HZ
-from solver.records.record import DECIMALS, UNITS, Record, read_only
+from solver.records.record import DECIMALS, UNITS, Record, raise_any, read_only
 from solver.records.spectrum import response_spectrum
 from solver.rules.spectra import Target, target_sa_g
 
@@ -164,8 +164,6 @@ class MatchingFrame:
         displacement, and periods much longer than the longest of the target.
     freq_hz : array, shape (m,)
         Frequencies of the oscillators to match; the last one is rigid, for the peak acceleration.
-    pulses : array, shape (m, n)
-        Their pseudo-accelerations 0, 1, ... samples after a unit sample.
     """
 
     target: Target
@@ -213,8 +211,7 @@ def _check(target: Target, dt_s: float, duration_s: float) -> None:
         problems.append(f"time step dt is {dt_s!r}; give 0.001 to 0.01 s")
     if not 10.0 <= duration_s <= 60_000 * dt_s:
         problems.append(f"duration is {duration_s!r}; give from 10 s to 60,000 time steps")
-    if problems:
-        raise InputError(problems)
+    raise_any(problems)
 
 
 def _matched_hz(low_hz: float, high_hz: float) -> Floats:
@@ -230,10 +227,8 @@ def _matched_hz(low_hz: float, high_hz: float) -> Floats:
 
 
 def _quiet(from_start: Floats, lowest_cycles: float) -> Floats:
-    """Shapes to exclude: a constant, a line, and waves up to 0.7 of the lowest target frequency.
-
-    Otherwise a motion may drift by meters at periods for which there is no target.
-    """
+    """Shapes to exclude: a constant, a line, and waves up to 0.7 of the lowest target frequency."""
+    # Otherwise a motion may drift by meters at periods for which there is no target.
     waves = range(1, math.floor(0.7 * lowest_cycles) + 1)
     turns = [2.0 * math.pi * k * from_start for k in waves]
     shapes = [np.ones_like(from_start), 2.0 * from_start - 1.0]
@@ -310,10 +305,8 @@ def _joined_by(frame: MatchingFrame, more_hz: Floats) -> MatchingFrame:
 
 
 def _corrected(frame: MatchingFrame, a: Floats) -> Floats:
-    """Make the smallest change under the envelope's square that moves the peaks into the interval.
-
-    The square leaves the ends weak, where late peaks of long periods would add.
-    """
+    """Make the smallest change under the envelope's square that moves peaks into the interval."""
+    # The square leaves the ends weak, where late peaks of long periods would add.
     rows = _asked(frame, a)
     blocks = _blocks(frame, rows)
     m, q = len(rows.radians), len(frame.quiet)
@@ -364,12 +357,10 @@ def _asked(frame: MatchingFrame, a: Floats) -> _Rows:
 
 
 def _blocks(frame: MatchingFrame, asked: _Rows) -> list[tuple[_Samples, Floats]]:
-    """Rows of the equations under the envelope's square, by block of samples: which, and values.
-
-    A peak is the sum of the samples before it, each multiplied by the pulse response after the
-    time between them, which is the pulse response reversed in time. The quiet shapes are the last
-    rows; they stay exactly zero.
-    """
+    """Rows of the equations under the envelope's square, by block of samples: which, and values."""
+    # A peak is the sum of the samples before it, each multiplied by the pulse response after the
+    # time between them, which is the pulse response reversed in time. The quiet shapes are the last
+    # rows; they stay exactly zero.
     m, n, q = len(asked.radians), len(frame.envelope), len(frame.quiet)
     rows, begin = np.zeros((m + q, n)), np.zeros(m + q)
     begin[:m] = oscillator.reversed_pulses(asked.radians, DAMPING, asked.at, _DECAYED, rows[:m])
