@@ -3,6 +3,7 @@
 import numpy as np
 
 from solver.model import Friction, Scene, coulomb
+from solver.records.record import Record
 
 
 def readonly(values):
@@ -23,6 +24,15 @@ def block(ax, ay=(), az=(), *, dt=0.01, slope=0.0, friction=0.4, scale=1.0, g=9.
         scale=scale,
         g_mps2=g,
     )
+
+
+def record(values, dt_s=0.01, name="r"):
+    return Record(name=name, dt_s=dt_s, a_mps2=np.asarray(values, dtype=float))
+
+
+def places(outcome):
+    """Return the PRD, the four excursions and the end of a motion in plan [m]."""
+    return np.array(outcome.places)
 
 
 def trapezoid(peak, plateau, rest):

@@ -30,6 +30,28 @@ class PlaneOracle:
     events: list[tuple[float, float, float]]  # time, x, y: a slip, a stop, and so on
     history: np.ndarray
 
+    @property
+    def places(self):
+        """In the order of the solver's `TwoAxesOutcome.places`."""
+        return self.prd, self.x_max, -self.x_min, self.y_max, -self.y_min, *self.end
+
+
+def follow(scene):
+    """Return the motion of a scene, with its friction law."""
+    friction = scene.friction
+    drop = friction.mu_fast - friction.mu_slow
+    return slide(
+        scene.ax_mps2,
+        scene.ay_mps2,
+        scene.dt_s,
+        slope_rad=scene.slope_rad,
+        mu=lambda w: friction.mu_fast - drop * math.exp(-friction.rate_s_per_m * w),
+        mu_static=friction.mu_static,
+        az=scene.az_mps2 if scene.az_mps2.size else None,
+        scale=scene.scale,
+        g=scene.g_mps2,
+    )
+
 
 class _Interval:
     """Drive and normal force in one interval, linear in time, along the roof."""

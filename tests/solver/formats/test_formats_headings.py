@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from solver.formats.layout import Kind, parse, remark, settled, step_in, units_in, words
+from solver.formats.layout import Kind, parse, remark, settled, units_in, words
 from solver.records.record import UNIT_CHOICES, UNITS, is_other_unit, unit_size
 
 pytestmark = pytest.mark.quick
@@ -157,17 +157,3 @@ def test_a_letter_g_is_a_unit_only_where_all_state_one():
 )
 def test_prose_may_state_units(line, units):
     assert list(dict.fromkeys(units_in(line))) == units
-
-
-@pytest.mark.parametrize(
-    ("line", "step"),
-    [
-        ("dt = 0.005 s", ("0.005", 1.0)),
-        ("dt_s: 5e-3", ("5e-3", 1.0)),
-        ("DT[s]=.01", (".01", 1.0)),
-        ("time step: 5 ms", ("5", 0.001)),
-        ("width = 3", ("", 1.0)),
-    ],
-)
-def test_prose_may_state_a_time_step(line, step):
-    assert step_in(line) == step

@@ -16,12 +16,6 @@ def problems_of(path, units="g", dt_s=math.nan):
     return refused(open_source, path, units=units, dt_s=dt_s)
 
 
-@pytest.fixture
-def of_step(file):
-    """A function that returns the source with a time step that the caller gives."""
-    return lambda dt_s=math.nan: open_source(file("x"), units="", dt_s=dt_s)
-
-
 @pytest.mark.parametrize("content", [b"\x89PNG\r\n\x1a\n\x00", b"\xff\xfe\x00", b"a\x1a\x00b"])
 def test_what_is_no_text_is_refused(file, content):
     assert problems_of(file(content)) == ("roof.csv: not a text file; give the text of a record",)
@@ -80,31 +74,10 @@ def test_unknown_units_and_impossible_steps_are_refused_together(file, dt_s):
     assert problems[1].startswith(f"roof.csv: time step dt is {dt_s!r}; give a number")
 
 
-def test_a_stated_unit_must_be_one_of_acceleration(of_step):
-    assert of_step().scale("CM/SEC/SEC", 0) == 0.01
-    assert refused(of_step().scale, "cm/s", 0) == (
-        "roof.csv:1: found unit 'cm/s'; give an acceleration in g, m/s2, cm/s2, mm/s2, gal",
-    )
-
-
-MILLISECONDS = Stated(value=0.008, rounding=0.0005, index=0)
-
-
-@pytest.mark.parametrize(
-    ("given", "expected"), [(math.nan, 0.008), (1 / 128, 1 / 128), (0.0084, 0.0084)]
-)
-def test_a_given_step_may_differ_by_the_rounding_of_the_stated_one(of_step, given, expected):
-    assert of_step(given).step(MILLISECONDS) == expected
-
-
-def test_a_given_step_beyond_the_rounding_is_refused(of_step):
-    (problem,) = refused(of_step(0.01).step, MILLISECONDS)
-    assert "the time step of the file is 0.008 s but dt is 0.01 s; give the dt" in problem
-
-
 @pytest.mark.parametrize("value", [0.0, -0.01, math.inf])
-def test_a_stated_step_must_be_one(of_step, value):
-    (problem,) = refused(of_step().step, Stated(value=value, rounding=0.0, index=0))
+def test_a_stated_step_must_be_one(file, value):
+    source = open_source(file("x"), units="", dt_s=math.nan)
+    (problem,) = refused(source.step, Stated(value=value, rounding=0.0, index=0))
     assert problem == f"roof.csv:1: found time step {value:g} s; give a number above 0"
 
 

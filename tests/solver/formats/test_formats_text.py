@@ -201,7 +201,10 @@ def test_a_comment_that_may_mean_something_else_asks_nothing(file, remark):
     assert record.a_mps2.tolist() == [G, 2.0 * G]
 
 
-@pytest.mark.parametrize("remark", ["# dt = 0.005 s", "a_g  dt=5 ms", "# dt_s: 5e-3"])
+@pytest.mark.parametrize(
+    "remark",
+    ["# dt = 0.005 s", "a_g  dt=5 ms", "# dt_s: 5e-3", "# DT[s]=.005", "# time step: 5 ms"],
+)
 def test_a_step_that_a_remark_states_is_taken(file, remark):
     assert read_record(file(f"{remark}\n1\n2\n"), units="g").dt_s == 0.005
 
@@ -406,6 +409,7 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
         ("time,acc\n", [" found no numbers"]),
         ("0,1\n", [" found 1 sample; give at least 2"]),
         ("1\n2\n", [" found one column, without times; give the time step dt"]),
+        ("# width = 3\n1\n2\n", [" found one column, without times; give the time step dt"]),
     ],
 )
 def test_each_line_at_fault_is_named_with_what_would_do(file, content, expected):

@@ -8,17 +8,12 @@ import sys
 import numpy as np
 import pytest
 
+from blocks import readonly
 from solver.kernels import one_axis, two_axes
 
 pytestmark = pytest.mark.quick
 
 G = 10.0
-
-
-def readonly(values):
-    array = np.array(values, dtype=np.float64)
-    array.setflags(write=False)
-    return array
 
 
 def wave(seed, n):

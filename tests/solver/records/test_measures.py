@@ -9,18 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import PPoly
 
+from blocks import record
 from solver.records.measures import measures, velocity_displacement
-from solver.records.record import Record
 
 pytestmark = pytest.mark.quick
 
 G = 9.80665
 
 motions = st.lists(st.floats(-20.0, 20.0, width=16), min_size=2, max_size=30).map(np.array)
-
-
-def record(values, dt_s=0.01):
-    return Record(name="r", dt_s=dt_s, a_mps2=np.asarray(values, dtype=float))
 
 
 def pieces(a, dt):

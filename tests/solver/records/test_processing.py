@@ -6,19 +6,15 @@ import numpy as np
 import pytest
 from scipy import signal
 
+from blocks import record
 from refused import refused
 from solver.records.measures import measures
 from solver.records.processing import Processing, process, process_together
-from solver.records.record import Record
 from solver.sliding.checked import slide
 
 pytestmark = pytest.mark.quick
 
 G = 9.80665
-
-
-def record(values, dt_s=0.01, name="r"):
-    return Record(name=name, dt_s=dt_s, a_mps2=np.asarray(values, dtype=float))
 
 
 def wave(hz, seconds, dt_s=0.01):

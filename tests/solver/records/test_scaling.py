@@ -6,9 +6,9 @@ from functools import partial
 import numpy as np
 import pytest
 
+from blocks import record
 from refused import refused
 from solver.model import InputError
-from solver.records.record import Record
 from solver.records.spectrum import design_spectrum, factor_to_target, response_spectrum
 from solver.rules.spectra import ac156_vertical, target_sa_g
 
@@ -16,10 +16,6 @@ pytestmark = pytest.mark.quick
 
 G = 9.80665
 LEVEL = partial(target_sa_g, (np.array([0.1, 100.0]), np.array([1.0, 1.0])))
-
-
-def record(a, name="r"):
-    return Record(name=name, dt_s=0.01, a_mps2=np.asarray(a, dtype=float))
 
 
 def own_spectrum(a):
@@ -59,7 +55,7 @@ class TestFactor:
 
     def test_a_record_of_zeros_is_refused(self, noise):
         with pytest.raises(InputError, match="quiet: is zero throughout; it cannot be scaled"):
-            factor_to_target([record(noise), record(np.zeros(9), "quiet")], LEVEL, (0.2, 2.0))
+            factor_to_target([record(noise), record(np.zeros(9), name="quiet")], LEVEL, (0.2, 2.0))
 
     @pytest.mark.parametrize("range_s", [(0.0, 1.0), (1.0, 1.0), (2.0, 1.0), (math.nan, 1.0)])
     def test_a_range_that_is_none_is_refused(self, noise, range_s):

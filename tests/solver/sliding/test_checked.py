@@ -468,12 +468,6 @@ def test_arguments_at_fault_raise_the_input_error(change, message):
         slide(arguments.pop("ax_mps2"), arguments.pop("dt_s"), **arguments)
 
 
-def test_all_faults_are_named_at_once():
-    with pytest.raises(InputError) as raised:
-        slide([0.0], -1.0, slope_rad=9.0, mu=-1.0)
-    assert len(raised.value.problems) == 4
-
-
 # Friction by speed, and the public scene
 
 

@@ -9,10 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import plane_oracle
+from blocks import block, places
 from nightly import by_day
 from places import RECORDS
 from solver.formats.reader import read_motion_file
-from solver.model import EventKind, Friction, Scene, coulomb
+from solver.model import EventKind
 from solver.sliding import checked, one_axis, two_axes
 from solver.sliding.two_axes import follow, follow_history
 
@@ -23,23 +24,8 @@ ORACLE = 2e-12
 """Error that SciPy itself makes: it begins a slip a little late."""
 
 
-def readonly(values):
-    array = np.array(values, dtype=np.float64)
-    array.setflags(write=False)
-    return array
-
-
 def scene(ax, ay, dt, *, degrees=0.0, friction=0.3, az=NONE, scale=1.0):
-    return Scene(
-        ax_mps2=readonly(ax),
-        ay_mps2=readonly(ay),
-        az_mps2=readonly(az),
-        dt_s=dt,
-        slope_rad=math.radians(degrees),
-        friction=friction if isinstance(friction, Friction) else coulomb(friction),
-        scale=scale,
-        g_mps2=G,
-    )
+    return block(ax, ay, az, dt=dt, slope=math.radians(degrees), friction=friction, scale=scale)
 
 
 def shaking(seed, n=400, dt=0.01, peak=8.0):
@@ -50,11 +36,6 @@ def shaking(seed, n=400, dt=0.01, peak=8.0):
     waves = np.sin(2 * np.pi * freq * t + phase).sum(axis=1) * np.sin(np.pi * t / t[-1]) ** 2
     waves *= peak / np.abs(waves).max(axis=1, keepdims=True)
     return waves[0], waves[1], 0.3 * waves[2]
-
-
-def places(outcome):
-    sides = outcome.down_m, outcome.up_m, outcome.left_m, outcome.right_m
-    return np.array([outcome.prd_m, *sides, *outcome.end_m])
 
 
 @pytest.mark.parametrize("degrees", [-6.0, 0.0, 4.0])
@@ -128,8 +109,8 @@ def test_steady_circular_shaking_slides_in_a_circle():
     # In the turning frame v stands still: A^2 = (mu g)^2 + (omega v)^2.
     a, omega, mu, dt = 6.0, 2.0 * math.pi, 0.3, 0.0005
     t = np.arange(30_001) * dt
-    block = scene(a * np.cos(omega * t), a * np.sin(omega * t), dt, friction=mu)
-    samples, _ = follow_history(block, follow(block, 1e-9))
+    run = scene(a * np.cos(omega * t), a * np.sin(omega * t), dt, friction=mu)
+    samples, _ = follow_history(run, follow(run, 1e-9))
     # Straight lines between samples leave so much of a sine.
     a *= (math.sin(0.5 * omega * dt) / (0.5 * omega * dt)) ** 2
     expected = math.sqrt(a * a - (mu * G) ** 2) / omega
@@ -144,9 +125,9 @@ def test_under_a_constant_drive_across_it_stops_as_the_closed_form_says():
     dt, mu, drive = 0.01, 0.4, 2.0
     ax, ay = np.zeros(200), np.full(200, -drive)
     ax[1:6] = -9.0
-    block = scene(ax, ay, dt, friction=mu)
-    outcome = follow(block, 1e-10)
-    samples, events = follow_history(block, outcome)
+    run = scene(ax, ay, dt, friction=mu)
+    outcome = follow(run, 1e-10)
+    samples, events = follow_history(run, outcome)
     x, y, vx, vy = samples[:, 6]
     w, c, along = math.hypot(vx, vy), mu * G, drive * vy
     rest = (c * w + along) / (c * c - drive * drive)
@@ -190,8 +171,8 @@ def test_a_bound_is_never_below_the_rounding_that_one_axis_allows_for(sign):
         (sign * 1500.0 * ramp, NONE),
         (still, sign * 6.0 * ramp),
     ):
-        block = scene(ax, still, 1.0, degrees=30.0, friction=0.0, az=az)
-        assert follow(block, 1e-10).error_m >= 0.5 * one_axis.rounding(one_axis.prepared(block))
+        run = scene(ax, still, 1.0, degrees=30.0, friction=0.0, az=az)
+        assert follow(run, 1e-10).error_m >= 0.5 * one_axis.rounding(one_axis.prepared(run))
 
 
 def test_nothing_moves_below_the_yield_acceleration():
@@ -202,11 +183,11 @@ def test_nothing_moves_below_the_yield_acceleration():
 
 
 def test_a_first_sample_beyond_the_yield_acceleration_slides_at_once():
-    block = scene([-3.0, -3.0, 6.0, 6.0], [-4.0, -4.0, 8.0, 8.0], 0.1, friction=0.2)
+    run = scene([-3.0, -3.0, 6.0, 6.0], [-4.0, -4.0, 8.0, 8.0], 0.1, friction=0.2)
     exact = checked.slide([-5.0, -5.0, 10.0, 10.0], 0.1, slope_rad=0.0, mu=0.2)
-    _, events = follow_history(block, follow(block))
+    _, events = follow_history(run, follow(run))
     assert events[0].t_s == 0.0
-    assert follow(block).prd_m == pytest.approx(exact.prd_m, rel=1e-9)
+    assert follow(run).prd_m == pytest.approx(exact.prd_m, rel=1e-9)
 
 
 TRAPS = {
@@ -227,31 +208,22 @@ TRAPS = {
 @pytest.mark.parametrize("mu", [0.2, 2.0 / G])
 def test_traps_are_followed_as_scipy_follows_them(name, mu):
     ax, ay = TRAPS[name]
-    exact = plane_oracle.slide(ax, ay, 0.05, slope_rad=0.0, mu=mu, g=G)
+    trap = scene(ax, ay, 0.05, friction=mu)
+    exact = plane_oracle.follow(trap)
     for tolerance in (1e-4, 1e-6, 1e-8, 1e-10):
-        outcome = follow(scene(ax, ay, 0.05, friction=mu), tolerance)
+        outcome = follow(trap, tolerance)
         error = abs(outcome.prd_m - exact.prd)
         assert error <= outcome.error_m + ORACLE * exact.prd
         assert outcome.error_m <= tolerance * exact.prd
         assert outcome.peak_mps == pytest.approx(exact.fastest, rel=tolerance + ORACLE)
 
 
-def assert_every_tolerance_is_kept_to(block):
-    exact = plane_oracle.slide(
-        block.ax_mps2,
-        block.ay_mps2,
-        block.dt_s,
-        slope_rad=block.slope_rad,
-        mu=block.friction.mu_slow,
-        az=block.az_mps2,
-        scale=block.scale,
-        g=G,
-    )
-    theirs = (exact.prd, exact.x_max, -exact.x_min, exact.y_max, -exact.y_min, *exact.end)
+def assert_every_tolerance_is_kept_to(run):
+    exact = plane_oracle.follow(run)
     assert exact.prd > 0.0
     for tolerance in (1e-2, 1e-4, 1e-6, 1e-8, 1e-10):
-        outcome = follow(block, tolerance)
-        error = np.abs(places(outcome) - theirs).max()
+        outcome = follow(run, tolerance)
+        error = np.abs(places(outcome) - exact.places).max()
         assert error <= outcome.error_m + ORACLE * exact.prd
         assert outcome.error_m <= tolerance * exact.prd
         assert outcome.peak_mps == pytest.approx(exact.fastest, rel=tolerance + ORACLE)
@@ -279,17 +251,16 @@ def test_every_tolerance_is_kept_to_on_real_records(name, degrees, mu, scale):
     ax, ay, az = (channel.a_mps2 for channel in read_motion_file(RECORDS / name).channels)
     peak = int(np.abs(ax).argmax())
     part = slice(peak - 6, peak + 12)
-    block = scene(ax[part], ay[part], 0.02, degrees=degrees, friction=mu, az=az[part], scale=scale)
-    assert_every_tolerance_is_kept_to(block)
+    run = scene(ax[part], ay[part], 0.02, degrees=degrees, friction=mu, az=az[part], scale=scale)
+    assert_every_tolerance_is_kept_to(run)
 
 
 @pytest.mark.nightly
 def test_the_history_is_that_of_scipy_and_its_events_alternate():
     ax, ay, az = shaking(8, n=40, dt=0.04)
-    exact = plane_oracle.slide(ax, ay, 0.04, slope_rad=0.05, mu=0.35, az=az, g=G)
-    block = replace(scene(ax, ay, 0.04, friction=0.35, az=az), slope_rad=0.05)
-    outcome = follow(block, 1e-9)
-    samples, events = follow_history(block, outcome)
+    run = replace(scene(ax, ay, 0.04, friction=0.35, az=az), slope_rad=0.05)
+    exact, outcome = plane_oracle.follow(run), follow(run, 1e-9)
+    samples, events = follow_history(run, outcome)
     assert samples == pytest.approx(exact.history, abs=1e-9)
     kinds = [event.kind for event in events]
     assert kinds == [EventKind.SLIP, EventKind.STOP] * outcome.n_stops
@@ -300,11 +271,11 @@ def test_the_history_is_that_of_scipy_and_its_events_alternate():
 
 
 def test_the_largest_distance_is_found_between_samples():
-    block = scene([0.0, -8.0, 8.0, 8.0, 0.0], [0.0, -6.0, 2.0, 9.0, 0.0], 0.2, friction=0.3)
-    outcome = follow(block, 1e-10)
+    run = scene([0.0, -8.0, 8.0, 8.0, 0.0], [0.0, -6.0, 2.0, 9.0, 0.0], 0.2, friction=0.3)
+    outcome = follow(run, 1e-10)
     fine = [
         np.interp(np.arange(0.0, 0.80001, 0.0002), np.arange(5) * 0.2, a)
-        for a in (block.ax_mps2, block.ay_mps2)
+        for a in (run.ax_mps2, run.ay_mps2)
     ]
     samples, _ = follow_history(
         scene(*fine, 0.0002, friction=0.3), follow(scene(*fine, 0.0002), 1e-8)
@@ -333,9 +304,9 @@ def test_samples_put_between_change_nothing(seed, mu, degrees, factor):
 @given(seed=st.integers(0, 1000), mu=st.floats(0.0, 0.9), scale=st.floats(0.25, 4.0))
 def test_a_motion_and_gravity_scaled_scale_the_answer(seed, mu, scale):
     ax, ay, az = shaking(seed, n=80, dt=0.02)
-    block = scene(ax, ay, 0.02, degrees=3.0, friction=mu, az=az)
-    outcome = follow(block, 1e-8)
-    two = follow(replace(block, scale=scale, g_mps2=scale * G), 1e-8)
+    run = scene(ax, ay, 0.02, degrees=3.0, friction=mu, az=az)
+    outcome = follow(run, 1e-8)
+    two = follow(replace(run, scale=scale, g_mps2=scale * G), 1e-8)
     assert places(two) == pytest.approx(scale * places(outcome), abs=2e-8 * scale * outcome.prd_m)
 
 

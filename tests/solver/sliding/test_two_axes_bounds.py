@@ -11,11 +11,11 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from blocks import block, places
 from campaign import campaign
 from places import DATA
-from solver.model import Friction, Scene, Status, coulomb
+from solver.model import Friction, Status, coulomb
 from solver.records.record import read_only
-from solver.rivals.methods import NO_RECORD
 from solver.sliding import checked, least_model, two_axes
 from solver.sliding.least_model import Model
 from solver.sliding.two_axes import follow
@@ -29,11 +29,10 @@ SCENES = json.loads((DATA / "two_axes.json").read_text("utf-8"))
 
 def scene(group, number):
     """Return a scene of the file; an empty vertical is none."""
-    given = SCENES[group][number]
-    records = {name: read_only(given[name]) for name in ("ax_mps2", "ay_mps2", "az_mps2")}
-    friction = Friction(**given["friction"]) if "friction" in given else coulomb(given["mu"])
-    about = {name: given[name] for name in ("dt_s", "slope_rad")}
-    return Scene(**records, **about, friction=friction, scale=1.0, g_mps2=G)
+    row = SCENES[group][number]
+    records = (row[name] for name in ("ax_mps2", "ay_mps2", "az_mps2"))
+    friction = Friction(**row["friction"]) if "friction" in row else row["mu"]
+    return block(*records, dt=row["dt_s"], slope=row["slope_rad"], friction=friction)
 
 
 def status_at(group, number, tolerance):
@@ -43,11 +42,6 @@ def status_at(group, number, tolerance):
 
 def every(group):
     return range(len(SCENES[group]))
-
-
-def places(outcome):
-    sides = outcome.down_m, outcome.up_m, outcome.left_m, outcome.right_m
-    return np.array([outcome.prd_m, *sides, *outcome.end_m])
 
 
 @pytest.mark.nightly
@@ -63,15 +57,15 @@ def test_scenes_that_hung_crashed_or_took_20_s_end():
 @pytest.mark.parametrize("group", ["hang", "over_the_bound", "onset_of_friction_by_speed"])
 def test_scenes_that_broke_the_bound_keep_to_it(group, tolerance):
     for number in every(group):
-        block = scene(group, number)
-        outcome, tight = follow(block, tolerance), follow(block, 1e-10)
+        run = scene(group, number)
+        outcome, tight = follow(run, tolerance), follow(run, 1e-10)
         off = np.abs(places(outcome) - places(tight)).max()
         assert off <= outcome.error_m + tight.error_m
         assert outcome.error_m <= tolerance * max(tight.prd_m, 1e-6)
         for factor in (2, 3, 5, 7):
-            split = follow(finer(block, factor), tolerance)
+            split = follow(finer(run, factor), tolerance)
             off = np.abs(places(outcome) - places(split)).max()
-            assert off <= outcome.error_m + split.error_m + rounding(block)
+            assert off <= outcome.error_m + split.error_m + rounding(run)
 
 
 def test_no_slip_stops_before_it_begins():
@@ -176,29 +170,20 @@ def extremes_of_cubics(ax, ay, dt):
 
 
 def frictionless(ax, ay, dt):
-    return Scene(
-        ax_mps2=read_only(ax),
-        ay_mps2=read_only(ay),
-        az_mps2=NO_RECORD,
-        dt_s=dt,
-        slope_rad=0.0,
-        friction=coulomb(0.0),
-        scale=1.0,
-        g_mps2=G,
-    )
+    return block(ax, ay, dt=dt, friction=0.0)
 
 
 def test_a_block_that_hardly_presses_on_the_roof_is_not_stopped_at_speed():
     # N = 1e-9 g: the series of the speed comes to zero where the block has millimeters a second.
     weightless = np.full(4, -G * (1.0 - 1e-9))
-    block = replace(
+    run = replace(
         frictionless([0.0, -20.0, 20.0, 20.0], [0.0, 0.02, 0.01, -0.01], 0.2),
         az_mps2=read_only(weightless),
         friction=coulomb(0.5),
     )
-    free = follow(replace(block, friction=coulomb(0.0)), 1e-10)
+    free = follow(replace(run, friction=coulomb(0.0)), 1e-10)
     for tolerance in (1e-2, 1e-4, 1e-6, 1e-8, 1e-10):
-        outcome = follow(block, tolerance)
+        outcome = follow(run, tolerance)
         assert outcome.n_stops == 0
         assert outcome.error_m <= tolerance * outcome.prd_m
         assert np.abs(places(outcome) - places(free)).max() < 1e-8 * free.prd_m
@@ -209,8 +194,8 @@ def test_a_block_that_creeps_on_where_the_run_stops_stays_within_the_bound():
     dt, mu, speed, brake = 0.1, 0.3, 1e-6, 1e-7
     shove, falls = 4.0, 1.5 * 4.0 - speed / dt - 0.5 * brake
     ax = -(mu * G + np.array([shove, shove, -falls] + [-brake] * 150))
-    block = replace(frictionless(ax, 0.0 * ax, dt), friction=coulomb(mu))
-    exact, outcome = checked.slide(ax, dt, slope_rad=0.0, mu=mu), follow(block, 1e-2)
+    run = replace(frictionless(ax, 0.0 * ax, dt), friction=coulomb(mu))
+    exact, outcome = checked.slide(ax, dt, slope_rad=0.0, mu=mu), follow(run, 1e-2)
     missed = exact.prd_m - outcome.prd_m
     assert exact.status is Status.OK
     assert missed == pytest.approx(speed**2 / (2.0 * brake), rel=1e-6)
@@ -221,13 +206,13 @@ def test_the_rounding_of_a_weight_that_presses_hard_is_within_the_bound():
     # The push is 1 m/s2 of 3e8: in exact numbers, half of it by the time squared.
     mu, up, push = Fraction(0.3), Fraction(1e9 / 3.0), 1
     along = float(-mu * (Fraction(G) + up) - push)
-    block = replace(
+    run = replace(
         frictionless([along, along], [0.0, 0.0], 1.0),
         az_mps2=read_only([float(up)] * 2),
         friction=coulomb(float(mu)),
     )
     exact = (abs(Fraction(along)) - mu * (Fraction(G) + up)) / 2
-    outcome = follow(block, 1e-10)
+    outcome = follow(run, 1e-10)
     off = abs(Fraction(outcome.prd_m) - exact)
     assert 0 < off <= Fraction(outcome.error_m)
     assert outcome.error_m < 1e-5 * outcome.prd_m
@@ -236,10 +221,10 @@ def test_the_rounding_of_a_weight_that_presses_hard_is_within_the_bound():
 @pytest.mark.parametrize("kind", ["N to zero", "mu = tan(slope)", "friction by speed"])
 def test_the_tolerance_is_met_but_for_rounding(kind):
     for index in range(300):
-        block = pair(kind, index).first
+        run = pair(kind, index).first
         for tolerance in (1e-2, 1e-6):
-            outcome = follow(block, tolerance)
-            assert outcome.error_m <= tolerance * max(outcome.prd_m, 1e-6) + 8.0 * rounding(block)
+            outcome = follow(run, tolerance)
+            assert outcome.error_m <= tolerance * max(outcome.prd_m, 1e-6) + 8.0 * rounding(run)
 
 
 def test_a_dip_of_the_speed_below_zero_near_the_begin_of_a_step_is_seen():

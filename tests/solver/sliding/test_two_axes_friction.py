@@ -5,9 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from test_two_axes import G, places, readonly, scene, shaking
+from test_two_axes import G, scene, shaking
 
 import plane_oracle
+from blocks import places, readonly
 from nightly import by_day
 from solver.model import Friction, Status, coulomb
 from solver.sliding.two_axes import follow, follow_history
@@ -16,11 +17,6 @@ GROWING = Friction(mu_slow=0.2, mu_fast=0.35, rate_s_per_m=20.0, mu_static=0.2)
 FALLING = Friction(mu_slow=0.35, mu_fast=0.2, rate_s_per_m=20.0, mu_static=0.35)
 HELD = Friction(mu_slow=0.25, mu_fast=0.25, rate_s_per_m=0.0, mu_static=0.32)
 BOTH = Friction(mu_slow=0.3, mu_fast=0.22, rate_s_per_m=10.0, mu_static=0.36)
-
-
-def law_of(friction):
-    drop = friction.mu_fast - friction.mu_slow
-    return lambda w: friction.mu_fast - drop * math.exp(-friction.rate_s_per_m * w)
 
 
 @pytest.mark.parametrize("friction", [GROWING, FALLING])
@@ -75,25 +71,25 @@ def test_as_the_difference_vanishes_it_is_coulombs_friction(transverse, sign):
 def test_it_is_as_scipy_follows_it(friction):
     ax, ay, az = shaking(12, n=45, dt=0.04, peak=5.0)
     block = scene(ax, ay, 0.04, degrees=2.0, friction=friction, az=az)
-    exact = plane_oracle.slide(
-        ax,
-        ay,
-        0.04,
-        slope_rad=block.slope_rad,
-        mu=law_of(friction),
-        mu_static=friction.mu_static,
-        az=az,
-        g=G,
-    )
-    theirs = (exact.prd, exact.x_max, -exact.x_min, exact.y_max, -exact.y_min, *exact.end)
+    exact = plane_oracle.follow(block)
     assert exact.n_stops > 2
     for tolerance in (1e-3, 1e-6, 1e-9):
         outcome = follow(block, tolerance)
-        error = np.abs(places(outcome) - theirs).max()
+        error = np.abs(places(outcome) - exact.places).max()
         assert error <= outcome.error_m + 1e-10 * exact.prd
         assert error <= (tolerance + 1e-10) * exact.prd
         assert outcome.peak_mps == pytest.approx(exact.fastest, rel=tolerance + 1e-10)
         assert outcome.n_stops == exact.n_stops
+
+
+def sampled_twice(waves, friction, tolerance):
+    """Follow waves of 50 samples as they are, and with 15 samples put between each two."""
+    fine = np.arange(49 * 16 + 1) / 16
+    more = [np.interp(fine, np.arange(50), wave) for wave in waves]
+    return [
+        follow(scene(*records, dt, friction=friction), tolerance)
+        for records, dt in ((waves, 0.1), (more, 0.1 / 16))
+    ]
 
 
 @pytest.mark.parametrize("rate", [30.0, 1e3, 1e5])
@@ -102,10 +98,7 @@ def test_friction_that_turns_within_a_step_is_seen(rate, seed):
     # Far above its turn the exponential is nothing, and no term of a series tells that it comes.
     friction = Friction(mu_slow=0.2, mu_fast=0.3, rate_s_per_m=rate, mu_static=0.2)
     waves = [np.sign(wave) * 3.0 for wave in shaking(seed, n=50, dt=0.1)[:2]]
-    fine = np.arange(49 * 16 + 1) / 16
-    more = [np.interp(fine, np.arange(50), wave) for wave in waves]
-    outcome = follow(scene(*waves, 0.1, friction=friction), 1e-8)
-    two = follow(scene(*more, 0.1 / 16, friction=friction), 1e-8)
+    outcome, two = sampled_twice(waves, friction, 1e-8)
     assert outcome.prd_m > 0.03
     assert np.abs(places(outcome) - places(two)).max() <= outcome.error_m + two.error_m
 
@@ -116,10 +109,7 @@ def test_friction_that_turns_within_a_step_is_seen(rate, seed):
 def test_a_stop_under_a_constant_push_counts_the_friction_of_its_speed(rate, seed):
     friction = Friction(mu_slow=0.4, mu_fast=0.6, rate_s_per_m=rate, mu_static=0.4)
     waves = [np.where(np.abs(w) > 4.0, 8.0 * np.sign(w), 0.0) for w in shaking(seed, 50, 0.1)[:2]]
-    fine = np.arange(49 * 16 + 1) / 16
-    more = [np.interp(fine, np.arange(50), wave) for wave in waves]
-    outcome = follow(scene(*waves, 0.1, friction=friction), 1e-10)
-    two = follow(scene(*more, 0.1 / 16, friction=friction), 1e-10)
+    outcome, two = sampled_twice(waves, friction, 1e-10)
     assert outcome.n_stops > 2
     assert np.abs(places(outcome) - places(two)).max() <= outcome.error_m + two.error_m
 
@@ -160,17 +150,7 @@ def nearly_stops(seed):
 @pytest.mark.nightly
 def test_a_rough_tolerance_does_not_decide_whether_a_block_stops(seed, rough_m):
     block = nearly_stops(seed)
-    theirs = plane_oracle.slide(
-        block.ax_mps2,
-        block.ay_mps2,
-        block.dt_s,
-        slope_rad=block.slope_rad,
-        mu=law_of(NEARLY_STOPS),
-        mu_static=NEARLY_STOPS.mu_static,
-        az=block.az_mps2,
-        g=G,
-    )
-    outcome = follow(block, 1e-3)
+    theirs, outcome = plane_oracle.follow(block), follow(block, 1e-3)
     assert abs(theirs.prd - rough_m) > 0.05
     assert abs(outcome.prd_m - theirs.prd) <= outcome.error_m + 1e-9 * theirs.prd
     assert outcome.n_stops == theirs.n_stops

@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 
 import plane_oracle
+from blocks import block
 from places import DATA
-from solver.model import EventKind, Friction, Scene
+from solver.model import EventKind, Friction
 from solver.sliding.two_axes import follow, follow_history
 
 pytestmark = pytest.mark.quick
 
-G = 9.80665
 SCENES = {row["name"]: row for row in json.loads((DATA / "known_motions.json").read_text("utf-8"))}
 
 ORACLE = 2e-12
@@ -27,21 +27,14 @@ ORACLE = 2e-12
 TOLERANCES = (1e-2, 1e-6, 1e-10)
 
 
-def readonly(values):
-    array = np.array(values, dtype=np.float64)
-    array.setflags(write=False)
-    return array
-
-
 def scene(name):
     row = SCENES[name]
-    return Scene(
-        **{axis: readonly(row[axis]) for axis in ("ax_mps2", "ay_mps2", "az_mps2")},
-        dt_s=row["dt_s"],
-        slope_rad=math.radians(row["slope_deg"]),
+    return block(
+        *(row[axis] for axis in ("ax_mps2", "ay_mps2", "az_mps2")),
+        dt=row["dt_s"],
+        slope=math.radians(row["slope_deg"]),
         friction=Friction(**row["friction"]),
         scale=row["scale"],
-        g_mps2=G,
     )
 
 
@@ -75,9 +68,8 @@ def test_the_motion_is_the_known_one_within_its_error_at_no_more_steps(name):
 
 @pytest.mark.parametrize("name", SCENES)
 def test_the_history_and_its_events_are_the_known_ones(name):
-    known, block = SCENES[name]["known"], scene(name)
-    outcome = followed(name, TOLERANCES[-1])
-    samples, events = follow_history(block, outcome)
+    known, outcome = SCENES[name]["known"], followed(name, TOLERANCES[-1])
+    samples, events = follow_history(scene(name), outcome)
     allowed = outcome.error_m + ORACLE * known["prd_m"]
     assert np.abs(samples[:2] - known["samples"][:2]).max() <= allowed
     assert np.abs(samples[2:] - known["samples"][2:]).max() <= 1e-9 * known["peak_mps"]
@@ -97,20 +89,7 @@ def test_the_history_and_its_events_are_the_known_ones(name):
 @pytest.mark.nightly
 @pytest.mark.parametrize("name", SCENES)
 def test_the_known_motions_are_those_of_the_oracle(name):
-    block, known = scene(name), SCENES[name]["known"]
-    friction = block.friction
-    drop = friction.mu_fast - friction.mu_slow
-    found = plane_oracle.slide(
-        block.ax_mps2,
-        block.ay_mps2,
-        block.dt_s,
-        slope_rad=block.slope_rad,
-        mu=lambda w: friction.mu_fast - drop * math.exp(-friction.rate_s_per_m * w),
-        mu_static=friction.mu_static,
-        az=block.az_mps2 if block.az_mps2.size else None,
-        scale=block.scale,
-        g=G,
-    )
+    found, known = plane_oracle.follow(scene(name)), SCENES[name]["known"]
     assert found.prd == pytest.approx(known["prd_m"], rel=ORACLE)
     assert found.fastest == pytest.approx(known["peak_mps"], rel=ORACLE)
     assert found.n_stops == known["n_stops"]
