@@ -163,10 +163,14 @@ def read(
         draft = change.sheet_before.draft
         is_us = us_first(draft)
         with input_errors(drawing):
-            drawn, unit_m = _read(drawing, units)
+            with Progress() as progress:
+                progress("reading the drawing")
+                drawn, unit_m = _read(drawing, units)
             drawn, turn = _turned(drawn, rotate)
             layers = choose(drawn, layers_of(draft), kinds, accept)
-            roof_plan, told, layers = plan_as_rows(drawn, unit_m, draft, layers, gap_m)
+            with Progress() as progress:
+                progress("finding the plan in the drawing")
+                roof_plan, told, layers = plan_as_rows(drawn, unit_m, draft, layers, gap_m)
         change.fill(changes(change.book, told, layers, replace=replace))
         try:
             more = _add_clearances(change)

@@ -6,10 +6,12 @@ Reads one part at a time; runs the capacities of the motions. Read `results_of`.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
+from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +27,8 @@ from solver.studies.curves import Fit, Statistics, first_allowed, fit_prd, stati
 from solver.studies.fragility import Fragility, fragility
 from solver.studies.runs import Runner
 from solver.studies.uncertainty import Bar, Exceedance, exceedance, tornado
+
+_T = TypeVar("_T")
 
 MEAN = "mean PRD"
 STATISTICS = (MEAN, "84th percentile of the PRD", "largest PRD")
@@ -136,8 +140,10 @@ def results_of(
     manifest: Mapping[str, Any],
     *,
     allow_matched: bool,
+    progress: Callable[[str], None],
 ) -> StudyResults:
     """Return the results of a study whose parts are all there."""
+    progress("computing the curves")
     campaign = plan.campaign
     on_grid = math.prod(plan.shape)
     on_curves: list[Statistics] = []
@@ -171,12 +177,28 @@ def results_of(
         spread=spectral_spread(plan.motions.motions),
         ppa_g=ppa,
         fits=tuple(_fit(plan, analysis[b], float(ppa[b])) for b in range(plan.shape[0])),
-        arrays=tuple(_array(plan, array, runner, prd, slip, on_grid) for array in plan.arrays),
+        arrays=tuple(
+            _array(plan, array, runner, prd, slip, on_grid)
+            for array in _metered("capacities of arrays", plan.arrays, progress)
+        ),
         years=tuple(
-            years_of(plan, curve, array, runner) for curve in plan.hazard for array in plan.arrays
+            years_of(plan, curve, array, runner)
+            for curve, array in _metered(
+                "rates in years", list(product(plan.hazard, plan.arrays)), progress
+            )
         ),
         allow_matched=allow_matched,
     )
+
+
+def _metered(what: str, items: Sequence[_T], progress: Callable[[str], None]) -> Iterator[_T]:
+    """Yield items, and say how many are done and the time left at their rate."""
+    started = time.monotonic()
+    for done, item in enumerate(items):
+        left_s = (time.monotonic() - started) * (len(items) - done) / max(done, 1)
+        left = f", {left_s:.0f} s left" if done else ""
+        progress(f"computing the {what}: {done} of {len(items)}{left}")
+        yield item
 
 
 def _fit(plan: StudyPlan, analysis_m: Floats, ppa_g: float) -> Fit | str:

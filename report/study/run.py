@@ -155,8 +155,7 @@ def run_study(
     full = finished(folder, manifest, list(done.values()))
     full["taken_over"] = taken_over
     full["design_displacement"] = plan.design_rule.about
-    progress("computing the curves and the capacities")
-    results = results_of(plan, folder, done, full, allow_matched=allow_matched)
+    results = results_of(plan, folder, done, full, allow_matched=allow_matched, progress=progress)
     full["capacity_runs"] = results.capacity_runs
     write_all({NAME: json.dumps(full, indent=1).encode() + b"\n"}, out)
     return results

@@ -298,3 +298,12 @@ def test_what_stays_or_moves_by_less_than_half_its_size_is_never_taken_for_anoth
     for k, (x, y, wide, tall) in after.items():
         if k not in moved or len(moved) == 1:
             assert named[f"A{k + 1}"] == Rectangle(x, x + wide, y, y + tall)
+
+
+@pytest.mark.nightly
+def test_a_person_who_waits_for_a_drawing_is_told_what_is_done(tmp_path, monkeypatch):
+    monkeypatch.setattr("report.cli.terminal.QUIET_SECONDS", -1.0)
+    path = blank(tmp_path / "input.xlsx", UnitsFirst.US)
+    told = plan_read(drawn(tmp_path, [((10, 10), "A1")]), path)
+    steps = [line.partition("] ")[2] for line in told.splitlines() if line.startswith("[")]
+    assert steps[:2] == ["reading the drawing", "finding the plan in the drawing"]

@@ -85,9 +85,23 @@ def made(tmp_path_factory, laid_out):
 
 
 @pytest.fixture(scope="module")
-def results(made):
+def steps():
+    """What the study says of its progress."""
+    return []
+
+
+@pytest.fixture(scope="module")
+def results(made, steps):
     plan, _ = planned(made[0])
-    return run_study(plan, made[0] / "out" / "study")
+    return run_study(plan, made[0] / "out" / "study", progress=steps.append)
+
+
+@pytest.mark.nightly
+def test_the_last_steps_say_how_many_arrays_are_done_and_the_time_left(results, steps):
+    assert steps[0] == "computing the curves"  # every run is there
+    first, second, *_ = [step for step in steps if "capacities" in step]
+    assert first == "computing the capacities of arrays: 0 of 4"
+    assert re.fullmatch(r"computing the capacities of arrays: 1 of 4, \d+ s left", second)
 
 
 @pytest.fixture
