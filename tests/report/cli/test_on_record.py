@@ -2,7 +2,6 @@
 
 import datetime as dt
 import os
-import shutil
 from pathlib import Path
 
 import pytest
@@ -138,13 +137,3 @@ def _without_names(path: Path) -> bytes:
             del book.defined_names[name]
 
     return edit(path, change).read_bytes()
-
-
-@pytest.mark.nightly
-def test_a_report_of_the_example_changes_no_workbook(tmp_path):
-    folder = tmp_path / "example"
-    shutil.copytree(ROOT / "projects" / "example", folder, ignore=shutil.ignore_patterns("out"))
-    before = (folder / "input.xlsx").read_bytes()
-    done = run("report", folder)
-    assert "on record" not in done.output
-    assert (folder / "input.xlsx").read_bytes() == before

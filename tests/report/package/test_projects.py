@@ -150,7 +150,12 @@ def test_the_first_motion_is_reproduced_to_the_last_digit(name, letters):
 
 @pytest.mark.parametrize(
     ("name", "prefix", "letters"),
-    [("school", "GM", "xyz"), ("campus", "GM", "xyz"), ("conditions", "RM", "x")],
+    [
+        ("example", "RM", "xyz"),
+        ("school", "GM", "xyz"),
+        ("campus", "GM", "xyz"),
+        ("conditions", "RM", "x"),
+    ],
 )
 @pytest.mark.quick
 def test_the_folder_has_the_motions_and_nothing_else(name, prefix, letters):

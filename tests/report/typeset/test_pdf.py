@@ -36,6 +36,8 @@ def test_broken_markup_is_an_error_and_not_mended():
         pytest.param("<p style='shade: red'>a</p>", "shade", id="an unknown property"),
         pytest.param("<img src='{}' alt='a'/>", "http", id="an address of the network"),
         pytest.param("<img src='shipped:/../pyproject.toml' alt='a'/>", "outside", id="a file"),
+        pytest.param("<img src='file:///etc/hostname' alt='a'/>", "file:", id="a local file"),
+        pytest.param("<img src='x.png' alt='a'/>", "x.png", id="a relative address"),
     ],
 )
 def test_what_the_renderer_warns_of_is_an_internal_error(body, word):
