@@ -226,17 +226,12 @@ def test_a_missing_file_and_a_folder_are_input_errors(tmp_path):
 
 @pytest.mark.parametrize(
     ("version", "found"),
-    [(1, "is 1"), (3, "is 3"), ("2", "is '2'"), (2.0, "is 2.0"), (True, "is True")],
-)
+    [(1, "is 1"), (3, "is 3"), ("2", "is '2'"), (2.0, "is 2.0"), (True, "is True"),
+     (None, r"is missing, as in version 0\.1")],
+)  # fmt: skip
 def test_another_version_is_named(document, version, found):
     document["schema_version"] = version
     with pytest.raises(InputError, match=rf"schema_version {found}.*reads 2[\s\S]*write it again"):
-        former(document)
-
-
-def test_a_file_without_a_version_is_of_the_first_release(document):
-    del document["schema_version"]
-    with pytest.raises(InputError, match=r"missing, as in version 0\.1"):
         former(document)
 
 
@@ -256,7 +251,10 @@ def test_a_file_without_a_version_is_of_the_first_release(document):
 )
 def test_a_wrong_type_is_named_with_its_place(document, where, value):
     put(document, where, value)
-    with pytest.raises(InputError, match=r"\.".join(map(str, where))):
+    place = r"\.".join(map(str, where))
+    with pytest.raises(
+        InputError, match=rf"^x: {place} is not as `report` writes it; the file is damaged"
+    ):
         former(document)
 
 
@@ -284,14 +282,8 @@ def test_a_letter_that_no_font_has_is_named(document):
 
 
 def test_millions_of_empty_rows_are_refused_before_they_are_parsed():
-    with pytest.raises(InputError, match="has 1,000,000 objects; at most 100,000 are"):
+    with pytest.raises(InputError, match=r"^x: has 1,000,000 objects; at most 100,000 are"):
         former_from(b"[" + b"{}," * 1_000_000 + b"]", "x")
-
-
-def test_more_than_100000_records_are_refused_before_they_are_compared(document):
-    document["records"] += document["records"][:1] * 100_000
-    with pytest.raises(InputError, match=r"x: has 100,\d{3} objects; at most 100,000 are compared"):
-        former(document)
 
 
 @pytest.mark.quick
@@ -306,11 +298,15 @@ def test_a_device_and_a_file_beyond_25_mb_are_refused_before_they_are_read(tmp_p
 
 
 @pytest.mark.parametrize(
-    "text", [b"", b"[]", b"null", b"{", b"\xff\xfe", b"[" * 100000, b"1" * 9999]
+    "text",
+    [b"", b"[]", b"null", b"{", b"\xff\xfe", b"[" * 100000, b"1" * 9999, b'{"a": NaN}', b"1e999"],
 )
-def test_what_is_not_json_is_an_input_error(text):
-    with pytest.raises(InputError, match=r"no results\.json or is damaged"):
+def test_what_is_not_json_is_an_input_error_without_the_words_of_its_reader(text):
+    with pytest.raises(InputError) as caught:
         former_from(text, "x")
+    assert re.fullmatch(
+        rf"x: is no results.json or is damaged( \(no object\))?; {AGAIN}", str(caught.value)
+    )
 
 
 @settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
@@ -379,20 +375,3 @@ def test_a_text_of_5_mb_is_refused_before_it_is_laid_out(assessment, document):
     found = changes(former(document), assessment)
     with pytest.raises(InputError, match=r"--since: .* 1 rows of 5,000,\d\d\d letters"):
         check_listed(found)
-
-
-@pytest.mark.parametrize("content", [b"{", b"", b"\xff", b"[" * 3000, b'{"a": NaN}', b"1e999"])
-def test_what_the_reader_of_json_says_reaches_nobody(content):
-    with pytest.raises(InputError) as caught:
-        former_from(content, "x")
-    assert re.fullmatch(
-        rf"x: is no results.json or is damaged( \(no object\))?; {AGAIN}", str(caught.value)
-    )
-
-
-def test_what_pydantic_says_reaches_nobody(document):
-    put(document, ["arrays"], "none")
-    with pytest.raises(
-        InputError, match=r"^x: arrays is not as `report` writes it; the file is damaged"
-    ):
-        former(document)
