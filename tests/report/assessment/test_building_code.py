@@ -71,24 +71,22 @@ def test_what_is_not_by_the_edition_of_the_building_code_is_a_condition(code, ch
     assert {row.basis for row in rows.values()} <= {f"{code}, chapter 35†"}
 
 
-def test_pv1_beside_a_code_with_13_6_12_asks_for_its_acceptance():
-    row = before_runs("2022 CBC")["rule_set"]
-    assert row.title == "Acceptance of SEAOC PV1-2012 by the jurisdiction"
-    assert (row.found, row.limit) == (
-        "SEAOC PV1-2012",
-        "ASCE 7-16 of the 2022 CBC†, or acceptance in writing",
-    )
-    assert "in writing, or select the rule set ASCE 7-16. " in row.remedy
-
-
-def test_parameters_of_another_edition_ask_for_those_of_the_code():
-    row = before_runs("2025 CBC")["edition_name"]
-    assert row.title == "Acceptance of the seismic parameters of ASCE 7-16 by the jurisdiction"
-    assert (row.found, row.limit) == (
-        "ASCE 7-16",
-        "ASCE 7-22 of the 2025 CBC†, or acceptance in writing",
-    )
-    assert "in writing, or enter those of ASCE 7-22. " in row.remedy
+@pytest.mark.parametrize(
+    ("code", "field", "what", "used", "edition", "instead"),
+    [
+        ("2022 CBC", "rule_set", "", "SEAOC PV1-2012", "ASCE 7-16", "select the rule set"),
+        ("2025 CBC", "edition_name", "the seismic parameters of ", "ASCE 7-16", "ASCE 7-22",
+         "enter those of"),
+    ],
+)  # fmt: skip
+def test_what_is_of_another_edition_asks_for_its_acceptance_or_for_that_of_the_code(
+    code, field, what, used, edition, instead
+):
+    row = before_runs(code)[field]
+    assert row.title == f"Acceptance of {what}{used} by the jurisdiction"
+    assert row.found == used
+    assert row.limit == f"{edition} of the {code}†, or acceptance in writing"
+    assert f"in writing, or {instead} {edition}. " in row.remedy
 
 
 @pytest.mark.quick

@@ -124,8 +124,9 @@ def test_the_reversed_vertical_is_run_in_every_heading(usual):
 
 @pytest.mark.quick
 def test_one_component_has_no_angles_and_no_vertical_to_reverse():
-    assessment = made(scenes.along(SHORT))
+    assessment = made(scenes.along(SHORT), clearances=[])
     found = uncertainty(assessment)
+    assert found.margins == ()
     assert found.turned == ()
     assert math.isnan(found.reversed_m)
     assert (surface(assessment, assessment.governing).mean_m > 0).all()
@@ -138,11 +139,6 @@ def test_a_clearance_without_a_permitted_route_has_no_margin():
     assert own.array.id == "A2"
     assert own.minimum_mu == 0.40
     assert own.limited_by == "Friction coefficient, prescriptive route"
-
-
-@pytest.mark.quick
-def test_without_clearances_there_are_no_margins():
-    assert uncertainty(made(clearances=[])).margins == ()
 
 
 def test_a_law_by_velocity_is_scaled_as_a_whole_and_the_other_arrays_are_named():

@@ -15,7 +15,6 @@ from report.sheet.schema.scene import SIDES
 
 pytestmark = pytest.mark.quick
 
-HAZARD = {"hazard_source": "GeoEngineers", "hazard_date": dt.date(2026, 2, 1)}
 HAZARD = {
     "hazard_source": "GeoEngineers",
     "hazard_date": dt.date(2026, 2, 1),

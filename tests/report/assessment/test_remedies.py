@@ -41,11 +41,11 @@ def failing():
 
 
 @pytest.mark.quick
-def test_nothing_is_tried_for_a_clearance_without_a_permitted_route():
+def test_nothing_is_tried_for_a_clearance_that_is_satisfied_or_without_a_permitted_route():
     narrow = [stand_in.clearance("A1", "RTU-1", stand_in.FOOT)]
     done = stand_in.unpermitted(options={}, clearances=narrow)
     assert done.arrays[0].design_m == done.arrays[0].floor_m > stand_in.FOOT
-    assert remedies(done) == ()
+    assert remedies(done) == remedies(made(9.0)) == ()  # nor where everything is satisfied
 
 
 def test_a_walk_returns_every_value_before_the_first_failure():
@@ -75,11 +75,6 @@ def test_the_hundredths_beside_a_value_are_never_the_value():
     assert (above(0.0), below(1.566)) == (1, 156)
 
 
-@pytest.mark.quick
-def test_a_satisfied_package_needs_nothing():
-    assert remedies(made(9.0)) == ()
-
-
 def test_the_least_friction_satisfies_there_and_beyond_and_not_below(failing):
     done, allowed = failing
     by_id = {item.array.id: item.array for item in done.arrays}
@@ -105,21 +100,22 @@ def test_the_separation_is_the_required_one(failing):
     assert remedy.resolution == 0.0
 
 
-def test_a_floor_that_forbids_leaves_no_friction():
-    failing = made(0.1, options={})
-    listed = remedies(failing)
-    for remedy in of(listed, RemedyKind.FRICTION):
+@pytest.mark.parametrize(
+    ("provided_m", "changes", "reason"),
+    [
+        (0.1, {"options": {}}, "floor alone"),
+        (0.2, {"far": "S edge", "site": stand_in.site(rule_set="ASCE 7-16")}, "minimum separation"),
+    ],
+)
+def test_a_floor_or_a_minimum_separation_that_forbids_leaves_no_friction(
+    provided_m, changes, reason
+):
+    frictions = of(remedies(made(provided_m, **changes)), RemedyKind.FRICTION)
+    assert frictions
+    for remedy in frictions:
         assert not remedy.exists
-        assert "floor alone" in remedy.basis
+        assert reason in remedy.basis
         assert remedy.n_values == 0
-
-
-def test_a_minimum_separation_that_forbids_leaves_no_friction():
-    site = stand_in.site(rule_set="ASCE 7-16")
-    failing = made(0.2, far="S edge", site=site)
-    listed = remedies(failing)
-    (friction,) = of(listed, RemedyKind.FRICTION)
-    assert "minimum separation" in friction.basis
 
 
 def test_a_friction_law_is_scaled_as_a_whole():
