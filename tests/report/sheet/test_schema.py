@@ -14,7 +14,6 @@ from report.sheet.schema.fields import Bounds, YesNo, entries
 from report.sheet.schema.motions import MotionInput
 from report.sheet.schema.project import Project, Site
 from report.sheet.schema.scene import Array, slope_rad
-from report.sheet.schema.shapes import Rectangle, gap_m
 from report.text.units import LENGTHS, WEIGHTS, Quantity
 from sheets import project
 from solver.formats import UNIT_CHOICES
@@ -126,21 +125,6 @@ def test_rectangles_come_with_arrays_and_with_objects_that_have_all_sides():
     assert data.objects[1].placed is None
     assert data.objects[0].placed.y_from_m == pytest.approx(24.384)
     assert data.site.rule_set is RuleSetName.PV1
-
-
-@pytest.mark.parametrize(
-    ("other", "gap"),
-    [
-        ((3, 4, 0, 1), 2.0),
-        ((0, 1, 4, 5), 3.0),
-        ((4, 5, 5, 6), 5.0),
-        ((-3, -1, 0, 1), 1.0),
-        ((1, 2, 0, 1), 0.0),
-        ((0.5, 2, 0.25, 2), -0.5),
-    ],
-)
-def test_gaps_are_measured_between_nearest_points(other, gap):
-    assert gap_m(Rectangle(0, 1, 0, 1), Rectangle(*other)) == pytest.approx(gap)
 
 
 def test_input_units_have_their_legal_definitions():
