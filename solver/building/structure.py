@@ -1,11 +1,6 @@
-"""Elastic buildings of a few modes: period, damping and roof factor of each mode.
+"""Elastic buildings of a few modes, of a beam or of equal stories; approximate periods of ASCE 7.
 
-Contains no motions (`solver.building.roof`).
-Read `building_of_periods` first.
-
-Modes of uniform buildings: a beam in shear and bending, or equal stories with lumped floors.
-
-Approximate periods of buildings by ASCE 7, when no analysis or measurement is available.
+Contains no motions (`solver.building.roof`). Read `building_of_periods` first.
 """
 
 from __future__ import annotations

@@ -1,8 +1,6 @@
 """From the values of channels to records, with notes for the user.
 
-Compares a record with the peak stated in its header; knows no format. Read `motion_file` first.
-
-The content of a record file, and the selection of one of its channels.
+Compares a record with what its header states; knows no format. Read `motion_file` first.
 """
 
 from __future__ import annotations

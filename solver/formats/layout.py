@@ -1,9 +1,7 @@
-"""How a table of numbers is laid out in lines: its rows and separators, and what programs add.
+"""How a table of numbers is laid out in lines: headings, rows and separators, what programs add.
 
 Quotes, `sep=`, commas at the ends and a row of units are taken off, each line at its index, so that
-messages name the lines of the file. Knows no meaning of a column. Read `plain_lines`.
-
-Headings of columns of text: their names, and the units that they state.
+messages name the lines of the file. Reads no table. Read `plain_lines`, then `parse`.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """The lines of a file with the units and step given by the caller, checked against each other.
 
-Sets the limits on files from unknown sources; knows no format. Read `open_source` first.
-
-What a file that is not read probably is, by its first lines or bytes, and what to do with it.
+Sets the limits on files from unknown sources, and says what one that is not read probably is; reads
+no format. Read `open_source` first.
 """
 
 from __future__ import annotations

@@ -1,10 +1,8 @@
 """Text and csv: one column (acceleration), or times and one or more columns.
 
-Handles this format only; `solver.formats.layout` finds its rows and takes off what programs add,
-`solver.formats.layout` interprets headings, `solver.formats.times` times. Columns are separated
-by comma, semicolon, tab or blanks. One heading line, blank lines and comments after `#` are
-skipped, except that units are read from them. Where the caller says how many values a line has,
-they follow each other across the lines. Read `read` first.
+Handles this format only: `solver.formats.layout` finds rows and interprets headings,
+`solver.formats.times` times. Comments after `#` are skipped, except that units, a step and a count
+are read from them. Read `read` first.
 """
 
 from __future__ import annotations

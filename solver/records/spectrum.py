@@ -1,8 +1,6 @@
-"""Response spectra of records.
+"""Response spectra of records, and the factor that scales a motion to a target spectrum.
 
-Reads no files. Read `response_spectrum`, then `spectrum` for notebooks.
-
-Scaling of a motion to a target spectrum: one factor for all its components.
+Reads no files. Read `response_spectrum`, then `factor_to_target`.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """One limit, with the value found and what follows from a miss.
 
-Owns no limit: `solver.rules.provisions`, `solver.records.acceptance` and
-`solver.records.acceptance` do. Read `Limit`.
+Owns no limit: `solver.rules.provisions` and `solver.records.acceptance` do. Read `Limit`.
 """
 
 from __future__ import annotations

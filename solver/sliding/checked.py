@@ -3,8 +3,6 @@
 Checks nothing itself (`solver.sliding.arguments`), computes no physics (`solver.kernels.one_axis`,
 and `solver.sliding.two_axes` for two axes), knows no code rules (`solver.rules.provisions`) and
 chooses no model (`solver.sliding.least_model`). Read `slide` first, then `scene`.
-
-Compiles the kernels that a report runs, so that the first report does not wait for them.
 """
 
 from __future__ import annotations
@@ -348,6 +346,7 @@ def _is_followed_in_plane(scene: Scene) -> bool:
     return bool(scene.ay_mps2.size) or not scene.friction.is_constant
 
 
+# What set-up runs, so that the first report does not wait for the kernels to be compiled.
 _DT_S = 0.02
 _SHAKING = 6.0 * np.sin(np.arange(40) * 0.9)
 _VARYING = Friction(mu_slow=0.3, mu_fast=0.4, mu_static=0.35, rate_s_per_m=20.0)

@@ -1,9 +1,6 @@
-"""Uplift: when, for how long and how far the normal force of a block falls below zero.
+"""Checks independent of the model: uplift of a block, and tipping about an edge of its supports.
 
-A check independent of the model: with uplift no displacement is given. Integrates no motion.
-Read `uplift`.
-
-Tipping: whether a block would begin to rotate about an edge of its supports.
+Integrates no motion; with uplift no displacement is given. Read `uplift`, then `tipping`.
 """
 
 from __future__ import annotations

@@ -1,9 +1,7 @@
 """Matches a motion's response spectrum to a target: first in frequency, then in the time domain.
 
 Generates no random numbers and accepts or rejects no motion: `solver.synthesis.suite` does.
-Read `make_frame` first, then `shaped` and `matched`.
-
-Target spectra, and how closely a motion matches one.
+Read `make_frame` first, then `shaped` and `matched`; `spectrum_fit` says how closely one matches.
 """
 
 from __future__ import annotations

@@ -1,9 +1,7 @@
-"""Generates roof motions of three components whose response spectra match a target.
+"""Generates roof motions of three components, from noise or records, that match a target.
 
 Draws motions and accepts or rejects them; the matching is in `solver.synthesis.matching`. Knows no
 code rules and no files. Read `make_suite` first, then `synthesize`.
-
-Seeds of synthetic motions: noise, or the phases of a real record.
 """
 
 from __future__ import annotations
