@@ -91,14 +91,13 @@ def opened(data: bytes) -> OpenedPackage:
             f"holds no {MANIFEST}: it is no package of `roofslip report`, or was written by version"
             " 0.1, which did not attach the input"
         )
-    listing = parsed(files[MANIFEST], MANIFEST)
-    manifest = _manifest(files)
     return OpenedPackage(
         data=data,
         pdf=pdf,
         files=files,
-        manifest=manifest,
-        listing=listing,
+        # First, for it refuses what the manifest's model would read in another way.
+        listing=parsed(files[MANIFEST], MANIFEST),
+        manifest=_manifest(files),
         results=parsed(files[RESULTS], RESULTS),
     )
 

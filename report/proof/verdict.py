@@ -64,7 +64,7 @@ def compared(package: OpenedPackage, made: OpenedPackage) -> Proof:
     later = appended(package.data, made.data if is_same else b"") if fields else Appended()
     if is_same and not fields:
         later = Appended(problems=("appended: bytes that no signature covers",))
-    first = guarded(lambda: next(_found(package, made, later, is_same=is_same), ""))
+    first = guarded(lambda: next(_reasons(package, made, later, is_same=is_same), ""))
     if first:
         return Proof(answer=Agreement.DIFFERS, reasons=(first,), signed=later.signed)
     reasons = [] if is_same else [_not_compared(package.manifest, made.manifest)]
@@ -104,7 +104,7 @@ def _other_version(theirs: Manifest) -> str:
     return f"Roofslip {theirs.roofslip_version} made it: install that version to compare all of it"
 
 
-def _found(
+def _reasons(
     package: OpenedPackage, made: OpenedPackage, later: Appended, *, is_same: bool
 ) -> Iterator[str]:
     """Yield what differs or what no package has."""
@@ -125,19 +125,18 @@ def _found(
 
 def _listing(package: OpenedPackage) -> Any:
     """Return the manifest without versions, and without the hash of the results."""
-    kept = {key: value for key, value in package.listing.items() if key != "environment"}
-    files = [file for file in kept["files"] if file["kind"] != "results"]
-    return kept | {"files": files}
+    listing = {key: value for key, value in package.listing.items() if key != "environment"}
+    return listing | {"files": [file for file in listing["files"] if file["kind"] != "results"]}
 
 
 def _words(package: OpenedPackage, made: OpenedPackage) -> Iterator[str]:
     theirs, ours = package.manifest.environment, made.manifest.environment
-    for one, two in zip_longest(words(package.pdf), words(made.pdf)):
-        if one is None or two is None:
-            yield f"{(one or two)[0]}: {'missing' if one is None else 'not of this input'}"
+    for stated, remade in zip_longest(words(package.pdf), words(made.pdf)):
+        if stated is None or remade is None:
+            yield f"{(stated or remade)[0]}: {'missing' if stated is None else 'not of this input'}"
             return
-        computed = " ".join(two[1].split())
+        computed = " ".join(remade[1].split())
         for name, here in ours.items():
             computed = computed.replace(f"{name} {here}", f"{name} {theirs.get(name, 'none')}")
-        if first := first_other_word(one[1], computed):
-            yield f"{one[0]}: {first}"
+        if first := first_other_word(stated[1], computed):
+            yield f"{stated[0]}: {first}"
