@@ -29,11 +29,15 @@ def as_json(*words: object) -> dict:
     return json.loads(printed(*words, "--json"))
 
 
-def refused(*words: object) -> str:
-    """Return what a command prints as it refuses its input."""
+def ended(*words: object, exit_code: int = 0) -> str:
+    """Return all that a command prints which ends with an exit code."""
     done = run(*words)
-    assert done.exit_code == 2, done.output
+    assert done.exit_code == exit_code, done.output
     return done.output
+
+
+refused = partial(ended, exit_code=2)
+"""Returns what a command prints as it refuses its input."""
 
 
 def hearing(number: signal.Signals) -> Callable[[], object]:

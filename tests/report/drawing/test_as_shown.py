@@ -1,10 +1,9 @@
 """A drawing is read as it is shown: nothing hidden, nothing twice, no size that no roof has."""
 
 import pytest
-from click.testing import CliRunner
 from ezdxf.xclip import XClip
 
-from report.cli.main import main
+from commands import refused
 from report.drawing.read_dxf import read_dxf
 from report.sheet.schema.choices import UnitsFirst
 from sheets import blank
@@ -137,10 +136,8 @@ def test_a_unit_that_no_roof_is_drawn_in_is_named(tmp_path, code, said):
 
 def said_by_read(sketch, tmp_path):
     path = blank(tmp_path / "input.xlsx", UnitsFirst.US)
-    drawn = str(sketch.saved(tmp_path))
-    done = CliRunner().invoke(main, ["plan", "read", drawn, str(path), "--accept"])
-    assert done.exit_code == 2
-    return done.output.splitlines()[1].strip()
+    output = refused("plan", "read", sketch.saved(tmp_path), path, "--accept")
+    return output.splitlines()[1].strip()
 
 
 def damaged(text, how):
@@ -156,28 +153,29 @@ def damaged(text, how):
     raise ValueError(how)
 
 
-@pytest.mark.parametrize("how", ["an end too many", "a section"])
-def test_a_damaged_drawing_is_read_as_far_as_it_can_be_and_says_so(tmp_path, how):
+@pytest.fixture
+def damaged_drawing(tmp_path, how):
     sketch = Sketch()
     sketch.ring("ARRAY", BOX_FT, "A1")
     path = sketch.saved(tmp_path)
     text = path.read_text()
     path.write_text(damaged(text, how))
     assert path.read_text() != text
-    found = read_dxf(path)
+    return path
+
+
+@pytest.mark.parametrize("how", ["an end too many", "a section"])
+def test_a_damaged_drawing_is_read_as_far_as_it_can_be_and_says_so(damaged_drawing):
+    found = read_dxf(damaged_drawing)
     assert found.repairs.startswith("a damaged drawing, read as far as it can be")
     assert found.repairs.endswith(": compare the plan")
     assert [len(line.points) for line in found.lines] == [4]
 
 
 @pytest.mark.parametrize("how", ["a number", "its end"])
-def test_a_drawing_with_a_number_that_would_be_guessed_or_without_its_end_is_refused(tmp_path, how):
-    sketch = Sketch()
-    sketch.ring("ARRAY", BOX_FT, "A1")
-    path = sketch.saved(tmp_path)
-    path.write_text(damaged(path.read_text(), how))
+def test_a_drawing_with_a_guessed_number_or_without_its_end_is_refused(damaged_drawing):
     with pytest.raises(InputError, match="not a DXF drawing, or damaged"):
-        read_dxf(path)
+        read_dxf(damaged_drawing)
 
 
 def test_a_block_of_no_height_is_read_as_any_other(tmp_path):
@@ -221,7 +219,5 @@ def test_a_size_that_no_roof_has_is_refused_with_the_units_that_would_do(
     sketch.ring("ARRAY", [(x * factor, y * factor) for x, y in BOX_FT], "A1")
     path = blank(tmp_path / "input.xlsx", UnitsFirst.US)
     before = path.read_bytes()
-    done = CliRunner().invoke(main, ["plan", "read", str(sketch.saved(tmp_path)), str(path)])
-    assert done.exit_code == 2
-    assert said in done.output
+    assert said in refused("plan", "read", sketch.saved(tmp_path), path)
     assert path.read_bytes() == before

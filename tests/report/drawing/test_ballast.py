@@ -1,17 +1,18 @@
 """A ballast map gives arrays their ballast weight and center of gravity; wrong lines are listed."""
 
+from functools import partial
+
 import numpy as np
 import pytest
-from click.testing import CliRunner
 
+from commands import ended
 from inputs import FT, LB
-from report.cli.main import main
+from refused import refused
 from report.drawing.ballast import MAX_BYTES, center_of_gravity, loads, read_map
 from report.sheet.checking.plausible import implausible
 from report.sheet.reading.read import read
 from report.sheet.schema.shapes import Polygon, Rectangle
 from sheets import arrays, edit, make, problems, project, type_into
-from solver.model import InputError
 
 pytestmark = pytest.mark.quick
 
@@ -42,17 +43,12 @@ pytestmark = pytest.mark.quick
         (b" " * (MAX_BYTES + 1), ["more than 5 MB; keep the columns x, y, blocks"]),
     ],
 )  # fmt: skip
-def test_a_wrong_map_is_refused_with_every_line(tmp_path, content, wanted):
-    path = tmp_path / "map.csv"
-    path.write_bytes(content if isinstance(content, bytes) else content.encode())
-    with pytest.raises(InputError) as caught:
-        read_map(path, 1.0)
-    assert list(caught.value.problems) == wanted
+def test_a_wrong_map_is_refused_with_every_line(file, content, wanted):
+    assert list(refused(read_map, file(content), 1.0)) == wanted
 
 
-def test_a_map_is_read_in_its_unit_with_any_columns_beside(tmp_path):
-    path = tmp_path / "map.csv"
-    path.write_text("\ufeffRow, Blocks ,X,y\nR1,2,10,20\n\nR2,0,1.5,-2\n", encoding="utf-8")
+def test_a_map_is_read_in_its_unit_with_any_columns_beside(file):
+    path = file("\ufeffRow, Blocks ,X,y\nR1,2,10,20\n\nR2,0,1.5,-2\n")
     assert read_map(path, FT).tolist() == [[2, 10 * FT, 20 * FT, 2], [4, 1.5 * FT, -2 * FT, 0]]
 
 
@@ -68,15 +64,12 @@ def test_a_map_is_read_in_its_unit_with_any_columns_beside(tmp_path):
         'x [feet],y [foot],blocks,note\n35.125,155,2,"a; b"\n',
     ],
 )
-def test_a_map_is_read_with_the_separators_of_spreadsheets(tmp_path, content):
-    path = tmp_path / "map.csv"
-    path.write_bytes(content if isinstance(content, bytes) else content.encode())
-    assert read_map(path, FT).tolist() == [[2, pytest.approx(35.125 * FT), 155 * FT, 2]]
+def test_a_map_is_read_with_the_separators_of_spreadsheets(file, content):
+    assert read_map(file(content), FT).tolist() == [[2, pytest.approx(35.125 * FT), 155 * FT, 2]]
 
 
-def test_a_map_that_says_its_separator_is_read(tmp_path):
-    path = tmp_path / "map.csv"
-    path.write_text("sep=;\nx;y;blocks\n\u22121,500;2;3\n", encoding="utf-8")
+def test_a_map_that_says_its_separator_is_read(file):
+    path = file("sep=;\nx;y;blocks\n\u22121,500;2;3\n")
     assert read_map(path, 1.0).tolist() == [[3, -1.5, 2.0, 3]]
 
 
@@ -99,10 +92,7 @@ def test_the_center_of_gravity_is_that_of_blocks_and_modules():
 PARTS = {"modules": 320, "module_weight_n": 75 * LB, "ballast_n": 18000 * LB}
 
 
-def ran(*words, exit_code=0):
-    done = CliRunner().invoke(main, ["plan", "ballast", *map(str, words)])
-    assert done.exit_code == exit_code, done.output
-    return done.output
+ran = partial(ended, "plan", "ballast")
 
 
 @pytest.mark.nightly
