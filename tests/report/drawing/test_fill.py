@@ -1,17 +1,17 @@
 """A plan from a drawing fills a workbook, and loses nothing that is in it."""
 
 import re
+from functools import partial
 
 import pytest
-from click.testing import CliRunner
 from openpyxl import load_workbook
 from openpyxl.utils import range_boundaries
 
 from architect import ARRAYS, roof_plan
 from cells import cell
+from commands import ended
 from inputs import FT, HEAD, NO_SIDES
 from nightly import by_day
-from report.cli.main import main
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import ClearanceSource, UnitsFirst
 from report.sheet.schema.scene import SIDES
@@ -20,12 +20,7 @@ from report.sheet.writing.filled import overwritten
 from sheets import at, blank, different, edit, make, parts, project, put, same, type_into
 from sketch import BOX_FT, L_FT, ROOF_FT, Sketch
 
-
-def run(*words, exit_code=0):
-    """The output of a command that fills a workbook, or refuses to."""
-    done = CliRunner().invoke(main, ["plan", "read", *map(str, words)])
-    assert done.exit_code == exit_code, done.output
-    return done.output
+run = partial(ended, "plan", "read")
 
 
 def drawing(tmp_path, version="R2018"):

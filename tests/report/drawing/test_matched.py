@@ -2,14 +2,14 @@
 
 import math
 import re
+from functools import partial
 
 import pytest
-from click.testing import CliRunner
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from commands import ended
 from inputs import FT
-from report.cli.main import main
 from report.drawing.fill import MOST_TOLD, matched
 from report.drawing.plan_read import DrawnOutline, RoofPlan
 from report.sheet.reading.read import read
@@ -38,10 +38,7 @@ def drawn(tmp_path, arrays, objects=(), roof=ROOF_FT):
     return sketch.saved(tmp_path)
 
 
-def plan_read(*words, exit_code=0):
-    done = CliRunner().invoke(main, ["plan", "read", *map(str, words)])
-    assert done.exit_code == exit_code, done.output
-    return done.output
+plan_read = partial(ended, "plan", "read")
 
 
 def filled(tmp_path, arrays, objects=(), **roof):

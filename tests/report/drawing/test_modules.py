@@ -6,11 +6,10 @@ import math
 import random
 
 import pytest
-from click.testing import CliRunner
 from openpyxl import load_workbook
 
+from commands import ended, refused
 from inputs import INCH
-from report.cli.main import main
 from report.drawing.modules import GAP_M
 from report.drawing.plan_read import plan_of
 from report.drawing.read_dxf import read_dxf
@@ -64,8 +63,13 @@ def layout(deg=0.0, noise=0.0, seed=1):
         points = (points[start:] + points[:start])[:: chance.choice((1, -1))]
         points = [(x + chance.uniform(-noise, noise), y + chance.uniform(-noise, noise))
                   for x, y in points]  # fmt: skip
-        sketch.space.add_lwpolyline(points, close=True, dxfattribs={"layer": "ARRAY"})
+        closed(sketch, points)
     return sketch
+
+
+def closed(sketch, points, layer="ARRAY"):
+    """Draw a closed line [unit of the drawing]."""
+    sketch.space.add_lwpolyline(points, close=True, dxfattribs={"layer": layer})
 
 
 def edges(columns):
@@ -125,7 +129,7 @@ def grid(sketch, columns, rows, x=0.0, y=0.0, skip=(), size=(LONG, SHORT), layer
                 x0, y0 = x + k * (size[0] + COLUMN), y + row * (size[1] + ROW)
                 points = [(x0, y0), (x0 + size[0], y0), (x0 + size[0], y0 + size[1]),
                           (x0, y0 + size[1])]  # fmt: skip
-                sketch.space.add_lwpolyline(points, close=True, dxfattribs={"layer": layer})
+                closed(sketch, points, layer)
 
 
 def text(sketch, words, x, y):
@@ -231,7 +235,7 @@ def test_an_outline_around_modules_is_no_second_array(tmp_path):
     grid(sketch, 4, 3)
     for layer, y in (("ARRAY", 0.0), ("PV", 0.0), ("ARRAY", 20.0)):
         points = [(x, y + z) for x, z in ((-1, -1), (9, -1), (9, 6), (-1, 6))]
-        sketch.space.add_lwpolyline(points, close=True, dxfattribs={"layer": layer})
+        closed(sketch, points, layer)
     found = plan(sketch.saved(tmp_path), layers={"PV": LayerKind.ARRAY})
     assert counts(found) == {"A1": None, "A2": 12}
     around = [(item.layer, item.reason) for item in found.unread]
@@ -244,8 +248,7 @@ def test_modules_that_are_turned_to_each_other_are_arrays_of_their_own(tmp_path)
     for deg in (0.0, 30.0):
         for k in range(3):
             points = [(12.0 * deg / 30.0 + k * PITCH_X + x, y) for x, y in CORNERS]
-            look = {"layer": "ARRAY-UNLIKE"}
-            sketch.space.add_lwpolyline(turned(points, deg), close=True, dxfattribs=look)
+            closed(sketch, turned(points, deg), "ARRAY-UNLIKE")
     found = plan(sketch.saved(tmp_path)).objects
     assert [(place.name, place.kind, place.modules) for place in found] == [
         ("PV-1", LayerKind.UNLIKE_ARRAY, 3), ("PV-2", LayerKind.UNLIKE_ARRAY, 3)
@@ -262,29 +265,22 @@ def test_more_rectangles_at_one_place_than_modules_are_refused(tmp_path):
         plan(sketch.saved(tmp_path))
 
 
-def ran(*words, exit_code=0):
-    done = CliRunner().invoke(main, ["plan", *map(str, words)])
-    assert done.exit_code == exit_code, done.output
-    return done.output
-
-
 @pytest.mark.nightly
 def test_the_count_of_modules_is_filled_in_and_the_rule_said(tmp_path):
     path, book = layout().saved(tmp_path), blank(tmp_path / "input.xlsx")
-    output = ran("read", path, book, "--gap", 18, "in")
+    output = ended("plan", "read", path, book, "--gap", 18, "in")
     assert "A2: array of 21 modules 78.7 in (2000 mm) by 43.3 in (1100 mm) with gaps of" in output
     assert " of at most 18.0 in (457 mm), 6 vertices, " in output
     rows = read(book).draft["arrays"]
     assert {row["id"]: row["modules"] for row in rows} == COUNTS
-    refused = ran("read", path, book, "--gap", 0, "in", exit_code=2)
-    assert "it is 0; give more than 0." in refused
+    assert "it is 0; give more than 0." in refused("plan", "read", path, book, "--gap", 0, "in")
 
 
 @pytest.mark.nightly
 def test_a_workbook_without_the_column_gets_the_arrays_alone(tmp_path):
     book = make(tmp_path, clearances=[])
     edit(book, lambda found: retitle(found, "Arrays", "Modules", ""))
-    ran("read", layout().saved(tmp_path), book, "--replace")
+    ended("plan", "read", layout().saved(tmp_path), book, "--replace")
     assert [row["modules"] for row in read(book).draft["arrays"]] == [None] * 5
 
 
@@ -293,7 +289,7 @@ def test_rows_that_an_earlier_table_grows_by_have_no_formula_that_is_broken(tmp_
     book, sketch = blank(tmp_path / "input.xlsx"), Sketch(unit="m")
     edit(book, lambda found: retitle(found, "Arrays", "Modules", ""))
     grid(sketch, 40, 1, size=(6.0, 2.0))
-    ran("read", sketch.saved(tmp_path), book)
+    ended("plan", "read", sketch.saved(tmp_path), book)
     assert len(read(book).draft["arrays"]) == 40
     formulas = [str(at.value) for row in load_workbook(book)["Arrays"] for at in row]
     assert not [text for text in formulas if "#REF!" in text]
@@ -307,8 +303,7 @@ def rounded(unit, decimals, angle_deg, long=2.1):
         x, y = 0.137 + column * (long + 0.02), 0.291 + row * (1.05 + 20 * INCH)
         corners = (complex(x + dx, y + dy) * turn / sketch.unit_m
                    for dx, dy in ((0, 0), (long, 0), (long, 1.05), (0, 1.05)))  # fmt: skip
-        points = [(round(z.real, decimals), round(z.imag, decimals)) for z in corners]
-        sketch.space.add_lwpolyline(points, close=True, dxfattribs={"layer": "ARRAY"})
+        closed(sketch, [(round(z.real, decimals), round(z.imag, decimals)) for z in corners])
     return sketch
 
 
@@ -340,8 +335,7 @@ def test_modules_of_two_sizes_along_the_axes_keep_both(tmp_path):
     for k in range(12):
         long = 65 + (k >= 6)
         corners = ((0, 0), (long, 0), (long, 39), (0, 39))
-        points = [(70 * (k % 6) + x, 59 * (k // 6) + y) for x, y in corners]
-        sketch.space.add_lwpolyline(points, close=True, dxfattribs={"layer": "ARRAY"})
+        closed(sketch, [(70 * (k % 6) + x, 59 * (k // 6) + y) for x, y in corners])
     (array,) = plan(sketch.saved(tmp_path)).arrays
     assert [(count, round(long / INCH, 6)) for count, long, _ in array.sizes] == [(6, 65), (6, 66)]
     assert array.note == ""
