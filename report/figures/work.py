@@ -1,16 +1,11 @@
-"""Accuracy against run time: medians over the analysis cases.
-
-Comparison of models: effect of each fuller model on the PRD; accuracy against run time.
-"""
+"""Accuracy against run time: medians over the analysis cases in one axis; one case in two."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import asdict
 from typing import Any, TypeVar
 
-import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -20,18 +15,15 @@ from report.figures.base import (
     GRAY,
     INK,
     LOOKS,
-    bare,
     boxed,
-    framed,
     labeled,
     logarithmic,
     panels,
     style,
     svg_text,
-    ticks,
 )
 from report.text.counts import lettered
-from solver.verification.evidence import BoundRatios, ModelChange, PeerPoint
+from solver.verification.evidence import PeerPoint
 from solver.verification.peers import ONE_AXIS
 
 T = TypeVar("T")
@@ -108,44 +100,6 @@ def _peers(axes: Axes, peers: Iterable[PeerPoint], floor: float) -> None:
         )  # fmt: skip
 
 
-_RATIOS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
-_DOT = "#9a9a9a"
-_SPREAD = 0.31
-"""Vertical spread of the dots of a row, to each side of its center line."""
-
-
-def changes(studied: Sequence[ModelChange]) -> str:
-    """Return a row for each change: a dot for each run, a bar for 10 to 90 %, a median mark."""
-    height = 0.5 + 0.31 * len(studied)
-    with style():
-        figure, axes = framed(height, 1.95, 0.15, 0.08, 0.42)
-        axes.axvline(1.0, color=INK, linewidth=0.8, zorder=1)
-        for row, change in enumerate(studied):
-            _row(axes, row, change)
-        axes.set_xscale("log")
-        axes.set_ylim(len(studied) - 0.5, -0.5)
-        axes.set_yticks(range(len(studied)), [change.name for change in studied])
-        axes.tick_params(axis="y", length=0)
-        ticks(axes.xaxis, _RATIOS)
-        axes.set_xlabel("PRD of the fuller model / PRD of the simpler model")
-        axes.grid(True, axis="x")
-        axes.set_axisbelow(True)
-        bare(axes)
-        axes.spines["left"].set_visible(False)
-        return svg_text(figure)
-
-
-def _row(axes: Any, row: int, change: ModelChange) -> None:
-    if not change.ratios.size:
-        return
-    # Golden-ratio offsets: the same in every run, and equal values do not overlap.
-    turn = 0.5 * (1.0 + math.sqrt(5.0))
-    aside = _SPREAD * (2.0 * np.mod(turn * np.arange(change.ratios.size), 1.0) - 1.0)
-    axes.plot(change.ratios, row + aside, linestyle="", marker=".", markersize=1.8, color=_DOT)
-    axes.plot([change.at(10.0), change.at(90.0)], [row, row], color=ACCENT, linewidth=2.0)
-    axes.plot([change.median] * 2, [row - 0.36, row + 0.36], color=ACCENT, linewidth=2.0)
-
-
 _LOOKS: tuple[dict[str, Any], ...] = (
     {"color": ACCENT, "linestyle": "-", "marker": "o"},
     {"color": INK, "linestyle": "-", "marker": "s"},
@@ -157,8 +111,8 @@ _LOOKS: tuple[dict[str, Any], ...] = (
     {"color": GRAY, "linestyle": (0, (3, 1, 1, 1, 1, 1)), "marker": "x"},
 )
 
-LEAST_PERCENT, LEAST_RATIO = 1e-12, 1e-6
-"""Smallest error and ratio drawn; smaller ones are drawn there."""
+LEAST_PERCENT = 1e-12
+"""Smallest error drawn; smaller ones are drawn there."""
 
 
 def work(runs: pd.DataFrame) -> str:
@@ -178,27 +132,6 @@ def work(runs: pd.DataFrame) -> str:
                 label=lettered(name),
             )
         logarithmic(axes, 9, 8)
-        _finish(axes, "Time per run [s]", "Position error [% of the PRD]")
-        return svg_text(figure)
-
-
-def _finish(axes: Axes, x: str, y: str) -> None:
-    labeled(axes, x, y)
-    axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), handlelength=3.2)
-
-
-def bounds(groups: Sequence[BoundRatios]) -> str:
-    """Return, for each kind, the share of the pairs whose ratio to the bound exceeds a value."""
-    with style():
-        figure, axes = boxed(2.5, (0.085, 0.165, 0.58, 0.8))
-        axes.axvline(1.0, color=INK, linewidth=0.8)
-        axes.text(1.15, 0.9, "bound", color=INK)
-        for group, look in zip(groups, _LOOKS, strict=False):
-            above = 1.0 - np.arange(group.ratios.size) / max(group.ratios.size, 1)
-            ratios, label = np.maximum(group.ratios, LEAST_RATIO), group.kind.replace("mu", "μ")
-            axes.plot(ratios, above, **look | {"marker": ""}, linewidth=1.2, label=label)
-        logarithmic(axes, 8, 9)
-        x = "Difference of the two runs of a pair / sum of their bounds"
-        _finish(axes, x, "Share of pairs exceeding")
-        axes.set_xlim(LEAST_RATIO, 10.0)
+        labeled(axes, "Time per run [s]", "Position error [% of the PRD]")
+        axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), handlelength=3.2)
         return svg_text(figure)

@@ -179,7 +179,6 @@ _CONSTANTS = {
     "model_evidence": evidence,
     "model_study": model_study,
     "shake_table": accepted,
-    "static_study": model_study,
 }
 """Modules whose constants the templates print."""
 

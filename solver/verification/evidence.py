@@ -80,49 +80,12 @@ class ModelStudy:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class StaticEvidence:
-    """Results for static friction above kinetic friction."""
-
-    # scenes of `differences` and `fading`: those whose PRD in one axis is `LEAST_M` or more
-    n_scenes: int
-    ratio: float  # static over kinetic friction in `fading`
-    # by static over kinetic friction, less 1: change of the PRD of each scene relative to kinetic
-    # friction alone, with columns `one_axis` and `two_axes`
-    differences: Mapping[float, pd.DataFrame]
-    # by factor of the second component: change of the PRD of each scene relative to one axis with
-    # the same friction, kinetic alone (`one_coefficient`) and static above it (`static_above`)
-    fading: Mapping[float, pd.DataFrame]
-    pushed: pd.DataFrame  # see `solver.verification.model_study.pushed`
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class BoundRatios:
-    """Differences of random pairs of runs relative to their bounds."""
-
-    kind: str  # kind of pair, see `random_pairs.KINDS`
-    n_pairs: int  # includes pairs without slip, which have no ratio
-    n_unanswered: int  # pairs in which a run has no result
-    ratios: Floats  # shape (n,): difference in position over the sum of the two bounds, ascending
-
-    @property
-    def n_over(self) -> int:
-        """Pairs that differ by more than their bounds."""
-        return int((self.ratios > 1.0).sum())
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class ModelEvidence:
     """The complete comparison of models."""
 
     study: ModelStudy
-    static: StaticEvidence
-    bounds: tuple[BoundRatios, ...]
-    # runs of one scene, and of a block that stops, see `solver.verification.workprecision`
-    work: pd.DataFrame
-    stops: pd.DataFrame
-    times_motion: str  # name, length and time step of the motion used for `times`
-    # of each model, one axis first: median over the scenes, warm, without the choice of model [s]
-    times: Mapping[str, float]
+    pushed: pd.DataFrame  # see `solver.verification.model_study.pushed`
+    work: pd.DataFrame  # see `solver.verification.workprecision.work`
 
 
 FLOOR_M = 1e-3

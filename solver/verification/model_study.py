@@ -1,15 +1,12 @@
-"""Comparison of models: the same scenes by every model, and the run time of each.
+"""Comparison of models: the same scenes by every model; a block driven back at rest.
 
 Read `model_evidence`; the other functions compute its parts.
-
-Static friction above kinetic: limits of a small difference and of a small second component.
 """
 
 from __future__ import annotations
 
 import math
-import statistics
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -36,27 +33,15 @@ from solver.verification.evidence import (
     ModelChange,
     ModelEvidence,
     ModelStudy,
-    StaticEvidence,
 )
-from solver.verification.random_pairs import bound_ratios
 from solver.verification.study import (
-    MODEL_CASES,
     RECORDED,
-    TIGHT,
     faded,
     flat_scene,
     grid,
-    minimum_seconds,
     plane_prds,
-    scene_of,
     scenes_of,
 )
-
-EXCESSES = (0.3, 0.1, 1e-2, 1e-3, 1e-4)
-"""Static over kinetic friction, less 1."""
-
-FADING = (1e-1, 1e-2, 1e-4)
-"""Factors of the second component."""
 
 ACROSS_MPS2 = (0.0, 1e-9, 1e-6, 0.1)
 """Transverse accelerations of the block that is driven back [m/s2]."""
@@ -78,50 +63,6 @@ JUMPING = held(0.4, 1.25)
 
 FALLING = replace(JUMPING, mu_slow=JUMPING.mu_static, rate_s_per_m=100.0)
 """The same friction, falling from static to kinetic gradually with velocity."""
-
-
-def static_evidence(scenes: Sequence[Scene], ratio: float) -> StaticEvidence:
-    """Run scenes with their coefficient as kinetic friction; scenes with little slip are excluded.
-
-    Parameters
-    ----------
-    scenes : sequence of Scene
-        Of three components.
-    ratio : float
-        Static over kinetic friction where the second component decreases.
-    """
-    alone = [(scene, one_axis.run(scene).prd_m) for scene in scenes]
-    slid = [scene for scene, prd_m in alone if prd_m >= LEAST_M]
-    exact_m = np.array([prd_m for _, prd_m in alone if prd_m >= LEAST_M])
-    return StaticEvidence(
-        n_scenes=len(slid),
-        ratio=ratio,
-        differences=dict(_differences(slid, exact_m)),
-        fading=dict(_fading(slid, exact_m, ratio)),
-        pushed=pushed(),
-    )
-
-
-def _differences(slid: Sequence[Scene], exact_m: Floats) -> Iterator[tuple[float, pd.DataFrame]]:
-    alone = [faded(scene, 0.0) for scene in slid]
-    plain_m = plane_prds(slid, coulomb, TIGHT)
-    for excess in EXCESSES:
-        law = partial(held, ratio=1.0 + excess)
-        one_axis_m, two_axes_m = (plane_prds(each, law, TIGHT) for each in (alone, slid))
-        changes = {"one_axis": one_axis_m / exact_m, "two_axes": two_axes_m / plain_m}
-        yield excess, (pd.DataFrame(changes) - 1.0).abs()
-
-
-def _fading(
-    slid: Sequence[Scene], exact_m: Floats, ratio: float
-) -> Iterator[tuple[float, pd.DataFrame]]:
-    law = partial(held, ratio=ratio)
-    base_m = plane_prds([faded(scene, 0.0) for scene in slid], law, TIGHT)
-    for share in FADING:
-        part = [faded(scene, share) for scene in slid]
-        one_m, static_m = (plane_prds(part, each, TIGHT) for each in (coulomb, law))
-        changes = {"one_coefficient": one_m / exact_m, "static_above": static_m / base_m}
-        yield share, (pd.DataFrame(changes) - 1.0).abs()
 
 
 def pushed_scene(across_mps2: float, friction: Friction) -> Scene:
@@ -169,17 +110,11 @@ ROW_DAMPING = 0.05
 
 
 def model_evidence(triples: Sequence[Motion], *, quick: bool) -> ModelEvidence:
-    """Run all comparisons; accuracy and run times use the first motion."""
-    first = triples[0]
-    length = (first.ax_mps2.size - 1) * first.dt_s
+    """Run all comparisons; accuracy against run time uses the first motion."""
     return ModelEvidence(
         study=study(triples, quick=quick),
-        static=static(triples, quick=quick),
-        bounds=bound_ratios(quick=quick),
-        work=workprecision.work(first, quick=quick),
-        stops=workprecision.stops(),
-        times_motion=f"{first.id}, {length:.0f} s in steps of {first.dt_s:g} s",
-        times=times(first),
+        pushed=pushed(),
+        work=workprecision.work(triples[0], quick=quick),
     )
 
 
@@ -213,11 +148,6 @@ def _axes(quick: bool) -> tuple[tuple[float, ...], ...]:
     """Return the slopes, friction coefficients and PPAs of the scenes."""
     axes = SLOPES_DEG, MUS, PPAS_G
     return tuple((values[0], values[-1]) for values in axes) if quick else axes
-
-
-def static(triples: Sequence[Motion], *, quick: bool) -> StaticEvidence:
-    """Run every scene of every motion in its first orientation, static friction above kinetic."""
-    return static_evidence(scenes_of(triples, grid(*_axes(quick))), 1.0 / SLOW_SHARE)
 
 
 def _changes(
@@ -296,25 +226,3 @@ def by_speed(mu_slow: float) -> Friction:
         rate_s_per_m=RATE_S_PER_M,
         mu_static=mu_slow,
     )
-
-
-def times(triple: Motion) -> dict[str, float]:
-    """Time every model on the scenes `MODEL_CASES`; the first two share one solver."""
-    medians = {}
-    for title, run, law, second, vertical in _MODELS:
-        scenes = [
-            scene_of(triple, case, law(case.mu), second=second, vertical=vertical)
-            for case in MODEL_CASES
-        ]
-        medians[title] = statistics.median(minimum_seconds(partial(run, scene)) for scene in scenes)
-    return medians
-
-
-_MODELS: tuple[tuple[str, Callable[[Scene], object], Callable[[float], Friction], bool, bool], ...]
-_MODELS = (
-    ("One axis", one_axis.run, coulomb, False, False),
-    ("One axis with vertical", one_axis.run, coulomb, False, True),
-    ("Two axes with vertical", two_axes.run, coulomb, True, True),
-    ("Two axes, velocity-dependent friction", two_axes.run, by_speed, True, True),
-    ("Row of five blocks, links of 1 mm", _slide_row, coulomb, False, True),
-)

@@ -2,16 +2,14 @@
 
 Short records of many shapes, most unlike an earthquake: equal samples, jumps, accelerations equal
 to the yield acceleration, proportional components, no friction, no normal force.
-Read `Pair`, then `KINDS`; `bound_ratios` counts for the manual.
+Read `Pair`, then `KINDS`.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cache
 
 import numpy as np
 
@@ -20,7 +18,6 @@ from solver.model import Floats, Friction, Scene, Status, coulomb
 from solver.records.record import read_only
 from solver.rivals.methods import NO_RECORD
 from solver.sliding.two_axes import TwoAxesOutcome, follow
-from solver.verification.evidence import BoundRatios
 
 EPS = 2.0**-52
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)
@@ -316,38 +313,11 @@ KINDS: dict[str, Callable[[Random], Pair]] = {
     "two tolerances": lambda rng: _tolerances(rng, _scene(rng)),
     "mu = tan(slope)": _at_tan_slope,
     "mu = 0": lambda rng: _either(rng, _scene(rng, mu=0.0)),
-    "N to zero": _light,
-    "friction by speed": lambda rng: _either(rng, _scene(rng, law=_by_speed(rng))),
+    "normal force near zero": _light,
+    "velocity-dependent friction": lambda rng: _either(rng, _scene(rng, law=_by_speed(rng))),
     "velocity-weakening friction": lambda rng: _tolerances(rng, _scene(rng, law=_falling(rng))),
 }
 """Generator of each kind of pair."""
 
 UNBOUNDED = ("velocity-weakening friction",)
 """Kinds whose runs have no bound; the runs must only finish."""
-
-PAIRS = (40, 1000)
-"""Number of pairs of each kind that the manual counts, quick and full."""
-
-_PRINTED = {
-    "N to zero": "normal force near zero",
-    "friction by speed": "velocity-dependent friction",
-}
-
-
-@cache
-def bound_ratios(*, quick: bool) -> tuple[BoundRatios, ...]:
-    """Run the first pairs of every kind that has a bound: differences relative to the bounds."""
-    return tuple(_of_kind(kind, PAIRS[not quick]) for kind in KINDS if kind not in UNBOUNDED)
-
-
-def _of_kind(kind: str, count: int) -> BoundRatios:
-    outcomes = []
-    for index in range(count):
-        with suppress(ArithmeticError):
-            outcomes.append(pair(kind, index).run())
-    return BoundRatios(
-        kind=_PRINTED.get(kind, kind),
-        n_pairs=count,
-        n_unanswered=count - len(outcomes),
-        ratios=np.sort([outcome.ratio for outcome in outcomes if outcome.prd_m > 0.0]),
-    )

@@ -3,7 +3,7 @@
 Times are for one thread, warm, the least of several repeats, after the record is prepared and the
 input checked. See `solver.rivals.methods` for the methods and their settings.
 
-Two axes: accuracy against run time, and the behavior of each method after a block has stopped.
+Two axes: the same on one scene.
 """
 
 from __future__ import annotations
@@ -23,7 +23,6 @@ from solver.rivals import by_scipy
 from solver.rivals.methods import METHODS, AxisScene, Method
 from solver.sliding import two_axes
 from solver.verification.evidence import percent_off
-from solver.verification.model_checks import stopped_scene
 from solver.verification.scenes import Case, runnable_methods
 from solver.verification.study import (
     MODEL_CASES,
@@ -114,8 +113,8 @@ OF_EVENTS = (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)
 """Tolerances of SciPy's solvers with events."""
 SUBSTEPS = (1, 4, 16, 64, 256, 1024)
 
-_Run = tuple[str, str, Callable[[], tuple[float, ...]]]
-"""Method, setting, and what returns at last the final position, x and y [m], and speed [m/s]."""
+_End = Callable[[], tuple[float, float]]
+"""Runs a method and returns the final position, x and y [m]."""
 
 
 def work(triple: Motion, *, quick: bool) -> pd.DataFrame:
@@ -124,78 +123,57 @@ def work(triple: Motion, *, quick: bool) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        A row for each run, with columns as in verification.csv, the `position error [m]` and the
-        velocity at the end; the residual error is the former in percent of the PRD. A failed run
-        has no time and no errors: NaN.
+        A row for each run, with columns as in verification.csv; the residual error is that of the
+        position, in percent of the PRD. A failed run has no time and no error: NaN.
     """
     part = cut(triple, SAMPLES[not quick])
     scene = scene_of(part, CASE, coulomb(CASE.mu))
-    steps = {f"P = {count}": count for count in SUBSTEPS}
-    runs = _runs_in_plane(scene, TOLERANCES, steps, OF_EVENTS[::2] if quick else OF_EVENTS)
-    return _measured_in_plane(scene, runs).assign(case=f"{part.id}, {CASE}")
-
-
-def stops() -> pd.DataFrame:
-    """Run the block that stops under a transverse acceleration and rests for 1.8 s, every method.
-
-    Its position is known in closed form, see `model_checks.stopped_scene` and its checks.
-    """
-    scene = stopped_scene()
-    steps = {f"{1e3 * scene.dt_s / count:g} ms": count for count in (10, 100, 1000)}
-    return _measured_in_plane(scene, _runs_in_plane(scene, (1e-4, 1e-6), steps, (1e-6,)))
-
-
-def _measured_in_plane(scene: Scene, runs: Iterable[_Run]) -> pd.DataFrame:
     truth = two_axes.run(scene, TIGHT)
-    place = truth.residual_m, truth.residual_across_m
     rows = []
-    for method, setting, solve in runs:
-        *_, x_m, y_m, speed_mps = solve()
-        off_m = math.dist((x_m, y_m), place)
+    for method, setting, solve in _runs_in_plane(scene, OF_EVENTS[::2] if quick else OF_EVENTS):
+        off_m = math.dist(solve(), (truth.residual_m, truth.residual_across_m))
         rows.append(
             {
                 "method": method,
                 "parameters": setting,
+                "case": f"{part.id}, {CASE}",
                 "time per run [s]": math.nan if math.isnan(off_m) else minimum_seconds(solve),
                 "residual error [%]": 100.0 * off_m / truth.prd_m,
-                "position error [m]": off_m,
-                "final velocity [m/s]": speed_mps,
             }
         )
     return pd.DataFrame(rows)
 
 
-def _runs_in_plane(
-    scene: Scene, tolerances: Sequence[float], steps: dict[str, int], of_events: Sequence[float]
-) -> Iterator[_Run]:
-    """Yield every method with each of its settings."""
-    for tolerance in tolerances:
+def _runs_in_plane(scene: Scene, of_events: Sequence[float]) -> Iterator[tuple[str, str, _End]]:
+    """Yield the name of a method and its setting with what runs it."""
+    for tolerance in TOLERANCES:
         yield OURS, f"tol. {tolerance:g}", partial(_series, scene, tolerance)
     rows, dt, cosine = samples_of(scene), scene.dt_s, math.cos(scene.slope_rad)
     for method, holds in ((HOLDING, True), (CHATTERING, False)):
-        for setting, count in steps.items():
-            yield (
-                method,
-                setting,
-                partial(rivals.slide_fixed, rows, dt, cosine, count, holds),
-            )
+        for count in SUBSTEPS:
+            fixed = partial(rivals.slide_fixed, rows, dt, cosine, count, holds)
+            yield method, f"P = {count}", partial(_fixed, fixed)
     if not by_scipy.is_installed():
         return
     for v0 in REGULARIZED.sweep:
         smooth = partial(by_scipy.regularized, rows, dt, v0, REGULARIZED.parameters["tolerance"])
         yield REGULARIZED.label, f"{1e3 * v0:g} mm/s", partial(_end, smooth, cosine)
     for solver in ("DOP853", "RK45"):
+        label = METHODS[f"events-{solver.lower()}"].label
         for tolerance in of_events:
             run = partial(by_scipy.plane, rows, dt, solver, tolerance)
-            label = METHODS[f"events-{solver.lower()}"].label
             yield label, f"tol. {tolerance:g}", partial(_end, run, cosine)
 
 
-def _series(scene: Scene, tolerance: float) -> tuple[float, float, float]:
-    outcome = two_axes.follow(scene, tolerance)
-    return *outcome.end_m, math.hypot(*outcome.end_mps)
+def _series(scene: Scene, tolerance: float) -> tuple[float, float]:
+    return two_axes.follow(scene, tolerance).end_m
 
 
-def _end(run: Callable[[], Floats], cosine: float) -> tuple[float, float, float]:
-    x, y, vx, vy = run()[:, -1].tolist()
-    return cosine * x, y, math.hypot(cosine * vx, vy)
+def _fixed(run: Callable[[], tuple[float, float, float, float]]) -> tuple[float, float]:
+    _, x, y, _ = run()
+    return x, y
+
+
+def _end(run: Callable[[], Floats], cosine: float) -> tuple[float, float]:
+    x, y = run()[:2, -1].tolist()
+    return cosine * x, y

@@ -218,7 +218,9 @@ def test_the_rounding_of_a_weight_that_presses_hard_is_within_the_bound():
     assert outcome.error_m < 1e-5 * outcome.prd_m
 
 
-@pytest.mark.parametrize("kind", ["N to zero", "mu = tan(slope)", "friction by speed"])
+@pytest.mark.parametrize(
+    "kind", ["normal force near zero", "mu = tan(slope)", "velocity-dependent friction"]
+)
 def test_the_tolerance_is_met_but_for_rounding(kind):
     for index in range(300):
         run = pair(kind, index).first

@@ -6,7 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from solver.model import STANDARD_GRAVITY_MPS2, coulomb
 from solver.records.record import read_only
+from solver.sliding import one_axis, two_axes
 from solver.sliding.checked import slide
 from solver.verification import model_study
 from solver.verification.evidence import (
@@ -86,8 +88,18 @@ def test_percentiles_and_the_share_above_one():
     assert change.share_above_one == pytest.approx(2.0 / 3.0)
 
 
-def test_models_are_timed_against_the_first():
-    times = model_study.times(own_triples(True)[0])
-    assert next(iter(times)) == "One axis"
-    assert len(times) == 5
-    assert min(times.values()) > 0.0
+def test_a_push_between_kinetic_and_static_holds_in_one_axis_alone():
+    pushed = model_study.pushed()
+    alone_m, faint_m, *pushed_m = pushed["end_m"]
+    # v falls from its speed at 0.06 s with the push and friction: v^2 / 2a, before that a ramp.
+    scene = model_study.pushed_scene(0.0, model_study.JUMPING)
+    history = two_axes.run_history(scene)
+    braking = (model_study.PUSHED_BACK_G + 0.4) * STANDARD_GRAVITY_MPS2
+    stops = history.u_m[6] + history.v_mps[6] ** 2 / (2.0 * braking)
+    assert [alone_m, faint_m] == pytest.approx([stops] * 2, rel=1e-9)
+    assert min(pushed_m) > 50.0 * alone_m
+    # What two tolerances do not agree on is told.
+    assert pushed["error_m"].iloc[2] > pushed_m[0]
+    falling = pushed["falling_end_m"].tolist()
+    assert falling == pytest.approx([falling[0]] * len(falling), rel=1e-3)
+    assert one_axis.run(model_study.pushed_scene(0.0, coulomb(0.4))).prd_m > 0.5

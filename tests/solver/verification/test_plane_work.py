@@ -1,4 +1,4 @@
-"""Work against precision in two axes: errors fall with the settings; a stop is a stop."""
+"""Work against precision in two axes: errors fall with the settings."""
 
 import numpy as np
 import pytest
@@ -42,13 +42,8 @@ def test_scipy_takes_part_where_it_is_installed_and_gains_with_its_settings(poin
         assert off[-1] < 0.05 * off[0]
 
 
-def test_without_scipy_the_rest_is_there_and_the_series_rest_where_they_should(monkeypatch):
+def test_without_scipy_the_rest_is_there(monkeypatch):
     monkeypatch.setattr(by_scipy, "is_installed", lambda: False)
     points = workprecision.work(own_triples(True)[0], quick=True)
-    stops = workprecision.stops()
-    assert not any("SciPy" in method for method in (*points["method"], *stops["method"]))
-    ours, speed, error = of(stops, workprecision.OURS), "final velocity [m/s]", "position error [m]"
-    assert (ours[speed] == 0.0).all()
-    assert (ours[error] < 1e-9).all()
-    assert (of(stops, workprecision.CHATTERING)[speed] > 1e-6).all()
-    assert of(stops, workprecision.HOLDING)[error].between(1e-6, 1e-2, inclusive="neither").all()
+    names = workprecision.OURS, workprecision.HOLDING, workprecision.CHATTERING
+    assert tuple(points["method"].unique()) == names
