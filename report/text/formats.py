@@ -58,11 +58,6 @@ def ten_digits(value: float) -> str:
     return f"{value:.10g}".replace("-", "−")
 
 
-def two_digits(value: float) -> str:
-    """Return two digits of a number, by powers of ten where it is small."""
-    return f"{value:.2g}" if value >= 1e-3 else scientific(value)
-
-
 def general(value: float) -> str:
     """Return a number with no more than six digits, as it would be typed."""
     return f"{value:g}"

@@ -1,9 +1,7 @@
 """Checks of the solver against independent results, one row for each value.
 
-Closed forms (`solver.verification.reference`) and the paper's physical checks; calls only
-`solver.slide` and `slide_history`. See `crosschecks` for 50 digits, symmetries and the rivals.
-
-Checks of the exact method against 50-digit arithmetic and symmetries, and of every rival.
+Closed forms (`solver.verification.reference`), the paper's physical checks, the exact method
+against 50-digit arithmetic, and every rival. Calls only `solver.slide` and `slide_history`.
 """
 
 from __future__ import annotations
@@ -240,67 +238,6 @@ def fifty_digits(record: Record) -> Iterator[Check]:
             )
             result = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, scale=scale)
             yield from slip_checks("DA-1", source, f"{record.name}, {case}{more}", exact, result)
-
-
-def symmetries(record: Record) -> Iterator[Check]:
-    """Run scenes whose results follow from those of others."""
-    case = Case(3.0, 0.25, 1.0)
-    ax, dt, scale = record.a_mps2, record.dt_s, scale_to(record, case.ppa_g)
-    slope, mu, g = case.slope_rad, case.mu, STANDARD_GRAVITY_MPS2
-    plain = slide(ax, dt, slope_rad=slope, mu=mu, scale=scale)
-    mirrored = slide(-ax, dt, slope_rad=-slope, mu=mu, scale=scale)
-    fine = np.interp(np.arange(2 * ax.size - 1) / 2, np.arange(ax.size), ax)
-    finer = slide(fine, dt / 2, slope_rad=slope, mu=mu, scale=scale)
-    twice = slide(ax, dt, slope_rad=slope, mu=mu, scale=2 * scale, g_mps2=2 * g)
-    slow = slide(ax, 2 * dt, slope_rad=slope, mu=mu, scale=scale)
-    prd_m, name = plain.prd_m, f"{record.name}, {case}"
-
-    def row(id: str, problem: str, source: str, times: float, found: SlideResult) -> Check:
-        expected = times * prd_m
-        return Check(id, source, "PRD", "m", f"{problem}: {name}", expected, found.prd_m)
-
-    mirror, same = "Slope and record mirrored", "identical to the last bit"
-    yield Check("SY-1", f"PRD {same}", "PRD", "m", f"{mirror}: {name}", prd_m, mirrored.prd_m, 0.0)
-    yield Check(
-        "SY-1",
-        f"Residual of opposite sign, {same}",
-        "Residual",
-        "m",
-        f"{mirror}, residual: {name}",
-        -plain.residual_m,
-        mirrored.residual_m,
-        0.0,
-    )
-    added = "Samples added by linear interpolation"
-    yield row("SY-2", added, "The displacement is unchanged", 1.0, finer)
-    yield row("SY-3", "Gravity and record doubled", "Displacements are doubled", 2.0, twice)
-    yield row("SY-4", "Time step doubled", "Displacements are multiplied by four", 4.0, slow)
-    yield _energy(record, case)
-
-
-def _energy(record: Record, case: Case) -> Check:
-    """Compare the work of friction with that of gravity and shaking, summed over the history."""
-    parts = 32
-    n = record.a_mps2.size
-    ax = np.interp(np.arange((n - 1) * parts + 1) / parts, np.arange(n), record.a_mps2)
-    ax *= scale_to(record, case.ppa_g)
-    dt = record.dt_s / parts
-    history = slide_history(ax, dt, slope_rad=case.slope_rad, mu=case.mu)
-    sine, cosine = math.sin(case.slope_rad), math.cos(case.slope_rad)
-    v = history.v_mps / cosine
-    g = STANDARD_GRAVITY_MPS2
-    friction = case.mu * (g * cosine + ax * sine) * np.abs(v)
-    drive = (g * sine - ax * cosine) * v
-    return Check(
-        "SY-5",
-        "Work of gravity and shaking less kinetic energy; summed at 32 points per interval",
-        "Work of friction per unit mass",
-        "J/kg",
-        f"Energy balance: {record.name}, {case}",
-        float(drive.sum() * dt - v[-1] ** 2 / 2),
-        float(friction.sum() * dt),
-        1e-4,
-    )
 
 
 def rivals() -> Iterator[Check]:

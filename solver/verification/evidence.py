@@ -99,7 +99,6 @@ SECTIONS = {
     "CF": "Closed forms",
     "PH": "Physical checks of the paper",
     "DA": f"Decimal arithmetic, {DIGITS} digits",
-    "SY": "Symmetries",
     "ME": "Methods",
     "RM": "Roof motion computed from ground motion",
     "TA": "Two axes and the choice of model",

@@ -55,7 +55,7 @@ _TESTS_ONLY = "Automatic tests only"
 FEATURES = (
     Feature(
         "Sliding in one axis",
-        (*_ids("CF", 9), *_ids("PH", 4), "DA-1", *_ids("SY", 5)),
+        (*_ids("CF", 9), *_ids("PH", 4), "DA-1"),
         validated_by=_one_axis,
     ),
     Feature("Sliding in one axis with vertical shaking", ("CF-3", "DA-1"), validated_by=_vertical),

@@ -62,7 +62,7 @@ def verify(
     start = time.perf_counter()
     progress("Generating the project's records")
     records = own_records(quick)
-    progress("Checks: closed forms, 50-digit arithmetic, symmetries, physical checks of the paper")
+    progress("Checks: closed forms, 50-digit arithmetic, physical checks of the paper")
     rows = list(_rows(records))
     progress("Roof motion from ground motion: modes, model building, recorded buildings if given")
     made = building_checks.made_building(records[0])
@@ -114,7 +114,5 @@ def _rows(records: Sequence[Record]) -> Iterator[Check]:
     yield from checks.physical_checks(records[0])
     for record in records:
         yield from checks.fifty_digits(record)
-    for record in records:
-        yield from checks.symmetries(record)
     yield from checks.rivals()
     yield from design_checks.design_checks()

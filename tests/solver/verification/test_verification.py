@@ -50,7 +50,6 @@ def test_every_section_has_rows_with_a_source_and_a_tolerance_and_no_two_are_ali
         "Closed forms",
         "Physical checks of the paper",
         "Decimal arithmetic, 50 digits",
-        "Symmetries",
         "Methods",
         "Roof motion computed from ground motion",
         "Two axes and the choice of model",
