@@ -25,6 +25,10 @@ def test_an_array_that_is_ng_by_a_missing_clearance_says_so_in_its_row():
         one, other = printed(made, key).table(title).column("Verdict")
         assert one == "NG clearance A1 to RTU-9 not given"
         assert other == "Condition"
+    assert (
+        "Condition: all are satisfied once the conditions below are met; NG: a "
+        "requirement is not satisfied, or no design displacement is permitted"
+    ) in printed(made, "summary")
     assert any("NG: clearance A1 to RTU-9 not given" in line for line in summary(made.assessment))
 
 
