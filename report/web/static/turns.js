@@ -11,32 +11,26 @@ const EASES = { friction: 1, clearance: 1 }; // with more of it there is less NG
  */
 export function createTurns(ask, show) {
   let turn = 0;
-  let timer = 0;
+  const stop = () => {
+    turn += 1;
+  };
 
   async function search(sliders, values, isNg) {
+    stop();
     const mine = turn;
     const isWanted = () => mine === turn;
-    for (const slider of sliders) {
-      if (Object.entries(slider.with_choice ?? {}).some(([id, value]) => values[id] !== value)) continue;
-      const found = await turnOf(slider, values, isNg, ask, isWanted);
+    await new Promise((done) => {
+      setTimeout(done, REST_MS);
+    });
+    for (const slider of sliders.filter(({ with_choice: needed = {} }) => Object.entries(needed).every(([id, value]) => values[id] === value))) {
       if (!isWanted()) return;
-      show(slider.id, found);
+      const turned = await turnOf(slider, values, isNg, ask, isWanted);
+      if (isWanted()) show(slider.id, turned);
     }
   }
 
-  function stop() {
-    clearTimeout(timer);
-    turn += 1;
-  }
-
-  return {
-    stop,
-    start(sliders, values, isNg) {
-      stop();
-      // Without an answer there are no marks: what the user asks next tells why.
-      timer = setTimeout(() => search(sliders, values, isNg).catch(stop), REST_MS);
-    },
-  };
+  // Without an answer there are no marks: what the user asks next tells why.
+  return { stop, start: (sliders, values, isNg) => search(sliders, values, isNg).catch(stop) };
 }
 
 /** Return where a verdict changes between a value of a slider and its end; both sides are asked. */
