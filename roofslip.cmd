@@ -68,7 +68,7 @@ if errorlevel 1 goto ask
 if errorlevel 1 exit /b 1
 echo roofslip: compiling the solver (once) 1>&2
 set "NUMBA_OPT=2"
-"%python%" -P -m solver.sliding.compiled constant law
+"%python%" -P -m solver.sliding.checked constant law
 if errorlevel 1 exit /b 1
 set "NUMBA_OPT="
 mkdir .venv\set-up-%1

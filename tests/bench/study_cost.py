@@ -124,7 +124,7 @@ def one_suite() -> None:
         figure("size of a run on disk", size / campaign.rows, "B", digits=3)
         identity = manifest_of(campaign, {})["identity"]
         found = done_parts(folder, campaign, identity, KEY)
-        rows = sum(peaks(read_part(folder, done), campaign).prd_m.size for done in found.values())
+        rows = sum(peaks(read_part(folder, done), campaign)[0].size for done in found.values())
         assert rows == campaign.rows
         peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
         figure("largest memory, every part read again", peak, "GB")

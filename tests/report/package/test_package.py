@@ -68,7 +68,7 @@ def test_the_layout_drops_no_word_of_a_page(html, texts):
 
 def apart(text):
     """Return the words of a text, without what stands for layout in the words of a page."""
-    return re.sub(r"\(#[^)]*\)|[][|#^/()]", " ", text).split()
+    return re.sub(r"\(#[^)]*\)|[][|#^/();]", " ", text).split()
 
 
 @pytest.mark.nightly
@@ -111,7 +111,7 @@ def test_contents_name_the_sheet_of_each_part(texts):
     ):
         number, words = title.split(" ", 1)
         contents = flat(" ".join(texts[:3]))
-        match = re.search(rf"{number}\s*{re.escape(words)}\s*\.*\s*(\d+)", contents)
+        match = re.search(rf"{number}\s*{re.escape(words)}:\s*(\d+)", contents)
         assert match, title
         assert title in flat(texts[int(match[1]) - 1])
 

@@ -200,11 +200,10 @@ def test_the_schools_conditions_are_on_its_hazard_and_its_ground_motions(school)
     missed = [row for row in school.results["requirements"] if not row["is_satisfied"]]
     assert [row["id"] for row in missed] == ["hazard_source", "ground_motions"]
     assert {row["verdict"] for row in missed} == {"Condition"}
-    titles = [row["title"] for row in missed]
     for key in ("summary", "plan", "limits"):
         rows = [row for table in page("school", key).tables for row in table.cells]
         assert not any("NG" in row for row in rows)
-        assert [row[1] for row in rows if "Condition" in row] == titles * (key == "limits")
+        assert not any("Condition" in row for row in rows)
     for row in missed:
         assert page("school", "summary").line(f"{row['title']}: {row['found']}")
 

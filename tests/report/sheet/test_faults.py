@@ -88,7 +88,7 @@ SINGLE_CELLS = [
         -1e300: "-1e+300; give a number [ft], below 1e+15 in size",
     }),
     ("Arrays/A1/Slope unit", "slope unit is ", {
-        "deg": "'deg'; choose degrees, percent or in/12",
+        "rad": "'rad'; choose degrees, percent or in/12",
     }),
     ("Arrays/A1/ID", "ID is ", {
         "A" * 41: f"'{'A' * 41}'; give text of at most 40 characters",

@@ -91,7 +91,7 @@ def test_a_suite_is_begun_for_what_is_sent_and_is_no_package_of_what_is_open(cli
         time.sleep(0.1)
     assert told["state"] == "failed"
     assert "missing or cannot be read" in told["words"]
-    assert client.post(f"/api/package/{made}/{PROJECT}").status_code == 404
+    assert client.get(f"/api/package/{made}/{PROJECT}").status_code == 404
     assert client.post("/api/motions", files=[("files", ("../x.xlsx", b""))]).status_code == 422
 
 
