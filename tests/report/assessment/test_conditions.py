@@ -262,6 +262,12 @@ def test_a_site_class_of_another_edition_is_asked_for_without_11_4_8():
     assert "11.4.8" not in hazard(**SOURCED | ASCE_7_22)["site_class"].remedy
 
 
+@pytest.mark.quick
+def test_a_site_specific_analysis_asks_for_its_report():
+    title = "Report on the site-specific hazard analysis"
+    assert hazard(**STUDIED)["hazard_source"].title == title
+
+
 @pytest.mark.parametrize(
     ("given", "asked"),
     [
