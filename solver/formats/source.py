@@ -225,7 +225,7 @@ def open_source(
     if not unknown and not (is_finite_number(dt_s) and dt_s > 0.0):
         problems.append(f"{name}: time step dt is {shown(dt_s)}; give a number of seconds above 0")
     if type(values_per_line) is not int or values_per_line < 0:
-        problems.append(f"{name}: values per line is {shown(values_per_line)}; give 1 or more")
+        problems.append(f"{name}: values per line is {shown(values_per_line)}; give 1, 2, ...")
     if units and response:
         problems.append(f"{name}: units and a response are given; give one of them")
     raise_any(problems)

@@ -131,8 +131,8 @@ def test_values_across_the_lines_are_read_where_their_number_in_a_line_is_told(f
         (ACROSS, 4, ":1: found 3 values; give 4 as in every line but the last"),
         (ACROSS.replace(" 0.5", ""), 3, ":2: found 2 values; give 3 as in every line but the last"),
         (ACROSS.replace("0.5", "x"), 3, ":2: found 'x'; give a number"),
-        (ACROSS, -1, ": values per line is -1; give 1 or more"),
-        (ACROSS, 2.0, ": values per line is 2.0; give a whole number"),
+        (ACROSS, -1, ": values per line is -1; give 1, 2, ..."),
+        (ACROSS, 2.0, ": values per line is 2.0; give 1, 2, ..."),
     ],
 )
 def test_a_line_of_another_number_of_values_is_refused(file, content, due, problem):
