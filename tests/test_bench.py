@@ -80,7 +80,7 @@ def test_a_benchmark_ends_and_prints_its_figures(name):
     words = [sys.executable, str(BENCH / "run.py"), "--smoke", name]
     done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
-    printed = re.findall(rf"^{name}: figure (.+?): ", done.stdout, re.MULTILINE)
+    printed = re.findall(rf"^{name}: figure (.+): ", done.stdout, re.MULTILINE)
     known = [row["figure"] for row in run.read() if row["script"] == name]
     assert printed
     assert set(printed) <= set(known)
