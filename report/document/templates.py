@@ -137,8 +137,8 @@ def _kept(folder: Path) -> BytecodeCache:
 
 def state_of(*folders: Path) -> str:
     """Return what changes with any module in folders: names, sizes, and when they were written."""
-    found = sorted((str(path), path.stat()) for top in folders for path in top.rglob("*.py"))
-    return str([(name, stat.st_size, stat.st_mtime_ns) for name, stat in found])
+    modules = sorted((str(path), path.stat()) for top in folders for path in top.rglob("*.py"))
+    return str([(name, stat.st_size, stat.st_mtime_ns) for name, stat in modules])
 
 
 SHORT_LETTERS = 64
