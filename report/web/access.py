@@ -6,6 +6,7 @@ port of this machine as well. Read `Access`.
 
 from __future__ import annotations
 
+import asyncio
 import hmac
 import secrets
 from collections.abc import Collection
@@ -82,9 +83,12 @@ class Access:
         self._app, self._keys, self._hosts = app, keys, hosts
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer one request."""
+        """Answer one request; where the server ends meanwhile, with that."""
+        is_begun = False
 
         async def with_headers(message: Message) -> None:
+            nonlocal is_begun
+            is_begun = True
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
                 for name, value in HEADERS.items():
@@ -92,7 +96,12 @@ class Access:
             await send(message)
 
         refusal = self._refusal(HTTPConnection(scope)) if scope["type"] == "http" else None
-        await (refusal or self._app)(scope, receive, with_headers)
+        try:
+            await (refusal or self._app)(scope, receive, with_headers)
+        except asyncio.CancelledError:
+            # Raised on, the server that cancels what it no longer waits for prints it as a defect.
+            if scope["type"] == "http" and not is_begun:
+                await JSONResponse({"error": "The server ends."}, 503)(scope, receive, with_headers)
 
     def _refusal(self, request: HTTPConnection) -> Response | None:
         """Return the answer to a request that may not pass; the page itself has no secret."""

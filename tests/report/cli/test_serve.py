@@ -1,5 +1,6 @@
 """`roofslip serve`: what it prints and refuses, and one server of its own on loopback."""
 
+import http.client
 import json
 import os
 import pty
@@ -9,7 +10,9 @@ import socket
 import subprocess
 import sys
 import urllib.error
+import urllib.parse
 import urllib.request
+from contextlib import closing
 from subprocess import PIPE
 
 import pytest
@@ -131,6 +134,34 @@ def test_on_a_terminal_enter_prints_another_address_and_an_interrupt_ends_all():
         os.close(here)
         os.close(there)
     assert told.strip() == "Press Enter for another address, Ctrl+C to end."
+    assert server.returncode == 0
+
+
+@pytest.mark.nightly
+def test_a_server_that_ends_during_an_upload_prints_no_traceback(tmp_path):
+    (tmp_path / "token").write_text(TOKEN)
+    command = [sys.executable, "-m", "report.cli", "serve", "--port", "0", "--no-browser"]
+    command += ["--token-file", str(tmp_path / "token")]
+    server = subprocess.Popen(command, cwd=ROOT, stdout=PIPE, stderr=PIPE, text=True)
+    try:
+        page = urllib.parse.urlsplit(server.stdout.readline())
+        key = asked(f"http://{page.netloc}{ENTRY}", "POST", **{TOKEN_HEADER: TOKEN})["key"]
+        upload = http.client.HTTPConnection(page.netloc, timeout=WAIT_S)
+        upload.putrequest("POST", "/api/upload")
+        for name, value in {
+            KEY_HEADER: key,
+            "Content-Type": "multipart/form-data; boundary=b",
+            "Content-Length": "1000",
+        }.items():
+            upload.putheader(name, value)
+        upload.endheaders(b"--b\r\n")
+        asked(f"http://{page.netloc}/api/state", "GET", **{KEY_HEADER: key})  # it has begun by now
+    finally:
+        server.send_signal(signal.SIGINT)
+        _, told = server.communicate(timeout=30)
+    with closing(upload):
+        assert upload.getresponse().read() == b'{"error":"The server ends."}'
+    assert "Traceback" not in told
     assert server.returncode == 0
 
 
