@@ -7,7 +7,7 @@ import shapely
 from ezdxf.render.forms import cube
 
 from inputs import FT
-from sketch import BOX_FT, L_FT, ROOF_FT, UNIT_FT, Sketch, plan
+from sketch import BOX_FT, ROOF_FT, UNIT_FT, Sketch, plan
 
 pytestmark = pytest.mark.quick
 
@@ -30,12 +30,6 @@ def hatched(sketch, points, layer="ARRAY", **look):
     hatch = sketch.space.add_hatch(dxfattribs={"layer": layer, **look})
     hatch.paths.add_polyline_path(points, is_closed=True)
     return hatch
-
-
-def test_a_hatch_is_an_outline(tmp_path):
-    sketch = Sketch()
-    hatched(sketch, L_FT)
-    assert shown(sketch, tmp_path) == ([("array", 80 * 55 - 40 * 25)], [])
 
 
 def test_a_hatch_that_looks_down_is_where_it_appears(tmp_path):

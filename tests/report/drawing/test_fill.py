@@ -161,15 +161,6 @@ def test_a_row_of_totals_with_no_blank_row_above_it_is_told(tmp_path):
     assert f"{row}: the table has a row of totals, and no blank row above it" in output
 
 
-@pytest.mark.nightly
-def test_layers_of_the_workbook_name_what_is_drawn(tmp_path):
-    path = make(tmp_path, clearances=[], layers=[{"layer": "PV", "kind": "array"}])
-    sketch = Sketch()
-    sketch.ring("pv", BOX_FT, "A9")
-    run(sketch.saved(tmp_path), tmp_path)
-    assert [row.get("id") for row in read(path).draft["arrays"]] == ["A1", "A2", "A9"]
-
-
 def test_a_drawing_without_a_unit_asks_for_it(tmp_path):
     path, book = drawing(tmp_path, "R12"), new(tmp_path)
     output = run(path, book, exit_code=2)

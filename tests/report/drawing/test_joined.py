@@ -1,15 +1,13 @@
 """Open lines that meet are joined to outlines, in one way or not at all."""
 
-import math
 import random
 
 import pytest
 
-from inputs import FT
 from report.drawing.closed_lines import BRANCHED, OPEN, join
 from report.drawing.read_dxf import read_dxf
 from report.sheet.schema.shapes import Polygon, ring
-from sketch import Sketch, plan
+from sketch import Sketch
 
 pytestmark = pytest.mark.quick
 
@@ -56,14 +54,6 @@ def test_what_closes_in_one_way_is_joined_and_the_rest_is_returned(lines, areas,
     assert found(*lines) == (areas, rest)
 
 
-def test_a_grid_is_not_joined_at_all():
-    lines = [((i, j), (i + 1, j)) for i in range(9) for j in range(10)]
-    lines += [((j, i), (j, i + 1)) for i in range(9) for j in range(10)]
-    areas, rest = found(*lines)
-    assert areas == []
-    assert rest == dict.fromkeys(range(180), BRANCHED)
-
-
 def test_lines_of_two_layers_are_not_joined(tmp_path):
     sketch = Sketch()
     for k, side in enumerate(SIDES):
@@ -77,17 +67,6 @@ def test_ends_in_a_row_of_near_ones_do_not_lead_around_without_end():
     # one of them a walk would turn around the box forever.
     lines = [((-5.0, -5.0), (-0.004, 0.0)), *SIDES[:3], (BOX[3], (0.004, 0.0))]
     assert found(*lines) == ([], dict.fromkeys(range(5), OPEN))
-
-
-def test_an_outline_of_lines_and_an_arc_is_read(tmp_path):
-    sketch = Sketch()
-    look = {"layer": "OBJECT"}
-    sketch.space.add_line((0, 0), (20, 0), dxfattribs=look)
-    sketch.space.add_arc((10, 0), 10, 0, 180, dxfattribs=look)
-    sketch.space.add_text("TANK", dxfattribs=look).set_placement((10, 3))
-    (item,) = plan(sketch.saved(tmp_path)).objects
-    assert item.name == "TANK"
-    assert item.shape.area_m2 == pytest.approx(50.0 * math.pi * FT**2, rel=2e-3)
 
 
 def test_lines_of_a_block_are_joined_with_its_name_at_each_place(tmp_path):

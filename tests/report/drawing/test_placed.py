@@ -6,6 +6,7 @@ import math
 from functools import cache
 
 import ezdxf
+import numpy as np
 import pytest
 from ezdxf.enums import TextEntityAlignment
 from ezdxf.fonts.fonts import make_font
@@ -130,10 +131,14 @@ def test_what_has_no_room_for_its_name_has_a_number_in_the_list(done):
     assert {array.id for array in done.arrays} <= named.keys()
 
 
-def test_a_plan_of_ours_reads_back_with_the_heights_beside_its_outlines(done, file):
-    found = {
-        item.name: item for item in plan(file(write_dxf(plan_drawing(done)), "plan.dxf")).objects
-    }
+def test_a_plan_of_ours_reads_back_with_its_outlines_and_the_heights_beside_them(done, file):
+    read = plan(file(write_dxf(plan_drawing(done)), "plan.dxf"))
+    found = {item.name: item for item in (*read.arrays, *read.objects)}
+    placed = [item for item in done.project.objects if item.placed is not None]
+    for item in (*done.project.arrays, *placed):
+        assert np.array(found[item.id].shape.points) == pytest.approx(
+            np.array(item.placed.points), abs=1e-5
+        )
     for item in done.project.objects:
         height_m = math.nan if item.height_m is None else item.height_m
         assert found[item.id].height_m == pytest.approx(height_m, abs=1.5e-3, nan_ok=True)

@@ -2,7 +2,6 @@
 
 import io
 import math
-from itertools import pairwise
 
 import ezdxf
 import pytest
@@ -11,12 +10,13 @@ from ezdxf.math import UCS
 
 import scenes
 import stand_in
+from architect import at
 from inputs import FT, INCH, NO_SIDES
 from report.drawing.closed_lines import OPEN
 from report.drawing.dxf import write_dxf
 from report.drawing.items import Layer
 from report.drawing.plan import plan_drawing
-from report.drawing.plan_read import LAYERS
+from report.drawing.plan_read import LAYERS, own_axes
 from report.drawing.read_dxf import read_dxf
 from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.shapes import Polygon, Rectangle
@@ -54,10 +54,6 @@ def test_a_roof_is_read_in_its_version_and_unit(tmp_path, version, unit):
     assert found.unread == ()
 
 
-def test_a_drawing_of_r12_states_no_unit(tmp_path):
-    assert read_dxf(warehouse("R12").saved(tmp_path)).unit == ""
-
-
 def test_the_sides_of_the_roof_that_have_no_edge_become_edges(tmp_path):
     sketch = warehouse()
     sketch.ring("ROOF-PARAPET", ((0, 160), (240, 160), (240, 161), (0, 161)), "N")
@@ -87,25 +83,6 @@ def test_the_edges_of_an_oblique_roof_are_strips_outside_of_it(tmp_path):
         assert strip.distance(roof) == pytest.approx(0.0, abs=1e-9)
 
 
-def test_an_arc_is_read_as_chords_within_3_mm(tmp_path):
-    # A half disc of 10 m radius by a bulge of 1, and a circle of 2 m radius.
-    sketch = Sketch(unit="m")
-    sketch.space.add_lwpolyline(
-        [(-10, 0, 0), (10, 0, 1)], format="xyb", close=True, dxfattribs={"layer": "ARRAY"}
-    )
-    sketch.space.add_circle((30, 0), 2, dxfattribs={"layer": "OBJECT"})
-    found = plan(sketch.saved(tmp_path))
-    half = found.arrays[0].shape
-    assert half.area_m2 == pytest.approx(50 * math.pi, rel=1e-3)
-    assert all(math.hypot(*point) == pytest.approx(10.0, abs=1e-9) for point in half.points)
-    middles = [((a[0] + b[0]) / 2, (a[1] + b[1]) / 2) for a, b in pairwise(half.points)]
-    assert all(
-        math.hypot(*point) > 10.0 - 0.003 - 1e-9 for point in middles if abs(point[1]) > 1e-6
-    )
-    assert max(y for _, y in half.points) == pytest.approx(10.0, abs=0.003)
-    assert found.objects[0].shape.area_m2 == pytest.approx(4 * math.pi, rel=5e-3)
-
-
 def test_an_arc_turns_the_way_of_its_bulge(tmp_path):
     # A quarter of a circle about (0, 0), outward, and the same cut out of a square.
     bulge = math.tan(math.pi / 8.0)
@@ -123,9 +100,9 @@ def test_blocks_are_read_where_they_are_put_with_their_attribute_as_name(tmp_pat
     sketch = Sketch()
     block = sketch.document.blocks.new("UNIT")
     block.add_lwpolyline([(0, 0), (4, 0), (4, 2), (0, 2)], close=True)  # on layer 0
-    for name, at, turn in (("RTU-1", (100, 50), 0), ("RTU-2", (50, 20), 90)):
+    for name, corner, turn in (("RTU-1", (100, 50), 0), ("RTU-2", (50, 20), 90)):
         look = {"layer": "OBJECT", "rotation": turn, "xscale": 2, "yscale": 2}
-        sketch.space.add_blockref("UNIT", at, dxfattribs=look).add_attrib("TAG", name)
+        sketch.space.add_blockref("UNIT", corner, dxfattribs=look).add_attrib("TAG", name)
     outer = sketch.document.blocks.new("OUTER")
     outer.add_blockref("UNIT", (1, 1), dxfattribs={"layer": "OBJECT"})
     put = sketch.space.add_blockref("OUTER", (200, 100))  # what is nested has its attributes
@@ -154,16 +131,6 @@ def test_what_is_drawn_in_a_rotated_ucs_is_read_in_world_coordinates(tmp_path):
     assert isinstance(shape, Polygon)
     assert list(shape.points) == in_feet(points)
     assert shape.area_m2 == pytest.approx(800 * FT**2)
-
-
-def test_a_mirrored_polyline_is_read_where_it_appears(tmp_path):
-    sketch = Sketch()
-    look = {"layer": "ARRAY", "extrusion": (0, 0, -1)}
-    sketch.space.add_lwpolyline(
-        [(-10, 0), (-30, 0), (-30, 20), (-10, 20)], close=True, dxfattribs=look
-    )
-    box = plan(sketch.saved(tmp_path)).arrays[0].shape.bounds
-    assert (box.x_from_m, box.x_to_m) == pytest.approx((10 * FT, 30 * FT))
 
 
 def test_r12_without_handles_and_with_own_layers_is_read(file):
@@ -240,3 +207,30 @@ def test_outlines_without_a_text_get_a_name_that_is_free(tmp_path):
 
 def test_every_layer_of_the_plan_that_is_written_is_known():
     assert LAYERS.keys() == {layer.title for layer in Layer}
+
+
+@pytest.mark.parametrize(
+    ("shape", "sizes", "angle"),
+    [
+        (Rectangle(0.0, 8.0, 1.0, 4.0), (8.0, 3.0), 0.0),
+        (Polygon(L_FT), (80.0, 55.0), 0.0),
+        *((Polygon(tuple(at(p, deg) for p in L_FT)), (80.0, 55.0), deg) for deg in (17, -17, 44)),
+        # From 45 deg on the other side is the one nearer x.
+        *((Polygon(tuple(at(p, deg) for p in L_FT)), (55.0, 80.0), deg - 90) for deg in (46, 80)),
+    ],
+)
+def test_sizes_are_along_the_longest_side_of_an_outline(shape, sizes, angle):
+    wide, tall, found = own_axes(shape)
+    assert (wide, tall) == pytest.approx(sizes)
+    assert found == pytest.approx(angle, abs=1e-9)
+
+
+@pytest.mark.parametrize("degrees", [17.0, -90.0, 200.0])
+def test_a_plan_of_ours_is_turned_with_its_texts(file, degrees):
+    drawing = read_dxf(file(write_dxf(plan_drawing(scenes.package().assessment)), "plan.dxf"))
+    found = drawing.turned(degrees)
+    for line, was in zip(found.lines, drawing.lines, strict=True):
+        for point, before in zip(line.points, was.points, strict=True):
+            assert point == pytest.approx(at(before, degrees))
+    for text, before in zip(found.texts, drawing.texts, strict=True):
+        assert text.at == pytest.approx(at(before.at, degrees))

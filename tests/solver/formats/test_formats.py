@@ -179,12 +179,6 @@ def test_a_start_that_is_no_date_is_none(altered, date):
     assert read_motion_file(path).start is None
 
 
-def test_the_first_channel_of_some_files_is_known_better():
-    for name, error in (("cosmos.v1c", {"abs": 0.51e-5 * G}), ("csmip-old.v2", EXACT)):
-        record = read_motion_file(SAMPLES / name).channels[0]
-        assert record.a_mps2 == pytest.approx(HELD[name].channels[record.name], **error)
-
-
 # What stays as it is where a heading is written otherwise: a factor of the samples, and notes
 # that come with it.
 READ_OTHERWISE = [
@@ -235,17 +229,11 @@ def test_a_sensor_at_the_surface_needs_no_note(altered):
 COUNT = "      21       0       0      21"
 FAULTS = [
     ("geonet.v1a", [(COUNT, COUNT[:-2] + "22")], ":20: states 22 values, found 21"),
-    ("geonet.v1a", [(COUNT, COUNT[:-2] + "20")], ":20: states 20 values, found more in line 29"),
-    ("geonet.v1a", [(COUNT, COUNT[:-2] + " 0")], ":20: states 0 values; give at least 2"),
     ("geonet.v1a", [(COUNT, COUNT[:-4] + "none")],
      ":20: found no number of accelerations; give the whole"),
-    ("cosmos.v2c", [("1.212500e+01", "********")], ":52: found '********', a number too large for"),
-    ("cosmos.v2c", [("1.212500e+01", "twelve")], ":52: found 'twelve'; give a number"),
     ("cosmos.v2c", [("   21 accel", "   22 accel")], ":49: states 22 values, found 21; give the"),
-    ("cosmos.v2c", [("   21 accel", "   20 accel")], ":49: states 20 values, found more in line"),
     ("cosmos.v2c", [("(1E15.6)", "(free)")], ":49: found format (free); give one as (8F10.3)"),
     ("cosmos.v2c", [("cm/sec2(04)", "counts(50)")], ":49: found unit 'counts', code 50; give a f"),
-    ("cosmos.v2c", [("cm/sec2(04)", "counts")], ":49: found unit 'counts': raw counts are no"),
     ("cosmos.v2c", [("cm/sec2(04)", "g(04)")], ":49: found unit 'g' with code 4, which is cm/s2;"),
     ("cosmos.v2c", [("approx  0 secs", "approx  9 secs")], ":49: states about 9 s, count times st"),
     ("cosmos.v2c", [("Real-header", "Some")], ":1: found no block ... Real-header values follow"),
@@ -255,40 +243,24 @@ FAULTS = [
      ":26: found no time step; give dt"),
     ("cosmos.v2c", [("21 acceleration pts", "21 velocity pts")],
      ": found no acceleration in this COSMOS V1.20 file; give a file of acceleration"),
-    ("csmip-old.v2", [("    98.000", "  ********")], ":47: found '********', a number too large"),
-    ("csmip-old.v2", [("    98.000", "    wide  ")], ":47: found 'wide'; give a number"),
-    ("csmip-old.v2", [("    98.000", "    98,000")], ":47: found '98,000'; give a number with a d"),
     ("csmip-old.v2", [("  -45.250\r\n", "  -45.250   1.0000\r\n")], ":47: found 9 values; give 8"),
-    ("csmip-old.v2", [("  -45.250\r\n", "\r\n")], ":47: found 7 values; give 8"),
     ("csmip-old.v2", [("   21 POINTS OF ACCEL", "   22 POINTS OF ACCEL")], ":46: states 22 values"),
     ("csmip-old.v2", [("   21 POINTS OF ACCEL", "   31 POINTS OF ACCEL")], ":46: states 31 values"),
-    ("csmip-old.v2", [("   21 POINTS OF ACCEL", "   16 POINTS OF ACCEL")], ":46: states 16 values"),
     ("csmip-old.v2", [(" 21 POINTS OF ACCEL", " xx POINTS OF ACCEL")], ":1: found no line ... POI"),
-    ("csmip-old.v2", [("  .005 SEC.  (UNITS: CM/SEC/", "  .005 SEC.  (UNITS: CM/")],
-     ":46: found unit 'CM"),
     ("csmip-old.v2", [("(UNITS: CM/SEC/SEC)", "in cm/sec2. (free)")], ":46: found format (free); "),
     ("csmip-old.v2", [("AT  .005 SEC.", "AT  .050 SEC.")], ":46: found a step of 0.05 s and one o"),
     ("csmip-old.v2", [("  -123.456    CM", "  -923.456    CM")], ":18: the header states a peak o"),
     ("csmip-new.v2", [("  .0078125", "      .008"), ("  .1640625", "  .2640625")],
      ":38: the heading states 0.264062 s, the record lasts 0.168 s; give dt"),
     ("renadic.v1", [("=     21", "=     26")], ":11: states 52 values, found 42; give the"),
-    ("renadic.v1", [("=     21", "=     20")], ":11: states 40 values, found more in line"),
     ("renadic.v1", [("=     21", "=      1")], ":11: states 2 values, found 10; correct the c"),
-    ("csmip-pairs.v1", [("=     13", "=      1")], ":11: states 2 values, found 10; correct t"),
-    ("csmip-pairs.v1", [("=     13", "=      0")], ":11: states 0 values; give at least 2"),
     ("renadic.v1", [("NO. OF POINTS", "NO. OF THINGS")], ":1: found no line NO. OF POINTS"),
     ("renadic.v1", [("ARE SEC AND G/10", "ARE UNKNOWN")], ":1: found no line UNITS OF UNCOR"),
     ("renadic.v1", [("AND G/10.", "AND VOLT.")], ":12: found unit 'VOLT'; give an acceler"),
-    ("renadic.v1", [("100.010  1.212", "100.010*******")], ":28: found '*******', a number"),
     ("renadic.v1", [("100.010  1.212", "100.000  1.212")], ":28: found time 100 s after 100"),
     ("csmip-even.raw", [("at 200 pts/sec", "at 0 pts/sec")], ":28: found time step 0 s; give a"),
-    ("csmip-even.raw", [("(8f9.6)", "(free)")], ":28: found format (free); give one as"),
-    ("csmip-even.raw", [("units of g .", "units of v .")], ":28: found unit 'v'; give an"),
     ("csmip-even.raw", [("   21 Acc", "   25 Acc")], ":28: states 25 values, found 21; g"),
-    ("geonet.v2a", [("   121.2", "  121,2 ")], ":27: found '121,2'; give a number with a decimal"),
-    ("geonet.v2a", [("   121.2", "********")], ":27: found '********', a number too large for its"),
     ("geonet.v2a", [(" at 0.020 sec inter", " at 0.010 sec inter")], ":11: found a step of 0.01 s"),
-    ("geonet.v2a", [("mm/s/s at", "mm/s at")], ":14: found unit 'mm/s'; give an acceleration in g"),
     ("geonet.v2a", [("Acceleration:", "Accel:")], ":14: found no line Acceleration: peak ... mm/s"),
     ("geonet.v2a", [("  0.0000 -1234.6", "  0.0000 -9234.6")], ":24: the header states a peak of"),
     ("esm.asc", [("NDATA: 21", "NDATA: 20")], ":18: states 20 values, found 21; correct the count"),
@@ -313,32 +285,20 @@ FAULTS = [
     ("eqsig.txt", [("\n21 ", "\n20 ")], ":2: states 20 values, found 21; correct the count"),
     ("rspmatch.acc", [(" in units of g", "")], ": found no unit of acceleration; give units, one"),
     ("csmip-step.raw", [(" .005 SEC.  (", " 0 SEC.  (")], ":28: found "),
-    ("csmip-step.raw", [("21 POINTS OF", "22 POINTS OF")], ":28: states 22 values, found 21; give"),
     ("peer-nga.at2", [("PEER NGA", "ACCELERATION (CM/S2)")], ":3: found units CM/S2 and G;"),
-    ("knet.ns", [("   15611", "   1561x")], ":18: found '1561x'; give a number"),
     ("knet.ns", [("Duration Time(s)  0.2", "Duration Time(s)  0.3")], ":12: states 30 values, fou"),
-    ("knet.ns", [("Duration Time(s)  0.2", "Duration Time(s)  0.1")], ":12: states 10 values, fou"),
     ("knet.ns", [("100Hz", "0Hz")], ":11: found '0Hz'; give a number above 0"),
-    ("knet.ns", [("100Hz", "unknown")], ":11: found 'unknown'; give a number above 0"),
     ("knet.ns", [("3920(gal)/6182761", "3920/6182761")], ":14: found '3920/6182761'; give a scale"),
     ("knet.ns", [("3920(gal)/6182761", "3920(gal)/0")], ":14: found '3920(gal)/0'; give a scale a"),
-    ("knet.ns", [("(gal)/61", "(kin)/61")], ":14: found unit 'kin'; give an acceleration in g, m/"),
     ("knet.ns", [("6182761", "618276")], ":15: the header states a peak of 0.01599 g, the values"),
     ("knet.ns", [("Memo.", "Remark")], ": found no line Memo.; give the whole heading"),
-    ("knet.ns", [("Dir.", "Direct")], ": found no line Dir.; give the whole heading"),
-    ("smc-corrected.smc", [(" 1.2125E+1", " *********")], ":30: found '*********', a nu"),
-    ("smc-corrected.smc", [(" 1.2125E+1", " 1.21x5E+1")], ":30: found '1.21x5E+1'; give a num"),
     ("smc-corrected.smc", [("        21  ", "        22  ")], ":14: states 22 values, f"),
-    ("smc-corrected.smc", [("        21  ", "        16  ")], ":14: states 16 values, f"),
     ("smc-corrected.smc", [("        21  ", "    -32768  ")], ":14: found no number of values"),
     ("smc-corrected.smc", [("         2\r", "    -32768\r")], ":13: found no number of li"),
     ("smc-corrected.smc", [("         2\r", "         3\r")], ":30: found a line without | am"),
     ("smc-corrected.smc", [("-0.1234600E+03", "-0.9234600E+03")], ":23: the header states a pe"),
     ("smc-corrected.smc", [("2 CORRECTED ACCELEROGRAM", "3 VELOCITY")], ":1: found velocity"),
-    ("smc-corrected.smc", [("2 CORRECTED ACCELEROGRAM", "4 DISPLACEMENT")], ":1: found displacem"),
-    ("smc-corrected.smc", [("2 CORRECTED ACCELEROGRAM", "5 RESPONSE SPECTRA")], ":1: found "),
     ("smc-uneven.smc", [("        26  ", "        28  ")], ":14: states 28 values, found 26;"),
-    ("smc-uneven.smc", [(" 1.2500E+1", "          ")], ":30: found ''; give a number"),
     ("smc-uneven.smc", [(" 2.0000E-2", " 1.2000E-2")], ":30: found time 0.012 s after 0.012 s,"),
     ("smc-uneven.smc", [("-6.1250E+1", "          ")], ":14: states 26 values, found 25; g"),
     ("smc-uneven.smc", [("-6.1250E+1", "          "), ("        26  ", "        25  ")],
@@ -500,21 +460,12 @@ def test_count_and_step_are_found_however_they_are_set(file, line):
         ("NPTS= 3, DT= 0.0 SEC", "1 2 3", "4: found time step 0 s; give a number above 0"),
         ("NPTS: 3", "1 2 3", "4: found 'NPTS: 3'; give the count and the step as in NPTS="),
         ("NPTS= 3, DT= .01 SEC", "1 wide 3", "5: found 'wide'; give a number"),
-        ("NPTS= 3, DT= .01 SEC", "1 ***** 3", "5: found '*****', a number too large for its"),
-        ("NPTS= 3, DT= .01 SEC", "1 1_0 3", "5: found '1_0'; give a number"),
-        ("NPTS= 3, DT= .01 SEC", "1 nan 3", "5: found 'nan'; give a number"),
-        ("NPTS= 1, DT= .01 SEC", "1", "4: states 1 value; give at least 2"),
         ("NPTS= 0, DT= .01 SEC", "", "4: states 0 values; give at least 2"),
     ],
 )
 def test_faults_of_a_short_file_are_told_with_their_line(file, line, values, expected):
     (problem,) = problems_of(file(f"{PEER_HEADING}{line}\n{values}\n"))
     assert problem.startswith(f"roof.csv:{expected}")
-
-
-def test_a_file_named_as_text_is_known_by_its_content(file):
-    content = (SAMPLES / "peer-nga.at2").read_text()
-    assert read_motion_file(file(content, "a.txt")).format == "PEER AT2"
 
 
 def test_units_are_asked_for_only_where_the_heading_has_none(file):

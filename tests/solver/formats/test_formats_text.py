@@ -2,7 +2,6 @@
 
 import math
 
-import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -38,17 +37,7 @@ def problems_of(path, **how):
         "Zeit,Größe in g\n0.00,0.1\n0.02,-0.2\n0.04,0.3\n".encode("latin-1"),
         "0.00,0.1\r\n0.02,-0.2\r\n0.04,0.3\r\n\x1a\x1a\x1a",
         "time [ms],acc\n0,0.1\n20,-0.2\n40,0.3\n",
-    ],
-)
-def test_two_columns_read_alike_however_they_are_set(file, content):
-    record = read_record(file(content), units="g")
-    assert (record.name, record.dt_s) == ("roof.csv", 0.02)
-    assert record.a_mps2.tolist() == [0.1 * G, -0.2 * G, 0.3 * G]
-
-
-@pytest.mark.parametrize(
-    "content",
-    [
+        # What programs add to a table changes no number.
         '"Time (s)","Acc (g)"\n"0.00","0.1"\n"0.02","-0.2"\n"0.04","0.3"\n',
         '"Time";"Acc, g"\r\n"0,00";"0,1"\r\n"0,02";"-0,2"\r\n"0,04";"0,3"\r\n',
         '"a";"b"\n"0.00";"0.1"\n"0.02";"-0.2"\n"0.04";"0.3"',
@@ -65,9 +54,9 @@ def test_two_columns_read_alike_however_they_are_set(file, content):
         b"0.00,0.1\r\r\n0.02,-0.2\r\r\n0.04,0.3\r\r\n" + bytes(500),
     ],
 )
-def test_what_programs_add_to_a_table_changes_no_number(file, content):
+def test_two_columns_read_alike_however_they_are_set(file, content):
     record = read_record(file(content), units="g")
-    assert record.dt_s == 0.02
+    assert (record.name, record.dt_s) == ("roof.csv", 0.02)
     assert record.a_mps2.tolist() == [0.1 * G, -0.2 * G, 0.3 * G]
 
 
@@ -147,21 +136,6 @@ def test_one_column_takes_its_step_from_the_argument(file, content):
     assert record.a_mps2.tolist() == [1.0, -2.0, 3.0]
 
 
-def test_a_record_is_frozen_to_its_samples(file):
-    record = read_record(file("0,0\n1,0\n"), units="g")
-    assert record.a_mps2.dtype == np.float64
-    with pytest.raises(ValueError, match="read-only"):
-        record.a_mps2[0] = 1.0
-
-
-@pytest.mark.parametrize(
-    ("unit", "size"), [("m/s2", 1), ("cm/s2", 0.01), ("gal", 0.01), ("mm/s2", 0.001)]
-)
-def test_given_units_are_converted(file, unit, size):
-    record = read_record(file("0,100\n1,200\n"), units=unit)
-    assert record.a_mps2.tolist() == pytest.approx([100 * size, 200 * size], rel=1e-15)
-
-
 @pytest.mark.parametrize(
     "heading",
     [
@@ -207,11 +181,6 @@ def test_a_comment_that_may_mean_something_else_asks_nothing(file, remark):
 )
 def test_a_step_that_a_remark_states_is_taken(file, remark):
     assert read_record(file(f"{remark}\n1\n2\n"), units="g").dt_s == 0.005
-
-
-def test_times_in_minutes_are_converted(file):
-    content = "Time [min],a_g\n0,1\n0.001,2\n0.002,3\n"
-    assert read_record(file(content)).dt_s == pytest.approx(0.06)
 
 
 def test_a_component_to_the_north_is_no_index(file):
@@ -277,11 +246,6 @@ def test_columns_without_times_take_the_step_from_the_argument(file):
 def test_a_comment_may_name_the_columns(file):
     motion_file = read_motion_file(file("# t  NS[g]  EW [g]\n0 1 2\n1 3 4\n"))
     assert motion_file.channel("ew").a_mps2.tolist() == [2 * G, 4 * G]
-
-
-def test_channels_of_one_name_are_told_apart(file):
-    motion_file = read_motion_file(file("t_s,x_g,X_g,_g\n0,1,2,3\n1,4,5,6\n"))
-    assert [record.name for record in motion_file.channels] == ["x", "X (2)", "channel 3"]
 
 
 RAW = (
@@ -365,19 +329,14 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
     [
         ("0,1\n0.1,abc\n", ["2: found 'abc'; give a number"]),
         ("0,1\n0.1,NaN\n0.2,-inf\n", ["2: found 'NaN'; give", "3: found '-inf'; give"]),
-        ("nan,1\n0.1,2\n", ["1: found 'nan'; give a number"]),
-        ("t,a\n0,1\n0.1,1e999\n", ["3: found '1e999'; give a number"]),
         ("0,1\n0.1,\n", ["2: found ''; give a number"]),
         ("0,1\n0.1,1_0\n0.2,x\n", ["2: found '1_0'", "3: found 'x'"]),
-        ("0,1\n0.1,****\n", ["2: found '****', a number too large for its columns; give a"]),
         ("0 1\n0.1\n0.2 1 2\n", ["2: found 1 column; give 2", "3: found 3 columns; give 2"]),
         ("0,0;0,12\n0.1;2\n", ["1: found '0,0'; give a number with a decimal point", "1: fou"]),
         ("0.1 0,12\n0.2 0,13\n", ["1: found '0,12'; give a number with a dec", "2: found"]),
         ("a\n\n# x\n0,12\n0,13\n-0,11", ["4: found '0,12'; give a number with a decimal"]),
         ("2 1\n1 2\n0 3\n", ["2: found time 1 s after 2 s", "3: found time 0 s after 1 s"]),
-        ("0 1\n0 2\n", ["2: found time 0 s after 0 s"]),
         ("0 1\n1e-320 2\n", ["2: found time 9.99989e-321 s after 0 s"]),
-        ("0 1\n" + "1" * 1200 + " 2\n", ["2: found a line of 1202 characters; give at"]),
         (
             "word\nand some more\nin prose\n",
             ["2: found 'and some more' where numbers are due, and"],
@@ -405,8 +364,6 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
         ("n,t_s,x_g\n0,1,2\n1,2,3\n", [" found times in column 2; give them in the"]),
         ("t_s,x_g,y_g\n0,1,2\n1,2\n", ["3: found 2 columns; give 3 as in the first"]),
         ("", [" found no numbers"]),
-        ("# nothing\n\n", [" found no numbers"]),
-        ("time,acc\n", [" found no numbers"]),
         ("0,1\n", [" found 1 sample; give at least 2"]),
         ("1\n2\n", [" found one column, without times; give the time step dt"]),
         ("# width = 3\n1\n2\n", [" found one column, without times; give the time step dt"]),

@@ -85,33 +85,6 @@ class TestFilters:
         _, response = signal.freqs(*filter_, 2 * np.pi * freq_hz)
         assert np.abs(np.fft.rfft(filtered)) == pytest.approx(np.abs(response), abs=1e-13)
 
-    @pytest.mark.parametrize("kind", ["high", "low"])
-    def test_the_gain_at_the_corner_is_one_over_root_two(self, kind):
-        a = burst(1.0)
-        filtered = process(record(a), Processing(**{f"{kind}pass_hz": 1.0})).a_mps2
-        pad = (len(filtered) - len(a)) // 2
-        assert filtered[pad : pad + len(a)] @ a / (a @ a) == pytest.approx(math.sqrt(0.5), rel=1e-4)
-
-    @pytest.mark.parametrize("kind", ["high", "low"])
-    @pytest.mark.parametrize("order", [2, 4, 6])
-    def test_twice_is_as_forth_and_back(self, noise, kind, order):
-        # Once ours and twice ours of order n fall off as SciPy's forth and back of n / 2 and of n.
-        corner = 0.5 if kind == "high" else 2.0
-        settings = Processing(**{f"{kind}pass_hz": corner}, order=order)
-        once = process(record(noise), settings)
-        twice = process(once, settings).a_mps2
-        pad = (len(twice) - len(noise)) // 2
-        sos = signal.butter(order, corner, kind, fs=100.0, output="sos")
-        forth_and_back = signal.sosfiltfilt(sos, np.pad(noise, pad), padlen=0)
-        # SciPy's filter is bent toward half the sampling rate, here at 50 Hz.
-        assert np.abs(twice - forth_and_back).max() < 2e-3 * np.abs(noise).max()
-
-    def test_a_mirrored_record_gives_the_mirrored_result(self, noise):
-        settings = Processing(highpass_hz=0.2, lowpass_hz=20.0)
-        forth = process(record(noise), settings).a_mps2
-        back = process(record(noise[::-1]), settings).a_mps2[::-1]
-        assert forth == pytest.approx(back, abs=1e-12)
-
     def test_the_zeros_have_the_length_that_is_said_and_stay(self, noise):
         for highpass_hz, zeros in ((0.1, 6000), (0.0, 24)):
             settings = Processing(highpass_hz=highpass_hz, lowpass_hz=25.0, order=4)
@@ -135,11 +108,6 @@ class TestFilters:
             left = measures(process(record(a, dt_s), Processing(baseline=0, highpass_hz=0.1)))
             assert abs(left.final_velocity_mps) < 1e-9 * left.pgv_mps
             assert abs(left.final_displacement_m) < 1e-5 * left.pgd_m
-
-    def test_a_low_pass_leaves_the_final_velocity(self, noise):
-        before = measures(record(np.concatenate([noise, np.zeros(200)])))
-        after = measures(process(record(noise), Processing(lowpass_hz=5.0, order=4)))
-        assert after.final_velocity_mps == pytest.approx(before.final_velocity_mps, abs=2e-4)
 
 
 class TestResampling:
@@ -178,12 +146,6 @@ class TestResampling:
 
     def test_the_same_step_changes_nothing(self, noise):
         assert np.array_equal(process(record(noise), Processing(dt_s=0.01)).a_mps2, noise)
-
-    def test_a_coarser_step_keeps_velocity_and_displacement(self, noise):
-        before = measures(record(noise))
-        after = measures(process(record(noise), Processing(dt_s=0.02)))
-        assert after.final_velocity_mps == pytest.approx(before.final_velocity_mps, abs=1e-3)
-        assert after.final_displacement_m == pytest.approx(before.final_displacement_m, abs=1e-3)
 
 
 def test_zeros_are_added_at_the_end_in_whole_steps():

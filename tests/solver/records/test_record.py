@@ -138,30 +138,6 @@ class TestSpectrum:
         got = response_spectrum(a, 0.01, periods, damping)
         assert got == pytest.approx(expected, rel=2e-13)
 
-    @pytest.mark.quick
-    def test_a_ramp_is_followed_in_closed_form(self):
-        # omega^2 u = -r (t - sin(omega t) / omega) without damping.
-        t = 0.01 * np.arange(300)
-        w = 2.0 * np.pi / np.array([0.05, 0.7, 9.0])
-        expected = np.abs(5.0 * (t - np.sin(np.outer(w, t)) / w[:, None])).max(axis=1)
-        got = response_spectrum(5.0 * t, 0.01, 2.0 * np.pi / w, 0.0)
-        assert got == pytest.approx(expected, rel=1e-12)
-
-    def test_resonance_grows_toward_one_over_twice_the_damping(self):
-        t = 0.002 * np.arange(10_000)
-        (psa,) = response_spectrum(np.sin(2.0 * np.pi * t), 0.002, [1.0], 0.05)
-        assert psa == pytest.approx(10.0 * (1.0 - math.exp(-0.05 * 2.0 * math.pi * 20)), rel=2e-3)
-
-    def test_very_long_periods_feel_the_displacement_of_the_ground(self):
-        a = np.random.default_rng(4).normal(0.0, 1.0, 60)
-        # Twice integrated by hand: exact for straight lines between samples.
-        velocity = np.r_[0.0, np.cumsum(0.5 * (a[1:] + a[:-1]) * 0.02)]
-        gain = velocity[:-1] * 0.02 + (2.0 * a[:-1] + a[1:]) * 0.02**2 / 6.0
-        displacement = np.abs(np.cumsum(gain)).max()
-        periods = np.array([1e6, 1e9])
-        got = response_spectrum(a, 0.02, periods) * (periods / (2.0 * np.pi)) ** 2
-        assert got == pytest.approx([displacement] * 2, rel=1e-5)
-
     @given(motions)
     def test_period_zero_is_the_peak_acceleration(self, a):
         near, at = response_spectrum(a, 0.01, [1e-9, 0.0])
@@ -200,16 +176,6 @@ class TestSpectrum:
             (peak,) = response_spectrum(a, 0.02, [period_s]) / G
             (true,) = psa_g(a, 0.02, [1.0 / period_s], places=4000)
             assert peak == pytest.approx(true, rel=2e-4)
-
-    def test_a_wave_packet_of_few_samples_a_cycle_keeps_its_peak(self):
-        t = (0.02 * np.arange(900) - 6.0) / 0.45
-        a = np.exp(-(t**2)) * np.sin(2.0 * np.pi * t + 1.6)
-        assert response_spectrum(a, 0.02, [1.2]) == pytest.approx([0.217497], abs=1e-6)
-
-    def test_it_takes_time_and_period_in_proportion(self):
-        a = np.random.default_rng(5).normal(0.0, 1.0, 100)
-        slow = response_spectrum(a, 0.08, [0.8, 16.0])
-        assert slow == pytest.approx(response_spectrum(a, 0.01, [0.1, 2.0]), rel=1e-13)
 
     def test_a_record_at_rest_has_no_spectrum(self):
         assert response_spectrum(np.zeros(10), 0.01, [0.0, 0.1, 1.0]).tolist() == [0.0] * 3

@@ -1,11 +1,11 @@
-"""Names and heights as people write them at an outline, and what is no height."""
+"""Names of layers, and names and heights as people write them at an outline."""
 
 import math
 
 import pytest
 
 from inputs import FT, INCH
-from report.drawing.drawing_names import first_height, read_line
+from report.drawing.drawing_names import first_height, proposed, read_line
 from sketch import UNIT_FT, Sketch, plan
 
 pytestmark = pytest.mark.quick
@@ -102,3 +102,23 @@ def test_a_height_that_is_not_understood_is_listed(tmp_path):
     assert (item.handle, item.reason, item.detail) == (
         ring.dxf.handle, "a height that is not understood", "'RTU-7 HT 42-48 in'"
     )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("kind", "layers"),
+    [
+        ("roof", ["A-ROOF-OTLN", "A-ROOF-OTLN-N", "a-roof", "X-ROOF|A-ROOF-OTLN", "pvcRoof", "ROOF",
+                  "X-ROOF$0$A-ROOF-OTLN", "Roof Outline", "Building Outline"]),
+        ("not read", ["A-ROOF-PATT", "A-ROOF-OTLN-IDEN", "G-ANNO-TTLB", "pvcSetback"]),
+        ("edge with parapet", ["A-ROOF-PARAPET"]),
+        ("array", ["E-SOLR-PANL", "PV_Modules", "PV Array", "Solar Panels", "pvcLayout", "PANELS",
+                   "Modules", "PV", "PV - Modules"]),
+        ("fixed object", ["M-HVAC-EQPM", "M-ROOF-EQPM-E", "E-POWR-EQPM", "pvcObstruction", "HVAC",
+                          "Skylights", "Keepout", "KEEP-OUT", "Keep Outs", "MECHANICAL UNITS",
+                          "Rooftop Units", "EXHAUST FANS"]),
+        (None, ["ROOF-PV", "ROOF PLAN", "HVAC-DUCT", "A-WALL", "A-ROOF-DRAN", "E-POWR-PANL",
+                "PVC PIPE", ""]),
+    ],
+)  # fmt: skip
+def test_a_name_proposes_a_kind_or_none(kind, layers):
+    assert {layer: proposed(layer) for layer in layers} == dict.fromkeys(layers, kind)
