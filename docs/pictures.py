@@ -127,7 +127,9 @@ def _models(manifest: Path) -> None:
     runs["study"] = Counter({model: counted.get(model.title, 0) for model in Model}) + Counter()
     simpler = sum(count for model, count in runs["study"].items() if model < Model.TWO_AXES)
     share = simpler / runs["study"].total()
-    reasons["study"] = f"the second horizontal component; {100 * share:.0f} % of the runs do without it"
+    reasons["study"] = (
+        f"the second horizontal component; {100 * share:.0f} % of the runs do without it"
+    )
     with style():
         figure = Figure(figsize=(8.0, 3.1), dpi=200)
         axes = figure.add_axes((0.1, 0.02, 0.45, 0.74))

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from report.assessment.project import Assessment
 from report.motions.history import TargetSpectrum
@@ -47,11 +46,6 @@ class Spectra:
     def target_g(self) -> Floats:
         """Ordinates of the target at the periods; NaN where not given."""
         return self.target.ordinates(self.periods_s)
-
-    @property
-    def in_band(self) -> NDArray[np.bool_]:
-        """Whether the limits compare a period, and it has a target ordinate."""
-        return np.isin(self.periods_s, 1.0 / POINTS_HZ) & np.isfinite(self.target_g)
 
     @property
     def lowest(self) -> tuple[float, str, float]:

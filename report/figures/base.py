@@ -16,6 +16,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
@@ -33,7 +34,6 @@ from solver.rivals.methods import METHODS
 WIDTH_IN = 7.0
 INK, GRAY, PALE, ACCENT = "#1a1a1a", "#707070", "#d9d9d9", "#1f4e79"
 ACROSS = "#c8651b"  # distinct from ACCENT with color blindness and in gray
-FAMILY = "Source Sans 3"
 DASHED, DOTTED, DASHDOT = (0, (4, 1.6)), (0, (1, 1.4)), (0, (5, 1.4, 1, 1.4))
 LINES: tuple[Any, ...] = ("-", DASHED, DASHDOT, DOTTED)
 MARKERS = "os^DvXP*"
@@ -42,33 +42,7 @@ Range = tuple[float, float]
 
 # Coordinates in points: the renderer spends time on decimals that print cannot show.
 _DIGITS = re.compile(r"(?<=[\d-])(\.\d\d)\d{4}(?=[\s\"])")
-_STYLE: Any = {
-    "font.family": FAMILY,
-    "font.size": 8.5,
-    "axes.titlesize": 8.5,
-    "axes.labelsize": 8.5,
-    "axes.linewidth": 0.6,
-    "axes.edgecolor": INK,
-    "axes.labelcolor": INK,
-    "axes.unicode_minus": True,
-    "xtick.labelsize": 8.5,
-    "ytick.labelsize": 8.5,
-    "xtick.color": INK,
-    "ytick.color": INK,
-    "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6,
-    "xtick.direction": "out",
-    "ytick.direction": "out",
-    "grid.color": PALE,
-    "grid.linewidth": 0.5,
-    "legend.frameon": False,
-    "legend.fontsize": 8.5,
-    "hatch.linewidth": 0.5,
-    "svg.fonttype": "none",  # text remains text: the pages load the same fonts
-    "svg.hashsalt": "roofslip",
-    "path.simplify": True,
-    "text.parse_math": False,  # a dollar sign in a name is printed as such
-}
+_STYLE = Path(__file__).with_name("package.mplstyle")
 
 
 @cache
@@ -82,9 +56,7 @@ def load_fonts() -> None:
 def style() -> Iterator[None]:
     """Draw in the style of the package, independent of the machine's settings."""
     load_fonts()
-    with mpl.rc_context():
-        mpl.rcdefaults()
-        mpl.rcParams.update(_STYLE)
+    with mpl.rc_context(fname=_STYLE):
         yield
 
 
@@ -142,13 +114,18 @@ def labeled(axes: Axes, x: str = "", y: str = "", title: str = "") -> None:
 
 
 def draw_family(axes: Axes, x: Floats, family: Iterable[tuple[str, Floats]], **look: Any) -> None:
-    """Draw a line for each member of a family; line and marker tell them apart without color."""
+    """Draw a line for each member of a family."""
     for count, (label, y) in enumerate(family):
-        axes.plot(
-            x, y, linestyle=LINES[count % 4], marker=MARKERS[count % 8], markersize=4.0,
-            markerfacecolor="white", markeredgewidth=0.8, linewidth=0.9,
-            color=INK if count % 2 == 0 else ACCENT, label=label, **look,
-        )  # fmt: skip
+        axes.plot(x, y, **member_look(count), label=label, **look)
+
+
+def member_look(count: int) -> dict[str, Any]:
+    """Return how a member of a family is drawn: line and marker tell it apart without color."""
+    return {
+        "linestyle": LINES[count % 4], "marker": MARKERS[count % 8], "markersize": 4.0,
+        "markerfacecolor": "white", "markeredgewidth": 0.8, "linewidth": 0.9,
+        "color": INK if count % 2 == 0 else ACCENT,
+    }  # fmt: skip
 
 
 def legend_below(axes: Axes, down: float, columns: int, **look: Any) -> None:
@@ -264,22 +241,15 @@ _STYLES = (
 """Marker, line style, color, and color within the marker."""
 
 
-def _look(label: str, marker: str, line: object, color: str, fill: str) -> dict[str, Any]:
-    return {
-        "marker": marker,
-        "markersize": 4.5,
-        "markeredgecolor": color,
-        "markerfacecolor": fill,
-        "markeredgewidth": 0.9,
-        "color": color,
-        "linestyle": line,
-        "linewidth": 1.1,
-        "label": label,
-    }
-
-
 LOOKS: Mapping[str, dict[str, Any]] = {
-    method.name: _look(method.label, *style)
+    method.name: {
+        "label": method.label,
+        **dict(zip(("marker", "linestyle", "color", "markerfacecolor"), style, strict=True)),
+        "markeredgecolor": style[2],
+        "markersize": 4.5,
+        "markeredgewidth": 0.9,
+        "linewidth": 1.1,
+    }
     for method, style in zip(METHODS.values(), _STYLES, strict=True)
 }
 """Keywords for a line with markers, by the name of the method; styles in the order of the methods.

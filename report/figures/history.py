@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -244,28 +243,23 @@ def hodographs(
         return svg_text(figure)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Path:
+class Path(NamedTuple):
     """A path in plan [m]: to the right and up the page from the start; empty without a value."""
 
     x_m: Floats
     y_m: Floats
-    peak: tuple[float, float]
 
 
 def path_of(history: SlideHistory) -> Path:
     """Return the path of a run; in one axis a straight line."""
     if math.isnan(history.result.prd_m):
-        return Path(x_m=np.zeros(0), y_m=np.zeros(0), peak=(0.0, 0.0))
+        return Path(np.zeros(0), np.zeros(0))
     # Cross-slope displacement is positive to the left when facing downslope, which is down here.
-    x = history.across_m if history.across_m.size else np.zeros(len(history.u_m))
-    y = -history.u_m
-    at = int(np.argmax(np.hypot(x, y)))
-    return Path(x_m=x, y_m=y, peak=(float(x[at]), float(y[at])))
+    across = history.across_m if history.across_m.size else np.zeros(len(history.u_m))
+    return Path(across, -history.u_m)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PanelScale:
+class PanelScale(NamedTuple):
     """Size and scale common to all panels; `start` is the origin from the upper left corner."""
 
     wide_in: float
@@ -281,15 +275,8 @@ class PanelScale:
         wide_in = WIDTH_IN / min(COLUMNS, len(paths))
         room = min(wide_in, 2.0 * TALL_IN) - APART_IN
         m_per_in = max(float(np.ptp(x)) / room, float(np.ptp(y)) / (TALL_IN - APART_IN), 1e-3)
-        return cls(
-            wide_in=wide_in,
-            tall_in=float(np.ptp(y)) / m_per_in + APART_IN,
-            m_per_in=m_per_in,
-            start=(
-                APART_IN / 2 - float(x.min()) / m_per_in,
-                -APART_IN / 2 - float(y.max()) / m_per_in,
-            ),
-        )
+        start = APART_IN / 2 - float(x.min()) / m_per_in, -APART_IN / 2 - float(y.max()) / m_per_in
+        return cls(wide_in, float(np.ptp(y)) / m_per_in + APART_IN, m_per_in, start)
 
 
 def _draw(axes: Axes, panel: PanelScale, path: Path, corner: tuple[float, float]) -> None:
@@ -297,11 +284,13 @@ def _draw(axes: Axes, panel: PanelScale, path: Path, corner: tuple[float, float]
     if not path.x_m.size:
         axes.text(x0, y0, "none", va="top")
         return
-    x, y = thinned(path.x_m / panel.m_per_in, path.y_m / panel.m_per_in)
-    axes.plot(x0 + x, y0 + y, color=INK, linewidth=0.6, clip_on=False)
-    axes.plot(x0, y0, marker="+", markersize=8, markeredgewidth=1.0, color=INK, clip_on=False)
-    peak_x, peak_y = (value / panel.m_per_in for value in path.peak)
-    axes.plot(x0 + peak_x, y0 + peak_y, marker="o", markersize=3.6, color=INK, clip_on=False)
+    look: Any = {"color": INK, "clip_on": False}
+    x, y = path.x_m / panel.m_per_in, path.y_m / panel.m_per_in
+    peak = int(np.argmax(np.hypot(path.x_m, path.y_m)))
+    x_few, y_few = thinned(x, y)
+    axes.plot(x0 + x_few, y0 + y_few, linewidth=0.6, **look)
+    axes.plot(x0, y0, marker="+", markersize=8, markeredgewidth=1.0, **look)
+    axes.plot(x0 + x[peak], y0 + y[peak], marker="o", markersize=3.6, **look)
 
 
 def thinned(x: Floats, y: Floats) -> tuple[Floats, Floats]:

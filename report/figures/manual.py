@@ -1,7 +1,5 @@
 """Stability maps: failure and error of a method against two parameters; and sensitivity to mu.
 
-Computed against measured slip of shake-table tests.
-
 Recorded and computed roof motion: spectra, and the strongest part of the history.
 """
 
@@ -23,10 +21,8 @@ from report.figures.base import (
     ACCENT,
     GRAY,
     INK,
-    PALE,
     WIDTH_IN,
     decades,
-    framed,
     labeled,
     panels,
     periods,
@@ -40,7 +36,6 @@ from report.text.units import G_MPS2
 from solver.model import Floats
 from solver.verification.evidence import Conditioning, RoofComparison, RoofPrediction, StabilityMap
 from solver.verification.scenes import strongest
-from solver.verification.shake_table import RATIOS, ShakeTable
 
 MOST = 4  # maps per figure, so that it fits on a page
 _BANDS = (
@@ -49,7 +44,6 @@ _BANDS = (
     (1.0, 10.0, "#a9bccf", "1 to 10 %"),
     (10.0, math.inf, "#5f7890", "more than 10 %"),
 )
-_CONTOURS: tuple[tuple[int, Any, float], ...] = ((1, "-", 0.9), (10, (0, (4, 1.6)), 1.2))
 _LIMIT: dict[str, Any] = {"color": INK, "linewidth": 1.6, "linestyle": (0, (5, 1.4, 1, 1.4))}
 _FAILED: dict[str, Any] = {
     "facecolor": "white",
@@ -85,7 +79,6 @@ def _map(axes: Axes, sweep: StabilityMap, count: int) -> None:
             [y[row], y[row], y[row + 1], y[row + 1]],
             **_FAILED,
         )
-    _contours(axes, sweep)
     if sweep.limit.size:
         axes.plot(sweep.x, sweep.limit, **_LIMIT)
     if not math.isnan(sweep.x_mark):
@@ -103,16 +96,6 @@ def _map(axes: Axes, sweep: StabilityMap, count: int) -> None:
     axes.set_title(f"({count}) {title}", loc="left", weight="semibold")
 
 
-def _contours(axes: Axes, sweep: StabilityMap) -> None:
-    levels = np.log10(np.maximum(sweep.error_percent, 1e-9))
-    usable = levels[np.isfinite(levels)]
-    for percent, line, width in _CONTOURS:
-        level = math.log10(percent)
-        if usable.size and usable.min() < level < usable.max():
-            look: dict[str, Any] = {"linewidths": width, "linestyles": [line], "colors": INK}
-            axes.contour(sweep.x, sweep.y, levels, [level], **look)
-
-
 def _edges(centers: Floats, *, log: bool = True) -> Floats:
     """Return the edges of cells around their centers."""
     values = np.log(centers) if log else centers
@@ -127,10 +110,6 @@ def _key(maps: Sequence[StabilityMap]) -> list[Any]:
         for _, _, color, text in _BANDS
     ]
     handles.append(Patch(**_FAILED, label="failed"))
-    handles += [
-        Line2D([], [], color=INK, linewidth=width, linestyle=line, label=f"{percent} % contour")
-        for percent, line, width in _CONTOURS
-    ]
     if any(sweep.limit.size or not math.isnan(sweep.x_mark) for sweep in maps):
         handles.append(Line2D([], [], **_LIMIT, label="theoretical limit"))
     return handles
@@ -164,32 +143,6 @@ def _spread(axes: Axes, values: Floats) -> None:
     else:
         axes.set_ylim(0.0, None)
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
-
-
-_TICKS = tuple(digit * 10.0**power for power in range(-1, 6) for digit in (1, 2, 5))
-
-
-def computed_against_measured(table: ShakeTable) -> str:
-    """Return a dot for each test with both values, and the range in which 80 % shall lie [mm]."""
-    runs = [run for run in table.runs if run.ratio > 0.0]
-    measured = [1e3 * run.test.prd_m for run in runs]
-    computed = [1e3 * run.prd_m for run in runs]
-    low, high = 0.7 * min(measured + computed), 1.4 * max(measured + computed)
-    with style():
-        figure, axes = framed(2.25, 2.45, 2.45, 0.1, 0.45)
-        least, most = RATIOS
-        axes.fill_between([low, high], [least * low, least * high], [most * low, most * high],
-                          color=PALE, linewidth=0.0)  # fmt: skip
-        axes.plot([low, high], [low, high], color=INK, linewidth=0.8)
-        axes.plot(measured, computed, linestyle="", marker="o", markersize=4.0, color=ACCENT)
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_xlim(low, high)
-        axes.set_ylim(low, high)
-        for axis in (axes.xaxis, axes.yaxis):
-            ticks(axis, _TICKS)
-        labeled(axes, "PRD, stated [mm]", "PRD, computed [mm]")
-        return svg_text(figure)
 
 
 SHOWN_S = 16.0

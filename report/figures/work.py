@@ -4,20 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import asdict
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from report.figures.base import (
-    ACCENT,
-    GRAY,
     INK,
     LOOKS,
     boxed,
     labeled,
     logarithmic,
+    member_look,
     panels,
     style,
     svg_text,
@@ -100,37 +99,18 @@ def _peers(axes: Axes, peers: Iterable[PeerPoint], floor: float) -> None:
         )  # fmt: skip
 
 
-_LOOKS: tuple[dict[str, Any], ...] = (
-    {"color": ACCENT, "linestyle": "-", "marker": "o"},
-    {"color": INK, "linestyle": "-", "marker": "s"},
-    {"color": INK, "linestyle": (0, (1, 1.2)), "marker": "s"},
-    {"color": GRAY, "linestyle": "-", "marker": "^"},
-    {"color": GRAY, "linestyle": (0, (5, 1.5)), "marker": "^"},
-    {"color": GRAY, "linestyle": (0, (6, 1.5, 1, 1.5)), "marker": "D"},
-    {"color": GRAY, "linestyle": (0, (1, 1.2)), "marker": "v"},
-    {"color": GRAY, "linestyle": (0, (3, 1, 1, 1, 1, 1)), "marker": "x"},
-)
+def work(runs: pd.DataFrame, least: float = 1e-12) -> str:
+    """Return a line for each method, from coarse to fine; failed runs are not drawn.
 
-LEAST_PERCENT = 1e-12
-"""Smallest error drawn; smaller ones are drawn there."""
-
-
-def work(runs: pd.DataFrame) -> str:
-    """Return a line for each method, from coarse to fine; failed runs are not drawn."""
+    Errors below the least [%] are drawn there.
+    """
     answered = runs.dropna(subset="time per run [s]")
     with style():
         figure, axes = boxed(2.4, (0.085, 0.17, 0.5, 0.79))
-        for name, look in zip(runs["method"].unique(), _LOOKS, strict=False):
-            own = answered[answered["method"] == name]
-            axes.plot(
-                own["time per run [s]"],
-                own["residual error [%]"].clip(LEAST_PERCENT),
-                **look,
-                markersize=3.6,
-                markerfacecolor="white" if look["color"] == GRAY else look["color"],
-                linewidth=1.2,
-                label=lettered(name),
-            )
+        for count, (name, own) in enumerate(answered.groupby("method", sort=False)):
+            error = own["residual error [%]"].clip(least)
+            look = member_look(count) | {"label": lettered(str(name))}
+            axes.plot(own["time per run [s]"], error, **look)
         logarithmic(axes, 9, 8)
         labeled(axes, "Time per run [s]", "Position error [% of the PRD]")
         axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), handlelength=3.2)

@@ -14,7 +14,6 @@ from report.document.tables import Column, Table, compared_with, grouped, listed
 from report.document.templates import Section, section
 from report.entities.shown import plain, text, words
 from report.figures import manual as figures
-from report.figures.manual import computed_against_measured
 from report.text.counts import capitalized, grouped_by, joined
 from report.text.formats import slug
 from report.text.units import G_MPS2, number
@@ -133,7 +132,6 @@ def shake_table(verification: Verification) -> Section:
     def source(run: TableRun) -> str:
         return f"Slip {run.test.data}: {run.test.source}"
 
-    drawn = [table for table in verification.tables if any(run.ratio > 0.0 for run in table.runs)]
     return section(
         "manual/shake-table",
         "Comparison with a shake table",
@@ -147,7 +145,6 @@ def shake_table(verification: Verification) -> Section:
             )
             for table in verification.tables
         ],
-        charts={"shake-table": computed_against_measured(drawn[-1])} if drawn else {},
     )
 
 

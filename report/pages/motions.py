@@ -18,7 +18,7 @@ from report.assessment.conditions import DRIFT_M, drifts
 from report.assessment.evidence import Beyond, Evidence
 from report.assessment.spectra import PRINTED_S, Spectra, departures
 from report.document.tables import Column, Table, Wide, by_place, listed
-from report.entities.shown import Shown, centered, length, plain, required, text, words
+from report.entities.shown import centered, length, plain, required, text, words
 from report.motions.history import PreparedMotion, first_period_s
 from report.pages.acceptance import acceptance_table, event_table, lowest_between, strength_table
 from report.pages.parts import MOTION_ROWS, PackageData
@@ -300,50 +300,6 @@ def _numbers(values: Floats, decimals: int) -> Sequence[str]:
     return [number(float(value), decimals) for value in values]
 
 
-def achieved_table(spectra: Sequence[Spectra]) -> Table:
-    """Return the ratios of the motions to the target over the band, a row per component."""
-    ends = ("min.", "max.")
-    place = Shown(head="Single motion", unit="motion, Hz", align="left", share=1.6)
-    columns = by_place(
-        words("Component", 1.7),
-        text("Motions", share=0.9),
-        *(
-            text(head, end, 0.9)
-            for head in ("Mean of motions", "Mean below 1.3 Hz")
-            for end in ends
-        ),
-        *(shown for end in ends for shown in (text("Single motion", end, 0.7), place)),
-    )
-    rows = (_achieved(part) for part in spectra if part.in_band.any())
-    return listed(rows, columns, kind="compact")
-
-
-def _achieved(part: Spectra) -> Sequence[str]:
-    periods = part.periods_s[part.in_band]
-    each = (part.sa_g / part.target_g)[:, part.in_band]
-    mean = each.mean(axis=0)
-    slow = mean[periods >= 1 / 1.3]
-    return (
-        part.title,
-        str(len(part.ids)),
-        *(_extreme(values, fold) for values in (mean, slow) for fold in (np.min, np.max)),
-        *(text for at in (each.argmin(), each.argmax()) for text in _single(part, each, at)),
-    )
-
-
-def _extreme(values: Floats, fold: Callable[[Floats], float]) -> str:
-    return number(float(fold(values)), 2) if values.size else "—"
-
-
-def _single(part: Spectra, each: Floats, at: np.intp) -> tuple[str, str]:
-    """Return one ratio, with the motion and the frequency at which it occurs."""
-    motion, period = np.unravel_index(at, each.shape)
-    return (
-        number(float(each[motion, period]), 2),
-        f"{part.ids[motion]}, {1.0 / part.periods_s[part.in_band][period]:.3g}",
-    )
-
-
 def spectra(_: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the table of spectra."""
     return {"table": spectrum_table(evidence.spectra)}
@@ -369,7 +325,6 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "building": building_part(package, evidence.building) if package.has_ground else None,
         "tail": Tail(package.data.target.tail).sentence,
         "departures": departures(spectra),
-        "achieved": achieved_table(spectra),
         "events": event_table(package),
         "acceptance": acceptance_table(package),
         "points": {"all": len(POINTS_HZ), "sliding": N_SLIDING, "ac156": N_AC156, "sets": N_SETS},

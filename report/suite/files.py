@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
@@ -20,7 +21,10 @@ from typing import Any
 
 import numpy as np
 
-from report.figures.spectra import Panel, suite_png
+from report.assessment.spectra import Spectra
+from report.figures.base import png_bytes
+from report.figures.spectra import spectra
+from report.motions.history import TargetSpectrum
 from report.suite.inputs import Seeds, SuiteTargets
 from report.text.formats import aligned
 from report.text.units import G_MPS2
@@ -32,7 +36,7 @@ from solver.records.spectrum import response_spectrum
 from solver.rules.limit import Limit
 from solver.rules.spectra import Target, target_sa_g
 from solver.sliding.checked import motion
-from solver.synthesis.matching import BAND_HZ, SpectrumFit, lowest_hz, spectrum_fit
+from solver.synthesis.matching import BAND_HZ, SpectrumFit, spectrum_fit
 from solver.synthesis.suite import SuiteMotion, make_suite
 
 
@@ -237,7 +241,7 @@ def suite_files(
     }
     document = _document(suite, targets, parts, seed, records, files)
     files["suite.json"] = json.dumps(document, indent=1, ensure_ascii=False).encode() + b"\n"
-    files["suite.png"] = suite_png([_panel(suite, targets, name) for name in "xyz"])
+    files["suite.png"] = spectra([_spectra(suite, targets, name) for name in "xyz"], png_bytes)
     return files
 
 
@@ -313,15 +317,18 @@ def _component(part: SuiteComponent, files: Mapping[str, bytes]) -> dict[str, An
     }
 
 
-def _panel(suite: Sequence[SuiteMotion], targets: SuiteTargets, name: str) -> Panel:
+def _spectra(suite: Sequence[SuiteMotion], targets: SuiteTargets, name: str) -> Spectra:
+    target, kind = targets.of(name), "vertical" if name == "z" else "horizontal"
     records = [motion.components["xyz".index(name)] for motion in suite]
-    fits = tuple(spectrum_fit(record, targets.of(name), _DRAWN_HZ) for record in records)
-    kind = "vertical" if name == "z" else "horizontal"
-    return Panel(
+    return Spectra(
+        ids=tuple(record.name for record in records),
+        periods_s=1.0 / _DRAWN_HZ[::-1],
+        sa_g=np.array([spectrum_fit(r, target, _DRAWN_HZ[::-1]).achieved_g for r in records]),
+        target=TargetSpectrum(
+            name="5 % damping", at=partial(target_sa_g, target), from_s=0.0, to_s=math.inf
+        ),
         title=f"{name}, {kind}",
-        fits=fits,
-        band_hz=(lowest_hz(targets.of(name)), BAND_HZ[1]),
-        limits=(LEAST, GREATEST),
+        is_ground=False,
     )
 
 

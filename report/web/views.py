@@ -7,7 +7,7 @@ are those of the package; a number that does not exist is None. Read `slide`.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from typing import Any, TypeVar
 
@@ -21,7 +21,7 @@ from report.assessment.uncertainty import ResponseSurface, surface
 from report.document.templates import sentence
 from report.drawing.sheet import unit_format
 from report.entities.shown import UnitFormat
-from report.figures.levels import LEAST_M, dot_name, dots, drawn_levels, is_decade
+from report.text.counts import cut, ids_by, ranged
 from report.text.units import G_MPS2, Unit, number
 from report.typeset.pdf import TEMPLATES
 from report.web.answers import finite
@@ -33,6 +33,11 @@ from solver.sliding import least_model
 
 Json = dict[str, Any]
 _T = TypeVar("_T")
+
+LEAST_M = 1e-4
+"""Displacement below which no contour is drawn [m]."""
+
+MOST_LEVELS = 9
 
 _FINE = 6  # parts of a cell of the grid, in each direction, between which contours are straight
 
@@ -157,7 +162,12 @@ def contour(assessment: Assessment, array_id: str) -> Json:
             "prd_m": finite(here_m),
         },
         "dots": [
-            {"mu": mu, "slope_deg": slope, "name": dot_name(ids), "is_shown": array_id in ids}
+            {
+                "mu": mu,
+                "slope_deg": slope,
+                "name": cut(ranged(ids), 24),
+                "is_shown": array_id in ids,
+            }
             for (mu, slope), ids in dots(contours, assessment.arrays).items()
         ],
         "least_m": LEAST_M,
@@ -392,3 +402,38 @@ def _numbers(values: Floats) -> list[float | None]:
 
 def _units(units: Sequence[Unit]) -> list[Json]:
     return [asdict(unit) for unit in units]
+
+
+def levels(mean: Sequence[float]) -> list[float]:
+    """Return round values within a range of positive ones, at most `MOST_LEVELS`."""
+    low, high = min(mean), max(mean)
+    for steps in ((1, 1.5, 2, 3, 5, 7), (1, 2, 3, 5), (1, 2, 5), (1, 3), (1,)):
+        decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+        values = [step * 10.0**exponent for exponent in decades for step in steps]
+        inside = [value for value in values if 1.1 * low < value < high / 1.1]
+        if len(inside) <= MOST_LEVELS:
+            break
+    return inside
+
+
+def drawn_levels(surface: ResponseSurface, unit_m: float) -> list[float]:
+    """Return the levels that are drawn of a grid, in a unit; none where nothing slides."""
+    if not (surface.mean_m > 0.0).any():
+        return []
+    mean = np.maximum(surface.mean_m, LEAST_M) / unit_m
+    return levels(mean[~np.isnan(mean)].tolist())
+
+
+def dots(
+    surface: ResponseSurface, arrays: Sequence[ArrayAssessment]
+) -> Mapping[tuple[float, float], Sequence[str]]:
+    """Return the arrays at each friction and slope [deg] of a grid: equal ones share a dot."""
+    drawn = (array for array in arrays if array.id not in surface.others)
+    return ids_by(
+        drawn, lambda item: (round(item.array.mu, 3), round(math.degrees(item.array.slope_rad), 2))
+    )
+
+
+def is_decade(level: float) -> bool:
+    """Whether a level is a power of ten."""
+    return math.isclose(math.log10(level), round(math.log10(level)), abs_tol=1e-9)

@@ -321,7 +321,6 @@ def test_tests_of_a_shake_table_go_into_the_manual_and_decide_the_exit_code(
         words = said((out / "verification.pdf").read_text())
         assert "13 Comparison with a shake table" in words
         assert tables.MADE in words
-        assert (out / "charts" / "shake-table.svg").exists()
     assert [len(tests) for tests in given] == [5, 5]
 
 

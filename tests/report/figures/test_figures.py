@@ -11,7 +11,6 @@ from report.assessment.spectra import spectra
 from report.drawing.sheet import LETTER
 from report.figures import charts as figures
 from report.figures import history
-from report.figures.base import FAMILY
 from report.figures.spectra import spectra as drawn_spectra
 
 
@@ -49,7 +48,7 @@ def words(svg):
 def test_charts_carry_no_date_and_only_the_shipped_font(charts):
     for svg in charts:
         assert "<dc:date>" not in svg
-        assert set(re.findall(r"font: [^;]*?'([^']+)'", svg)) <= {FAMILY}
+        assert set(re.findall(r"font: [^;]*?'([^']+)'", svg)) <= {"Source Sans 3"}
 
 
 def test_two_runs_draw_the_same_bytes_whatever_the_settings_of_the_machine(charts, assessment):

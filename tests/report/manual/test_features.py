@@ -155,13 +155,6 @@ def test_what_is_not_accepted_is_said_with_its_numbers(table):
     assert few.startswith("The acceptance is not satisfied: number of ratios, 2 instead of 5 or")
 
 
-@compiled
-def test_the_chart_has_a_dot_for_each_test(table):
-    section = shake_table(only(tables=(table((1.0, 1.1, 1.2)),)))
-    assert section.charts["shake-table"].count("<use ") >= 3
-    assert "gray: ratios of 0.75 to 1.33" in page(section)
-
-
 def test_every_error_of_a_released_version_has_an_effect_and_an_action():
     said = page(section("manual/known-errors", "Known errors"))
     heads = [found for cells in said.table("Errors").cells if (found := RELEASE.match(cells[0]))]

@@ -109,7 +109,7 @@ def test_a_law_is_fitted_to_four_velocities_and_drawn():
         " rms residual 0.0000, of one coefficient 0.0"
     )
     assert shown.line("Array A1: mean of μ(v) at the tested velocities")
-    assert "Dashed: laws fitted" in shown
+    assert "Light: laws fitted" in shown
     data = stand_in.project(arrays=arrays, friction_runs=wet)
     (found,) = series_of(data)
     fit = fit_law([run.velocity_mps for run in found.runs], [run.mu for run in found.runs])

@@ -9,7 +9,7 @@ import scenes
 import stand_in
 from printed import printed
 from report.assessment.uncertainty import uncertainty
-from report.figures.levels import MOST_LEVELS, levels
+from report.web.views import MOST_LEVELS, levels
 
 
 def made(found=None, **changes):
