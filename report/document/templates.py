@@ -36,7 +36,7 @@ from report.text.counts import (
 )
 from report.text.formats import general, percent, scientific, seconds, shortened
 from report.text.units import digits_down, digits_up, number, ratio
-from report.typeset.equations import data_uri, fraction, symbol
+from report.typeset.equations import data_uri, formula, fraction, symbol
 
 if TYPE_CHECKING:
     from jinja2 import BytecodeCache, Environment
@@ -88,6 +88,7 @@ def _environment(folder: Path) -> Environment:
         "dagger": dagger,
         "digits_down": digits_down,
         "digits_up": digits_up,
+        "formula": formula,
         "friction": mu_words,
         "general": general,
         "joined": joined,

@@ -8,8 +8,7 @@ from __future__ import annotations
 import base64
 import re
 import warnings
-from dataclasses import dataclass
-from functools import cache
+from typing import TypedDict
 
 from markupsafe import Markup, escape
 
@@ -19,32 +18,19 @@ SIZE_PT = 11.0
 WIDE_PT = 175.0  # of a page 482 pt wide
 _SIZE = re.compile(r'<svg [^>]*?width="([\d.]+)" height="([\d.]+)" viewBox="([-\d. ]+)"')
 _PATH = re.compile(r'<path d="([^"]+)"')
+_DECIMALS = re.compile(r"(\.\d\d)\d+")
 _BAR = re.compile(r"<rect [^>]+>")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FormulaPicture:
+class FormulaPicture(TypedDict):
     """A formula as a picture: width and height [pt]."""
 
     svg: str
     width_pt: float
     height_pt: float
+    is_wide: bool
+    """Whether it leaves no room for its numbers beside it."""
     latex: str
-
-    @property
-    def src(self) -> str:
-        """Its `data:` address."""
-        return data_uri(self.svg)
-
-    @property
-    def size(self) -> str:
-        """Its size on the page, as a style."""
-        return f"width: {self.width_pt:.2f}pt; height: {self.height_pt:.2f}pt"
-
-    @property
-    def is_wide(self) -> bool:
-        """Whether it leaves no room for its numbers beside it."""
-        return self.width_pt > WIDE_PT
 
 
 def data_uri(svg: str) -> str:
@@ -52,18 +38,14 @@ def data_uri(svg: str) -> str:
     return "data:image/svg+xml;base64," + base64.b64encode(svg.encode()).decode()
 
 
-class Equations(dict[str, FormulaPicture]):
-    """Equations by their LaTeX, typeset as they are asked for."""
-
-    def __missing__(self, latex: str) -> FormulaPicture:
-        self[latex] = formula(latex)
-        return self[latex]
-
-
-@cache
 def formula(latex: str) -> FormulaPicture:
-    """Return a LaTeX formula as a picture."""
-    svg = _typeset(latex)
+    """Return a LaTeX formula as a picture.
+
+    As a filter of a constant it is typeset when its template is compiled, which keeps only plain
+    types: hence a dictionary.
+    """
+    # The renderer spends time on decimals that print cannot show.
+    svg = _DECIMALS.sub(r"\1", _typeset(latex))
     size = _SIZE.match(svg)
     outlines = _PATH.findall(svg)
     # Fraction bars are rectangles.
@@ -76,6 +58,7 @@ def formula(latex: str) -> FormulaPicture:
         f'viewBox="{box}"><path d="{" ".join([*outlines, *bars])}"/></svg>',
         width_pt=float(width),
         height_pt=float(height),
+        is_wide=float(width) > WIDE_PT,
         latex=latex,
     )
 
