@@ -46,7 +46,7 @@ def make(
     """
     from report.assessment.assess import assess
     from report.assessment.evidence import support
-    from report.drawing.dxf import write_dxf
+    from report.drawing.items import write_dxf
     from report.drawing.plan import plan_drawing
     from report.package.html import pages
     from report.provenance.files import attachments, fingerprint, sources

@@ -4,13 +4,7 @@ Heavy imports stay inside the commands so that `--help` is quick. Exit codes: 0 
 verdict; 130 cut off by Ctrl+C; 4 where `verify-package` could not compare all; 3 with --fail-on-ng
 where the verdict is not OK; 2 input error; 1 internal error (with the traceback), failed
 verification checks, or a package that differs.
-Read `report` for the way from workbook to package.
-
-The command `roofslip completion`: the shell completes commands, options and files.
-
-The command `roofslip schema`: what results.json holds.
-
-The command `roofslip doctor`: what is installed, and what a package needs; changes nothing.
+Read `report` for the way from workbook to package. `completion`, `schema` and `doctor` are here.
 """
 
 from __future__ import annotations

@@ -40,19 +40,14 @@ def motion() -> None:
 
 def _reading(command: Callable[..., None]) -> Callable[..., None]:
     """Add the options for reading a file."""
-    options = (
-        click.option("--units", type=UNITS,
-                     help="Units, if the file does not state them."),
-        click.option("--dt", "dt_s", type=TIME_STEP, default=math.nan,
-                     help="Time step, if the file has none."),
-    )  # fmt: skip
-    for option in options:
-        command = option(command)
-    return command
+    step = click.option("--dt", "dt_s", type=TIME_STEP, default=math.nan,
+                        help="Time step, if the file has none.")  # fmt: skip
+    units = click.option("--units", type=UNITS, help="Units, if the file does not state them.")
+    return step(units(command))
 
 
 _per_line = click.option("--values-per-line", type=click.IntRange(1), default=None, callback=lambda
-                         *given: given[2] or 0, help="The values follow each other across the "
+                         *about: about[2] or 0, help="The values follow each other across the "
                          "lines, so many in each but the last.")  # fmt: skip
 _response = click.option("--response", default="", metavar="STATION.xml|NUMBER", help="Of raw "
                          "counts, as in miniSEED: StationXML, or the counts per m/s2.")  # fmt: skip
@@ -305,7 +300,7 @@ def _in_library(source: Path) -> Path:
 
 
 def _targets(
-    given: dict[str, Any], target: str | None, sheet: Sheet | None
+    options: dict[str, Any], target: str | None, sheet: Sheet | None
 ) -> tuple[SuiteTargets, list[str]]:
     """Return the target of a suite, and what of it is from which cells of a workbook."""
     from report.suite.inputs import ac156_targets, site_targets, table_targets
@@ -313,14 +308,14 @@ def _targets(
     from solver.model import InputError
     from solver.rules.spectra import Tail
 
-    if sheet and not given and not target:
+    if sheet and not options and not target:
         return site_targets(sheet)
-    whole: dict[str, Any] = {"s_ds_g": math.nan, "z_over_h": 1.0} | given
-    whole["tail"] = Tail.RECIPROCAL if given.get("tail") == "1/T" else Tail.AC156
+    whole: dict[str, Any] = {"s_ds_g": math.nan, "z_over_h": 1.0} | options
+    whole["tail"] = Tail.RECIPROCAL if options.get("tail") == "1/T" else Tail.AC156
     if target:
         table = read_target(target)
         return table_targets(table, s_ds_g=whole["s_ds_g"], tail=whole["tail"]), []
-    if not {"s_ds_g", "code"} <= given.keys():
+    if not {"s_ds_g", "code"} <= options.keys():
         raise InputError("no target; give --sds and --code, or --target")
     return ac156_targets(**whole), []
 

@@ -1,8 +1,7 @@
 """Values of options: numbers in their unit, and files and folders that must be there.
 
-An error names the option as it was given, the value with its unit, and what is accepted.
-
-A group of commands whose help lists them by section, each with its whole first sentence.
+An error names the option as it was given, the value with its unit, and what is accepted. A group's
+help lists its commands by section.
 """
 
 from __future__ import annotations

@@ -1,8 +1,6 @@
 """The command `roofslip plan`: the roof plan of a workbook, from a drawing.
 
-Read `read` first.
-
-What `roofslip plan read` does with layers that nobody said anything of; read `choose`.
+Read `read` first, then `choose`: what it does with layers that nobody said anything of.
 """
 
 from __future__ import annotations
@@ -62,8 +60,8 @@ def choose(
         If a layer that is given is not in the drawing; or, after a table of them, if layers with
         closed lines are not known.
     """
-    from report.drawing.drawing_names import proposed
     from report.drawing.plan_read import known_layers
+    from report.drawing.roof_drawing import proposed
     from report.sheet.schema.choices import LayerKind
     from report.text.counts import numbered
     from solver.model import InputError, Problem
@@ -93,7 +91,7 @@ def choose(
 def _table(
     drawing: RoofDrawing, outlines: Mapping[str, int], kinds: Mapping[str, LayerKind | None]
 ) -> Iterator[str]:
-    from report.drawing.drawing_names import drawn_on
+    from report.drawing.roof_drawing import drawn_on
     from report.text.formats import aligned
 
     rows = [("layer", "closed lines", "drawn", "proposed")]

@@ -1,8 +1,6 @@
-"""The commands `roofslip new` and `roofslip report`.
+"""The commands `roofslip new`, `roofslip report` and `roofslip watch`, a report after every save.
 
 Parse and print; `report.making` goes from workbook to package.
-
-The command `roofslip watch`: the report again after every save. Read `report.cli.report`.
 """
 
 from __future__ import annotations

@@ -1,9 +1,7 @@
-"""What all commands share: input errors and progress.
+"""What all commands share: input errors, progress, verdicts and levels in color.
 
 Prints no text of its own. Heavy imports stay out, so that `--help` is quick. Read `report.cli.main`
 next.
-
-Verdicts and levels in color. `click.echo` takes it off where no terminal reads.
 """
 
 from __future__ import annotations
@@ -56,7 +54,8 @@ _WORD = re.compile(rf"\b(?:{'|'.join(_STYLES)})\b|^(?:{'|'.join(_LEVELS)})(?=: )
 
 def colored(line: str) -> str:
     """Return a line with its verdicts, and the level it begins with, in color."""
-    return _WORD.sub(lambda found: click.style(found[0], **_ALL[found[0]]), line)
+    # `click.echo` takes the codes off where no terminal reads.
+    return _WORD.sub(lambda word: click.style(word[0], **_ALL[word[0]]), line)
 
 
 def color_choice() -> bool | None:
@@ -70,8 +69,8 @@ def color_choice() -> bool | None:
 SOURCE = click.Path(path_type=Path)
 
 
+# Of acceleration, of a file: `solver.records.record.UNIT_CHOICES`, which is slow to import.
 UNITS = click.Choice(("g", "m/s2", "cm/s2", "mm/s2", "gal"))
-"""Of acceleration, of a file: `solver.records.record.UNIT_CHOICES`, which is slow to import."""
 
 QUIET_SECONDS = 1.0
 TIMED_SECONDS = 2.0
@@ -93,8 +92,8 @@ def say(line: str) -> None:
     click.echo(colored(as_typed(plain(line))))
 
 
+# Raised where a key that `--json` prints changes its name or meaning.
 SCHEMA_VERSION = 1
-"""Raised where a key that `--json` prints changes its name or meaning."""
 
 INTERNAL_ERROR, DIFFERS, INPUT_ERROR, NOT_OK, NOT_COMPARED, INTERRUPTED = 1, 1, 2, 3, 4, 130
 """Exit codes: an error of the program; a package differs; an error in the input; not OK where that

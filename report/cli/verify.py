@@ -1,8 +1,7 @@
-"""The command `roofslip verify`: the verification manual.
+"""The commands `roofslip verify` (the manual), `verify-package` and `sign`.
 
-The command `roofslip verify-package`: a package made again from its own input, and compared.
-
-The command `roofslip sign`: the engineer's signature in the seal box of a package.
+`verify-package` makes a package again from its own input and compares; `sign` puts the engineer's
+signature in its seal box.
 """
 
 from __future__ import annotations
@@ -117,8 +116,8 @@ def _judgment(tests: ShakeTable) -> str:
     return f"shake table: {len(tests.runs)} tests, median ratio {tests.median:.3f}. {result(tests)}"
 
 
+# Usual time of the comparison, as a share of that of the package.
 COMPARING = 0.1
-"""Usual time of the comparison, as a share of that of the package."""
 
 _SAID = {
     "same": "Same: the input in the package gives this package, to the byte.",

@@ -1,1 +1,1 @@
-"""The roof plan as a drawing for CAD. Read `report.drawing.dxf`."""
+"""The roof plan as a drawing for CAD. Read `report.drawing.items`."""

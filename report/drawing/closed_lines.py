@@ -18,8 +18,8 @@ from report.sheet.schema.shapes import Point
 
 MAX_POINTS = 2000
 MAX_COORDINATE = 1e12
+# Of a spline, as in AutoCAD: the work for a point of it grows with the square of the degree.
 MAX_DEGREE = 10
-"""Of a spline, as in AutoCAD: the work for a point of it grows with the square of the degree."""
 CURVES = ("LINE", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "ELLIPSE", "SPLINE")
 
 _FLAT = 1e-6

@@ -38,8 +38,8 @@ from report.text.formats import aligned
 from report.text.units import Quantity, Unit
 from solver.model import InputError
 
+# Common share of two outlines, of all that either covers, by which they may be the same.
 _LEAST_SHARE = 0.05
-"""Common share of two outlines, of all that either covers, by which they may be the same."""
 _RENAMED_SHARE = 0.9  # the same, of an outline that the drawing calls by a name of its own
 _PLAIN = 2.0  # a row is told from another by this times its share, or its part of the distance
 _SAME_M = 0.05  # sizes that differ by less are the same
@@ -260,27 +260,27 @@ def plan_as_rows(
         If there is nothing to fill in, or its size is not that of a roof.
     """
     is_us, said = us_first(draft), {**layers_of(draft), **layers}
-    found, known = plan_of(drawn, unit_m, said, joined_m, is_us), known_layers(said)
-    if not (found.roof or found.arrays or found.objects):
-        _refuse(found, drawn)
-    check_size(found, unit_m, is_us)
+    plan, known = plan_of(drawn, unit_m, said, joined_m, is_us), known_layers(said)
+    if not (plan.roof or plan.arrays or plan.objects):
+        _refuse(plan, drawn)
+    check_size(plan, unit_m, is_us)
     unknown = [line.layer for line in drawn.lines if line.layer.casefold() not in known]
-    return found, matched(found, draft), {**layers, **dict.fromkeys(unknown, LayerKind.NOT_READ)}
+    return plan, matched(plan, draft), {**layers, **dict.fromkeys(unknown, LayerKind.NOT_READ)}
 
 
-def _refuse(found: RoofPlan, drawn: RoofDrawing) -> NoReturn:
+def _refuse(plan: RoofPlan, drawn: RoofDrawing) -> NoReturn:
     if not drawn.lines:
         if names := ", ".join(drawn.layouts):
             text = f"its closed lines are in the layout {names}, not in model space"
             raise InputError(f"{text}; move them there in CAD")
         text = "the drawing has no closed lines; draw roof, arrays and objects as such in CAD"
-        raise InputError([text, *unread(found)])
-    raise InputError(["nothing to fill in: give the layers on the sheet Layers", *unread(found)])
+        raise InputError([text, *unread(plan)])
+    raise InputError(["nothing to fill in: give the layers on the sheet Layers", *unread(plan)])
 
 
-def unread(found: RoofPlan) -> Iterator[str]:
+def unread(plan: RoofPlan) -> Iterator[str]:
     """Yield what was not understood, once for each cause, with its layers and some handles."""
-    for reason, items in grouped_by(found.unread, lambda item: item.reason).items():
+    for reason, items in grouped_by(plan.unread, lambda item: item.reason).items():
         layers = listed(item.layer for item in items)
         handles = listed(f"{item.handle} {item.detail}".strip() for item in items)
         yield f"not read: {reason}: {len(items)} on {layers} ({handles})"

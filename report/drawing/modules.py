@@ -27,24 +27,24 @@ GAP_M = 20.0 * INCH_M
 SIDES_M = (0.5, 2.6)
 """Shortest and longest side of a module in plan [m]."""
 
+# Equal rectangles of a layer from which on they are modules; fewer are arrays.
 LEAST_ALIKE = 3
-"""Equal rectangles of a layer from which on they are modules; fewer are arrays."""
 
+# Sides within this [m] are equal; a step of an outline within this is none.
 ALIKE_M = 0.005
-"""Sides within this [m] are equal; a step of an outline within this is none."""
 ROUNDED_M = (
     *(share * LENGTHS["ft"] for share in (1.0, 0.5, 0.25, 0.1)),
     *(share * INCH_M for share in (1.0, 0.5, 0.25, 0.125)),
     0.1, 0.05, 0.01, 0.005, 0.01 * LENGTHS["ft"], 0.1 * INCH_M, 0.002,
 )  # fmt: skip
 """Steps [m] that exports round coordinates to; a finer one is within `ALIKE_M`."""
+# Coordinates rounded to more than this [m] do not tell modules that are turned.
 COARSEST_M = ROUNDED_M[3]
-"""Coordinates rounded to more than this [m] do not tell modules that are turned."""
+# Gaps larger by this [m] are the largest one rounded, such as 20 in to 1.7 ft.
 ROUNDED_GAP_M = 0.015
-"""Gaps larger by this [m] are the largest one rounded, such as 20 in to 1.7 ft."""
 
+# Texts within an array of which one may be its name; more are those of its modules.
 MOST_TEXTS = 3
-"""Texts within an array of which one may be its name; more are those of its modules."""
 
 _PARALLEL_DEG, _NO_TURN_RAD = 0.5, 1e-5
 # A corner is off by 0.71 steps at most: two sides by 2.8 from each other, and places by 1.4.

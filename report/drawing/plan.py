@@ -1,6 +1,6 @@
 """The roof plan as lines, texts and dimensions on layers, in the plan unit of the workbook.
 
-Pure data from an assessment, with no file format (`report.drawing.dxf`). Read `plan_drawing` first.
+Pure data from an assessment, with no file format (`report.drawing.items`). Read `plan_drawing`.
 """
 
 from __future__ import annotations

@@ -11,10 +11,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from report.assessment.neighbors import EDGE_STRIP_M, bare_sides
-from report.drawing.drawing_names import first_height, read_line
 from report.drawing.items import Layer
 from report.drawing.modules import GAP_M, MOST_TEXTS, Known, joined
-from report.drawing.roof_drawing import Drawn, RoofDrawing, Unread, Words, turned
+from report.drawing.roof_drawing import (
+    Drawn,
+    RoofDrawing,
+    Unread,
+    Words,
+    first_height,
+    read_line,
+    turned,
+)
 from report.sheet.checking.plan_checks import LEAST_VERTICES
 from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.shapes import (
@@ -42,11 +49,11 @@ LAYERS: Mapping[str, LayerKind] = {layer.title: LayerKind.NOT_READ for layer in 
 
 MAX_NAME = 40
 LEAST_AREA_M2 = 1e-3
+# Sides within this of an axis [m] are parallel to it; vertices within this of a line are on it.
 ROUNDED_M = 1e-5
-"""Sides within this of an axis [m] are parallel to it; vertices within this of a line are on it."""
 
+# Largest distance [m] between two outlines that are one drawn twice.
 TWICE_M = 0.005
-"""Largest distance [m] between two outlines that are one drawn twice."""
 ROOF_M, ARRAY_M = (3.0, 3_000.0), (0.9, 1_000.0)
 """Least and largest length [m] of a roof, and of the largest array."""
 

@@ -26,7 +26,7 @@ from report.drawing.closed_lines import (
     outlines,
     polygons,
 )
-from report.drawing.dxf import APPLICATION
+from report.drawing.items import APPLICATION
 from report.drawing.roof_drawing import (
     DAMAGED,
     MAX_ENTITIES,
@@ -379,8 +379,8 @@ def _clip(insert: Any) -> _Clip | None:
 def _attributes(insert: Any) -> tuple[str, tuple[str, ...]]:
     """Return what the attributes of a block say: its name, and heights with their tags."""
     values = {str(a.dxf.tag).casefold(): _printable(a.dxf.text) for a in insert.attribs}
-    given = [values.pop(tag.casefold(), "") for tag in _HEIGHTS]
-    heights = tuple(f"{tag} {text}" for tag, text in zip(_HEIGHTS, given, strict=True) if text)
+    texts = [values.pop(tag.casefold(), "") for tag in _HEIGHTS]
+    heights = tuple(f"{tag} {text}" for tag, text in zip(_HEIGHTS, texts, strict=True) if text)
     # The only other one is the name, whatever its tag is.
     only = next(iter(values.values())) if len(values) == 1 else ""
     named = filter(None, map(values.get, ("name", "id", "tag", "mark")))

@@ -14,20 +14,8 @@ from itertools import product
 from report.assessment.neighbors import EDGES
 from report.assessment.plan_clearances import PlanGap, plan_gaps, shapes_of
 from report.assessment.project import Assessment
-from report.drawing.items import (
-    TYPE_PT,
-    Arrow,
-    Circle,
-    Item,
-    Layer,
-    Lines,
-    Look,
-    Mark,
-    Outline,
-    Text,
-    tick_text,
-    width_in,
-)
+from report.drawing import items
+from report.drawing.items import TYPE_PT, Item, Layer, Look, Mark, tick_text, width_in
 from report.drawing.placer import Frame, Placer, centered
 from report.entities.shown import UnitFormat
 from report.sheet.schema.scene import RoofObject
@@ -99,24 +87,24 @@ class Paper:
 
     def shape(self, look: Look, points: Iterable[Point], name: str = "") -> None:
         """Draw an outline of the plan [m]."""
-        self.items.append(Outline(look=look, points=tuple(map(self.at, points)), name=name))
+        self.items.append(items.Outline(look=look, points=tuple(map(self.at, points)), name=name))
 
     def box(self, look: Look, frame: Frame) -> None:
         """Draw a rectangle."""
-        self.items.append(Outline(look=look, points=frame.corners))
+        self.items.append(items.Outline(look=look, points=frame.corners))
 
     def lines(self, look: Look, *lines: Sequence[Point], name: str = "") -> None:
         """Draw lines as one thing."""
-        self.items.append(Lines(look=look, lines=tuple(map(tuple, lines)), name=name))
+        self.items.append(items.Lines(look=look, lines=tuple(map(tuple, lines)), name=name))
 
     def circle(self, look: Look, center: Point, radius: float, name: str = "") -> None:
         """Draw a circle."""
-        self.items.append(Circle(look=look, center=center, radius=radius, name=name))
+        self.items.append(items.Circle(look=look, center=center, radius=radius, name=name))
 
     def arrow(self, look: Look, middle: Point, turn_rad: float, half: float) -> None:
         """Draw an arrow about a point."""
         (x, y), dx, dy = middle, half * math.cos(turn_rad), half * math.sin(turn_rad)
-        self.items.append(Arrow(look=look, tail=(x - dx, y - dy), tip=(x + dx, y + dy)))
+        self.items.append(items.Arrow(look=look, tail=(x - dx, y - dy), tip=(x + dx, y + dy)))
 
     def dimension(self, look: Look, a: Point, b: Point) -> None:
         """Draw a dimension line with a tick at each end."""
@@ -126,7 +114,7 @@ class Paper:
 
     def text(self, x: float, y: float, words: str, **look: bool) -> None:
         """Write a line from the start of its baseline, unless it is centered."""
-        self.items.append(Text(at=(x, y), words=words, **look))
+        self.items.append(items.Text(at=(x, y), words=words, **look))
 
     def label(self, frame: Frame, lines: Sequence[str], *, first_bold: bool = False) -> None:
         """Write lines in the middle of a frame, one below the other."""

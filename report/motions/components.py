@@ -1,8 +1,6 @@
 """Reads the components of each motion that a workbook names, and processes them as requested.
 
 Owns how components are combined; `files` reads them, `history` makes motions of them.
-
-Samples far above all others of a record: a digit, a sign of a missing value, a loose contact.
 """
 
 from __future__ import annotations
@@ -28,8 +26,9 @@ from solver.model import Floats, InputError
 from solver.records.processing import Processing, process, process_together
 from solver.records.record import Record, has_gravity
 
+# Samples far above all others are a digit, a sign of a missing value or a loose contact.
+# Smallest spike / largest other sample: shaking rises to its peak over several samples.
 FACTOR = 3.0
-"""Smallest spike / largest other sample: shaking rises to its peak over several samples."""
 
 MOST = 10
 LEAST_SAMPLES_FOR_EACH = 100
@@ -72,7 +71,7 @@ class RecordFile:
     # its last sample; otherwise NaN
     hold_s: float
     size: int  # of the file [bytes]; 0 for a pasted column
-    spikes: tuple[int, ...]  # indexes of samples far above all others (`report.motions.components`)
+    spikes: tuple[int, ...]  # indexes of samples far above all others
     others_g: float  # largest magnitude of the other samples [g]
     unseen: tuple[Unseen, ...] = ()  # of a pasted column: cells that the workbook keeps from sight
 

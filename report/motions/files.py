@@ -1,9 +1,7 @@
 """Reads one record that a workbook names: a file beside it, or a column in one of its sheets.
 
-`solver.formats` reads the record formats, `pasted` the columns; which files a workbook may access
-is in `report.sheet.reading.linked_files`.
-
-Reads a record that is pasted into a column of the workbook, and checks it against its sheet.
+`solver.formats` reads the record formats; which files a workbook may access is in
+`report.sheet.reading.linked_files`. A column is checked against its sheet.
 """
 
 from __future__ import annotations
@@ -184,11 +182,11 @@ def _number(cell: Found, unit: str) -> float:
 
 MAX_BYTES = 64_000_000
 
+# Bytes of record files beyond which a package holds their hashes only.
 MOST_RECORDS = 20_000_000
-"""Bytes of record files beyond which a package holds their hashes only."""
 
+# Separates a file from its channel; not allowed in Windows file names.
 BAR = "|"
-"""Separates a file from its channel; not allowed in Windows file names."""
 
 Reader = Callable[..., MotionFile]
 """`solver.formats.read_motion_file`, or a cached version of it."""

@@ -1,9 +1,8 @@
 """From processed records to motions as run: scaled, and carried to the roof for ground motions.
 
 Owns the order of these steps and records what each did; the steps themselves are those of
-`solver.records.spectrum` and `solver.building.roof`. Read `shake` first.
-
-The target spectra of motions, for comparison and scaling, as a project requests them.
+`solver.records.spectrum` and `solver.building.roof`. Owns the target spectra that a project
+requests. Read `shake` first.
 """
 
 from __future__ import annotations

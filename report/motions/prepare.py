@@ -1,13 +1,7 @@
 """The motions of a workbook, ready to run: records read, processed, scaled, carried to the roof.
 
-Orders the steps: `components` reads, `repeated` compares, `history` scales and carries to the
-roof. Read `prepare`.
-
-Finds motions that a workbook gives more than once, by the samples of their horizontal records.
-
-Finds links that are too stiff to integrate under the motions of a project.
-
-Warnings and notes on records: step, duration, unequal components, spikes, how each was read.
+Orders the steps: `components` reads, `history` scales and carries to the roof. Finds motions that
+are given twice, what is unusual in records, and links too stiff to integrate. Read `prepare`.
 """
 
 from __future__ import annotations
@@ -31,19 +25,19 @@ from report.text.units import G_MPS2, Quantity
 from solver.model import Floats, Motion
 from solver.sliding.row import MOST_STEPS, BlockRow, minimum_steps
 
+# Largest difference of two samples / peak where records are the same: above that of rounding.
 ALIKE = 1e-3
-"""Largest difference of two samples / peak where records are the same: above that of rounding."""
 
 
 @dataclass(frozen=True, slots=True)
-class _Given:
+class _Horizontal:
     """A horizontal record: its cell, its row, and its samples / the sample of largest size."""
 
     place: Place
     row: DraftRow
     shape: Floats
 
-    def repeats(self, other: _Given) -> bool:
+    def repeats(self, other: _Horizontal) -> bool:
         """Whether it is another one again, at any scale and of either sign.
 
         Times that two motions take of their records may be apart: a file may hold two.
@@ -66,9 +60,9 @@ def repeated(
     where : callable
         Returns the address of a place.
     """
-    seen: dict[tuple[int, int], list[_Given]] = {}
+    seen: dict[tuple[int, int], list[_Horizontal]] = {}
     for index, components in by_motion.items():
-        records = list(_given(index, rows[index], components))
+        records = list(_horizontal_records(index, rows[index], components))
         pairs = (
             (new, old) for key, new in records for old in seen.get(key, ()) if new.repeats(old)
         )
@@ -84,9 +78,9 @@ def repeated(
             seen.setdefault(key, []).append(item)
 
 
-def _given(
+def _horizontal_records(
     index: int, row: DraftRow, components: Components
-) -> Iterator[tuple[tuple[int, int], _Given]]:
+) -> Iterator[tuple[tuple[int, int], _Horizontal]]:
     """Yield the horizontal records of a motion that are not all zeros, each with a key.
 
     Records that are the same have the same key: few others are then to be compared.
@@ -96,7 +90,8 @@ def _given(
             a = components.whole[field].a_mps2
             at = int(np.abs(a).argmax())
             if a[at] != 0.0:
-                yield (len(a), at), _Given(Place("motions", index, field), row, a / a[at])
+                place = Place("motions", index, field)
+                yield (len(a), at), _Horizontal(place, row, a / a[at])
 
 
 def _times(row: DraftRow) -> tuple[float, float]:
@@ -207,11 +202,11 @@ def shaking(sheet: Sheet, by_motion: Sequence[Components]) -> Shaking:
     )
 
 
+# Time step [s] above which a record has no content at 25 Hz and above.
 MOST_STEP_S = 0.02
-"""Time step [s] above which a record has no content at 25 Hz and above."""
 
+# Duration [s] above which a time step is more probably wrong than right.
 MOST_DURATION_S = 300.0
-"""Duration [s] above which a time step is more probably wrong than right."""
 
 MOST_UNEQUAL = 0.05
 """Share of the longest component that may be trimmed from it without a warning."""

@@ -21,10 +21,10 @@ from solver.model import InputError
 
 MOST_FILES = 500
 MOST_NAME = 40  # of an ID
+# Part by which components may differ in length: those of one recording often end apart.
 LENGTHS_WITHIN = 0.05
-"""Part by which components may differ in length: those of one recording often end apart."""
+# Largest difference of the start times of components: some headings print whole seconds.
 STARTS_WITHIN = dt.timedelta(seconds=1)
-"""Largest difference of the start times of components: some headings print whole seconds."""
 
 _UP, _DOWN, _AZIMUTH = "up", "down", "azimuth"
 _HIDDEN = re.compile(r"/(\.|~\$|__MACOSX/)")

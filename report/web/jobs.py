@@ -22,10 +22,10 @@ from report.assessment.neighbors import NearbyKind
 from report.assessment.plan_clearances import missing_rows
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
-from report.drawing.drawing_names import drawn_on, proposed
 from report.drawing.fill import changes, layers_of, plan_as_rows
 from report.drawing.plan_read import known_layers
 from report.drawing.read_dxf import read_dxf
+from report.drawing.roof_drawing import drawn_on, proposed
 from report.sheet.checking.findings import Group, grouped, listed
 from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.locate import find_table

@@ -82,14 +82,14 @@ class MotionFile:
 
 def distinct(names: Iterable[str]) -> list[str]:
     """Names with single blanks; a number in parentheses distinguishes a repeated name."""
-    given: list[str] = []
+    named: list[str] = []
     taken: set[str] = set()
     for i, name in enumerate(names, start=1):
         plain = " ".join(name.split()) or f"channel {i}"
         candidates = (plain, *(f"{plain} ({k})" for k in range(2, i + 2)))
-        given.append(next(text for text in candidates if _folded(text) not in taken))
-        taken.add(_folded(given[-1]))
-    return given
+        named.append(next(text for text in candidates if _folded(text) not in taken))
+        taken.add(_folded(named[-1]))
+    return named
 
 
 def _folded(name: str) -> str:
@@ -98,11 +98,11 @@ def _folded(name: str) -> str:
 
 MAX_CHANNELS = 1000
 
+# Peak [g] above which a record is refused: ten times as much as any instrument records.
 MOST_G = 1000.0
-"""Peak [g] above which a record is refused: ten times as much as any instrument records."""
 
+# Range of time steps [s] of accelerograms, with a wide margin.
 STEPS_S = (1e-6, 10.0)
-"""Range of time steps [s] of accelerograms, with a wide margin."""
 
 # The peak in a header may be rounded or of other processing; a factor of two means another unit.
 _PEAK_WITHIN = 0.01

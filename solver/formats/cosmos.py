@@ -4,10 +4,6 @@ Handles this format only. A channel has lines of text, then blocks that state ho
 real numbers, comments and values follow, and in which format. Accelerations are read; velocities
 and displacements after them are ignored; raw counts are refused. Read `read` first. Files of the
 California Geological Survey lack the comma between the unit and the format.
-
-Source: COSMOS Strong Motion Programs Board, COSMOS strong motion data format, version 1.20, 2001:
-tables 1 (quantity) and 2 (units); real numbers 34 (step of the record [s]), 62 (step of the series
-[ms]), 63 (its length [s]) and 64 (its peak).
 """
 
 from __future__ import annotations
@@ -25,6 +21,9 @@ from solver.formats.source import Source, Stated
 from solver.model import InputError
 from solver.records.record import raise_any, shown, unit_size
 
+# Source: COSMOS Strong Motion Programs Board, COSMOS strong motion data format, version 1.20, 2001:
+# tables 1 (quantity) and 2 (units); real numbers 34 (step of the record [s]), 62 (step of the
+# series [ms]), 63 (its length [s]) and 64 (its peak).
 _FIRST = re.compile(
     r"\s*(RAW|UNCORRECTED|CORRECTED)\s+([A-Z]+)\b.*\(FORMAT\s+V", re.ASCII | re.IGNORECASE
 )

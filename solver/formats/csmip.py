@@ -5,9 +5,6 @@ Handles this format only. A file has one or more channels, each with lines of te
 acceleration (10F7.3), which may be unevenly spaced, or evenly spaced values after a line that
 states their step, and mostly their format. Volume 2 is corrected: evenly spaced accelerations,
 velocities and displacements, of which the accelerations are read. Read `read` first.
-
-Source: A.F. Shakal and M.J. Huang, Standard tape format for CSMIP strong-motion data tapes,
-California Division of Mines and Geology, OSMS 85-03, 1985.
 """
 
 from __future__ import annotations
@@ -34,6 +31,8 @@ from solver.formats.times import sampled
 from solver.model import Floats, InputError
 from solver.records.record import unit_size
 
+# Source: A.F. Shakal and M.J. Huang, Standard tape format for CSMIP strong-motion data tapes,
+# California Division of Mines and Geology, OSMS 85-03, 1985.
 _VOLUME_1 = re.compile(r"^\s*UNCORRECTED ACCELEROGRAM DATA", re.IGNORECASE)
 _VOLUME_2 = re.compile(r"^\s*CORRECTED ACCELEROGRAM\b", re.IGNORECASE)
 _VOLUME_3 = re.compile(r"^\s*RESPONSE AND FOURIER AMPLITUDE SPECTRA", re.IGNORECASE)
@@ -107,8 +106,8 @@ def read(source: Source) -> MotionFile:
 
 
 def _channel(source: Source, part: range, volume: _Volume) -> channels.Channel:
-    found = (_search(source, part, pattern) for pattern in volume.even)
-    place = next(filter(None, found), None)
+    places = (_search(source, part, pattern) for pattern in volume.even)
+    place = next(filter(None, places), None)
     if place:
         dt_s, values, notes = _even_values(source, part, volume, *place)
     elif volume is _ONE:

@@ -3,10 +3,6 @@
 Handles these two formats only. An .asc has one component, a value a line, and names its count,
 step, unit, peak and quantity; corrected velocities, displacements and spectra have the same heading
 and are refused. AFAD's text has three components below their names. Read `read` first.
-
-Source: INGV, DYNA 1.0 and 1.2, the heading of the Engineering Strong-Motion database, esm-db.eu,
-and of ITACA, whose older files name the component `COMPONENT`; AFAD's text (STRONG GROUND MOTION
-RECORDS OF TURKIYE, 18 lines) as tadas.afad.gov.tr gives it: there is no written definition.
 """
 
 from __future__ import annotations
@@ -28,6 +24,9 @@ from solver.formats.source import Source
 from solver.model import InputError
 from solver.records.record import raise_any, shown
 
+# Source: INGV, DYNA 1.0 and 1.2, the heading of the Engineering Strong-Motion database, esm-db.eu,
+# and of ITACA, whose older files name the component `COMPONENT`; AFAD's text (STRONG GROUND MOTION
+# RECORDS OF TURKIYE, 18 lines) as tadas.afad.gov.tr gives it: there is no written definition.
 _LONGEST_HEADING = 100
 _COUNTS = "NDATA", "NUMBER OF DATA"
 _STEPS = "SAMPLING_INTERVAL_S", "SAMPLING INTERVAL (SEC)", "SAMPLING INTERVAL (S)"

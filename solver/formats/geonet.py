@@ -3,11 +3,6 @@
 Handles this format only. Each component has 16 lines of text, 40 integers (10I8), 60 real numbers
 (10F8.0), then accelerations (10F8.1) and, in V2A, velocities and displacements, which are ignored.
 Read `read` first.
-
-Source: GeoNet, Strong motion file formats, geonet.org.nz/data/supplementary/
-strong_motion_file_formats (W.J. Cousins, GNS accelerogram data files, 2008): integers 34, 35 and 36
-are the counts of accelerations, velocities and displacements. The meaning of real numbers 26 (step
-[s]), 31 (peak of V1A) and 36 (peak of V2A) was inferred from files and their text.
 """
 
 from __future__ import annotations
@@ -21,6 +16,10 @@ from solver.formats.numbers import Block, FieldFormat, each, fixed_values, heade
 from solver.formats.source import Source, Stated
 from solver.model import InputError
 
+# Source: GeoNet, Strong motion file formats, geonet.org.nz/data/supplementary/
+# strong_motion_file_formats (W.J. Cousins, GNS accelerogram data files, 2008): integers 34, 35 and
+# 36 are the counts of accelerations, velocities and displacements. The meaning of real numbers 26
+# (step [s]), 31 (peak of V1A) and 36 (peak of V2A) was inferred from files and their text.
 _FIRST = re.compile(r"^\s*(UN)?CORRECTED ACCELEROGRAM\b", re.IGNORECASE)
 _SITE = re.compile(r"\s*SITE\b", re.IGNORECASE)
 _STEP_LINE = re.compile(

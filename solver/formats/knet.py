@@ -4,10 +4,6 @@ Handles these formats only. ASCII is one component: seventeen named lines of hea
 eight per line, with a scale factor in gal per count. CSV is a station: lines of heading after `#`,
 then a date, the time from the start and the three or six components in gal. Both include the offset
 of the instrument. Read `read` first.
-
-Source: NIED, About K-NET ASCII format, www.kyoshin.bosai.go.jp/kyoshin/man/knetform_en.html, and
-the KiK-net notes there (channels 1 to 3 in the borehole, 4 to 6 at the surface; the stated peak is
-without the mean). CSV: the files of NIED from 2024 on; the duration is in whole seconds.
 """
 
 from __future__ import annotations
@@ -29,6 +25,9 @@ from solver.formats.times import sampled
 from solver.model import InputError
 from solver.records.record import shown
 
+# Source: NIED, About K-NET ASCII format, www.kyoshin.bosai.go.jp/kyoshin/man/knetform_en.html, and
+# the KiK-net notes there (channels 1 to 3 in the borehole, 4 to 6 at the surface; the stated peak
+# is without the mean). CSV: the files of NIED from 2024 on; the duration is in whole seconds.
 _HEADING_LINES = 20
 _SCALE = re.compile(r"([\d.]+)\s*\(\s*([A-Z]+)\s*\)\s*/\s*([\d.]+)", re.ASCII | re.IGNORECASE)
 _LEADING = re.compile(r"[\d.]+", re.ASCII)

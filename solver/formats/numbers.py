@@ -32,8 +32,8 @@ _TOUCHING = re.compile(r"(?<=[\d.])(?=[+-])", re.ASCII)
 # Fortran prints the exponent of a double-precision number after a D.
 _FORTRAN = str.maketrans("dD", "eE")
 
+# Last values whose digits are compared, and how many of them show how a file writes numbers.
 COMPARED, _ENOUGH = 50, 5
-"""Last values whose digits are compared, and how many of them show how a file writes numbers."""
 
 _Item = TypeVar("_Item")
 _Result = TypeVar("_Result")

@@ -5,10 +5,6 @@ by blanks. In PEER's files that line is the fourth, `NPTS=  4000, DT=   .0100 SE
 databases and `4000    0.0100    NPTS, DT` in the first one; the NRC's and rotated files have more
 lines above it. eqsig and RSPMatch write the two numbers alone, below a name, and no unit. Read
 `read` first.
-
-Source: the files of the Pacific Earthquake Engineering Research Center, peer.berkeley.edu (there
-is no written definition); eqsig.loader (label, then count and step, then a value a line);
-the RSPMatch09 manual (title, then count, step and a third number, then values).
 """
 
 from __future__ import annotations
@@ -22,6 +18,10 @@ from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.source import Source
 from solver.model import InputError
 from solver.records.record import shown
+
+# Source: the files of the Pacific Earthquake Engineering Research Center, peer.berkeley.edu (there
+# is no written definition); eqsig.loader (label, then count and step, then a value a line); the
+# RSPMatch09 manual (title, then count, step and a third number, then values).
 
 # The count is in the first lines of a file: the heading has four, or seven and more.
 _HEADING_LINES, _LONGEST_HEADING = 6, 20

@@ -79,8 +79,8 @@ def read_motion_file(
         response=str(response),
     )
     reader = next(form for form in _FORMATS if form.recognizes(source.lines))
-    found = (seed if waveform_format(source.content) else reader).read(source)
-    return replace(found, content=source.content)
+    motion_file = (seed if waveform_format(source.content) else reader).read(source)
+    return replace(motion_file, content=source.content)
 
 
 def read_record(

@@ -2,10 +2,6 @@
 
 Handles these formats only. Whole numbers are raw counts: they are divided by the sensitivity of the
 instrument that the caller gives, and refused without. Read `read` first.
-
-Source: SEED reference manual, version 2.4 (data records); SAC manual, data file format (IDEP: 6
-displacement, 7 velocity, 8 acceleration, whose unit by the manual, nm/s2, is often not kept); FDSN
-StationXML 1.2 (InstrumentSensitivity: output for one unit of the input).
 """
 
 from __future__ import annotations
@@ -25,6 +21,9 @@ from solver.formats.source import Source, Stated, waveform_format
 from solver.model import Floats, InputError
 from solver.records.record import shown, unit_size
 
+# Source: SEED reference manual, version 2.4 (data records); SAC manual, data file format (IDEP: 6
+# displacement, 7 velocity, 8 acceleration, whose unit by the manual, nm/s2, is often not kept);
+# FDSN StationXML 1.2 (InstrumentSensitivity: output for one unit of the input).
 _NAMES = {"MSEED": "miniSEED", "SAC": "SAC"}
 _OTHER_SAC = {6: "displacement", 7: "velocity", 50: "volts"}
 _INSTALL = (

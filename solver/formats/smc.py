@@ -3,12 +3,6 @@
 Handles this format only. Eleven lines of text, 48 integers (8I10), 50 real numbers (5E15.7), lines
 of comment that begin with |, then values (8E10.4E1): evenly spaced if the heading gives a rate,
 otherwise pairs of time and acceleration. Read `read` first.
-
-Source: U.S. Geological Survey, National Strong-Motion Program, SMC- and BBF-format data files,
-escweb.wr.usgs.gov/nsmp-data/smcfmt.html: integers 1 (code of an unknown one), 16 (comments),
-17 (values), 18 (problem flag); real numbers 1 (code of an unknown one), 2 (rate [1/s]), 30 and 32
-(largest and smallest value). That an uneven file counts times and accelerations together, and may
-have short lines where two pieces of film join, was found in files (575 Market Street, 1989).
 """
 
 from __future__ import annotations
@@ -24,6 +18,11 @@ from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
 from solver.model import Floats, InputError
 
+# Source: U.S. Geological Survey, National Strong-Motion Program, SMC- and BBF-format data files,
+# escweb.wr.usgs.gov/nsmp-data/smcfmt.html: integers 1 (code of an unknown one), 16 (comments), 17
+# (values), 18 (problem flag); real numbers 1 (code of an unknown one), 2 (rate [1/s]), 30 and 32
+# (largest and smallest value). That an uneven file counts times and accelerations together, and may
+# have short lines where two pieces of film join, was found in files (575 Market Street, 1989).
 _KINDS = "UNCORRECTED ACCEL|CORRECTED ACCEL|VELOCITY|DISPLACEMENT|RESPONSE SPECTR|FOURIER"
 _FIRST = re.compile(rf"\s*\d\s+({_KINDS})", re.ASCII | re.IGNORECASE)
 _COMPONENT = re.compile(r"component\s*=(.*)", re.IGNORECASE)

@@ -90,8 +90,8 @@ def waveform_format(data: bytes) -> str:
 
 MAX_BYTES = 64_000_000
 MAX_LINE = 1000
+# As many as are read within 10 s if the last one is at fault.
 MAX_LINES = 1_000_000
-"""As many as are read within 10 s if the last one is at fault."""
 MAX_NAME = 255
 
 # Text has no control characters except tab, line ends and form feed.

@@ -114,16 +114,16 @@ def read(source: Source) -> MotionFile:
             " samples are missing"
         )
     file = motion_file(source, "text", channels, [*even.notes, *notes])
-    held = [found for _, line in table.remarks if (found := _HOLD.search(line))]
-    return replace(file, hold_s=float(held[0][1])) if held else file
+    holds = [hold for _, line in table.remarks if (hold := _HOLD.search(line))]
+    return replace(file, hold_s=float(holds[0][1])) if holds else file
 
 
 def _magnitudes(table: _Table, columns: Sequence[int]) -> list[int]:
     """Columns of the length of a vector, by their heading or as the root of the sum of squares."""
-    found = []
+    magnitudes: list[int] = []
     for i in columns:
         values = table.values[:, i]
-        before = [k for k in columns if k != i and k not in found]
+        before = [k for k in columns if k != i and k not in magnitudes]
         vectors = [before[:count] for count in (2, 3, len(before)) if 1 < count <= len(before)]
         roots = (np.linalg.norm(table.values[:, vector], axis=1) for vector in vectors)
         is_named = bool(table.headings) and table.headings[i].is_magnitude
@@ -133,8 +133,8 @@ def _magnitudes(table: _Table, columns: Sequence[int]) -> list[int]:
             and values.any()
             and (is_named or any(np.abs(values - root).max() <= within for root in roots))
         ):
-            found.append(i)
-    return found
+            magnitudes.append(i)
+    return magnitudes
 
 
 def _check_count(source: Source, table: _Table) -> None:

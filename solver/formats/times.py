@@ -19,8 +19,8 @@ from solver.records.record import fits, raise_any
 MAX_SAMPLES = 2_000_000
 """Largest total number of samples in the columns of a file after resampling."""
 
+# Target for the largest change of a sample by resampling / peak.
 LOSS = 0.005
-"""Target for the largest change of a sample by resampling / peak."""
 
 # A gap is an interval longer than this number of typical steps.
 _GAP_STEPS = 10.0

@@ -1,9 +1,6 @@
 """Acceptance of the motions of an analysis: count, components, spectra, strong motion, correlation.
 
-Owns the limits that are not on spectra; those are in `solver.records.acceptance`. Changes
-no motion and draws no verdict. Read `acceptance`.
-
-Spectra of the motions of an analysis against their target, as rows with limits.
+Changes no motion and draws no verdict. Read `acceptance`.
 """
 
 from __future__ import annotations
@@ -34,8 +31,8 @@ MOST_DIPS = 2
 
 _LOW, _KNEE, _PLATEAU, _HIGH = 0.1, 1.3, 8.3, 33.3
 
+# Sets of points 1/6 octave apart among those of AC156, each shifted by a quarter of that.
 N_SETS = 4
-"""Sets of points 1/6 octave apart among those of AC156, each shifted by a quarter of that."""
 
 # At most 1/24 octave apart, so that both ends of each band are points.
 N_SLIDING, N_AC156 = 93, 117
@@ -192,7 +189,7 @@ def _least(
 
 
 def _most(title: str, limit: int, counts: Sequence[tuple[int, str]]) -> Limit:
-    count, worst = max(counts, key=lambda found: found[0])
+    count, worst = max(counts, key=lambda counted: counted[0])
     return Limit(
         title=title,
         found=float(count),

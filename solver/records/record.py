@@ -1,9 +1,7 @@
-"""Acceleration records: created from values, and written as csv.
+"""Acceleration records: created from values, and written as csv; units as files print them.
 
 Reads no files (`solver.formats`), knows no code rules (`solver.rules.provisions`) and generates no
 motions (`solver.synthesis`). Read `Record` first, then `record_from_values`.
-
-Names of acceleration units as printed in files.
 """
 
 from __future__ import annotations
@@ -29,8 +27,8 @@ _NO_SHAKING_G = 9.0
 UNITS = {"g": STANDARD_GRAVITY_MPS2, "m/s2": 1.0, "cm/s2": 0.01, "mm/s2": 0.001}
 """Acceleration units and their value in m/s2."""
 
+# Decimals that `write_record` prints, about 1e-5 g in every unit.
 DECIMALS = {"g": 5, "m/s2": 4, "cm/s2": 2, "mm/s2": 1}
-"""Decimals that `write_record` prints, about 1e-5 g in every unit."""
 
 HOLD = "generated; hold of the envelope"
 """Words of the comment that states the hold of the envelope of a generated record."""
@@ -40,8 +38,8 @@ MAX_PROBLEMS = 10
 
 MAX_COUNTED = 10_000
 
+# Numbers of this size or more are refused, so that no change of units can overflow.
 BEYOND = 1e300
-"""Numbers of this size or more are refused, so that no change of units can overflow."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

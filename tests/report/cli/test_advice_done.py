@@ -11,7 +11,6 @@ import shutil
 import pytest
 from openpyxl import load_workbook
 
-import packages
 import sheets
 from commands import run
 from nightly import by_day
@@ -59,14 +58,6 @@ PROJECTS = {
             "Arrays/A2/Electrical slack": None,
             "Arrays/A1/Interconnection strength": 10,
             "Clearances/2/Provided clearance": 100,
-        },
-    ),
-    "thirty arrays": (
-        "campus",
-        {
-            "Arrays/A3/Electrical slack": 0.05,
-            "Arrays/A24/Electrical slack": 0.31,
-            "Arrays/A7/Interconnection strength": 1,
         },
     ),
 }
@@ -235,13 +226,6 @@ def test_each_command_that_is_printed_runs_as_it_is_pasted(altered, monkeypatch)
     assert {" ".join(words[:2]) for words in given} >= {"plan clearances"}
     after = run("check", path.parent).output
     assert "have no row" not in after
-
-
-@pytest.mark.nightly
-def test_the_report_that_is_printed_as_next_runs(altered):
-    (words,) = commands(run("check", altered("conditions", {}).parent).output)
-    with packages.unlaid(), packages.undrawn():
-        assert run(*words).exit_code == 0
 
 
 @pytest.mark.parametrize("content", [b"", b"PK"])

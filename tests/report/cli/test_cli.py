@@ -53,16 +53,8 @@ def test_an_error_in_the_workbook_waits_for_no_compiler(tmp_path):
 
 @pytest.mark.nightly
 def test_what_only_the_second_process_needs_is_not_loaded_with_the_tasks_for_it():
-    _, loaded = loaded_by("import report.drawing.dxf, report.package.html, report.results.xlsx")
+    _, loaded = loaded_by("import report.drawing.items, report.package.html, report.results.xlsx")
     assert not loaded & {"ezdxf", "matplotlib", "pandas", "ziamath"}
-
-
-def test_report_never_replaces_its_own_workbook(tmp_path):
-    book = make(tmp_path).rename(tmp_path / "results.xlsx")
-    before = book.read_bytes()
-    told = refused("report", book, "--out", tmp_path)
-    assert "is an input of this run, and would be replaced by its results.xlsx" in told
-    assert book.read_bytes() == before
 
 
 def test_new_writes_a_workbook_and_never_overwrites_one(tmp_path):
@@ -96,14 +88,8 @@ def test_new_example_writes_the_example_of_the_projects(tmp_path):
         parts = [part for part in one.namelist() if part.endswith(".xml")]
         for part in set(parts) - {"docProps/core.xml"}:
             assert one.read(part) == other.read(part), part
-    assert "no errors, 3 warnings" in printed("check", made)
-
-
-def test_check_finds_no_error_in_the_example_but_what_it_has_no_document_of():
-    told = printed("check", EXAMPLE)
+    told = printed("check", made)
     assert "no errors, 3 warnings. 3 arrays, 6 clearances, 7 motions, S_DS 1.566 g" in told
-    assert "printout not given" in told
-    assert "three runs at each velocity" in told
 
 
 def test_check_of_a_blank_workbook_names_every_cell(tmp_path):
@@ -111,11 +97,6 @@ def test_check_of_a_blank_workbook_names_every_cell(tmp_path):
     told = refused("check", tmp_path)
     assert at("<Project/Project name>: project name is missing") in told
     assert at("<Arrays/heading/ID>: no array is given") in told
-
-
-@pytest.mark.quick
-def test_check_of_a_record_is_refused():
-    refused("check", EXAMPLE / "records" / "RM1-x.csv")
 
 
 def test_an_internal_error_exits_1_with_the_traceback(tmp_path, monkeypatch):

@@ -1,14 +1,12 @@
 """`roofslip doctor`, with everything and with something missing."""
 
 import re
-import shutil
 from types import SimpleNamespace
 
 import pytest
 
 from commands import printed, run
 from report.cli import main
-from report.typeset.pdf import TEMPLATES
 
 pytestmark = pytest.mark.quick
 
@@ -53,14 +51,6 @@ def test_a_renderer_that_fails_is_a_finding_not_a_traceback(monkeypatch):
     assert done.stderr == (
         "Error: test page: install what is missing above, or the program again\n"
     )
-
-
-def test_fonts_that_are_missing_are_a_finding(tmp_path, monkeypatch):
-    shutil.copytree(TEMPLATES, tmp_path / "templates", ignore=shutil.ignore_patterns("fonts"))
-    monkeypatch.setattr("report.typeset.pdf.TEMPLATES", tmp_path / "templates")
-    done = run("doctor")
-    assert done.exit_code == 1
-    assert re.search(r"test page +fails: .*Font-face 'Source Sans 3' cannot be loaded", done.stdout)
 
 
 def test_a_solver_that_is_wrong_is_found(monkeypatch):

@@ -88,12 +88,6 @@ def test_info_gives_sampling_length_peak_and_every_measure_in_si():
     }
 
 
-def test_info_takes_the_step_and_the_units_of_a_bare_column(column):
-    (channel,) = as_json("info", column, "--dt", 0.02, "--units", "m/s2")["channels"]
-    assert channel["dt_s"] == 0.02
-    assert channel["pga_g"] == pytest.approx(0.25 / G, rel=1e-12)
-
-
 def test_values_across_the_lines_are_read_where_their_number_is_given(tmp_path):
     path, out = tmp_path / "across.txt", tmp_path / "out.csv"
     path.write_text("0 0.125 -0.25\n0.1 0.2 0.3\n0.5\n")

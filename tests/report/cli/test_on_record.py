@@ -5,14 +5,13 @@ import os
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
 import scenes
 from cells import address
+from commands import printed
 from inputs import SITE
 from nightly import by_day
 from places import ROOT
-from report.cli.main import main
 from report.making import make as make_package
 from report.motions.prepare import prepare
 from report.proof.package import opened
@@ -23,12 +22,6 @@ from sheets import at, edit, make, type_into
 
 SHIPPED = sorted(path.parent.name for path in (ROOT / "projects").glob("*/input.xlsx"))
 PLACES = "<Site/Hazard covered>, <Options/Review covered>"
-
-
-def run(*words, exit_code=0):
-    done = CliRunner().invoke(main, [*map(str, words)])
-    assert done.exit_code == exit_code, done.output
-    return done
 
 
 def confirmed(folder: Path, **changes) -> Path:
@@ -49,7 +42,7 @@ def test_a_shipped_project_has_on_record_what_its_confirmations_cover(name):
 
 @pytest.mark.parametrize("units", by_day(["US", "SI"], 1))
 def test_the_example_has_on_record_what_its_confirmations_cover(tmp_path, units):
-    run("new", tmp_path, "--example", "--units", units)
+    printed("new", tmp_path, "--example", "--units", units)
     sheet = read(tmp_path)
     assert sheet.project.site.hazard_covered
     hashes = prepare(sheet).hashes
@@ -61,8 +54,8 @@ def test_the_example_has_on_record_what_its_confirmations_cover(tmp_path, units)
 def test_report_puts_a_confirmation_on_record_once_and_attaches_the_workbook_with_it(tmp_path):
     path = confirmed(tmp_path)
     says = open_book(path).calculation
-    done = run("report", path)
-    assert f"{path}: {at(PLACES)}: what was confirmed is on record" in done.stdout.splitlines()
+    output = printed("report", path)
+    assert f"{path}: {at(PLACES)}: what was confirmed is on record" in output.splitlines()
     sheet = read(path)
     assert sheet.project.site.hazard_covered.startswith("2026-02-20: Site ")
     assert sheet.project.options.peer_covered.startswith("2026-03-01: Site ")
@@ -72,25 +65,25 @@ def test_report_puts_a_confirmation_on_record_once_and_attaches_the_workbook_wit
     package = opened((tmp_path / "out" / "calc-package.pdf").read_bytes())
     (workbook,) = package.manifest.of_kind("workbook")
     assert workbook.sha256 == sheet.sha256
-    run("verify-package", tmp_path / "out" / "calc-package.pdf")
+    printed("verify-package", tmp_path / "out" / "calc-package.pdf")
 
     # What changes is named, and the record stays until there is a new date.
     type_into(path, {"Arrays/A1/Friction coefficient": 0.4})
     before = path.read_bytes()
     (tmp_path / "records" / "z.csv").write_text("0.1\n" * 200)
-    done = run("report", path)
-    (line,) = (line for line in done.stdout.splitlines() if "given before" in line)
+    output = printed("report", path)
+    (line,) = (line for line in output.splitlines() if "given before" in line)
     said = "peer review: 2026-03-01, given before these inputs changed: sheets Arrays, Motions;"
     assert line.startswith(f"condition: {said}")
     assert path.read_bytes() == before
-    assert "on record" not in done.stdout
+    assert "on record" not in output
 
 
 @pytest.mark.nightly
 def test_a_report_of_several_puts_a_confirmation_on_record(tmp_path):
     path = confirmed(tmp_path)
-    done = run("report", path, path)
-    assert f"{path}: {at(PLACES)}: what was confirmed is on record" in done.stdout.splitlines()
+    output = printed("report", path, path)
+    assert f"{path}: {at(PLACES)}: what was confirmed is on record" in output.splitlines()
     assert read(path).project.options.peer_covered.startswith("2026-03-01: ")
 
 
@@ -112,20 +105,20 @@ def test_a_workbook_that_is_open_or_of_an_earlier_version_stays_as_it_is(tmp_pat
     beside = path.with_name("~$input.xlsx")
     beside.touch()
     before = path.read_bytes()
-    done = run("report", path)
+    output = printed("report", path)
     assert path.read_bytes() == before
-    (line,) = (line for line in done.stdout.splitlines() if "on record" in line)
+    (line,) = (line for line in output.splitlines() if "on record" in line)
     assert line.startswith(f"{path}: {at(PLACES)}: what was confirmed is not put on record: ")
     assert "a program has the workbook open" in line
-    run("verify-package", tmp_path / "out" / "calc-package.pdf")
+    printed("verify-package", tmp_path / "out" / "calc-package.pdf")
     beside.unlink()
 
     for label in ("Site/Hazard covered", "Options/Review covered"):
         sheet, cell = address(before, label).split("!")
         type_into(path, {f"{sheet}!A{cell[1:]}": None})
     earlier = _without_names(path)
-    done = run("report", path)
-    assert "on record" not in done.output
+    output = printed("report", path)
+    assert "on record" not in output
     assert path.read_bytes() == earlier
 
 

@@ -183,11 +183,6 @@ def test_every_method_is_in_the_table_with_when_it_is_not_valid(words):
             assert lettered(text) in words
 
 
-def test_the_manual_states_where_the_problem_is_ill_conditioned(whole):
-    assert "Sensitivity to the friction coefficient" in whole
-    assert "the problem itself is ill-conditioned and no method can be accurate" in whole
-
-
 def test_libraries_and_machine_are_named_without_host_or_path_or_raw_numbers(whole):
     for name in ("numpy", "numba", "weasyprint", "Processor", "Cores"):
         assert name in whole

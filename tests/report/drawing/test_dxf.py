@@ -16,8 +16,7 @@ import stand_in
 from inputs import FT, sides
 from report.assessment.envelopes import design_envelope
 from report.assessment.plan_clearances import plan_gaps
-from report.drawing.dxf import APPLICATION, write_dxf
-from report.drawing.items import Layer
+from report.drawing.items import APPLICATION, Layer, write_dxf
 from report.drawing.plan import gap_words, plan_drawing
 from report.sheet.schema.choices import UnitsFirst
 
@@ -51,7 +50,7 @@ def test_the_same_plan_gives_the_same_bytes(done):
 @pytest.mark.nightly
 def test_every_process_writes_the_same_bytes():
     code = (
-        "from report.drawing.dxf import write_dxf; from report.drawing.items import *; "
+        "from report.drawing.items import write_dxf; from report.drawing.items import *; "
         "gap = PlanDimension(layer=Layer.CLEARANCE, name='A1 to N', ends=((0, 0), (4, 0)), "
         "words='1: 48.0 in', at=(2, 3)); drawn = PlanDrawing("
         "is_feet=True, height=1.0, lines=(), texts=(), dimensions=(gap,)); "

@@ -18,7 +18,7 @@ from inputs import sides
 from places import ROOT
 from printed import printed
 from report.assessment.plan_clearances import plan_gaps
-from report.drawing.dxf import write_dxf
+from report.drawing.items import write_dxf
 from report.drawing.plan import plan_drawing
 from sketch import plan
 

@@ -13,8 +13,7 @@ import stand_in
 from architect import at
 from inputs import FT, INCH, NO_SIDES
 from report.drawing.closed_lines import OPEN
-from report.drawing.dxf import write_dxf
-from report.drawing.items import Layer
+from report.drawing.items import Layer, write_dxf
 from report.drawing.plan import plan_drawing
 from report.drawing.plan_read import LAYERS, own_axes
 from report.drawing.read_dxf import read_dxf

@@ -18,8 +18,7 @@ from report.assessment.evidence import support
 from report.assessment.verdict import Verdict
 from report.cli.check import checked, lines
 from report.cli.main import main
-from report.drawing.dxf import write_dxf
-from report.drawing.items import Layer
+from report.drawing.items import Layer, write_dxf
 from report.drawing.plan import plan_drawing
 from report.making import make
 from report.pages.registry import OF_MOTIONS, PAGES, package_data, pages_in

@@ -4,7 +4,7 @@ from functools import cache
 
 import pytest
 
-from places import RECORDS, SAMPLES
+from places import SAMPLES
 from refused import refused
 from solver.formats import read_motion_file
 from solver.model import InputError
@@ -61,24 +61,6 @@ def unnoticed(path, whole, at_lines):
 def test_no_damage_of_a_line_changes_a_record_without_a_word(tmp_path, name):
     count = len((SAMPLES / name).read_bytes().splitlines())
     assert unnoticed(tmp_path / name, SAMPLES / name, range(count)) == []
-
-
-REAL = [
-    "csmip_rio_dell_1992/Structure_CHAN4.V2",
-    "smc/0165a_u.smc",
-    "20161113_110300_HSES_20.V2A",
-    "at2/RIO270.AT2",
-]
-
-
-@pytest.mark.parametrize("name", REAL)
-def test_no_damage_of_a_real_record_changes_it_without_a_word(tmp_path, name):
-    whole = RECORDS / name
-    if not whole.is_file():
-        pytest.skip("the real records are not here")
-    count = len(whole.read_bytes().splitlines())
-    lines = [0, 3, 11, 20, 30, 45, 46, count // 3, count // 2, count - 30, count - 1]
-    assert unnoticed(tmp_path / whole.name, whole, lines) == []
 
 
 @pytest.mark.parametrize(

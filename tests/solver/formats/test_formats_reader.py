@@ -99,15 +99,6 @@ hostile = settings(max_examples=60, suppress_health_check=[HealthCheck.function_
 
 
 @hostile
-@pytest.mark.parametrize("name", sorted(FORMATS))
-@given(data=st.data())
-@pytest.mark.nightly
-def test_a_file_cut_anywhere_is_read_or_refused(file, name, data):
-    content = (SAMPLES / name).read_bytes()
-    read_or_refuse(file(content[: data.draw(st.integers(0, len(content)))], name))
-
-
-@hostile
 @pytest.mark.parametrize("name", by_day(sorted(FORMATS), 10))
 @given(data=st.data())
 def test_lines_lost_doubled_or_swapped_are_read_or_refused(file, name, data):

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from inputs import FT, INCH
-from report.drawing.drawing_names import first_height, proposed, read_line
+from report.drawing.roof_drawing import first_height, proposed, read_line
 from sketch import UNIT_FT, Sketch, plan
 
 pytestmark = pytest.mark.quick
