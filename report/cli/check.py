@@ -83,6 +83,7 @@ def checked(
     from report.sheet.writing.filled import overwritten, what_is_new
     from report.typeset.letters import check_letters
 
+    # A letter that the font of the package lacks is an error of the input, found before any run.
     check_letters(sheet)
     progress("reading the records")
     shaking = prepare(sheet)

@@ -246,6 +246,7 @@ def rows(
         if folder.is_file():
             zipped, folder = folder, Path(temporary, folder.stem)
             unpack(zipped, folder)
+            # Some networks send a zip of the zips of each station.
             for inner in folder.rglob("*.zip"):
                 unpack(inner, inner.with_suffix(""))
         sets, left = sets_of(folder, units or "", dt_s, without_vertical=without_vertical)

@@ -77,6 +77,7 @@ def choose(
     known = known_layers({**sheet, **chosen})
     outlines = Counter(line.layer for line in drawing.lines if line.layer.casefold() not in known)
     kinds = {layer: proposed(layer) for layer in sorted(outlines)}
+    # A guess that is filled in unseen would move an array: it is shown first.
     if kinds and not accept:
         for line in _table(drawing, outlines, kinds):
             click.echo(plain(line))

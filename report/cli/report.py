@@ -246,6 +246,7 @@ def settled(workbook: Path) -> set[tuple[str, int, int]]:
     for _ in range(MOST_POLLS):
         seen = stamps(workbook.parent)
         time.sleep(POLL_S)
+        # Excel writes a workbook in several steps, and locks it meanwhile.
         with suppress(Exception):  # the report says what is wrong with it
             open_book(workbook)
             if stamps(workbook.parent) == seen:

@@ -76,8 +76,10 @@ def serve(
     with ExitStack() as stack:
         listening = stack.enter_context(listen(host or LOOPBACK, port))
         with input_errors(Path("serve")):
+            # On Windows a file that is open stays: it is no reason for a traceback at the end.
             temporary = TemporaryDirectory(prefix="roofslip-serve-", ignore_cleanup_errors=True)
             folder = Path(stack.enter_context(temporary))
+        # Requests under other names are refused: a page elsewhere could have its name lead here.
         name, hosts = names_of(host, listening.getsockname()[1])
         page = f"http://{name}:{listening.getsockname()[1]}/"
         address = f"{page}?token={lasting or keys.token()}"

@@ -118,6 +118,7 @@ def exit_code(outcomes: Sequence[ReportOutcome], *, fail_on_ng: bool) -> int:
         return INTERNAL_ERROR
     if any(outcome.problems for outcome in outcomes):
         return INPUT_ERROR
+    # A condition is not OK either.
     is_not_ok = any(outcome.verdict != "OK" for outcome in outcomes)
     return NOT_OK if fail_on_ng and is_not_ok else 0
 
@@ -152,6 +153,7 @@ def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[ReportOutcome]:
     homes = Counter(workbook.parent for workbook in distinct if os.path.isfile(workbook))
     shared = {source for workbook, source in distinct.items() if homes[workbook.parent] > 1}
     count = min(len(distinct), os.cpu_count() or 1)
+    # Taken from the end: the first project given is the first to start.
     waiting, outcomes = [*distinct.values()][::-1], dict[Path, ReportOutcome]()
     running: dict[Future[ReportOutcome], tuple[Path, WorkerProcess]] = {}
     with Progress(len(distinct), quiet=quiet) as progress, ExitStack() as stack:
@@ -168,6 +170,7 @@ def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[ReportOutcome]:
                     outcomes[source] = future.result()
                 except DefectError as error:
                     outcomes[source] = ReportOutcome(source=source, internal=str(error))
+                    # The process that ended is gone: another takes its place.
                     worker = stack.enter_context(_worker())
                 idle.append(worker)
     return [outcomes[source] for source in distinct.values()]

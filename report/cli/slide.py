@@ -65,6 +65,7 @@ def slide(
         raise click.UsageError("give --ppa-g or --factor, not both")
     from solver.friction_tests import MOST_MU
 
+    # Checked here, as the limit is slow to import where options are made.
     if mu > MOST_MU:
         raise click.BadParameter(f"it is {mu:g}; give 0 to {MOST_MU:g}.", param_hint="'--mu'")
     step_s = math.nan if dt is None else dt

@@ -77,6 +77,7 @@ def study(
             _print_estimate(estimate(plan))
             return
         folder = output_folder(out, beside, "out/study", (TABLE, NAME))
+        # A folder that was asked for by name may have the study of another workbook.
         if out is None:
             check_of_workbook(folder, NAME, plan.workbook)
         check_apart([TABLE], folder, [source, source / "input.xlsx"])

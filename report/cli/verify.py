@@ -246,6 +246,7 @@ def sign(file: Path, p12: Path, password: str | None, time_stamp: str, out: Path
     from solver.files import check_plain, write_whole
     from solver.model import InputError
 
+    # The package is evidence: the signed one has a name of its own.
     target = out or file.with_name(f"{file.stem}-signed.pdf")
     with input_errors(file):
         if out is None:

@@ -52,6 +52,7 @@ def read_map(path: Path, unit_m: float) -> Any:
         With every line that is wrong, or if the file is too large or no such CSV.
     """
     with path.open("rb") as file:
+        # One byte more than allowed tells that there is more, without reading it.
         data = file.read(MAX_BYTES + 1)
     if len(data) > MAX_BYTES:
         raise InputError(f"more than {MAX_BYTES // MB} MB; keep the columns {', '.join(COLUMNS)}")
@@ -100,6 +101,7 @@ def loads(rows: Any, arrays: Mapping[str, Shape]) -> tuple[dict[str, Load], list
 
     solids = [solid(shape) for shape in arrays.values()]
     points = shapely.STRtree(shapely.points(rows[:, 1:3]))
+    # Of arrays that overlap the last one carries the block: it is counted once.
     home = np.full(len(rows), -1)
     of, at = points.query(solids, predicate="intersects")
     home[at] = of

@@ -161,6 +161,7 @@ def join(lines: Sequence[Line], tolerance: float) -> tuple[list[Closed], Mapping
     from ezdxf import edgeminer
 
     cells: dict[Point, list[Point]] = defaultdict(list)
+    # Ends that meet are one point from here on, so that a chain is found by equality.
     ends: dict[int, tuple[Point, Point]] = {}
     drawn: dict[tuple[Point, ...], int] = {}
     loops: list[list[tuple[int, bool]]] = []
@@ -240,6 +241,7 @@ def boundaries(hatch: Any, sagitta: float, tolerance: float) -> list[Any] | str:
         return f"a {kind} that is not parallel to the plan"
     if len(hatch.paths) > MAX_BOUNDARIES:
         return f"a {kind} of more than {MAX_BOUNDARIES} boundaries"
+    # A hatch that looks down is mirrored in x, as a polyline is.
     way = math.copysign(1.0, hatch.dxf.get("extrusion", (0.0, 0.0, 1.0))[2])
     rings: list[list[Point]] = []
     for path in hatch.paths:
@@ -264,6 +266,7 @@ def _curves(path: Any) -> Iterator[Any]:
     if hasattr(path, "vertices"):
         line: Any = new("LWPOLYLINE")
         line.set_points(path.vertices, format="xyb")
+        # A boundary is closed by what it is, whatever its flag.
         line.closed = True
         yield line
         return

@@ -53,6 +53,7 @@ class Lane:
 
 def draw_numbers(plan: PlanSheet) -> Sequence[Lane]:
     """Draw the gaps with their numbers, those not satisfied first."""
+    # What is NG must find its place; the rest may have a leader.
     first = sorted(plan.gaps, key=lambda gap: not plan.is_ng(gap))
     return [_numbered(plan, lane_of(plan.paper, gap)) for gap in first]
 
@@ -69,6 +70,7 @@ def lane_of(paper: Paper, gap: Gap) -> Lane:
     long = math.hypot(dx, dy)
     along = (-dy / long, dx / long) if long else (1.0, 0.0)
     area = between(gap.of.near, gap.of.far)
+    # Between two corners nothing faces: a label has no way to slide.
     is_diagonal = isinstance(area, Rectangle) and min(abs(dx), abs(dy)) > _ALIGNED_IN
     reach = [0.0]
     if area is not None and long and not is_diagonal:

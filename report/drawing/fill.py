@@ -112,6 +112,7 @@ def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
     for group in (_ARRAY, _OBJECT, _EDGE):
         numbers = [k for k, place in enumerate(drawn) if _group(place.kind) == group]
         names = [name for name in before if groups.get(name, _ARRAY) == group]
+        # By what they cover together first: a center alone may be nearer to a neighbor.
         for score in (_common, _near if group == _EDGE else _same_sized):
             pairs = {
                 (k, name): value
@@ -127,6 +128,7 @@ def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
             unclear.append(_either([drawn[k] for k in new], left, unit) + ", or new")
     if unclear:
         raise InputError([f"{text}: write its name inside of it as a text" for text in unclear])
+    # Read after all groups: a row may still be found by its size.
     lost = [name for name in before if name not in by_row.values()]
     return MatchedPlan(
         plan=_renamed(plan, by_row, before, rows),

@@ -121,6 +121,7 @@ def write_dxf(plan: PlanDrawing) -> bytes:
     document = new(_VERSION, units=ezdxf.units.FT if plan.is_feet else ezdxf.units.M)
     document.header["$MEASUREMENT"] = 0 if plan.is_feet else 1
     document.appids.add(APPLICATION)
+    # In heights of the texts, so that a dash shows at any size of roof.
     dash = [part * plan.height for part in (3.0, 2.0, -1.0)]
     document.linetypes.add(_DASHED, dash, description="Dashed __ __ __")
     document.styles.get("Standard").dxf.font = _FONT

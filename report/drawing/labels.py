@@ -192,6 +192,7 @@ def label_array(plan: PlanSheet, array: ArrayAssessment, name: Frame) -> None:
     """Label an array inside of it with as many lines as there is room for, or outside."""
     frame, shown = plan.room(array.id), list(_array_labels(plan, array))
     places = [*product(shown, ((ARROW_IN, 0.0), (0.0, ARROW_IN))), (shown[-1], (0.0, 0.0))]
+    # From the fullest label to the name alone, each with its arrow beside and below.
     for lines, (beside, below) in places:
         wide, tall = text_size(lines, first_bold=True)
         label = plan.paper.placer.place(wide + beside, tall + below, frame.middle, _inner(frame))

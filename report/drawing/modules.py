@@ -105,6 +105,7 @@ def _overlap(shapes: Sequence[Shape], arrays: Sequence[Drawn]) -> Any:
     """Return which shapes have more in common with arrays than their borders."""
     import shapely
 
+    # Neighbors share a border, which is nothing in common.
     inner = [solid(Polygon(array.points)).buffer(-ALIKE_M) for array in arrays]
     area = shapely.union_all(inner)
     shapely.prepare(area)
@@ -232,6 +233,7 @@ def _equal(long: Any, short: Any, at: Any, width: float) -> Iterator[NDArray[np.
 
 def _runs(values: Any, at: Any, width: float) -> list[NDArray[np.intp]]:
     """Return the indices `at` by runs of ascending values, none wider than a width."""
+    # Stable: equal values keep the order of the drawing.
     order = at[np.argsort(values[at], kind="stable")]
     starts: list[int] = []
     for place, value in enumerate(values[order]):

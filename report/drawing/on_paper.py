@@ -189,6 +189,7 @@ def printed_plan(assessment: Assessment) -> PrintedPlan:
     schedules = {size: beside(assessment, arrays, size) for size in _sizes(assessment)}
     # A plan whose schedule has no room beside it need not be drawn.
     roomy = [size for size, rows in schedules.items() if not size.sheet or rows.is_all(assessment)]
+    # The last is taken as it is: there is no larger paper.
     for size in roomy or list(schedules)[-1:]:
         sheet = plan_on_paper(assessment, size)
         if not sheet.unnamed + sheet.crowded:

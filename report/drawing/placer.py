@@ -15,6 +15,7 @@ import numpy as np
 from report.drawing.items import Point
 
 _CLEAR_IN = 0.035  # between labels
+# Near rings are close, far ones wide: a leader of 3 in may as well be 0.2 in longer.
 _RINGS_IN = np.concatenate((np.arange(0.0, 1.6, 0.06), np.arange(1.6, 4.0, 0.2)))
 _TURNS = np.deg2rad(np.arange(0.0, 360.0, 10.0))
 _OFFSETS = np.column_stack(
@@ -138,6 +139,7 @@ class Placer:
         if wide > page.wide or tall > page.tall:
             return None
         cost = _CROSSED if may_cross else np.inf
+        # As bytes they are keys of the cache; arrays have no hash.
         tables = (self._taken, self._threads, self._lines, self._walls)
         rows = (table.tobytes() for table in tables)
         frame = _placed((wide, tall), near, page, maximum, cost, *rows)

@@ -155,6 +155,7 @@ def plan_drawing(assessment: Assessment) -> PlanDrawing:
     """Return the plan of an assessment."""
     is_feet = assessment.project.us_first
     unit = Quantity.PLAN.us if is_feet else Quantity.PLAN.si
+    # Texts are as tall as the plan asks for, so all lines come first.
     drawn = tuple(outlines(assessment))
     extent = around(Polygon(line.points) for line in drawn)
     sides_m = (extent.x_to_m - extent.x_from_m, extent.y_to_m - extent.y_from_m)
@@ -226,6 +227,7 @@ def _place(assessment: Assessment, placed: PlacedTexts, extent: Rectangle) -> No
         placed.name(Layer.ARRAY, array.id, array.id, array.array.shape)
     gaps = [Gap(gap, *map(placed.paper.at, gap.ends)) for gap in plan_gaps(assessment)]
     for gap in gaps:
+        # All lines are reserved before the first text, which could lie over the next one.
         placed.paper.placer.take_segment(gap.a, gap.b)
     fmt = unit_format(assessment)
     for gap in gaps:

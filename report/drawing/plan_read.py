@@ -131,6 +131,7 @@ def plan_of(
         unread.append(Unread(handle=extra.handle, layer=extra.layer, reason="a second roof"))
     objects = [p for p in places if p.kind not in (LayerKind.ROOF, LayerKind.ARRAY)]
     is_ours = any(line.is_ours for line, kind, _ in known if kind is LayerKind.ROOF)
+    # A plan of ours has its edges drawn: none is to be guessed.
     if roofs and not is_ours:
         objects += _edges(roofs[0].shape, objects)
     return RoofPlan(
@@ -148,6 +149,7 @@ def _once(known: Sequence[Known], unread: list[Unread]) -> list[Known]:
     solids = [solid(shape) for *_, shape in known]
     twins: set[int] = set()
     near = shapely.STRtree(solids).query(solids, predicate="intersects").T if solids else ()
+    # Both orders of a pair are found: the later drawn is the twin.
     for first, second in near:
         is_equal = known[first][1] is known[second][1] and first < second
         if is_equal and solids[first].hausdorff_distance(solids[second]) <= TWICE_M:
@@ -353,6 +355,7 @@ def own_axes(shape: Shape) -> tuple[float, float, float]:
     """
     (x0, y0), (x1, y1) = max(sides(shape.points), key=lambda side: math.dist(*side))
     direction = math.degrees(math.atan2(y1 - y0, x1 - x0))
+    # Within 45 deg: sides of a box are the same by quarter turns.
     angle = direction - 90.0 * round(direction / 90.0)
     box = Polygon(turned(shape.points, -angle)).bounds
     return box.x_to_m - box.x_from_m, box.y_to_m - box.y_from_m, angle

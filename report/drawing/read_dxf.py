@@ -85,6 +85,7 @@ def _read(document: Document, repairs: str, unit_m: float | None) -> RoofDrawing
     north_deg = math.nan
     if geodata and not (north := geodata.dxf.north_direction.vec2).is_null:
         north_deg = north.angle_deg % 360.0
+    # A drawing is read as it is shown: what is hidden is no part of the plan.
     hidden = {
         layer.dxf.name.casefold(): "frozen" if layer.is_frozen() else "off"
         for layer in document.layers
@@ -106,6 +107,7 @@ def _read(document: Document, repairs: str, unit_m: float | None) -> RoofDrawing
 def _drawn_layouts(document: Document, unit_m: float, hidden: Mapping[str, str]) -> Iterator[str]:
     """Yield the layouts that have closed lines, as far as the limits of a drawing go."""
     drawing = RoofDrawing("")
+    # A reader of its own: lines in a layout are counted and never taken.
     reader = _Reader(drawing, unit_m, hidden)
     for name in document.layouts.names_in_taborder():
         before = len(drawing.lines)
@@ -239,6 +241,7 @@ class _Reader:
         line = Drawn(handle=handle, layer=layer, name=own or block.name, points=(),
                      is_ours=bool(own), heights=block.heights)  # fmt: skip
         # Faces that are drawn one by one are those of one body where they touch.
+        # Names of layers are the same in any case, as in AutoCAD.
         key = (block.number, layer.casefold(), "" if kind == "3DFACE" else str(self.entities))
         self.areas.setdefault(key, (line, kind, []))[2].extend(areas)
         return ""

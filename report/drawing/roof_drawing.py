@@ -154,6 +154,7 @@ def _check(path: Path) -> None:
         raise InputError("a DWG drawing; save it as DXF (R12 to R2018)")
     if data.startswith(b"AutoCAD Binary DXF"):
         raise InputError("a binary DXF; save it as DXF in text")
+    # By counting bytes: the library builds all entities before anything can be refused.
     values = data.count(b"\n") // 2  # each after a line with its code
     limit(values, MAX_VALUES, "values")
     limit(sum(1 for _ in _ENTITY.finditer(data)), MAX_ENTITIES, "entities")
@@ -189,6 +190,7 @@ def loaded(path: Path) -> tuple[Document, str]:
         if not _ENDED.search(path.read_bytes()):
             raise InputError(DAMAGED) from refused
     try:
+        # Slower, and lenient: it is asked only after the strict reader.
         document, audit = recover.readfile(str(path))
     except Exception as error:
         raise InputError(DAMAGED) from error

@@ -108,6 +108,7 @@ class Paper:
 
     def dimension(self, look: Look, a: Point, b: Point) -> None:
         """Draw a dimension line with a tick at each end."""
+        # Outlines that touch have a gap of no length: its ticks lie in one point.
         long = math.dist(a, b) or 1.0
         dx, dy = (0.05 * (b[0] - a[0]) / long, 0.05 * (b[1] - a[1]) / long)
         self.lines(look, (a, b), *(((x - dy, y + dx), (x + dy, y - dx)) for x, y in (a, b)))

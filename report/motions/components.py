@@ -46,6 +46,7 @@ def spikes(a: Floats) -> tuple[tuple[int, ...], float]:
     """
     size = np.abs(a)
     most = min(MOST, len(a) // LEAST_SAMPLES_FOR_EACH)
+    # Stable: of equal samples the first is named, on every machine.
     largest = np.argsort(-size, kind="stable")[: most + 1]
     for count in range(1, most + 1):
         if size[largest[count - 1]] > FACTOR * size[largest[count]]:
@@ -245,6 +246,7 @@ def processing_of(row: MotionInput) -> Processing:
     return Processing(
         from_s=row.from_s or 0.0,
         to_s=math.inf if row.to_s is None else row.to_s,
+        # The choices of the sheet begin with none, which is degree -1.
         baseline=list(Baseline).index(row.baseline) - 1,
         highpass_hz=row.highpass_hz or 0.0,
         lowpass_hz=row.lowpass_hz or 0.0,
@@ -256,6 +258,7 @@ def processing_of(row: MotionInput) -> Processing:
 
 def _file(row: MotionInput, field: str, component: Component, trimmed: int) -> RecordFile:
     a = component.record.a_mps2
+    # A cut record may have lost the hold that its file states.
     is_whole = row.from_s is None and row.to_s is None and trimmed == 0
     last = f"last {trimmed} of {len(a)} samples trimmed, to the length of the shortest component"
     far_above, others_mps2 = spikes(a)

@@ -229,6 +229,7 @@ def read_component(
     motion_file = read(path, units=units, dt_s=math.nan if dt_s is None else dt_s)
     content = motion_file.content
     sha256 = hashlib.sha256(content).hexdigest()
+    # The same file under two motions counts once.
     others = sum(len(other) for key, other in book.records.items() if key != sha256)
     if others + len(content) <= MOST_RECORDS:
         book.records[sha256] = content
@@ -273,9 +274,11 @@ def find_heading(book: OpenBook, name: str) -> CellPosition | None:
     if "!" not in name:
         return None
     for sheet in book.book.worksheets:
+        # Excel quotes the title of a sheet in a reference.
         for title in (sheet.title, f"'{sheet.title}'"):
             if name.casefold().startswith(f"{title}!".casefold()):
                 return heading_on(book, sheet.title, name[len(title) + 1 :].strip())
+    # A file may have an exclamation mark in its name.
     if (book.path.parent / name.partition(BAR)[0].strip().replace("\\", "/")).is_file():
         return None
     raise InputError(f"'{name}' names no sheet of this workbook; give Sheet!Header, or a file")

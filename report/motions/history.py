@@ -108,6 +108,7 @@ def _ac156(spectrum: RequiredSpectrum) -> TargetSpectrum:
 
 
 def _own(rows: Sequence[SpectrumPoint], sa_g: Sequence[float]) -> TargetSpectrum:
+    # Points are given by period, and interpolated by frequency.
     order = np.argsort([-row.period_s for row in rows])
     freq = 1.0 / np.array([row.period_s for row in rows])[order]
     return TargetSpectrum(
@@ -226,6 +227,7 @@ def _building(data: ProjectInput, field: str) -> Building:
     asked = data.building
     periods = [first_period_s(data)]
     if field == "transverse" and asked.transverse_s is not None:
+        # Across the building, no second period is asked for.
         periods = [asked.transverse_s]
     elif asked.period_2_s is not None:
         periods.append(asked.period_2_s)

@@ -127,6 +127,7 @@ def sets_of(
             left.append((file, error.problems[0].removeprefix(f"{path.name}: ")))
     clear: list[_Clear] = []
     for (parent, stem, rest, *_), group in groups.items():
+        # x before y by azimuth, the vertical last: the order of the sheet.
         group.sort(key=lambda each: (not each.is_horizontal, each.degrees))
         if why := next(_unclear(group, without_vertical), ""):
             left.append((_listed(group), why))
@@ -179,6 +180,7 @@ def _unclear(group: Sequence[Candidate], without_vertical: bool) -> Iterator[str
         counts = f"{len(level)} horizontal and {len(group) - len(level)} vertical of one motion"
         alone = "; --without-vertical takes the two" if len(level) == len(group) == 2 else ""
         yield f"{counts}; a set has 2 and 1{alone}"
+    # With the sign wrong, uplift and contact would change places.
     elif group[-1].family == _DOWN:
         yield (
             f"{group[-1].name} is positive downward: give it with factor -1, as motion convert"
@@ -187,6 +189,7 @@ def _unclear(group: Sequence[Candidate], without_vertical: bool) -> Iterator[str
     elif level[0].family != level[1].family or (level[1].degrees - level[0].degrees) % 180 != 90:
         yield "the horizontal components are not perpendicular by their names"
     steps, lengths = [each.dt_s for each in group], [each.npts for each in group]
+    # Steps of headings differ by the rounding of a division alone.
     if max(steps) - min(steps) > 1e-9 * max(steps):
         yield f"time steps differ: {min(steps):g} to {max(steps):g} s"
     if min(lengths) < (1.0 - LENGTHS_WITHIN) * max(lengths):

@@ -68,6 +68,7 @@ class MotionFile:
             return self.channels[0]
         by_name = {_folded(record.name): record for record in self.channels}
         by_number = {str(i): record for i, record in enumerate(self.channels, start=1)}
+        # A name counts before a number: a channel may be called 2.
         chosen = (by_number | by_name).get(wanted)
         if chosen is None:
             what = f"found no channel {shown(name)}" if wanted else "found several channels"
@@ -169,6 +170,7 @@ def motion_file(
             raise InputError(f"{source.name}: found {samples}; give at least 2")
         _check_size(source, channel)
         a_mps2 = read_only(channel.a_mps2)
+        # A constant is no shaking with gravity in it.
         shakes = has_gravity(a_mps2) and np.ptp(a_mps2) > 0.0
         gravity = ("the mean is about 1 g: gravity is in it",) if shakes else ()
         records.append(Record(name=name, dt_s=float(channel.dt_s), a_mps2=a_mps2))
@@ -203,6 +205,7 @@ def _start(source: Source) -> dt.datetime | None:
     for line in source.lines[:_START_LINES]:
         if match := _START.search(line[:_START_LETTERS]):
             *date, hour, minute = map(int, match.groups()[:5])
+            # Japan writes the year first, the United States the month.
             year, month, day = date if date[0] > 12 else (date[2], date[0], date[1])
             year += 2000 if year < 100 else 0  # the century is not printed
             seconds = dt.timedelta(seconds=float(match[6]))

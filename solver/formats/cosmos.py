@@ -43,6 +43,7 @@ _DATA = re.compile(
     re.ASCII | re.IGNORECASE,
 )
 _TEXT, _REAL_NUMBERS = "text", "real numbers"
+# Of the text the first line counts itself; of the other blocks it states what follows.
 _BLOCKS = (
     (_TEXT_LINES, 1, _TEXT),
     (_WHOLES, 1, "integers"),
@@ -50,6 +51,7 @@ _BLOCKS = (
     (_COMMENTS, 1, "comment"),
 )
 _END = re.compile(r"\s*END-OF-DATA", re.IGNORECASE)
+# The line of the sensor, such as `Sta Chan 1: 360 deg (Rcrdr Chan 1) Location: Roof`.
 _NAME = re.compile(r"\s*STA\s+CHA", re.IGNORECASE)
 
 # Table 2: codes of the units of acceleration.
@@ -58,6 +60,7 @@ _UNITS = {2: "g", 4: "cm/s2", 7: "in/s2", 10: "gal", 11: "mg"}
 # Positions of the real numbers, from 1.
 _RECORD_STEP_S, _SERIES_STEP_MS, _SERIES_LENGTH_S, _PEAK = 34, 62, 63, 64
 
+# The format codes an unknown real number as -999 or thereabouts.
 _UNKNOWN = Stated(value=math.nan, rounding=0.0, index=0)
 
 
@@ -97,6 +100,7 @@ def _parts(source: Source) -> list[_Part]:
     headings = [i for i, line in enumerate(source.lines) if _FIRST.match(line)]
     lines = [(i, match) for i, line in enumerate(source.lines) if (match := _DATA.match(line))]
     channels.check_number(source, len(lines))
+    # A series ends at the next heading, at the next line of data, or at the end of the file.
     borders = sorted([*headings, *(i for i, _ in lines), len(source.lines)])
     return [
         _Part(
@@ -125,6 +129,7 @@ def _heading_problems(source: Source, series: Sequence[_Part]) -> Iterator[str]:
             for pattern, group, what in _BLOCKS
             if (match := pattern.search(source.lines[index]))
         ]
+        # `_reals` refuses a heading without them.
         if all(what != _REAL_NUMBERS for _, _, what in starts):
             continue
         ends = [*(index for index, _, _ in starts[1:]), part.at]
@@ -207,6 +212,7 @@ def _step(part: _Part, reals: Sequence[Stated]) -> Stated:
         number = _real(reals, place)
         if number.value > 0.0:
             value, rounding = number.value * seconds, number.rounding * seconds
+            # 7.8125 ms are 0.0078125 s: without the binary digits that the product adds.
             return Stated(value=float(f"{value:.12g}"), rounding=rounding, index=number.index)
     return replace(_UNKNOWN, index=reals[0].index if reals else part.first)
 

@@ -97,6 +97,7 @@ def read(source: Source) -> MotionFile:
     if _VOLUME_3.match(source.line(0)):
         raise InputError(f"{source.at(0)}: found spectra; give a file of volume 1 or 2")
     volume = _TWO if _VOLUME_2.match(source.line(0)) else _ONE
+    # RENADIC of Chile writes volume 1 of CSMIP, and says so in its text.
     text = " ".join(source.lines[: volume.text]).upper()
     name = "RENADIC" if volume is _ONE and "RENADIC" in text else "CSMIP"
     parts = channels.parts_of(source, volume.first)
@@ -156,6 +157,7 @@ def _even_values(
     source: Source, part: range, volume: _Volume, at: int, line: re.Match[str]
 ) -> tuple[float, Floats, tuple[str, ...]]:
     """Evenly spaced values after a line with their count, rate or step, unit and maybe format."""
+    # Where a line is lost, the real numbers are not where they are looked for.
     if at - part.start != volume.heading:
         raise InputError(
             f"{source.at(at)}: found {at - part.start} lines of heading above this one, where the"
@@ -166,6 +168,7 @@ def _even_values(
         raise InputError(f"{source.at(at)}: found format ({line[4]}); give one as (8f10.3)")
     dt_s = source.step(_step(source, part, volume, at, line))
     stop, ended = _stop(source, at + 1, part.stop)
+    # Velocities and displacements follow the accelerations of volume 2.
     others = (i for i in range(at + 1, stop) if _SERIES.match(source.lines[i]))
     block = Block(first=at + 1, stop=next(others, stop), count=int(line[1]), promised=at)
     numbers = fixed_values(source, block, layout) if layout else free_values(source, block)
@@ -179,6 +182,7 @@ def _step(source: Source, part: range, volume: _Volume, at: int, line: re.Match[
     """Step of the line above the values; in volume 2 that of the heading, with more digits."""
     stated = printed(line[2], at)
     if line.re is _RATE_LINE:
+        # A rate is exact; `.005 SEC` is rounded to its digits.
         step_s = 1.0 / stated.value if stated.value > 0.0 else 0.0
         return Stated(value=step_s, rounding=0.0, index=at)
     if volume is _ONE:

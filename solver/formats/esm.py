@@ -53,10 +53,13 @@ def read(source: Source) -> MotionFile:
     first = next((i for i, line in enumerate(source.lines) if is_row(line.split())), 0)
     count, promised = _entry(source, heading, *_COUNTS)
     step, at = _entry(source, heading, *_STEPS)
+    # `printed` would take 21.0 for a count.
     if not count.isdecimal():
         raise InputError(f"{source.at(promised)}: found {shown(count)}; give the number of values")
     dt_s = source.step(printed(step, at))
     names = source.lines[first - 1].split()
+    # Above the first row AFAD's text has the names of the components, and an .asc a line of its
+    # heading.
     is_afad = len(names) > 1 and all(map(_NAME.fullmatch, names))
     number = int(count) * (len(names) if is_afad else 1)
     block = Block(first=first, stop=len(source.lines), count=number, promised=promised)
@@ -64,6 +67,7 @@ def read(source: Source) -> MotionFile:
         form, channels = "AFAD text", _afad(source, heading, names, dt_s, block)
     else:
         form, channels = "ESM, ITACA, AFAD .asc", _asc(source, heading, dt_s, block)
+    # AFAD has the time zone in parentheses behind the time.
     begins = next((heading[key][0] for key in _START if key in heading), "").partition("(")[0]
     return motion_file(source, form, channels, start=time_in(begins, *_START_FORMATS))
 

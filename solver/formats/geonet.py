@@ -53,6 +53,7 @@ def recognizes(lines: Sequence[str]) -> bool:
 def read(source: Source) -> MotionFile:
     """Read the accelerations of all components of a file."""
     parts = channels.parts_of(source, _FIRST)
+    # A file that is cut at the end of a component looks whole but for this.
     if len(parts) != _COMPONENTS:
         raise InputError(
             f"{source.at(parts[-1].start)}: found the heading of component {len(parts)}, the last"
@@ -75,6 +76,7 @@ def _component(source: Source, part: range, is_raw: bool) -> channels.Channel:
     scale = _scale(source, part)
     first = part.start + _HEADING
     end = first + _WHOLE.lines(int(count.value))
+    # V1A has no velocities: all lines to the next heading are accelerations.
     is_alone = not whole[_VELOCITIES - 1].value > 0.0
     stop = part.stop if is_alone else min(end, part.stop)
     block = Block(first=first, stop=stop, count=int(count.value), promised=count.index)
@@ -106,6 +108,7 @@ def _step(source: Source, part: range, exact: Stated) -> Stated:
     if not exact.value > 0.0:
         return stated
     channels.check_steps(source, stated, exact)
+    # Of two that agree, the one with more digits.
     return exact if exact.rounding <= stated.rounding else stated
 
 

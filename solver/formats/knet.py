@@ -87,6 +87,7 @@ def _length_notes(source: Source, length_s: float) -> tuple[str, ...]:
     if not abs(stated_s - length_s) > 1e-6:
         return ()
     words = f"the heading states {stated_s:g} s, the record lasts {length_s:g} s"
+    # Whole seconds hide less than one; more is a file that was cut.
     if abs(stated_s - length_s) >= 1.0:
         raise InputError(f"{source.at(at + 1)}: {words}; give the whole file")
     return (words,)
@@ -101,6 +102,7 @@ def _counts(source: Source) -> MotionFile:
     block = Block(first=memo + 1, stop=len(source.lines), count=count, promised=duration.index)
     values = free_values(source, block) * _scale(source)
     peak, at = _entry(source, "Max. Acc. (gal)", "Max Acc. (gal)")
+    # In gal, and without the mean, which the counts have.
     stated_mps2 = 0.01 * printed(peak, at).value
     notes = [*centered_peak_notes(source, at, stated_mps2, values), *offset_notes(values)]
     direction, _ = _entry(source, "Dir.")

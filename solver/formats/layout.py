@@ -21,6 +21,7 @@ from solver.formats.source import Source
 from solver.model import Floats, InputError
 from solver.records.record import is_other_unit, is_raw, raise_any, unit_size
 
+# Also as loggers of other languages head them.
 _TIMES = {"t", "time", "times", "zeit", "tiempo", "temps", "tempo", "sec", "secs", "seconds"}
 _SECONDS = (
     dict.fromkeys(("s", "sec", "secs", "second", "seconds"), 1.0)
@@ -112,6 +113,7 @@ class Heading:
 
 def parse(text: str) -> Heading:
     """Interpret a heading such as ``t_s``, ``acc_g``, ``EW [cm/s2]`` or ``a in gal``."""
+    # Excel quotes a heading that has a comma.
     text = text.strip().strip("\"'").strip()
     name, unit = _split(text)
     kind, seconds = _kind(name, unit)
@@ -274,6 +276,7 @@ def _is_row(line: str) -> bool:
 
 
 def _unquoted(line: str, mark: str) -> str:
+    # Semicolons: a quoted field may have the comma that separated it.
     fields = next(csv.reader([line], delimiter=mark, skipinitialspace=True))
     return ";".join(field.replace(";", " ") for field in fields)
 
@@ -288,6 +291,7 @@ def _without_last_marks(lines: list[str]) -> list[str]:
     rows = [lines[i].rstrip(" ") for i in _rows(lines)]
     if len(rows) < 2 or not all(row.endswith(tuple(_MARKS)) for row in rows[1:]):
         return lines
+    # Excel ends every line with the separator of an empty last column.
     mark, widths = rows[1][-1], {row.count(rows[1][-1]) for row in rows[1:]}
     is_headed = not rows[0].endswith(mark) and rows[0].count(mark) == rows[1].count(mark)
     if is_headed or len(widths) > 1:
@@ -326,6 +330,7 @@ def _without_decimal_commas(lines: list[str]) -> list[str]:
     if (
         not commas
         or not all(DECIMAL_COMMA.fullmatch(field) or NUMBER.fullmatch(field) for field in fields)
+        # 1,000 may be one or a thousand: it is left to be refused.
         or all(map(_GROUPED.fullmatch, commas))
         or any("." in line for line in lines if line.lstrip()[:1] in "+-.0123456789")
     ):

@@ -27,6 +27,7 @@ _FORMAT = re.compile(r"\s*(\d{1,2})\s*(?:[A-Z]{1,2})\s*(\d{1,2})(\D|$)", re.ASCI
 
 _NUMBERS = re.compile(r"[\s+\-.*eEdD]*\d[\s\d+\-.*eEdD]*", re.ASCII)
 
+# Fortran prints `-.1234E-02-.5678E+01` where a sign fills its field.
 _TOUCHING = re.compile(r"(?<=[\d.])(?=[+-])", re.ASCII)
 
 # Fortran prints the exponent of a double-precision number after a D.
@@ -87,6 +88,7 @@ def fixed_values(source: Source, block: Block, layout: FieldFormat) -> Floats:
     last = min(block.first + layout.lines(block.count), block.stop)
     rows = [line.rstrip() for line in source.lines[block.first : last]]
     numbers = list(rows)  # up to the last line that has one
+    # A line of text may follow the values where their count is stated too large.
     while numbers and all(map(_problem, _cut(numbers[-1], layout))):
         numbers.pop()
     problems = partial(_fixed_problems, source, block, numbers, layout)
@@ -152,6 +154,7 @@ def is_cut_short(fields: Sequence[str]) -> bool:
     They are the last ones of a file, at most `COMPARED`.
     """
     *others, last = map(_digits, fields)
+    # Whole numbers have no decimals that a cut could take.
     is_even = len(others) >= _ENOUGH and len({*others}) == 1 and others[0][0] > 0
     return is_even and last < others[0]
 
@@ -301,6 +304,7 @@ def _cut_lines(
 ) -> Iterator[str]:
     """Problems of lines that end within a field, where most lines end with one."""
     within = [index for index, row in enumerate(rows) if len(row) % layout.width]
+    # Fields set to the left end anywhere: then nothing is said by where a line ends.
     if 2 * len(within) >= len(rows):
         return
     for index in within:

@@ -33,6 +33,7 @@ _BEHIND = re.compile(
     rf"\s*(\d+)(?:\s*+,)?\s++{_NUMBER}\s*+(?:,\s*)?NPTS\s*,\s*DT", re.ASCII | re.IGNORECASE
 )
 _COUNT_LINE = re.compile(r"\bNPTS\b", re.IGNORECASE)
+# Possessive: a line of many digits is looked at once, and refused in a time as its length.
 _BARE = re.compile(r"(\d{1,9})[,\s]++(\d*\.\d+(?:[eE]-?\d+)?)(?:[,\s]++\d+)?[,\s]*+", re.ASCII)
 _UNIT = re.compile(
     r"IN UNITS OF\s+([A-Z/0-9^]+)|\bACC[A-Z]*\b[^()]*\(\s*([A-Z/0-9^]+)(?:'S)?\s*\)",
@@ -95,6 +96,7 @@ def _bare_line(lines: Sequence[str]) -> int:
     near = list(itertools.islice(rows, _HEADING_LINES + 1))
     for (index, fields), (_, following) in itertools.pairwise(near):
         if is_row(fields):
+            # Two numbers above rows of two are the first row of a table.
             is_bare = _BARE.fullmatch(lines[index].strip()) and len(fields) != len(following)
             return index if is_bare and is_row(following) else -1
     return -1

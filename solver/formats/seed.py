@@ -49,8 +49,10 @@ def read(source: Source) -> MotionFile:
             start = min(trace.stats.starttime for trace in traces).datetime
     except Exception as error:  # its readers raise whatever they meet in a damaged file
         raise _damaged(source, form) from error
+    # What is no whole number of records was cut.
     if form == "MSEED" and len(source.content) % min(t.stats.mseed.record_length for t in traces):
         raise _damaged(source, form)
+    # A gap makes two traces of one channel: joined they would be another motion.
     name, pieces = Counter(trace.id for trace in traces).most_common(1)[0]
     if pieces > 1:
         raise InputError(
@@ -117,6 +119,7 @@ def _sensitivity(source: Source, obspy: Any, trace: Any) -> tuple[float, float]:
             f"{path.name}: has no sensitivity of {trace.id} at {trace.stats.starttime}; give the"
             " StationXML of its instrument"
         ) from error
+    # That of a velocity sensor is per m/s: no factor makes accelerations of its counts.
     size = unit_size(units)
     if math.isnan(size) or not is_digital or not value > 0.0:
         raise InputError(

@@ -54,6 +54,7 @@ def read(source: Source) -> MotionFile:
         raise InputError(f"{source.at(0)}: found {kind.lower()}; give a file of acceleration")
     whole = header_values(source, _TEXT, _WHOLES, _WHOLE)
     real = header_values(source, _TEXT + _WHOLE.lines(_WHOLES), _REALS, _REAL)
+    # The format has no other unit.
     scale = source.scale("cm/s2", 0)
     block, more = _block(source, whole)
     rate = real[_RATE - 1]
@@ -62,6 +63,7 @@ def read(source: Source) -> MotionFile:
         values, told = fixed_values(source, block, _VALUES), tuple[str, ...]()
     else:
         dt_s, values, told = _uneven(source, block)
+    # The heading has peaks in the unit of the values, so both get one scale.
     values, notes = values * scale, [*more, *told]
     if whole[_FLAG - 1].value == 1.0:
         notes.append("the heading flags a problem with this record: read its comments")

@@ -54,7 +54,9 @@ _BYTES = (
     (re.compile(rb"MATLAB"), "a file of MATLAB", _COLUMNS),
     (re.compile(rb"\x93NUMPY"), "an array of numpy", _COLUMNS),
 )
+# Sequence number, then the quality of the data (SEED manual, fixed section of the header).
 _MINISEED = re.compile(rb"\d{6}[DRQM][ \x00]")
+# NVHDR is word 76 of 4 bytes; 70 floats and 40 whole numbers precede 192 letters.
 _SAC_HEADING, _SAC_VERSION_AT, _SAC_VERSIONS = 632, 304, {6, 7}
 
 
@@ -222,6 +224,7 @@ def open_source(
     if not isinstance(units, str) or (units and units not in UNIT_CHOICES):
         problems.append(f"{name}: unit is {shown(units)}; give one of {', '.join(UNIT_CHOICES)}")
     unknown = isinstance(dt_s, float) and math.isnan(dt_s)
+    # NaN stands for a step that is not given, and only a float can be NaN.
     if not unknown and not (is_finite_number(dt_s) and dt_s > 0.0):
         problems.append(f"{name}: time step dt is {shown(dt_s)}; give a number of seconds above 0")
     if type(values_per_line) is not int or values_per_line < 0:
@@ -232,6 +235,7 @@ def open_source(
     data = _bytes(path)
     return Source(
         name=name,
+        # `_lines` refuses bytes that are no text.
         lines=[] if waveform_format(data) else _lines(name, data),
         units=units,
         dt_s=float(dt_s),

@@ -124,6 +124,7 @@ def _magnitudes(table: _Table, columns: Sequence[int]) -> list[int]:
     for i in columns:
         values = table.values[:, i]
         before = [k for k in columns if k != i and k not in magnitudes]
+        # Loggers write the length behind two or three components, or behind all of them.
         vectors = [before[:count] for count in (2, 3, len(before)) if 1 < count <= len(before)]
         roots = (np.linalg.norm(table.values[:, vector], axis=1) for vector in vectors)
         is_named = bool(table.headings) and table.headings[i].is_magnitude
@@ -268,6 +269,7 @@ def _heading_scale(source: Source, table: _Table, heading: Heading) -> float:
         stated = {unit_size(unit): unit for unit in layout.stated_units(line)}
         if not stated or size in stated:
             continue
+        # A comment may tell of another file; what the caller says is meant for this one.
         if source.units and unit_size(source.units) in {size, *stated}:
             return unit_size(source.units)
         raise InputError(
@@ -296,6 +298,7 @@ def _table(source: Source) -> _Table:
     if due := source.values_per_line or _told_across(source, start, separator, remarks):
         numbers = across(source, start, separator, due)
         return _Table(values=numbers, start=start, headings=[], heading_index=-1, remarks=remarks)
+    # numpy reads a sound file at once; one with an error is read row by row, to name its lines.
     values = _parse_fast(source.lines[start:], separator, width)
     if values is None:
         check_shape(source, start, separator)
@@ -376,6 +379,7 @@ def _parse_slowly(source: Source, start: int, separator: str | None, width: int)
 def _check_decimal_comma(source: Source, table: _Table, times: Floats) -> None:
     """Raise for rows such as `0,12` and `0,13`: one column with decimal commas, not two."""
     rows = list(itertools.islice(rows_of(source.lines, table.start), _MAX_REMARKS))
+    # `0,12` may be two columns, times and values: even times say that it is.
     if is_even(times) or not all(DECIMAL_COMMA.fullmatch(content) for _, content in rows):
         return
     index, content = rows[0]

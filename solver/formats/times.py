@@ -78,6 +78,7 @@ def _check_rising(source: Source, t_s: Floats, line_of: Callable[[int], int]) ->
     raise_any(
         f"{source.at(line_of(i + 1))}: found time {t_s[i + 1]:.6g} s after {t_s[i]:.6g} s, "
         f"with a typical step of {usual:.6g} s; give increasing times"
+        # Negated: a NaN is no increase either.
         for i in np.flatnonzero(~(steps >= 1e-9)).tolist()
     )
 
@@ -128,6 +129,7 @@ def _resampled(
     power = math.floor(math.log10(usual))
     candidates = (float(f"{m}e{k}") for k in range(power, power - 4, -1) for m in (5, 2, 1))
     for step in (step for step in candidates if usual / _FINEST <= step <= usual):
+        # A short typical step over a long time would ask for more samples than memory holds.
         if len(columns) * length / step > MAX_SAMPLES:
             break
         times = t_s[0] + step * np.arange(math.ceil(length / step - 1e-6) + 1)

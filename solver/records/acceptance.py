@@ -37,6 +37,7 @@ N_SETS = 4
 # At most 1/24 octave apart, so that both ends of each band are points.
 N_SLIDING, N_AC156 = 93, 117
 
+# The knee is a point of both bands, once.
 POINTS_HZ: Floats = np.concatenate(
     [np.geomspace(_LOW, _KNEE, N_SLIDING), np.geomspace(_KNEE, _HIGH, N_AC156)[1:]]
 )
@@ -189,6 +190,7 @@ def _least(
 
 
 def _most(title: str, limit: int, counts: Sequence[tuple[int, str]]) -> Limit:
+    # Of equal counts the first, so that the row is the same every time.
     count, worst = max(counts, key=lambda counted: counted[0])
     return Limit(
         title=title,

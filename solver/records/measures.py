@@ -121,6 +121,7 @@ def velocity_displacement(record: Record) -> tuple[Floats, Floats]:
     tuple of array, shape (n,)
     """
     a, dt = record.a_mps2, record.dt_s
+    # v' = a and d' = v, with a linear: v is exact by trapezia, d by dt v0 + dt^2 (2 a0 + a1) / 6.
     v = _summed(0.5 * dt * (a[:-1] + a[1:]))
     return v, _summed(dt * v[:-1] + dt * dt / 6.0 * (2.0 * a[:-1] + a[1:]))
 
@@ -137,6 +138,7 @@ def _velocity_peaks(a: Floats, dt: float, v: Floats) -> Floats:
     """Velocities where the acceleration crosses zero inside an interval."""
     at = np.flatnonzero(a[:-1] * a[1:] < 0.0)
     before, after = a[at], a[at + 1]
+    # v0 + a0 x / 2 at x = dt a0 / (a0 - a1), where the acceleration is zero.
     return v[at] + 0.5 * dt * before * before / (before - after)
 
 
@@ -158,6 +160,7 @@ def _displacement_peaks(a: Floats, dt: float, v: Floats, d: Floats) -> Floats:
 def _cumulative(a: Floats, dt: float) -> Floats:
     """Integral of a^2 from the start to each sample [m2/s3]."""
     before, after = a[:-1], a[1:]
+    # The integral of a linear function squared: dt (a0^2 + a0 a1 + a1^2) / 3.
     return _summed(dt / 3.0 * (before * before + before * after + after * after))
 
 

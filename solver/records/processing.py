@@ -179,6 +179,7 @@ def _filtered(a: Floats, dt_s: float, processing: Processing) -> Floats:
     pad_s = _pad_s(processing)
     if pad_s == 0.0:
         return a
+    # Without the pads the spectrum is that of a periodic record: its end would ring into its start.
     a = np.pad(a, _steps(pad_s, dt_s))
     gain = _gain(_frequencies(len(a), dt_s), processing)
     return np.fft.irfft(np.fft.rfft(a) * gain, len(a))
@@ -200,6 +201,7 @@ def _gain(freq_hz: Floats, processing: Processing) -> Floats:
     power = 2 * processing.order
     with np.errstate(divide="ignore", over="ignore"):
         if processing.highpass_hz > 0.0:
+            # Butterworth, one pass: 1 / sqrt(1 + (fc / f)^2n); at f = 0 it is 1 / inf.
             gain /= np.sqrt(1.0 + (processing.highpass_hz / freq_hz) ** power)
         if processing.lowpass_hz > 0.0:
             gain /= np.sqrt(1.0 + (freq_hz / processing.lowpass_hz) ** power)
@@ -269,6 +271,7 @@ def _filter_words(processing: Processing) -> list[str]:
 def _range_problems(processing: Processing) -> list[str]:
     """Errors for values that are out of range for any record."""
     problems = []
+    # Negated, so that NaN is refused.
     if not (0.0 <= processing.from_s < processing.to_s):
         problems.append(
             f"cut from {processing.from_s:g} s to {processing.to_s:g} s; give two times, the "

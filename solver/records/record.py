@@ -174,6 +174,7 @@ def record_csv(
     values = record.a_mps2 / UNITS[units]
     places = next((k for k in range(1, 9) if fits(record.dt_s, 10.0**-k)), 9)
     decimals = _decimals(values, DECIMALS[units], within)
+    # z: a small negative value prints as 0.00000, not -0.00000.
     row = f"{{:.{places}f}},{{:z.{decimals}f}}\n".format
     body = "".join(row(i * record.dt_s, value) for i, value in enumerate(values.tolist()))
     remark = "" if math.isnan(hold_s) else f"# {HOLD} {hold_s:g} s\n"
@@ -201,6 +202,7 @@ def check_gaps(name: str, a_mps2: Floats) -> None:
     """
     size = np.abs(a_mps2)
     at = int(size.argmax())
+    # A code repeats: all samples of its size are set aside.
     others = size[np.abs(size - size[at]) > 1e-9 * size[at]]
     most = float(others.max(initial=0.0))
     if size[at] <= _ALONE * most:

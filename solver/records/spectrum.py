@@ -154,6 +154,7 @@ def response_spectrum(
     rigid = ~np.isfinite(omega)
     spectrum = np.full(omega.shape, np.abs(a).max())
     # Points per interval at which the peak of an oscillator is evaluated: powers of two.
+    # Powers of two: oscillators of many periods share one refined record.
     needed = PEAK_FINENESS * float(dt_s) * np.where(rigid, 0.0, omega) / (2.0 * math.pi)
     steps = (2.0 ** np.ceil(np.log2(np.clip(needed, 1.0, PEAK_STEPS)))).astype(np.int64)
     for each in np.unique(steps[~rigid]).tolist():
@@ -230,6 +231,7 @@ def design_spectrum(*, s_ds_g: float, s_d1_g: float, t_l_s: float) -> Target:
 def _design(freq_hz: Floats, *, s_ds_g: float, s_d1_g: float, t_l_s: float) -> Floats:
     with np.errstate(divide="ignore"):
         period = 1.0 / np.asarray(freq_hz, dtype=np.float64)
+    # T_0 = 0.2 S_D1 / S_DS.
     rising = s_ds_g * np.minimum(0.4 + 0.6 * period / (0.2 * (s_d1_g / s_ds_g)), 1.0)
     # At period 0 this branch is infinite, and the other one governs; at frequency 0 it is zero.
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -284,6 +286,7 @@ def factor_to_target(
     count = math.ceil(PER_DECADE * math.log10(longest_s / shortest_s)) + 1
     periods = np.geomspace(shortest_s, longest_s, max(count, 2))
     logs = [_log_spectrum(record, periods) for record in horizontals]
+    # Least squares of ln(factor spectrum / target): the factor is the mean of the logarithms.
     difference = np.log(target(1.0 / periods)) - np.mean(logs, axis=0)
     return float(np.exp(difference.mean()))
 
