@@ -64,12 +64,7 @@ def check(source: Path, quiet: bool, as_json: bool) -> None:
 def checked(
     source: Path, progress: Callable[[str], None] = lambda _: None
 ) -> tuple[Sheet, Shaking, tuple[Finding, ...]]:
-    """Return a workbook with its motions, and every finding in the order of the template.
-
-    Raises
-    ------
-    InputError
-    """
+    """Return a workbook with its motions, and every finding in the order of the template."""
     from report.sheet.reading.read import read
 
     progress("reading the workbook")
@@ -88,23 +83,18 @@ def checked(
     progress("reading the records")
     shaking = prepare(sheet)
     progress("comparing with the limits")
-    return (
-        sheet,
-        shaking,
-        in_order(
-            [
-                *what_is_new(sheet.book),
-                *formula_findings(overwritten(sheet.book)),
-                *limits_before_runs(sheet.project, shaking),
-                *missing_clearances(sheet),
-                *other_sources(sheet),
-                *findings(sheet, shaking),
-                *_without_motions(sheet, shaking),
-                *_computed(sheet),
-                *_in_future(sheet, dt.date.today()),
-            ]
-        ),
-    )
+    told = [
+        *what_is_new(sheet.book),
+        *formula_findings(overwritten(sheet.book)),
+        *limits_before_runs(sheet.project, shaking),
+        *missing_clearances(sheet),
+        *other_sources(sheet),
+        *findings(sheet, shaking),
+        *_without_motions(sheet, shaking),
+        *_computed(sheet),
+        *_in_future(sheet, dt.date.today()),
+    ]
+    return sheet, shaking, in_order(told)
 
 
 def _without_motions(sheet: Sheet, shaking: Shaking) -> Iterator[Finding]:

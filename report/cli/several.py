@@ -46,34 +46,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReportOutcome:
-    """What became of one project, as finished text.
-
-    Attributes
-    ----------
-    verdict : str
-        Empty without a package.
-    ratios : tuple of float
-        D/C of its clearances; NaN without a permitted displacement.
-    package : str
-        Path of the PDF.
-    problems : tuple of str
-        Input errors.
-    lines : tuple of str
-        What was put on record in the workbook.
-    internal : str
-        Traceback of an internal error; empty for none.
-    left : tuple of tuple of Path
-        Outputs, by folder, that are not of this run if they are there.
-    """
+    """What became of one project, as finished text."""
 
     source: Path
-    verdict: str = ""
-    ratios: tuple[float, ...] = ()
-    package: str = ""
-    problems: tuple[Problem, ...] = ()
-    lines: tuple[str, ...] = ()
-    internal: str = ""
-    left: tuple[tuple[Path, ...], ...] = ()
+    verdict: str = ""  # empty without a package
+    ratios: tuple[float, ...] = ()  # D/C of its clearances; NaN without a permitted displacement
+    package: str = ""  # path of the PDF
+    problems: tuple[Problem, ...] = ()  # input errors
+    lines: tuple[str, ...] = ()  # what was put on record in the workbook
+    internal: str = ""  # traceback of an internal error; empty for none
+    left: tuple[tuple[Path, ...], ...] = ()  # outputs, by folder, of another run if they are there
     seconds: float = 0.0
 
     @property

@@ -346,16 +346,7 @@ class Progress:
     """
 
     def __init__(self, steps: int | Sequence[float] = 0, *, quiet: bool = False) -> None:
-        """Begin.
-
-        Parameters
-        ----------
-        steps : int or sequence of float
-            Number of steps that will be reported, or their usual shares of the time, for the bar
-            and the time left; 0 if it is not known.
-        quiet : bool
-            Print nothing.
-        """
+        """Begin; `steps` is their number or their usual shares of the time, 0 if not known."""
         shares = [1.0] * steps if isinstance(steps, int) else steps
         self._shares_before = [sum(shares[:n]) / sum(shares) for n in range(len(shares))]
         self._started = time.monotonic()

@@ -56,18 +56,11 @@ SpectrumAt = Callable[[Floats], Floats]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SpectrumRatio:
-    """Spectrum of one component over its target.
-
-    Attributes
-    ----------
-    motion, component : str
-    ratio : array, shape (209,)
-        At `POINTS_HZ`; NaN where there is no target.
-    """
+    """Spectrum of one component over its target."""
 
     motion: str
     component: str
-    ratio: Floats
+    ratio: Floats  # shape (209,), at `POINTS_HZ`; NaN where there is no target
 
     def among(self, points: NDArray[np.bool_]) -> tuple[Floats, Floats]:
         """Return the frequencies [Hz] with a target among some points, and the ratios there."""
@@ -221,23 +214,12 @@ MOST_CORRELATION = 0.3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MotionStrength:
-    """Strong motion and correlations of one motion as run.
-
-    Attributes
-    ----------
-    id : str
-    hold_s : float
-        Hold of the envelope of a generated motion [s]; NaN for a record.
-    strengths : mapping of str to Strength
-        By component: x and y horizontal, z vertical; only those that the motion has.
-    correlations : mapping of str to float
-        By pair of components, such as ``x-y``: coefficient at zero lag.
-    """
+    """Strong motion and correlations of one motion as run."""
 
     id: str
-    hold_s: float
-    strengths: Mapping[str, Strength]
-    correlations: Mapping[str, float]
+    hold_s: float  # of the envelope of a generated motion; NaN for a record
+    strengths: Mapping[str, Strength]  # by component: only those that the motion has
+    correlations: Mapping[str, float]  # by pair, such as ``x-y``: coefficient at zero lag
 
     @property
     def is_generated(self) -> bool:
@@ -247,13 +229,7 @@ class MotionStrength:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Acceptance:
-    """The rows on the motions, and the measures behind them.
-
-    Attributes
-    ----------
-    rows : tuple of Limit
-    motions : tuple of MotionStrength
-    """
+    """The rows on the motions, and the measures behind them."""
 
     rows: tuple[Limit, ...]
     motions: tuple[MotionStrength, ...]

@@ -194,12 +194,7 @@ def _off(values: Floats, decimals: int) -> float:
 
 
 def check_gaps(name: str, a_mps2: Floats) -> None:
-    """Refuse a record with a code for missing data: nines far above all other samples.
-
-    Raises
-    ------
-    InputError
-    """
+    """Refuse a record with a code for missing data: nines far above all other samples."""
     size = np.abs(a_mps2)
     at = int(size.argmax())
     # A code repeats: all samples of its size are set aside.
