@@ -86,14 +86,12 @@ def test_the_shell_is_told_commands_and_options(monkeypatch):
     [
         (("rreport",), "No such command 'rreport'. Did you mean 'report'?"),
         (("report", "x", "--fail-on"), "Did you mean"),
-        (
-            ("sign", "README.md", "--p12", "READNE.md"),
-            "'READNE.md' does not exist; did you mean 'README.md'?",
-        ),
+        (("sign", "README.md", "--p12", "READNE.md"),
+         "'READNE.md' does not exist; did you mean 'README.md'?"),
         (("verify", "--table", "docz"), "'docz' does not exist; did you mean 'docs'?"),
         (("check", "projects/exaample"), "did you mean 'projects/example'?"),
     ],
-)
+)  # fmt: skip
 def test_a_word_that_is_not_known_is_answered_with_the_nearest(monkeypatch, words, told):
     monkeypatch.chdir(ROOT)
     assert told in refused(*words)
@@ -102,16 +100,14 @@ def test_a_word_that_is_not_known_is_answered_with_the_nearest(monkeypatch, word
 @pytest.mark.parametrize(
     ("options", "told"),
     [
-        (
-            ("--slope-deg", 95, "--mu", 0.3),
-            "'--slope-deg': it is 95 deg; give more than -45 deg and less",
-        ),
+        (("--slope-deg", 95, "--mu", 0.3),
+         "'--slope-deg': it is 95 deg; give more than -45 deg and less"),
         (("--slope-deg", "nan", "--mu", 0.3), "'--slope-deg': it is nan deg"),
         (("--slope-deg", 2, "--mu", -0.3), "'--mu': it is -0.3; give 0 or more."),
         (("--slope-deg", 2, "--mu", 0.3, "--dt", 0), "'--dt': it is 0 s; give more than 0 s."),
         (("--slope-deg", 2, "--mu", 0.3, "--factor", "inf"), "it is inf; give a finite number."),
     ],
-)
+)  # fmt: skip
 @pytest.mark.quick
 def test_an_error_names_the_option_as_it_was_given_and_its_unit(options, told):
     assert told in refused("slide", EXAMPLE / "records" / "RM1-x.csv", *options)

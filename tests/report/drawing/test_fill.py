@@ -255,16 +255,14 @@ def test_without_the_sheet_layers_the_plan_is_filled_in_and_the_layers_are_not_k
     ("words", "said"),
     [
         (("--layer", "AR-RAY=array"), "no layer 'AR-RAY'; did you mean 'ARRAY'?"),
-        (
-            ("--layer", "ARRAY=arrays"),
-            "'ARRAY=arrays' is not NAME=KIND, where KIND is one of array",
-        ),
+        (("--layer", "ARRAY=arrays"),
+         "'ARRAY=arrays' is not NAME=KIND, where KIND is one of array"),
         (("--layer", "=array"), "'=array' is not NAME=KIND"),
         (("--rotate", "400"), "it is 400 deg; give more than -360 deg and less than 360 deg."),
         (("--rotate", "nan"), "it is nan deg; give more than"),
         (("--rotate", "north"), "states no north (GEODATA); give"),
     ],
-)
+)  # fmt: skip
 def test_options_that_say_nothing_are_refused(tmp_path, words, said):
     assert said in run(drawing(tmp_path), new(tmp_path), *words, exit_code=2)
 

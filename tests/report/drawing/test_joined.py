@@ -41,15 +41,12 @@ def test_sides_in_any_order_and_direction_are_joined(seed):
         ([*SIDES[:3], ((0.0, 5.0), (0.0, 0.0049))], [40.0], {}),
         ([*SIDES[:3], ((0.0, 5.0), (0.0, 0.0051))], [], {0: OPEN, 1: OPEN, 2: OPEN, 3: OPEN}),
         ([*SIDES, SIDES[0], SIDES[1][::-1]], [40.0], {}),  # sides that are drawn twice
-        (
-            [*SIDES, ((8.0, 0.0), (4.0, 2.0)), ((4.0, 2.0), (4.0, 3.0))],
-            [],
-            {0: BRANCHED, 1: BRANCHED, 2: OPEN, 3: OPEN, 4: BRANCHED, 5: OPEN},
-        ),
+        ([*SIDES, ((8.0, 0.0), (4.0, 2.0)), ((4.0, 2.0), (4.0, 3.0))], [],
+         {0: BRANCHED, 1: BRANCHED, 2: OPEN, 3: OPEN, 4: BRANCHED, 5: OPEN}),
         ([*SIDES, (BOX[0], BOX[2])], [], dict.fromkeys(range(5), BRANCHED)),
         ([*SIDES, (BOX[0], BOX[0])], [40.0], {4: OPEN}),  # a line without a length
     ],
-)
+)  # fmt: skip
 def test_what_closes_in_one_way_is_joined_and_the_rest_is_returned(lines, areas, rest):
     assert found(*lines) == (areas, rest)
 

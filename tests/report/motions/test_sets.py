@@ -64,22 +64,16 @@ def test_sets_of_three_are_told_by_the_ends_of_names(tmp_path, names, motion):
 @pytest.mark.parametrize(
     ("names", "why"),
     [
-        (
-            "PET-000 PET-090",
-            "2 horizontal and 0 vertical of one motion; a set has 2 and 1;"
-            " --without-vertical takes the two",
-        ),
+        ("PET-000 PET-090", "2 horizontal and 0 vertical of one motion; a set has 2 and 1;"
+         " --without-vertical takes the two"),
         ("P-000 P-090 P-180 P-UP", "3 horizontal and 1 vertical of one motion; a set has 2 and 1"),
         ("P-000 P-090 P-UP P-V", "2 horizontal and 2 vertical of one motion; a set has 2 and 1"),
         ("P-000 P-180 P-UP", "the horizontal components are not perpendicular by their names"),
         ("P-000 P-H2 P-UP", "the horizontal components are not perpendicular by their names"),
-        (
-            "P-000 P-090 P-DWN",
-            "P-DWN.csv is positive downward: give it with factor -1, as motion"
-            " convert --factor -1 writes it",
-        ),
+        ("P-000 P-090 P-DWN", "P-DWN.csv is positive downward: give it with factor -1, as motion"
+         " convert --factor -1 writes it"),
     ],
-)
+)  # fmt: skip
 def test_what_is_not_clear_is_left_with_the_reason(tmp_path, names, why):
     for name in names.split():
         plain(tmp_path / f"{name}.csv")

@@ -49,14 +49,11 @@ def test_only_a_lone_channel_need_not_be_named():
             ("x y", name, f"found no channel '{name}'; give one by name or number: 1 x; 2 y")
             for name in ("z", "3", "0", "-1")
         ),
-        (
-            "North Vertical",
-            "vertcal",
-            "found no channel 'vertcal'; did you mean 'Vertical'? Give one by name or number: "
-            "1 North; 2 Vertical",
-        ),
+        ("North Vertical", "vertcal",
+         "found no channel 'vertcal'; did you mean 'Vertical'? Give one by name or number: "
+         "1 North; 2 Vertical"),
     ],
-)
+)  # fmt: skip
 def test_a_channel_that_is_not_there_is_refused_with_those_that_are(names, wanted, problem):
     assert refused(made(*names.split()).channel, wanted) == (f"a.v2: {problem}",)
 

@@ -337,14 +337,10 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
         ("a\n\n# x\n0,12\n0,13\n-0,11", ["4: found '0,12'; give a number with a decimal"]),
         ("2 1\n1 2\n0 3\n", ["2: found time 1 s after 2 s", "3: found time 0 s after 1 s"]),
         ("0 1\n1e-320 2\n", ["2: found time 9.99989e-321 s after 0 s"]),
-        (
-            "word\nand some more\nin prose\n",
-            ["2: found 'and some more' where numbers are due, and"],
-        ),
-        (
-            "1994 Northridge\n0.1\n0.2\n",
-            ["1: found '1994 Northridge' where numbers are due, and no"],
-        ),
+        ("word\nand some more\nin prose\n",
+         ["2: found 'and some more' where numbers are due, and"]),
+        ("1994 Northridge\n0.1\n0.2\n",
+         ["1: found '1994 Northridge' where numbers are due, and no"]),
         ("<html>\n<body>\n", ["2: this looks like a web page, which is not read; give the record"]),
         ("TIMESERIES IU_X, 9 samples\n1 2 x\n", ["2: this looks like TSPAIR or SLIST of Earth"]),
         ("1 2 3\n4 5 6\n7\n", ["3: found 1 values after lines of 3: values across the lines, not"]),
@@ -355,10 +351,8 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
         ),
         ("made motion\n0.01 7\n1\n2\n3\n", ["2: found 2 numbers above rows of 1; if they are no"]),
         ("Northridge\n1 2 3\n4 5 6\n7\n", ["4: found 1 values after lines of 3: values across"]),
-        (
-            "0 1\n2 0\n" * 6,
-            [" found 2 columns without a heading, and the first is no time: it fal"],
-        ),
+        ("0 1\n2 0\n" * 6,
+         [" found 2 columns without a heading, and the first is no time: it fal"]),
         ("0 1 2\n0.1 3 4\n", ["1: found 3 columns without a heading; give one that"]),
         ("t,x,y,z\n0,1,2\n1,2,3\n", ["1: found 4 headings over 3 columns; give one"]),
         ("n,t_s,x_g\n0,1,2\n1,2,3\n", [" found times in column 2; give them in the"]),
@@ -368,7 +362,7 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
         ("1\n2\n", [" found one column, without times; give the time step dt"]),
         ("# width = 3\n1\n2\n", [" found one column, without times; give the time step dt"]),
     ],
-)
+)  # fmt: skip
 def test_each_line_at_fault_is_named_with_what_would_do(file, content, expected):
     starts = [f"roof.csv:{line}" for line in expected]
     problems = problems_of(file(content))

@@ -91,25 +91,16 @@ def test_each_component_is_a_channel(file):
 @pytest.mark.parametrize(
     ("content", "problem"),
     [
-        (
-            miniseed(COUNTS),
-            "found XX.ABC..HNE: raw counts are no acceleration without the",
-        ),
-        (
-            miniseed(0 * COUNTS),
-            "found XX.ABC..HNE: raw counts are no acceleration without the",
-        ),
-        (
-            sac(COUNTS),
-            "found .ABC..: raw counts are no acceleration without the",
-        ),
+        (miniseed(COUNTS), "found XX.ABC..HNE: raw counts are no acceleration without the"),
+        (miniseed(0 * COUNTS), "found XX.ABC..HNE: raw counts are no acceleration without the"),
+        (sac(COUNTS), "found .ABC..: raw counts are no acceleration without the"),
         (sac(FLOATS, 7), ".ABC.. has velocity; give a record of acceleration"),
         (miniseed(COUNTS)[:500], "damaged or cut miniSEED; give the whole file"),
         (miniseed(COUNTS) * 2 + b"000002D ABC", "damaged or cut miniSEED; give the whole file"),
         (sac(FLOATS)[:-9], "damaged or cut SAC; give the whole file"),
         (miniseed(COUNTS) + miniseed(COUNTS, 5), "XX.ABC..HNE has 2 pieces with gaps or overlaps"),
     ],
-)
+)  # fmt: skip
 def test_what_is_no_whole_record_of_acceleration_is_refused(file, content, problem):
     for how in ({}, {"units": "gal"}):
         assert problems_of(file(content, "x"), **how)[0].startswith(f"x: {problem}")
@@ -118,24 +109,12 @@ def test_what_is_no_whole_record_of_acceleration_is_refused(file, content, probl
 @pytest.mark.parametrize(
     ("old", "new", "problem"),
     [
-        (
-            "M/S**2",
-            "M/S",
-            "the sensitivity of XX.ABC..HNE is 213740 COUNTS per 'M/S'; give that",
-        ),
+        ("M/S**2", "M/S", "the sensitivity of XX.ABC..HNE is 213740 COUNTS per 'M/S'; give that"),
         ("COUNTS", "V", "the sensitivity of XX.ABC..HNE is 213740 V per 'M/S**2'; give that"),
-        (
-            "HNE",
-            "HNZ",
-            "has no sensitivity of XX.ABC..HNE at 2024-01-02T00:00:00.000000Z; give",
-        ),
-        (
-            "FDSNStationXML",
-            "a",
-            "cannot be read as a response; give StationXML, or counts per",
-        ),
+        ("HNE", "HNZ", "has no sensitivity of XX.ABC..HNE at 2024-01-02T00:00:00.000000Z; give"),
+        ("FDSNStationXML", "a", "cannot be read as a response; give StationXML, or counts per"),
     ],
-)
+)  # fmt: skip
 def test_another_response_is_refused(file, old, new, problem):
     response = file(STATION.replace(old, new), "station.xml")
     (found,) = problems_of(file(miniseed(COUNTS)), response=response)
