@@ -4,7 +4,6 @@ A compiled loop hears no signal and no exception: only another process can end i
 """
 
 import multiprocessing as mp
-import time
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -53,57 +52,42 @@ def warm_up():
 def campaign(function, calls, limit_s=LIMIT_S, prepare=warm_up):
     """Call a function of a module with each tuple of arguments; return how each call ended.
 
-    `prepare` is called first, by each child. Results come in batches: those that a child had not
-    sent when it was ended are made again.
+    `prepare` is called first, by each child. Where a batch does not end in time, its calls are made
+    again one by one.
     """
-    context, ended = mp.get_context("spawn"), []
-    while len(ended) < len(calls):
-        at, (here, there) = context.Value("q", -1), context.Pipe(duplex=False)
-        left, before = calls[len(ended) :], len(ended)
-        child = context.Process(
-            target=_child, args=(prepare, function, left, at, there), daemon=True
-        )
-        child.start()
-        there.close()
-        stuck = _receive(here, at, ended, limit_s)
-        child.kill()
-        child.join()
-        if stuck >= 0:
-            lost = calls[len(ended) : before + stuck]
-            ended += campaign(function, lost, limit_s, prepare) if lost else []
-            ended.append(Ended(calls[before + stuck], None, "hangs or dies"))
+    ended, pool = [], None
+    batches = [calls[k : k + BATCH] for k in range(0, len(calls), BATCH)]
+    while batches:
+        batch = batches.pop(0)
+        try:
+            pool = pool or _started(prepare)
+            many_s = limit_s * (1 if len(batch) == 1 else 10)
+            ended += pool.apply_async(_run, (function, batch)).get(many_s)
+            continue
+        except mp.TimeoutError:
+            pool.terminate()
+            pool = None
+        if len(batch) == 1:
+            ended.append(Ended(batch[0], None, "hangs or dies"))
+        else:
+            batches[:0] = [[call] for call in batch]
+    if pool:
+        pool.terminate()
     return ended
 
 
-def _receive(here, at, ended, limit_s):
-    """Receive results until the child is done (-1), or its call number n takes too long (n)."""
-    last, since = -1, time.monotonic()
-    while True:
-        if here.poll(0.1):
-            try:
-                batch = here.recv()
-            except EOFError:
-                return max(at.value, 0)
-            if batch is None:
-                return -1
-            ended += batch
-        if at.value != last:
-            last, since = at.value, time.monotonic()
-        elif time.monotonic() - since > (limit_s if last >= 0 else START_S):
-            return max(last, 0)
+def _started(prepare):
+    """Return a pool of one child that is prepared."""
+    pool = mp.get_context("spawn").Pool(1)
+    pool.apply_async(prepare).get(START_S)
+    return pool
 
 
-def _child(prepare, function, calls, at, there):
-    prepare()
-    batch = []
-    for position, arguments in enumerate(calls):
-        at.value = position
+def _run(function, calls):
+    ended = []
+    for arguments in calls:
         try:
-            batch.append(Ended(arguments, function(*arguments), ""))
+            ended.append(Ended(arguments, function(*arguments), ""))
         except Exception as error:
-            batch.append(Ended(arguments, None, f"{type(error).__name__}: {error}"))
-        if len(batch) == BATCH:
-            there.send(batch)
-            batch = []
-    there.send(batch)
-    there.send(None)
+            ended.append(Ended(arguments, None, f"{type(error).__name__}: {error}"))
+    return ended

@@ -3,8 +3,7 @@
 `python tests/mutants.py solver/kernels/one_axis.py` draws 300 with a seed, runs the tests of the
 module with each and prints those that no test noticed. Kernels run with the compiler off. A
 comparison is reversed; that `<` and `<=` differ is asked of `solver/rules` alone, where a limit
-itself is a value: in a kernel the two differ on ties of rounded numbers. Tests run in the order of
-their processor time by their failures so far, and the first failure ends them. Read `sites` first.
+itself is a value: in a kernel the two differ on ties of rounded numbers. Read `sites` first.
 """
 
 from __future__ import annotations
@@ -14,13 +13,10 @@ import ast
 import copy
 import importlib.abc
 import importlib.util
-import json
 import os
 import random
 import signal
 import sys
-import time
-from collections import Counter
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -50,10 +46,7 @@ TESTS_OF = {
     "solver/rules": ["solver/rules"],
 }
 LONGEST_S, TIMES = 3.0, 5.0
-"""Processor time of a test that does not end: so much, and so many times that without a change."""
-
-FIRST_S = 1200
-"""Longest processor time of a test in the first run, without a change; longest time of any run."""
+"""Processor time after which tests do not end: so much, and so many times that without a change."""
 
 PHASES = hypothesis.Phase.explicit, hypothesis.Phase.generate
 """Of what Hypothesis does: a failure is not made smaller, and none is kept for the next run."""
@@ -136,64 +129,15 @@ class _Instead(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         exec(compile(self._tree, str(self._path), "exec"), module.__dict__)
 
 
-class _Watch:
-    """Of the tests of one process: puts them in order, ends endless ones, writes what each took."""
-
-    def __init__(self, known: Known, to: int):
-        self._known, self._to = known, to
-
-    @pytest.hookimpl(trylast=True)
-    def pytest_collection_modifyitems(self, items):
-        """Put first what is cheap and has often failed."""
-        items.sort(key=lambda item: self._known.rank(item.nodeid))
-
-    @pytest.hookimpl(wrapper=True)
-    def pytest_runtest_protocol(self, item):
-        """End the process where a test takes far longer than without a change."""
-        signal.setitimer(signal.ITIMER_PROF, self._known.longest_s(item.nodeid))
-        began = time.process_time()
-        done = yield
-        told = {"test": item.nodeid, "seconds": time.process_time() - began}
-        os.write(self._to, f"{json.dumps(told)}\n".encode())
-        return done
-
-
-class Known:
-    """What is known of the tests of a module: processor time without a change, and failures."""
-
-    def __init__(self) -> None:
-        self._took_s: dict[str, float] = {}
-        self._failures: Counter[str] = Counter()
-
-    def rank(self, test: str) -> float:
-        """Return the processor time of a test / its failures so far, and one."""
-        return self._took_s.get(test, 0.0) / (1 + self._failures[test])
-
-    def longest_s(self, test: str) -> float:
-        """Return the processor time after which a test does not end."""
-        return LONGEST_S + TIMES * self._took_s.get(test, FIRST_S)
-
-    def measured(self, tests: list[tuple[str, float]]) -> None:
-        """Take the processor times of a run without a change."""
-        self._took_s = dict(tests)
-
-    def failed(self, tests: list[tuple[str, float]]) -> None:
-        """Take the last test of a run that ended there."""
-        if tests:
-            self._failures[tests[-1][0]] += 1
-
-
-def run(path: Path, tree: ast.Module, tests: list[str], known: Known):
-    """Return whether every test passes with a module so changed, and what each test took.
+def run(path: Path, tree: ast.Module, tests: list[str], longest_s: float) -> tuple[bool, float]:
+    """Return whether every test passes with a module so changed, and the processor time [s].
 
     In a process of its own; the first failure ends it.
     """
-    out, to = os.pipe()
+    began = os.times()
     child = os.fork()
     if not child:
-        os.setsid()
-        os.close(out)
-        signal.alarm(FIRST_S)  # for what waits and takes no processor time
+        signal.setitimer(signal.ITIMER_PROF, longest_s)
         null = os.open(os.devnull, os.O_RDWR)
         for stream in (0, 1, 2):
             os.dup2(null, stream)
@@ -201,12 +145,9 @@ def run(path: Path, tree: ast.Module, tests: list[str], known: Known):
         words = ["-x", "-q", "-W", "ignore", "-m", "not nightly", "--hypothesis-profile=mutants"]
         words += ["-p", "no:cacheprovider", "-p", "no:xdist"]
         files = [name if name.startswith("-k") else str(TESTS / name) for name in tests]
-        os._exit(int(pytest.main([*words, *files], plugins=[_Watch(known, to)])))
-    os.close(to)
-    with os.fdopen(out) as lines:
-        rows = [json.loads(line) for line in lines]
+        os._exit(int(pytest.main([*words, *files])))
     _, status = os.waitpid(child, 0)
-    return status == 0, [(row["test"], row["seconds"]) for row in rows]
+    return status == 0, os.times().children_user - began.children_user
 
 
 def main() -> None:
@@ -216,8 +157,8 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=300)
     parser.add_argument("--seed", type=int, default=29)
     parser.add_argument("--part", default="1/1", help="2/3: the second third of those drawn")
-    given = parser.parse_args()
-    if "kernels" in given.module:
+    asked = parser.parse_args()
+    if "kernels" in asked.module:
         os.environ["NUMBA_DISABLE_JIT"] = "1"
     # What takes seconds to load is loaded once; the product is not.
     for name in ("numba", "scipy.integrate", "scipy.signal", "mpmath", "hypothesis", "pandas"):
@@ -225,29 +166,24 @@ def main() -> None:
     hypothesis.settings.register_profile(
         "mutants", deadline=None, database=None, derandomize=True, phases=PHASES
     )
-    top = ROOT / given.module
-    tests = TESTS_OF[given.module]
-    found = []
+    top = ROOT / asked.module
+    tests = TESTS_OF[asked.module]
+    changes = []
     for path in sorted(top.rglob("*.py")) if top.is_dir() else [top]:
         tree = ast.parse(path.read_text(encoding="utf-8"))
-        found += [(path, tree, *site) for site in sites(tree, limits="rules" in given.module)]
-    drawn = random.Random(given.seed).sample(found, min(given.count, len(found)))
-    part, parts = map(int, given.part.split("/"))
+        changes += [(path, tree, *site) for site in sites(tree, limits="rules" in asked.module)]
+    drawn = random.Random(asked.seed).sample(changes, min(asked.count, len(changes)))
+    part, parts = map(int, asked.part.split("/"))
     drawn = drawn[part - 1 :: parts]
-    known = Known()
-    passed, took = run(*drawn[0][:2], tests, known)
+    passed, took_s = run(*drawn[0][:2], tests, 1200.0)
     assert passed, "the tests fail without a change"
-    known.measured(took)
-    print(f"{given.module}: {len(drawn)} of {len(found)} mutants, seed {given.seed}", flush=True)
+    print(f"{asked.module}: {len(drawn)} of {len(changes)} mutants, seed {asked.seed}", flush=True)
     survivors = 0
     for k, (path, tree, at, change) in enumerate(drawn, start=1):
         changed, told = mutant(tree, at, change)
-        survives, took = run(path, changed, tests, known)
-        if survives:
+        if run(path, changed, tests, LONGEST_S + TIMES * took_s)[0]:
             survivors += 1
             print(f"{path.relative_to(ROOT)}:{told}", flush=True)
-        else:
-            known.failed(took)
         print(f"{k} done, {survivors} survive", file=sys.stderr, flush=True)
     print(f"killed: {len(drawn) - survivors} of {len(drawn)}")
 

@@ -37,10 +37,14 @@ LONGEST = 2500
 PIECES = [
     b"-", b"*", b"9", b"e", b" ", b".", b"\n", b",", b"nan", b"9e99", b"9" * 400, b"#", b"\0",
     b"\xff\xfe", b"\xe2\x80\xae", b"\xe2\x80\xa8", b"1e308", b"-1", b"0", b"\r\n", b"\t", b"'",
+    b"\r", b";", b"time", b"acc (g)", b"Unit: g\n", b"dt 0.01\n", b"NPTS= 3\n", b"x y z\n",
 ]  # fmt: skip
 XML = [
     b"<", b">", b'"', b"&", b"&#0;", b"]]>", b"<!DOCTYPE a>", b"XFD1048576", b"A1:XFD1048576",
     b"9" * 300, b"1e308", b"NaN", b"/", b"../", b"#REF!", b"t=\"s\"", b"t=\"e\"", b"-1",
+    b"<c/>", b'<c r="A1" t="s">', b'<row r="-1"/>', b"</row>", b"<v>e</v>", b"<is><t>a</t></is>",
+    b'<f t="shared" ref="A1:XFD1048576" si="0"/>', b'<mergeCell ref="A1:XFE9"/>', b"<sheet/>",
+    b'<Relationship Id="" Target="-1"/>', b'<x spans="A1" name="">',
 ]  # fmt: skip
 VALUES = [
     math.nan, math.inf, -math.inf, 0.0, -0.0, 5e-324, 1e-300, 1e300, 1.7e308, -1.0, 1.5707963267,

@@ -76,15 +76,6 @@ def test_regularized_friction_creeps_as_its_closed_form_says():
     assert math.hypot(vx, vy) == pytest.approx(v0 * math.atanh(share), rel=1e-4)
 
 
-def test_a_smaller_velocity_comes_closer_to_friction_that_sticks(noise):
-    scene = {"slope_rad": 0.0, "mu": 0.3}
-    exact_m = slide(noise, 0.01, **scene).prd_m
-    runs = [slide(noise, 0.01, **scene, method="regularized", velocity_mps=v) for v in (1e-2, 1e-5)]
-    coarse, fine = (abs(run.prd_m - exact_m) for run in runs)
-    assert fine < 1e-2 * coarse
-    assert fine < 1e-3 * exact_m
-
-
 @pytest.mark.parametrize("name", ["regularized", "events-rk45"])
 def test_without_scipy_its_methods_say_what_to_install(monkeypatch, noise, name):
     monkeypatch.setitem(sys.modules, "scipy.integrate", None)

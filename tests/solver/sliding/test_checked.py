@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import oracle
 import solver
-from blocks import trapezoid
+from blocks import shaking, trapezoid
 from solver.model import EventKind, Friction, InputError, Status
 from solver.sliding.checked import slide, slide_history
 from solver.verification import reference
@@ -41,18 +41,6 @@ def assert_agrees(result, exact, floor_m=1e-3):
 # Closed forms
 
 
-@pytest.mark.parametrize(("amplitude", "mu", "duration"), [(0.4, 0.1, 0.2), (1.0, 0.4, 0.1)])
-@pytest.mark.quick
-def test_a_ramped_pulse_on_a_flat_roof_is_met_to_rounding(amplitude, mu, duration):
-    dt, plateau = duration / 20, 20
-    expected = reference.pulse_travel(amplitude * G, mu * G, plateau * dt, dt)
-    result = slide(trapezoid(amplitude * G, plateau, 400), dt, slope_rad=0.0, mu=mu, g_mps2=G)
-    assert result.status is Status.OK
-    assert result.prd_m == pytest.approx(expected, rel=1e-12)
-    assert result.residual_m == pytest.approx(-expected, rel=1e-12)
-    assert (result.down_m, result.n_stops) == (0.0, 1)
-
-
 @pytest.mark.parametrize("vertical", [0.0, -0.3, 0.3])
 @pytest.mark.parametrize(("degrees", "mu", "amplitude"), [(5, 0.4, 0.6), (10, 0.5, 0.8)])
 def test_a_ramped_pulse_on_a_slope_is_met_to_rounding(degrees, mu, amplitude, vertical):
@@ -66,48 +54,6 @@ def test_a_ramped_pulse_on_a_slope_is_met_to_rounding(degrees, mu, amplitude, ve
     push = drive - resist  # rises in part of the first ramp, falls in part of the last
     fastest = push * plateau * dt + push**2 / (drive / dt)
     assert result.peak_speed_mps == pytest.approx(fastest, rel=1e-12)
-
-
-def test_a_short_ramp_comes_near_the_rectangular_pulse():
-    errors = []
-    for steps in (30, 300, 3000):
-        ax = trapezoid(-0.5 * G, steps - 1, 5 * steps)
-        prd_m = slide(ax, 0.3 / steps, slope_rad=0.0, mu=0.2, g_mps2=G).prd_m
-        errors.append(abs(prd_m - 0.331087) / 0.331087)
-    # First order in the ramp: its share of the pulse, halved.
-    assert errors == pytest.approx([0.4 / 30, 0.4 / 300, 0.4 / 3000], rel=0.05)
-
-
-@pytest.mark.parametrize(("amplitude", "mu", "freq"), [(0.5, 0.2, 1.0), (0.8, 0.4, 2.0)])
-def test_the_sampled_half_sine_converges_at_second_order(amplitude, mu, freq):
-    expected = reference.half_sine_travel(amplitude, mu, freq, G)
-    errors = []
-    for steps in (100, 200, 400):
-        dt = 0.5 / freq / steps
-        pulse = amplitude * G * np.sin(2 * np.pi * freq * np.arange(steps + 1) * dt)
-        ax = np.concatenate([pulse, np.zeros(20 * steps)])
-        errors.append(abs(slide(ax, dt, slope_rad=0.0, mu=mu, g_mps2=G).prd_m - expected))
-    orders = np.log2(np.array(errors[:-1]) / errors[1:])
-    assert orders == pytest.approx([2.0, 2.0], abs=0.05)
-
-
-def test_the_steady_harmonic_travels_as_far_each_half_cycle():
-    dt = 1 / 2000
-    t = np.arange(80 * 2000 + 1) * dt
-    history = slide_history(0.5 * G * np.sin(2 * np.pi * t), dt, slope_rad=0.0, mu=0.2, g_mps2=G)
-    stops = [event.u_m for event in history.events if event.kind is EventKind.STOP]
-    expected = reference.harmonic_travel(0.5, 0.2, 1.0, G)
-    assert abs(stops[-1] - stops[-2]) == pytest.approx(expected, rel=1e-5)
-
-
-def test_a_block_on_a_still_roof_steeper_than_friction_slides_freely():
-    slope = math.radians(7)
-    result = slide(np.zeros(201), 0.01, slope_rad=slope, mu=0.1, g_mps2=G)
-    expected = reference.free_slide_travel(slope, 0.1, 2.0, G)
-    assert result.down_m == pytest.approx(expected * math.cos(slope), rel=1e-12)
-    assert result.status is Status.SLIDING_AT_END
-    down = math.sin(slope) - 0.1 * math.cos(slope)
-    assert result.peak_speed_mps == pytest.approx(down * G * 2.0, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -126,12 +72,6 @@ def test_slip_begins_just_beyond_the_yield_accelerations(degrees, mu):
             ax = np.array([0.0, limit * factor, 0.0])
             result = slide(ax, 0.5, slope_rad=slope, mu=mu, g_mps2=G)
             assert (result.n_stops > 0) is moves
-
-
-def test_a_self_locked_block_never_moves_up_the_slope():
-    ax = np.array([0.0, 50.0, 50.0, 50.0, 0.0])
-    result = slide(ax, 0.1, slope_rad=math.radians(60), mu=3.0, g_mps2=G)
-    assert (result.prd_m, result.peak_speed_mps, result.status) == (0.0, 0.0, Status.OK)
 
 
 # High precision
@@ -285,19 +225,19 @@ def test_the_mirrored_scene_gives_the_mirrored_motion_to_the_last_bit(values, mu
         assert result.residual_m == -other.residual_m
 
 
-def test_samples_added_on_the_straight_lines_change_nothing(noise):
-    finer = np.interp(np.arange(2 * noise.size - 1) / 2, np.arange(noise.size), noise)
+@pytest.mark.parametrize("peaks_g", [(1.2,), (1.2, 0.3)], ids=["horizontal", "vertical"])
+@pytest.mark.parametrize("seed", range(20))
+def test_samples_put_between_samples_change_nothing(peaks_g, seed):
+    waves = [shaking(seed + k, peak_g * G) for k, peak_g in enumerate(peaks_g)]
+    at, parts = np.arange(waves[0].size), 2 + seed % 6
+    fine = np.linspace(0.0, at[-1], at[-1] * parts + 1)
+    about = {"slope_rad": math.radians(seed % 11 - 5.0), "mu": 0.15 + 0.02 * seed}
     result, other = (
-        slide(a, dt, slope_rad=0.05, mu=0.3) for a, dt in ((noise, 0.01), (finer, 0.005))
+        slide(ax, 0.01 / n, az_mps2=az[0] if az else None, **about)
+        for n, (ax, *az) in ((1, waves), (parts, [np.interp(fine, at, wave) for wave in waves]))
     )
-    assert other.prd_m == pytest.approx(result.prd_m, rel=1e-12)
-    assert other.n_stops == result.n_stops
-
-
-def test_gravity_and_record_scaled_together_scale_the_displacement(noise):
-    result = slide(noise, 0.01, slope_rad=0.05, mu=0.3, g_mps2=9.8)
-    other = slide(noise, 0.01, slope_rad=0.05, mu=0.3, g_mps2=19.6, scale=2.0)
-    assert other.prd_m == pytest.approx(2 * result.prd_m, rel=1e-12)
+    assert other.prd_m == pytest.approx(result.prd_m, rel=1e-10, abs=1e-13)
+    assert other.residual_m == pytest.approx(result.residual_m, abs=1e-10)
 
 
 def test_work_done_by_friction_and_gravity_balances_the_relative_energy(noise):
@@ -351,26 +291,6 @@ def test_a_history_at_rest_is_zero_with_no_events():
 # The paper
 
 
-def test_the_papers_algorithm_converges_to_the_exact_one(noise):
-    scene = {"slope_rad": math.radians(4), "mu": 0.3}
-    exact = slide(noise, 0.01, **scene)
-    for substeps, within in ((16, 0.1), (256, 0.01), (4096, 0.001)):
-        paper = slide(noise, 0.01, **scene, method="paper", substeps=substeps)
-        assert paper.residual_m == pytest.approx(exact.residual_m, rel=within)
-
-
-def test_physical_check_1_a_shock_knocks_a_resting_block_loose():
-    scene = {"slope_rad": math.radians(30), "mu": 1.0}
-    assert slide(np.zeros(100), 0.01, **scene).prd_m == 0.0
-    shock = np.concatenate([np.zeros(50), np.full(10, -6.0), np.zeros(200)])
-    assert slide(shock, 0.01, **scene).down_m > 0.01
-
-
-def test_physical_check_3_slopes_of_opposite_sign_give_different_histories(noise):
-    up, other = (slide(noise, 0.01, slope_rad=math.radians(d), mu=0.4, scale=1.5) for d in (4, -4))
-    assert up.prd_m != other.prd_m
-
-
 @pytest.mark.parametrize("method", ["exact", "paper"])
 def test_physical_check_4_free_sliding_begins_at_mu_equal_tan_theta(method):
     slope = math.radians(0.5)
@@ -380,15 +300,6 @@ def test_physical_check_4_free_sliding_begins_at_mu_equal_tan_theta(method):
     )
     assert slides.prd_m > 0.0
     assert rests.prd_m == 0.0
-
-
-def test_a_history_by_the_papers_algorithm_samples_the_same_motion(noise):
-    exact, history = (
-        slide_history(noise, 0.01, slope_rad=0.05, mu=0.3, **method)
-        for method in ({}, {"method": "paper", "substeps": 64})
-    )
-    assert history.u_m[-1] == history.result.residual_m
-    assert np.abs(history.u_m - exact.u_m).max() < 0.05 * exact.result.prd_m
 
 
 # Uplift and bad input
@@ -430,18 +341,14 @@ def law(**changes):
         ({"ax_mps2": ["a", "b"]}, "ax_mps2 is of type <U1; give a sequence of accelerations"),
         ({"ax_mps2": [[0.0], [1.0, 2.0]]}, "ax_mps2 is not a row of real numbers"),
         ({"ax_mps2": [10**400, 0]}, "ax_mps2 is of type object"),
-        ({"ax_mps2": [True, False, True]}, "ax_mps2 is of type bool"),
         ({"ax_mps2": [1.0, 2.0j, 0.0]}, "ax_mps2 is of type complex128"),
-        ({"ax_mps2": np.array(["2020", "2021"], "datetime64[s]")}, "ax_mps2 is of type datetime64"),
         ({"ax_mps2": np.ma.array([0.0, 1.0, 2.0], mask=[0, 1, 0])}, "ax_mps2 has masked samples"),
         ({"dt_s": "0.01"}, "dt_s is '0.01'; give a number of seconds above 0"),
-        ({"dt_s": True}, "dt_s is True"),
         ({"dt_s": 10**400}, r"dt_s is 10+\.\.\.; give"),
         ({"mu": "0.3"}, "mu is '0.3'; give a friction coefficient of 0 or more"),
         ({"mu": 0.3 + 0.0j}, r"mu is \(0.3\+0j\)"),
         ({"scale": 1e308}, "exceed the floating-point range; change scale"),
         ({"dt_s": 5e-324}, "exceed the floating-point range"),
-        ({"dt_s": 1e200}, "exceed the floating-point range"),
         ({"mu": law(mu_slow=-0.1)}, "mu_slow is -0.1; give a friction coefficient of 0 or more"),
         ({"mu": law(rate_s_per_m=math.nan)}, "rate_s_per_m is nan; give a number of s/m"),
         ({"mu": law(mu_static=0.1)}, "mu_static is 0.1; give mu_slow, 0.2, or more"),
@@ -450,7 +357,6 @@ def law(**changes):
         ({"az_mps2": [0.0, 0.0]}, r"az_mps2 has shape \(2,\)"),
         ({"az_mps2": [0.0, math.inf, 0.0]}, r"az_mps2\[1\] is inf"),
         ({"dt_s": 0.0}, "dt_s is 0.0"),
-        ({"dt_s": math.nan}, "dt_s is nan"),
         ({"mu": -0.1}, "mu is -0.1"),
         ({"mu": math.nan}, "mu is nan"),
         ({"slope_rad": math.pi / 2}, "slope_rad is 1.57"),
@@ -507,12 +413,6 @@ def test_a_result_that_is_not_finite_is_a_status(noise, monkeypatch):
     both = slide([0.0, 5.0, -5.0], 1e-320, slope_rad=0.0, mu=0.2, ay_mps2=[0.0, 1.0, 0.0])
     assert both.status is Status.DIVERGED
     assert math.isnan(both.error_m)
-
-
-def test_methods_that_are_not_exact_state_no_error(noise):
-    assert math.isnan(slide(noise, 0.01, slope_rad=0.0, mu=0.2, method="paper").error_m)
-    exact = slide(noise, 0.01, slope_rad=0.0, mu=0.2)
-    assert 0.0 < exact.error_m < 1e-11
 
 
 def test_every_public_call_checks_a_scene_made_by_hand():

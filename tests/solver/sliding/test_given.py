@@ -49,21 +49,6 @@ def test_a_motion_is_its_components_with_its_scale(components):
     assert history.result == solver.slide(motion, **SCENE)
 
 
-@pytest.mark.nightly
-def test_a_sweep_takes_a_record_and_a_motion_of_one_axis(components):
-    x, _, z = components
-    axes = {"slopes_rad": [0.0, 0.03], "mus": [0.2, 0.3], "scales": [0.5, 1.0]}
-    from_arrays = solver.sweep(x.a_mps2, DT_S, az_mps2=z.a_mps2, **axes)
-    from_records = solver.sweep(x, az_mps2=z, **axes)
-    from_motion = solver.sweep(
-        solver.motion(x, az_mps2=z, scale=2.0), **axes | {"scales": [0.25, 0.5]}
-    )
-    for swept in (from_records, from_motion):
-        np.testing.assert_array_equal(swept.prd_m, from_arrays.prd_m)
-    in_plane = solver.sweep(solver.motion(*components), **axes)
-    assert (in_plane.prd_m >= from_records.prd_m).any()
-
-
 def test_what_a_record_or_a_motion_contradicts_is_refused(components):
     x, y, _ = components
     coarse = replace(y, dt_s=0.02)
@@ -209,9 +194,6 @@ def test_shaking_that_is_far_too_weak_to_slip_anything_is_asked_about():
     solver.slide(weak, 0.1, slope_rad=0.0, mu=0.4, units="m/s2")
     solver.slide(weak, 0.1, slope_rad=0.0, mu=0.1)
     solver.slide(solver.record_from_values("r", weak, units="m/s2", dt_s=0.1), slope_rad=0, mu=0.4)
-
-
-PULSE_G = [0.0, 0.4, -0.4, 0.0, 0.0, 0.0]
 
 
 def series(name, index):

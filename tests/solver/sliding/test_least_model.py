@@ -146,12 +146,6 @@ def test_a_forced_model_is_run_and_tells_what_the_next_would_change():
     assert {solution.reason, lifted.reason, two.reason} == {"requested"}
 
 
-def test_two_axes_forced_with_one_component_give_one_axis():
-    solution = solve(LIFTED, Settings(forced=Model.TWO_AXES, tolerance=1e-10))
-    assert solution.result.prd_m == pytest.approx(one_axis.run(LIFTED).prd_m, rel=1e-9)
-    assert solution.result.across_m == 0.0
-
-
 def test_no_slip_forced_on_a_block_that_slips_is_refused():
     with pytest.raises(InputError, match="required friction coefficient"):
         solve(FLAT, Settings(forced=Model.NO_SLIP))
@@ -180,7 +174,3 @@ def test_the_history_is_of_the_model_that_was_chosen(run, forced):
     assert seen.result == solution.result
     far = np.hypot(seen.u_m, seen.across_m if seen.across_m.size else 0.0).max()
     assert far == pytest.approx(solution.result.prd_m, rel=0.01, abs=1e-12)
-
-
-def test_every_model_has_a_name():
-    assert len({model.title for model in Model}) == len(Model)

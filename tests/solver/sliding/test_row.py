@@ -178,14 +178,6 @@ def test_the_mirrored_row_under_the_mirrored_motion_goes_the_mirrored_way():
     assert (seen.stretch_m, seen.n_stops) == (result.stretch_m, result.n_stops)
 
 
-@pytest.mark.nightly
-def test_blocks_that_mirror_each_other_without_a_slope_stop_and_slip_together():
-    """Every event of one end is one of the other at the same time."""
-    row = BlockRow(mus=(0.3, 0.3, 0.6, 0.6, 0.3, 0.3), stiffness_per_s2=1e3)
-    history = row_history(scene(shaking(6, G), slope=0.0), row)
-    np.testing.assert_allclose(history, history[::-1], rtol=0.0, atol=1e-11)
-
-
 @pytest.mark.parametrize("k", [0.0, 1e2, 1e4, 1e6])
 @pytest.mark.parametrize("damping", [0.0, 5.0, 300.0])
 @pytest.mark.parametrize("seed", range(4))

@@ -8,19 +8,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import plane_oracle
 from blocks import block, places
-from nightly import by_day
-from places import RECORDS
-from solver.formats.reader import read_motion_file
-from solver.model import EventKind
 from solver.sliding import checked, one_axis, two_axes
 from solver.sliding.two_axes import follow, follow_history
 
 G = 9.80665
 NONE = np.empty(0)
 
-ORACLE = 2e-12
 """Error that SciPy itself makes: it begins a slip a little late."""
 
 
@@ -72,28 +66,6 @@ def test_a_little_transverse_shaking_changes_little(part):
     assert outcome.left_m + outcome.right_m <= (3.0 * part + 1e-9) * alone.prd_m
 
 
-@pytest.mark.parametrize("turn", [0.3, 1.0, math.pi / 2, 2.5])
-def test_a_turned_motion_turns_the_answer_on_a_flat_roof(turn):
-    ax, ay, az = shaking(3)
-    sn, cs = math.sin(turn), math.cos(turn)
-    outcome = follow(scene(ax, ay, 0.01, az=az), 1e-10)
-    turned = follow(scene(cs * ax - sn * ay, sn * ax + cs * ay, 0.01, az=az), 1e-10)
-    assert turned.prd_m == pytest.approx(outcome.prd_m, rel=1e-9)
-    x, y = outcome.end_m
-    expected = (cs * x - sn * y, sn * x + cs * y)
-    assert turned.end_m == pytest.approx(expected, abs=1e-9 * outcome.prd_m)
-    assert turned.n_stops == outcome.n_stops
-
-
-def test_components_in_proportion_slide_along_one_line():
-    a, _, _ = shaking(4)
-    exact = checked.slide(a, 0.01, slope_rad=0.0, mu=0.25)
-    outcome = follow(scene(0.6 * a, -0.8 * a, 0.01, friction=0.25), 1e-8)
-    assert outcome.prd_m == pytest.approx(exact.prd_m, rel=1e-8)
-    x, y = outcome.end_m
-    assert (x, y) == pytest.approx((0.6 * exact.residual_m, -0.8 * exact.residual_m), rel=1e-7)
-
-
 def test_a_mirrored_scene_gives_the_mirrored_answer_to_the_last_bit():
     ax, ay, az = shaking(5)
     outcome = follow(scene(ax, ay, 0.01, degrees=4.0, az=az))
@@ -103,43 +75,6 @@ def test_a_mirrored_scene_gives_the_mirrored_answer_to_the_last_bit():
     assert (along.down_m, along.up_m) == (outcome.up_m, outcome.down_m)
     for name in ("prd_m", "t_prd_s", "peak_mps", "error_m", "n_stops", "n_events", "n_steps"):
         assert getattr(across, name) == getattr(along, name) == getattr(outcome, name)
-
-
-def test_steady_circular_shaking_slides_in_a_circle():
-    # In the turning frame v stands still: A^2 = (mu g)^2 + (omega v)^2.
-    a, omega, mu, dt = 6.0, 2.0 * math.pi, 0.3, 0.0005
-    t = np.arange(30_001) * dt
-    run = scene(a * np.cos(omega * t), a * np.sin(omega * t), dt, friction=mu)
-    samples, _ = follow_history(run, follow(run, 1e-9))
-    # Straight lines between samples leave so much of a sine.
-    a *= (math.sin(0.5 * omega * dt) / (0.5 * omega * dt)) ** 2
-    expected = math.sqrt(a * a - (mu * G) ** 2) / omega
-    assert np.hypot(samples[2], samples[3])[-2000:] == pytest.approx(expected, rel=1e-9)
-    x, y = samples[:2, -2001:]
-    across = math.hypot(x[0] - x[1000], y[0] - y[1000])
-    assert across == pytest.approx(2.0 * expected / omega, rel=1e-9)
-
-
-def test_under_a_constant_drive_across_it_stops_as_the_closed_form_says():
-    # psi from G to v: (w (mu N + G cos psi))' = G^2 - (mu N)^2.
-    dt, mu, drive = 0.01, 0.4, 2.0
-    ax, ay = np.zeros(200), np.full(200, -drive)
-    ax[1:6] = -9.0
-    run = scene(ax, ay, dt, friction=mu)
-    outcome = follow(run, 1e-10)
-    samples, events = follow_history(run, outcome)
-    x, y, vx, vy = samples[:, 6]
-    w, c, along = math.hypot(vx, vy), mu * G, drive * vy
-    rest = (c * w + along) / (c * c - drive * drive)
-    stop = next(event for event in events if event.t_s > 6 * dt)
-    assert stop.kind is EventKind.STOP
-    assert stop.t_s == pytest.approx(6 * dt + rest, rel=1e-9)
-    cosine, sine = vy / w, vx / w
-    ahead = w * w * (drive * (1.0 + cosine**2) + 2.0 * c * cosine) / (4.0 * (c * c - drive**2))
-    aside = w * w * sine * (2.0 * c + drive * cosine) / (4.0 * c * c - drive**2)
-    assert (stop.u_m, stop.across_m) == pytest.approx(
-        (x + aside, y + ahead), abs=1e-10 * outcome.prd_m
-    )
 
 
 def test_without_friction_it_is_the_record_summed_twice():
@@ -188,102 +123,6 @@ def test_a_first_sample_beyond_the_yield_acceleration_slides_at_once():
     _, events = follow_history(run, follow(run))
     assert events[0].t_s == 0.0
     assert follow(run).prd_m == pytest.approx(exact.prd_m, rel=1e-9)
-
-
-TRAPS = {
-    "runs of zeros": (
-        [0, 0, 0, -5, 5, 0, 0, 0, 0, 4, -4, 0],
-        [0, 0, 0, 2, 2, 0, 0, 0, 0, -6, 1, 0],
-    ),
-    "at the yield acceleration": ([0, -2.0, -2.0, -2.0, -2.5, 0, 0], [0, 0, 0, 0, 0.1, 0, 0]),
-    "a touch of it": ([0, -1.5, -2.2, -1.5, 0, 0], [0, -1.7, 0, 1.7, 0, 0]),
-    "a stop and a slip in a step": ([-2, 5, 0, -1, 1, 5, 0], [3, -4, 6, 2, 2, 0, 0]),
-    "jumps": ([-9, 9, -9, 9, -9, 0, 0, 0], [9, 9, -9, -9, 9, 0, 0, 0]),
-    "back through rest": ([0, -5, -5, 9, 9, 9, -3, 0, 0], [0, 0, 0, 1e-7, 1e-7, 0, 0, 0, 0]),
-    "a turn near rest": ([0, -5, -5, 6, 6, 6, 0, 0, 0], [0, 0, 0, 0.3, 2.5, 2.5, 0, 0, 0]),
-}
-
-
-@pytest.mark.parametrize("name", by_day(TRAPS, 3))
-@pytest.mark.parametrize("mu", [0.2, 2.0 / G])
-def test_traps_are_followed_as_scipy_follows_them(name, mu):
-    ax, ay = TRAPS[name]
-    trap = scene(ax, ay, 0.05, friction=mu)
-    exact = plane_oracle.follow(trap)
-    for tolerance in (1e-4, 1e-6, 1e-8, 1e-10):
-        outcome = follow(trap, tolerance)
-        error = abs(outcome.prd_m - exact.prd)
-        assert error <= outcome.error_m + ORACLE * exact.prd
-        assert outcome.error_m <= tolerance * exact.prd
-        assert outcome.peak_mps == pytest.approx(exact.fastest, rel=tolerance + ORACLE)
-
-
-def assert_every_tolerance_is_kept_to(run):
-    exact = plane_oracle.follow(run)
-    assert exact.prd > 0.0
-    for tolerance in (1e-2, 1e-4, 1e-6, 1e-8, 1e-10):
-        outcome = follow(run, tolerance)
-        error = np.abs(places(outcome) - exact.places).max()
-        assert error <= outcome.error_m + ORACLE * exact.prd
-        assert outcome.error_m <= tolerance * exact.prd
-        assert outcome.peak_mps == pytest.approx(exact.fastest, rel=tolerance + ORACLE)
-        assert outcome.n_stops == exact.n_stops
-
-
-@pytest.mark.parametrize(("degrees", "mu"), [(0.0, 0.3), (5.0, 0.4)])
-@pytest.mark.nightly
-def test_every_tolerance_is_kept_to_and_the_bound_holds(degrees, mu):
-    ax, ay, az = shaking(7, n=45, dt=0.04)
-    assert_every_tolerance_is_kept_to(scene(ax, ay, 0.04, degrees=degrees, friction=mu, az=az))
-
-
-@pytest.mark.parametrize(
-    ("name", "degrees", "mu", "scale"),
-    [
-        ("20161113_110259_WTMC_20.V2A", 4.0, 0.3, 0.4),
-        ("20161113_110300_HSES_20.V2A", 7.0, 0.5, 3.0),
-    ],
-)
-@pytest.mark.nightly
-def test_every_tolerance_is_kept_to_on_real_records(name, degrees, mu, scale):
-    if not (RECORDS / name).is_file():
-        pytest.skip("the real records are not here; noise covers the same code")
-    ax, ay, az = (channel.a_mps2 for channel in read_motion_file(RECORDS / name).channels)
-    peak = int(np.abs(ax).argmax())
-    part = slice(peak - 6, peak + 12)
-    run = scene(ax[part], ay[part], 0.02, degrees=degrees, friction=mu, az=az[part], scale=scale)
-    assert_every_tolerance_is_kept_to(run)
-
-
-@pytest.mark.nightly
-def test_the_history_is_that_of_scipy_and_its_events_alternate():
-    ax, ay, az = shaking(8, n=40, dt=0.04)
-    run = replace(scene(ax, ay, 0.04, friction=0.35, az=az), slope_rad=0.05)
-    exact, outcome = plane_oracle.follow(run), follow(run, 1e-9)
-    samples, events = follow_history(run, outcome)
-    assert samples == pytest.approx(exact.history, abs=1e-9)
-    kinds = [event.kind for event in events]
-    assert kinds == [EventKind.SLIP, EventKind.STOP] * outcome.n_stops
-    assert len(events) == outcome.n_events
-    times = [event.t_s for event in events]
-    assert times == sorted(times)
-    assert samples[:2, -1] == pytest.approx(outcome.end_m, abs=0.0)
-
-
-def test_the_largest_distance_is_found_between_samples():
-    run = scene([0.0, -8.0, 8.0, 8.0, 0.0], [0.0, -6.0, 2.0, 9.0, 0.0], 0.2, friction=0.3)
-    outcome = follow(run, 1e-10)
-    fine = [
-        np.interp(np.arange(0.0, 0.80001, 0.0002), np.arange(5) * 0.2, a)
-        for a in (run.ax_mps2, run.ay_mps2)
-    ]
-    samples, _ = follow_history(
-        scene(*fine, 0.0002, friction=0.3), follow(scene(*fine, 0.0002), 1e-8)
-    )
-    seen = np.hypot(*samples[:2])
-    assert seen.max() <= outcome.prd_m * (1.0 + 1e-9)
-    assert seen.max() == pytest.approx(outcome.prd_m, rel=1e-5)
-    assert outcome.t_prd_s == pytest.approx(0.0002 * seen.argmax(), abs=0.0003)
 
 
 @given(

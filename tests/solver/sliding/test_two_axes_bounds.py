@@ -54,7 +54,9 @@ def test_scenes_that_hung_crashed_or_took_20_s_end():
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6, 1e-8])
-@pytest.mark.parametrize("group", ["hang", "over_the_bound", "onset_of_friction_by_speed"])
+@pytest.mark.parametrize(
+    "group", ["hang", "over_the_bound", "onset_of_friction_by_speed", "through_rest"]
+)
 def test_scenes_that_broke_the_bound_keep_to_it(group, tolerance):
     for number in every(group):
         run = scene(group, number)
@@ -91,57 +93,13 @@ def test_a_roof_at_the_angle_of_friction_holds_but_for_rounding():
     assert result.prd_m <= result.error_m < 1e-15
 
 
-def test_the_largest_distance_is_found_where_its_rate_crosses_zero_twice_in_a_step():
-    # Straight ramps without friction: each place is a cubic in time. The rate of the distance is
-    # zero at the begin, and its sign there that of its slope.
-    (x0, x1), (y0, y1) = (0.0, 0.003434822012933009), (0.017228017645023474, -0.022575339622219606)
-    outcome, t = follow(frictionless((x0, x1), (y0, y1), 0.1), 1e-8), np.linspace(0.0, 0.1, 200_001)
-    x, y = (a * t * t / 2.0 + (b - a) / 0.1 * t**3 / 6.0 for a, b in ((x0, x1), (y0, y1)))
-    assert outcome.prd_m == pytest.approx(np.hypot(x, y).max(), rel=1e-9)
-    assert outcome.right_m == pytest.approx(y.max(), rel=1e-9)
-    assert (outcome.left_m, outcome.down_m) == (0.0, 0.0)
-
-
-FREE = {
-    "the distance has a maximum, its rate at first rises little": (
-        0.5545,
-        [-0.00759, 0.00191, -0.0015, -0.00767, 0.0191],
-        [0.0117, -0.00204, -0.000623, 0.000376, -0.0539],
-    ),
-    "the rate of the distance falls by its second term": (
-        0.4588,
-        [-3.417, 5.007, -4.023, 6.32, -3.526, -2.734, 0.1835, -5.266],
-        [-0.2343, -0.7905, -0.1354, -0.3975, 0.4754, -0.1812, -0.257, -0.1961],
-    ),
-    "a slow motion that turns": (
-        1.2362,
-        [0.018994, 0.081238, 0.064984, -0.3573],
-        [0.082963, 0.1195, -0.17508, 0.064742],
-    ),
-    "the speed rises and falls twice": (
-        0.0143,
-        [-6.89, 6.89, 6.89, 13.8],
-        [-6.89, -6.89, -13.8, 13.8],
-    ),
-    "it turns back and on again just before the end": (
-        1.0,
-        [-3.93118, 1.977, -0.023],
-        [0.0, 0.0, 0.0],
-    ),
-    "far away, round and at first back, then on again": (
-        0.05,
-        [-7.6121, -11.8902, -6.8894, -1.8885, 3.1124, 8.1132, 13.1141, 0.228, -0.252],
-        [0.2363, 0.3269, 0.1082, -0.1104, -0.329, -0.5476, -0.7662, 0.0, 0.0],
-    ),
-    "there and back on one line": (0.5, [2.0, -1.0, -3.0, -1.0], [1.0, -0.5, -1.5, -0.5]),
-}
-
-
-@pytest.mark.parametrize("name", FREE)
-def test_without_friction_it_moves_along_cubics(name):
-    dt, ax, ay = FREE[name]
-    outcome = follow(frictionless(ax, ay, dt), 1e-10)
-    t, x, y, w = extremes_of_cubics(ax, ay, dt)
+@pytest.mark.parametrize("number", every("frictionless"))
+def test_without_friction_it_moves_along_cubics(number):
+    run = scene("frictionless", number)
+    outcome, (t, x, y, w) = (
+        follow(run, 1e-10),
+        extremes_of_cubics(run.ax_mps2, run.ay_mps2, run.dt_s),
+    )
     far = np.hypot(x, y)
     assert outcome.prd_m == pytest.approx(far.max(), rel=1e-12)
     assert outcome.t_prd_s == pytest.approx(t[far.argmax()], abs=1e-7)

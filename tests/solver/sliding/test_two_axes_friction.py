@@ -1,7 +1,6 @@
 """Friction that depends on speed, and more at rest: closed forms, SciPy, and back to Coulomb's."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,8 +8,7 @@ from test_two_axes import G, scene, shaking
 
 import plane_oracle
 from blocks import places, readonly
-from nightly import by_day
-from solver.model import Friction, Status, coulomb
+from solver.model import Friction, Status
 from solver.sliding.two_axes import follow, follow_history
 
 GROWING = Friction(mu_slow=0.2, mu_fast=0.35, rate_s_per_m=20.0, mu_static=0.2)
@@ -48,40 +46,6 @@ def test_what_holds_more_at_rest_lets_go_at_once():
     assert samples[2] == pytest.approx(speed, rel=1e-10, abs=1e-14)
 
 
-@pytest.mark.parametrize("transverse", [0.0, 1.0])
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_as_the_difference_vanishes_it_is_coulombs_friction(transverse, sign):
-    ax, ay, az = shaking(9)
-    block = scene(ax, transverse * ay, 0.01, degrees=3.0, friction=0.3, az=az)
-    alone, changes = places(follow(block, 1e-8)), []
-    for part in (1e-3, 1e-5):
-        law = Friction(
-            mu_slow=0.3, mu_fast=0.3 + sign * part, rate_s_per_m=15.0, mu_static=0.3 + part
-        )
-        changes.append(np.abs(places(follow(replace(block, friction=law), 1e-8)) - alone).max())
-    assert changes[0] < 0.05 * alone[0]
-    assert 1e-3 < changes[1] / changes[0] < 0.1
-    none = Friction(mu_slow=0.3, mu_fast=0.3, rate_s_per_m=15.0, mu_static=0.3)
-    assert none.is_constant
-    assert places(follow(replace(block, friction=none), 1e-8)).tolist() == alone.tolist()
-
-
-# SciPy's steps are short where friction grows: ten times those of the others.
-@pytest.mark.parametrize("friction", by_day([BOTH, FALLING, HELD, GROWING], 1))
-def test_it_is_as_scipy_follows_it(friction):
-    ax, ay, az = shaking(12, n=45, dt=0.04, peak=5.0)
-    block = scene(ax, ay, 0.04, degrees=2.0, friction=friction, az=az)
-    exact = plane_oracle.follow(block)
-    assert exact.n_stops > 2
-    for tolerance in (1e-3, 1e-6, 1e-9):
-        outcome = follow(block, tolerance)
-        error = np.abs(places(outcome) - exact.places).max()
-        assert error <= outcome.error_m + 1e-10 * exact.prd
-        assert error <= (tolerance + 1e-10) * exact.prd
-        assert outcome.peak_mps == pytest.approx(exact.fastest, rel=tolerance + 1e-10)
-        assert outcome.n_stops == exact.n_stops
-
-
 def sampled_twice(waves, friction, tolerance):
     """Follow waves of 50 samples as they are, and with 15 samples put between each two."""
     fine = np.arange(49 * 16 + 1) / 16
@@ -112,15 +76,6 @@ def test_a_stop_under_a_constant_push_counts_the_friction_of_its_speed(rate, see
     outcome, two = sampled_twice(waves, friction, 1e-10)
     assert outcome.n_stops > 2
     assert np.abs(places(outcome) - places(two)).max() <= outcome.error_m + two.error_m
-
-
-def test_friction_between_two_constants_slides_between_their_ways():
-    ax, ay, _ = shaking(11)
-    prds_m = [
-        follow(scene(ax, ay, 0.01, friction=friction)).prd_m
-        for friction in (coulomb(GROWING.mu_fast), GROWING, coulomb(GROWING.mu_slow))
-    ]
-    assert prds_m == sorted(prds_m)
 
 
 def test_without_friction_at_a_crawl_nothing_sticks():

@@ -73,11 +73,6 @@ def test_two_axes_end_without_a_result_at_steep_rising_laws_and_coarse_samples_a
     assert np.nanmax(rises.error_percent) < 0.1
 
 
-def test_a_map_is_the_same_every_time(record, maps):
-    again = stability.link_map(record, "penalty-explicit", quick=True)
-    np.testing.assert_array_equal(again.error_percent, maps[again.title].error_percent)
-
-
 def test_at_the_critical_friction_the_ninth_digit_shows_and_elsewhere_it_does_not(record):
     still, shaken, wide, design = stability.conditioning(record, quick=True)
     nearest = int(np.abs(still.mu / stability.CRITICAL_MU - 1.0).argmin())
