@@ -157,6 +157,7 @@ def shaking_to_roof(
     ------
     InputError
     """
+    # Modes are chosen for each component by itself; step and length are then those of the neediest.
     grounds = [_checked(a, dt_s, share) for a in horizontal_mps2]
     pairs = list(zip(grounds, buildings, strict=True))
     cuts = [_cut(a, dt_s, building, share) for a, building in pairs]
@@ -242,6 +243,7 @@ def _cut(ground: Floats, dt_s: float, building: Building, share: float) -> _Cut:
     steps = _steps(building.periods_s.size, dt_s, building)
     a = refined(lengthened(ground, ground.size + _free_samples(building, dt_s)), steps)
     parts = absolute_accelerations(a, dt_s / steps, building.periods_s, building.damping)
+    # Gamma_i phi_i (A_i - a_ground)
     parts -= a[:, None]
     parts *= building.roof_factors
     peak = float(np.abs(a + parts.sum(axis=1)).max())
@@ -262,9 +264,11 @@ def _carried(ground: Floats, dt_s: float, building: Building, cut: _Cut, steps: 
     a = refined(lengthened(ground, ground.size + _free_samples(building, dt_s)), steps)
     factors = building.roof_factors[taken]
     modal = absolute_accelerations(a, dt, building.periods_s[taken], building.damping[taken])
+    # a_ground (1 - sum Gamma phi) + sum Gamma phi A: what is left out moves with the ground.
     roof = a * (1.0 - factors.sum()) + modal @ factors
     top = float(np.abs(roof).max())
     (over,) = np.nonzero(np.abs(roof) > RESTING_SHARE * top)
+    # One sample more, on which it is back within the share.
     end = min(max(n, int(over.max(initial=0)) + 2), roof.size)
     return RoofMotion(
         dt_s=dt,
@@ -298,6 +302,7 @@ def lengthened(a_mps2: ArrayLike, count: int) -> Floats:
 
 def _free_samples(building: Building, dt_s: float) -> int:
     """Samples in which the free vibration of every mode decays to `RESTING_SHARE`."""
+    # exp(-zeta omega t) = RESTING_SHARE for the mode that decays slowest
     slowest = float((2.0 * math.pi * building.damping / building.periods_s).min())
     return math.ceil(-math.log(RESTING_SHARE) / slowest / dt_s)
 
@@ -307,6 +312,7 @@ def _steps(n_modes: int, dt_s: float, building: Building) -> int:
     if n_modes == 0:
         return 1
     fastest = float(building.periods_s[n_modes - 1])
+    # Less a rounding, so that a period of 20 samples exactly needs no further step.
     return min(max(math.ceil(FINENESS * dt_s / fastest - 1e-9), 1), MOST_STEPS)
 
 

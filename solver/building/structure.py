@@ -70,6 +70,7 @@ def beam_modes(alpha0: float, count: int, heights: ArrayLike = (1.0,)) -> Modes:
     """
     _check_alpha0(alpha0)
     x = np.asarray(heights, dtype=np.float64)
+    # Shear beam: phi = sin(gamma x), gamma = (n - 1/2) pi, Gamma = 2 / gamma.
     if math.isinf(alpha0):
         gamma = (np.arange(count) + 0.5) * math.pi
         sines: Floats = np.sin(gamma[:, None] * x) * (2.0 / gamma)[:, None]
@@ -77,6 +78,7 @@ def beam_modes(alpha0: float, count: int, heights: ArrayLike = (1.0,)) -> Modes:
     gamma = _roots(alpha0, count)
     beta = np.hypot(gamma, alpha0)
     eta, low, high = _weights(gamma, beta)
+    # Gamma = integral(phi) / integral(phi^2), for uniform mass.
     below = (gamma**2 + beta**2) / (gamma * beta**2)  # integral of phi, from its equation
     gain = below / _squared(gamma, beta, eta, low, high)
     wave = gamma[:, None] * x
@@ -109,6 +111,7 @@ def story_modes(alpha0: float, stories: int) -> Modes:
         raise InputError(
             f"stories: found {stories}; give a whole number from 1 to {MOST_STORIES}, 0 for a beam"
         )
+    # Equal floor masses: eigenvectors of K itself, of length 1, so Gamma = sum of phi.
     squares, shapes = np.linalg.eigh(floor_stiffness(alpha0, stories))
     factors = shapes.sum(axis=0) * shapes[-1]
     return Modes(period_ratios=np.sqrt(squares[0] / squares), factors=factors[:, None])
@@ -126,6 +129,7 @@ def floor_stiffness(alpha0: float, stories: int) -> Floats:
     if math.isinf(alpha0):
         return shear
     near, far = np.minimum.outer(x, x), np.maximum.outer(x, x)
+    # Inverse of the flexibility: x^2 (3 a - x) / 6 EI at x under a unit load at a >= x.
     bending = np.linalg.inv(near**2 * (3.0 * far - near) / 6.0)
     return np.asarray(bending + alpha0**2 * shear)
 
@@ -150,6 +154,7 @@ def _roots(alpha0: float, count: int) -> Floats:
 
 def _frequency_equation(gamma: Floats, alpha0: float) -> Floats:
     """Left side of the frequency equation / cosh(beta)."""
+    # Divided by cosh(beta), which overflows for the stiffest ratios.
     beta = np.hypot(gamma, alpha0)
     product = gamma * beta
     squared = 2.0 * product**2
@@ -179,6 +184,7 @@ def _weights(gamma: Floats, beta: Floats) -> tuple[Floats, Floats, Floats]:
 def _squared(gamma: Floats, beta: Floats, eta: Floats, low: Floats, high: Floats) -> Floats:
     """Integral of phi^2 over x."""
     decay = np.exp(-beta)
+    # Products of the sine part with itself, of the exponentials, and of one with the other.
     waves = 0.5 * (1.0 + eta**2) - (1.0 - eta**2) * np.sin(2.0 * gamma) / (4.0 * gamma)
     waves -= eta * np.sin(gamma) ** 2 / gamma
     ends = (low**2 + high**2) * (1.0 - decay**2) / (2.0 * beta) + 2.0 * low * high * decay

@@ -28,8 +28,10 @@ DOWN = 1.0
 UP = -1.0
 STOP = 0.0
 
+# Just above the smallest normal float: a divisor that is never zero, a time that advances.
 TINY = 2.3e-308
 SIXTH = 1.0 / 6.0
+# Some units of rounding: within it of the band the push itself decides, not its bound.
 MARGIN = 1e-15
 
 # Samples in a block, and blocks in a block of blocks.
@@ -139,6 +141,7 @@ def _next_slip(down, up, band, ax, az, x, z, i):
     """First sample from i on at which the resting block slips, or n."""
     n = ax.size
     fine = (n + BLOCK - 1) >> SHIFT
+    # The last column of the bounds is that of the whole record, no block.
     far_end = x.shape[1] - 1
     while i < n:
         if i & (BLOCK - 1) == 0:
@@ -148,6 +151,7 @@ def _next_slip(down, up, band, ax, az, x, z, i):
                 while far < far_end and _is_quiet(down, up, band, x, z, far):
                     far += 1
                 block = (far - fine) << SHIFT
+            # Not beyond this block of blocks: the next may be passed over whole.
             end = min(((block >> SHIFT) + 1) << SHIFT, fine)
             while block < end and _is_quiet(down, up, band, x, z, block):
                 block += 1
@@ -187,9 +191,11 @@ def _onset(q_0, q_1, tau, dt):
     """Time in [tau, dt) when a push linear from q_0 to q_1 becomes positive; dt for never."""
     if q_0 <= 0.0 and q_1 <= 0.0:
         return dt
+    # q_0 + (q_1 - q_0) tau / dt = 0
     if q_0 <= 0.0 and q_1 > 0.0:
         return max(dt * (q_0 / (q_0 - q_1)), tau)
     r = (q_1 - q_0) / dt
+    # Positive at the begin: it pushes now, or has passed its zero before tau.
     return tau if q_0 + r * tau > 0.0 else dt
 
 
@@ -338,6 +344,7 @@ def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
                 n_events = _note(events, n_events, t, STOP, s)
     t_max, t_min = last * dt if s > s_max else t_max, last * dt if s < s_min else t_min
     s_max, s_min = max(s_max, s), min(s_min, s)
+    # A peak of |s| is a stop or the end: s is monotone between, so no other sample is looked at.
     t_peak = t_max if s_max >= -s_min else t_min
     return s_max, s_min, s, sigma * w, t_peak, n_stops, max(w_max, w), n_events
 

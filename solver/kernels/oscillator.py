@@ -70,6 +70,9 @@ def _advance(w, before, now):
         c5, c6 = w[5 * _LANES + k], w[6 * _LANES + k]
         third, largest = w[7 * _LANES + k], w[8 * _LANES + k]
         y, z = w[9 * _LANES + k], w[10 * _LANES + k]
+        # With h, h', once and twice of `_step`, under a line from `before` to `now`:
+        # y <- (1 - once) y + h z - (once - twice / p) before - (twice / p) now
+        # z <- h' z - h y - (h - once / p) before - (once / p) now
         moved = (c0 * y + c1 * z) - (c3 * before + c4 * now)
         turned = (c2 * z - c1 * y) - (c5 * before + c6 * now)
         w[9 * _LANES + k], w[10 * _LANES + k] = moved, turned
@@ -106,6 +109,7 @@ def peaks(a, dt, omega, zeta, peak, at):
         for k in range(count):
             p = omega[first + k] * dt
             h, slope, once, twice = _step(p, zeta)
+            # The seven coefficients of `_advance`; of p = 0 all that multiply the record are zero.
             over_p = 1.0 / p if p > 0.0 else 0.0
             parts[0, k], parts[1, k], parts[2, k] = 1.0 - once, h, slope
             parts[3, k], parts[4, k] = once - twice * over_p, twice * over_p
@@ -151,6 +155,7 @@ def crests(a, dt, omega, zeta, above):
             by_before, by_now = once - twice / p, twice / p
             moved = (1.0 - once) * y + h * z - by_before * a[i - 1] - by_now * a[i]
             z = slope * z - h * y - (h - once / p) * a[i - 1] - once / p * a[i]
+            # A crest is told at the sample after it, so the index is that of the sample before.
             if abs(y) > above[k] and abs(y_before) <= abs(y) > abs(moved):
                 which.append(k)
                 where.append(i - 1)
@@ -186,8 +191,12 @@ def reversed_pulses(radians, zeta, at, least, out):
         p, k = radians[j], at[j]
         rate = p * complex(-zeta, kappa)
         turn = np.exp(rate)
+        # A unit ramp in w = omega t has the response w - 2 zeta + Re(c exp((-zeta + i kappa) w)),
+        # c = 2 zeta + i (1 - 2 zeta^2) / kappa. In its second difference the line vanishes, and the
+        # exponential takes the factor turn - 2 + 1 / turn.
         value = complex(2.0 * zeta, (1.0 - 2.0 * zeta * zeta) / kappa) / p
         value *= (2.0 - turn - 1.0 / turn) * turn
+        # exp(-zeta p n) = least
         begin[j] = max(0, k - int(-math.log(least) / (zeta * p)) - 1)
         out[j, k] = -_step(p, zeta)[3] / p
         for i in range(k - 1, begin[j] - 1, -1):
@@ -226,4 +235,5 @@ def histories(a, dt, omega, zeta, out):
             moved = c[0, k] * y[k] + c[1, k] * z[k] - c[3, k] * before - c[4, k] * now
             z[k] = c[2, k] * z[k] - c[1, k] * y[k] - c[5, k] * before - c[6, k] * now
             y[k] = moved
+            # u'' + a = -(omega^2 u + 2 zeta omega u')
             out[i, k] = -moved - 2.0 * zeta[k] * z[k]

@@ -86,6 +86,7 @@ def slide_constant(ax, az, dt, sn, cs, mu, g, scale, substeps, skips, history):
         r_down, r_up = (down - down_0) * share, (up - up_0) * share
         j = 0
         while j < substeps:
+            # Eq. 18 along the slope: s'' = G - mu N while w > 0, G + mu N while w < 0.
             if w > 0.0 and w_before >= 0.0:
                 a = down_0 + j * r_down
             elif w < 0.0 and w_before <= 0.0:
@@ -103,6 +104,7 @@ def slide_constant(ax, az, dt, sn, cs, mu, g, scale, substeps, skips, history):
                 if j > first:
                     w = w_before = 0.0
                     continue
+                # sign(0) = 0 in Eq. 13: G alone, half of `down` less `up`.
                 a = 0.5 * (down_0 + j * r_down - (up_0 + j * r_up))
                 if w != 0.0:
                     a = down_0 + j * r_down if w > 0.0 else -(up_0 + j * r_up)
@@ -146,6 +148,7 @@ def slide_linear(ax, az, dt, sn, cs, mu, g, scale, substeps, history):
             if (w == 0.0 or reversed_) and abs(drive_j) <= cap_j:
                 w = w_before = 0.0
                 continue
+            # s'' = G - sign mu N, with G and N linear in the sub-step: s' quadratic, s cubic.
             sign = math.copysign(1.0, w if w != 0.0 else drive_j)
             a, rise = drive_j - sign * cap_j, r_drive - sign * r_cap
             w_before = w
@@ -206,6 +209,7 @@ def slide_link(ax, az, dt, sn, cs, mu, g, scale, substeps, k, implicit, history)
     lever = 0.25 * h * h
     failed = (DIVERGED, np.nan, np.nan, np.nan, np.nan, np.nan, 0)
     drive, cap = _drive_and_cap(ax, az, 0, sn, cs, mu, g, scale)
+    # In equilibrium with gravity alone; what it cannot hold stays unbalanced in `a`.
     force = min(max(g * sn, -mu * g * cs), mu * g * cs)
     x, a = force / k, drive - min(max(force, -cap), cap)
     left = 0.5 * ENERGY * (a * a + cap * cap) / k
@@ -222,17 +226,20 @@ def slide_link(ax, az, dt, sn, cs, mu, g, scale, substeps, k, implicit, history)
             cap_j = cap_0 + (cap - cap_0) * (j * share)
             if implicit:
                 # Only the contribution of F at the end of the sub-step is unknown.
+                # Newmark, beta = 1/4: x + h v + h^2 (a + a_new) / 4, with a_new = G - F(x_new).
                 free = x + h * w + lever * (a + drive_j)
                 stretch, is_solved = _solve_sub_step(x, free, lever, k, cap_j)
                 if not is_solved:
                     return failed
             else:
+                # Newmark, beta = 0: x + h v + h^2 a / 2, F from the new stretch.
                 stretch = x + h * w + half * a
             s += stretch - x
             force, slips = _link(stretch, k, cap_j)
             x = force / k if slips != 0 else stretch
             n_stops += slip != 0 and slips != slip
             slip = slips
+            # Newmark, gamma = 1/2: v + h (a + a_new) / 2.
             w += 0.5 * h * (a + drive_j - force)
             a = drive_j - force
             push = abs(drive_j)
@@ -277,6 +284,7 @@ def regularized_rate(t, y, rows, dt, v0):
         w += y[k] * y[k]
     w = math.sqrt(w)
     cap = rows[i, d] + (rows[i + 1, d] - rows[i, d]) * part
+    # tanh(w / v0) / w tends to 1 / v0 at rest.
     f = cap * math.tanh(w / v0) / w if w > 0.0 else cap / v0
     rates = np.empty(2 * d)
     for k in range(d):
@@ -296,6 +304,7 @@ def regularized_jacobian(t, y, rows, dt, v0):
     w = math.sqrt(w)
     cap, tanh = rows[i, d] + (rows[i + 1, d] - rows[i, d]) * (t / dt - i), math.tanh(w / v0)
     f = cap * tanh / w if w > 0.0 else cap / v0
+    # d(f v_k) / d v_j = f delta_kj + (df/dw) v_k v_j / w, df/dw = (mu N tanh'(w / v0) / v0 - f) / w
     rise = (cap * (1.0 - tanh * tanh) / v0 - f) / (w * w) if w > 0.0 else 0.0
     slopes = np.zeros((2 * d, 2 * d))
     for k in range(d):

@@ -134,14 +134,17 @@ def _series(b, w, e, sigma, mus, m, k, c, h, driving, hold):
                 tension = k * b[E, i, p] + c * rate
                 b[T, i, p], b[E, i, p + 1] = tension, share * rate
                 largest = max(largest, scale * abs(b[E, i, p + 1]))
+            # f_i = G + (F_i - F_i-1) / m_i, F_j = k e_j + c e_j'; no link beyond either end.
             b[F, i, p] = g + (tension - before) / m[i]
             before = tension
         for i in range(n):
             b[W, i, p + 1] = 0.0
+            # w_i' = f_i - sigma_i mu_i N
             if sigma[i] != 0.0:
                 b[W, i, p + 1] = share * (b[F, i, p] - sigma[i] * mus[i] * hold_p)
             largest = max(largest, abs(b[W, i, p + 1]))
         size += largest
+        # Not before p = 2: G and N have two coefficients, and either may be zero.
         if p >= 2 and largest <= 0.01 * EPS * size:
             break
     # The magnitude: all speeds, all stretches times sqrt(k), and the terms of the series.
@@ -260,6 +263,7 @@ def slide_row(drive, normal, dt, mus, m, k, c, maximum_events, peaks, links, sam
     if samples is not None:
         samples[:, 0] = 0.0
     maximum_mu = mus.max()
+    # Bound of the fastest rate of the links: omega <= 2 sqrt(k / m), damping <= 4 c / m.
     rate = 2.0 * math.sqrt(k / m.min()) + 4.0 * c / m.min() if n > 1 else 0.0
     longest = min(dt, 1.0 / rate) if rate > 0.0 else dt
     n_stops = 0
@@ -285,10 +289,12 @@ def slide_row(drive, normal, dt, mus, m, k, c, maximum_events, peaks, links, sam
                 if n_events > maximum_events:
                     return False, np.inf, n_stops
             error += drift * h * reached
+            # Set, not summed: steps added up may fall short of dt by a rounding.
             tau = dt if x == NEVER and h == dt - tau else tau + h * reached
         if samples is not None:
             samples[:, i + 1] = s
     for i in range(n):
         peaks[i, 0], peaks[i, 1] = max(peaks[i, 0], s[i]), min(peaks[i, 1], s[i])
         peaks[i, 2], peaks[i, 3] = s[i], w[i]
+    # The energy of all blocks may be in the lightest one.
     return True, error / math.sqrt(m.min() / n), n_stops

@@ -81,6 +81,7 @@ EDITIONS: Mapping[str, Edition] = {
             name="ASCE 7-16",
             has_site_coefficients=True,
             amplification=Amplification(slope=2.0, reduction=1.0),
+            # a_p and R_p of 7-16 became C_AR and R_po of 7-22.
             force_factors=("a_p", "R_p"),
             clauses=_COMMON | {"s_ms": "11.4.4", "site_specific": "11.4.8"},
         ),
@@ -156,6 +157,7 @@ def _pair(
     design: float | None,
 ) -> tuple[float | None, float | None]:
     """Return the maximum considered and the design value at one period."""
+    # 7-22 has no F_a and F_v: its maps give S_MS and S_M1 with the site class in them.
     if maximum is None and edition.has_site_coefficients:
         maximum = None if mapped is None or coefficient is None else coefficient * mapped
     if maximum is None:
@@ -176,6 +178,7 @@ def design_categories(
     Those of Tables 11.6-1 and 11.6-2; E or F where S_1 is 0.75 g or more. Empty for a value that is
     not known, and for a smaller S_1. Essential: risk category IV.
     """
+    # Tables 11.6-1 and 11.6-2: risk category IV is one letter up from the second row on, D stays D.
     steps = "ACDD" if is_essential else "ABCD"
 
     def by(value_g: float | None, limits_g: tuple[float, float, float]) -> str:
@@ -240,6 +243,7 @@ def component_force(
         T_a of the building; the factor of ASCE 7-16 does not depend on it.
     """
     amplified = edition.amplification.at(z_over_h)
+    # H_f of the known period takes the place of the one that `amplification` has in it.
     if period_s is not None and not edition.has_site_coefficients:
         known, unknown = period_height_factor(z_over_h, period_s), edition.amplification
         amplified *= known / unknown.height_factor(z_over_h)

@@ -51,9 +51,11 @@ def prescriptive_displacement(
     """
     bracket = max(s_ds_g - 0.4, 0.0)
     formula = rules.length_m("prescriptive_factor_in") * bracket**2
+    # I once only: here (ASCE 7) or in the separation (PV1-2012), `required_separation`.
     if not rules.importance_in_separation:
         formula *= importance
     minimum = rules.length_m("prescriptive_minimum_in")
+    # PV1-2012 alone; ASCE 7 takes its formula in every category.
     if rules.low_sdc_is_flat and sdc in "ABC":
         flat = rules.length_m("prescriptive_low_sdc_in")
         return Prescriptive(minimum_m=flat, value_m=flat, governs=PrescriptiveBasis.LOW_CATEGORY)
@@ -111,6 +113,7 @@ def analysis_value(
     """
     n = len(peaks_m)
     mean = sum(peaks_m) / n if n else math.nan
+    # max() passes over NaN where it does not come first; the mean does not.
     largest = math.nan if mean != mean else max(peaks_m)
     basis_used = basis_for(rules, n, basis)
     return AnalysisValue(
@@ -133,6 +136,7 @@ def basis_for(rules: RuleSet, n_motions: int, asked: Basis | None = None) -> Bas
 
 def factored(rules: RuleSet, basis: Basis, mean_m: Lengths, largest_m: Lengths) -> Lengths:
     """Return the value from analysis [m] by the mean and the largest peak; NaN if too few."""
+    # NaN times any peak is NaN: too few motions give no value, whatever they are.
     factor = math.nan if basis is Basis.TOO_FEW else _factor(rules, basis)
     return factor * (largest_m if basis.takes_largest else mean_m)
 
@@ -247,6 +251,7 @@ def array_checks(
         Least spacing of the supports, and least plan dimension of the supporting base: PV1-2012
         limits the height of the center of gravity by half the base, ASCE 7 by half the spacing.
     """
+    # Half of the least plan dimension of the base (PV1-2012) or of the spacing (ASCE 7).
     takes_base = rules.low_profile_length is LowProfileLength.BASE
     length = rules["low_profile_ratio"] * (base_m if takes_base else support_spacing_m)
     return (

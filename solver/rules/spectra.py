@@ -66,6 +66,7 @@ _TAIL_SENTENCES = {
 }
 
 
+# Log-log from 1.3 Hz, where it is 1: AC156 has 0.1 at 0.1 Hz, and 1/T has 0.1 Hz / 1.3 Hz.
 _TAIL_AT_10_S = {Tail.AC156: 0.1, Tail.RECIPROCAL: 0.1 / _FLEXIBLE_FROM_HZ}
 
 
@@ -106,6 +107,7 @@ def ac156_horizontal(
     >>> ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=1.2, z_over_h=1.0).sa_g.round(3)
     array([0.192, 1.92 , 1.92 , 1.44 ])
     """
+    # The cap of 1.6 S_DS is on A_FLX alone: at the roof A_RIG keeps the whole ratio.
     ratio = edition.amplification.at(z_over_h)
     return _corners(min(ratio, 1.6) * s_ds_g, 0.4 * ratio * s_ds_g, tail)
 

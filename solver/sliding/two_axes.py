@@ -171,6 +171,7 @@ def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> TwoAxesOutcome
     motion = _bounded(scene, min(tolerance, DEFAULT_TOLERANCE))
     if motion.status is not Status.OK:
         return motion
+    # Friction that falls by speed lets two near motions part: only a second run tells by how much.
     finer = _run(scene, _FINER * motion.step_tolerance, _NO_EVENTS, _NO_HISTORY)
     changes = np.subtract(finer.places, motion.places)
     change = _SAFE * float(np.abs(changes).max())
@@ -185,6 +186,7 @@ def _rounding_m(scene: Scene, outcome: TwoAxesOutcome) -> float:
     terms = abs(scene.scale) * (along + across) + (1.0 + most) * (
         scene.g_mps2 + abs(scene.scale) * up
     )
+    # Of positions: |x| + |y| and what a step adds, by one rounding a step.
     steps = 2.0 * outcome.prd_m + outcome.peak_mps * scene.dt_s
     return kernel.ROUNDING * terms * 0.5 * seconds**2 + kernel.EPS * outcome.n_steps * steps
 
@@ -215,6 +217,7 @@ def _bounded(scene: Scene, tolerance: float) -> TwoAxesOutcome:
         settled = not scene.friction.is_monotone or outcome.error_m <= wanted
         if settled or outcome.status is not Status.OK or share <= kernel.LEAST_TOLERANCE:
             break
+        # The bound falls about as the tolerance of a step; 0.3 so that the next attempt suffices.
         share *= max(0.3 * wanted / outcome.error_m, 1e-3)
     return replace(outcome, n_steps=steps)
 

@@ -60,6 +60,7 @@ def uplift(scene: Scene) -> Uplift:
 def _below(normal: Floats) -> Floats:
     """Return the fraction of each interval in which N, linear between samples, is below zero."""
     first, last = normal[:-1], normal[1:]
+    # Similar triangles: |below| / (|below| + |above|) where the signs differ, else 0 or 1.
     deep = np.maximum(-first, 0.0) + np.maximum(-last, 0.0)
     whole = np.abs(first) + np.abs(last)
     return deep / np.where(whole > 0.0, whole, 1.0)

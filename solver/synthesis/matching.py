@@ -242,10 +242,12 @@ def _goal_mps2(frame: MatchingFrame) -> Floats:
 def shaped(frame: MatchingFrame, start: Floats) -> Floats:
     """Enveloped motion whose Fourier amplitudes are corrected iteratively by goal / spectrum."""
     n, goal = len(frame.envelope), _goal_mps2(frame)
+    # Twice the length or more: a changed amplitude must not come round from the end.
     padded = 1 << (n - 1).bit_length() + 1
     spectrum = np.fft.rfft(start, padded)
     freq_hz = np.maximum(np.fft.rfftfreq(padded, frame.dt_s), 1e-3)
     low, high = frame.freq_hz[0], frame.freq_hz[-2]
+    # Random vibration: PSA ~ amplitude x sqrt(frequency) at light damping.
     gain = target_sa_g(frame.target, freq_hz) / np.sqrt(freq_hz)
     gain /= (1.0 + (0.9 * low / freq_hz) ** 8) * (1.0 + (freq_hz / (1.2 * high)) ** 8)
     for _ in range(_SHAPINGS):
@@ -311,6 +313,7 @@ def _corrected(frame: MatchingFrame, a: Floats) -> Floats:
     products = np.zeros((m + q, m + q))
     for of_rows, block in blocks:
         products[np.ix_(of_rows, of_rows)] += block @ block.T
+    # The quiet shapes have no ridge: they stay zero exactly, whatever the peaks ask.
     products[np.diag_indices(m)] *= 1.0 + rows.ridge
     factors = np.linalg.solve(products, np.append(rows.moves, -frame.quiet @ a))
     change = [factors[of_rows] @ block for of_rows, block in blocks]
