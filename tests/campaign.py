@@ -60,7 +60,7 @@ def campaign(function, calls, limit_s=LIMIT_S, prepare=warm_up):
     while batches:
         batch = batches.pop(0)
         try:
-            pool = pool or _started(prepare)
+            pool = pool or _started(prepare, function)
             many_s = limit_s * (1 if len(batch) == 1 else 10)
             ended += pool.apply_async(_run, (function, batch)).get(many_s)
             continue
@@ -76,10 +76,11 @@ def campaign(function, calls, limit_s=LIMIT_S, prepare=warm_up):
     return ended
 
 
-def _started(prepare):
-    """Return a pool of one child that is prepared."""
+def _started(prepare, function):
+    """Return a pool of one child that is prepared and has loaded the module of the function."""
     pool = mp.get_context("spawn").Pool(1)
     pool.apply_async(prepare).get(START_S)
+    pool.apply_async(_run, (function, [])).get(START_S)
     return pool
 
 
