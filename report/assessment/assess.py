@@ -10,9 +10,9 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from concurrent.futures import Executor, ThreadPoolExecutor
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from dataclasses import replace
-from functools import partial
+from functools import cache, partial
 from typing import Any
 
 from report.assessment.arrays import ArrayAssessment, assess_array, by_id
@@ -36,11 +36,18 @@ from report.assessment.friction import (
     with_low_velocity,
 )
 from report.assessment.links import assess_linked
-from report.assessment.motion_runs import PendingRuns, RunMotion, begin_runs, shaking_acceptance
 from report.assessment.neighbors import PlanNeighbor, plan_pairs, reaches_of
-from report.assessment.precheck import building_limits
+from report.assessment.precheck import building_limits, shaking_acceptance
 from report.assessment.project import THREADS, Assessment
-from report.assessment.runs import MotionRun, largest_two, run_motion, scene_key
+from report.assessment.runs import (
+    MotionRun,
+    PendingRuns,
+    RunMotion,
+    Runs,
+    largest_two,
+    run_motion,
+    scene_key,
+)
 from report.assessment.verdict import rule_set_of, under_code
 from report.motions.history import targets
 from report.motions.prepare import Shaking
@@ -48,6 +55,7 @@ from report.sheet.checking.checks import faults
 from report.sheet.checking.covered import outdated
 from report.sheet.reading.read import Sheet
 from report.sheet.schema import SECTIONS, ProjectInput
+from report.sheet.schema.choices import ModelChoice
 from report.sheet.schema.fields import Draft, Finding
 from report.sheet.schema.scene import Array
 from solver.model import Motion
@@ -115,9 +123,9 @@ def _beside(other: Assessment, assessment: Assessment) -> Assessment:
     linked = tuple(
         replace(row, design=by_id(other.arrays, row.design.id)) for row in assessment.linked
     )
-    one, two = ((each.project.overrides, each.project.options) for each in (assessment, other))
+    own, by_code = ((each.project.overrides, each.project.options) for each in (assessment, other))
     how = "the same motions and S_DS" if assessment.has_motions else "the same S_DS"
-    how += "" if one == two else ", without overrides and departures"
+    how += "" if own == by_code else ", without overrides and departures"
     words = outcome(replace(other, linked=linked)).words(assessment.project.us_first)
     text = f"By {other.rules.name} 13.6.12 with {how}: {words}."
     ids = "rule_set", "edition_name"
@@ -279,3 +287,38 @@ def _faults(data: ProjectInput) -> list[Finding]:
         for rows in (getattr(data, part.key),)
     }
     return faults(draft, lambda place: place.section)
+
+
+def begin_runs(
+    pool: Executor,
+    run: RunMotion,
+    data: ProjectInput,
+    motions: Sequence[Motion],
+    *,
+    check_models: bool,
+    key: Callable[[Array], Hashable] = scene_key,
+    former: Sequence[ArrayAssessment] = (),
+) -> PendingRuns:
+    """Begin the runs of an input; `check_models` compares requested models with adequate ones."""
+    # Arrays with one key share their runs: those of a former assessment have them already.
+    known = {key(item.array): (item.motions, item.needed) for item in former}
+
+    def begun(array: Array) -> Callable[[], Runs]:
+        if (runs_of := known.get(key(array))) is not None:
+            return lambda: runs_of
+        # Runs in two axes and of rows release the GIL: two proceed in parallel.
+        runs = [pool.submit(run, array, motion) for motion in motions]
+        if array.model is ModelChoice.CHOOSE or not check_models:
+            return partial(_done, runs, runs)
+        chosen = partial(run_motion, array, model=ModelChoice.CHOOSE)
+        return partial(_done, runs, [pool.submit(chosen, motion) for motion in motions])
+
+    by_key = {key(array): array for array in data.arrays}
+    # One result for all arrays of a key: what follows from the runs alone is computed once.
+    runs = {each: cache(begun(array)) for each, array in by_key.items()}
+    return [runs[key(array)] for array in data.arrays]
+
+
+def _done(runs: Sequence[Future[MotionRun]], needed: Sequence[Future[MotionRun]]) -> Runs:
+    done = tuple(run.result() for run in runs)
+    return done, done if needed is runs else tuple(run.result() for run in needed)

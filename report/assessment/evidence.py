@@ -43,19 +43,19 @@ class Accuracy:
     """The design with the friction coefficients decreased by 5 %, as given, and increased."""
 
     at_reduced_friction: Assessment
-    given: Assessment
+    entered: Assessment
     at_increased_friction: Assessment
 
     @property
     def newly_short(self) -> tuple[ClearanceCheck, ...]:
         """Clearances that are satisfied as given but not with less friction."""
-        pairs = zip(self.given.clearances, self.at_reduced_friction.clearances, strict=True)
+        pairs = zip(self.entered.clearances, self.at_reduced_friction.clearances, strict=True)
         return tuple(after for before, after in pairs if before.ok and not after.ok)
 
     @property
     def newly_limited(self) -> tuple[tuple[ArrayAssessment, Limit], ...]:
         """Limits of the routes taken that are satisfied as given but not with less friction."""
-        pairs = zip(self.given.arrays, self.at_reduced_friction.arrays, strict=True)
+        pairs = zip(self.entered.arrays, self.at_reduced_friction.arrays, strict=True)
         return tuple(
             (after, check)
             for before, after in pairs
@@ -71,7 +71,7 @@ def accuracy(assessment: Assessment) -> Accuracy:
     return Accuracy(
         at_reduced_friction=assessment.at_reduced_friction
         or reassess(assessment, with_friction(assessment.project, 1.0 - SHIFT)),
-        given=assessment,
+        entered=assessment,
         at_increased_friction=reassess(assessment, with_friction(assessment.project, 1.0 + SHIFT)),
     )
 

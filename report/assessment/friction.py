@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment, assess_array
 from report.assessment.clearances import ClearanceCheck, check_clearance
-from report.assessment.motion_runs import PendingRuns
 from report.assessment.requirement_rows import tested
+from report.assessment.runs import PendingRuns
 from report.assessment.verdict import NOT_GIVEN, VELOCITY_ROW, Requirement, Verdict, condition
 from report.sheet.checking.motion_checks import MU_TOLERANCE
 from report.sheet.schema import ProjectInput

@@ -7,15 +7,20 @@ Runs nothing. `report.assessment.project` decides the verdict after the runs. Re
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
-from report.assessment.arrays import Route, interconnection_n, limits_of, statistic_basis
+from report.assessment.arrays import (
+    Route,
+    interconnection_n,
+    limits_of,
+    statistic_basis,
+)
 from report.assessment.conditions import motion_rows, noted, project_rows, rows_before_runs
-from report.assessment.motion_runs import shaking_acceptance
 from report.assessment.neighbors import REACH_FACTOR, NearbyKind
 from report.assessment.plan_clearances import design_before_runs_m, pairs_before_runs
 from report.assessment.verdict import Requirement, Verdict, rule_set_of
-from report.motions.history import targets
+from report.motions.components import RecordFile
+from report.motions.history import PreparedMotion, Targets, targets
 from report.motions.prepare import Shaking, record_findings
 from report.sheet.checking.covered import outdated
 from report.sheet.checking.findings import acknowledged, limit, listed, note
@@ -23,9 +28,11 @@ from report.sheet.checking.plausible import implausible
 from report.sheet.reading.read import Sheet
 from report.sheet.reading.unseen import warnings
 from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import RecordedAt
 from report.sheet.schema.fields import Finding, Place
 from report.text.counts import lowered, numbered, quoted
 from report.text.units import Quantity, number, pair, round_down, round_up
+from solver.records.acceptance import Acceptance, acceptance
 from solver.rules import provisions
 from solver.rules.limit import Limit, Measure
 from solver.rules.provisions import Basis, RuleSet
@@ -217,3 +224,23 @@ def _requirements(rows: Iterable[Requirement]) -> Iterator[Finding]:
         text += f"{row.verdict}. {row.remedy}"
         is_note = row.verdict is Verdict.NOTE
         yield note(row.places[0], text) if is_note else limit(text, *row.places)
+
+
+def shaking_acceptance(shaking: Shaking, targets: Targets) -> Acceptance:
+    """Compare the motions as run with the targets at the roof, and with the other limits."""
+    if not shaking.motions:
+        return Acceptance(rows=(), motions=())
+    return acceptance(
+        shaking.motions,
+        [_hold_s(prepared, shaking.records) for prepared in shaking.prepared],
+        lambda freq_hz: targets.roof.ordinates(1.0 / freq_hz),
+        lambda freq_hz: targets.vertical.ordinates(1.0 / freq_hz),
+    )
+
+
+def _hold_s(prepared: PreparedMotion, files: Sequence[RecordFile]) -> float:
+    """Hold of the envelope that all files of a motion state [s]; NaN if any does not."""
+    holds = [file.hold_s for file in files if file.motion_id == prepared.motion_id]
+    # The response of a building no longer has the envelope of the ground motion.
+    is_stated = prepared.recorded_at is RecordedAt.ROOF and not any(map(math.isnan, holds))
+    return min(holds, default=math.nan) if is_stated else math.nan

@@ -294,7 +294,7 @@ def _friction(trials: Trials, number: int, row: Clearance | None) -> Remedy:
 
 def _most_mu(trials: Trials) -> int:
     """Return the largest coefficient that `check` accepts, in hundredths; tests may limit it."""
-    data, array = trials.given.project, trials.array.array
+    data, array = trials.assessment.project, trials.array.array
     mus = range(above(array.mu), hundredths(MOST_MU) + 1)
 
     def is_refused(mu: int) -> bool:
@@ -305,12 +305,12 @@ def _most_mu(trials: Trials) -> int:
 
 def _in_vain(trials: Trials, row: Clearance | None) -> str:
     """Return why no friction can satisfy, if so: found without a run."""
-    given, array = trials.given, trials.array
+    assessment, array = trials.assessment, trials.array
     if array.lacks_motions:
         return "there are too few motions for the requested statistic"
     is_prescriptive = array.route is Route.PRESCRIPTIVE
     least_m = array.prescriptive.value_m if is_prescriptive else array.floor_m
-    holds = partial(single_array_check, given, given.project)
+    holds = partial(single_array_check, assessment, assessment.project)
     if row is None or holds(displaced(array, 0.0, least_m), row).ok:
         return ""
     if holds(displaced(array, 0.0, 0.0), row).ok:

@@ -7,7 +7,7 @@ Integrates nothing itself (`solver.sliding.least_model` does) and knows no code 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Hashable, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from operator import attrgetter
 
@@ -158,3 +158,14 @@ def run_oriented(
 def nan_is_worst(value: float) -> float:
     """Return a sort key in which NaN is the largest."""
     return math.inf if math.isnan(value) else value
+
+
+RunMotion = Callable[[Array, Motion], MotionRun]
+
+
+Runs = tuple[tuple[MotionRun, ...], tuple[MotionRun, ...]]
+"""Runs of an array, and those with the adequate models; one object twice if they are the same."""
+
+
+PendingRuns = Sequence[Callable[[], Runs]]
+"""Wait for the runs of each array."""

@@ -82,7 +82,7 @@ class Trials:
     def __init__(
         self, assessment: Assessment, array: ArrayAssessment, pool: Executor, runs: Runs
     ) -> None:
-        self.given = assessment
+        self.assessment = assessment
         self.array = array
         self._pool = pool
         self._runs = runs  # arrays with one slope, friction and model share them
@@ -101,7 +101,7 @@ class Trials:
     def required_m(self, row: Clearance, *, mu: int) -> float:
         """Return the separation that the array requires with all runs [m]."""
         trial = self._tried(mu, every=True)
-        return single_array_check(self.given, self.given.project, trial, row).required_m
+        return single_array_check(self.assessment, self.assessment.project, trial, row).required_m
 
     def failure(self, row: Clearance | None, *, mu: int, every: bool = True) -> str:
         """Return what does not satisfy with all runs, or with the governing ones; else nothing."""
@@ -111,7 +111,7 @@ class Trials:
         if self.array.satisfies_limits and not trial.satisfies_limits:
             limits = replace(trial, route=self.array.route).limits  # not those of another route
             return next(check.title for check in limits if not check.ok)
-        if row and not single_array_check(self.given, self.given.project, trial, row).ok:
+        if row and not single_array_check(self.assessment, self.assessment.project, trial, row).ok:
             return "clearance"
         return ""
 
@@ -124,12 +124,12 @@ class Trials:
             if key not in self._runs:
                 self._runs[key] = self._run(array, *which)
             self._done[which] = assess_array(
-                self.given.project,
-                self.given.rules,
+                self.assessment.project,
+                self.assessment.rules,
                 array,
                 self._runs[key],
                 self._runs[key],
-                motions_qualify=self.given.acceptance.qualifies,
+                motions_qualify=self.assessment.acceptance.qualifies,
             )
         return self._done[which]
 

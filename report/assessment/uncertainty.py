@@ -210,7 +210,7 @@ def _margins(assessment: Assessment, pool: Executor) -> Iterator[Margin]:
 def _margin(trials: Trials, number: int, gap: ClearanceCheck) -> Margin:
     """Walk down in the governing orientations; from the last value that all runs confirm in all."""
     row, array = gap.clearance, trials.array
-    as_given = single_array_check(trials.given, trials.given.project, array, row)
+    as_given = single_array_check(trials.assessment, trials.assessment.project, array, row)
     least, required, limited_by, mu = math.nan, math.nan, "—", array.array.mu
     lowest = math.ceil(100.0 * LOWEST_SHARE * mu - 1e-6)
     if as_given.ok and is_final(array):

@@ -234,15 +234,15 @@ def _lowers(rules: RuleSet, row: Override) -> bool:
 
 
 def _override(rules: RuleSet, index: int, row: Override) -> Requirement:
-    given, unit = rules.values[row.provision], provision_unit(row.provision)
-    value, adopted = (f"{v:.4g} {unit}".rstrip() for v in (row.value, given.value))
+    rule, unit = rules.values[row.provision], provision_unit(row.provision)
+    value, adopted = (f"{v:.4g} {unit}".rstrip() for v in (row.value, rule.value))
     sign = "≤" if ALLOWED[row.provision].is_maximum else "≥"
     return _row(
         title=f"Override of the {lowered(provision_name(row.provision))}",
         id=OVERRIDE_ID,
         found=f"{value}{OVERRIDDEN}, {row.reason}",
         limit=f"{sign} {adopted}",
-        basis=given.clause,
+        basis=rule.clause,
         places=(Place("overrides", index, "value"),),
     )
 

@@ -38,7 +38,7 @@ from report.cli.terminal import (
 from report.making import OUTPUTS, STEPS, make
 
 if TYPE_CHECKING:
-    from report.proof.verdict import Proof
+    from report.proof.package import Proof
     from solver.verification.evidence import Verification
     from solver.verification.shake_table import ShakeTable
 
@@ -181,8 +181,15 @@ def _proof(
     file: Path, data: bytes, records: Path | None, progress: Progress
 ) -> tuple[Proof, bytes]:
     """Return the outcome, and the package made again if it was."""
-    from report.proof.package import RecordsMissingError, opened, take_out
-    from report.proof.verdict import Agreement, Proof, compared, failed
+    from report.proof.package import (
+        Agreement,
+        Proof,
+        RecordsMissingError,
+        compared,
+        failed,
+        opened,
+        take_out,
+    )
     from report.results.publish import STAMP, warn_if_mixed
     from solver.model import InputError
 

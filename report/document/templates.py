@@ -20,7 +20,7 @@ from markupsafe import Markup
 
 from report.assessment.friction import mu_words
 from report.document.tables import Table, headed, merged, stamp, table_of
-from report.entities.linked import ratio_up
+from report.entities.evidence import ratio_up
 from report.entities.requirement import dagger
 from report.text.counts import (
     below_mm,

@@ -20,15 +20,16 @@ from report.entities.array import ArrayResult, LowVelocityResult, array_result
 from report.entities.clearance import ClearanceResult
 from report.entities.evidence import (
     CumulativeResult,
+    LinkedResult,
     NeighborResult,
     RemedyResult,
     UncertaintyResult,
     VariationResult,
+    linked_result,
     remedy_result,
     uncertainty_result,
     variation_result,
 )
-from report.entities.linked import LinkedResult, linked_result
 from report.entities.motion import MotionResult, RecordResult, motion_result
 from report.entities.requirement import (
     AcceptanceResult,

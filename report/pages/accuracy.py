@@ -116,13 +116,17 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "two_axes": Model.TWO_AXES,
         "friction": _friction_table(package, accuracy),
         "n_more_unfinished": _unfinished(accuracy.at_reduced_friction)
-        - _unfinished(accuracy.given),
+        - _unfinished(accuracy.entered),
     }
 
 
 def _friction_table(package: PackageData, accuracy: Accuracy) -> Table:
     """Return arrays that share their runs, by one of them: friction as given, less and more."""
-    assessments = (accuracy.at_reduced_friction, accuracy.given, accuracy.at_increased_friction)
+    assessments = (
+        accuracy.at_reduced_friction,
+        accuracy.entered,
+        accuracy.at_increased_friction,
+    )
     heads = (f"{_PERCENT} less", "As given", f"{_PERCENT} more")
 
     def of(group: Sequence[ArrayAssessment], place: int) -> ArrayAssessment:
@@ -149,7 +153,7 @@ def _friction_table(package: PackageData, accuracy: Accuracy) -> Table:
             for k in (0, 2)
         ),
     )
-    return listed(accuracy.given.alike, columns, package.fmt, kind="compact")
+    return listed(accuracy.entered.alike, columns, package.fmt, kind="compact")
 
 
 def _change(value: float, base: float) -> str:

@@ -16,7 +16,7 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.links import LinkedArray
 from report.assessment.runs import REQUESTED_MODELS, OrientedRun, nan_is_worst
 from report.document.tables import Table, Wide, by_place, listed
-from report.entities.linked import linked_result
+from report.entities.evidence import linked_result
 from report.entities.shown import NO_VALUE, centered, length, plain, text, words
 from report.pages.parts import PackageData, statistic, verdict
 from report.sheet.schema.choices import Direction

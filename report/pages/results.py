@@ -12,7 +12,7 @@ from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.evidence import Evidence
-from report.assessment.motion_runs import run_warnings
+from report.assessment.project import run_warnings
 from report.assessment.runs import MotionRun, OrientedRun
 from report.document.tables import Column, Table, TableRow, Wide, listed, table_of
 from report.entities.shown import Shown, UnitFormat, length, text, words

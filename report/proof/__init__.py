@@ -1,1 +1,1 @@
-"""A package compared with what its own input gives. Read `package`, then `verdict`."""
+"""A package compared with what its own input gives. Read `package`."""

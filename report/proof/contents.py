@@ -9,9 +9,9 @@ import json
 import math
 import time
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import takewhile
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic_core import from_json
 from pypdf import PageObject, PdfReader
@@ -19,6 +19,8 @@ from pypdf.generic import ArrayObject, DictionaryObject, IndirectObject, StreamO
 
 from report.typeset.finish import FIELD
 from solver.model import InputError
+
+_T = TypeVar("_T")
 
 MOST_SHEETS, MOST_OBJECTS, MOST_SECONDS = 5_000, 5_000_000, 300.0
 """Beyond any package."""
@@ -268,3 +270,18 @@ def _word(words: Sequence[str], letter: int) -> str:
         if letter < 0:
             return _short(word)
     return "nothing"
+
+
+def guarded(read: Callable[[], _T]) -> _T:
+    """Run what reads a PDF; a damaged one makes the libraries raise almost anything.
+
+    Raises
+    ------
+    InputError
+    """
+    try:
+        return read()
+    except InputError:
+        raise
+    except Exception as error:
+        raise InputError("is damaged; get the file again from where it was issued") from error

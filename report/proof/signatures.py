@@ -18,7 +18,7 @@ from typing import Any
 from pypdf import PdfReader
 from pypdf.generic import ArrayObject, DictionaryObject, PdfObject, StreamObject
 
-from report.proof.package import guarded
+from report.proof.contents import guarded
 from report.typeset.finish import FIELD
 from report.typeset.pdf import TEMPLATES
 from solver.model import InputError
@@ -117,7 +117,7 @@ def _others(data: bytes, made: bytes) -> Iterator[str]:
 
     Objects whose place in the file is the same have the same bytes.
     """
-    old, new = (PdfReader(io.BytesIO(one), strict=True) for one in (made, data))
+    old, new = (PdfReader(io.BytesIO(file), strict=True) for file in (made, data))
     before, after = _places(old), _places(new)
     for number in sorted(before):
         if before[number] != after.get(number) and not _is_signing(

@@ -254,8 +254,8 @@ def _results(pairs: Iterable[_Pair[Entity]], fmt: UnitFormat) -> Iterator[Change
 
 def _texts(old: Entity | None, row: Entity | None, name: str, fmt: UnitFormat) -> Sequence[str]:
     """Return a field before and now; numbers have more digits where they would print alike."""
-    texts = [one.both(name, fmt) if one else NOT_THERE for one in (old, row)]
+    texts = [entity.both(name, fmt) if entity else NOT_THERE for entity in (old, row)]
     if texts[0] != texts[1]:
         return texts
     unit = name.rpartition("_")[2]
-    return [f"{getattr(one, name):.7g} {unit}" for one in (old, row)]
+    return [f"{getattr(entity, name):.7g} {unit}" for entity in (old, row)]

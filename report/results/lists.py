@@ -15,8 +15,7 @@ from report.assessment.precheck import limit_value
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra
 from report.assessment.verdict import OVERRIDDEN
-from report.entities.evidence import NeighborResult
-from report.entities.linked import LinkedResult, LinkedRunResult, linked_result
+from report.entities.evidence import LinkedResult, LinkedRunResult, NeighborResult, linked_result
 from report.entities.motion import MotionResult, RecordResult, RunResult, motion_result, run_result
 from report.entities.requirement import RequirementRow, requirement_rows
 from report.entities.shown import Column, Number, columns_of

@@ -9,7 +9,6 @@ import scenes
 import stand_in
 from printed import printed
 from report.assessment.arrays import Route
-from report.assessment.precheck import limits_before_runs
 from report.assessment.verdict import Verdict
 
 FLAT = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=220)]
@@ -36,15 +35,6 @@ def test_the_motions_and_the_review_are_notes_and_not_counted():
     table = printed(package, "limits").table("Other requirements")
     noted = {row["Requirement"] for row in table.rows if row["Verdict"] == "note"}
     assert noted == {row.title for row in done.notes}
-
-
-@pytest.mark.quick
-def test_check_says_note_as_well():
-    book = stand_in.book(stand_in.project(arrays=FLAT, objects=[], clearances=GAPS), ALONE)
-    found = list(limits_before_runs(book.sheet.project, book.shaking))
-    said = [each for each in found if "number of components" in each.text]
-    assert said
-    assert all(": note. " in each.text and each.level == "note" for each in said)
 
 
 @pytest.mark.quick

@@ -1,7 +1,7 @@
 """Requirements other than the numeric limits, and the three verdicts."""
 
 import datetime as dt
-from dataclasses import replace
+import re
 
 import numpy as np
 import pytest
@@ -12,7 +12,6 @@ import stand_in
 from report.assessment.conditions import project_rows, rows_before_runs
 from report.assessment.requirement_rows import hazard_rows
 from report.assessment.verdict import STAYS, Verdict, worst
-from report.sheet.checking.covered import to_record
 from report.text.units import PRESSURES, WEIGHTS
 from solver import design_spectrum, spectrum
 from solver.rules.limit import Consequence
@@ -91,30 +90,22 @@ PSF = PRESSURES["psf"]
 
 
 @pytest.mark.parametrize(
-    ("capacity_psf", "limit", "verdict"),
+    ("weight_psf", "capacity_psf", "found", "limit", "verdict"),
     [
-        (9.0, "≤ 9.0 psf (0.43 kPa)", Verdict.OK),
-        (8.75, "≤ 8.8 psf (0.42 kPa)", Verdict.OK),
-        (8.0, "≤ 8.0 psf (0.38 kPa)", Verdict.NG),
+        (8.75, 9.0, "8.8 psf (0.42 kPa)", "≤ 9.0 psf (0.43 kPa)", Verdict.OK),
+        (8.75, 8.75, "8.8 psf (0.42 kPa)", "≤ 8.8 psf (0.42 kPa)", Verdict.OK),
+        (8.75, 8.0, "8.8 psf (0.42 kPa)", "≤ 8.0 psf (0.38 kPa)", Verdict.NG),
+        (8.6, 9.0, "8.6 psf (0.41 kPa)", "≤ 9.0 psf (0.43 kPa)", Verdict.OK),
+        (8.64, 8.0, "8.6 psf (0.41 kPa)", "≤ 8.0 psf (0.38 kPa)", Verdict.NG),
     ],
 )
-def test_a_weight_over_the_roof_capacity_is_ng(capacity_psf, limit, verdict):
-    found = before_runs("roof_capacity", roof_capacity_pa=capacity_psf * PSF)
-    assert (found.limit, found.verdict) == (limit, verdict)
-    assert found.found == "8.8 psf (0.42 kPa)"
-
-
-@pytest.mark.parametrize(
-    ("weight_psf", "capacity_psf", "verdict"),
-    [(8.6, 9.0, Verdict.OK), (8.64, 8.0, Verdict.NG)],
-)
-def test_a_weight_prints_the_same_beside_the_roof_capacity_and_the_wind_design(
-    weight_psf, capacity_psf, verdict
+def test_a_weight_over_the_roof_capacity_is_ng_and_prints_the_same_beside_the_wind_design(
+    weight_psf, capacity_psf, found, limit, verdict
 ):
     given = {"weight_n": weight_psf * 80 * 60 * WEIGHTS["lb"], "wind_weight_pa": 8.0 * PSF}
-    capacity = before_runs("roof_capacity", roof_capacity_pa=capacity_psf * PSF, **given)
-    assert (capacity.found, capacity.verdict) == ("8.6 psf (0.41 kPa)", verdict)
-    assert before_runs("wind_weight", **given).limit == "= 8.6 psf (0.41 kPa)"
+    row = before_runs("roof_capacity", roof_capacity_pa=capacity_psf * PSF, **given)
+    assert (row.found, row.limit, row.verdict) == (found, limit, verdict)
+    assert before_runs("wind_weight", **given).limit == f"= {found}"
 
 
 def test_a_weight_that_exceeds_the_capacity_by_a_hair_prints_so():
@@ -167,14 +158,6 @@ def test_a_fire_pathway_keeps_its_width_after_the_displacement(other, second, n_
     assert of_array is Verdict.NG
 
 
-def test_without_a_permitted_displacement_no_fire_pathway_is_left():
-    gap = stand_in.clearance("A1", "RTU-1", 4.0) | {"pathway_m": 0.9}
-    done = assessed(arrays=[stand_in.array("A1", 8.0)], clearances=[gap])
-    found = row(done, "fire_pathway")
-    assert found.found == "unknown without a permitted design displacement"
-    assert found.verdict is Verdict.NG
-
-
 SOURCED = {
     "hazard_source": "ASCE 7 Hazard Tool",
     "hazard_date": dt.date(2026, 2, 20),
@@ -183,13 +166,8 @@ SOURCED = {
 STUDIED = SOURCED | {"hazard": "site-specific analysis", "hazard_report": "GE-12"}
 BLANK = dict.fromkeys(("s_s_g", "s_1_g", "f_a", "f_v", "s_ms_g", "s_m1_g", "s_d1_g", "site_class"))
 S_DS_ALONE = BLANK | {"s_ds_g": 1.0}
-ASCE_7_22 = BLANK | {
-    "s_ms_g": 1.5,
-    "s_1_g": 0.5,
-    "s_m1_g": 0.6,
-    "s_ds_g": None,
-    "edition_name": "ASCE 7-22",
-}
+ASCE_7_22 = BLANK | {"s_ds_g": None, "s_ms_g": 1.5, "s_1_g": 0.5, "s_m1_g": 0.6}
+ASCE_7_22 |= {"edition_name": "ASCE 7-22"}
 
 
 def hazard(**changes):
@@ -249,16 +227,13 @@ def test_the_sdc_is_confirmed_by_s_1_and_s_d1_only(given, words):
 
 
 @pytest.mark.parametrize("site_class", [None, "D (default)"])
-def test_site_class_d_by_default_says_11_4_8(site_class):
+def test_site_class_d_by_default_says_11_4_8_of_its_edition_alone(site_class):
     found = hazard(site_class=site_class)
     assert not found["site_class"].is_satisfied
     assert "F_a is then at least 1.2" in found["site_class"].remedy
     assert "ASCE 7-16 11.4.8" in found["site_class"].remedy
     title = "Hazard analysis for site class D by default with S_1 = 0.7 g"
     assert found["site_specific_hazard"].title == title
-
-
-def test_a_site_class_of_another_edition_is_asked_for_without_11_4_8():
     assert "11.4.8" not in hazard(**SOURCED | ASCE_7_22)["site_class"].remedy
 
 
@@ -350,17 +325,15 @@ def test_a_gap_of_the_plan_without_a_clearance_is_ng_where_it_is_too_small(
 
 def test_an_edge_beyond_twice_the_displacement_that_is_nearer_than_required_is_ng():
     """ASCE asks for 4 ft to an edge, however little an array moves."""
-    outline = {"x_from_m": 0.0, "x_to_m": 50.0, "y_from_m": 15 * FOOT - 1.0,
-               "y_to_m": 50.0}  # fmt: skip
-    done = assessed(
-        arrays=[stand_in.array("A1", 0.5, mu=1.4)], objects=[], clearances=[], roof=outline,
-        options=scenes.REVIEW, site=stand_in.site(rule_set="ASCE 7-16"),
-    )  # fmt: skip
+    outline = inputs.sides(0, 164, 15, 164) | {"y_from_m": 15 * FOOT - 1.0}
+    alone = {"arrays": [stand_in.array("A1", 0.5, mu=1.4)], "objects": [], "clearances": []}
+    site = stand_in.site(rule_set="ASCE 7-16")
+    done = assessed(**alone, roof=outline, options=scenes.REVIEW, site=site)
     (near,) = done.neighbors
     assert near.gap_m == pytest.approx(1.0)
     assert near.reach_m < near.gap_m < near.required_m == pytest.approx(4 * FOOT)
-    assert row(done, "neighbors").verdict is Verdict.NG
-    assert row(done, "neighbors").limit.startswith("≥ ")
+    found = row(done, "neighbors")
+    assert (found.verdict, found.limit[:2]) == (Verdict.NG, "≥ ")
 
 
 def test_a_value_from_analysis_that_is_not_permitted_is_named_so():
@@ -376,14 +349,15 @@ def test_a_value_from_analysis_that_is_not_permitted_is_named_so():
     assert "the value from analysis is not permitted" in found.remedy
 
 
-def test_no_slack_and_no_gap_of_the_plan_is_enough_for_a_displacement_that_is_not_permitted():
-    done = stand_in.unpermitted(clearances=[])
-    found = row(done, "electrical_slack")
-    assert (found.subject, found.verdict) == ("A1", Verdict.NG)
+def test_no_slack_gap_or_pathway_is_enough_for_a_displacement_that_is_not_permitted():
+    path = stand_in.clearance("A2", "A1", 20 * FOOT) | {"pathway_m": 0.9}
+    done = stand_in.unpermitted(clearances=[path])
+    unknown = "unknown without a permitted design displacement"
+    slack, pathway = row(done, "electrical_slack"), row(done, "fire_pathway")
     near = next(item for item in done.rows if item.title == "Clearance A1 to RTU-1")
-    assert near.verdict is Verdict.NG
-    for item in (found, near):
-        assert item.limit == "unknown without a permitted design displacement"
+    assert slack.subject == "A1"
+    assert {item.verdict for item in (slack, pathway, near)} == {Verdict.NG}
+    assert (slack.limit, near.limit, pathway.found) == (unknown,) * 3
     assert not any(item.title.startswith("Clearance A2 to S") for item in done.rows)
 
 
@@ -453,177 +427,6 @@ def test_without_an_outline_of_the_roof_nothing_says_that_edges_were_looked_for(
     assert row(assessed(roof=inputs.sides(0, 220, 0, 170)), "roof_outline") is None
 
 
-ISSUED = inputs.HEAD["date"]
-LATER = ISSUED + dt.timedelta(days=1)
-
-
-@pytest.mark.parametrize(
-    ("changes", "what"),
-    [
-        ({"options": scenes.REVIEW | {"peer_date": LATER}}, "peer review"),
-        ({"friction_tests": {"date": LATER}}, "friction report"),
-        ({"site": inputs.SITE | {"hazard_date": LATER}}, "hazard"),
-        ({"project": inputs.HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": LATER}},
-         "confirmation of the drawing"),
-        (scenes.CONFIRMED | {"confirmation": scenes.CONFIRMED["confirmation"] | {"date": LATER}},
-         "confirmation of the provisions"),
-    ],
-)  # fmt: skip
-def test_what_is_dated_later_than_the_package_is_a_condition(changes, what):
-    late = row(assessed(**changes), "dates")
-    assert (late.title, late.verdict) == (f"Date of the {what}", Verdict.CONDITION)
-    assert (late.found, late.limit) == (str(LATER), f"not later than the package, {ISSUED}")
-    issued = {"project": inputs.HEAD | changes.get("project", {}) | {"date": LATER}}
-    assert row(assessed(**changes | issued), "dates") is None
-
-
-def test_a_review_that_is_dated_later_removes_no_floor_and_confirms_no_distance():
-    reviewed = assessed(options=scenes.REVIEW)
-    late = assessed(options=scenes.REVIEW | {"peer_date": LATER})
-    assert [item.floor_m for item in reviewed.arrays] == [0.0] * len(reviewed.arrays)
-    assert [item.floor_m for item in late.arrays] == [item.floor_m for item in assessed().arrays]
-    assert all(item.floor_m > 0.0 for item in late.arrays)
-    drawn = stand_in.clearance("A1", "RTU-1", 6.0) | {"source": "drawing"}
-    for date, is_confirmed in ((ISSUED, True), (LATER, False)):
-        head = inputs.HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": date}
-        found = row(assessed(project=head, clearances=[drawn]), "drawing_distances")
-        assert found.is_satisfied is is_confirmed
-
-
-RUN = {"surface": "wet", "number": 1, "mu": 0.46, "velocity_mps": INCH}
-
-
-def on_record(**changes):
-    """Sections with what their confirmations cover, as `report` fills it in."""
-    records = stand_in.book(stand_in.project(**changes), scenes.motions()).shaking.hashes
-    for place, text in to_record(stand_in.project(**changes), records).items():
-        changes[place.section] = changes[place.section] | {place.field: text}
-    return changes
-
-
-def outdated_row(title, **changes):
-    rows = [row for row in assessed(**changes).rows if row.title == title]
-    assert len(rows) < 2
-    return next(iter(rows), None)
-
-
-def test_a_review_given_before_an_array_changed_removes_no_floor_and_is_a_condition():
-    reviewed = on_record(options=scenes.REVIEW)
-    assert outdated_row("Peer review", **reviewed) is None
-    assert not any(item.floor_m for item in assessed(**reviewed).arrays)
-    arrays = [stand_in.array("A1", 0.5, mu=0.42), *stand_in.project().model_dump()["arrays"][1:]]
-    found = outdated_row("Peer review", **reviewed, arrays=arrays)
-    assert found.verdict is Verdict.CONDITION
-    assert found.found == "2026-03-01, given before these inputs changed: sheet Arrays"
-    assert found.remedy.startswith("Have it confirmed for these inputs, and enter the new date")
-    after = assessed(**reviewed, arrays=arrays)
-    floors = [item.floor_m for item in assessed(arrays=arrays).arrays]
-    assert [item.floor_m for item in after.arrays] == floors
-    assert all(floor_m > 0.0 for floor_m in floors)
-    reduced = after.at_reduced_friction
-    assert all(item.floor_m > 0.0 for item in reduced.arrays)
-    # Less friction is a variation of the input as it is, which is still reviewed.
-    assert not any(item.floor_m for item in assessed(**reviewed).at_reduced_friction.arrays)
-    again = reviewed["options"] | {"peer_date": dt.date(2026, 3, 2)}
-    assert outdated_row("Peer review", options=again, arrays=arrays) is None
-
-
-def test_another_record_is_not_what_was_reviewed():
-    reviewed = on_record(options=scenes.REVIEW)
-    book = stand_in.book(stand_in.project(**reviewed), scenes.motions())
-    other = (replace(book.records[0], sha256="cd" * 32), *book.records[1:])
-    done = stand_in.assessed(book.having(records=other))
-    (found,) = (row for row in done.rows if row.title == "Peer review")
-    assert found.found.endswith("sheet Motions")
-    assert all(item.floor_m > 0.0 for item in done.arrays)
-
-
-def test_values_that_changed_after_their_document_are_a_condition_until_they_are_compared():
-    site = inputs.SITE | {"hazard_source": "Hazard Tool", "hazard_date": dt.date(2026, 2, 20)}
-    tests = {"friction_tests": scenes.TESTS, "friction_runs": [RUN]}
-    given = on_record(site=site, **tests)
-    for title, change, sheet, label, clear in (
-        ("Hazard", {"site": given["site"] | {"s_ds_g": 1.6}}, "Site", "Hazard covered",
-         {"hazard_covered": ""}),
-        ("Friction report", {"friction_runs": [RUN | {"mu": 0.47}]}, "Friction tests",
-         "Test report covered", {"tests_covered": ""}),
-    ):  # fmt: skip
-        assert outdated_row(title, **given) is None
-        found = outdated_row(title, **given | change)
-        assert found.found.endswith(f"given before these inputs changed: sheet {sheet}")
-        assert found.remedy.endswith(f"if they agree, clear {label}.")
-        key = found.places[0].section
-        cleared = given | change | {key: (given | change)[key] | clear}
-        assert outdated_row(title, **cleared) is None
-
-
-OVERRIDE = {"provision": "parapet_height_in", "value": 18.0, "reason": "Agreed on 2026-02-11"}
-
-
-def test_provisions_that_are_confirmed_have_no_mark_but_where_they_are_overridden():
-    done = assessed(**scenes.CONFIRMED, overrides=[OVERRIDE])
-    assert row(done, "confirmation").verdict is Verdict.OK
-    marked = {key for key, value in done.rules.values.items() if not value.verified}
-    assert marked == {OVERRIDE["provision"]}
-    assert len({k for k, v in assessed().rules.values.items() if not v.verified}) > 10
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"rule_set": "ASCE 7-16", "edition_name": "ASCE 7-16"},
-        {"edition_name": "ASCE 7-22", "s_1_g": 0.7},
-        {"building_code_year": 2019},
-        {"building_code": "IBC"},
-    ],
-)
-def test_provisions_of_another_rule_set_edition_or_code_are_not_those_confirmed(change):
-    """Also where no report has been made between, which would have put it on record."""
-    site = scenes.CONFIRMED["site"] | change
-    done = assessed(**scenes.CONFIRMED | {"site": site})
-    found = row(done, "confirmation")
-    assert found.verdict is Verdict.CONDITION
-    assert found.found == "SEAOC PV1-2012, ASCE 7-16, 2022 CBC: RG, SE, 2026-03-01"
-    assert (done.project.confirmed, found.limit) == ("", ", ".join(done.project.site.adopted))
-    assert done.rules.values == assessed(site=site).rules.values
-
-
-@pytest.mark.parametrize(
-    ("change", "sheet"),
-    [
-        ({"overrides": [OVERRIDE]}, "sheet Options"),
-        ({"confirmation": {"by": "MT"}}, "sheet Options"),
-        ({"confirmation": {"code": "2019 CBC"}, "site": {"building_code_year": 2019}},
-         "sheets Site, Options"),
-        ({"site": {"rule_set": "ASCE 7-16"}}, "sheet Site"),
-    ],
-)  # fmt: skip
-def test_a_later_change_of_what_was_confirmed_brings_the_marks_back(change, sheet):
-    given = on_record(**scenes.CONFIRMED)
-    assert assessed(**given).project.confirmed == "RG, SE, 2026-03-01"
-    rows = {key: given[key] | part for key, part in change.items() if key in given}
-    done = assessed(**given | change | rows)
-    assert done.project.confirmed == ""
-    (said,) = (row for row in done.rows if row.title == "Confirmation of the provisions")
-    assert said.verdict is Verdict.CONDITION
-    assert said.found == f"2026-03-01, given before these inputs changed: {sheet}"
-    again = given | change | rows
-    again["confirmation"] = again["confirmation"] | {"date": dt.date(2026, 3, 2)}
-    is_same = done.project.confirmation.of == done.project.site.adopted
-    assert bool(assessed(**again).project.confirmed) is is_same
-
-
-def test_a_drawing_distance_that_changed_by_hand_is_not_confirmed_any_more():
-    drawn = stand_in.clearance("A1", "RTU-1", 6.0) | {"source": "drawing"}
-    head = inputs.HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": ISSUED}
-    given = on_record(project=head, clearances=[drawn])
-    assert row(assessed(**given), "drawing_distances").is_satisfied
-    changed = given | {"clearances": [drawn | {"provided_m": 5.0}]}
-    assert not row(assessed(**changed), "drawing_distances").is_satisfied
-    found = outdated_row("Confirmation of the drawing", **changed)
-    assert found.found == f"{ISSUED}, given before these inputs changed: sheet Clearances"
-
-
 @pytest.mark.quick
 def test_what_no_cell_takes_stays_for_the_plan_checker():
     """The duration of records, arrays without a fire lane, an override."""
@@ -633,11 +436,7 @@ def test_what_no_cell_takes_stays_for_the_plan_checker():
         overrides=[{"provision": "parapet_height_in", "value": 18.0, "reason": "agreed"}],
         options=scenes.DEPARTURE,
     )
-    asked = (
-        "Show that the duration",
-        "or obtain the fire department's approval",
-        "Obtain the consent",
-    )
-    found = [row.remedy for row in done.conditions if any(text in row.remedy for text in asked)]
+    asked = "Show that the duration|or obtain the fire department's approval|Obtain the consent"
+    found = [row.remedy for row in done.conditions if re.search(asked, row.remedy)]
     assert len(found) == 4
     assert all(remedy.endswith(STAYS) for remedy in found)

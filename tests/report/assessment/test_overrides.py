@@ -4,9 +4,7 @@ import pytest
 
 import scenes
 import stand_in
-from report.assessment.precheck import limits_before_runs
 from report.assessment.verdict import OVERRIDDEN, Verdict, override_rows
-from report.sheet.schema.fields import Place
 from solver.rules.limit import Consequence
 
 pytestmark = pytest.mark.quick
@@ -57,16 +55,13 @@ def test_an_override_that_requires_less_is_a_condition(key, less, more):
     assert override_rows(stand_in.project(overrides=overrides(**{key: more}))) == ()
 
 
-def test_the_row_names_both_numbers_and_the_clause():
+def test_the_row_names_both_numbers_and_the_clause_or_the_departure():
     (found,) = override_rows(stand_in.project(overrides=overrides(prescriptive_minimum_in=3.0)))
     assert found.title == "Override of the minimum prescriptive displacement"
     assert (found.found, found.limit) == ("3 in‡, agreed", "≥ 6 in")
     assert found.basis == "PV1-2012"
     (slope,) = override_rows(stand_in.project(overrides=overrides(analysis_max_slope_deg=10.0)))
     assert slope.limit == "≤ 7 deg"
-
-
-def test_a_departure_is_a_condition():
     (departure,) = override_rows(stand_in.project(options=scenes.DEPARTURE))
     assert departure.title == "Displacement by direction"
     assert "Agreed on 2026-02-10" in departure.found
@@ -86,19 +81,6 @@ def test_the_verdict_is_at_least_ok_with_conditions():
     more = [row for row in done.conditions if row not in plain.conditions]
     assert [row.id for row in more] == ["override"]
     assert [row for row in done.conditions if row not in more] == list(plain.conditions)
-
-
-def test_check_names_an_override_at_its_cell():
-    data = stand_in.project(
-        overrides=overrides(max_stories=8.0, separation_fixed=1.5, low_profile_in=40.0)
-    )
-    made = stand_in.book(data, scenes.motions(7))
-    places = [
-        f.place
-        for f in limits_before_runs(made.sheet.project, made.shaking)
-        if f.text.startswith("override")
-    ]
-    assert places == [Place("overrides", 0, "value"), Place("overrides", 2, "value")]
 
 
 def marks(done):

@@ -50,7 +50,7 @@ def test_friction_is_changed_by_five_percent_and_all_motions_run_again(usual):
     scene, evidence, page = usual
     for factor, assessed in (
         (0.95, evidence.at_reduced_friction),
-        (1.0, evidence.given),
+        (1.0, evidence.entered),
         (1.05, evidence.at_increased_friction),
     ):
         for array, item in zip(scene.data.arrays, assessed.arrays, strict=True):

@@ -10,7 +10,7 @@ from openpyxl import Workbook
 import scenes
 import stand_in
 from printed import printed
-from report.assessment.motion_runs import shaking_acceptance
+from report.assessment.precheck import shaking_acceptance
 from report.assessment.spectra import spectra
 from report.motions.components import read_components
 from report.motions.history import TargetSpectrum, targets

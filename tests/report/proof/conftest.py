@@ -6,8 +6,7 @@ import pytest
 
 import packages
 import tampering
-from report.proof.package import opened
-from report.proof.verdict import compared
+from report.proof.package import compared, opened
 
 
 @pytest.fixture(scope="session")

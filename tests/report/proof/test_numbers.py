@@ -29,7 +29,9 @@ BAD = {
 
 @pytest.mark.parametrize("why", BAD)
 def test_json_that_two_programs_could_read_as_two_things_is_refused(why):
-    with pytest.raises(InputError, match=r"^results.json is damaged: "):
+    """Without the words of its reader."""
+    said = r"no JSON|the key \"\w+\" is given twice|\".+ is larger than any number of a package"
+    with pytest.raises(InputError, match=rf"^results.json is damaged: ({said})$"):
         parsed(BAD[why], "results.json")
 
 
@@ -77,12 +79,6 @@ def test_blanks_between_words_do_not_count_and_every_letter_does():
     assert first_other_word("a b 24.0 in", "ab 24.1 in") == '"24.0" where the input gives "24.1"'
     assert first_other_word("24.0 in", "24.0") == '"in" where the input gives nothing'
     assert first_other_word("24.0", "24.0 in") == 'nothing where the input gives "in"'
-
-
-@pytest.mark.parametrize("content", [b"{", b"", b"\xff", b"[" * 3000, b'{"a": NaN}'])
-def test_what_the_reader_of_json_says_reaches_nobody(content):
-    with pytest.raises(InputError, match=r"^results.json is damaged: no JSON$"):
-        parsed(content, "results.json")
 
 
 def test_an_object_of_many_keys_is_refused_in_a_time_that_grows_as_their_number():

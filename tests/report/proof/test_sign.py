@@ -307,28 +307,27 @@ def test_a_field_over_a_sheet_is_found_though_it_is_signed_and_an_empty_one_is_n
         assert next(refused(PdfReader(io.BytesIO(content)))).startswith("sheet 1: an annotation")
 
 
+def without_annotations(writer):
+    page = writer.root["/Pages"]["/Kids"][0]
+    page["/Annots"] = generic.ArrayObject()
+    writer.update_container(page)
+
+
+def with_another_title(writer):
+    info = writer.trailer["/Info"]
+    info["/Title"] = generic.pdf_string("Approved")
+    writer.set_info(info)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [(without_annotations, "another object"), (with_another_title, "appended: ")],
+    ids=["the field of the signature taken out", "another title"],
+)
 @pytest.mark.nightly
-def test_the_field_in_place_of_which_another_one_is_put_is_missed_though_it_is_signed(
-    sign, updated, found
-):
-    def change(writer):
-        page = writer.root["/Pages"]["/Kids"][0]
-        page["/Annots"] = generic.ArrayObject()
-        writer.update_container(page)
-
+def test_what_came_with_a_signature_is_found(sign, updated, found, change, said):
     _, content = sign(content=updated(change))
-    assert any("another object" in text for text in found(content).problems)
-
-
-@pytest.mark.nightly
-def test_another_title_that_came_with_a_signature_is_found(sign, updated, found):
-    def change(writer):
-        info = writer.trailer["/Info"]
-        info["/Title"] = generic.pdf_string("Approved")
-        writer.set_info(info)
-
-    _, content = sign(content=updated(change))
-    assert any(text.startswith("appended: ") for text in found(content).problems)
+    assert any(said in text for text in found(content).problems)
 
 
 @pytest.fixture
@@ -371,30 +370,22 @@ def test_what_was_painted_over_before_it_was_signed_is_never_the_same(made, sign
     assert (tmp_path / "calc-package-signed-again.pdf").read_bytes() == made
 
 
-def test_a_second_signature_has_no_field(sign, signed):
+def test_a_second_signature_has_no_field_and_a_rewritten_file_is_no_update(sign, signed, data):
     done, _ = sign(content=signed[1])
     assert done.exit_code == 2
     assert "cannot be signed" in done.output
-
-
-def test_another_password_is_an_input_error(sign):
-    done, content = sign(password="other")
-    assert done.exit_code == 2
-    assert "another password" in done.output
-    assert content == b""
-
-
-def test_a_clock_that_does_not_answer_is_an_input_error(sign):
-    done, content = sign("--time-stamp", "http://127.0.0.1:9")
-    assert done.exit_code == 2, done.output
-    assert content == b""
-
-
-def test_a_rewritten_file_is_no_update(sign, data):
     again = tampering.rewritten(data, lambda pdf: None)
     done, content = sign(content=again)
     assert done.exit_code == 0
     assert content.startswith(again)
+
+
+def test_another_password_and_a_clock_that_does_not_answer_are_input_errors(sign):
+    done, content = sign(password="other")
+    assert (done.exit_code, content) == (2, b"")
+    assert "another password" in done.output
+    done, content = sign("--time-stamp", "http://127.0.0.1:9")
+    assert (done.exit_code, content) == (2, b""), done.output
 
 
 @pytest.mark.parametrize("missing", ["calc-package.pdf", "yours.p12"])

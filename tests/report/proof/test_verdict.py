@@ -6,8 +6,7 @@ import pytest
 
 import tampering
 from nightly import by_day
-from report.proof.package import opened
-from report.proof.verdict import Agreement, compared, failed
+from report.proof.package import Agreement, compared, failed, opened
 from solver.model import InputError
 
 

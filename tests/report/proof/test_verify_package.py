@@ -21,8 +21,7 @@ from nightly import by_day
 from places import ROOT
 from report.cli.main import main
 from report.making import OUTPUTS
-from report.proof.package import opened, take_out
-from report.proof.verdict import Agreement
+from report.proof.package import Agreement, opened, take_out
 from sheets import type_into
 from solver.model import InputError
 

@@ -120,15 +120,12 @@ def check_units(value, key=""):
         assert key.endswith(UNITS) or key in PLAIN, key
 
 
-def test_a_missing_value_is_null_in_json():
+def test_a_missing_value_and_infinite_demand_over_zero_clearance_are_null():
     document = made(stand_in.assess_input(stand_in.steep(), scenes.motions(2)))
     assert document["arrays"][0]["design_m"] is None
     gap = document["clearances"][0]
     assert (gap["required_m"], gap["verdict"]) == (None, "none")
     assert document["verdict"] == "NG"
-
-
-def test_infinite_demand_over_zero_clearance_is_null():
     assessment, document = run(clearances=[stand_in.clearance("A1", "RTU-1", 0.0)])
     assert math.isinf(assessment.clearances[0].demand_capacity)
     (gap,) = document["clearances"]
@@ -197,8 +194,7 @@ def test_json_has_no_verdict_where_no_route_is_permitted():
 def test_json_has_the_sums_over_smaller_events():
     options = {"peer_reviewed": True, "smaller_events": "0.50, 0.50, 0.25"}
     assessment, document = run(options=options)
-    rows = document["cumulative"]
-    assert [row["array"] for row in rows] == [item.id for item in assessment.arrays]
-    for row, item in zip(rows, assessment.arrays, strict=True):
+    for row, item in zip(document["cumulative"], assessment.arrays, strict=True):
+        assert row["array"] == item.id
         assert row["largest_m"] == max(row["sums_m"].values())
         assert row["mean_m"] > item.analysis.mean_m

@@ -191,13 +191,14 @@ def test_a_run_killed_at_any_moment_leaves_a_set_or_a_mixture_that_is_told(tmp_p
 FILES = dict.fromkeys(("a.txt", "b.txt", "c.txt", "sub/d.txt"), b"5")
 
 
+@pytest.mark.parametrize("before", [OLD, {}], ids=["", "first run"])
 @pytest.mark.parametrize("stop", ["a.txt", "b.txt", "c.txt", STAMP])
 def test_a_set_cut_off_before_any_replacement_is_told_and_made_whole_by_the_next(
-    tmp_path, monkeypatch, stop
+    tmp_path, before, stop
 ):
-    publish(OLD, tmp_path)
-    cut_off = writer_killed_at(tmp_path, stop)
-    assert cut_off.returncode == -signal.SIGKILL
+    if before:
+        publish(before, tmp_path)
+    assert writer_killed_at(tmp_path, stop).returncode == -signal.SIGKILL
     parts = [name for name in names_in(tmp_path) if name.endswith(".part")]
     if stop == "a.txt":
         publish(NEW, tmp_path)
@@ -228,13 +229,6 @@ publish({"a.txt": b"new a", "b.txt": b"new b", "c.txt": b"new c"}, Path(sys.argv
 def writer_killed_at(folder, name):
     command = [sys.executable, "-c", CUT_OFF, str(folder), name]
     return subprocess.run(command, cwd=ROOT, check=False)
-
-
-def test_a_first_run_that_was_cut_off_is_told(tmp_path):
-    writer_killed_at(tmp_path, "b.txt")
-    with pytest.warns(match="says: a.txt"):
-        publish(NEW, tmp_path)
-    assert is_whole(tmp_path)
 
 
 @pytest.mark.parametrize("name", ["a.txt", STAMP])
@@ -326,17 +320,14 @@ def test_an_input_is_not_replaced_by_an_output(tmp_path, way):
     check_apart(["results.xlsx"], tmp_path, [path])
 
 
-@pytest.mark.parametrize(
-    "content", [None, b"", b"[1]", b'{"workbook": "a.xlsx"}', b'{"workbook": {"name": 1}}']
-)
-def test_results_that_name_no_workbook_are_of_none(tmp_path, content):
-    if content is not None:
-        (tmp_path / "results.json").write_bytes(content)
-    check_of_workbook(tmp_path, "results.json", "b.xlsx")
-
-
 @pytest.mark.quick
-def test_results_of_another_workbook_are_not_replaced(tmp_path):
+def test_results_of_another_workbook_are_not_replaced_and_those_that_name_none_are_of_none(
+    tmp_path,
+):
+    for content in (None, b"", b"[1]", b'{"workbook": "a.xlsx"}', b'{"workbook": {"name": 1}}'):
+        if content is not None:
+            (tmp_path / "results.json").write_bytes(content)
+        check_of_workbook(tmp_path, "results.json", "b.xlsx")
     (tmp_path / "results.json").write_bytes(b'{"workbook": {"name": "a.xlsx"}}')
     check_of_workbook(tmp_path, "results.json", "a.xlsx")
     with pytest.raises(InputError, match=r"the results of a\.xlsx, not of b\.xlsx; .* --out, or"):

@@ -124,13 +124,9 @@ def test_the_governing_array_follows_a_peak_that_is_changed(reviewed, changed):
 def test_every_printed_page_names_its_sheet(before, tmp_path):
     path = tmp_path / "results.xlsx"
     path.write_bytes(results_xlsx(before, spectra(before)))
-    sheets = openpyxl.load_workbook(path).worksheets
-    for sheet in sheets:
-        assert (sheet.page_setup.orientation, sheet.page_setup.paperSize) == ("landscape", 1)
-        assert sheet.print_title_rows
+    names = openpyxl.load_workbook(path).sheetnames
     (printed,) = converted([path], tmp_path, "pdf")
     texts = [page.extract_text() for page in PdfReader(printed).pages]
-    names = [sheet.title for sheet in sheets]
     counts = {name: sum(f", {name}" in text for text in texts) for name in names}
     assert all(counts.values()), counts
     assert len(texts) == sum(counts.values())

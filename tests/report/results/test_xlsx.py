@@ -216,13 +216,6 @@ def test_the_effect_of_links_follows_from_their_runs():
         assert used == f"={address(formulas, f'Design/{name}/Design [in]')}"
 
 
-def test_a_row_without_a_value_is_ng_in_the_workbook():
-    links = [stand_in.links("A1", "0.40, 0.50", 50)]
-    _, _, values = made(scenes.motions(2), links=links)
-    row = valued(values, "Links/1", "Array", "Design with links", "Verdict")
-    assert row == ["A1", "none", "NG"]
-
-
 def test_the_prescriptive_value_is_a_live_formula(usual):
     formulas, values = usual
     name = "Design/A1/Prescriptive"
@@ -270,10 +263,12 @@ def test_every_run_is_listed_with_its_model(usual):
 
 
 def test_without_a_value_the_workbook_states_no_value_and_no_verdict():
-    steep = stand_in.steep()
+    steep = stand_in.steep(links=[stand_in.links("A1", "0.40, 0.50", 50)])
     values = opened(xlsx(stand_in.assess_input(steep, scenes.motions(2))))[1]
     assert valued(values, "Design/1", "Design [in]", "Verdict") == ["none", "NG"]
     assert valued(values, "Clearances/1", "Required [in]", "Verdict") == ["none", "none"]
+    linked = valued(values, "Links/1", "Array", "Design with links", "Verdict")
+    assert linked == ["A1", "none", "NG"]
     assert cell(values, "Design/Verdict").value == "NG"
     rows = list(values["Requirements"].iter_rows(min_row=5, values_only=True))
     assert any(row[0] == "Motions" and row[5] == "NG" for row in rows)
@@ -286,32 +281,26 @@ def test_text_that_looks_like_a_formula_stays_text():
         assert (name.value, name.data_type) == ("=1+1", "s")
 
 
-def test_the_spectrum_of_every_motion_is_listed_by_component(usual):
+def test_spectra_neighbors_and_the_processing_of_motions_are_listed(usual):
     head = [at.value for at in usual[1]["Spectra"][1]]
     assert head[:3] == ["Period [s]", "Horizontal, target [g]", "Horizontal, M1 [g]"]
     assert len(head) == 1 + 3 * 8
     assert "Transverse, M7 [g]" in head
-
-
-def test_the_neighbors_are_listed_with_their_clearances(usual):
     first, *_ = rows_of(usual[1]["Neighbors"])
     assert [first[name] for name in ("Array", "Neighbor", "Kind", "Clearance", "Remark")] == [
         "A1", "A3", "array", "No. 1", "as in plan; beyond twice displ.",
     ]  # fmt: skip
     assert first["Distance in plan [in]"] == pytest.approx(180.0)
+    rows = rows_of(usual[1]["Motions"])
+    assert len(rows) == 7 * 3
+    motion = ["M1", "transverse", "roof", "as recorded", "as recorded"]
+    assert [*rows[1].values()][:5] == motion
+    assert rows[0]["PGA [g]"] == pytest.approx(1.7)
 
 
 def test_two_runs_give_the_same_bytes(content, usual):
     assert xlsx(scenes.usual()) == content
     assert usual[0].properties.created.date() == scenes.usual().project.project.date
-
-
-def test_the_processing_of_each_component_is_listed(usual):
-    rows = rows_of(usual[1]["Motions"])
-    assert len(rows) == 7 * 3
-    first = ["M1", "transverse", "roof", "as recorded", "as recorded"]
-    assert [*rows[1].values()][:5] == first
-    assert rows[0]["PGA [g]"] == pytest.approx(1.7)
 
 
 @pytest.mark.parametrize("count", [2, 3])
