@@ -25,6 +25,7 @@ ALIKE_DEG = 1.0
 ALIKE_SLOPE_RAD = 1e-6
 """Tolerance [rad] within which two slopes are the same: they may be typed in different units."""
 
+# Edges with a parapet are missing here: their height decides.
 _KINDS = {
     ObjectKind.FIXED: Neighbor.FIXED,
     ObjectKind.UNLIKE_ARRAY: Neighbor.UNLIKE,
@@ -120,6 +121,7 @@ def check_clearance(
     row: Clearance,
 ) -> ClearanceCheck:
     """Return a clearance with its required separation, the larger of the two between arrays."""
+    # Either array may move toward the other: the larger displacement of both governs.
     sides = facing(data, arrays, row)
     governing, direction = max(sides, key=lambda a: nan_is_worst(a[0].permitted_toward_m(a[1])))
     design_m = governing.permitted_toward_m(direction)
@@ -136,6 +138,7 @@ def check_clearance(
         governing_array=governing.id,
         governing_direction=direction,
         design_m=design_m,
+        # PV1-2012 has the importance factor here, ASCE 7 in the displacement; never both.
         factor=rules[provisions.SEPARATION_KEYS[neighbor]] * importance,
         minimum_m=provisions.minimum_separation_m(rules, neighbor),
         required_m=provisions.required_separation(
@@ -156,6 +159,7 @@ def _across(
         neighbor = Neighbor.LIKE if are_alike(near, other) else Neighbor.UNLIKE
     else:
         neighbor = _neighbor(rules, other, near)
+    # PV1-2012: I_p of the array or of what stands beside it, whichever is greatest.
     i_p = max(near.i_p, other.i_p)
     return neighbor, _importance(rules, neighbor, i_e=data.site.i_e, i_p=i_p)
 
@@ -163,6 +167,7 @@ def _across(
 def _marked(
     check: ClearanceCheck, data: ProjectInput, arrays: Sequence[ArrayAssessment]
 ) -> ClearanceCheck:
+    # A mark says that the number of the rule set would be another one: so it is computed as well.
     adopted = as_adopted(data)
     if adopted is data:
         return check
@@ -185,6 +190,7 @@ def minimum_gap(
     As `check_clearance` has it for a row in any direction; NaN without a permitted displacement.
     """
     if near.kind is not NearbyKind.BARE_EDGE:
+        # Overlapping shapes have a negative gap, which no row of a workbook may have.
         row = Clearance(
             array=near.array,
             object=near.other,
@@ -236,6 +242,7 @@ def facing(
 
 def _importance(rules: RuleSet, neighbor: Neighbor, *, i_e: float, i_p: float) -> float:
     """Return the importance factor of a separation: I_e at edges, the larger I_p elsewhere."""
+    # ASCE 7: I_e is in the displacement already.
     if not rules.importance_in_separation:
         return 1.0
     return i_e if neighbor.is_edge else i_p
@@ -244,6 +251,7 @@ def _importance(rules: RuleSet, neighbor: Neighbor, *, i_e: float, i_p: float) -
 def are_alike(first: Array, other: Array) -> bool:
     """Whether two arrays slide alike: construction, slope, friction and downslope direction."""
     return (
+        # Arrays of one construction, slope and friction move together under one roof motion.
         first.construction.casefold() == other.construction.casefold()
         and math.isclose(first.slope_rad, other.slope_rad, abs_tol=ALIKE_SLOPE_RAD)
         and first.friction == other.friction
@@ -261,6 +269,7 @@ def facing_direction(near: Array, other: Array, direction: Direction) -> Directi
 
     Any where the two arrays have different downslope directions.
     """
+    # Downslope of one is no axis of the other.
     if not _is_parallel(near, other):
         return Direction.ANY
     return _OPPOSITE.get(direction, direction)
@@ -270,6 +279,7 @@ def _neighbor(rules: RuleSet, obstacle: RoofObject, array: Array) -> Neighbor:
     """Return the kind of object across the gap; a low parapet is an edge without parapet."""
     if obstacle.kind is not ObjectKind.EDGE_WITH_PARAPET:
         return _KINDS[obstacle.kind]
+    # A height that is not given does not qualify.
     qualifies = obstacle.height_m is not None and provisions.parapet_qualifies(
         rules, parapet_height_m=obstacle.height_m, cg_height_m=array.cg_height_m
     )
@@ -285,6 +295,7 @@ def largest_separation_m(
     importance = max(data.site.i_e, *i_ps)
     return max(
         provisions.required_separation(rules, neighbor, design_m=each_m, importance=importance)
+        # With 0.0 for a minimum separation, which an array that rests must keep as well.
         for each_m in (0.0, *designs)
         if not math.isnan(each_m)
         for neighbor in Neighbor

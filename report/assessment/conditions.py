@@ -61,6 +61,7 @@ _NOISE = 1e-9  # a weight or a width in other units is no more than itself
 MOTIONS_ID = "motions"
 """Of the rows on limits that the motions miss."""
 
+# Who takes the prescriptive displacement need not meet them.
 _OF_ANALYSIS = (MOTIONS_ID, "drift", "ground_motions", "peer_review", VELOCITY_ROW)
 _NO_EFFECT = "The design displacement is prescriptive and does not follow from an analysis."
 
@@ -138,6 +139,7 @@ def _dates(data: ProjectInput) -> Iterator[Requirement]:
         row = partial(
             condition, id="dates", basis="plan check", is_satisfied=False, places=(place,)
         )
+        # A later date may be a slip of typing: until then it confirms nothing.
         if date and date > issued:
             yield row(
                 title=f"Date of the {what}",
@@ -145,6 +147,7 @@ def _dates(data: ProjectInput) -> Iterator[Requirement]:
                 limit=f"not later than the package, {issued}",
                 remedy="Correct the date, or date the package later.",
             )
+        # By the hashes that a report put on record: a date cannot show a later change.
         if date and (sheets := data.outdated.get(place.section)):
             yield row(
                 title=capitalized(what),
@@ -163,6 +166,7 @@ def _confirmation(data: ProjectInput) -> Iterator[Requirement]:
             found=f"{', '.join(confirmation.of)}: {confirmation.by}, {confirmation.date}",
             limit=", ".join(part or f"building code {NOT_GIVEN}" for part in adopted),
             basis="plan check",
+            # Also where no report was made between, so that nothing was put on record.
             is_satisfied=confirmation.of == adopted,
             remedy="Have the provisions of these inputs confirmed: until then the marks † stay.",
             places=(Place("confirmation", 0, "date"),),
@@ -173,6 +177,7 @@ def _peer_review(data: ProjectInput) -> Iterator[Requirement]:
     options = data.options
     if not (options.peer_reviewed and data.motions):
         return
+    # A plan checker asks for the reviewer by name and license, and for the letter itself.
     fields = ("reviewer", "license", "date", "letter")
     lifts_slope = review_lifts_slope(RULE_SETS[data.site.rule_set], data.site.sdc)
     back = "floor and the slope limit of the analysis route apply"
@@ -211,7 +216,9 @@ def _ground_motions(
     data: ProjectInput, prepared: Sequence[PreparedMotion]
 ) -> Iterator[Requirement]:
     """Yield the mean of the ground motions / target at long periods, where there is a target."""
+    # Sliding is driven by long periods: an excess there goes straight into the displacement.
     target, periods_s = targets(data).ground, 1.0 / POINTS_HZ
+    # NaN at short periods, so that nanargmax looks at the long ones alone.
     goal_mps2 = np.where(periods_s >= LONG_PERIOD_S, G_MPS2 * target.ordinates(periods_s), math.nan)
     ratio, where = 0.0, ""
     for name in ("horizontal", "transverse"):
@@ -252,7 +259,9 @@ def noted(rows: Iterable[Requirement], by_runs: Collection[str]) -> Iterator[Req
 def motion_rows(acceptance: Acceptance, routes: Iterable[Route]) -> tuple[Requirement, ...]:
     """Return the limits on the motions that they miss."""
     takes_analysis = Route.ANALYSIS in routes
+    # Generated motions reach their spectra as they are made: scaling is for records.
     has_records = any(not motion.is_generated for motion in acceptance.motions)
+    # The way out is said once, at the first of the spectral limits.
     spectral = next((each for each in acceptance.missed if each.is_ratio_to_target), None)
     return tuple(
         _motion_row(missed, takes_analysis, _SCALED if has_records and missed is spectral else "")
@@ -267,6 +276,7 @@ _SCALED = (
 
 
 def _motion_row(missed: Limit, takes_analysis: bool, way: str) -> Requirement:
+    # The prescriptive displacement rests on no motion: there a miss is a condition only.
     is_ng = missed.consequence is Consequence.NG
     measured, least = (
         f"{v:.4g} {missed.measure.unit}".rstrip() for v in (missed.found, missed.limit)
@@ -328,6 +338,7 @@ def _found_and_required(neighbor: PlanNeighbor, us_first: bool) -> tuple[str, st
         if neighbor.is_missing:
             near = "within twice the design displacement"
             return f"{NOT_GIVEN}; {gap} in plan, {near}", "a clearance, as in the plan"
+        # Several rows of a pair may give several distances.
         entered = {row.clearance.provided_m for row in neighbor.contradictions}
         sizes = " and ".join(pair(each, Quantity.SIZE, us_first) for each in sorted(entered))
         return f"differs from the plan: {sizes} entered, {gap} measured", "as in the plan"
@@ -352,6 +363,7 @@ def rows_before_runs(
     data: ProjectInput, array: Array, required_n: float
 ) -> tuple[Requirement, ...]:
     """Return the requirements on an array that no run is needed for, with the strength [N]."""
+    # PV1-2012 section 6: the larger of 0.133 S_DS W1 and 0.1 W1, W1 the lighter side.
     strength = _interconnection(data, array, required_n)
     return strength, *_weight(data, array), *_drawing_distances(data, array)
 
@@ -478,6 +490,7 @@ def pathway_rows(
             continue
         # Arrays that are unlike may slide toward each other: both displacements are subtracted.
         slides = [array.permitted_toward_m(toward) for array, toward in facing(data, arrays, row)]
+        # Arrays that are alike slide the same way: the gap loses one displacement at most.
         if gap.neighbor is Neighbor.LIKE:
             slides = [gap.design_m]
         left_m = row.provided_m - math.fsum(slides)
@@ -512,6 +525,7 @@ def less_friction_rows(
     row = partial(condition, id="less_friction", is_satisfied=False, basis="sensitivity")
     for array, less in zip(arrays, less_arrays, strict=True):
         if array.is_permitted and not less.is_permitted:
+            # Without runs there is no second route that could be closed, too.
             left = "no route is" if array.runs else "this route is not"
             yield row(
                 title=f"The {array.route} route with {friction}",

@@ -40,8 +40,10 @@ def hazard_rows(data: ProjectInput) -> tuple[Requirement, ...]:
 def _code(data: ProjectInput) -> Iterator[Requirement]:
     """Yield what is not by the edition of ASCE 7 that the building code references."""
     site, mark = data.site, "" if data.confirmed else "†"
+    # By chapter 35 of the IBC and the CBC, the list of referenced standards.
     code, edition = site.code_text, REFERENCED.get(site.code_text)
     row = partial(condition, basis=f"{code}, chapter 35{mark}", is_satisfied=False)
+    # Nothing is guessed for a code that is not in the list.
     if code and not edition:
         yield row(
             id="code_edition",
@@ -70,6 +72,7 @@ def _code(data: ProjectInput) -> Iterator[Requirement]:
 
 def _source(site: Site) -> Requirement:
     source, date = ("source", site.hazard_source), ("date", site.hazard_date)
+    # A number typed from a tool cannot be traced; its printout can.
     file = site.hazard_printout and f"{site.hazard_printout}, attached"
     if site.hazard is not HazardBasis.SITE_SPECIFIC:
         return condition(
@@ -104,6 +107,7 @@ def _source(site: Site) -> Requirement:
 
 
 def _category(site: Site) -> Requirement:
+    # ASCE 7 11.6: the more severe of two tables, by S_DS and S_D1; S_1 from 0.75 g gives E or F.
     lacking = site.sdc_lacks
     missing = " and ".join(lacking)
     stated = f"{missing} {NOT_GIVEN}: SDC {site.sdc} is not confirmed"
@@ -122,6 +126,7 @@ def _category(site: Site) -> Requirement:
 
 
 def _site_class(site: Site) -> Iterator[Requirement]:
+    # A site-specific analysis has the soil in it: nothing is taken by default.
     if site.assumed_class != BY_DEFAULT or site.hazard is HazardBasis.SITE_SPECIFIC:
         return
     holds = (
@@ -136,6 +141,7 @@ def _site_class(site: Site) -> Iterator[Requirement]:
         limit="determined for the site",
         basis=site.edition.clause("site_class"),
         is_satisfied=False,
+        # From ASCE 7-22 on, S_MS and S_M1 are read off for a site class: there are no F_a and F_v.
         remedy=holds
         if site.edition.has_site_coefficients
         else "The values of a hazard tool depend on the site class: determine it.",
@@ -166,6 +172,7 @@ def _site_specific(site: Site) -> Iterator[Requirement]:
     )
 
 
+# PV1-2012: the kinetic average of three runs, of the worse of wet and dry.
 LEAST_RUNS = 3
 """Runs at one velocity in each condition, whose kinetic coefficients are averaged (PV1-2012)."""
 
@@ -250,6 +257,7 @@ def basis_words(data: ProjectInput, array: Array) -> str:
     all_series = tested(data)
     if not all_series:
         return "entered; no runs of friction tests are given"
+    # The smaller mean governs, wet or dry (PV1-2012).
     tests = governing(all_series, array.mu_report)
     where = _where(tests, data.us_first)
     if _is_fit(array.friction, tests):
@@ -261,6 +269,7 @@ def _is_fit(law: Friction, tests: Series) -> bool:
     """Whether a law is the fit of the runs, within the rounding of coefficients."""
     velocities = [run.velocity_mps for run in tests.runs]
     fit = fit_law(velocities, [run.mu for run in tests.runs]) if law.is_by_velocity else None
+    # Too few velocities fit any law: then nothing is as tested.
     if fit is None or not fit.is_determined:
         return False
     pairs = [
@@ -272,6 +281,7 @@ def _is_fit(law: Friction, tests: Series) -> bool:
 
 def _how_far(law: Friction, tests: Series) -> str:
     """Return how entered friction compares with the runs at each velocity, or on average."""
+    # What is above the tests on average is refused by the checks of the sheet.
     if all(repeat.mean_of(law) <= repeat.mean + _NOISE for repeat in tests.repeats):
         return "at or below"
     if tests.mean_of(law) <= tests.mean + _NOISE:
@@ -341,6 +351,7 @@ _DIVIDE = f"Divide the arrays by a fire lane, or obtain the fire department's ap
 
 def fire_lane_rows(data: ProjectInput) -> Iterator[Requirement]:
     """Yield for each array the plan dimension of all that no fire lane separates from it."""
+    # The section is an input: local fire codes amend the limit and its number.
     lane_m, section = data.site.fire_lane_m, data.site.fire_code_section
     at = {array.id: row for row, array in enumerate(data.arrays)}
     groups = [(group, _dimension_m(group)) for group in _undivided(data.arrays, lane_m)]
@@ -382,9 +393,11 @@ def _undivided(arrays: Sequence[Array], lane_m: float) -> Sequence[Sequence[Arra
     """Return arrays in groups: each is nearer than a lane to another one of its group."""
     groups: list[list[Array]] = []
     for array in arrays:
+        # One array may join groups that were apart until it came.
         apart: list[list[Array]] = []
         joined = [array]
         for group in groups:
+            # Between shapes, not their boxes: a ring may surround an array without being near it.
             if any(gap_m(array.shape, other.shape) < lane_m - _ROUNDING_M for other in group):
                 joined += group
             else:

@@ -164,6 +164,7 @@ def _axis(
     values: Sequence[float], wanted: float, count: int, *, unit: float, room: float
 ) -> Floats:
     """Return evenly spaced values around those of the arrays, the nearest replaced by one."""
+    # Beyond the arrays on both sides: a point at the rim says nothing of what follows.
     low = unit * math.floor(0.8 * min(values) / unit)
     high = 1.25 * max(values) + room
     step = unit * math.ceil((high - low) / (count - 1) / unit)
@@ -181,6 +182,7 @@ def _cell(array: ArrayAssessment, cell: tuple[float, float]) -> list[SlideResult
 
 def _slid(scene: Scene) -> SlideResult:
     """Slide with every component of the scene, to the tolerance of the grid."""
+    # In one axis the solution is exact, and faster than any tolerance.
     if scene.friction.is_constant and not scene.ay_mps2.any():
         return one_axis.run(scene)
     return two_axes.run(scene, TOLERANCE)
@@ -221,6 +223,7 @@ def _margin(trials: Trials, number: int, gap: ClearanceCheck) -> Margin:
             if start >= lowest > 0
             else ()
         )
+        # The governing orientations refute at a quarter of the runs; only all of them confirm.
         confirmed = next((k for k in reversed(held) if trials.satisfies(row, mu=k)), 0)
         while confirmed > lowest and trials.satisfies(row, mu=confirmed - 1):
             confirmed -= 1
@@ -245,6 +248,7 @@ def _turned(array: ArrayAssessment, angle_deg: float) -> RotatedRun:
     along = cs * motion.ax_mps2 - sn * motion.ay_mps2
     across = sn * motion.ax_mps2 + cs * motion.ay_mps2
     turned = replace(motion, ax_mps2=read_only(along), ay_mps2=read_only(across))
+    # One orientation: the other polarity is the angle 180 degrees farther.
     run = run_oriented(
         array.array, turned, Orientation(component=HorizontalComponent.RECORD, polarity=1)
     )

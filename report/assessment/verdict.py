@@ -33,6 +33,7 @@ class Verdict(StrEnum):
     CONDITION of anything in it.
     """
 
+    # From the mildest to the most severe: `worst` takes them in this order.
     NONE = "none"
     NOTE = "note"
     OK = "OK"
@@ -126,6 +127,7 @@ def as_one(rows: Sequence[Requirement]) -> Requirement:
         return rows[0].model_copy(
             update={"subject": "", "title": f"Clearances {names}", "remedy": text}
         )
+    # What is found has parts: those that all rows share are said once.
     parts = [row.found.split("; ") for row in rows]
     alike = [part for part in parts[0] if all(part in others for others in parts)]
     own = grouped_by(
@@ -204,6 +206,7 @@ def rule_set_of(data: ProjectInput) -> RuleSet:
 def as_adopted(data: ProjectInput) -> ProjectInput:
     """Return an input without its overrides and departures; the input itself if it has none."""
     chosen = data.options
+    # PV1-2012 states 1.1 x the mean or the largest; ASCE 7 states no statistic to depart from.
     statistic = Statistic.RULE_SET if _takes_plain_mean(data) else chosen.statistic
     options = chosen.model_copy(update={"directional": False, "statistic": statistic})
     if not data.overrides and options == chosen:

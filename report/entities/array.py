@@ -49,9 +49,12 @@ _COMPUTED = (
     f'*IF({{statistic}}="{Basis.LARGEST_FACTORED.value}",{{largest_prd_m}},{{mean_prd_m}}))'
 )
 _TOWARD = f"={{factor}}*IF({TAKES_LARGEST},{{largest_m}},{{mean_m}})"
+# PV1-2012: 60 in (S_DS - 0.4)^2, at least 6 in; ASCE 7-16 13.6.12: 5 ft I_e (S_DS - 0.4)^2, 24 in.
 _PRESCRIPTIVE = "=MAX({factor_m}*{importance}*MAX({s_ds_g}-0.4,0)^2,{minimum_m})"
+# In Excel MAX takes no text: without the question, no value would become the floor.
 _DESIGN = '=IF(ISTEXT({computed_m}),"none",MAX({computed_m},{floor_m}))'
 _DESIGN_MM = '=IF(ISTEXT({design_m}),"none",{design_m}*25.4)'
+# PV1-2012 section 6: the larger of 0.133 S_DS W1 and 0.1 W1, with W1 half of the weight.
 _STRENGTH = (
     "=MAX({inputs[interconnection_sds]}*{s_ds_g},{inputs[interconnection_min]})*{weight_n}/2"
 )
@@ -283,6 +286,7 @@ class ArrayResult(LowVelocityResult):
     @unwritten(_weight("Lighter part"))
     def lighter_n(self) -> float:
         """Weight of the lighter part beside a section, at most [N]."""
+        # Of any section the lighter side has at most half: what is required there covers all.
         return self.weight_n / 2.0
 
     @unwritten(_weight("Provided"))
@@ -309,6 +313,7 @@ def array_result(
     """Return an array with its limits, and with its runs and directions if asked for, marked."""
     motions = item.motions if has_runs else ()
     strength = math.nan if item.array.interconnection_n is None else item.array.interconnection_n
+    # Rounded so that the smaller of two numbers never prints as the larger one.
     rounds = {"provided_n": beside(item.interconnection_n, strength)}
     gap = assessment.governing_gap(item.id)
     near: dict[str, object] = {}

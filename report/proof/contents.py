@@ -22,6 +22,7 @@ from solver.model import InputError
 
 _T = TypeVar("_T")
 
+# What a stranger sends may double at each level: counts and time end it, not the depth.
 MOST_SHEETS, MOST_OBJECTS, MOST_SECONDS = 5_000, 5_000_000, 300.0
 """Beyond any package."""
 
@@ -33,6 +34,7 @@ _FORBIDDEN = {
 }
 """Keys of a PDF that no package has, and what they stand for."""
 
+# References back to what lies above: followed last, or all would belong to the first sheet.
 _UPWARD = {"/Parent", "/P", "/Dest", "/Obj", "/Pg"}
 _READ_ALOUD = {"/Alt", "/ActualText", "/E", "/Contents", "/Title", "/TU"}
 
@@ -45,6 +47,7 @@ def pages(pdf: PdfReader) -> Sequence[PageObject]:
     InputError
         If the tree of sheets names one twice, or has more than any package.
     """
+    # Without recursion: a node may be its own kid, or a tree as deep as the file is long.
     pending, seen, count = [pdf.root_object.raw_get("/Pages")], set[int](), 0
     while pending:
         node: Any = pending.pop().get_object()
@@ -53,6 +56,7 @@ def pages(pdf: PdfReader) -> Sequence[PageObject]:
         seen.add(id(node))
         count += "/Kids" not in node
         pending += list.__iter__(node.get("/Kids", []))
+    # Readers differ in which of the two they believe.
     if len(pdf.pages) != count:
         raise InputError(f"states {len(pdf.pages)} sheets and has {count}")
     return list(pdf.pages)
@@ -72,8 +76,10 @@ def refused(pdf: PdfReader) -> Iterator[str]:
             fields += note["/Subtype"] == "/Widget" and not _is_hidden(note)
             if _is_other(note) or fields > 1:
                 yield f"sheet {count}: an annotation beside links and the signature field"
+        # A second stream paints over the first one, and leaves its words as they were.
         if not isinstance(page["/Contents"], StreamObject):
             yield f"sheet {count}: its content is in several parts"
+        # What is cropped or scaled away keeps its words.
         if page.rotation or page.user_unit != 1.0 or page.cropbox != page.mediabox:
             yield f"sheet {count}: rotated, cropped or scaled"
     root: Any = pdf.root_object
@@ -94,6 +100,7 @@ def _is_other(note: Any) -> bool:
         return "/Dest" not in note or "/AP" in note or note["/BS"]["/W"] != 0
     if note["/Subtype"] != "/Widget" or note.get("/FT") != "/Sig":
         return True
+    # Signing programs put fields of no size on a sheet.
     if _is_hidden(note):
         return False
     return note["/T"] != FIELD or ("/V" not in note and bool(note["/AP"]["/N"].get_data().strip()))
@@ -106,6 +113,7 @@ def _is_hidden(note: Any) -> bool:
 
 def _dictionaries(pdf: PdfReader) -> Iterator[tuple[str, DictionaryObject]]:
     """Yield each dictionary with its sheet, or as of the document if it belongs to none."""
+    # Sheets in order first, so that what is found below one is said of it.
     starts = [(f"sheet {count}", page) for count, page in enumerate(pages(pdf), start=1)]
     pending: list[tuple[str, Any]] = [*reversed(starts)]
     last: list[tuple[str, Any]] = [("document", pdf.trailer)]
@@ -146,6 +154,7 @@ def words(pdf: PdfReader) -> Iterator[tuple[str, str]]:
 
     for count, page in enumerate(pages(pdf), start=1):
         check()
+        # A smaller sheet cuts off what its words still say.
         yield f"size of sheet {count}", f"{page.mediabox.width:g} x {page.mediabox.height:g}"
         yield f"sheet {count}", page.extract_text(visitor_operand_before=check)
     for place, item in _dictionaries(pdf):
@@ -154,6 +163,7 @@ def words(pdf: PdfReader) -> Iterator[tuple[str, str]]:
             if isinstance(item[key], str):
                 yield f"{place} ({key})", str(item[key])
     for key, value in sorted((pdf.metadata or {}).items()):
+        # Who signs rewrites these two.
         if key not in ("/Producer", "/ModDate"):
             yield f"document ({key})", str(value)
 
@@ -192,12 +202,14 @@ def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _whole(digits: str) -> int:
+    # Python needs quadratic time for the digits of a whole number.
     if len(digits) > _DIGITS:
         raise ValueError(f"{_short(digits)} is larger than any number of a package")
     return int(digits)
 
 
 def _finite(digits: str) -> float:
+    # 1e999 is infinite in Python and an error elsewhere.
     if math.isinf(float(digits)):
         raise ValueError(f"{_short(digits)} is larger than any number of a package")
     return float(digits)
@@ -232,6 +244,7 @@ def differences(
     elif _is_number(claimed) and _is_number(computed):
         if abs(claimed - computed) > _allowed(claimed, computed, place):
             yield f"{place} is {_short(claimed)}; the input gives {_short(computed)}"
+    # By type first: True == 1 in Python, and not in JSON.
     elif not shared and (type(claimed) is not type(computed) or claimed != computed):
         yield f"{place} is {_short(claimed)}; the input gives {_short(computed)}"
 
@@ -242,6 +255,7 @@ def _is_number(value: Any) -> bool:
 
 def _allowed(claimed: float, computed: float, place: str) -> float:
     """Return how far two numbers may be apart; an estimated error, by its own size."""
+    # An estimate of an error is itself mostly rounding.
     if place.rpartition(".")[2] == "error_m":
         return max(abs(computed), ABSOLUTE)
     return max(RELATIVE * max(abs(claimed), abs(computed)), ABSOLUTE)
@@ -255,6 +269,7 @@ def _short(value: Any) -> str:
 def first_other_word(claimed: str, computed: str) -> str:
     """Return where the words of two texts first differ, or nothing; blanks do not count."""
     first, second = claimed.split(), computed.split()
+    # Where a line breaks, and with it where blanks are, follows from the fonts that lay it out.
     letters = "".join(first), "".join(second)
     if letters[0] == letters[1]:
         return ""

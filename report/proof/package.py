@@ -72,6 +72,7 @@ def read_package(path: Path) -> bytes:
     """
     if not path.is_file():
         raise InputError(f"no such file; {meant(path) or 'give a calc-package.pdf'}")
+    # Before it is read: the size of a stranger's file is the first thing that costs.
     if path.stat().st_size > MAX_FILE:
         raise InputError(f"larger than {MAX_FILE // MB} MB, which no package is")
     return path.read_bytes()
@@ -110,11 +111,13 @@ def _attachments(pdf: PdfReader) -> dict[str, bytes]:
     """Return the attachments by name, within the limits of a workbook and its records."""
     if pdf.is_encrypted:
         raise InputError("is encrypted, which no package is")
+    # One flat list, as packages have it: a tree of names could go on without end.
     listed = pdf.root_object.get("/Names", {}).get("/EmbeddedFiles", {}).get("/Names", ())
     files: dict[str, bytes] = {}
     total = 0
     for key, file in zip(listed[::2], listed[1::2], strict=True):
         about = file.get_object()
+        # Readers show one of three names, each another one: all must agree.
         if key in files or not key == about["/UF"] == about["/F"] or len(files) >= MAX_MEMBERS:
             raise InputError(f"its attachment {key!s:.80} has two names or is one of too many")
         files[str(key)] = content = about["/EF"]["/F"].get_data()
@@ -144,6 +147,7 @@ def _manifest(files: Mapping[str, bytes]) -> Manifest:
         raise InputError(f"{MANIFEST} names no workbook or results, or more than one")
     has_records = manifest.has_records
     listed = {file.name: file for file in manifest.files if has_records or file.kind != "record"}
+    # Both ways: a file that no line lists is as foreign as one that is gone.
     for name in dict.fromkeys((RESULTS, *listed, *files)):
         if name not in files:
             raise InputError(f"the attachment {name} is missing")
@@ -182,6 +186,7 @@ def take_out(
         target = folder / file.path
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
+            # Exclusive: of names that are equal, or that a disk takes for equal, the second fails.
             with target.open("xb") as new:
                 new.write(content)
         except (FileExistsError, NotADirectoryError) as error:
@@ -208,6 +213,7 @@ def _left_out(file: Listed, records: Path | None) -> bytes:
         raise RecordsMissingError(
             f"{path}: is missing or too large; the package was computed from it"
         )
+    # Hashed as it was read: what lies there may be replaced at any time.
     content = path.read_bytes()
     if hashlib.sha256(content).hexdigest() != file.sha256:
         raise RecordsMissingError(
@@ -282,14 +288,17 @@ def compared(package: OpenedPackage, made: OpenedPackage) -> Proof:
     """
     if package.data == made.data:
         return Proof(answer=Agreement.SAME)
+    # What is appended leaves the bytes before it as they were; so are signatures put on.
     is_same = package.data.startswith(made.data)
     fields = guarded(lambda: signed_fields(package.pdf))
     later = appended(package.data, made.data if is_same else b"") if fields else Appended()
     if is_same and not fields:
         later = Appended(problems=("appended: bytes that no signature covers",))
+    # The first one is enough: a hostile file could have millions.
     first = guarded(lambda: next(_reasons(package, made, later, is_same=is_same), ""))
     if first:
         return Proof(answer=Agreement.DIFFERS, reasons=(first,), signed=later.signed)
+    # Drawings are never compared: another version of a library may move a line by a thousandth.
     reasons = [] if is_same else [_not_compared(package.manifest, made.manifest)]
     reasons += [] if later.is_checked else [_UNCHECKED]
     return Proof(
@@ -303,6 +312,7 @@ def compared(package: OpenedPackage, made: OpenedPackage) -> Proof:
 def failed(package: OpenedPackage, problems: Sequence[str]) -> Proof:
     """Return the outcome for a package whose input does not run here."""
     reason = f"its input does not run: {'; '.join(problems)}"
+    # What another version accepted may be refused here, and is then no sign of tampering.
     if package.manifest.roofslip_version == version("roofslip"):
         return Proof(answer=Agreement.DIFFERS, reasons=(reason,))
     return Proof(answer=Agreement.PARTLY, reasons=(_other_version(package.manifest), reason))
@@ -332,10 +342,12 @@ def _reasons(
 ) -> Iterator[str]:
     """Yield what differs or what no package has."""
     yield from later.problems
+    # Before words: a script may replace them when a reader opens the file.
     yield from refused(package.pdf)
     if is_same:
         return
     theirs, ours = package.manifest, made.manifest
+    # Versions differ in which keys they write, and in the words of their pages.
     is_shared = theirs.roofslip_version != ours.roofslip_version
     if not is_shared:
         listed = (_listing(package), _listing(made))
@@ -359,6 +371,7 @@ def _words(package: OpenedPackage, made: OpenedPackage) -> Iterator[str]:
             yield f"{(stated or remade)[0]}: {'missing' if stated is None else 'not of this input'}"
             return
         computed = " ".join(remade[1].split())
+        # The sheets print the versions: only these words may differ with them.
         for name, here in ours.items():
             computed = computed.replace(f"{name} {here}", f"{name} {theirs.get(name, 'none')}")
         if first := first_other_word(stated[1], computed):

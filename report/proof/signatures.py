@@ -78,6 +78,7 @@ def _judged(data: bytes, made: bytes) -> Appended:
     from pyhanko.sign.validation.status import SignatureCoverageLevel as Level
 
     file = PdfFileReader(io.BytesIO(data))
+    # One that is unclear, so that a file without signatures has a largest level, too.
     signed, levels = [], [Level.UNCLEAR]
     problems = list(_others(data, made)) if made else []
     for signature in file.embedded_signatures:
@@ -90,6 +91,7 @@ def _judged(data: bytes, made: bytes) -> Appended:
         levels.append(signature.evaluate_signature_coverage())
         signer = status.signing_cert.subject.native.get("common_name", "")
         signed.append(Signature(field=signature.field_name, signer=str(signer)))
+    # The last signature must cover all; those before it, all up to their own revision.
     if max(levels) != Level.ENTIRE_FILE or min(levels[1:]) < Level.ENTIRE_REVISION:
         problems.append("appended: bytes that no signature covers")
     return Appended(signed=tuple(signed), problems=tuple(problems))
@@ -99,6 +101,7 @@ def _validated(signature: Any) -> Any:
     from pyhanko.sign.validation import validate_pdf_signature, validate_pdf_timestamp
     from pyhanko_certvalidator import ValidationContext
 
+    # Whom to trust is for the reader of the file: here only what was signed is looked at.
     offline = ValidationContext(trust_roots=[], allow_fetching=False)
     is_stamp = signature.sig_object.get("/Type") == "/DocTimeStamp"
     validate: Any = validate_pdf_timestamp if is_stamp else validate_pdf_signature
@@ -124,9 +127,11 @@ def _others(data: bytes, made: bytes) -> Iterator[str]:
             old.get_object(number), new.get_object(number)
         ):
             yield f"appended: another object {number}, which no signature changes"
+    # A new trailer may name another catalog beside the untouched one.
     trailers = [_without(pdf.trailer, {"/Size", "/Prev", "/ID"}) for pdf in (old, new)]
     if any(trailers[0][key] != trailers[1].get(key) for key in ("/Root", "/Info")):
         yield "appended: another document"
+    # Title and author are in the XMP stream, which signing may rewrite.
     if _stated(old) != _stated(new):
         yield "appended: another title, author or subject"
 
@@ -143,7 +148,9 @@ def _stated(pdf: PdfReader) -> object:
 def _is_signing(before: Any, after: Any) -> bool:
     """Whether an object was changed as signing changes it; what it shows is refused elsewhere."""
     if isinstance(before, StreamObject):
+        # Of streams only XMP: another content of a sheet is another sheet.
         return bool(before.get("/Type") == "/Metadata" == after.get("/Type"))
+    # A signature adds fields and annotations; one that is gone or replaced is no signing.
     if isinstance(before, ArrayObject):  # fields or annotations
         return isinstance(after, ArrayObject) and _written(after).startswith(
             _written(before)[:-1].rstrip()
@@ -152,6 +159,7 @@ def _is_signing(before: Any, after: Any) -> bool:
         return False
     if "/Annots" in before and not _is_signing(before["/Annots"], after.get("/Annots")):
         return False
+    # Of the field itself the value and look; elsewhere where fields are listed, and dates.
     changing = _SIGNED if before.get("/FT") == "/Sig" else _CHANGING
     return _without(before, changing) == _without(after, changing)
 
@@ -225,6 +233,7 @@ def _look() -> Any:
     from pyhanko.pdf_utils.text import TextBoxStyle
     from pyhanko.stamp import TextStampStyle
 
+    # Embedded as in the package: a font of the machine may lack letters of the name.
     content = (TEMPLATES / "fonts" / "SourceSans3-Regular.ttf").read_bytes()
 
     class Font(FontEngineFactory):

@@ -28,6 +28,7 @@ from report.sheet.reading.read import Sheet
 from report.typeset.finish import Attached
 from solver.model import InputError
 
+# Those that numbers, pages or the bytes of the file come from; not tools and servers.
 _LIBRARIES = (
     "numpy",
     "numba",
@@ -54,6 +55,7 @@ def versions() -> Mapping[str, str]:
 
 def environment() -> Mapping[str, str]:
     """Return the versions, and the system and processor."""
+    # The mathematical functions of the C library round by version and processor.
     system = f"{platform.system()} {platform.machine()} {' '.join(platform.libc_ver())}"
     return {**versions(), "system": system.strip()}
 
@@ -75,6 +77,7 @@ _MIMES = {
 }
 
 _Sha256 = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
+# It is printed as it is: no markup, and no letter that a font may lack.
 _Version = Annotated[str, StringConstraints(pattern=r"^[\w.+ -]{0,80}$")]
 
 
@@ -137,6 +140,7 @@ def fingerprint(sheet: Sheet, shaking: Shaking, program: str = "") -> str:
     program : str, optional
         Another version than the one here.
     """
+    # Order counts: records that are exchanged give other runs, with the same hashes.
     lines = [
         program or version("roofslip"),
         sheet.sha256,
@@ -174,6 +178,7 @@ def sources(sheet: Sheet, shaking: Shaking, former: bytes = b"") -> tuple[Source
     kept, rows = sheet.book.files | sheet.book.records, record_paths(shaking.records)
     used = [(_path(row), row.sha256) for row in shaking.records if row.is_file]
     used += [(document.path, document.sha256) for document in sheet.documents]
+    # One file may be named by several motions or cells, and is read for each.
     last = dict(used)
     if changed := [path for path, sha256 in used if sha256 != last[path]]:
         raise InputError(f"{changed[0]}: changed while the report ran; run it again")
@@ -203,6 +208,7 @@ def _unlike(files: Sequence[SourceFile]) -> Iterator[SourceFile]:
     taken = {MANIFEST, RESULTS}
     for count, source in enumerate(files):
         name = source.path
+        # Windows and macOS would write "a.csv" over "A.csv" where they are taken out.
         if name.casefold() in taken:
             name = f"renamed/{count}/{posixpath.basename(source.path)}"
         taken.add(name.casefold())
@@ -230,6 +236,7 @@ def attachments(files: Sequence[SourceFile], results: bytes, short: str) -> tupl
         files=tuple(source.listed for source in (*files, own)),
         environment=dict(environment()),
     ).model_dump(mode="json")
+    # Two runs must give the same bytes: no date, and keys in the order of the model.
     listed = json.dumps(document, indent=1, ensure_ascii=False).encode() + b"\n"
     return (
         *(_attached(source) for source in files if has_records or source.kind != "record"),

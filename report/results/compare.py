@@ -71,6 +71,7 @@ def changes(former: Compared, assessment: Assessment) -> Changes:
 def with_reissue(assessment: Assessment, former: Compared) -> Assessment:
     """Return an assessment with a condition where the same revision had other inputs before."""
     issue, then = assessment.project.project, former.input.project
+    # One revision with two contents: nobody can tell later which of them was sealed.
     is_same = issue.revision.casefold() == then.revision.casefold()
     if not (is_same and any(_given(former, compared(assessment), assessment))):
         return assessment
@@ -119,6 +120,7 @@ def _keyed(
     for row in rows:
         name = key(row)
         seen[name] += 1
+        # Workbooks may have equal rows, as two clearances of one pair.
         keyed[*name, str(seen[name])] = row
     return keyed
 
@@ -147,6 +149,7 @@ def _input(title: str, before: str, now: str, cell: str) -> Change:
 
 def _cells(section: SheetSection, index: int, assessment: Assessment) -> Mapping[Entry, str]:
     """Return the cell of each field of a row; empty for one that is not on the sheet."""
+    # What a confirmation covers is filled in by `report`: it is no input of an engineer.
     addresses = assessment.sheet.addresses
     return {
         entry: addresses.get(Place(section.key, index, entry.name), "")
@@ -188,6 +191,7 @@ def _fields(
 def _same(before: object, now: object) -> bool:
     """Whether two inputs are equal; a length in another unit may differ by rounding."""
     if isinstance(before, float) and isinstance(now, float):
+        # Feet and meters of one length differ in the last bit.
         return math.isclose(before, now, rel_tol=1e-12)
     return before == now
 
@@ -227,6 +231,7 @@ def _alike(before: Any, now: Any) -> bool:
     """Whether two results are the same; NaN is no value."""
     if not isinstance(now, float):
         return bool(before == now)
+    # NaN is unequal to itself.
     if math.isnan(before) or math.isnan(now):
         return math.isnan(before) and math.isnan(now)
     return math.isclose(before, now, rel_tol=ALIKE)
@@ -245,6 +250,7 @@ def _numbers(row: ArrayResult, old: ArrayResult | None) -> Iterator[str]:
 
 def _results(pairs: Iterable[_Pair[Entity]], fmt: UnitFormat) -> Iterator[Change]:
     """Yield the changes that are listed of rows; those that are gone come last."""
+    # The sort is stable: rows stay in the order of the workbook.
     for row, old in sorted(pairs, key=lambda pair: pair[0] is None):
         for name, told in _differing(row, old):
             if told.kind and (old or told.of_new) and (row or told.of_gone):
@@ -255,6 +261,7 @@ def _results(pairs: Iterable[_Pair[Entity]], fmt: UnitFormat) -> Iterator[Change
 def _texts(old: Entity | None, row: Entity | None, name: str, fmt: UnitFormat) -> Sequence[str]:
     """Return a field before and now; numbers have more digits where they would print alike."""
     texts = [entity.both(name, fmt) if entity else NOT_THERE for entity in (old, row)]
+    # Results that differ by more than rounding may still print alike.
     if texts[0] != texts[1]:
         return texts
     unit = name.rpartition("_")[2]

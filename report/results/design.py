@@ -58,6 +58,7 @@ def write_peaks(pages: Pages, assessment: Assessment) -> PeakRanges:
     """Write the largest excursion of all runs of each motion, by direction; return its cells."""
     rows: list[PeakRow] = []
     ranges: dict[tuple[str, Direction], str] = {}
+    # Below the one row of headings of the sheet Runs, in the order in which it lists them.
     first_run = 2
     for item in assessment.arrays:
         first = TOP + len(rows)
@@ -101,6 +102,7 @@ def _direction_row(
         blanks |= {"factor", "floor_m"}
     if math.isnan(design_m):
         blanks |= {"by_roofslip_m", "difference"}
+    # The prescriptive displacement has no direction: it is that of the sheet Design.
     is_prescriptive = item.route is Route.PRESCRIPTIVE
     return DirectionRow.beside(
         direction_result(item, way),
@@ -147,6 +149,7 @@ def write_inputs(pages: Pages, assessment: Assessment) -> InputCells:
         cell = f"B{row}"
         sheet.write_string(f"A{row}", item.label, pages.text)
         sheet.write_string(f"C{row}", item.use, pages.text)
+        # A list, for a formula compares the word: a misspelled one would pass for another choice.
         if isinstance(item.value, StrEnum):
             sheet.write_string(cell, item.value, pages.typed_text)
             choices = [choice.value for choice in type(item.value)]
@@ -292,6 +295,7 @@ def _beside_arrays(assessment: Assessment) -> Verdict:
 
 def _worst_of(cells: Sequence[str]) -> str:
     """Return the formula of the verdict on the project, from cells with those on its parts."""
+    # NG before conditions before OK, as `worst` has it.
     met, missed = _quoted(Verdict.OK), _quoted(Verdict.CONDITIONS)
     return (
         f"=IF(OR({_any(cells, Verdict.NG)}),{_quoted(Verdict.NG)},"
@@ -301,6 +305,7 @@ def _worst_of(cells: Sequence[str]) -> str:
 
 def _verdict(results: Sequence[str]) -> str:
     """Return the formula of the verdict on an array."""
+    # A missing value is a text here, and in Excel a text is larger than any number: ask first.
     failed = [
         "ISTEXT({design_m})",
         "AND(ISNUMBER({slack_m}),{slack_m}<{design_m})",
@@ -331,12 +336,16 @@ def _row(
 ) -> DesignRow:
     rules, data, prescriptive = assessment.rules, assessment.project, item.prescriptive
     # The constant value for SDC A, B and C replaces the formula.
+    # PV1-2012, SDC A, B and C: 6 in, whatever S_DS is.
     is_flat = prescriptive.governs is PrescriptiveBasis.LOW_CATEGORY
     is_mean = item.analysis.basis is Basis.MEAN
+    # Those that live formulas decide would count twice, and keep an old verdict.
     others = (row for row in assessment.rows_of(item.id) if row.id not in _LIVE_ROWS)
     formulas = {"verdict": _verdict(results)}
+    # There the factor is 1, and an input cell would seem to change something.
     if rules.importance_in_separation:
         formulas["importance"] = ""
+    # COUNT and AVERAGE of no cells are 0 and an error.
     if not assessment.has_motions:
         formulas |= dict.fromkeys(("n_motions", "mean_prd_m", "largest_prd_m"), "")
         formulas |= {"computed_m": '="none"', "design_m": "={prescriptive_m}"}

@@ -93,6 +93,7 @@ def _runs(assessment: Assessment) -> Iterator[RunRow]:
                 yield RunRow.beside(
                     run_result(motion, run),
                     array=item.id,
+                    # By identity: two runs of a symmetric motion may be equal.
                     governs="yes" if run is motion.governing else "",
                     over_mean=run.prd_m / mean_m if mean_m > 0.0 else math.nan,
                     prd_m=run.prd_m,
@@ -137,6 +138,7 @@ def _rows(assessment: Assessment) -> Iterator[RequirementRow]:
     for item in assessment.arrays:
         for check in item.limits:
             yield _limit(assessment, item.id, check)
+    # In the order of the package, so that both can be laid side by side.
     for check in assessment.acceptance.rows:
         yield _limit(assessment, "Motions", check)
     yield from requirement_rows(assessment.rows)
@@ -292,6 +294,7 @@ def _row(linked: LinkedArray, refs: Mapping[str, Cells]) -> LinkRow:
     has_value = math.isfinite(linked.estimated_m)
     is_enough = has_value and linked.is_rigid_enough
     formulas = {}
+    # A row that rests beside a block that rests: the ratio is 1, not 0 / 0.
     if not rigid.value_m > 0.0:
         formulas["ratio"] = "=1"
     if linked.value_m != design.analysis.value_m:

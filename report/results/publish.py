@@ -26,6 +26,7 @@ STAMP = "roofslip.sha256"
 Files that do not agree with it are of two sets, or were changed since.
 """
 
+# Of `sha256sum`; names longer than any of a package belong to something else.
 _LINE = re.compile(r"([0-9a-f]{64})  (.{1,200})")
 _MOST_BYTES = 100_000_000  # a larger file is of no set
 
@@ -42,6 +43,7 @@ def publish(files: Mapping[str, bytes], folder: Path) -> None:
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        # Before the files are looked at: another run may be in the middle of its set.
         with locked(folder):
             warn_if_mixed(folder, files)
             write_all({**files, STAMP: stamp(files)}, folder)
@@ -60,6 +62,7 @@ def warn_if_mixed(folder: Path, names: Iterable[str]) -> None:
     """Warn of files in a folder that do not agree with its stamp."""
     lines = content(folder / STAMP).decode(errors="replace").splitlines()
     listed = {match[2]: match[1] for line in lines if (match := _LINE.fullmatch(line))}
+    # A first run leaves nothing to compare; a link that leads nowhere is there.
     there = [name for name in names if os.path.lexists(folder / name)]
     if mixed := [name for name in there if _sha256(content(folder / name)) != listed.get(name)]:
         warnings.warn(
@@ -72,6 +75,7 @@ def warn_if_mixed(folder: Path, names: Iterable[str]) -> None:
 def content(path: Path) -> bytes:
     """Return the content of a file; nothing of what is no file or too large."""
     with suppress(OSError):
+        # A pipe would wait for ever, and a link may lead to one.
         status = path.lstat()
         if stat.S_ISREG(status.st_mode) and status.st_size <= _MOST_BYTES:
             return path.read_bytes()
@@ -93,6 +97,7 @@ def check_apart(names: Sequence[str], folder: Path, inputs: Sequence[Path]) -> N
     for path in inputs:
         for name in names:
             target = folder / name
+            # The same file has many names: other capitals, links, hard links.
             if target.exists() and path.exists() and os.path.samefile(target, path):
                 raise InputError(
                     f"{path}: is an input of this run, and would be replaced by its {name}; choose"
@@ -143,6 +148,7 @@ def output_folder(out: Path | None, home: Path, usual: str, names: Iterable[str]
     try:
         with ExitStack() as undo:
             add_folder(folder, undo)
+            # Permissions do not say it all: a full disk refuses only what is written.
             TemporaryFile(dir=folder).close()
     except OSError as error:
         reason = f"cannot be written ({error.strerror}); choose another folder with --out"

@@ -26,6 +26,7 @@ from solver.suggestions import meant
 def results_json(assessment: Assessment, evidence: Evidence) -> bytes:
     """Return everything as JSON in SI, with units in the keys and null for no value."""
     document = results(assessment, evidence).model_dump(mode="python")
+    # As it is read from a workbook: `--since` compares it field by field.
     document["input"] = assessment.project.model_dump(mode="json")
     return json.dumps(finite(document), indent=1, ensure_ascii=False).encode() + b"\n"
 
@@ -53,6 +54,7 @@ def read_former(path: Path) -> tuple[Compared, bytes]:
         if path.exists() and not path.is_file():
             raise InputError(f"{path}: cannot be read (no file); {GIVE}")
         with path.open("rb") as file:
+            # One more than allowed, so that a file which grows meanwhile is told.
             content = file.read(MOST_BYTES + 1)
     except OSError as error:
         reason = f"cannot be read ({error.strerror}); {meant(path) or GIVE}"
@@ -75,6 +77,7 @@ def former_from(content: bytes, path: Path) -> Compared:
             f"{path}: has {count:,} objects; at most {MOST_OBJECTS:,} are compared; {GIVE}"
         )
     try:
+        # It counts how deep it goes; the parser of the standard library ends in a traceback.
         document = from_json(content, allow_inf_nan=False)
     except ValueError as error:
         raise InputError(f"{path}: is no results.json or is damaged; {AGAIN}") from error
@@ -88,6 +91,7 @@ def former_from(content: bytes, path: Path) -> Compared:
             f"{path}: schema_version is {stated}; this version reads {SCHEMA_VERSION}; {AGAIN}"
         )
     try:
+        # Strict: "1.0" is no number, and true is none either.
         former = Compared.model_validate_json(content, strict=True)
     except ValidationError as error:
         raise InputError(f"{path}: {_first(error)}; the file is damaged: {AGAIN}") from error
@@ -97,6 +101,7 @@ def former_from(content: bytes, path: Path) -> Compared:
                 f"{path}: '{cut(text)}' has the character U+{ord(letter[0]):04X}, which cannot be"
                 f" printed; the file is damaged: {AGAIN}"
             )
+        # Laid out, it would be a box, and the log of the renderer an error.
         if missing := undrawable(text):
             raise InputError(
                 f"{path}: no font of this machine has {named(missing)} of '{cut(text)}'; install"

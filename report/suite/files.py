@@ -146,6 +146,7 @@ def without_noise(measured: Mapping[str, Any]) -> dict[str, Any]:
     return {**measured, **dict.fromkeys(lost, 0.0)}
 
 
+# AC156 allows 90 % at 1/6-octave points; here at 1/12, with a largest ratio as well.
 LEAST, GREATEST, MEAN_OFF = 0.90, 1.30, 0.07
 """Limits on every component's ratios to its target, at 1/12 octave."""
 
@@ -171,6 +172,7 @@ class SuiteComponent:
     def is_within_limits(self) -> bool:
         """Whether the ratios to the target satisfy the limits."""
         fit = self.fit
+        # A mean above 1 pays with displacements that the target does not ask for.
         in_range = fit.minimum >= LEAST and fit.maximum <= GREATEST
         return in_range and abs(fit.mean - 1.0) <= MEAN_OFF
 
@@ -204,6 +206,7 @@ def generate(
     targets: SuiteTargets, count: int, seed: int, seeds: Seeds, progress: Callable[[str], None]
 ) -> tuple[Sequence[SuiteMotion], dict[str, bytes]]:
     """Return a suite and its files; `progress` is told of each motion and of the chart."""
+    # Each motion has a seed of its own: more of them leave the first ones as they were.
     suite = make_suite(
         targets.horizontal,
         targets.vertical,
@@ -234,6 +237,7 @@ def suite_files(
         The seed files, with their SHA-256.
     """
     parts = components(suite, targets)
+    # In memory first: the hashes in suite.json are those of what is written.
     files = {
         f"{record.name}.csv": record_csv(record, hold_s=motion.hold_s).encode()
         for motion in suite
@@ -262,6 +266,7 @@ def _document(
         "seed_records": [{"file": name, "sha256": digest} for name, digest in records.items()],
         "dt_s": record.dt_s,
         "duration_s": duration_s,
+        # AC156: rise, strong motion, decay; both ramps are equal.
         "envelope_s": [(duration_s - hold_s) / 2.0, hold_s, (duration_s - hold_s) / 2.0],
         "damping": 0.05,
         "target": {
