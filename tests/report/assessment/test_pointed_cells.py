@@ -137,8 +137,8 @@ def test_a_finding_names_the_cells_that_are_missing_or_wrong(case):
     changes, text, places = CASES[case]
     book = stand_in.book(stand_in.project(**changes), scenes.motions(7))
     found = [f for f in limits_before_runs(book.sheet.project, book.shaking) if text in f.text]
-    named = [place for finding in found for place in (finding.place, *finding.others)]
-    assert named == [Place(*each) for each in places]
+    named = {place for finding in found for place in (finding.place, *finding.others)}
+    assert named == {Place(*each) for each in places}
 
 
 def test_the_component_that_drifts_is_named(tmp_path):
