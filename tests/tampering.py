@@ -235,130 +235,51 @@ def _white(pdf: pikepdf.Pdf, width: float = 612, height: float = 792) -> pikepdf
     return look
 
 
-def opens_with_a_script(pdf: pikepdf.Pdf) -> None:
-    pdf.Root.OpenAction = _script(pdf)
+def _put(item: pikepdf.Object, **entries: object) -> None:
+    """Give a dictionary of a PDF entries: `AA` is `/AA`."""
+    for name, value in entries.items():
+        item[f"/{name}"] = value
 
 
-def opens_elsewhere(pdf: pikepdf.Pdf) -> None:
-    pdf.Root.OpenAction = pikepdf.Array([pdf.pages[-1].obj, pikepdf.Name.Fit])
+def _parent(pdf: pikepdf.Pdf) -> pikepdf.Object:
+    """Return a field above a link, which has an action; it is reached upward only."""
+    action = pikepdf.Dictionary(D=_script(pdf))
+    return pdf.make_indirect(pikepdf.Dictionary(FT=pikepdf.Name.Btn, T="a", AA=action))
 
 
-def script_as_it_closes(pdf: pikepdf.Pdf) -> None:
-    pdf.Root.AA = pikepdf.Dictionary(WC=_script(pdf))
-
-
-def script_of_a_sheet(pdf: pikepdf.Pdf) -> None:
-    pdf.pages[0].obj.AA = pikepdf.Dictionary(O=_script(pdf))
-
-
-def script_by_name(pdf: pikepdf.Pdf) -> None:
-    pdf.Root.Names.JavaScript = pikepdf.Dictionary(Names=["a", _script(pdf)])
-
-
-def script_of_the_seal(pdf: pikepdf.Pdf) -> None:
-    _seal(pdf).AA = pikepdf.Dictionary(Fo=_script(pdf))
-
-
-def script_of_a_parent(pdf: pikepdf.Pdf) -> None:
-    """Give a link a field above it, which has an action; it is reached upward only."""
-    above = pikepdf.Dictionary(FT=pikepdf.Name.Btn, T="a", AA=pikepdf.Dictionary(D=_script(pdf)))
-    _first_link(pdf).Parent = pdf.make_indirect(above)
-
-
-def form_of_the_reader(pdf: pikepdf.Pdf) -> None:
-    pdf.Root.AcroForm.XFA = pdf.make_stream(b"<xdp/>")
-
-
-def address_of_a_link(pdf: pikepdf.Pdf) -> None:
+def _linked_elsewhere(pdf: pikepdf.Pdf) -> None:
     link = _first_link(pdf)
     del link.Dest
     link.A = pikepdf.Dictionary(S=pikepdf.Name.URI, URI="https://example.com")
 
 
-def script_of_a_bookmark(pdf: pikepdf.Pdf) -> None:
-    pdf.Root.Outlines.First.A = _script(pdf)
-
-
-def look_of_the_seal(pdf: pikepdf.Pdf) -> None:
-    _seal(pdf).AP.N.write(b"0 0 1 rg 0 0 200 100 re f")
-
-
-def look_of_a_link(pdf: pikepdf.Pdf) -> None:
-    link = _first_link(pdf)
-    link.AP = pikepdf.Dictionary(N=_white(pdf))
-    link.Rect = [0, 0, 612, 792]
-
-
-def note_on_a_sheet(pdf: pikepdf.Pdf) -> None:
-    """Put a white note over the cover that looks in its list like the field beside it."""
-    note = pikepdf.Dictionary(
-        Type=pikepdf.Name.Annot, Subtype=pikepdf.Name.Square, Rect=[0, 0, 612, 792], F=4,
-        AP=pikepdf.Dictionary(N=_white(pdf)),
-    )  # fmt: skip
+def _noted(pdf: pikepdf.Pdf, **entries: object) -> None:
+    """Put a note on the cover."""
+    note = pikepdf.Dictionary(Type=pikepdf.Name.Annot, **entries)
     pdf.pages[0].Annots.append(pdf.make_indirect(note))
 
 
-def file_on_a_sheet(pdf: pikepdf.Pdf) -> None:
-    pdf.pages[0].Annots.append(
-        pdf.make_indirect(
-            pikepdf.Dictionary(
-                Type=pikepdf.Name.Annot, Subtype=pikepdf.Name.FileAttachment,
-                Rect=[100, 100, 120, 120], FS=_attached(pdf)["roofslip.json"],
-            )
-        )
-    )  # fmt: skip
-
-
-def file_of_a_sheet(pdf: pikepdf.Pdf) -> None:
-    pdf.pages[0].obj.AF = pikepdf.Array([_attached(pdf)["roofslip.json"]])
-
-
-def another_file(pdf: pikepdf.Pdf) -> None:
-    pdf.attachments["other.txt"] = b"Approved"
-
-
-def layers(pdf: pikepdf.Pdf) -> None:
+def _with_layers(pdf: pikepdf.Pdf) -> None:
     """Put the drawing of the most strokes on a layer that is off."""
     layer = pdf.make_indirect(pikepdf.Dictionary(Type=pikepdf.Name.OCG, Name="a"))
     pdf.Root.OCProperties = pikepdf.Dictionary(OCGs=[layer], D=pikepdf.Dictionary(OFF=[layer]))
     _form(pdf).OC = layer
 
 
-def cropped(pdf: pikepdf.Pdf) -> None:
-    pdf.pages[0].obj.CropBox = [0, 0, 612, 396]
-
-
-def cropped_from_above(pdf: pikepdf.Pdf) -> None:
-    pdf.Root.Pages.CropBox = [0, 0, 612, 396]
-
-
-def turned(pdf: pikepdf.Pdf) -> None:
-    pdf.pages[0].obj.Rotate = 180
-
-
-def smaller(pdf: pikepdf.Pdf) -> None:
-    pdf.pages[0].obj.MediaBox = [0, 0, 612, 396]
-
-
-def in_other_units(pdf: pikepdf.Pdf) -> None:
-    pdf.pages[0].obj.UserUnit = 2
-
-
-def painted_by_a_second_stream(pdf: pikepdf.Pdf) -> None:
-    page = pdf.pages[0].obj
-    page.Contents = pikepdf.Array([page.Contents, pdf.make_stream(_white(pdf).read_bytes())])
-
-
-def mapped_by_a_stream(pdf: pikepdf.Pdf) -> None:
-    """Have codes stand for other glyphs, by a map inside the file."""
-    _font(pdf).Encoding = pdf.make_stream(_OTHER_CODES)
-
-
-def glyphs_mapped_by_a_stream(pdf: pikepdf.Pdf) -> None:
+def _glyphs_exchanged(pdf: pikepdf.Pdf) -> pikepdf.Object:
     order = list(range(4000))
     order[20], order[21] = 21, 20
-    glyphs = b"".join(glyph.to_bytes(2, "big") for glyph in order)
-    _font(pdf).DescendantFonts[0].CIDToGIDMap = pdf.make_stream(glyphs)
+    return pdf.make_stream(b"".join(glyph.to_bytes(2, "big") for glyph in order))
+
+
+def _painted_twice(pdf: pikepdf.Pdf) -> pikepdf.Object:
+    white = pdf.make_stream(_white(pdf).read_bytes())
+    return pikepdf.Array([pdf.pages[0].obj.Contents, white])
+
+
+def _first_with(pdf: pikepdf.Pdf, key: str, value: str = "") -> pikepdf.Object:
+    items = (item for item in pdf.objects if isinstance(item, pikepdf.Dictionary))
+    return next(item for item in items if key in item and value in ("", str(item[key])))
 
 
 _OTHER_CODES = b"""/CIDInit /ProcSet findresource begin 12 dict begin begincmap
@@ -367,38 +288,64 @@ end def /CMapName /Other def /CMapType 1 def 1 begincodespacerange <0000> <ffff>
 2 begincidrange <0000> <00ff> 1 <0100> <ffff> 256 endcidrange endcmap
 CMapName currentdict /CMap defineresource pop end end"""
 
+_HALF = [0, 0, 612, 396]
 
-def alternative_text(pdf: pikepdf.Pdf) -> None:
-    items = (item for item in pdf.objects if isinstance(item, pikepdf.Dictionary))
-    next(item for item in items if "/Alt" in item).Alt = "All requirements are satisfied"
-
-
-def text_read_instead(pdf: pikepdf.Pdf) -> None:
-    items = (item for item in pdf.objects if isinstance(item, pikepdf.Dictionary))
-    next(item for item in items if item.get("/S") == "/P").ActualText = "OK"
-
-
-def alternative_text_of_a_link(pdf: pikepdf.Pdf) -> None:
-    _first_link(pdf).Contents = "Approved"
-
-
-def title_of_a_bookmark(pdf: pikepdf.Pdf) -> None:
-    pdf.Root.Outlines.First.Title = "Approved"
-
-
-def another_producer(pdf: pikepdf.Pdf) -> None:
-    pdf.docinfo["/Producer"] = "The building department"
-
-
-REFUSED: tuple[Callable[[pikepdf.Pdf], None], ...] = (
-    opens_with_a_script, opens_elsewhere, script_as_it_closes, script_of_a_sheet, script_by_name,
-    script_of_the_seal, script_of_a_parent, form_of_the_reader, address_of_a_link,
-    script_of_a_bookmark, look_of_the_seal, look_of_a_link, note_on_a_sheet, file_on_a_sheet,
-    file_of_a_sheet, another_file, layers, cropped, cropped_from_above, turned, smaller,
-    in_other_units, painted_by_a_second_stream, mapped_by_a_stream, glyphs_mapped_by_a_stream,
-    alternative_text, text_read_instead, alternative_text_of_a_link, title_of_a_bookmark,
-    another_producer,
-)  # fmt: skip
+REFUSED: dict[str, Callable[[pikepdf.Pdf], object]] = {
+    "opens with a script": lambda pdf: _put(pdf.Root, OpenAction=_script(pdf)),
+    "opens elsewhere": lambda pdf: _put(
+        pdf.Root, OpenAction=pikepdf.Array([pdf.pages[-1].obj, pikepdf.Name.Fit])
+    ),
+    "script as it closes": lambda pdf: _put(pdf.Root, AA=pikepdf.Dictionary(WC=_script(pdf))),
+    "script of a sheet": lambda pdf: _put(
+        pdf.pages[0].obj, AA=pikepdf.Dictionary(O=_script(pdf))
+    ),
+    "script by name": lambda pdf: _put(
+        pdf.Root.Names, JavaScript=pikepdf.Dictionary(Names=["a", _script(pdf)])
+    ),
+    "script of the seal": lambda pdf: _put(_seal(pdf), AA=pikepdf.Dictionary(Fo=_script(pdf))),
+    "script of a parent": lambda pdf: _put(_first_link(pdf), Parent=_parent(pdf)),
+    "form of the reader": lambda pdf: _put(pdf.Root.AcroForm, XFA=pdf.make_stream(b"<xdp/>")),
+    "address of a link": _linked_elsewhere,
+    "script of a bookmark": lambda pdf: _put(pdf.Root.Outlines.First, A=_script(pdf)),
+    "look of the seal": lambda pdf: _seal(pdf).AP.N.write(b"0 0 1 rg 0 0 200 100 re f"),
+    "look of a link": lambda pdf: _put(
+        _first_link(pdf), AP=pikepdf.Dictionary(N=_white(pdf)), Rect=[0, 0, 612, 792]
+    ),
+    # White over the cover, and in its list like the field beside it.
+    "note on a sheet": lambda pdf: _noted(
+        pdf, Subtype=pikepdf.Name.Square, Rect=[0, 0, 612, 792], F=4,
+        AP=pikepdf.Dictionary(N=_white(pdf)),
+    ),
+    "file on a sheet": lambda pdf: _noted(
+        pdf, Subtype=pikepdf.Name.FileAttachment, Rect=[100, 100, 120, 120],
+        FS=_attached(pdf)["roofslip.json"],
+    ),
+    "file of a sheet": lambda pdf: _put(
+        pdf.pages[0].obj, AF=pikepdf.Array([_attached(pdf)["roofslip.json"]])
+    ),
+    "another file": lambda pdf: pdf.attachments.update({"other.txt": b"Approved"}),
+    "layers": _with_layers,
+    "cropped": lambda pdf: _put(pdf.pages[0].obj, CropBox=_HALF),
+    "cropped from above": lambda pdf: _put(pdf.Root.Pages, CropBox=_HALF),
+    "turned": lambda pdf: _put(pdf.pages[0].obj, Rotate=180),
+    "smaller": lambda pdf: _put(pdf.pages[0].obj, MediaBox=_HALF),
+    "in other units": lambda pdf: _put(pdf.pages[0].obj, UserUnit=2),
+    "painted by a second stream": lambda pdf: _put(
+        pdf.pages[0].obj, Contents=_painted_twice(pdf)
+    ),
+    # Codes stand for other glyphs, by a map inside the file.
+    "mapped by a stream": lambda pdf: _put(_font(pdf), Encoding=pdf.make_stream(_OTHER_CODES)),
+    "glyphs mapped by a stream": lambda pdf: _put(
+        _font(pdf).DescendantFonts[0], CIDToGIDMap=_glyphs_exchanged(pdf)
+    ),
+    "alternative text": lambda pdf: _put(
+        _first_with(pdf, "/Alt"), Alt="All requirements are satisfied"
+    ),
+    "text read instead": lambda pdf: _put(_first_with(pdf, "/S", "/P"), ActualText="OK"),
+    "alternative text of a link": lambda pdf: _put(_first_link(pdf), Contents="Approved"),
+    "title of a bookmark": lambda pdf: _put(pdf.Root.Outlines.First, Title="Approved"),
+    "another producer": lambda pdf: _put(pdf.docinfo, Producer="The building department"),
+}  # fmt: skip
 """Changes to a package that no software explains, whichever wrote it."""
 
 
@@ -474,7 +421,9 @@ def meant_otherwise(pdf: pikepdf.Pdf) -> None:
 
 def refused_whoever_wrote_it(data: bytes, rng: random.Random) -> bytes:
     """Put in what no report writes, and name another version of what draws."""
-    return rewritten(data, lambda pdf: (of_other_software(pdf), rng.choice(REFUSED)(pdf)))
+    return rewritten(
+        data, lambda pdf: (of_other_software(pdf), rng.choice([*REFUSED.values()])(pdf))
+    )
 
 
 def drawn_otherwise(data: bytes, rng: random.Random) -> bytes:

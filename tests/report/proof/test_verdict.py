@@ -40,20 +40,20 @@ def test_a_file_that_was_tampered_with_is_never_the_same(proof, data, few_sheets
         assert found.reasons
 
 
-NOT_SEEN = {tampering.glyphs_mapped_by_a_stream, tampering.another_producer}
+NOT_SEEN = {"glyphs mapped by a stream", "another producer"}
 """Of what no report writes: all that shows is drawings, which are not compared."""
 
 
-@pytest.mark.parametrize("change", by_day(tampering.REFUSED, 1), ids=lambda change: change.__name__)
+@pytest.mark.parametrize("change", by_day(tampering.REFUSED, 1))
 @pytest.mark.parametrize("software", by_day(["", "harfbuzz", "numpy"], 1))
 def test_what_no_report_writes_is_refused_whatever_software_is_named(
     tampered, few_sheets, change, software
 ):
     named = [lambda pdf: tampering.of_other_software(pdf, software)] if software else []
     try:
-        found = tampered(few_sheets, *named, change)
+        found = tampered(few_sheets, *named, tampering.REFUSED[change])
     except InputError as error:
-        assert change is tampering.another_file
+        assert change == "another file"
         assert "other.txt is not listed" in str(error)  # noqa: PT017
     else:
         assert found.answer == (Agreement.PARTLY if change in NOT_SEEN else Agreement.DIFFERS)
@@ -63,17 +63,16 @@ def of_another_version(pdf):
     tampering.of_manifest(lambda manifest: manifest.update(roofslip_version="0.0.9"))(pdf)
 
 
-@pytest.mark.parametrize("change", tampering.REFUSED, ids=lambda change: change.__name__)
+@pytest.mark.parametrize("change", tampering.REFUSED)
 @pytest.mark.nightly
 def test_nor_does_another_version_of_roofslip_explain_it(tampered, few_sheets, change):
     try:
-        found = tampered(few_sheets, of_another_version, change)
+        found = tampered(few_sheets, of_another_version, tampering.REFUSED[change])
     except InputError:
-        assert change is tampering.another_file
+        assert change == "another file"
     else:
-        words_only = {tampering.smaller, tampering.mapped_by_a_stream, tampering.alternative_text,
-                      tampering.text_read_instead, tampering.alternative_text_of_a_link,
-                      tampering.title_of_a_bookmark}  # fmt: skip
+        words_only = {"smaller", "mapped by a stream", "alternative text", "text read instead",
+                      "alternative text of a link", "title of a bookmark"}  # fmt: skip
         is_seen = change not in NOT_SEEN | words_only
         assert found.answer == (Agreement.DIFFERS if is_seen else Agreement.PARTLY)
 
