@@ -11,6 +11,7 @@ import json
 import random
 import re
 from collections.abc import Callable
+from functools import wraps
 from typing import Any
 
 import pikepdf
@@ -25,6 +26,11 @@ def rewritten(data: bytes, change: Callable[[pikepdf.Pdf], None]) -> bytes:
         change(pdf)
         pdf.save(out, deterministic_id=True)
     return out.getvalue()
+
+
+def _to_objects(change: Callable[[pikepdf.Pdf, random.Random], object]) -> Tamper:
+    """Make a change of the objects of a PDF one of its bytes."""
+    return wraps(change)(lambda data, rng: rewritten(data, lambda pdf: change(pdf, rng)))
 
 
 def _attached(pdf: pikepdf.Pdf) -> dict[str, pikepdf.Object]:
@@ -65,20 +71,17 @@ def of_manifest(change: Callable[[dict[str, Any]], object]) -> Callable[[pikepdf
     return write
 
 
-def digit_in_text(data: bytes, rng: random.Random) -> bytes:
+@_to_objects
+def digit_in_text(pdf: pikepdf.Pdf, rng: random.Random) -> None:
     """Change one glyph of the text of a sheet into another of the same font."""
-
-    def change(pdf: pikepdf.Pdf) -> None:
-        page = rng.choice(list(pdf.pages))
-        content = page.Contents.read_bytes()
-        glyphs = list(re.finditer(rb"<((?:[0-9a-f]{4})+)>", content))
+    page = rng.choice(list(pdf.pages))
+    content = page.Contents.read_bytes()
+    glyphs = list(re.finditer(rb"<((?:[0-9a-f]{4})+)>", content))
+    old, new = rng.choice(glyphs), rng.choice(glyphs)
+    while old[1][:4] == new[1][:4]:
         old, new = rng.choice(glyphs), rng.choice(glyphs)
-        while old[1][:4] == new[1][:4]:
-            old, new = rng.choice(glyphs), rng.choice(glyphs)
-        at = old.start(1)
-        page.Contents.write(content[:at] + new[1][:4] + content[at + 4 :])
-
-    return rewritten(data, change)
+    at = old.start(1)
+    page.Contents.write(content[:at] + new[1][:4] + content[at + 4 :])
 
 
 def _digit_changed(content: bytes, rng: random.Random) -> bytes:
@@ -87,19 +90,16 @@ def _digit_changed(content: bytes, rng: random.Random) -> bytes:
     return content[:at] + bytes([other]) + content[at + 1 :]
 
 
-def digit_in_results(data: bytes, rng: random.Random) -> bytes:
+@_to_objects
+def digit_in_results(pdf: pikepdf.Pdf, rng: random.Random) -> None:
     """Change one digit of results.json, and its hash with it."""
-
-    def change(pdf: pikepdf.Pdf) -> None:
-        results = file_of(pdf, "results.json")
-        # Not its hashes: beyond 1e-12 of a number there is nothing to find.
-        places = list(re.finditer(rb"\"\w+_m\": \d+\.\d{4}", results))
-        at = rng.choice(places).end() - 1
-        other = rng.choice([d for d in b"123456789" if d != results[at]])
-        set_file(pdf, "results.json", results[:at] + bytes([other]) + results[at + 1 :])
-        relisted(pdf)
-
-    return rewritten(data, change)
+    results = file_of(pdf, "results.json")
+    # Not its hashes: beyond 1e-12 of a number there is nothing to find.
+    places = list(re.finditer(rb"\"\w+_m\": \d+\.\d{4}", results))
+    at = rng.choice(places).end() - 1
+    other = rng.choice([d for d in b"123456789" if d != results[at]])
+    set_file(pdf, "results.json", results[:at] + bytes([other]) + results[at + 1 :])
+    relisted(pdf)
 
 
 def _records(pdf: pikepdf.Pdf) -> list[str]:
@@ -107,40 +107,31 @@ def _records(pdf: pikepdf.Pdf) -> list[str]:
     return [entry["name"] for entry in listed if entry["kind"] == "record"]
 
 
-def digit_in_record(data: bytes, rng: random.Random) -> bytes:
+@_to_objects
+def digit_in_record(pdf: pikepdf.Pdf, rng: random.Random) -> None:
     """Change one digit of a record, and its hash with it."""
-
-    def change(pdf: pikepdf.Pdf) -> None:
-        name = rng.choice(_records(pdf))
-        set_file(pdf, name, _digit_changed(file_of(pdf, name), rng))
-        relisted(pdf)
-
-    return rewritten(data, change)
+    name = rng.choice(_records(pdf))
+    set_file(pdf, name, _digit_changed(file_of(pdf, name), rng))
+    relisted(pdf)
 
 
-def swapped_records(data: bytes, rng: random.Random) -> bytes:
+@_to_objects
+def swapped_records(pdf: pikepdf.Pdf, rng: random.Random) -> None:
     """Exchange two records, and their hashes with them."""
-
-    def change(pdf: pikepdf.Pdf) -> None:
-        one, two = rng.sample(_records(pdf), 2)
-        contents = file_of(pdf, one), file_of(pdf, two)
-        set_file(pdf, one, contents[1])
-        set_file(pdf, two, contents[0])
-        relisted(pdf)
-
-    return rewritten(data, change)
+    one, two = rng.sample(_records(pdf), 2)
+    contents = file_of(pdf, one), file_of(pdf, two)
+    set_file(pdf, one, contents[1])
+    set_file(pdf, two, contents[0])
+    relisted(pdf)
 
 
-def byte_in_attachment(data: bytes, rng: random.Random) -> bytes:
+@_to_objects
+def byte_in_attachment(pdf: pikepdf.Pdf, rng: random.Random) -> None:
     """Change one byte of an attachment and nothing else."""
-
-    def change(pdf: pikepdf.Pdf) -> None:
-        name = rng.choice(sorted(_attached(pdf)))
-        content = bytearray(file_of(pdf, name))
-        content[rng.randrange(len(content))] ^= 1 << rng.randrange(8)
-        set_file(pdf, name, bytes(content))
-
-    return rewritten(data, change)
+    name = rng.choice(sorted(_attached(pdf)))
+    content = bytearray(file_of(pdf, name))
+    content[rng.randrange(len(content))] ^= 1 << rng.randrange(8)
+    set_file(pdf, name, bytes(content))
 
 
 def cut(data: bytes, rng: random.Random) -> bytes:
@@ -154,29 +145,23 @@ def flipped(data: bytes, rng: random.Random) -> bytes:
     return data[:at] + bytes([data[at] ^ (1 << rng.randrange(8))]) + data[at + 1 :]
 
 
-def stamped_over(data: bytes, rng: random.Random) -> bytes:
+@_to_objects
+def stamped_over(pdf: pikepdf.Pdf, rng: random.Random) -> None:
     """Put an annotation with other words over a sheet."""
-
-    def change(pdf: pikepdf.Pdf) -> None:
-        page = rng.choice(list(pdf.pages))
-        note = pikepdf.Dictionary(
-            Type=pikepdf.Name.Annot, Subtype=pikepdf.Name.FreeText, Rect=[100, 300, 400, 340],
-            Contents="OK", DA="/Helv 12 Tf",
-        )  # fmt: skip
-        if "/Annots" not in page:
-            page.Annots = pdf.make_indirect(pikepdf.Array())
-        page.Annots.append(pdf.make_indirect(note))
-
-    return rewritten(data, change)
+    page = rng.choice(list(pdf.pages))
+    note = pikepdf.Dictionary(
+        Type=pikepdf.Name.Annot, Subtype=pikepdf.Name.FreeText, Rect=[100, 300, 400, 340],
+        Contents="OK", DA="/Helv 12 Tf",
+    )  # fmt: skip
+    if "/Annots" not in page:
+        page.Annots = pdf.make_indirect(pikepdf.Array())
+    page.Annots.append(pdf.make_indirect(note))
 
 
-def without_sheet(data: bytes, rng: random.Random) -> bytes:
+@_to_objects
+def without_sheet(pdf: pikepdf.Pdf, rng: random.Random) -> None:
     """Take out a sheet."""
-
-    def change(pdf: pikepdf.Pdf) -> None:
-        del pdf.pages[rng.randrange(len(pdf.pages))]
-
-    return rewritten(data, change)
+    del pdf.pages[rng.randrange(len(pdf.pages))]
 
 
 def appended(data: bytes, rng: random.Random) -> bytes:
