@@ -1,7 +1,9 @@
 import hashlib
 import json
+import re
 import shutil
 from dataclasses import replace
+from importlib import metadata
 from importlib.metadata import version
 from pathlib import Path
 
@@ -20,10 +22,12 @@ from report.provenance import files
 from report.provenance.files import (
     MOST_RECORDS,
     attachments,
+    environment,
     fingerprint,
     holds_records,
     record_bytes,
     sources,
+    versions,
 )
 from report.results.results_json import results_json
 from report.sheet.reading.linked_files import Document
@@ -241,3 +245,31 @@ def test_a_former_revision_is_attached_under_a_name_of_its_own(job):
     sheet, shaking = job
     found = sources(sheet, shaking, b"{}")
     assert (found[-1].path, found[-1].content) == ("since/results.json", b"{}")
+
+
+@pytest.mark.quick
+def test_the_parts_that_matter_are_named_with_their_versions_and_no_tool():
+    known = versions()
+    named = "numpy numba llvmlite pandas openpyxl matplotlib weasyprint pydyf fonttools"
+    assert known.keys() - {"lxml"} == {"roofslip", "python", *named.split()}
+    for name in named.split():
+        assert known[name] == metadata.version(name)
+
+
+@pytest.mark.quick
+def test_what_is_not_installed_is_left_out(monkeypatch):
+    true = metadata.version
+
+    def version(name):
+        if name == "lxml":
+            raise metadata.PackageNotFoundError(name)
+        return true(name)
+
+    monkeypatch.setattr(metadata, "version", version)
+    assert "lxml" not in versions.__wrapped__()
+
+
+@pytest.mark.quick
+def test_the_environment_names_system_and_processor_too():
+    assert environment().keys() - versions().keys() == {"system"}
+    assert re.fullmatch(r"[\w.+ -]+", environment()["system"])

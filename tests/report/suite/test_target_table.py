@@ -55,10 +55,6 @@ def test_a_sheet_is_read_by_its_headings_in_any_order_of_rows_and_columns(tmp_pa
     assert target.has_vertical
 
 
-def test_the_only_sheet_needs_no_name(tmp_path):
-    assert read_target(str(book(tmp_path, ROWS, others=()))).source == "spectra.xlsx!Target"
-
-
 @pytest.mark.parametrize("separator", [",", ";", "\t"])
 def test_csv_of_frequencies_is_read_without_a_vertical(tmp_path, separator):
     lines = ["frequency_hz,horizontal_g", "0.1,0.2", "", "1.3,2", "33.3,1.2"]
@@ -70,9 +66,7 @@ def test_csv_of_frequencies_is_read_without_a_vertical(tmp_path, separator):
     assert target.freq_hz.tolist() == [0.1, 1.3, 33.3]
     assert target.horizontal_g.tolist() == [0.2, 2.0, 1.2]
     assert not target.has_vertical
-
-
-def test_a_comma_is_decimal_where_a_semicolon_separates(tmp_path):
+    # A comma is decimal where a semicolon separates.
     lines = ["frequency;horizontal", "0,1;0,2", "1,3;1,234", "33,3;1,2"]
     assert read_target(text(tmp_path, "\n".join(lines))).horizontal_g.tolist() == [0.2, 1.234, 1.2]
 
@@ -91,6 +85,11 @@ def test_every_invalid_cell_is_reported_by_its_address(tmp_path):
         "Target!C3: vertical is blank; give a number greater than 0",
         "Target!C6: vertical is 250; give a number from 1e-06 to 100 [g]",
     )
+    rows = [list(row) for row in ROWS]
+    rows[1][1] = "=1+1"  # a formula that was never computed
+    (problem,) = problems(f"{book(tmp_path, rows)}!Target")
+    assert problem.startswith("Target!B2: horizontal ")
+    assert "=1+1" in problem
 
 
 def test_lines_of_csv_are_reported_by_their_number(tmp_path):
@@ -145,17 +144,12 @@ def test_periods_printed_to_two_decimals_reach_the_band(tmp_path):
         ("!Notes", "spectra.xlsx!Notes: no row of headings"),
     ],
 )
-def test_a_sheet_that_is_not_there_is_reported(tmp_path, name, expected):
+def test_a_sheet_that_is_not_there_is_reported_and_the_only_one_needs_no_name(
+    tmp_path, name, expected
+):
     (problem,) = problems(f"{book(tmp_path, ROWS)}{name}")
     assert expected in problem
-
-
-def test_formulas_never_computed_are_reported(tmp_path):
-    rows = [list(row) for row in ROWS]
-    rows[1][1] = "=1+1"
-    (problem,) = problems(f"{book(tmp_path, rows)}!Target")
-    assert problem.startswith("Target!B2: horizontal ")
-    assert "=1+1" in problem
+    assert read_target(str(book(tmp_path, ROWS, others=()))).source == "spectra.xlsx!Target"
 
 
 def test_far_away_cells_and_long_files_are_rejected(tmp_path):
@@ -167,23 +161,21 @@ def test_far_away_cells_and_long_files_are_rejected(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("content", "expected"),
+    ("name", "content", "expected"),
     [
-        (b"\x00\x01", "not a text file"),
-        (b'period,"sa\n', "not CSV"),
-        (b"x" * 1001, "found a line of 1001 characters; give at most 1000"),
+        ("target.csv", b"\x00\x01", "not a text file"),
+        ("target.csv", b'period,"sa\n', "not CSV"),
+        ("target.csv", b"x" * 1001, "found a line of 1001 characters; give at most 1000"),
+        ("spectra.xlsx", b"PK nonsense", "not a workbook, or truncated"),
+        ("none.csv", None, "no such file"),
+        ("none.xlsx", None, "no such file"),
     ],
 )
-def test_a_file_that_is_not_a_table_is_reported(tmp_path, content, expected):
-    assert expected in problems(text(tmp_path, content))[0]
-
-
-def test_a_file_that_is_not_a_workbook_is_reported(tmp_path):
-    path = tmp_path / "spectra.xlsx"
-    path.write_bytes(b"PK nonsense")
-    assert "not a workbook, or truncated" in problems(f"{path}!Target")[0]
-    assert "no such file" in problems(tmp_path / "none.csv")[0]
-    assert "no such file" in problems(f"{tmp_path / 'none.xlsx'}!Target")[0]
+def test_a_file_that_is_not_a_table_is_reported(tmp_path, name, content, expected):
+    if content is not None:
+        (tmp_path / name).write_bytes(content)
+    named = f"{tmp_path / name}{'!Target' if name.endswith('xlsx') else ''}"
+    assert expected in problems(named)[0]
 
 
 def test_a_target_is_interpolated_on_log_log_axes(tmp_path):
