@@ -31,36 +31,23 @@ BLANK = re.compile(r"leave (?:it|this|one of them) blank")
 
 # The projects that are altered, each with the cells that are.
 PROJECTS = {
-    "slack and strength": (
-        "example",
-        {
-            "Arrays/A1/Electrical slack": 10,
-            "Arrays/A2/Electrical slack": None,
-            "Arrays/A3/Electrical slack": 47.3,
-            "Arrays/A1/Interconnection strength": 100,
-            "Arrays/A2/Interconnection strength": None,
-            "Arrays/A1/Weight in wind design": 30000,
-        },
-    ),
+    "slack and strength": ("example", {
+        "Arrays/A1/Electrical slack": 10, "Arrays/A2/Electrical slack": None,
+        "Arrays/A3/Electrical slack": 47.3, "Arrays/A1/Interconnection strength": 100,
+        "Arrays/A2/Interconnection strength": None, "Arrays/A1/Weight in wind design": 30000,
+    }),
     "small gaps": (
-        "example",
-        {f"Clearances/{number}/Provided clearance": 20 for number in (2, 4, 6)},
+        "example", {f"Clearances/{number}/Provided clearance": 20 for number in (2, 4, 6)}
     ),
     "nothing given": ("conditions", {}),
-    "almost enough": (
-        "conditions",
-        {"Arrays/A1/Interconnection strength": 2106, "Arrays/A1/Electrical slack": 21.5},
-    ),
-    "metric": (
-        "school",
-        {
-            "Arrays/A1/Electrical slack": 0.2,
-            "Arrays/A2/Electrical slack": None,
-            "Arrays/A1/Interconnection strength": 10,
-            "Clearances/2/Provided clearance": 100,
-        },
-    ),
-}
+    "almost enough": ("conditions", {
+        "Arrays/A1/Interconnection strength": 2106, "Arrays/A1/Electrical slack": 21.5,
+    }),
+    "metric": ("school", {
+        "Arrays/A1/Electrical slack": 0.2, "Arrays/A2/Electrical slack": None,
+        "Arrays/A1/Interconnection strength": 10, "Clearances/2/Provided clearance": 100,
+    }),
+}  # fmt: skip
 
 
 @pytest.fixture

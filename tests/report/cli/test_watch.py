@@ -60,17 +60,9 @@ def test_a_save_is_a_file_that_is_new_changed_or_gone(tmp_path, change):
 
 @pytest.mark.parametrize(
     "name",
-    [
-        "~$input.xlsx",
-        ".~lock.input.xlsx#",
-        "input.xlsx~",
-        "5A1B2C00.tmp",
-        "out/calc-package.pdf",
-        "out/b/results.json",
-        "out/roofslip.sha256",
-        "out/.roofslip-a1.part",
-    ],
-)
+    ["~$input.xlsx", ".~lock.input.xlsx#", "input.xlsx~", "5A1B2C00.tmp", "out/calc-package.pdf",
+     "out/b/results.json", "out/roofslip.sha256", "out/.roofslip-a1.part"],
+)  # fmt: skip
 def test_locks_temporary_files_and_outputs_are_no_save(tmp_path, name):
     (tmp_path / "input.xlsx").write_bytes(b"before")
     before = stamps(tmp_path)

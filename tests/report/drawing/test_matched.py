@@ -3,6 +3,7 @@
 import math
 import re
 from functools import partial
+from itertools import zip_longest
 
 import pytest
 from hypothesis import given, settings
@@ -79,81 +80,23 @@ def test_the_lower_array_moves_to_the_top_and_each_keeps_its_slope(tmp_path):
     assert not table[2].startswith("A1")
 
 
-@pytest.mark.parametrize("by_ft", [(5, 0), (0, -8), (30, 12)])
-@pytest.mark.nightly
-def test_arrays_that_all_shift_a_little_are_told_by_what_they_have_in_common(tmp_path, by_ft):
-    places = [(20, 60), (20, 10), (130, 60)]
-    path = filled(tmp_path, [(place, "") for place in places])
-    before = slopes(path)
-    dx, dy = by_ft
-    moved = [((x + dx, y + dy), "") for x, y in reversed(places)]
-    revised(tmp_path, path, moved)
-    assert slopes(path) == {(x + dx, y + dy): row for (x, y), row in before.items()}
-
-
-@pytest.mark.nightly
-def test_a_name_in_the_drawing_is_that_of_the_row_wherever_it_is(tmp_path):
-    path = filled(tmp_path, [((20, 60), "A1"), ((20, 10), "A2")])
-    revised(tmp_path, path, [((20, 60), "A2"), ((20, 10), "A1")])
-    assert slopes(path) == {(20, 10): ("A1", 1.0), (20, 60): ("A2", 2.0)}
-
-
-@pytest.mark.nightly
-def test_an_array_in_its_place_that_the_drawing_calls_otherwise_keeps_its_row(tmp_path):
-    path = filled(tmp_path, [((20, 60), "A1"), ((20, 10), "A2")])
-    output = revised(tmp_path, path, [((20, 60), "PV-7"), ((20, 10), "A2")])
-    assert slopes(path) == {(20, 60): ("A1", 1.0), (20, 10): ("A2", 2.0)}
-    assert "('PV-7' in the drawing)" in output
-
-
-@pytest.mark.parametrize(
-    ("arrays", "candidates"),
-    [
-        # One outline over both, one half of each, one elsewhere of another size.
-        ([(((20, 10), (100, 10), (100, 100), (20, 100)), "")], "may be A1 or A2"),
-        ([((20, 35), "")], "may be A1 or A2"),
-        ([((20, 60), ""), (((130, 10), (160, 10), (160, 40), (130, 40)), "")], "may be A2, or new"),
-    ],
-)
-@pytest.mark.nightly
-def test_what_cannot_be_told_stops_with_the_candidates_and_changes_nothing(
-    tmp_path, arrays, candidates
-):
+def test_an_array_split_in_halves_stops_and_nothing_is_changed(tmp_path):
     path = filled(tmp_path, [((20, 60), ""), ((20, 10), "")])
     before = path.read_bytes()
-    output = revised(tmp_path, path, arrays, exit_code=2)
-    assert f"{candidates}: write its name inside of it as a text" in output
-    assert path.read_bytes() == before
-
-
-def test_an_array_split_in_halves_stops(tmp_path):
-    path = filled(tmp_path, [((20, 60), ""), ((20, 10), "")])
     halves = [(box(20, 60, (39, 40)), ""), (box(61, 60, (39, 40)), "")]
     output = revised(tmp_path, path, [*halves, ((20, 10), "")], exit_code=2)
     assert "x 20.00 to 59.00, y 60.00 to 100.00 ft), " in output
-    assert "x 61.00 to 100.00, y 60.00 to 100.00 ft) may be A1: write its name" in output
+    assert "x 61.00 to 100.00, y 60.00 to 100.00 ft) may be A1: write its name inside" in output
+    assert path.read_bytes() == before
 
 
 @pytest.mark.quick
 def test_of_many_that_cannot_be_told_some_are_named():
     places = [(20.0 * (k % 10), 12.0 * (k // 10), 16.0, 8.0) for k in range(3 * MOST_TOLD)]
-    far = tuple(drawn_at([(x + 1e3, *rest) for x, *rest in places]))
-    draft = {"arrays": rows_at(places), "objects": [], "outlines": [], "project": [], "roof": []}
     with pytest.raises(InputError) as caught:
-        matched(RoofPlan(roof=(), arrays=far, objects=(), unread=()), draft)
+        matched_with(places, [(x + 1e3, *rest) for x, *rest in places])
     assert len(caught.value.problems) == MOST_TOLD
     assert max(map(len, map(str, caught.value.problems))) < 1000
-
-
-@pytest.mark.nightly
-def test_a_new_array_has_a_name_that_no_row_had(tmp_path):
-    path = filled(tmp_path, [((20, 60), ""), ((20, 10), "")])
-    output = revised(tmp_path, path, [((20, 110), ""), ((20, 60), ""), ((20, 10), "")])
-    found = read(path).draft["arrays"]
-    assert [row["id"] for row in found] == ["A1", "A2", "A3"]
-    assert round(found[2]["y_from_m"] / FT) == 110
-    assert "slope_value" not in found[2]
-    assert "A3    new " in output
 
 
 @pytest.mark.nightly
@@ -234,13 +177,15 @@ def test_a_roof_that_grows_keeps_what_was_typed_of_its_edges(tmp_path):
     assert max(row["x_to_m"] for row in after) == pytest.approx(301 * FT, abs=1e-5)
 
 
-def drawn_at(places):
+def drawn_at(places, names=()):
+    """Outlines of arrays: corner and size [m], and a name or none."""
     return [
         DrawnOutline(
-            name=f"A{k}", kind=LayerKind.ARRAY, shape=Rectangle(x, x + wide, y, y + tall),
-            handle=str(k), layer="ARRAY", height_m=math.nan, unnamed="no text inside", note="",
+            name=name or f"A{k}", kind=LayerKind.ARRAY, shape=Rectangle(x, x + wide, y, y + tall),
+            handle=str(k), layer="ARRAY", height_m=math.nan, note="",
+            unnamed="" if name else "no text inside",
         )
-        for k, (x, y, wide, tall) in enumerate(places, start=1)
+        for k, ((x, y, wide, tall), name) in enumerate(zip_longest(places, names), start=1)
     ]  # fmt: skip
 
 
@@ -250,6 +195,48 @@ def rows_at(places):
         | dict(zip(SIDES, (x, x + wide, y, y + tall), strict=True))
         for k, (x, y, wide, tall) in enumerate(places, start=1)
     ]
+
+
+def matched_with(rows, places, names=()):
+    """The plan of drawn places with the names of the rows of a workbook."""
+    draft = {"arrays": rows_at(rows), "objects": [], "outlines": [], "project": [], "roof": []}
+    arrays = tuple(drawn_at(places, names))
+    return matched(RoofPlan(roof=(), arrays=arrays, objects=(), unread=()), draft).plan.arrays
+
+
+UPPER, LOWER, TOP = (20, 60, 80, 40), (20, 10, 80, 40), (20, 110, 80, 40)
+
+
+@pytest.mark.parametrize(
+    ("places", "written", "names"),
+    [
+        ([TOP, UPPER], ["", ""], ["A2", "A1"]),  # the lower one moves to the top
+        *(([(x + dx, y + dy, *size) for x, y, *size in (UPPER, LOWER)], ["", ""], ["A1", "A2"])
+          for dx, dy in ((5, 0), (0, -8), (30, 12))),
+        ([UPPER, LOWER], ["A2", "A1"], ["A2", "A1"]),  # a name counts wherever it is
+        ([UPPER, LOWER], ["PV-7", "A2"], ["A1", "A2"]),  # called otherwise, in its place
+        ([TOP, UPPER, LOWER], ["", "", ""], ["A3", "A1", "A2"]),  # a new one
+    ],
+)  # fmt: skip
+@pytest.mark.quick
+def test_an_outline_is_the_row_that_its_name_its_place_or_its_size_says(places, written, names):
+    arrays = matched_with([UPPER, LOWER], places, written)
+    assert [place.name for place in arrays] == names
+    assert (arrays[0].unnamed == "'PV-7' in the drawing") == (written[0] == "PV-7")
+
+
+@pytest.mark.parametrize(
+    ("places", "candidates"),
+    [
+        ([(20, 10, 80, 90)], "may be A1 or A2"),  # one over both
+        ([(20, 35, 80, 40)], "may be A1 or A2"),  # half of each
+        ([UPPER, (130, 10, 30, 30)], "may be A2, or new"),  # elsewhere and of another size
+    ],
+)
+@pytest.mark.quick
+def test_what_cannot_be_told_stops_with_the_candidates(places, candidates):
+    with pytest.raises(InputError, match=f"{candidates}: write its name inside of it as a text"):
+        matched_with([UPPER, LOWER], places)
 
 
 _CELLS = st.lists(
@@ -271,27 +258,19 @@ def test_what_stays_or_moves_by_less_than_half_its_size_is_never_taken_for_anoth
         k = data.draw(st.sampled_from(range(len(places))))
         if data.draw(st.booleans()):
             x, y, wide, tall = places[k]
-            after[k] = (
-                x + data.draw(st.floats(-3, 3)),
-                y + data.draw(st.floats(-3, 3)),
-                wide,
-                tall,
-            )
+            dx, dy = (data.draw(st.floats(-3, 3)) for _ in "xy")
+            after[k] = (x + dx, y + dy, wide, tall)
         elif free:
             x, y = free.pop(data.draw(st.integers(0, len(free) - 1)))
             after[k] = (20.0 * x, 12.0 * y, *places[k][2:])
             moved.add(k)
     order = data.draw(st.permutations(range(len(places))))
-    plan = RoofPlan(
-        roof=(), arrays=tuple(drawn_at([after[k] for k in order])), objects=(), unread=()
-    )
-    draft = {"arrays": rows_at(places), "objects": [], "outlines": [], "project": [], "roof": []}
     try:
-        told = matched(plan, draft)
+        arrays = matched_with(places, [after[k] for k in order])
     except InputError:
         assert len(moved) > 1  # one that moved is told from all that stayed
         return
-    named = {place.name: place.shape for place in told.plan.arrays}
+    named = {place.name: place.shape for place in arrays}
     for k, (x, y, wide, tall) in after.items():
         if k not in moved or len(moved) == 1:
             assert named[f"A{k + 1}"] == Rectangle(x, x + wide, y, y + tall)
