@@ -40,7 +40,6 @@ from report.making import OUTPUTS, STEPS, make
 if TYPE_CHECKING:
     from report.proof.package import Proof
     from solver.verification.evidence import Verification
-    from solver.verification.shake_table import ShakeTable
 
 
 VERIFY_STEPS = (18, 2, 3, 9, 11, 5, 0.1, 5, 0.1, 0.5, 0.1, 7, 33, 2)
@@ -82,8 +81,11 @@ def verify(out: Path | None, quick: bool, records: Path | None, table: Path | No
             f"{row.computed:.10g} {row.unit}, error {row.error:.1e} exceeds "
             f"{row.tolerance:.1e}"
         )
+    from report.manual.measured import result
+
     for tests in verification.tables:
-        click.echo(_judgment(tests))
+        median = f"{len(tests.runs)} tests, median ratio {tests.median:.3f}"
+        click.echo(f"shake table: {median}. {result(tests)}")
     for name in files:
         click.echo(out / name)
     is_refuted = not all(tests.is_accepted for tests in verification.tables)
@@ -108,12 +110,6 @@ def _verification(
         quick=quick, progress=progress, buildings=buildings, motions=motions, tests=tests
     )
     return verification, files(verification, dt.date.today(), progress)
-
-
-def _judgment(tests: ShakeTable) -> str:
-    from report.manual.measured import result
-
-    return f"shake table: {len(tests.runs)} tests, median ratio {tests.median:.3f}. {result(tests)}"
 
 
 # Usual time of the comparison, as a share of that of the package.

@@ -3,6 +3,7 @@
 import io
 import re
 import zipfile
+from functools import partial
 
 import numpy as np
 import pytest
@@ -20,16 +21,9 @@ COLUMN = "0\n0.125\n-0.25\n0\n"
 READING = ("--dt", 0.02, "--units", "g")
 
 
-def printed(*words):
-    return commands.printed("motion", *words)
-
-
-def as_json(*words):
-    return commands.as_json("motion", *words)
-
-
-def refused(*words):
-    return commands.refused("motion", *words)
+printed, as_json, refused = (
+    partial(command, "motion") for command in (commands.printed, commands.as_json, commands.refused)
+)
 
 
 @pytest.fixture

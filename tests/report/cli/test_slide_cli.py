@@ -1,6 +1,7 @@
 """The command `slide`: the solver's numbers, with the simplest adequate model, or a clear error."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -18,12 +19,7 @@ THREE = DATA / "motions" / "geonet.v2a"
 PLACE = ("--slope-deg", 2, "--mu", 0.5)
 
 
-def found(*words):
-    return commands.as_json("slide", *words)
-
-
-def refused(*words):
-    return commands.refused("slide", *words)
+found, refused = (partial(command, "slide") for command in (commands.as_json, commands.refused))
 
 
 def test_slide_gives_what_the_solver_gives():

@@ -118,27 +118,6 @@ def test_a_workbook_that_is_not_there_is_an_error_at_once(tmp_path):
     assert "no such file" in refused("watch", tmp_path)
 
 
-def test_a_round_with_a_problem_says_that_the_files_are_of_an_earlier_run(
-    tmp_path, capsys, monkeypatch
-):
-    monkeypatch.setattr("report.cli.report.MOST_POLLS", 1)
-    path, folder = tmp_path / "input.xlsx", tmp_path / "out"
-    path.write_bytes(b"half")
-    settled(path)  # waits no longer than it should
-    with pytest.raises(SystemExit):
-        report_again(path, None, b"")
-    first = capsys.readouterr().err
-    folder.mkdir()
-    (folder / "calc-package.pdf").write_bytes(b"%PDF")
-    with pytest.raises(SystemExit):
-        report_again(path, None, b"")
-    told = capsys.readouterr().err.splitlines()
-    assert told[0] == f"{path}: 1 problem found."
-    assert told[-1].startswith(f"{folder / 'calc-package.pdf'} is of an earlier run, 2")
-    assert told[-1].endswith(", and not replaced")
-    assert "earlier run" not in first
-
-
 @pytest.mark.nightly
 def test_a_round_says_what_changed_up_to_a_number(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr("report.cli.report.MOST_CHANGES", 1)

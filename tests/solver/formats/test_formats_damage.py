@@ -1,6 +1,6 @@
 """Damaged files: what a heading states is compared with what follows. Oracle: the whole file."""
 
-from functools import cache
+from functools import cache, partial
 
 import pytest
 
@@ -20,8 +20,7 @@ def values_of(motion_file):
     return [(record.dt_s, record.a_mps2.tobytes()) for record in motion_file.channels]
 
 
-def problems_of(path, **how):
-    return refused(read_motion_file, path, **how)
+problems_of = partial(refused, read_motion_file)
 
 
 intact = cache(read_motion_file)
@@ -77,6 +76,22 @@ def test_a_file_cut_after_its_first_channel_is_refused(file, name, kept, expecte
     lines = (SAMPLES / name).read_bytes().splitlines(keepends=True)
     (problem,) = problems_of(file(b"".join(lines[:kept]), name))
     assert problem.startswith(expected)
+
+
+def test_a_cut_file_of_three_components_is_told(file):
+    lines = (SAMPLES / "geonet.v2a").read_text().splitlines()
+    cut = read_motion_file(file("\n".join(lines[:-4])))
+    assert cut.notes == (
+        "Component Up Vertical Accelerometer Axis: velocities or displacements are incomplete: the"
+        " file may be truncated",
+    )
+    (problem,) = problems_of(file("\n".join(lines[:97])))
+    assert problem == "roof.csv:90: states 21 values, found 10; give the whole file"
+    (problem,) = problems_of(file("\n".join(lines[:70])))
+    assert problem == (
+        "roof.csv:36: found the heading of component 2, the last one, where the format has 3"
+        " components; give the whole file"
+    )
 
 
 @pytest.mark.parametrize("name", ["csmip-old.v2", "renadic.v1", "csmip-even.raw"])

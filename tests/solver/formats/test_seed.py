@@ -4,6 +4,7 @@ import random
 import struct
 import sys
 import warnings
+from functools import partial
 
 import numpy as np
 import pytest
@@ -53,8 +54,7 @@ def obspy():
         return pytest.importorskip("obspy")
 
 
-def problems_of(path, **how):
-    return refused(read_motion_file, path, **how)
+problems_of = partial(refused, read_motion_file)
 
 
 @pytest.mark.parametrize("is_station", [False, True])
