@@ -253,7 +253,7 @@ def test_failed_cells_are_hatched_and_counted(made, verification, words):
     assert f"Failed: {count} of {failed.size} cells." in words
     svg = made["charts/stability-1.svg"].decode()
     assert svg.count("fill: url(#") >= count
-    for text in ("failed", "1 % contour", "10 % contour", "theoretical limit"):
+    for text in ("failed", "1 to 10 %", "more than 10 %", "theoretical limit"):
         assert f">{text}<" in svg
 
 
