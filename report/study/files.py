@@ -8,14 +8,13 @@ from markupsafe import Markup
 
 from report.document.templates import Section, filled, rendered, section
 from report.sheet.schema.years import FILE as YEARS
-from report.study.array_page import fragility
+from report.study.array_page import fragility, sheets, years, years_json
 from report.study.curves import allowed, compare, curves, prescribed
 from report.study.exports import export_files
 from report.study.page_parts import basis, formula, limits
 from report.study.results import StudyResults
 from report.study.tables import curves_csv, study_xlsx
 from report.study.wording import context, headline
-from report.study.years_page import sheets, years, years_json
 from report.typeset.pdf import TEMPLATES, lay_out
 
 TABLE = "study.xlsx"

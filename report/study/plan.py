@@ -18,8 +18,6 @@ import numpy as np
 
 from report.sheet.reading.unseen import warnings
 from report.sheet.schema.fields import Finding, Place
-from report.study.hazard import hazard_curves
-from report.study.motions import StudyMotions
 from report.study.read import StudySheet
 from report.study.schema import (
     MOST_CASES,
@@ -30,6 +28,7 @@ from report.study.schema import (
     StudyArray,
     StudyInput,
 )
+from report.study.shaking import StudyMotions, hazard_curves
 from solver.model import Floats, InputError
 from solver.rules.provisions import (
     RULE_SETS,

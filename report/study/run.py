@@ -27,7 +27,6 @@ from report.study.manifest import (
     unlike,
     user_key,
 )
-from report.study.motions import study_motions
 from report.study.parts import (
     BYTES_A_ROW,
     Done,
@@ -44,6 +43,7 @@ from report.study.parts import (
 from report.study.plan import StudyPlan, plan_study
 from report.study.read import read_study
 from report.study.results import StudyResults, results_of
+from report.study.shaking import study_motions
 from report.text.counts import numbered
 from solver.files import write_all
 from solver.model import InputError

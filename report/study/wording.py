@@ -193,7 +193,7 @@ def _steepest(results: StudyResults) -> Iterator[tuple[str, float, list[str]]]:
 def _slope(results: StudyResults, slope: float) -> str:
     if math.isnan(slope):
         return "none of the study"
-    return f"{answer(slope, results.plan.input.slopes_deg[-1], '≥', SLOPE_DECIMALS)} deg"
+    return f"{answer(slope, results.plan.input.slopes_deg[-1], '≥', SLOPE_DECIMALS)}°"
 
 
 def answer(value: float, end: float, mark: str, decimals: int) -> str:

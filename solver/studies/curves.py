@@ -48,22 +48,14 @@ def statistics(prd_m: Floats) -> Statistics:
         PRD of each case under each motion [m]; NaN for none.
     """
     lost = np.isnan(prd_m)
-    ordered = np.sort(np.where(lost, np.inf, prd_m), axis=-1)
-    place = (prd_m.shape[-1] - 1) * PERCENTILE / 100.0
-    below = ordered[..., math.floor(place)]
-    above = ordered[..., math.ceil(place)]
     with np.errstate(invalid="ignore"):
-        p84 = below + (place - math.floor(place)) * (above - below)
+        p84_m = np.percentile(np.where(lost, np.inf, prd_m), PERCENTILE, axis=-1)
     return Statistics(
         mean_m=prd_m.mean(axis=-1),
-        p84_m=_finite(p84),
-        largest_m=_finite(ordered[..., -1]),
+        p84_m=np.where(np.isfinite(p84_m), p84_m, np.nan),
+        largest_m=prd_m.max(axis=-1),
         without_value=lost.sum(axis=-1),
     )
-
-
-def _finite(values: Floats) -> Floats:
-    return np.where(np.isfinite(values), values, np.nan)
 
 
 def first_allowed(values: Floats, prd_m: Floats, allowed_m: float) -> float:
@@ -130,35 +122,23 @@ class Fit:
     domain: Mapping[str, tuple[float, float]]
 
     def prd_m(self, slope_rad: float, mu: float, intensity: float) -> float:
-        """Return the fitted PRD [m].
-
-        Raises
-        ------
-        InputError
-            Outside the domain, with the ranges.
-        """
-        r = math.tan(math.atan(mu) - slope_rad) / (self.ppa_g * intensity)
-        inputs = {"slope_rad": slope_rad, "mu": mu, "intensity": intensity, "r": r}
-        # A case that was fitted is in the domain whatever the rounding error of its units.
-        problems = [
-            f"{name} is {value:.4g}; the formula holds from {low:.4g} to {high:.4g}"
-            for name, value in inputs.items()
-            for low, high in [self.domain[name]]
-            for slack in [1e-9 * max(abs(low), abs(high))]
-            if not low - slack <= value <= high + slack
-        ]
-        if problems:
-            raise InputError(problems)
-        terms = _terms(np.array([slope_rad]), np.array([mu]), np.array([intensity]), np.array([r]))
-        return float(np.exp(terms @ np.array(self.coefficients))[0])
+        """Return the fitted PRD [m], of a case that the formula covers."""
+        r = self._r(slope_rad, mu, intensity)
+        terms = _terms(*map(np.asarray, (slope_rad, mu, intensity, r)))
+        return float(np.exp(terms @ np.array(self.coefficients)))
 
     def covers(self, slope_rad: float, mu: float, intensity: float) -> bool:
         """Whether a case is in the domain."""
-        try:
-            self.prd_m(slope_rad, mu, intensity)
-        except InputError:
-            return False
-        return True
+        case = (slope_rad, mu, intensity, self._r(slope_rad, mu, intensity))
+        ends = (self.domain[name] for name in ("slope_rad", "mu", "intensity", "r"))
+        # A case that was fitted is in the domain whatever the rounding error of its units.
+        return all(
+            low - 1e-9 * abs(high) <= value <= high + 1e-9 * abs(high)
+            for value, (low, high) in zip(case, ends, strict=True)
+        )
+
+    def _r(self, slope_rad: float, mu: float, intensity: float) -> float:
+        return math.tan(math.atan(mu) - slope_rad) / (self.ppa_g * intensity)
 
 
 def _terms(slope: Floats, mu: Floats, x: Floats, r: Floats) -> Floats:

@@ -19,7 +19,6 @@ from projects.study.make import study
 from report.cli.main import main
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import UnitsFirst
-from report.study.motions import study_motions
 from report.study.plan import plan_study
 from report.study.read import read_study, write_study
 from report.study.schema import (
@@ -33,6 +32,7 @@ from report.study.schema import (
     StudyMotion,
     values,
 )
+from report.study.shaking import study_motions
 from report.study.tables import study_xlsx
 from sheets import edit, type_into
 from solver.model import InputError
@@ -280,7 +280,7 @@ def test_a_folder_of_motions_is_refused_at_its_cell(tmp_path, letters, change, w
 
 def test_too_many_samples_and_runs_are_refused_at_their_cell(tmp_path, monkeypatch):
     folder = write(tmp_path)
-    monkeypatch.setattr("report.study.motions.MOST_SAMPLES", 1000)
+    monkeypatch.setattr("report.study.shaking.MOST_SAMPLES", 1000)
     assert at(f"{FOLDER}: the records have 1,200 samples") in problems(folder)
     monkeypatch.undo()
     monkeypatch.setattr("report.study.plan.MOST_RUNS", 10)

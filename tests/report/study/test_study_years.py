@@ -13,9 +13,9 @@ from test_study_read import given, plan, problems, write
 import printed
 from report.sheet.schema.years import SUPPORTING, StudyYears
 from report.study.files import study_files
-from report.study.hazard import points_of
 from report.study.run import planned, run_study
 from report.study.schema import Hazard, HazardPoint, Intensity, StudyArray, StudyFrictionRun
+from report.study.shaking import points_of
 from report.study.years import RECURRENCES
 from solver.friction_tests import Surface
 from solver.model import InputError
