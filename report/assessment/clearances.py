@@ -115,10 +115,7 @@ class ClearanceCheck(ComparedGap):
 
 
 def check_clearance(
-    data: ProjectInput,
-    rules: RuleSet,
-    arrays: Sequence[ArrayAssessment],
-    row: Clearance,
+    data: ProjectInput, rules: RuleSet, arrays: Sequence[ArrayAssessment], row: Clearance
 ) -> ClearanceCheck:
     """Return a clearance with its required separation, the larger of the two between arrays."""
     # Either array may move toward the other: the larger displacement of both governs.

@@ -35,9 +35,7 @@ _WAYS = (Direction.DOWN, Direction.ACROSS, Direction.UP, Direction.ACROSS)  # by
 
 
 def pairs_before_runs(
-    data: ProjectInput,
-    addresses: Mapping[Place, str],
-    arrays: Sequence[ArrayAssessment] = (),
+    data: ProjectInput, addresses: Mapping[Place, str], arrays: Sequence[ArrayAssessment] = ()
 ) -> tuple[PlanNeighbor, ...]:
     """Return the pairs of the plan as a package has them at the prescriptive displacement.
 

@@ -9,12 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
-from report.assessment.arrays import (
-    Route,
-    interconnection_n,
-    limits_of,
-    statistic_basis,
-)
+from report.assessment.arrays import Route, interconnection_n, limits_of, statistic_basis
 from report.assessment.conditions import motion_rows, noted, project_rows, rows_before_runs
 from report.assessment.neighbors import REACH_FACTOR, NearbyKind
 from report.assessment.plan_clearances import design_before_runs_m, pairs_before_runs
@@ -59,12 +54,7 @@ def findings(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
     hidden = [*sheet.unseen, *(cell for file in shaking.records for cell in file.unseen)]
     return acknowledged(
         data,
-        [
-            *sheet.warnings,
-            *warnings(hidden),
-            *implausible(data),
-            *record_findings(data, shaking),
-        ],
+        [*sheet.warnings, *warnings(hidden), *implausible(data), *record_findings(data, shaking)],
     )
 
 

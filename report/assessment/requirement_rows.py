@@ -79,10 +79,7 @@ def _source(site: Site) -> Requirement:
             id="hazard_source",
             title="Source, date and printout of the seismic parameters",
             **stated(
-                "site",
-                hazard_source=source,
-                hazard_date=date,
-                hazard_printout=("printout", file),
+                "site", hazard_source=source, hazard_date=date, hazard_printout=("printout", file)
             ),
             limit="source, date and printout",
             basis="seismic parameters",

@@ -112,10 +112,7 @@ def scene_key(array: Array) -> Hashable:
 
 
 def run_motion(
-    array: Array,
-    motion: Motion,
-    model: ModelChoice | None = None,
-    names: Collection[str] = (),
+    array: Array, motion: Motion, model: ModelChoice | None = None, names: Collection[str] = ()
 ) -> MotionRun:
     """Run one array under one motion in all of its runs.
 
@@ -143,10 +140,7 @@ def motion_run(motion: Motion, runs: Sequence[OrientedRun]) -> MotionRun:
 
 
 def run_oriented(
-    array: Array,
-    motion: Motion,
-    orientation: Orientation,
-    model: ModelChoice | None = None,
+    array: Array, motion: Motion, orientation: Orientation, model: ModelChoice | None = None
 ) -> OrientedRun:
     """Run one array under one motion at one orientation; the rest as in `run_motion`."""
     forced = REQUESTED_MODELS.get(array.model if model is None else model)

@@ -61,19 +61,13 @@ class UnitFormat:
     systems: int = 2  # in which a table has a quantity: a narrow one has the first alone
 
     def both(
-        self,
-        value_si: float,
-        quantity: Quantity = Quantity.DISPLACEMENT,
-        show: Show = measured,
+        self, value_si: float, quantity: Quantity = Quantity.DISPLACEMENT, show: Show = measured
     ) -> str:
         """Return `81.6 in (2072 mm)`; `none` for NaN."""
         return self.none if math.isnan(value_si) else pair(value_si, quantity, self.us_first, show)
 
     def short(
-        self,
-        value_si: float,
-        quantity: Quantity = Quantity.DISPLACEMENT,
-        show: Show = measured,
+        self, value_si: float, quantity: Quantity = Quantity.DISPLACEMENT, show: Show = measured
     ) -> str:
         """Return a value with its unit in the preferred system; `none` for NaN."""
         unit = self.units(quantity)[0]

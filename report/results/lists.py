@@ -108,10 +108,7 @@ def _motions(shaking: Shaking) -> Iterator[MotionRow]:
         row = motion_result(motion, prepared)
         for name, measures in row.components.items():
             yield MotionRow.beside(
-                row,
-                component=name,
-                pga_g=measures.pga_mps2 / G_MPS2,
-                **asdict(measures),
+                row, component=name, pga_g=measures.pga_mps2 / G_MPS2, **asdict(measures)
             )
 
 

@@ -220,11 +220,7 @@ def generate(
 
 
 def suite_files(
-    suite: Sequence[SuiteMotion],
-    targets: SuiteTargets,
-    *,
-    seed: int,
-    records: Mapping[str, str],
+    suite: Sequence[SuiteMotion], targets: SuiteTargets, *, seed: int, records: Mapping[str, str]
 ) -> dict[str, bytes]:
     """Return every file of a suite by name: the records, suite.json and suite.png.
 
