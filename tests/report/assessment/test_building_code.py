@@ -105,15 +105,6 @@ def test_check_says_so_at_the_cell_without_any_run():
         assert "By ASCE" not in said[field]
 
 
-def test_the_example_says_that_it_is_ng_by_asce_7_16_with_the_worst_clearance_and_the_slope():
-    done = scenes.shipped("example")
-    assert done.verdict is Verdict.CONDITIONS
-    assert listed(done.conditions)["rule_set"].outcome.endswith(
-        "By ASCE 7-16 13.6.12 with the same motions and S_DS: NG, A1 to RTU-1 65.3 > 48.0 in; A2:"
-        " electrical slack too short; A3: roof slope, analysis route, over its limit and 4 more."
-    )
-
-
 @pytest.mark.parametrize(("code", "is_beside"), [("2022 CBC", True), ("", False)])
 def test_the_basis_says_that_another_rule_set_is_for_comparison_where_one_is_printed(
     code, is_beside
