@@ -52,6 +52,8 @@ LEAST_AREA_M2 = 1e-3
 # Sides within this of an axis [m] are parallel to it; vertices within this of a line are on it.
 ROUNDED_M = 1e-5
 
+# Length of a side [m] beside which rounding is nothing.
+LONG_M = 0.1
 # Largest distance [m] between two outlines that are one drawn twice.
 TWICE_M = 0.005
 ROOF_M, ARRAY_M = (3.0, 3_000.0), (0.9, 1_000.0)
@@ -184,8 +186,11 @@ def _shape(line: Drawn, unit_m: float) -> Shape | Unread:
     """Return the shape of a line [m], or why it is none."""
     import shapely
 
-    drawn = shapely.LinearRing([(x * unit_m, y * unit_m) for x, y in line.points])
-    straight = drawn.simplify(ROUNDED_M, preserve_topology=False)
+    scaled = [(x * unit_m, y * unit_m) for x, y in line.points]
+    # Most lines are modules, which need no search for vertices in line and for crossings.
+    if (module := _clear_box(scaled)) is not None:
+        return module
+    straight = shapely.LinearRing(scaled).simplify(ROUNDED_M, preserve_topology=False)
     points = ring([(x, y) for x, y in straight.coords])
     if len(points) < LEAST_VERTICES:
         return _unread(line, "a closed line without an area")
@@ -200,12 +205,21 @@ def _shape(line: Drawn, unit_m: float) -> Shape | Unread:
     return _box(shape) or shape
 
 
+def _clear_box(points: Sequence[Point]) -> Rectangle | None:
+    """Return a closed line as a rectangle, if it is one of four corners with long sides."""
+    shape = Polygon(ring(points))
+    box = _box(shape)
+    if box is None or min(box.x_to_m - box.x_from_m, box.y_to_m - box.y_from_m) < LONG_M:
+        return None
+    return box if shape.area_m2 > 0.99 * box.area_m2 else None  # else it is folded
+
+
 def _box(shape: Polygon) -> Rectangle | None:
     """Return a polygon as a rectangle, if it is one that is parallel to the axes."""
-    is_right = all(
+    is_right = len(shape.points) == 4 and all(
         min(abs(x1 - x0), abs(y1 - y0)) <= ROUNDED_M for (x0, y0), (x1, y1) in sides(shape.points)
     )
-    return shape.bounds if is_right and len(shape.points) == 4 else None
+    return shape.bounds if is_right else None
 
 
 def _named(
