@@ -32,8 +32,7 @@ from report.document.templates import Section
 from report.manual.render import manual_html, this_machine
 from report.package.html import part
 from report.pages.parts import PackageData
-from report.pages.pictures import draw_assessment, draw_plotted
-from report.pages.registry import PAGES, package_data
+from report.pages.registry import PAGES, draw_assessment, draw_plotted, package_data
 from report.sheet.schema.choices import PackageEdition
 from report.study.files import study_html
 from report.study.results import StudyResults

@@ -339,7 +339,8 @@ def _write(record: Record, out: Path) -> None:
 
 def _draw(records: Sequence[Record], out: Path) -> None:
     """Write the plot of records; an earlier plot is replaced."""
-    from report.figures.records import MOST, records_png, records_svg
+    from report.figures.base import png_bytes, svg_text
+    from report.figures.records import MOST, records_picture
     from report.suite.files import PERIODS_S, spectra_g
     from solver.files import write_whole
     from solver.model import InputError
@@ -348,6 +349,8 @@ def _draw(records: Sequence[Record], out: Path) -> None:
         raise InputError(
             f"{out.name}: a plot shows at most {MOST} channels; select one with --channel"
         )
-    drawing = records_png if out.suffix.lower() == ".png" else records_svg
-    picture = drawing(records, PERIODS_S, spectra_g(records))
-    write_whole(out, picture if isinstance(picture, bytes) else picture.encode())
+    drawn = records, PERIODS_S, spectra_g(records)
+    if out.suffix.lower() == ".png":
+        write_whole(out, records_picture(*drawn, png_bytes))
+    else:
+        write_whole(out, records_picture(*drawn, svg_text).encode())

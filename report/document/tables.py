@@ -144,7 +144,10 @@ def by_place(*heads: Shown) -> Sequence[Column]:
     return [(head, itemgetter(at)) for at, head in enumerate(heads)]
 
 
-def headed(*columns: Sequence[Any], rows: Iterable[Sequence[Any]] = (), kind: str = "") -> Table:
+def headed(
+    *columns: Sequence[Any], rows: Iterable[Sequence[Any]] = (), whole_rows: int = WHOLE_ROWS,
+    kind: str = "",
+) -> Table:  # fmt: skip
     """Return a table of a template, with rows of values or none, which `framed` then has.
 
     A column is its heading and share; its alignment if that is not left, and its unit if any.
@@ -153,7 +156,8 @@ def headed(*columns: Sequence[Any], rows: Iterable[Sequence[Any]] = (), kind: st
     def shown(head: str, share: float, align: str = "left", unit: str = "") -> Shown:
         return Shown(head=head, share=share, align=align, unit=unit)
 
-    return listed(rows, by_place(*(shown(*column) for column in columns)), kind=kind)
+    shown_columns = by_place(*(shown(*column) for column in columns))
+    return listed(rows, shown_columns, kind=kind, whole_rows=whole_rows)
 
 
 def listed(

@@ -22,21 +22,8 @@ from report.assessment.friction import mu_words
 from report.document.tables import Table, headed, merged, stamp, table_of
 from report.entities.evidence import ratio_up
 from report.entities.requirement import dagger
-from report.text.counts import (
-    below_mm,
-    capitalized,
-    counted,
-    joined,
-    lettered,
-    lowered,
-    named,
-    numbered,
-    ranged,
-    spelled,
-)
-from report.text.formats import general, percent, scientific, seconds, shortened
-from report.text.units import digits_down, digits_up, number, ratio
-from report.typeset.equations import data_uri, formula, fraction, symbol
+from report.text import counts, formats, units
+from report.typeset import equations
 
 if TYPE_CHECKING:
     from jinja2 import BytecodeCache, Environment
@@ -44,6 +31,14 @@ if TYPE_CHECKING:
 
 
 _HERE = Path(__file__).resolve().parents[2]
+
+_SHARED = {
+    counts: "below_mm capitalized counted joined lettered lowered named numbered ranged spelled",
+    equations: "data_uri formula symbol",
+    formats: "general percent scientific seconds shortened",
+    units: "digits_down digits_up number ratio",
+}
+"""Functions that are filters by their names."""
 
 OF_PACKAGE = ("both", "both_up", "clause", "friction_basis", "mark", "of_check", "rule_length")
 """Filters that are methods of the data of a package."""
@@ -80,39 +75,18 @@ def _environment(folder: Path) -> Environment:
         lstrip_blocks=True,
     )
     environment.filters |= {
-        "below_mm": below_mm,
-        "capitalized": capitalized,
-        "counted": counted,
-        "data_uri": data_uri,
-        "degrees": lambda value_rad, decimals: number(math.degrees(value_rad), decimals),
-        "dagger": dagger,
-        "digits_down": digits_down,
-        "digits_up": digits_up,
-        "formula": formula,
-        "friction": mu_words,
-        "general": general,
-        "joined": joined,
-        "lettered": lettered,
-        "lowered": lowered,
-        "merged": merged,
-        "named": named,
-        "needs_a_line": _needs_a_line,
-        "number": number,
-        "numbered": numbered,
-        "percent": percent,
-        "ranged": ranged,
-        "ratio": ratio,
-        "ratio_up": ratio_up,
-        "scientific": scientific,
-        "seconds": seconds,
-        "shortened": shortened,
-        "spelled": spelled,
-        "stamp": stamp,
-        "symbol": symbol,
+        **{name: getattr(of, name) for of, names in _SHARED.items() for name in names.split()},
         **{name: _of_package(name) for name in OF_PACKAGE},
+        "degrees": lambda value_rad, decimals: units.number(math.degrees(value_rad), decimals),
+        "dagger": dagger,
+        "friction": mu_words,
+        "merged": merged,
+        "needs_a_line": _needs_a_line,
+        "ratio_up": ratio_up,
+        "stamp": stamp,
     }
     environment.tests |= {"infinite": math.isinf, "nan": math.isnan}
-    environment.globals |= {"fraction": fraction, "headed": headed, "rows": _rows}
+    environment.globals |= {"fraction": equations.fraction, "headed": headed, "rows": _rows}
     return environment
 
 
@@ -202,20 +176,14 @@ def filled(
 ) -> Iterator[tuple[Part, Markup]]:
     """Yield each section with its numbers, and its HTML; every template may print the context."""
     for count, section in enumerate(sections, start=1):
-        yield _filled(folder, section, str(count), context)
+        part = Part(id=section.id, number=str(count), title=section.title)
+        below: list[Part] = []
 
+        def sub(title: str, part: Part = part, below: list[Part] = below) -> Part:
+            last = f"{len(below) + 1}"
+            below.append(Part(id=f"{part.id}-{last}", number=f"{part.number}.{last}", title=title))
+            return below[-1]
 
-def _filled(
-    folder: Path, section: Section, number: str, context: Mapping[str, Any]
-) -> tuple[Part, Markup]:
-    part = Part(id=section.id, number=number, title=section.title)
-    below: list[Part] = []
-
-    def sub(title: str) -> Part:
-        count = len(below) + 1
-        below.append(Part(id=f"{part.id}-{count}", number=f"{number}.{count}", title=title))
-        return below[-1]
-
-    values = {"template": section.template, "drawings": section.charts, "sub": sub}
-    html = rendered(folder, "section.html", {**context, **section.content, **values})
-    return replace(part, parts=tuple(below)), Markup(html)
+        values = {"template": section.template, "drawings": section.charts, "sub": sub}
+        html = rendered(folder, "section.html", {**context, **section.content, **values})
+        yield replace(part, parts=tuple(below)), Markup(html)

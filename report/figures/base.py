@@ -17,7 +17,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import matplotlib as mpl
 from matplotlib import font_manager
@@ -39,6 +39,7 @@ LINES: tuple[Any, ...] = ("-", DASHED, DASHDOT, DOTTED)
 MARKERS = "os^DvXP*"
 
 Range = tuple[float, float]
+T = TypeVar("T")  # what a figure is painted to
 
 # Coordinates in points: the renderer spends time on decimals that print cannot show.
 _DIGITS = re.compile(r"(?<=[\d-])(\.\d\d)\d{4}(?=[\s\"])")

@@ -35,7 +35,6 @@ from report.sheet.schema.scene import Array
 from report.text.counts import cut, ids_by, ranged
 from report.text.units import Quantity, Unit, number
 from solver.friction_tests import FittedLaw, FrictionRun, Surface
-from solver.model import Friction
 
 
 def comparison(
@@ -153,6 +152,7 @@ def friction_by_velocity(
     arrays: Sequence[Array],
     fits: Mapping[Surface, FittedLaw],
     us_first: bool,
+    printed: Callable[[str], str] = str,
 ) -> str:
     """Return the runs that report a velocity, the laws of the arrays, and fitted laws.
 
@@ -162,6 +162,8 @@ def friction_by_velocity(
         At least one with a velocity.
     fits : mapping of Surface to FittedLaw
         Drawn as colored lines.
+    printed : callable, optional
+        Gives the names as they are printed.
     """
     unit = UnitFormat(us_first).units(Quantity.VELOCITY)[0]
     shown = [run for run in runs if not math.isnan(run.velocity_mps)]
@@ -187,21 +189,13 @@ def friction_by_velocity(
         laws = ids_by(arrays, lambda array: array.friction)
         for (law, ids), line in zip(laws.items(), cycle(LINES)):
             curve = [law.at(velocity) for velocity in v]
-            name = f"{cut(ranged(ids), 24)}: {_law_words(law)}"
+            mu = number(law.mu_slow, 3) if law.mu_fast == law.mu_slow else "μ(v)"
+            name = f"{cut(printed(ranged(ids)), 24)}: {mu}"
             axes.plot(v / unit.si, curve, color=INK, linewidth=1.6, linestyle=line, label=name)
         axes.set_xlim(0.0, most / unit.si)
-        _mu_axis(axes, [run.mu for run in shown], [law.at(s) for law in laws for s in (0.0, most)])
-        labeled(axes, f"Sliding velocity [{unit.symbol}]", "Kinetic friction coefficient μ")
+        mus = [*(run.mu for run in shown), *(law.at(s) for law in laws for s in (0.0, most))]
+        pad = max(0.12 * (max(mus) - min(mus)), 0.02)  # the scatter, not the origin
+        axes.set_ylim(max(min(mus) - pad, 0.0), max(mus) + pad)
+        labeled(axes, f"Sliding velocity [{unit.symbol}]", "Kinetic μ")
         axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), handlelength=3.0)
         return svg_text(figure)
-
-
-def _mu_axis(axes: Axes, runs: Sequence[float], laws: Sequence[float]) -> None:
-    """Show all values with their scatter, not the origin."""
-    low, high = min(*runs, *laws), max(*runs, *laws)
-    pad = max(0.12 * (high - low), 0.02)
-    axes.set_ylim(max(low - pad, 0.0), high + pad)
-
-
-def _law_words(law: Friction) -> str:
-    return number(law.mu_slow, 3) if law.mu_fast == law.mu_slow else "μ(v)"

@@ -15,6 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from report.assessment.runs import MotionRun
+from report.drawing.items import width_in
 from report.entities.shown import UnitFormat
 from report.figures.base import (
     ACCENT,
@@ -28,14 +29,13 @@ from report.figures.base import (
     style,
     svg_text,
 )
+from report.text.counts import cut
 from report.text.units import Unit, number, round_below
 from solver.model import Floats, SlideHistory
 
 MAX_POINTS = 150  # in a history; a panel is 150 pt wide
 ROW_IN = 0.76
-TRACE = 0.82  # of the width of a panel: the labels stand to the right of the lines
-LABEL_IN = 0.16  # between two labels
-TITLE_IN = 0.09  # from the highest level down to a label that clears the title
+TRACE = 0.95  # of the width of a panel
 MOST_LEVELS = 4
 DASHES = (0, (3.0, 1.2))
 
@@ -146,29 +146,12 @@ def _traces(axes: Axes, grid: _Grid) -> None:
             if values.size:
                 t, u = envelope(history.t_s, values / grid.unit.si)
                 line.add(grid.x(index, t), grid.y(index, u))
-        _names(axes, grid, index, history)
         at = history.result.t_prd_s
         peak = np.interp(at, history.t_s, history.u_m / grid.unit.si)
         peaks.add([grid.x(index, at)], [grid.y(index, peak)])
     axes.plot(across.x, across.y, color=ACROSS, linewidth=0.9, linestyle=DASHES, clip_on=False)
     axes.plot(down.x, down.y, color=ACCENT, linewidth=0.9, clip_on=False)
     axes.plot(peaks.x, peaks.y, linestyle="", marker="o", markersize=3.2, color=INK, clip_on=False)
-
-
-def _names(axes: Axes, grid: _Grid, index: int, history: SlideHistory) -> None:
-    """Name the lines of a panel at their ends, apart from one another."""
-    ends = [("down", float(history.u_m[-1]))]
-    if history.across_m.size:
-        ends.append(("cross", float(history.across_m[-1])))
-    ends.sort(key=lambda end: end[1])
-    levels = [grid.y(index, value / grid.unit.si) for _, value in ends]
-    short = LABEL_IN / ROW_IN - (levels[-1] - levels[0])
-    if len(ends) == 2 and short > 0.0:
-        levels = [levels[0] - short / 2, levels[1] + short / 2]
-    over = max(levels[-1] - (grid.y(index, grid.high) - TITLE_IN / ROW_IN), 0.0)
-    levels = [level - over for level in levels]
-    for (name, _), level in zip(ends, levels, strict=True):
-        axes.text(grid.x(index, grid.seconds) + 0.015, level, name, va="center")
 
 
 def _titles(
@@ -180,18 +163,17 @@ def _titles(
     printed: Callable[[str], str],
 ) -> None:
     top, run = grid.y(index, grid.high) + 0.045, panel.motion
-    name = f"{printed(run.motion.id)} {_short(run)}"
-    if panel.array:
-        name = f"{printed(panel.array)}: {name}"
+    way = run.governing.orientation.name  # with its component if there are two
+    name = f"{printed(run.motion.id)} {way if run.motion.has_transverse else way[-1]}"
     prd = UnitFormat(us_first).both(run.governing.prd_m)
+    if panel.array:
+        name, arrays = f": {name}", printed(panel.array)
+        room_in = 0.92 * WIDTH_IN / (1.1 * grid.columns) - width_in(name, is_bold=True)
+        fits = (n for n in range(len(arrays), 3, -1)
+                if width_in(cut(arrays, n), is_bold=True) < room_in - width_in(prd))  # fmt: skip
+        name = cut(arrays, next(fits, 4)) + name
     axes.text(grid.x(index, 0.0), top, name, weight="semibold")
     axes.text(index % grid.columns + 0.97, top, prd, ha="right")
-
-
-def _short(run: MotionRun) -> str:
-    """Return the polarity of the governing run, with its component if there are two."""
-    orientation = run.governing.orientation
-    return orientation.name if run.motion.has_transverse else orientation.name[-1]
 
 
 def envelope(t: Floats, u: Floats, maximum: int = MAX_POINTS) -> tuple[Floats, Floats]:

@@ -1,4 +1,4 @@
-"""Stability maps: failure and error of a method against two parameters; and sensitivity to mu.
+"""Stability maps: failure and error of a method against two parameters.
 
 Recorded and computed roof motion: spectra, and the strongest part of the history.
 """
@@ -15,7 +15,6 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import FuncFormatter
 
 from report.figures.base import (
     ACCENT,
@@ -26,7 +25,6 @@ from report.figures.base import (
     labeled,
     panels,
     periods,
-    plain,
     style,
     svg_text,
     ticks,
@@ -34,7 +32,7 @@ from report.figures.base import (
 from report.text.counts import lettered
 from report.text.units import G_MPS2
 from solver.model import Floats
-from solver.verification.evidence import Conditioning, RoofComparison, RoofPrediction, StabilityMap
+from solver.verification.evidence import RoofComparison, RoofPrediction, StabilityMap
 from solver.verification.scenes import strongest
 
 MOST = 4  # maps per figure, so that it fits on a page
@@ -113,36 +111,6 @@ def _key(maps: Sequence[StabilityMap]) -> list[Any]:
     if any(sweep.limit.size or not math.isnan(sweep.x_mark) for sweep in maps):
         handles.append(Line2D([], [], **_LIMIT, label="theoretical limit"))
     return handles
-
-
-def conditioning(cases: Sequence[Conditioning]) -> str:
-    """Return PRD over mu, and below it the change due to a small change of mu, a column each."""
-    with style():
-        margins = {"left": 0.12, "right": 0.985, "above": 0.208, "below": 0.416}
-        between = {"wspace": 0.34, "hspace": 0.16}
-        figure, grid = panels(2, len(cases), 2.6, **margins, **between, sharex="col")
-        for (above, below), case in zip(grid.T, cases, strict=True):
-            above.plot(case.mu, 1e3 * case.prd_m, color=ACCENT, linewidth=1.4)
-            below.plot(case.mu, np.maximum(case.change_percent, 1e-14), color=INK, linewidth=0.9)
-            above.set_yscale("symlog", linthresh=1.0)
-            _spread(below, case.change_percent)
-            ticks(above.yaxis, (0.0, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6))
-            labeled(above, title=case.title)
-            labeled(below, "Friction coefficient μ")
-        grid[0, 0].set_ylabel("Exact PRD [mm]")
-        grid[1, 0].set_ylabel("Change in PRD [%]")
-        return svg_text(figure)
-
-
-def _spread(axes: Axes, values: Floats) -> None:
-    """Set a logarithmic scale if the values span decades, a linear scale otherwise."""
-    seen = values[values > 0.0]
-    if seen.size and seen.max() > 100.0 * seen.min():
-        axes.set_yscale("log")
-        decades(axes.yaxis, maximum=6)
-    else:
-        axes.set_ylim(0.0, None)
-        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
 
 
 SHOWN_S = 16.0

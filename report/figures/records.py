@@ -22,10 +22,10 @@ from report.figures.base import (
     INK,
     WIDTH_IN,
     Broken,
+    T,
     canvas,
     labeled,
     periods,
-    png_bytes,
     style,
     svg_text,
 )
@@ -47,12 +47,16 @@ _COLORS = (ACCENT, INK, GRAY)
 _DASHES: tuple[object, ...] = ("-", (0, (5, 1.5)), (0, (1, 1)), (0, (6, 1.5, 1, 1.5)))
 
 
-def records_svg(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> str:
-    """Return the picture of up to `MOST` records as the text of an SVG.
+def records_picture(
+    records: Sequence[Record],
+    periods_s: Floats,
+    sa_g: Floats,
+    painted: Callable[[Figure], T] = svg_text,  # type: ignore[assignment]
+) -> T:
+    """Return the picture of up to `MOST` records.
 
     Parameters
     ----------
-    records : sequence of Record
     periods_s : array, shape (m,)
         Periods of the spectra [s], increasing.
     sa_g : array, shape (n, m)
@@ -60,13 +64,7 @@ def records_svg(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> s
     """
     with style():
         mpl.rcParams["svg.fonttype"] = "path"
-        return svg_text(_figure(records, periods_s, sa_g))
-
-
-def records_png(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> bytes:
-    """Return the picture of `records_svg` as a PNG."""
-    with style():
-        return png_bytes(_figure(records, periods_s, sa_g))
+        return painted(_figure(records, periods_s, sa_g))
 
 
 def _figure(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> Figure:

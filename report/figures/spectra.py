@@ -6,7 +6,7 @@ Computes only the layout; legible in gray (line style and width carry the meanin
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -21,13 +21,12 @@ from report.figures.base import (
     INK,
     PALE,
     WIDTH_IN,
+    T,
     bare,
     style,
     svg_text,
 )
 from solver.model import Floats
-
-T = TypeVar("T")
 
 _ROW_IN, _TITLE_IN, _FOOT_IN, _TOP_IN = 0.6, 0.26, 0.5, 0.24
 _LEFT_IN, _FIRST_IN, _APART_IN, _RIGHT_IN = 0.46, 1.6, 0.52, 0.1

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import asdict
-from typing import TypeVar
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -13,6 +12,7 @@ from matplotlib.figure import Figure
 from report.figures.base import (
     INK,
     LOOKS,
+    T,
     boxed,
     labeled,
     logarithmic,
@@ -24,8 +24,6 @@ from report.figures.base import (
 from report.text.counts import lettered
 from solver.verification.evidence import PeerPoint
 from solver.verification.peers import ONE_AXIS
-
-T = TypeVar("T")
 
 MEASURES = ("PRD", "residual")
 

@@ -117,21 +117,14 @@ def stability(verification: Verification) -> Section:
 
 
 def conditioning(verification: Verification) -> Section:
-    """Return the effect of a small change of friction."""
-    cases = verification.conditioning
-    by_chart = {f"conditioning-{at // 2 + 1}": cases[at : at + 2] for at in range(0, len(cases), 2)}
+    """Return the effect of a small change of friction, the largest and the median change [%]."""
     return section(
         "manual/conditioning",
         "Sensitivity to the friction coefficient",
-        by_chart={
-            # A case with the largest and the median change [%].
-            name: [
-                (case, np.nanmax(case.change_percent), np.nanmedian(case.change_percent))
-                for case in maps
-            ]
-            for name, maps in by_chart.items()
-        },
-        charts={name: manual.conditioning(maps) for name, maps in by_chart.items()},
+        cases=[
+            (case, np.nanmax(case.change_percent), np.nanmedian(case.change_percent))
+            for case in verification.conditioning
+        ],
     )
 
 

@@ -8,7 +8,7 @@ The record files with their hashes, the software, and what the references need.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 
 from report.assessment.spectra import LEAST_MEAN, Spectra
@@ -21,7 +21,6 @@ from report.pages.symbols import friction_standard
 from report.provenance.files import SHORT, holds_records, record_bytes, record_paths, versions
 from report.sheet.schema.motions import MotionInput
 from report.text.units import number
-from report.typeset.equations import symbol
 from solver.records.acceptance import Acceptance, MotionStrength
 from solver.rules.limit import Limit, Measure
 
@@ -95,26 +94,13 @@ def strength_table(package: PackageData) -> Table:
     return listed(motions, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
 
 
-def event_table(package: PackageData) -> Table:
-    """Return the events of the motions, without rows where the workbook gives none."""
-
-    def given(value: float | None) -> str:
-        return "not given" if value is None else f"{value:g}"
-
-    columns = (
-        (words("Motion"), lambda row: row.id),
-        (words("Event", 3.0), lambda row: row.event or "not given"),
-        (text("M"), lambda row: given(row.magnitude)),
-        (text("R", "km"), lambda row: given(row.distance_km)),
-        (text(symbol("V_s30"), "m/s"), lambda row: given(row.v_s30_mps)),
-    )
-    rows = filter(_has_event, package.data.motions)
-    return listed(rows, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
-
-
-def _has_event(row: MotionInput) -> bool:
-    numbers = (row.magnitude, row.distance_km, row.v_s30_mps)
-    return bool(row.event) or any(value is not None for value in numbers)
+def events(motions: Sequence[MotionInput]) -> Iterator[Sequence[str]]:
+    """Yield the motions of which anything is given with event, magnitude, distance and Vs30."""
+    for row in motions:
+        numbers = (row.magnitude, row.distance_km, row.v_s30_mps)
+        texts = [row.event, *("" if value is None else f"{value:g}" for value in numbers)]
+        if any(texts):
+            yield row.id, *(text or "not given" for text in texts)
 
 
 def page(package: PackageData) -> Mapping[str, object]:

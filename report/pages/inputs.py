@@ -108,15 +108,6 @@ def _origin(site: Site) -> tuple[str, ...]:
     return ()
 
 
-def below(_: PackageData) -> tuple[tuple[str, str], ...]:
-    """Return the parts below, in order."""
-    return (
-        ("inputs-site", "Site and seismic parameters"),
-        ("inputs-arrays", "Arrays"),
-        ("inputs-friction", "Friction tests"),
-    )
-
-
 def inputs(package: PackageData) -> Mapping[str, object]:
     """Return what the part on inputs needs beside the package."""
     data = package.data

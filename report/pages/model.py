@@ -28,20 +28,12 @@ from solver.sliding.least_model import DEFAULT, Model, Solution
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LinkTrouble:
-    """A reason why one rigid block has not been shown to be adequate for an array.
-
-    Attributes
-    ----------
-    status, runs : Status, tuple of str
-        An outcome without a final displacement, and the runs that have it.
-    is_too_far : bool
-        Whether the row slides too far; if not, and without runs, there is nothing to compare with.
-    """
+    """A reason why one rigid block has not been shown to be adequate for an array."""
 
     linked: LinkedArray
-    status: Status = Status.OK
-    runs: tuple[str, ...] = ()
-    is_too_far: bool = False
+    status: Status = Status.OK  # an outcome without a final displacement
+    runs: tuple[str, ...] = ()  # those that have it
+    is_too_far: bool = False  # if not, and without runs, there is nothing to compare with
 
 
 def part(package: PackageData) -> Mapping[str, object]:

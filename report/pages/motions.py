@@ -20,7 +20,7 @@ from report.assessment.spectra import PRINTED_S, Spectra, departures
 from report.document.tables import Column, Table, Wide, by_place, listed
 from report.entities.shown import centered, length, plain, required, text, words
 from report.motions.history import PreparedMotion, first_period_s
-from report.pages.acceptance import acceptance_table, event_table, lowest_between, strength_table
+from report.pages.acceptance import acceptance_table, events, lowest_between, strength_table
 from report.pages.parts import MOTION_ROWS, PackageData
 from report.pages.symbols import with_symbols
 from report.sheet.schema.motions import BuildingInput
@@ -325,7 +325,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "building": building_part(package, evidence.building) if package.has_ground else None,
         "tail": Tail(package.data.target.tail).sentence,
         "departures": departures(spectra),
-        "events": event_table(package),
+        "events": list(events(package.data.motions)),
         "acceptance": acceptance_table(package),
         "points": {"all": len(POINTS_HZ), "sliding": N_SLIDING, "ac156": N_AC156, "sets": N_SETS},
         "between": lowest_between(package.assessment.acceptance, spectra),

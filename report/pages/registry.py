@@ -2,25 +2,29 @@
 
 To add a page, add it here with the function that fills it, and a template with its id. Parts refer
 to each other by id (`PackageData.part`). Read `PAGES`.
+
+The drawings by the id of their place; `report.figures` draws them, templates say their captions.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.evidence import Evidence
 from report.assessment.project import NO_FORMER, Assessment, Changes
 from report.document.templates import Part
+from report.drawing.on_paper import printed_plan
 from report.pages import (
     acceptance,
     accuracy,
     echo,
+    friction_tests,
     front,
     inputs,
     limits,
-    method,
     model,
     motions,
     results,
@@ -28,6 +32,8 @@ from report.pages import (
 )
 from report.pages.parts import PackageData
 from report.sheet.schema.choices import PackageEdition
+from report.text.counts import Names, ranged
+from solver.model import SlideHistory
 
 Content = Mapping[str, Any]
 Fill = Callable[[PackageData, Evidence], Content]
@@ -36,29 +42,14 @@ Below = tuple[tuple[str, str], ...]
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """A part of the package.
+    """A part of the package."""
 
-    Attributes
-    ----------
-    id, title : str
-        Anchor and heading in the package; the id is also the name of the template and of the
-        content in it.
-    fill : callable
-        Returns the content for the template.
-    below : callable
-        Returns the ids and titles of the parts below it.
-    is_appendix : bool
-        Whether it is an appendix, numbered by a letter.
-    edition : PackageEdition
-        Complete: in the complete edition alone.
-    """
-
-    id: str
-    title: str
-    fill: Fill
-    below: Callable[[PackageData], Below] = lambda _: ()
-    is_appendix: bool = False
-    edition: PackageEdition = PackageEdition.PLAN_CHECK
+    id: str  # anchor, and name of the template and of the content in it
+    title: str  # heading
+    fill: Fill  # returns the content
+    below: Callable[[PackageData], Below] = lambda _: ()  # returns ids and titles of parts below
+    is_appendix: bool = False  # numbered by a letter
+    edition: PackageEdition = PackageEdition.PLAN_CHECK  # complete: in the complete one alone
 
 
 def _alone(fill: Callable[[PackageData], Content]) -> Fill:
@@ -71,6 +62,11 @@ def _complete(id: str, title: str, fill: Fill) -> Page:
     return Page(id, title, fill, is_appendix=True, edition=PackageEdition.COMPLETE)
 
 
+BELOW_INPUTS = (
+    ("inputs-site", "Site and seismic parameters"),
+    ("inputs-arrays", "Arrays"),
+    ("inputs-friction", "Friction tests"),
+)
 PAGES = (
     Page("summary", "Summary", front.summary),
     Page("comparison", "Comparison with the prescriptive displacement", front.comparison),
@@ -79,9 +75,9 @@ PAGES = (
     Page("model", "Model used", _alone(model.page)),
     Page("limits", "Limits and requirements", _alone(limits.limits)),
     Page("provisions", "Provisions and overrides", _alone(limits.provisions)),
-    Page("inputs", "Inputs", _alone(inputs.inputs), inputs.below),
+    Page("inputs", "Inputs", _alone(inputs.inputs), lambda _: BELOW_INPUTS),
     Page("motions", "Roof motions", motions.page, motions.below),
-    Page("method", "Equations", _alone(method.page), method.below),
+    Page("method", "Equations", _alone(results.equations), results.equations_below),
     Page("results", "Results", results.page, results.below),
     Page("accuracy", "Accuracy and sensitivity", accuracy.page),
     Page("records", "Records, software and references", _alone(acceptance.page), is_appendix=True),
@@ -98,8 +94,7 @@ OF_MOTIONS = frozenset(
 )
 """Pages that need runs: a package without motions does not have them."""
 
-LETTER = Part(id="letter", number="", title="Letter of results", parts=())
-"""Before the first page, without a number."""
+LETTER = Part(id="letter", number="", title="Letter of results")  # before the first page
 
 CHANGES = Page("changes", "Changes", _alone(front.page))
 """After the summary, without a number: the other parts have the same in every revision."""
@@ -162,3 +157,94 @@ def parts(package: PackageData) -> tuple[Part, ...]:
         )
         for page in pages_in(package)
     )
+
+
+PANELS, CHART_ROWS, ACCELERATION_ROWS = 12, 16, 16  # maximum in one figure: it must fit on a page
+Drawings = Mapping[str, Sequence[Any]]
+"""SVG by the id of its place; of an array, pairs of histories and paths; of the roof plan, what
+is printed, the plan and its legend."""
+
+
+def _in_parts(items: Sequence[Any], most: int) -> Iterator[Sequence[Any]]:
+    for start in range(0, len(items), most):
+        yield items[start : start + most]
+
+
+def draw_assessment(package: PackageData) -> Drawings:
+    """Return the drawings that need no evidence."""
+    from report.figures import plan, records
+    from report.figures.plan import array_section
+
+    us_first, assessment = package.fmt.us_first, package.assessment
+    names = package.data.names
+    printed = printed_plan(assessment)
+    drawings = {
+        "inputs-friction": friction_tests.drawings(package),
+        "plan": [printed, *(plan.paper_svg(each) for each in (printed.plan, printed.key))],
+    }
+    if not assessment.has_motions:
+        return drawings
+    return drawings | {
+        "method-motion": [array_section(package.governing.array, us_first)],
+        "motions-list": [
+            records.accelerations(some, names)
+            for some in _in_parts(assessment.shaking.motions, ACCELERATION_ROWS)
+        ],
+    }
+
+
+def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
+    """Return the drawings of spectra and of runs; none without motions."""
+    from report.figures.charts import comparison
+    from report.figures.spectra import spectra
+
+    if not package.assessment.has_motions:
+        return {}
+    us_first, names = package.fmt.us_first, package.data.names
+    roof = [part for part in shown.spectra if not part.is_ground]
+    ground = [part for part in shown.spectra if part.is_ground]
+    runs = list(zip(package.assessment.alike, shown.histories, strict=True))
+    others_m = {case.array.id: case.array.design_m for case in shown.cases}
+    drawings: dict[str, Sequence[Any]] = {
+        "comparison": [
+            comparison(some, us_first, others_m, names)
+            for some in _in_parts(package.assessment.alike, CHART_ROWS)
+        ],
+        "motions-spectra": [spectra(parts) for parts in ((roof, ground) if ground else (roof,))],
+        "results": list(_governing(runs, us_first, names)),
+    }
+    if "histories" in package.numbers:
+        drawings["histories"] = [
+            list(_histories(group[0], followed, us_first, names)) for group, followed in runs
+        ]
+    return drawings
+
+
+def _governing(
+    runs: Sequence[tuple[Sequence[ArrayAssessment], Sequence[SlideHistory]]],
+    us_first: bool,
+    names: Names,
+) -> Iterator[str]:
+    """Yield the histories of the governing runs, a panel for each group of arrays."""
+    from report.figures.history import RunPanel, histories
+
+    panels = [
+        RunPanel(ranged([item.id for item in group]), motion, history)
+        for group, followed in runs
+        for motion, history in zip(group[0].motions, followed, strict=True)
+        if motion is group[0].worst
+    ]
+    for some in _in_parts(panels, PANELS):
+        yield histories(some, us_first, names)
+
+
+def _histories(
+    array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool, names: Names
+) -> Iterator[tuple[str, str]]:
+    from report.figures.history import RunPanel, histories, hodographs
+
+    runs = zip(_in_parts(array.motions, PANELS), _in_parts(followed, PANELS), strict=True)
+    for some, paths in runs:
+        panels = [RunPanel("", *run) for run in zip(some, paths, strict=True)]
+        paths_in_plan = hodographs(some, paths, us_first, names)
+        yield histories(panels, us_first, names), paths_in_plan

@@ -211,7 +211,7 @@ def test_all_and_only_the_checks_and_runs_are_in_the_table(made, verification):
 def test_each_chart_is_a_file_too_with_text_in_the_shipped_font_only(made):
     charts = {name: data for name, data in made.items() if name.startswith("charts/")}
     assert len(charts) >= 11
-    for kind in ("work", "stability", "convergence", "links", "curves", "contours", "conditioning"):
+    for kind in ("work", "stability", "convergence", "links", "curves", "contours"):
         assert any(name.startswith(f"charts/{kind}-") for name in charts), kind
     for data in charts.values():
         text = data.decode()
@@ -302,7 +302,7 @@ def test_tests_of_a_shake_table_go_into_the_manual_and_decide_the_exit_code(
 
     folder, out = tmp_path / "tests", tmp_path / "v"
     folder.mkdir()
-    drawn = ("work", "stability", "convergence", "links", "curves", "conditioning", "models")
+    drawn = ("work", "stability", "convergence", "links", "curves", "models")
     for factor, code in ((1.0, 0), (1.5, 1)):
         tables.write_folder(folder, [factor] * 5)
         with verifying(kept) as patch:

@@ -80,14 +80,6 @@ def test_each_history_states_its_prd_in_both_systems(assessment):
     assert sum(bool(re.fullmatch(r"\d+ mm \([\d.]+ in\)", text)) for text in printed) == 3
 
 
-def test_histories_name_their_lines_in_every_panel(assessment):
-    array = assessment.arrays[1]
-    two = sum(bool(run.history().across_m.size) for run in array.motions)
-    assert two > 0
-    printed = words(histories(array))
-    assert (printed.count("down"), printed.count("cross")) == (len(array.motions), two)
-
-
 def test_a_run_without_a_value_is_drawn_as_such():
     up = np.repeat((0.0, -1.5 * stand_in.G, 0.0), 100)
     still = stand_in.motion("M1", np.zeros(300), up, signs=(1,))

@@ -14,7 +14,8 @@ import scenes
 import stand_in
 from report.assessment.evidence import support
 from report.figures import manual, records, work
-from report.pages.pictures import draw_assessment, draw_plotted
+from report.figures.base import png_bytes
+from report.pages.registry import draw_assessment, draw_plotted
 from report.sheet.schema.choices import UnitsFirst
 from report.study import figures as study
 from report.study.results import LimitState
@@ -110,7 +111,7 @@ def test_in_a_package(drawn, units):
 
 def test_in_pictures_of_records(drawn, noise):
     some = [Record(name=f"HN{k}", dt_s=0.01, a_mps2=noise / (1 + k)) for k in range(4)]
-    records.records_png(some, PERIODS_S, spectra_g(some))
+    records.records_picture(some, PERIODS_S, spectra_g(some), png_bytes)
     assert not list(faults(drawn))
 
 

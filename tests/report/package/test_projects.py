@@ -1,9 +1,11 @@
 """The packages of the school, the campus and the incomplete warehouse say what their tables say."""
 
 import importlib
+import io
 import json
 import math
 import re
+import shutil
 from dataclasses import dataclass
 from zipfile import ZipFile
 
@@ -16,11 +18,14 @@ import packages
 import scenes
 from places import ROOT
 from printed import FRONT, IDS, printed
+from report.making import make
 from report.motions.history import targets
 from report.motions.prepare import prepare
 from report.pages.registry import PAGES
 from report.sheet.reading.read import read
+from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import PackageEdition
+from report.sheet.writing.template import write_template
 from solver.formats import read_record
 from solver.records.spectrum import response_spectrum
 
@@ -306,3 +311,17 @@ def test_friction_may_not_fall_below_the_limit_of_the_prescriptive_route(conditi
     margins = conditions.results["certainty"]["margins"]
     least = [row["least_mu"] for row in margins if row["clearance"] != "2"]
     assert least == [pytest.approx(0.40)] * 6
+
+
+@pytest.mark.nightly
+def test_one_array_with_one_clearance_has_at_most_12_sheets(tmp_path):
+    given = read(PROJECTS / "example" / "input.xlsx").project.model_dump()
+    first, gap = given["arrays"][:1], given["clearances"][1:2]
+    near = [row for row in given["objects"] if row["id"] == gap[0]["object"]]
+    project = ProjectInput.model_validate(
+        given | {"arrays": first, "clearances": gap, "objects": near}
+    )
+    shutil.copytree(PROJECTS / "example" / "records", tmp_path / "records")
+    write_template(tmp_path / "input.xlsx", units=project.units_first, example=project)
+    _, _, made, _ = make(tmp_path / "input.xlsx", None, None, lambda _: None)
+    assert len(PdfReader(io.BytesIO(made["calc-package.pdf"])).pages) <= 12
