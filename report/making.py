@@ -50,9 +50,8 @@ def make(
     from report.drawing.plan import plan_drawing
     from report.package.html import pages
     from report.provenance.files import attachments, fingerprint, sources
-    from report.results.compare import with_reissue
     from report.results.publish import publish
-    from report.results.results_json import results_json
+    from report.results.results_json import results_json, with_reissue
     from report.results.xlsx import results_xlsx
     from report.typeset.pdf import lay_out
     from solver.kernels.compiler import is_compiled
@@ -160,8 +159,7 @@ def _changes(former: Compared | None, assessment: Assessment) -> Changes:
 
     if former is None:
         return NO_FORMER
-    from report.results.compare import changes
-    from report.results.results_json import check_listed
+    from report.results.results_json import changes, check_listed
 
     changed = changes(former, assessment)
     check_listed(changed)

@@ -226,8 +226,7 @@ def watch(source: Path, out: Path | None) -> None:
 
 def report_again(workbook: Path, out: Path | None, former: bytes) -> bytes:
     """Report, print what changed since the former results.json, and return the new one."""
-    from report.results.compare import changes
-    from report.results.results_json import former_from
+    from report.results.results_json import changes, former_from
 
     made = assessment, folder, files, _ = package(workbook, out)
     show(*made)

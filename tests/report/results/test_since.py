@@ -19,14 +19,15 @@ from report.assessment.evidence import support
 from report.assessment.project import ChangeKind
 from report.assessment.verdict import Verdict
 from report.pages.registry import package_data, parts
-from report.results.compare import changes, with_reissue
 from report.results.results_json import (
     AGAIN,
     MOST_CHANGES,
+    changes,
     check_listed,
     former_from,
     read_former,
     results_json,
+    with_reissue,
 )
 from report.sheet.reading.linked_files import Document
 from solver.model import InputError
