@@ -35,7 +35,7 @@ from solver.model import Floats, SlideHistory
 
 MAX_POINTS = 150  # in a history; a panel is 150 pt wide
 ROW_IN = 0.76
-TRACE = 0.95  # of the width of a panel
+TRACE = 0.88  # of the width of a panel: the times of two panels stand apart
 MOST_LEVELS = 4
 DASHES = (0, (3.0, 1.2))
 
