@@ -20,8 +20,7 @@ from solver.records.processing import Processing, process
 from solver.records.record import Record, record_from_values, write_record
 from solver.records.spectrum import ResponseSpectrum, design_spectrum, factor_to_target, spectrum
 from solver.rivals.methods import METHODS, Method, Outcome
-from solver.rules.hazard import EDITIONS
-from solver.rules.spectra import RequiredSpectrum, ac156_horizontal, ac156_vertical
+from solver.rules.hazard import EDITIONS, RequiredSpectrum, ac156_horizontal, ac156_vertical
 from solver.sliding.checked import history, motion, scene, slide, slide_history, solve
 from solver.sliding.least_model import Model, Settings, Solution
 from solver.sliding.sweep import Sweep, sweep

@@ -23,9 +23,8 @@ from projects.rows import (
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.writing.template import write_template
-from solver.rules.hazard import EDITIONS
+from solver.rules.hazard import EDITIONS, ac156_horizontal, ac156_vertical
 from solver.rules.provisions import RULE_SETS
-from solver.rules.spectra import ac156_horizontal, ac156_vertical
 from solver.synthesis.suite import SuiteMotion, make_suite
 
 HERE = Path(__file__).resolve().parent

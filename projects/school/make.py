@@ -24,7 +24,7 @@ from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.writing.template import write_template
 from report.suite.inputs import ac156_targets
-from solver.rules.spectra import Tail
+from solver.rules.hazard import Tail
 from solver.synthesis.suite import SuiteMotion, make_suite
 
 HERE = Path(__file__).resolve().parent

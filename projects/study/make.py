@@ -22,7 +22,7 @@ from report.study.schema import (
 )
 from report.suite.inputs import ac156_targets
 from solver.friction_tests import Surface
-from solver.rules.spectra import Tail
+from solver.rules.hazard import Tail
 from solver.synthesis.suite import make_suite
 
 HERE = Path(__file__).resolve().parent

@@ -307,7 +307,7 @@ def _targets(
     from report.suite.inputs import ac156_targets, site_targets, table_targets
     from report.suite.target_table import read_target
     from solver.model import InputError
-    from solver.rules.spectra import Tail
+    from solver.rules.hazard import Tail
 
     if sheet and not options and not target:
         return site_targets(sheet)

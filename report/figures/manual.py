@@ -33,7 +33,7 @@ from report.text.counts import lettered
 from report.text.units import G_MPS2
 from solver.model import Floats
 from solver.verification.evidence import RoofComparison, RoofPrediction, StabilityMap
-from solver.verification.scenes import strongest
+from solver.verification.study import strongest
 
 MOST = 4  # maps per figure, so that it fits on a page
 _BANDS = (

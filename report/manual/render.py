@@ -29,8 +29,7 @@ from report.document.tables import grouped
 from report.document.templates import Section, filled, rendered, section
 from report.entities.shown import centered, text, words
 from report.manual import precision
-from report.manual.measured import building, shake_table
-from report.manual.models import models
+from report.manual.measured import building, models, shake_table
 from report.manual.precision import conditioning, convergence, curves, floor, links, stability, work
 from report.pages.parts import verdict
 from report.pages.symbols import with_symbols

@@ -27,7 +27,7 @@ from solver.records.measures import Measures, measures
 from solver.records.record import Record, read_only
 from solver.records.spectrum import Target, design_spectrum, factor_to_target
 from solver.rivals.methods import NO_RECORD
-from solver.rules.spectra import (
+from solver.rules.hazard import (
     RequiredSpectrum,
     Tail,
     ac156_horizontal,

@@ -31,8 +31,8 @@ from solver.building.structure import APPROXIMATE_PERIODS, FOOT_M
 from solver.model import Floats, Motion
 from solver.records.acceptance import N_AC156, N_SETS, N_SLIDING, POINTS_HZ
 from solver.records.processing import AS_RECORDED
+from solver.rules.hazard import Tail
 from solver.rules.provisions import AnalysisValue
-from solver.rules.spectra import Tail
 
 SHOWN_MODES = 6
 NAMES = {"horizontal": "record", "transverse": "transverse"}

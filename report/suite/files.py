@@ -33,8 +33,8 @@ from solver.records.acceptance import Acceptance, acceptance
 from solver.records.measures import Measures, measures
 from solver.records.record import Record, record_csv
 from solver.records.spectrum import response_spectrum
+from solver.rules.hazard import Target, target_sa_g
 from solver.rules.limit import Limit
-from solver.rules.spectra import Target, target_sa_g
 from solver.sliding.checked import motion
 from solver.synthesis.matching import BAND_HZ, SpectrumFit, spectrum_fit
 from solver.synthesis.suite import SuiteMotion, make_suite

@@ -26,9 +26,15 @@ from report.suite.target_table import TargetTable
 from solver.formats import MotionFile, read_motion_file
 from solver.model import InputError
 from solver.records.record import Record
-from solver.rules.hazard import EDITIONS
+from solver.rules.hazard import (
+    EDITIONS,
+    RequiredSpectrum,
+    Tail,
+    Target,
+    ac156_horizontal,
+    ac156_vertical,
+)
 from solver.rules.provisions import RULE_SETS
-from solver.rules.spectra import RequiredSpectrum, Tail, Target, ac156_horizontal, ac156_vertical
 
 CODES = {rules.code: rules.name for rules in RULE_SETS.values()}
 """Rule sets by their names on the command line."""

@@ -18,7 +18,7 @@ from solver.model import Floats
 from solver.records.acceptance import POINTS_HZ
 from solver.records.record import DECIMALS, UNITS, Record, raise_any, read_only
 from solver.records.spectrum import response_spectrum
-from solver.rules.spectra import Target, target_sa_g
+from solver.rules.hazard import Target, target_sa_g
 
 DAMPING = 0.05
 BAND_HZ = (0.3, 33.3)

@@ -20,7 +20,7 @@ from solver.model import Floats, InputError
 from solver.records.acceptance import MOST_CORRELATION
 from solver.records.measures import correlation, strength
 from solver.records.record import Record
-from solver.rules.spectra import Target
+from solver.rules.hazard import Target
 from solver.synthesis.matching import (
     MatchingFrame,
     SpectrumFit,

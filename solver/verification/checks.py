@@ -16,11 +16,10 @@ from solver.model import STANDARD_GRAVITY_MPS2, EventKind, Floats, SlideResult
 from solver.records.record import Record
 from solver.rivals.methods import Method, link_frequency
 from solver.sliding.checked import slide, slide_history
-from solver.verification import reference, scenes
+from solver.verification import reference, study
 from solver.verification.evidence import ROUNDING, Check
 from solver.verification.reference import Reference
-from solver.verification.scenes import Case, runnable_methods, scale_to
-from solver.verification.study import run
+from solver.verification.study import Case, run, runnable_methods, scale_to
 
 G = 9.81
 """Gravity in the closed forms [m/s2], as in their printed values."""
@@ -215,7 +214,7 @@ def _critical_friction() -> Iterator[Check]:
         yield Check("PH-4", source, "PRD", "m", name, expected, result.prd_m, tolerance)
 
 
-CASES = (*scenes.CASES[:4], Case(-7.0, 0.05, 1.0), Case(0.0, 0.0, 0.2))
+CASES = (*study.CASES[:4], Case(-7.0, 0.05, 1.0), Case(0.0, 0.0, 0.2))
 """Compared with 50 digits; the second and the fourth also with vertical shaking."""
 
 

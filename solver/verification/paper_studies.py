@@ -21,8 +21,7 @@ from solver.verification.evidence import (
     percent_of,
     percent_off,
 )
-from solver.verification.scenes import scale_to
-from solver.verification.study import grid, history, minimum_seconds, prepared, run
+from solver.verification.study import grid, history, minimum_seconds, prepared, run, scale_to
 from solver.verification.workprecision import timed
 
 CONVERGENCE_CASES = grid((-7.0, -4.0, 0.0, 4.0, 7.0), (0.0, 0.1, 0.5), (0.0, 0.18, 1.0, 1.44))

@@ -22,8 +22,7 @@ from solver.records.record import Record
 from solver.sliding import checked, one_axis, two_axes
 from solver.verification import model_checks
 from solver.verification.evidence import PeerPoint, percent_off
-from solver.verification.scenes import Case
-from solver.verification.study import MODEL_CASES, clocked, cut, posed, samples_of, scene_of
+from solver.verification.study import MODEL_CASES, Case, clocked, cut, posed, samples_of, scene_of
 
 SUBSTEPS = 10
 MOTIONS = 3

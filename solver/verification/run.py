@@ -24,9 +24,8 @@ from solver.verification import (
 )
 from solver.verification.building import FloorRecords
 from solver.verification.evidence import Check, Verification
-from solver.verification.scenes import compared_runs, own_records
 from solver.verification.shake_table import SHIPPED, TableTest, compare
-from solver.verification.study import own_triples
+from solver.verification.study import compared_runs, own_records, own_triples
 
 
 def verify(

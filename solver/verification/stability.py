@@ -19,8 +19,7 @@ from solver.rivals.methods import METHODS, link_frequency
 from solver.sliding import checked, two_axes
 from solver.sliding.sweep import sweep
 from solver.verification.evidence import Conditioning, StabilityMap, percent_off
-from solver.verification.scenes import CASES, Case, scale_to, shortened
-from solver.verification.study import run
+from solver.verification.study import CASES, Case, run, scale_to, shortened
 
 SLOPE_DEG = 4.0
 CRITICAL_MU = math.tan(math.radians(SLOPE_DEG))

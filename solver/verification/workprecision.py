@@ -23,14 +23,15 @@ from solver.rivals import by_scipy
 from solver.rivals.methods import METHODS, AxisScene, Method
 from solver.sliding import two_axes
 from solver.verification.evidence import percent_off
-from solver.verification.scenes import Case, runnable_methods
 from solver.verification.study import (
     MODEL_CASES,
     TIGHT,
+    Case,
     cut,
     minimum_seconds,
     prepared,
     run,
+    runnable_methods,
     samples_of,
     scene_of,
 )

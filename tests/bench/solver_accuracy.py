@@ -24,8 +24,14 @@ from solver.model import Floats, coulomb
 from solver.rivals.methods import NO_RECORD
 from solver.sliding.checked import slide
 from solver.sliding.two_axes import follow
-from solver.verification.scenes import Case, real_records
-from solver.verification.study import cut, own_triples, recorded_triples, scene_of
+from solver.verification.study import (
+    Case,
+    cut,
+    own_triples,
+    real_records,
+    recorded_triples,
+    scene_of,
+)
 
 # Slope [deg], friction coefficient, PPA [g].
 SCENES = ((0.0, 0.1, 1.0), (4.0, 0.3, 1.5), (-7.0, 0.5, 2.0), (2.0, 0.45, 1.5))

@@ -24,7 +24,7 @@ from report.study.parts import begin, done_parts, peaks, read_part, run_missing
 from solver import read_record, sweep
 from solver.model import Motion
 from solver.studies.runs import Campaign, Runner, grid, run_part
-from solver.verification.scenes import real_records
+from solver.verification.study import real_records
 from studied import frozen, motion
 
 SLOPES = np.radians(np.linspace(-7.0, 7.0, 29))

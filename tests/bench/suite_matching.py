@@ -9,8 +9,7 @@ import time
 
 from measure import SMOKE, figure
 
-from solver.rules.hazard import EDITIONS
-from solver.rules.spectra import ac156_horizontal, ac156_vertical
+from solver.rules.hazard import EDITIONS, ac156_horizontal, ac156_vertical
 from solver.synthesis.matching import spectrum_fit
 from solver.synthesis.suite import make_suite
 

@@ -25,8 +25,7 @@ from solver.records.record import Record
 from solver.rivals.methods import METHODS
 from solver.verification import peers, workprecision
 from solver.verification.evidence import PeerPoint
-from solver.verification.scenes import Case, compared_runs, real_records
-from solver.verification.study import own_triples, prepared
+from solver.verification.study import Case, compared_runs, own_triples, prepared, real_records
 from solver.verification.workprecision import NO_SAMPLES, work_points
 
 PICTURE = ROOT / "docs" / "pictures" / "work-precision.png"

@@ -26,7 +26,7 @@ from report.sheet.schema.choices import (
 from report.sheet.schema.fields import Cell, Frozen
 from report.text.units import G_MPS2, Quantity
 from solver.friction_tests import MOST_MU
-from solver.rules.spectra import Tail
+from solver.rules.hazard import Tail
 
 if TYPE_CHECKING:
     from solver.sliding.row import BlockRow

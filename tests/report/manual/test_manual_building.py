@@ -28,7 +28,7 @@ from solver.verification.building import (
     identify,
     recorded_buildings,
 )
-from solver.verification.scenes import own_records
+from solver.verification.study import own_records
 from verified import only
 
 pytestmark = pytest.mark.skipif(

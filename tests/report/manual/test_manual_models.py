@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 
 import printed
-from report.manual.models import models
+from report.manual.measured import models
 from report.manual.render import summary, verification_csv
 from solver.verification import model_study
 from solver.verification.evidence import HELD, SECOND

@@ -18,8 +18,7 @@ from solver.records.measures import measures
 from solver.records.processing import Processing, process
 from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
-from solver.rules.hazard import EDITIONS
-from solver.rules.spectra import Tail, ac156_horizontal, ac156_vertical
+from solver.rules.hazard import EDITIONS, Tail, ac156_horizontal, ac156_vertical
 
 pytestmark = pytest.mark.quick
 

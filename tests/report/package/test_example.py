@@ -8,8 +8,7 @@ from projects.example import make as example
 from sheets import read_workbook
 from solver.formats import read_record
 from solver.records.spectrum import response_spectrum
-from solver.rules.hazard import EDITIONS
-from solver.rules.spectra import ac156_horizontal, ac156_vertical
+from solver.rules.hazard import EDITIONS, ac156_horizontal, ac156_vertical
 from solver.synthesis.suite import make_suite
 
 pytestmark = pytest.mark.quick

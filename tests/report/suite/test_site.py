@@ -17,7 +17,7 @@ from report.sheet.reading.read import read
 from report.suite.inputs import ac156_targets, site_targets
 from sheets import at, edit, make, type_into
 from solver.model import InputError
-from solver.rules.spectra import Tail
+from solver.rules.hazard import Tail
 
 
 def test_the_target_of_a_suite_is_the_site_of_the_workbook_with_its_cells(tmp_path):

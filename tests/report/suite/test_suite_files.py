@@ -19,8 +19,7 @@ from report.suite.inputs import ac156_targets, read_seeds
 from solver.formats import read_motion_file, read_record
 from solver.model import InputError
 from solver.records.spectrum import response_spectrum
-from solver.rules.hazard import EDITIONS
-from solver.rules.spectra import Tail, ac156_horizontal, ac156_vertical
+from solver.rules.hazard import EDITIONS, Tail, ac156_horizontal, ac156_vertical
 
 pytestmark = [
     pytest.mark.skipif(

@@ -10,7 +10,7 @@ import waves
 from report.suite.files import suite_files, suite_table
 from report.suite.inputs import ac156_targets
 from report.text.units import G_MPS2
-from solver.rules.spectra import Tail
+from solver.rules.hazard import Tail
 from waves import PEAK_G
 
 pytestmark = pytest.mark.quick

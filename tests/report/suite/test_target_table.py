@@ -179,7 +179,7 @@ def test_a_file_that_is_not_a_table_is_reported(tmp_path, name, content, expecte
 
 
 def test_a_target_is_interpolated_on_log_log_axes(tmp_path):
-    from solver.rules.spectra import target_sa_g
+    from solver.rules.hazard import target_sa_g
 
     target = read_target(text(tmp_path, "frequency,sa\n0.1,0.1\n100,10\n"))
     between = target_sa_g((target.freq_hz, target.horizontal_g), np.array([math.sqrt(10.0)]))

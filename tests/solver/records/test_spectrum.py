@@ -17,7 +17,7 @@ from solver.records.spectrum import (
     factor_to_target,
     response_spectrum,
 )
-from solver.rules.spectra import ac156_vertical, target_sa_g
+from solver.rules.hazard import ac156_vertical, target_sa_g
 
 pytestmark = pytest.mark.quick
 

@@ -13,8 +13,7 @@ from solver.rivals import by_scipy
 from solver.sliding import one_axis, two_axes
 from solver.sliding.checked import slide, slide_history
 from solver.verification.model_checks import stopped_scene
-from solver.verification.scenes import Case
-from solver.verification.study import cut, own_triples, samples_of, scene_of
+from solver.verification.study import Case, cut, own_triples, samples_of, scene_of
 
 pytestmark = pytest.mark.quick
 

@@ -5,12 +5,13 @@ import pytest
 from solver.building.structure import FOOT_M, approximate_period_s
 from solver.rules.hazard import (
     EDITIONS,
+    ac156_horizontal,
+    ac156_vertical,
     component_force,
     design_categories,
     period_height_factor,
     seismic_parameters,
 )
-from solver.rules.spectra import ac156_horizontal, ac156_vertical
 
 pytestmark = pytest.mark.quick
 

@@ -10,7 +10,7 @@ import pytest
 from places import DATA
 from refused import refused
 from solver.model import InputError
-from solver.rules.hazard import EDITIONS
+from solver.rules.hazard import EDITIONS, Tail, ac156_horizontal, ac156_vertical
 from solver.rules.provisions import (
     OVERRIDABLE,
     RULE_SETS,
@@ -29,7 +29,6 @@ from solver.rules.provisions import (
     required_separation,
 )
 from solver.rules.rulesets import ALLOWED
-from solver.rules.spectra import Tail, ac156_horizontal, ac156_vertical
 
 pytestmark = pytest.mark.quick
 

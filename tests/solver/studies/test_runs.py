@@ -14,7 +14,7 @@ from solver.studies.curves import first_allowed
 from solver.studies.runs import LENGTHS, STATUSES, Campaign, Runner, cases_of, grid, run_part
 from solver.verification.paper_studies import MUS as PAPER_MUS
 from solver.verification.paper_studies import PPAS_G, SLOPES_DEG, design_curves
-from solver.verification.scenes import own_records, scale_to
+from solver.verification.study import own_records, scale_to
 from studied import INTENSITIES, MUS, SLOPES, campaign, motion
 
 pytestmark = pytest.mark.quick

@@ -10,7 +10,7 @@ import pytest
 from solver.model import InputError
 from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
-from solver.rules.spectra import target_sa_g
+from solver.rules.hazard import target_sa_g
 from solver.synthesis import suite
 from solver.synthesis.suite import make_suite
 

@@ -14,7 +14,7 @@ from solver.formats import read_motion_file, read_record
 from solver.model import InputError, Motion
 from solver.records.acceptance import acceptance
 from solver.records.record import Record, write_record
-from solver.rules.spectra import target_sa_g
+from solver.rules.hazard import target_sa_g
 from solver.synthesis import matching, suite
 from solver.synthesis.matching import make_frame, spectrum_fit
 from solver.synthesis.suite import NOISE, make_suite, synthesize

@@ -8,8 +8,7 @@ import pytest
 from solver.model import STANDARD_GRAVITY_MPS2
 from solver.sliding import one_axis
 from solver.verification import peers
-from solver.verification.scenes import CASES, near_fault_pulse
-from solver.verification.study import own_triples
+from solver.verification.study import CASES, near_fault_pulse, own_triples
 
 pytestmark = pytest.mark.quick
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from solver.verification import stability
-from solver.verification.scenes import near_fault_pulse
+from solver.verification.study import near_fault_pulse
 
 pytestmark = pytest.mark.quick
 

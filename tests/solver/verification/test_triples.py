@@ -6,8 +6,14 @@ import numpy as np
 import pytest
 
 from places import RECORDS, SAMPLES
-from solver.verification.scenes import own_records
-from solver.verification.study import RECORDED, cut, own_triples, recorded_triples, triple_scale
+from solver.verification.study import (
+    RECORDED,
+    cut,
+    own_records,
+    own_triples,
+    recorded_triples,
+    triple_scale,
+)
 
 pytestmark = pytest.mark.quick
 

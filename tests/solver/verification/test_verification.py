@@ -14,7 +14,7 @@ from solver.sliding.checked import slide
 from solver.verification import checks, paper_studies, reference, study
 from solver.verification.evidence import ROUNDING, Check, DesignCurves, percent_off
 from solver.verification.features import FEATURES, statuses
-from solver.verification.scenes import Case, near_fault_pulse, own_records, scale_to, shortened
+from solver.verification.study import Case, near_fault_pulse, own_records, scale_to, shortened
 
 
 @pytest.fixture(scope="module")

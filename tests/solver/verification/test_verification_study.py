@@ -10,8 +10,7 @@ from solver.model import HorizontalComponent, Orientation, coulomb
 from solver.sliding import one_axis
 from solver.sliding.checked import motion, slide
 from solver.verification import study
-from solver.verification.scenes import Case, near_fault_pulse, scale_to, shortened
-from solver.verification.study import AS_RECORDED
+from solver.verification.study import AS_RECORDED, Case, near_fault_pulse, scale_to, shortened
 
 pytestmark = pytest.mark.quick
 

@@ -9,8 +9,8 @@ import pytest
 
 from solver.model import Status
 from solver.rivals.methods import METHODS
-from solver.verification import scenes, study, workprecision
-from solver.verification.scenes import CASES, compared_runs, near_fault_pulse, shortened
+from solver.verification import study, workprecision
+from solver.verification.study import CASES, compared_runs, near_fault_pulse, shortened
 
 pytestmark = pytest.mark.quick
 
@@ -50,7 +50,7 @@ def test_scipy_with_events_is_as_accurate_as_the_exact_method(points):
 
 def test_the_runs_are_real_records_a_case_each_where_they_are_installed(record, monkeypatch):
     real = [record] * 18
-    monkeypatch.setattr(scenes, "real_records", lambda: real)
+    monkeypatch.setattr(study, "real_records", lambda: real)
     given, cases = zip(*compared_runs(False), strict=True)
     assert list(given) == real
     assert cases == 3 * CASES
