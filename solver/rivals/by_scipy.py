@@ -65,6 +65,7 @@ class _Interval:
         """Onset of slip of a block at rest at t; the end of the interval if there is none."""
         if self.excess(t) > 0.0:
             return t
+        # Convex: at or below zero at both ends, it is so between them.
         if self.excess(self.dt) <= 0.0:
             return self.dt
         root = _scipy("optimize").brentq(self.excess, t, self.dt, xtol=1e-18, rtol=1e-15)
@@ -127,6 +128,7 @@ def line(drive: Floats, cap: Floats, dt: float, solver: str, history: Floats) ->
                 break
             sign = math.copysign(1.0, span.x + span.rx * t if begins else w)
             push, rise = span.x - sign * span.c, span.rx - sign * span.rc
+            # One step for the whole interval: the motion is a cubic, which both solvers follow.
             run = step(
                 lambda t, y, push=push, rise=rise: rivals.line_rate(t, y, push, rise),
                 t, np.array((s, w)), dt, first_step=dt - t, rtol=1e-6, atol=1e-9,
@@ -137,6 +139,7 @@ def line(drive: Floats, cap: Floats, dt: float, solver: str, history: Floats) ->
                 (s, w), t = run.y.tolist(), dt
                 continue
             way, first = run.dense_output(), run.t_old
+            # w is zero where the slip begins: its end is the next zero.
             if begins and first == t:
                 first += LATER * (run.t - first)
             ends = sign * way(first)[1] > 0.0
@@ -198,6 +201,7 @@ def _begun(span: _Interval, t: float, state: Floats) -> tuple[float, Floats]:
     h = float(root(lambda h: span.gained(t, h) - wanted, 0.0, left, rtol=1e-14, xtol=1e-25))
     x, y, c = span.at(t + h)
     speed, drive = span.gained(t, h), math.hypot(x, y)
+    # The direction follows that of G behind by its turn in w / |G| (the singularity at w = 0).
     lag = speed * (x * span.ry - y * span.rx) / drive**2 / (2.0 * drive - c)
     angle = math.atan2(y, x) - lag
     way = h * h * (max(span.excess(t), 0.0) / 3.0 + span.excess(t + h) / 6.0)
@@ -217,6 +221,7 @@ def _slid(
         lambda t, state: rivals.plane_rate(t, state, *terms),
         t, state, span.dt, rtol=rtol, atol=1e-2 * rtol * speed * span.dt,
     )  # fmt: skip
+    # Near a stop the direction turns at |G| / w, and the steps shrink without reaching w = 0.
     while run.t < span.dt:
         before = math.hypot(run.y[2], run.y[3])
         message = run.step()
@@ -251,6 +256,7 @@ def regularized(rows: Floats, dt: float, v0: float, rtol: float) -> Floats:
     integrate = _scipy("integrate")
     start, times = np.zeros(2 * (rows.shape[1] - 1)), np.arange(len(rows)) * dt
     with warnings.catch_warnings():
+        # odeint returns numbers where it has given up; only the warning tells.
         warnings.simplefilter("error", integrate.ODEintWarning)
         try:
             states: Floats = integrate.odeint(

@@ -213,12 +213,13 @@ def _regularized(scene: AxisScene, parameters: Parameters, samples: Floats) -> O
     if samples.size:
         samples[:] = history
     peak = int(np.abs(s).argmax())
+    # It creeps and never rests: what is slower than v0 is taken for a stop.
     moving = np.sign(w) * (np.abs(w) > v0)
     n_stops = int(((moving[:-1] != 0.0) & (moving[1:] != moving[:-1])).sum())
     end = float(w[-1]) if moving[-1] else 0.0
-    found = bool(np.isfinite(history).all())
+    is_finite = bool(np.isfinite(history).all())
     return Outcome(
-        found, float(s.max()), float(s.min()), float(s[-1]), end, peak * scene.dt, n_stops
+        is_finite, float(s.max()), float(s.min()), float(s[-1]), end, peak * scene.dt, n_stops
     )
 
 

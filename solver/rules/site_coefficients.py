@@ -86,8 +86,10 @@ def site_coefficient(table: CoefficientTable, site_class: str, mapped_g: float) 
         If the edition has no such site class.
     """
     row, heads = table.rows[site_class], table.mapped_g
+    # The first and last columns are "at most" and "at least" in the tables.
     at = min(max(mapped_g, heads[0]), heads[-1])
     left = bisect_right(heads, at) - 1
+    # Not interpolated: NaN beside a tabled value must not spoil it.
     if at == heads[left]:
         return row[left]
     share = (at - heads[left]) / (heads[left + 1] - heads[left])
@@ -117,6 +119,7 @@ def site_specific_reason(
     missing = []
     for symbol, table, mapped_g in (("S_S", F_A, s_s_g), ("S_1", F_V, s_1_g)):
         if mapped_g is None:
+            # With the largest value there is: does it matter at all that this one is missing?
             missing += [symbol] if _needs_analysis(table, site_class, math.inf) else []
         elif _needs_analysis(table, site_class, mapped_g):
             return f"{name} with {symbol} = {mapped_g:g} g", ()

@@ -202,6 +202,7 @@ def overflow(scene: Scene) -> list[str]:
     peak = scene.scale * max(float(np.abs(record).max()) for record in records if record.size)
     lasts = scene.dt_s * (scene.ax_mps2.size - 1)
     mus = scene.friction.mu_slow, scene.friction.mu_fast, scene.friction.mu_static
+    # Kernels square accelerations and rates, a / dt, and sum distances a t^2.
     push = (abs(peak) + scene.g_mps2) * (1.0 + max(mus))
     rate = scene.dt_s * _LARGEST
     if push < min(_LARGEST, rate) and push * lasts * lasts < _LARGEST:
@@ -323,6 +324,7 @@ def checked_record(name: str, values: ArrayLike | None, problems: list[str]) -> 
     except (TypeError, ValueError, OverflowError):
         problems.append(wanted)
         return NO_RECORD
+    # A conversion would take text, booleans and dates, and drop the imaginary part.
     if samples.dtype.kind not in "fiu" or (
         np.ma.isMaskedArray(samples) and np.ma.is_masked(samples)
     ):

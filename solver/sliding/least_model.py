@@ -137,6 +137,7 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
         If a model is forced that the scene does not allow.
     """
     demand = friction_demand(scene)
+    # N of just zero has no demand either, and yet a motion: only N below zero is uplift.
     if math.isinf(demand) and one_axis.run(scene).status is Status.UPLIFT:
         return _lifted(scene)
     if settings.forced is None:
@@ -160,6 +161,7 @@ def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
         return _in_plane(scene, settings, Model.SPEED_FRICTION, why, demand)
     vertical = one_axis.run(scene)
     bound = settings.bound_m(vertical.prd_m)
+    # The costly run, once: what each simpler model leaves out is read from it.
     both = two_axes.run(scene, settings.tolerance) if scene.ay_mps2.any() else vertical
     less = lesser = _left_out(vertical, both)
     # Otherwise the level run is farther than the bound from one of both: they are twice it apart.
@@ -208,6 +210,7 @@ def _forced(scene: Scene, settings: Settings, model: Model, demand: float) -> So
         return _still(scene, demand)
     if model >= Model.TWO_AXES:
         return _in_plane(scene, settings, model, why, demand)
+    # Unlike `_climbed`: the effect is told even where it is far beyond the bound.
     result, fuller = one_axis.run(as_run(scene, model)), []
     if scene.ay_mps2.any():
         fuller.append(two_axes.run(as_run(scene, Model.TWO_AXES), settings.tolerance))

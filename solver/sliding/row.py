@@ -126,6 +126,7 @@ def row_history(scene: Scene, row: BlockRow) -> Floats:
 def _run(scene: Scene, row: BlockRow, samples: Floats | None) -> RowResult:
     """Run a row; `samples`, if given, is filled with s at the samples."""
     raise_any(_faults(row) or _too_stiff(scene, row))
+    # Rigid links: one block of the mean friction, weighted by the shares; N is the same for all.
     rigid = one_axis.run(replace(scene, friction=coulomb(row.mean_mu)))
     if rigid.status is Status.UPLIFT:
         return _nothing(Status.UPLIFT, row, rigid)
@@ -209,6 +210,7 @@ def minimum_steps(row: BlockRow, seconds: float) -> float:
     """Return a lower bound of the number of steps that a row needs for a motion this long [s]."""
     if len(row.mus) == 1:
         return 0.0
+    # The kernel steps at most 1 / rate.
     least = min(row.weights) * len(row.mus)
     rate = 2.0 * math.sqrt(row.stiffness_per_s2 / least) + 4.0 * row.damping_per_s / least
     return rate * seconds

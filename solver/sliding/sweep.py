@@ -156,6 +156,7 @@ def sweep(
     raise_any(problems)
     _, mu, scale = (float(np.abs(axis).max()) for axis in axes)
     scale *= abs(factor)
+    # The scene of the largest values: if it does not overflow, none does.
     largest = Scene(
         ax_mps2=ax,
         ay_mps2=ay,
@@ -247,6 +248,7 @@ def _run(
     s = outcomes.reshape(slopes.size, mus.size, scales.size, 4)
     # The same product as in a single run, so that both results agree to the last bit.
     cs = np.array([math.cos(slope) for slope in slopes])[:, None, None]
+    # Indices of `STATUSES`.
     status = np.where(np.isnan(s[..., 0]), 2, np.where(s[..., 3] == 0.0, 0, 1))
     return Sweep(
         slopes_rad=slopes,

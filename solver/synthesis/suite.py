@@ -139,6 +139,7 @@ def _turned(a: Floats, rng: np.random.Generator, by_rad: float) -> Floats:
     """Rotate the phase in every time window and frequency by a random angle of at most by_rad."""
     half = round(0.5 * _WINDOW * len(a))
     window = np.sin(math.pi * (np.arange(2 * half) + 0.5) / (2 * half))
+    # Sines squared of windows half a length apart add to 1, ends included where padded.
     padded = np.pad(a, 2 * half)
     turned = np.zeros_like(padded)
     for first in range(0, len(padded) - 2 * half, half):
@@ -153,9 +154,11 @@ def _leveled(a: Floats, rng: np.random.Generator) -> Floats:
     """Divide by the level over a few seconds; fill weak parts with noise of the same spectrum."""
     width = round(_LEVEL * len(a))
     bell = np.hanning(width + 2)[1:-1]
+    # A convolution may be below zero by rounding.
     level = np.sqrt(np.maximum(np.convolve(a**2, bell / bell.sum(), "same"), 0.0))
     faint = _FAINT * level.max()
     filler = _with_phases(np.abs(np.fft.rfft(a)), rng, len(a))
+    # Powers add: level^2 / faint^2 of the record and the rest of noise make 1.
     lacking = np.sqrt(1.0 - np.minimum(level / faint, 1.0) ** 2)
     filled: Floats = a / np.maximum(level, faint)
     filled += lacking * filler / np.sqrt(np.mean(filler**2))
@@ -295,6 +298,7 @@ def make_suite(
         return SuiteMotion(x=x, y=y, z=z, seeds=seeds, hold_s=hold_s)
 
     progress(f"0 of {count} motions made")
+    # A stream of its own for each motion: motion k is the same whatever the count.
     sequences = enumerate(np.random.SeedSequence(seed).spawn(count), start=1)
     with ThreadPoolExecutor(THREADS) as pool:
         motions = [pool.submit(made, k, sequence) for k, sequence in sequences]
@@ -353,6 +357,7 @@ def synthesize(
         if keeps(fit) and is_strong and not alike:
             return record, seed.words(draw)
         reached = f"{fit.minimum:.2f} to {fit.maximum:.2f}"
+        # The closest is that whose worst point is least off, whichever side it is on.
         nearest = min(nearest, (max(1.0 / fit.minimum, fit.maximum), reached))
     raise InputError(
         f"{name}: {DRAWS} motions of {duration_s:g} s all miss the target spectrum; the closest "

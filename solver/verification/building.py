@@ -91,8 +91,10 @@ def identify(
         rigid = 1.0 - modes.factors.sum(axis=0)
         return unexplained(responses @ modes.factors + ground_mps2[:, None] * rigid, floors_mps2)
 
+    # Logarithms of all three: misfits depend on ratios; 1 + alpha0, which may be zero.
     steps = int(np.log(periods_s[1] / periods_s[0]) / _PERIOD_STEP) + 2
     grid = product(np.log(np.geomspace(*periods_s, steps)), np.log(DAMPINGS), np.log1p(ALPHAS))
+    # The grid first: a descent alone ends in the nearest of several minima.
     least, best = _descend(misfit, *best_of(misfit, grid))
     return Identified(*_plain(best), least)
 

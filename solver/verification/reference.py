@@ -54,6 +54,7 @@ def slide(
             ]
             for sign in (1, -1)
         }
+        # For slip of one sign u'' is linear between samples, as a_h and a_v are.
         for i in range(len(a_h) - 1):
             block.follow({sign: (a[i], (a[i + 1] - a[i]) / dt) for sign, a in at.items()})
         return Reference(float(max(block.high, -block.low)), float(block.u))
