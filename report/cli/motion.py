@@ -86,6 +86,7 @@ def info(file: Path, channel: str, as_json: bool, plot: Path | None, **how: Any)
         motion_file = _read(file, **how)
         records = [motion_file.channel(channel)] if channel else motion_file.channels
         if plot:
+            # Before anything is printed: a plot that cannot be written is an error.
             _draw(records, plot)
     channels = [summary(record) for record in records]
     if as_json:

@@ -39,6 +39,7 @@ class Number(click.ParamType[float]):
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> float:
         """Return the number; a default is taken as it is."""
+        # A default is the program's own, and may be NaN for none.
         if not isinstance(value, str):
             return float(value)
         number = float(click.FLOAT(value, param, ctx))

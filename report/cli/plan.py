@@ -165,6 +165,7 @@ def read(
             with Progress() as progress:
                 progress("reading the drawing")
                 drawn, unit_m = _read(drawing, units)
+            # Outside of a progress, whose line would be written over the table of layers.
             drawn, turn = _turned(drawn, rotate)
             layers = choose(drawn, layers_of(draft), kinds, accept)
             with Progress() as progress:
@@ -333,6 +334,7 @@ def ballast(
         if not blocks:
             raise InputError("no block of the map is within an array of the plan")
         weights = {name: load.blocks * block_n for name, load in blocks.items()}
+        # What is not on the map any more goes only where that is asked for.
         bare = [name for name in arrays if name not in blocks] if replace else []
         filled = ballast_changes(change.book, {**weights, **dict.fromkeys(bare)}, replace=replace)
         change.fill(filled)

@@ -199,6 +199,7 @@ def _print_changes(assessment: Assessment, changed: Changes) -> None:
 
 
 POLL_S, MOST_POLLS, MOST_CHANGES = 0.3, 10, 12
+# What the report writes itself, and files that programs keep beside one that is open.
 NO_INPUTS = (*OUTPUTS, ".sha256", ".tmp", ".bak", ".swp", ".lock", "~")
 
 

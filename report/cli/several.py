@@ -201,6 +201,7 @@ def package(source: Path, is_shared: bool = False) -> ReportOutcome:
         done = ReportOutcome(source=source, problems=(system_problem(error),))
     except Exception:
         done = ReportOutcome(source=source, internal=traceback.format_exc())
+    # Without a package the files that are there are of an earlier run.
     if not done.verdict:
         left = (outputs_of(source, out), *left)
     return replace(done, lines=tuple(lines), left=left, seconds=time.monotonic() - started)

@@ -97,6 +97,7 @@ def _read(names: tuple[str | None, ...], units: str, dt_s: float) -> list[Record
         records.append(None)
         if name is None:
             continue
+        # From the right: a channel may be named in a path that has a bar itself.
         file, _, channel = name.rpartition("|") if "|" in name else (name, "", "")
         try:
             path = Path(file.strip())

@@ -55,6 +55,7 @@ def study(
     """
     from report.study.manifest import NEEDED, extra
 
+    # Before anything is imported that needs them.
     with input_errors(source):
         for name in NEEDED:
             extra(name)

@@ -188,6 +188,7 @@ def warn_of_others(new: Path) -> None:
 
 def say_former(outputs: Sequence[Path]) -> None:
     """Say which outputs are there from an earlier run, after one that has not replaced them."""
+    # Files of an earlier run look like those of this one, which has none.
     there = [path for path in outputs if os.path.isfile(path)]
     if there:
         last = dt.datetime.fromtimestamp(max(path.stat().st_mtime for path in there))
