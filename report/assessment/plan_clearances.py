@@ -157,7 +157,7 @@ def _renewed(
     table: GrowingTable, data: ProjectInput, pairs: Sequence[PlanNeighbor]
 ) -> tuple[dict[CellPosition, Value], list[str]]:
     """Return the cells of rows from the drawing that differ from the plan, and a line for each."""
-    rows = {table.position(row, "provided_m").address: row for row in table.found.rows}
+    rows = {table.position(row, "provided_m").address: row for row in table.inputs.rows}
     cells: dict[CellPosition, Value] = {}
     lines: list[str] = []
     for near in pairs:
@@ -195,7 +195,7 @@ def _from_drawing(table: GrowingTable, direction: Direction, drawn_m: float) -> 
     return {
         "direction": direction.value,
         # Down once more: 0.1 in is no round number of feet.
-        "provided_m": round_down(drawn_m / table.found.columns["provided_m"].si, DIGITS),
+        "provided_m": round_down(drawn_m / table.inputs.columns["provided_m"].si, DIGITS),
         "source": ClearanceSource.DRAWING.value,
     }
 

@@ -1,7 +1,7 @@
 """What a plan checker asks about the seismic parameters: code, source, SDC, site class, 11.4.8.
 
 Each row that is not satisfied is a condition, not NG; values below their table are errors
-(`report.sheet.checking.site_checks`). Read `hazard_rows`, `friction_rows`, `fire_lane_rows`.
+(`report.sheet.checking.checks`). Read `hazard_rows`, `friction_rows`, `fire_lane_rows`.
 """
 
 from __future__ import annotations

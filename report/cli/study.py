@@ -102,7 +102,7 @@ def make(
     Options are those of `report.study.run.run_study`.
     """
     from report.results.publish import publish
-    from report.sheet.schema.years import FILE as YEARS
+    from report.sheet.reading.linked_files import YEARS
     from report.study.exports import EXPORTS
     from report.study.files import study_files
     from report.study.run import RUNS, run_study

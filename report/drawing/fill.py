@@ -379,11 +379,11 @@ def _fill_rows(fill: _Fill, key: str, places: Sequence[DrawnOutline]) -> None:
             fill.refuse(table.position(row, taken[0]), f"the place of {place.name}")
         _fill_outline(fill, place)
         values: dict[str, Value] = {} if rows else {"id": place.name}
-        if "place_from" in table.found.columns:  # not in earlier workbooks
+        if "place_from" in table.inputs.columns:  # not in earlier workbooks
             values["place_from"] = DRAWN_MODULES if place.modules else DRAWING
             if not place.modules and table.cell(row, "place_from").shown == DRAWN_MODULES:
                 values["modules"] = None
-        if key == "arrays" and place.modules and "modules" in table.found.columns:
+        if key == "arrays" and place.modules and "modules" in table.inputs.columns:
             count = f"the number of modules of {place.name}"
             fill.put(table.position(row, "modules"), place.modules, count)
         if key == "objects" and (not rows or fill.replace):
@@ -404,7 +404,7 @@ def _take_out(fill: _Fill, name: str) -> None:
             continue
         table = GrowingTable.of(fill.book, key)
         for row in {row for column in columns for row in table.rows(column, name)}:
-            fill.cells |= table.cells(row, dict.fromkeys(table.found.columns))
+            fill.cells |= table.cells(row, dict.fromkeys(table.inputs.columns))
 
 
 def _sides(shape: Shape) -> tuple[float | None, ...]:
@@ -449,9 +449,9 @@ def _fill_outline(fill: _Fill, place: DrawnOutline) -> None:
     if rows:
         fill.refuse(table.position(rows[0], "name"), f"the place of {name}")
     for row in rows:
-        fill.cells |= table.cells(row, dict.fromkeys(table.found.columns))
+        fill.cells |= table.cells(row, dict.fromkeys(table.inputs.columns))
     # Not in earlier workbooks.
-    source = {"source": DRAWING} if "source" in table.found.columns else {}
+    source = {"source": DRAWING} if "source" in table.inputs.columns else {}
     for x, y in points:
         place_m = {"x_m": table.number("x_m", x), "y_m": table.number("y_m", y)}
         fill.cells |= table.cells(table.added(), {"name": name, **place_m, **source})

@@ -17,9 +17,8 @@ from report.entities.shown import plain, text, words
 from report.figures import manual as figures
 from report.figures.work import work
 from report.text.counts import capitalized, grouped_by, joined
-from report.text.formats import scientific, slug, ten_digits
+from report.text.formats import NOT_VALIDATED, explained, scientific, slug, ten_digits
 from report.text.units import G_MPS2, number
-from report.text.validation import NOT_VALIDATED, explained
 from solver.model import Floats
 from solver.verification import shake_table as accepted
 from solver.verification.evidence import RoofComparison, RoofPrediction, Verification

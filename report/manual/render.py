@@ -34,8 +34,15 @@ from report.manual.precision import conditioning, convergence, curves, floor, li
 from report.pages.parts import verdict
 from report.pages.symbols import with_symbols
 from report.text.counts import grouped_by, lettered
-from report.text.formats import csv_text, percent, scientific, seconds, ten_digits, unbroken
-from report.text.validation import validation
+from report.text.formats import (
+    csv_text,
+    percent,
+    scientific,
+    seconds,
+    ten_digits,
+    unbroken,
+    validation,
+)
 from report.typeset.pdf import TEMPLATES, lay_out
 from solver.rivals.methods import METHODS
 from solver.verification import evidence, model_study

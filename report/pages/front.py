@@ -27,10 +27,10 @@ from report.pages.limits import analysis_faults, check_table, troubles
 from report.pages.parts import PackageData, statistic
 from report.pages.summary import answers
 from report.pages.symbols import friction_standard
+from report.sheet.reading.linked_files import StudyYears, YearsOfArray
 from report.sheet.schema import SECTION
 from report.sheet.schema.project import Revision
-from report.sheet.schema.years import StudyYears, YearsOfArray
-from report.text.validation import explained
+from report.text.formats import explained
 from solver.verification.shake_table import SHIPPED
 
 N_WORST = 3

@@ -13,7 +13,7 @@ from typing import Any
 from report.document.tables import Column, listed
 from report.document.templates import Section, section
 from report.entities.shown import text, words
-from report.sheet.schema.years import SUPPORTING, Distance, StudyYears, YearsOfArray
+from report.sheet.reading.linked_files import SUPPORTING, Distance, StudyYears, YearsOfArray
 from report.study import figures
 from report.study import years as rates
 from report.study.exports import has_probabilities

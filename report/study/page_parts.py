@@ -24,6 +24,7 @@ from report.study.results import StudyResults
 from report.study.tables import length_unit
 from report.study.wording import on_building
 from report.text.counts import capitalized, joined
+from report.text.formats import explained
 from report.text.units import (
     digits_down,
     digits_up,
@@ -33,7 +34,6 @@ from report.text.units import (
     round_down,
     round_up,
 )
-from report.text.validation import explained
 from solver.model import Floats
 from solver.studies.curves import DIGITS, Fit
 from solver.verification.shake_table import SHIPPED

@@ -97,8 +97,8 @@ def named(names: Sequence[str], noun: str) -> str:
     return f"{noun}{'' if len(names) == 1 else 's'} {ranged(names)}"
 
 
+# Characters of a name that is printed as it is.
 LONGEST = 12
-"""Characters of a name that is printed as it is."""
 
 # A name within a longer word or a path is another name.
 _BEFORE, _AFTER = r"(?<![\w/\\.-])", r"(?![\w/\\]|[.-]\w)"
@@ -169,36 +169,28 @@ def _any_of(names: Iterable[str]) -> str:
     return f"{_BEFORE}(?:{'|'.join(map(re.escape, longest_first))}){_AFTER}"
 
 
+# Control characters, those that separate lines or change the direction of a text, and what XML
+# does not allow.
 UNPRINTABLE = re.compile(
     r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]"
 )
-"""Control characters, those that separate lines or change the direction of a text, and what XML
-does not allow."""
 
+# Characters of a cell or a name that a message shows.
 SHOWN = 60
-"""Characters of a cell or a name that a message shows."""
 
 _UNSEEN = "".join(filter(str.isspace, map(chr, range(0x3001)))) + (
     "\u00ad\u200b\u200c\u200d\u200e\u200f\u2060\u2061\u2062\u2063\u2064\ufeff"
 )
 
+# Cyrillic and Greek letters that look like Latin ones.
 _ALIKE = str.maketrans(
     "АВЕЅІЈКМНОРСТУХаеѕіјорсухΑΒΕΖΗΙΚΜΝΟΡΤΥΧο", "ABESIJKMHOPCTYXaesijopcyxABEZHIKMNOPTYXo"
 )
-"""Cyrillic and Greek letters that look like Latin ones."""
 
 _LETTERS = {
-    "mu": "μ",
-    "theta": "θ",
-    "phi": "φ",
-    "omega": "ω",
-    "eta": "η",
-    "gamma": "γ",
-    "beta": "β",
-    "zeta": "ζ",
-    "sigma": "σ",
-    "pi": "π",
-}
+    "mu": "μ", "theta": "θ", "phi": "φ", "omega": "ω", "eta": "η", "gamma": "γ", "beta": "β",
+    "zeta": "ζ", "sigma": "σ", "pi": "π",
+}  # fmt: skip
 _NAMES = re.compile(rf"\b({'|'.join(_LETTERS)})\b")
 
 _SIGNS = {"^2": "²", "m/s2": "m/s²", "v0": "v₀", "sqrt(": "√(", ">=": "≥", " - ": " − "}
@@ -221,7 +213,8 @@ def foreign_letters(text: str) -> str:
     """Return which letters of a text only look Latin, with their alphabets; empty for none."""
     foreign = dict.fromkeys(letter for letter in text if ord(letter) in _ALIKE)
     said = (
-        f"'{one}' is a {unicodedata.name(one).split()[0].capitalize()} letter" for one in foreign
+        f"'{letter}' is a {unicodedata.name(letter).split()[0].capitalize()} letter"
+        for letter in foreign
     )
     return ", ".join(said)
 

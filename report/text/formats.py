@@ -1,7 +1,7 @@
-"""Errors, shares and times of a verification for print; names for files; data for JSON and CSV;
-tables for a terminal.
+"""Errors, shares and times of a verification for print, and whether tests validate the solution;
+names for files; data for JSON and CSV; tables for a terminal.
 
-An em dash is NaN. Owns no sentence.
+An em dash is NaN.
 """
 
 from __future__ import annotations
@@ -11,10 +11,13 @@ import io
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from report.text.counts import power_of_ten
 from report.text.units import number
+
+if TYPE_CHECKING:
+    from solver.verification.shake_table import ShakeTable
 
 
 def scientific(value: float) -> str:
@@ -105,8 +108,8 @@ def finite(value: Any) -> Any:
 
 
 _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+# Their first characters; Excel in Japanese reads the wide ones as well.
 _FORMULAS = tuple("=+-@＝＋－＠")
-"""Their first characters; Excel in Japanese reads the wide ones as well."""
 
 
 def csv_text(rows: Iterable[Sequence[Any]]) -> str:
@@ -123,3 +126,31 @@ def _as_text(value: Any) -> Any:
         return value
     is_live = value.startswith(("\t", "\r", "\n")) or value.lstrip().startswith(_FORMULAS)
     return f"'{value}" if is_live else value
+
+
+NOT_VALIDATED = (
+    "The sliding solution has not been validated against shake-table tests of ballasted arrays."
+)
+
+
+def validation(tables: Sequence[ShakeTable]) -> str:
+    """Return in a sentence whether tests of a shake table validate the sliding solution."""
+    for table in tables:
+        if table.validates:
+            return (
+                f"{len(table.runs)} tests of a shake table satisfy the acceptance of the "
+                "verification manual. They validate the sliding solution for slopes, friction "
+                "coefficients and motions like theirs, as far as the stated source is right."
+            )
+    return NOT_VALIDATED
+
+
+def explained(tables: Sequence[ShakeTable]) -> str:
+    """Return the same, with what remains unknown where nothing is validated."""
+    if any(table.validates for table in tables):
+        return validation(tables)
+    return (
+        f"{NOT_VALIDATED} The checks of the verification manual show that the equations are "
+        "solved correctly. They do not show how well friction between a ballasted array and a "
+        "roof membrane follows them."
+    )

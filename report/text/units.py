@@ -18,6 +18,7 @@ G_MPS2 = STANDARD_GRAVITY_MPS2
 LENGTHS = {"in": INCH_M, "ft": 0.3048, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
 """Lengths in m."""
 
+# Weights in N; a mass is multiplied by standard gravity.
 WEIGHTS = {
     "lb": NEWTONS_PER_POUND,
     "kip": 1e3 * NEWTONS_PER_POUND,
@@ -25,7 +26,6 @@ WEIGHTS = {
     "kN": 1e3,
     "kg": G_MPS2,
 }
-"""Weights in N; a mass is multiplied by standard gravity."""
 
 STIFFNESSES = {
     "lb/in": NEWTONS_PER_POUND / INCH_M,

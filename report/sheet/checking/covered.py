@@ -16,11 +16,11 @@ from report.sheet.schema.scene import SIDES, WEIGHT_PARTS
 from report.text.counts import grouped_by
 
 _LETTERS = 6  # of a hash
+# Fields by section.
 _Covers = Mapping[str, Set[str]]
-"""Fields by section."""
 
+# Of what is covered, by sheet.
 _Hashes = Mapping[str, str]
-"""Of what is covered, by sheet."""
 
 
 def _all_but(**left_out: str) -> _Covers:
@@ -53,8 +53,8 @@ CONFIRMATIONS: Sequence[tuple[str, str, str, _Covers]] = (
 )  # fmt: skip
 """Section, fields of the date and of the record, and what is covered."""
 
+# The fields that are no input: `roofslip report` fills them in.
 COVERED = frozenset(covered for *_, covered, _ in CONFIRMATIONS)
-"""The fields that are no input: `roofslip report` fills them in."""
 
 
 def to_record(data: ProjectInput, records: Sequence[str]) -> Mapping[Place, str]:

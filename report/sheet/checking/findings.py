@@ -28,8 +28,8 @@ from report.text.counts import foreign_letters, looks
 from solver.model import Problem
 from solver.suggestions import nearest
 
+# Cells and ids named of equal errors and findings.
 MOST_LISTED = 3
-"""Cells and ids named of equal errors and findings."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,7 +161,7 @@ def lines(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterat
         key = (finding.level, finding.place.section, finding.text, finding.reason, has_id)
         alike.setdefault(key, []).append((finding, cell))
     for group in alike.values():
-        cells, names = listed(cell for _, cell in group), listed(one.id for one, _ in group)
+        cells, names = listed(cell for _, cell in group), listed(each.id for each, _ in group)
         yield FindingGroup(finding=group[0][0], cells=cells, names=names)
 
 
@@ -184,8 +184,8 @@ def _idle(data: ProjectInput, findings: Iterable[Finding]) -> Iterator[Finding]:
             yield note(Place("acknowledged", index, "warning"), text)
 
 
+# Difference from a limit / limit that is rounding error of a conversion of units.
 ROUNDING = 1e-9
-"""Difference from a limit / limit that is rounding error of a conversion of units."""
 
 
 def unusual(data: ProjectInput) -> Iterator[Finding]:

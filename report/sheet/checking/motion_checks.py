@@ -22,14 +22,14 @@ from solver.model import Friction
 LABELS = {"record": "horizontal", "transverse": "transverse", "vertical": "vertical"}
 """Fields of a motion that name a record, each with the name of its component."""
 
+# The same by component.
 FIELDS = {label: field for field, label in LABELS.items()}
-"""The same by component."""
 
+# Begins the source of a motion that was generated.
 GENERATED = "Generated, seed "
-"""Begins the source of a motion that was generated."""
 
+# Duration [s] below which a motion is refused: no earthquake record is as short.
 SHORTEST_S = 1.0
-"""Duration [s] below which a motion is refused: no earthquake record is as short."""
 
 
 def motion_faults(draft: Draft, where: Where) -> Iterator[Finding]:
@@ -173,8 +173,8 @@ def _design_spectrum(draft: Draft, ground: list[int], where: Where) -> Iterator[
         yield Finding.error(Place("target", 0, "t_l_s"), text, wanted)
 
 
+# Difference of coefficients that comes from rounding to two decimals.
 MU_TOLERANCE = 0.005
-"""Difference of coefficients that comes from rounding to two decimals."""
 
 
 def friction_faults(draft: Draft, where: Where) -> Iterator[Finding]:

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import islice
-from typing import NamedTuple
 
 from report.sheet.checking.findings import suggestion
 from report.sheet.schema import SECTION
@@ -59,56 +58,39 @@ def _has_no_structure(row: DraftRow, draft: Draft) -> bool:
     )
 
 
-class Required(NamedTuple):
-    """When an optional cell is required, and what would do where it is missing."""
-
-    when: Condition
-    wish: str
-
-
 _OR_NONE = "give all four sides of the rectangle, or none"
 _OR_OUTLINE = "give all four sides of the rectangle, or an outline on the sheet Outlines"
 _LAW = "give high-velocity friction and friction rate, or neither"
 _CODE = "give building code and year, or neither"
 _CONFIRMED = "give who confirmed the drawing distances and when, or neither"
+_ALL_FIVE = "give all five cells of the confirmation, or none"
+_OR_NO = "give it, or answer No to displacement by direction"
 _CONFIRMATION = ("by", "date", "rule_set", "edition", "code")
 
-REQUIRED: Mapping[tuple[str, str], Required] = {
-    ("site", "building_code"): Required(_filled("building_code_year"), _CODE),
-    ("site", "building_code_year"): Required(_filled("building_code"), _CODE),
-    ("project", "drawing_confirmed_by"): Required(_filled("drawing_confirmed_date"), _CONFIRMED),
-    ("project", "drawing_confirmed_date"): Required(_filled("drawing_confirmed_by"), _CONFIRMED),
+# Optional cells that are required where others say so: when, and what would do.
+REQUIRED: Mapping[tuple[str, str], tuple[Condition, str]] = {
+    ("site", "building_code"): (_filled("building_code_year"), _CODE),
+    ("site", "building_code_year"): (_filled("building_code"), _CODE),
+    ("project", "drawing_confirmed_by"): (_filled("drawing_confirmed_date"), _CONFIRMED),
+    ("project", "drawing_confirmed_date"): (_filled("drawing_confirmed_by"), _CONFIRMED),
+    **{("confirmation", field): (_filled(*_CONFIRMATION), _ALL_FIVE) for field in _CONFIRMATION},
+    **{("roof", side): (_filled(*SIDES), _OR_NONE) for side in SIDES},
+    **{("arrays", side): (_has_no_outline, _OR_OUTLINE) for side in SIDES},
+    **{("objects", side): (_filled(*SIDES), _OR_NONE) for side in SIDES},
+    ("objects", "height_m"): (
+        _chosen("kind", ObjectKind.EDGE_WITH_PARAPET), "give the parapet's height above the roof"),
+    ("arrays", "weight_n"): (_lacks_parts, "give it, or modules, module weight and ballast weight"),
+    ("arrays", "mu_fast"): (_filled("mu_rate_s_per_m"), _LAW),
+    ("arrays", "mu_rate_s_per_m"): (_filled("mu_fast"), _LAW),
+    ("motions", "scale_value"): (
+        _chosen("scaling", Scaling.FACTOR, Scaling.PPA), "give the factor, or the PPA in g"),
+    ("building", "period_s"): (
+        _has_no_structure, "give it, or a structure type: a motion is recorded at the ground"),
     **{
-        ("confirmation", field): Required(
-            _filled(*_CONFIRMATION), "give all five cells of the confirmation, or none"
-        )
-        for field in _CONFIRMATION
-    },
-    **{("roof", side): Required(_filled(*SIDES), _OR_NONE) for side in SIDES},
-    **{("arrays", side): Required(_has_no_outline, _OR_OUTLINE) for side in SIDES},
-    **{("objects", side): Required(_filled(*SIDES), _OR_NONE) for side in SIDES},
-    ("objects", "height_m"): Required(
-        _chosen("kind", ObjectKind.EDGE_WITH_PARAPET), "give the parapet's height above the roof"
-    ),
-    ("arrays", "weight_n"): Required(
-        _lacks_parts, "give it, or modules, module weight and ballast weight"
-    ),
-    ("arrays", "mu_fast"): Required(_filled("mu_rate_s_per_m"), _LAW),
-    ("arrays", "mu_rate_s_per_m"): Required(_filled("mu_fast"), _LAW),
-    ("motions", "scale_value"): Required(
-        _chosen("scaling", Scaling.FACTOR, Scaling.PPA), "give the factor, or the PPA in g"
-    ),
-    ("building", "period_s"): Required(
-        _has_no_structure, "give it, or a structure type: a motion is recorded at the ground"
-    ),
-    **{
-        ("options", f"directional_{field}"): Required(
-            _chosen("directional", True), "give it, or answer No to displacement by direction"
-        )
+        ("options", f"directional_{field}"): (_chosen("directional", True), _OR_NO)
         for field in ("reason", "reviewer", "license", "date")
     },
-}
-"""Optional cells that are required where others say so."""
+}  # fmt: skip
 
 UNIQUE = (("arrays", "objects"), ("motions",))
 """Tables whose ids differ from each other, without regard to capitals."""
@@ -130,12 +112,12 @@ ORDERED = (("x_from_m", "x_to_m"), ("y_from_m", "y_to_m"))
 
 def missing(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield the cells that are required by others, and blank."""
-    for (section, field), required in REQUIRED.items():
+    for (section, field), (is_required, wanted) in REQUIRED.items():
         for index, row in enumerate(draft[section]):
             is_blank = field in row and row[field] in (None, "")
-            if is_blank and required.when(row, draft):
+            if is_blank and is_required(row, draft):
                 fault = f"{SECTION[section].entry(field).spoken} is missing"
-                yield Finding.error(Place(section, index, field), fault, required.wish)
+                yield Finding.error(Place(section, index, field), fault, wanted)
 
 
 LEAST_VERTICES, MOST_OVERLAPS = 3, 1_000
@@ -353,14 +335,14 @@ def _overlaps(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield arrays that overlap each other or an object; `checks` has those with a clearance."""
     cleared = {frozenset((row.get("array"), row.get("object"))) for row in draft["clearances"]}
     bodies = sorted(_bodies(draft), key=lambda body: body.bounds.x_from_m)
-    for count, one in enumerate(bodies):
+    for count, body in enumerate(bodies):
         for other in bodies[count + 1 :]:
-            if other.bounds.x_from_m >= one.bounds.x_to_m:
+            if other.bounds.x_from_m >= body.bounds.x_to_m:
                 break
-            first, second = sorted((one, other), key=lambda body: (not body.is_array, body.place))
-            if not first.is_array or frozenset((one.name, other.name)) in cleared:
+            first, second = sorted((body, other), key=lambda each: (not each.is_array, each.place))
+            if not first.is_array or frozenset((body.name, other.name)) in cleared:
                 continue
-            if gap_m(one.bounds, other.bounds) < 0.0 and gap_m(one.shape, other.shape) < -NEAR_M:
+            if gap_m(body.bounds, other.bounds) < 0.0 and gap_m(body.shape, other.shape) < -NEAR_M:
                 text = f"{first.name} and {second.name} at {where(second.place)} overlap in plan"
                 yield Finding.error(first.place, text, "correct one of them")
 

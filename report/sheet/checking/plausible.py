@@ -8,9 +8,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from report.sheet.checking.checks import gap_tolerance_m
+from report.sheet.checking.checks import ROUNDING_OF_COEFFICIENTS, gap_tolerance_m
 from report.sheet.checking.findings import note, spoken, unusual, warning
-from report.sheet.checking.site_checks import ROUNDING_OF_COEFFICIENTS
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import Direction, SlopeUnit
 from report.sheet.schema.fields import Finding, Level, Place
@@ -23,22 +22,21 @@ from solver.rules.provisions import OVERRIDABLE
 from solver.rules.rulesets import usual
 from solver.rules.site_coefficients import F_A, F_V, site_coefficient
 
+# Usual weight of a ballasted array on its plan area [Pa]: modules alone weigh 2 to 3 psf.
 LEAST_PRESSURE_PA, MOST_PRESSURE_PA = 1.0 * PRESSURES["psf"], 30.0 * PRESSURES["psf"]
-"""Usual weight of a ballasted array on its plan area [Pa]: modules alone weigh 2 to 3 psf."""
 
+# Difference of the weight from that of its parts / that of its parts which is rounding.
 SAME_WEIGHT = 0.01
-"""Difference of the weight from that of its parts / that of its parts which is rounding."""
 
+# Slope [%] below which it is more probably a fraction: roofs with less than 1/8 % are not built.
 MOST_FRACTION = 0.12
-"""Slope [%] below which it is more probably a fraction: roofs with less than 1/8 % are not built.
-"""
 
+# Largest angle between the direction of a clearance and the gap of the plan [deg]: a corner may
+# lie at 45 deg.
 MOST_ASKEW_DEG = 60.0
-"""Largest angle between the direction of a clearance and the gap of the plan [deg]: a corner may
-lie at 45 deg."""
 
+# Number of clearances at the ratio of two units from which they are one warning.
 LEAST_ALIKE = 3
-"""Number of clearances at the ratio of two units from which they are one warning."""
 
 _UNITS = {"in": "inches", "ft": "feet", "mm": "mm", "cm": "cm", "m": "meters"}
 
@@ -126,7 +124,7 @@ def _height(data: ProjectInput, us_first: bool) -> Iterator[Finding]:
 
 
 def _site_coefficients(site: Site) -> Iterator[Finding]:
-    # Less than the table is an error, except with a site-specific analysis (`site_checks`).
+    # Less than the table is an error, except with a site-specific analysis (`checks`).
     for table, field, coefficient, mapped, mapped_g in (
         (F_A, "f_a", site.f_a, "S_S", site.s_s_g),
         (F_V, "f_v", site.f_v, "S_1", site.s_1_g),

@@ -18,17 +18,7 @@ from openpyxl.utils.datetime import WINDOWS_EPOCH
 from openpyxl.utils.escape import unescape
 from pydantic import ValidationError
 
-from report.sheet.reading.typed_text import (
-    choice_in,
-    dates_in,
-    in_thousands,
-    inches_in,
-    is_percentage,
-    misleading,
-    number_in,
-    remark_in,
-    rise_in,
-)
+from report.sheet.reading import typed_text
 from report.sheet.schema.choices import SlopeUnit
 from report.sheet.schema.fields import Entry, YesNo, adapter, entries
 from report.text.counts import SHOWN, UNPRINTABLE, cut, trimmed
@@ -39,19 +29,19 @@ _WITH_UNIT = re.compile(
     r"[+-]?[0-9]+(?:\.[0-9]*)?\s*(?:[A-Za-z]{1,4}|['\"°%]|''|[A-Za-z]+/[A-Za-z0-9]+)\.?"
 )
 _ESCAPE = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")
+# A date before it is refused, as by the sheet's own check.
 EARLIEST = date(2000, 1, 1)
-"""A date before it is refused, as by the sheet's own check."""
+# Numbers in the cell of a date that are days since 1899-12-30: of the years 2000 to 2099.
 EARLIEST_DAY, LATEST_DAY = 36526, 73050
-"""Numbers in the cell of a date that are days since 1899-12-30: of the years 2000 to 2099."""
+# Magnitude above which a number is refused, so that no change of units can overflow.
 LARGEST = 1e15
-"""Magnitude above which a number is refused, so that no change of units can overflow."""
 
 
 class CellError(InputError):
     """A cell with invalid content; the message has the form `is ...; give ...`."""
 
-    def __init__(self, found: str, remedy: str = "") -> None:
-        super().__init__(Problem(found, remedy))
+    def __init__(self, fault: str, remedy: str = "") -> None:
+        super().__init__(Problem(fault, remedy))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -207,9 +197,8 @@ def _quoted(value: object) -> str:
 def _converted(cell: Found, entry: Entry, wanted: str, unit: str, si: float) -> Any:
     if entry.kind in (int, float):
         text = trimmed(cell.value) if isinstance(cell.value, str) else ""
-        inches = (
-            inches_in(text) if entry.quantity and entry.quantity.accepted is LENGTHS else math.nan
-        )
+        is_length = entry.quantity is not None and entry.quantity.accepted is LENGTHS
+        inches = typed_text.inches_in(text) if is_length else math.nan
         if math.isfinite(inches):
             return inches * INCH_M / si
         _check_remark(text, entry)
@@ -234,12 +223,12 @@ def number(cell: Found, wanted: str = "give a number", unit: str = "") -> float:
     # Whole numbers of any length are read as such; `float` has no value for 400 digits.
     if not abs(value) <= sys.float_info.max:
         raise CellError(f"is {_quoted(value)}", wanted)
-    if is_percentage(cell.number_format):
+    if typed_text.is_percentage(cell.number_format):
         raise CellError(
             f"is a percentage ({100 * value:g}%, which Excel holds as {value:g})",
             f"{wanted}, formatted as a number",
         )
-    if how := misleading(cell.number_format, unit):
+    if how := typed_text.misleading(cell.number_format, unit):
         raise CellError(
             f"is {plain(value)}, shown {how} by its number format ({cut(cell.number_format)})",
             f"{wanted}, formatted as a number",
@@ -249,7 +238,7 @@ def number(cell: Found, wanted: str = "give a number", unit: str = "") -> float:
 
 def _check_remark(text: str, entry: Entry) -> None:
     """Raise if the remark behind a number is what another column of its row says."""
-    for word in remark_in(text).casefold().replace(",", " ").split():
+    for word in typed_text.remark_in(text).casefold().replace(",", " ").split():
         for other in entries(entry.model):
             if word in other.choices:
                 wanted = f"write the number alone, and {word} in the column {other.cell.label}"
@@ -257,15 +246,15 @@ def _check_remark(text: str, entry: Entry) -> None:
 
 
 def _number_in_text(text: str, wanted: str, unit: str) -> float:
-    if math.isfinite(value := number_in(text)):
+    if math.isfinite(value := typed_text.number_in(text)):
         return value
-    if math.isfinite(rise := rise_in(text)):
-        if choice_in(unit, SlopeUnit) == SlopeUnit.IN_PER_12:
+    if math.isfinite(rise := typed_text.rise_in(text)):
+        if typed_text.choice_in(unit, SlopeUnit) == SlopeUnit.IN_PER_12:
             return rise
         raise CellError(
             f"is '{cut(text)}'", f"{wanted}, or choose the slope unit {SlopeUnit.IN_PER_12}"
         )
-    if whole := in_thousands(text):
+    if whole := typed_text.in_thousands(text):
         raise CellError(f"is '{cut(text)}'", f"write {whole}, without a comma")
     if _WITH_UNIT.fullmatch(text):
         raise CellError(f"is '{cut(text)}'", f"{wanted}, with no unit in the cell")
@@ -282,7 +271,7 @@ def _date(cell: Found, wanted: str) -> date:
         # SheetJS writes dates without their format.
         day = (cell.day_zero + timedelta(days=int(value))).date()
     else:
-        meant = dates_in(value.strip()) if isinstance(value, str) else []
+        meant = typed_text.dates_in(value.strip()) if isinstance(value, str) else []
         if len(meant) != 1:
             either = f"write {' or '.join(map(str, meant))}" if meant else wanted
             raise CellError(f"is {_quoted(value)}", either)
@@ -297,7 +286,7 @@ def _choice(cell: Found, entry: Entry, wanted: str) -> StrEnum | bool:
     said = plain(cell.value)
     if entry.kind is bool:
         said = {"true": "yes", "false": "no"}.get(said.strip().casefold(), said)
-    if choice := choice_in(said, entry.choices):
+    if choice := typed_text.choice_in(said, entry.choices):
         return choice == YesNo.YES if entry.kind is bool else entry.kind(choice)
     try:
         # What a choice is called otherwise, its own class knows; bool takes anything.

@@ -1,33 +1,35 @@
 """Files beside a workbook: which of them it may access, and the documents that it attaches.
 
-Records are read by `report.motions`. Read `path_beside`, then `read_documents`.
+One of them is years.json of a study, what arrays see in their life: lengths in meters, null for
+none. Records are read by `report.motions`. Read `path_beside`, `read_documents`, `StudyYears`.
 """
 
 from __future__ import annotations
 
 import hashlib
+import math
 import posixpath
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import chain, islice
 from pathlib import Path, PurePosixPath, PureWindowsPath
+from typing import Annotated, Final, Literal
 
-from pydantic import ValidationError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError
 
 from report.sheet.reading.archive import OpenBook
 from report.sheet.schema import SECTION
 from report.sheet.schema.fields import Draft, Entry, Finding, Place
-from report.sheet.schema.years import FILE, StudyYears
 from report.text.counts import grouped_by
 from solver.files import check_length
 from solver.model import InputError
 from solver.suggestions import nearest
 
+# Bytes of all documents that a workbook attaches.
 MAX_DOCUMENTS = 20_000_000
-"""Bytes of all documents that a workbook attaches."""
 
+# Files among which one is sought whose name nearly fits, and names that are taken.
 MOST_LISTED = 2_000
-"""Files among which one is sought whose name nearly fits, and names that are taken."""
 
 DOCUMENTS = (
     ("site", "hazard_printout"),
@@ -36,6 +38,59 @@ DOCUMENTS = (
     ("options", "study_years"),
 )
 """Single cells that name a document to attach: a PDF, but for the study."""
+
+
+SUPPORTING: Final = "Supporting analysis, not a code value"
+YEARS = "years.json"
+NEVER, ABOVE, ALWAYS = "never", "above a distance", "after every event"
+"""When an array is put back where it was installed."""
+
+
+Meters = Annotated[
+    float | None, BeforeValidator(lambda v: None if isinstance(v, float) and math.isinf(v) else v)
+]
+
+
+class _Written(BaseModel):
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", allow_inf_nan=False, from_attributes=True
+    )
+
+
+class Distance(_Written):
+    """A distance from the installed place over lives, as in `LifeStatistics`."""
+
+    mean_m: Meters
+    p95_m: Meters
+    beyond: float
+    without_value: float
+
+
+class YearsOfArray(_Written):
+    """One array on one building."""
+
+    array: str
+    building: str
+    slope_deg: float
+    mu: float
+    clearance_m: float
+    clearance_rate: float
+    prd_m: Mapping[str, Meters]  # by mean recurrence interval in years
+    largest: Mapping[str, Distance]  # by when the array is put back
+    last: Mapping[str, Distance]
+
+
+class StudyYears(_Written):
+    """The whole file."""
+
+    note: Literal["Supporting analysis, not a code value"]
+    title: str
+    date: str
+    study: str  # identity of its manifest
+    program: str
+    hazard: Mapping[str, str | float | None]  # the cells of the sheet Hazard
+    life_years: float
+    arrays: tuple[YearsOfArray, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -135,6 +190,6 @@ def _check_years(name: str, content: bytes) -> None:
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"])) or "its text"
         raise InputError(
-            f"'{name}' is no {FILE} of a study ({where}: {first['msg']}); give the file that"
+            f"'{name}' is no {YEARS} of a study ({where}: {first['msg']}); give the file that"
             " roofslip study writes where its workbook has a hazard curve"
         ) from error

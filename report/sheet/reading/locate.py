@@ -98,6 +98,7 @@ def _table_named(book: OpenBook, section: SheetSection) -> _Place | None:
         for table in sheet.tables.values():
             names = {str(table.displayName).casefold(), str(table.name).casefold()}
             bounds = bounds_of(table.ref)
+            # Excel has tables without a row of headings.
             has_headings = table.headerRowCount != 0 and bounds and bounds[2] <= MAX_COLUMNS
             if section.table_name in names and bounds and has_headings:
                 left, top, right, bottom = bounds

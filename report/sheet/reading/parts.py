@@ -86,6 +86,7 @@ def changed(
     filled = {position.sheet for position, value in changes.items() if value is not None}
     for sheet in book.iterfind("{*}sheets/{*}sheet"):
         if sheet.get("name") in filled:
+            # What is written on a hidden sheet would be a warning of the next `check`.
             sheet.attrib.pop("state", None)
     for calculation in book.iter("{*}calcPr") if recalculates else ():
         calculation.set("fullCalcOnLoad", "1")
@@ -141,8 +142,8 @@ def _fill(title: str, sheet: Any, cells: _Cells) -> bool:
         place: formula for place, cell in at.items() if (formula := cell.find("{*}f")) is not None
     }
     columns = [
-        (range(int(one.get("min")), int(one.get("max")) + 1), one)
-        for one in sheet.iterfind("{*}cols/{*}col")
+        (range(int(element.get("min")), int(element.get("max")) + 1), element)
+        for element in sheet.iterfind("{*}cols/{*}col")
     ]
     for place in cells.keys() & formulas.keys():
         if _is_needed_elsewhere(place, formulas, cells):
@@ -181,12 +182,13 @@ def _inserted(parent: Any, tag: str, name: str, number_of: Any, number: int) -> 
 
 def _added(row: Any, address: str, columns: _Columns, column: int) -> Any:
     """Return a new cell, with the style of its row or else of its column."""
+    # A hint for readers, which would be false now (ECMA-376-1, 18.3.1.73).
     row.attrib.pop("spans", None)
     cell = _inserted(row, "c", address, lambda other: coordinate_to_tuple(other)[1], column)
     if row.get("customFormat") in _ONES:
         style = row.get("s")
     else:
-        styles = (one.get("style") for at, one in columns if column in at)
+        styles = (element.get("style") for at, element in columns if column in at)
         style = next(filter(None, styles), None)
     if style:
         cell.set("s", style)
@@ -207,8 +209,10 @@ def _put(cell: Any, value: Value) -> None:
         case Formula():
             below(cell, "f").text = value[1:]
         case str():
+            # Within the cell: a shared string would need the part of all strings changed as well.
             cell.set("t", "inlineStr")
             text = below(below(cell, "is"), "t")
+            # Without it readers drop the blanks at both ends.
             text.set("{http://www.w3.org/XML/1998/namespace}space", "preserve")
             text.text = escaped(_CONTROL.sub("?", value))
         case _:  # a number of numpy is written as a number of Python
@@ -285,8 +289,8 @@ def _longer_tables(
             yield path, _written(table)
 
 
+# Decimals of a number that is written in the unit of its column.
 DIGITS = 6
-"""Decimals of a number that is written in the unit of its column."""
 
 
 @dataclass(slots=True)
@@ -295,7 +299,7 @@ class GrowingTable:
 
     book: OpenBook
     section: SheetSection
-    found: TableFound
+    inputs: TableFound
     next_row: int = 0
     last: int = 0
     totals: int = 0
@@ -305,8 +309,8 @@ class GrowingTable:
         """Return a table as it is."""
         section = SECTION[key]
         table = cls(book, section, find_table(book, section))
-        top = table.found.heading.row
-        filled = [row for row in table.found.rows if not table.is_blank(row)]
+        top = table.inputs.heading.row
+        filled = [row for row in table.inputs.rows if not table.is_blank(row)]
         table.next_row = max(filled, default=top) + 1
         area = table_area(book, section)
         if area and area.totals and table.next_row <= area.totals:
@@ -321,11 +325,12 @@ class GrowingTable:
 
     def position(self, row: int, name: str) -> CellPosition:
         """Return where a field of a row is."""
-        columns = self.found.columns
+        columns = self.inputs.columns
         if name not in columns:
             label = self.section.entry(name).cell.label
-            raise InputError(f"{self.found.heading.address}: heading '{label}' is missing; {FRESH}")
-        return CellPosition(self.found.heading.sheet, row, columns[name].number)
+            where = self.inputs.heading.address
+            raise InputError(f"{where}: heading '{label}' is missing; {FRESH}")
+        return CellPosition(self.inputs.heading.sheet, row, columns[name].number)
 
     def cells(self, row: int, values: Mapping[str, Value]) -> dict[CellPosition, Value]:
         """Return values by field as the cells of a row."""
@@ -333,22 +338,22 @@ class GrowingTable:
 
     def is_blank(self, row: int) -> bool:
         """Whether no field of a row is filled."""
-        return all(self.cell(row, name).is_blank for name in self.found.columns)
+        return all(self.cell(row, name).is_blank for name in self.inputs.columns)
 
     def rows(self, name: str, value: str) -> list[int]:
         """Return the rows whose field is a text."""
         return [
             row
-            for row in self.found.rows
+            for row in self.inputs.rows
             if unescape(self.cell(row, name).shown).strip().casefold() == value.casefold()
         ]
 
     def added(self) -> int:
         """Return the next free row."""
         row, self.next_row = self.next_row, self.next_row + 1
-        where = self.found.heading.address
+        where = self.inputs.heading.address
         if self.totals and row > self.last:
-            title = self.found.heading.sheet
+            title = self.inputs.heading.sheet
             raise InputError(
                 f"{title}!{self.totals}: the table has a row of totals, and no blank row above it;"
                 " remove the row of totals, or insert rows above it"
@@ -360,4 +365,4 @@ class GrowingTable:
 
     def number(self, name: str, value_m: float) -> float:
         """Return a length in the unit of a column."""
-        return round(value_m / self.found.columns[name].si, DIGITS)
+        return round(value_m / self.inputs.columns[name].si, DIGITS)

@@ -106,6 +106,7 @@ def labels(book: OpenBook, sheet: Worksheet) -> Iterator[tuple[CellPosition, str
 
 def area_named(book: Workbook, name: str) -> tuple[str, tuple[int, int, int, int]] | None:
     """Return the sheet of a named range, and its left, top, right, bottom; None without one."""
+    # Names have no case in Excel.
     for defined in book.defined_names.values():
         if str(defined.name).casefold() != name:
             continue

@@ -15,6 +15,7 @@ from openpyxl.utils import coordinate_to_tuple
 from pydantic import ValidationError
 
 from report.sheet.checking.checks import faults
+from report.sheet.reading import locate
 from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.cells import (
     CellError,
@@ -25,16 +26,6 @@ from report.sheet.reading.cells import (
     wish_for_missing,
 )
 from report.sheet.reading.linked_files import Document, read_documents
-from report.sheet.reading.locate import (
-    FieldColumn,
-    TableFound,
-    added_later,
-    beside,
-    cell_as_column,
-    find_cell,
-    find_table,
-    is_absent,
-)
 from report.sheet.reading.positions import FRESH, CellPosition, found_at
 from report.sheet.reading.unseen import (
     Unseen,
@@ -78,8 +69,8 @@ class EchoRow:
         return f"{self.sheet}!{self.cell}"
 
 
+# Sheet of a workbook that `roofslip study` reads.
 _STUDY = "Study"
-"""Sheet of a workbook that `roofslip study` reads."""
 
 IGNORED = "not an input, ignored"
 """How the echo shows a cell under a heading that is not known."""
@@ -306,7 +297,7 @@ class Gathered:
 
 def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
     gathered.draft[section.key] = []
-    is_missing = is_absent(book, section)
+    is_missing = locate.is_absent(book, section)
     if is_missing and section.may_be_absent:
         defaults = {entry.name: entry.default for entry in entries(section.model)}
         gathered.draft[section.key] += [] if section.is_table else [defaults]
@@ -317,7 +308,7 @@ def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> 
                 f"{section.sheet}: the sheet is missing, or all labels of {section.title}; {FRESH}"
             )
         if section.is_table:
-            _read_table(book, section, find_table(book, section), gathered)
+            _read_table(book, section, locate.find_table(book, section), gathered)
         else:
             _read_block(book, section, gathered)
     except InputError as error:
@@ -326,19 +317,19 @@ def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> 
 
 
 def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
-    absent = added_later(book, section)
+    absent = locate.added_later(book, section)
     row = {entry.name: entry.default for entry in absent}
-    typed = beside(book, section)
+    typed = locate.beside(book, section)
     gathered.draft[section.key].append(row)
-    cells_read: list[tuple[Entry, Place, Found, FieldColumn]] = []
+    cells_read: list[tuple[Entry, Place, Found, locate.FieldColumn]] = []
     for entry in entries(section.model):
         if entry in absent:
             continue
         place = Place(section.key, 0, entry.name)
         try:
-            position = find_cell(book, section, entry)
+            position = locate.find_cell(book, section, entry)
             gathered.addresses[place] = position.address
-            column = cell_as_column(book, section, entry, position)
+            column = locate.cell_as_column(book, section, entry, position)
         except InputError as error:
             gathered.add(place, error.parts)
             continue
@@ -352,13 +343,13 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
         cells_read.append((entry, place, cell, column))
     last = section.model.computed_last
     for entry, place, cell, column in sorted(
-        cells_read, key=lambda one: one[2].is_blank and one[0].name in last
+        cells_read, key=lambda read: read[2].is_blank and read[0].name in last
     ):
         _read_field(entry, place, cell, column, stated_unit(entry, row, {}), row, gathered)
 
 
 def _read_table(
-    book: OpenBook, section: SheetSection, table: TableFound, gathered: Gathered
+    book: OpenBook, section: SheetSection, table: locate.TableFound, gathered: Gathered
 ) -> None:
     gathered.addresses[Place(section.key)] = table.heading.address
     gathered.add(Place(section.key), table.problems)
@@ -383,7 +374,7 @@ def _read_table(
 
 
 def _read_row(
-    section: SheetSection, table: TableFound, cells: dict[str, Found], gathered: Gathered
+    section: SheetSection, table: locate.TableFound, cells: dict[str, Found], gathered: Gathered
 ) -> None:
     row: dict[str, Any] = {}
     rows = gathered.draft[section.key]
@@ -402,7 +393,7 @@ def _read_field(
     entry: Entry,
     place: Place,
     cell: Found,
-    column: FieldColumn,
+    column: locate.FieldColumn,
     stated: str,
     row: dict[str, Any],
     gathered: Gathered,

@@ -62,6 +62,7 @@ class Budget:
 
     def take(self, element: str, areas: str) -> None:
         """Count an element, and each of the areas that it is given for."""
+        # openpyxl makes an object for each area of a format or a validation.
         self.others -= areas.count(" ")
         if element in ("c", "row"):
             self.cells -= 1
@@ -103,6 +104,7 @@ class Scan(ContentHandler):
         self.budget.take(element, attrs.get("sqref", ""))
         match element:
             case "row":
+                # Addresses of rows and cells may be left out: each then follows the one before it.
                 self._row, self._column = int(attrs.get("r") or self._row + 1), 0
             case "c":
                 self._column += 1

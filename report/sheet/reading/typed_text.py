@@ -23,6 +23,7 @@ _DECIMAL_COMMA = re.compile(r"([+\u2212-]?[0-9]*),([0-9]+)")
 _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:,[0-9]{3})+(?:\.[0-9]+)?")
 _MIXED = re.compile(rf"([0-9]+)[\s-]+({_SHARE})")
 _WORD = r"(?:wet|dry|tested|measured|mean|average|avg\.?|typ\.?|typical|est\.?|estimated)"
+# Its blanks and words are bounded: a long text takes time as its length.
 _REMARK = re.compile(
     rf"(?:(?:\u03bc|\u00b5|mu)\s{{0,3}}=\s{{0,3}})?(.{{0,40}}?)"
     rf"(?:(?:\s|\s{{0,3}}[(\[]\s{{0,3}})({_WORD}(?:,? {_WORD}){{0,2}})\s{{0,3}}[)\]]?)?",
@@ -45,8 +46,8 @@ _DATES = ("%b %d %Y", "%B %d %Y", "%d %b %Y", "%d %B %Y", "%Y %m %d")
 _BESIDE_DATE = re.compile(
     r"(?:mon|tues|wednes|thurs|fri|satur|sun)day\b|(?<=[0-9])(?:st|[nr]d|th)\b"
 )
+# Begins a choice as it is spoken: site class D, risk category II.
 _LABEL = re.compile(r"(?:(?:site|risk|sdc|class|category) )+(?=\S)")
-"""Begins a choice as it is spoken: site class D, risk category II."""
 
 _SLASHED = re.compile(r"([0-9]{1,2})[/.-]([0-9]{1,2})[/.-]([0-9]{4})")
 
@@ -166,6 +167,7 @@ def _bare(text: str) -> str:
     return re.sub(r"/sei\b|[\s()_-]", "", text.casefold())
 
 
+# No repetition can be matched in two ways: a code takes time as its length.
 _PARTS = re.compile(
     r'"(?P<quoted>[^"]*)(?:"|$)|\\(?P<escaped>.)|(?P<space>[_*].)|\[\$(?P<currency>[^\]-]*+)[^\]]{0,255}\]'
     r"|\[[^\]]{0,255}\]|(?P<end>;)|(?P<general>General)|(?P<digits>[0#?.,%@]|E[+-])|(?P<other>.)",
@@ -273,6 +275,7 @@ def _single(part: str) -> str:
     return f"{unit}{match[2]}" if unit else ""
 
 
+# A workbook has few formats, and many cells of each.
 @lru_cache(maxsize=65_536)
 def _sections(code: str) -> tuple[_Section, ...]:
     """Return the sections of a format code: of numbers above, below and equal to 0, and of text."""

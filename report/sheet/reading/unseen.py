@@ -27,16 +27,16 @@ from report.text.counts import cut
 Used = Iterable[tuple[Place, Found]]
 """Cells that are read, each with the place that it is read for."""
 
+# Height [points] and width [characters] below which nothing in a row or column can be read.
 LEAST_HEIGHT, LEAST_WIDTH = 3.0, 0.4
-"""Height [points] and width [characters] below which nothing in a row or column can be read."""
 
+# Difference of two colors in red, green and blue, each of 255, below which they look alike.
 _LIKE = 24
-"""Difference of two colors in red, green and blue, each of 255, below which they look alike."""
 
 _MOST_RANGES = 8
 
+# Filters of a sheet that are told from other ways to hide a row.
 _MOST_FILTERS = 50
-"""Filters of a sheet that are told from other ways to hide a row."""
 
 
 class Concealment(StrEnum):
@@ -174,13 +174,13 @@ class _Sight:
         self._is_hidden = sheet.sheet_state != "visible"
         self._rows = dict(_hidden_rows(sheet))
         self._columns = [
-            range(one.min or 0, (one.max or 0) + 1)
-            for one in sheet.column_dimensions.values()
-            if one.hidden or _is_less(one.width, LEAST_WIDTH)
+            range(column.min or 0, (column.max or 0) + 1)
+            for column in sheet.column_dimensions.values()
+            if column.hidden or _is_less(column.width, LEAST_WIDTH)
         ]
         self._styles: dict[int, Sequence[Concealment]] = {}
 
-    def kinds(self, row: int, column: int, found: Found) -> Sequence[Concealment]:
+    def kinds(self, row: int, column: int, content: Found) -> Sequence[Concealment]:
         """Return how a cell is kept from sight."""
         of_place = self._of_place(row, column)
         cell = self._sheet.cell(row, column)
@@ -189,7 +189,7 @@ class _Sight:
         style = cell.style_id
         if style not in self._styles:
             self._styles[style] = tuple(_of_style(cell))
-        is_blanked = shows_nothing(found.number_format, found.value)
+        is_blanked = shows_nothing(content.number_format, content.value)
         blanked = (Concealment.INVISIBLE,) * is_blanked
         return tuple(dict.fromkeys((*of_place, *self._styles[style], *blanked)))
 
@@ -232,14 +232,15 @@ def _of_style(cell: Any) -> Iterator[Concealment]:
 
 
 _WHITE, _BLACK = (255, 255, 255), (0, 0, 0)
+# The first two colors of a theme: those of background and text.
 _OF_THEME = (_WHITE, _BLACK)
-"""The first two colors of a theme: those of background and text."""
 
 
 def _rgb(color: Color | None, default: tuple[int, ...]) -> tuple[int, ...]:
     """Return red, green and blue of a color; empty for one that only a theme knows."""
     if color is None:
         return default
+    # The first two of eight digits are the opacity, which programs set as they like.
     if color.type == "rgb":
         return tuple(bytes.fromhex(str(color.rgb)[-6:]))
     if color.tint:

@@ -38,8 +38,8 @@ from report.sheet.schema.shapes import Point, ring
 from report.text.counts import Names
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, OVERRIDABLE
 
+# Most smaller events whose displacements are added.
 MAX_EVENTS = 20
-"""Most smaller events whose displacements are added."""
 
 
 def provision_name(key: str) -> str:
@@ -177,8 +177,8 @@ class Acknowledgment(Frozen):
     """Printed in the package."""
 
 
+# Fields that refer to arrays and objects, by section.
 _NAMING = {"clearances": ("array", "object"), "links": ("array",), "outlines": ("name",)}
-"""Fields that refer to arrays and objects, by section."""
 
 
 class ProjectInput(Frozen):

@@ -16,11 +16,11 @@ from solver.model import INCH_M
 from solver.rules.hazard import LEAST_I_E, HazardBasis
 from solver.rules.provisions import Neighbor
 
+# Where a rule set applies the importance factor, as written on the sheet Provisions.
 IN_DISPLACEMENT, IN_SEPARATION = "in the displacement", "in the separation"
-"""Where a rule set applies the importance factor, as written on the sheet Provisions."""
 
+# What a rule set prescribes in SDC A, B and C, as written on the sheet Provisions.
 ONE_VALUE, BY_FORMULA = "one value", "the formula"
-"""What a rule set prescribes in SDC A, B and C, as written on the sheet Provisions."""
 
 _REFERENCE = re.compile(r"(?<!\w)(\w*)\[(#?)(\w+)\]")
 
@@ -80,26 +80,20 @@ def decimals_format(unit: Unit) -> str:
     return f"0.{'0' * unit.decimals}".rstrip(".")
 
 
+# Here and below, +0 makes a number of one that was typed as text, which the reader accepts too.
 _SLOPE_DEG = """
     IF(TRIM([slope_value])="","",
     IF([slope_unit]="degrees",[slope_value]+0,
     IF([slope_unit]="percent",DEGREES(ATAN([slope_value]/100)),
     IF([slope_unit]="in/12",DEGREES(ATAN([slope_value]/12)),""))))
 """
+# Arrays are alike whose texts are equal: what is blank has the value that it stands for.
 _KIND_OF_ARRAY = """
     IF(TRIM([mu])="","",TRIM([construction])&" | "&([mu]+0)
     &" | "&IF(TRIM([mu_fast])="",[mu]+0,[mu_fast]+0)
     &" | "&IF(TRIM([mu_rate_s_per_m])="",0,[mu_rate_s_per_m]+0)
     &" | "&IF(TRIM([mu_static])="",[mu]+0,[mu_static]+0))
 """
-_KIND = FormulaColumn(
-    "kind_of_array",
-    "Kind of array",
-    "construction | friction: low, high, rate, static",
-    _KIND_OF_ARRAY,
-    width=40,
-    is_helper=True,
-)
 _VERTICES = f"COUNTIF(live_outlines,{literal('[id]')})"
 _IS_ITS = "--(TRIM(outlines[name])=TRIM([id]))"
 # An error where a row is below the table.
@@ -123,17 +117,16 @@ def _weight_per_area(unit: Unit) -> str:
 
 
 def _of_arrays(unit: Unit) -> tuple[FormulaColumn, ...]:
-    per_area = FormulaColumn(
-        "weight_per_area",
-        f"Weight per area [{unit.symbol}]",
-        "over the rectangle or outline in plan",
-        _weight_per_area(unit),
-        number_format=decimals_format(unit),
-    )
-    slope = FormulaColumn(
-        "slope_deg", "Slope in degrees", "from slope and its unit", _SLOPE_DEG, number_format="0.00"
-    )
-    return slope, per_area, _KIND
+    heading, note = f"Weight per area [{unit.symbol}]", "over the rectangle or outline in plan"
+    column = FormulaColumn
+    return (
+        column("slope_deg", "Slope in degrees", "from slope and its unit", _SLOPE_DEG,
+               number_format="0.00"),
+        column("weight_per_area", heading, note, _weight_per_area(unit),
+               number_format=decimals_format(unit)),
+        column("kind_of_array", "Kind of array", "construction | friction: low, high, rate, static",
+               _KIND_OF_ARRAY, width=40, is_helper=True),
+    )  # fmt: skip
 
 
 _NUMBER = "(ROW([name])-ROW(outlines[#name]))"
@@ -212,43 +205,27 @@ def _demand_capacity(required_m: str) -> str:
 
 
 def _of_clearances(unit: Unit) -> tuple[FormulaColumn, ...]:
+    required = f"{_required_m('live_prescriptive_in')}/{unit.si!r}"
+    ratio, of_floor = (
+        _demand_capacity(length_m)
+        for length_m in (f"[required]*{unit.si!r}", _required_m("live_floor_in"))
+    )
+    column = FormulaColumn
     return (
-        FormulaColumn("neighbor", "Neighbor", "as the rule set counts it", _NEIGHBOR, width=29),
-        FormulaColumn(
-            "importance",
-            "I",
-            "importance factor in the separation",
-            _IMPORTANCE,
-            number_format="0.00",
-        ),
-        FormulaColumn(
-            "required",
-            f"Required, prescriptive [{unit.symbol}]",
-            "separation for the prescriptive displacement",
-            f"{_required_m('live_prescriptive_in')}/{unit.si!r}",
-            number_format=decimals_format(unit),
-            width=13,
-        ),
-        FormulaColumn(
-            "demand_capacity",
-            "D/C, prescriptive",
-            "required / provided, rounded up",
-            _demand_capacity(f"[required]*{unit.si!r}"),
-            number_format="0.00",
-            width=13,
-        ),
-        FormulaColumn(
-            "floor_ratio",
-            "D/C, floor",
-            "for the floor of the value from analysis",
-            _demand_capacity(_required_m("live_floor_in")),
-            number_format="0.00",
-            is_helper=True,
-        ),
+        column("neighbor", "Neighbor", "as the rule set counts it", _NEIGHBOR, width=29),
+        column("importance", "I", "importance factor in the separation", _IMPORTANCE,
+               number_format="0.00"),
+        column("required", f"Required, prescriptive [{unit.symbol}]",
+               "separation for the prescriptive displacement", required,
+               number_format=decimals_format(unit), width=13),
+        column("demand_capacity", "D/C, prescriptive", "required / provided, rounded up", ratio,
+               number_format="0.00", width=13),
+        column("floor_ratio", "D/C, floor", "for the floor of the value from analysis", of_floor,
+               number_format="0.00", is_helper=True),
         _row_of("array_row", "array", "array", "arrays"),
         _row_of("other_row", "other array", "object", "arrays"),
         _row_of("object_row", "object", "object", "objects"),
-    )
+    )  # fmt: skip
 
 
 def _row_of(name: str, what: str, field: str, section: str) -> FormulaColumn:
@@ -275,11 +252,11 @@ def _coefficient(mapped: str, symbol: str) -> str:
     )
 
 
+# S_MS where F_a is blank and S_DS is not given: as `Site.computed`.
 _FROM_TABLE = (
     'IF(AND(TRIM(site_f_a)="",ISNUMBER(live_f_a),'
     f'site_hazard<>"{HazardBasis.SITE_SPECIFIC}"),live_f_a*site_s_s_g,"")'
 )
-"""S_MS where F_a is blank and S_DS is not given: as `Site.computed`."""
 
 
 def _maximum(values: str, mapped: str, coefficient: str, design: str, otherwise: str = '""') -> str:
@@ -324,10 +301,10 @@ SITE_ANSWERS: Mapping[str, tuple[str, str]] = {
 """Formula and defined name of the answer beside each field of the site."""
 
 _I_E = f'IF(rule_importance="{IN_DISPLACEMENT}",IF(ISNUMBER(live_i_e),live_i_e,NA()),1)'
+# The prescriptive displacement [in], before its minimum.
 PRESCRIPTIVE_FORMULA_IN = _blank_on_error(
     f"rule_prescriptive_factor_in*MAX(live_s_ds-0.4,0)^2*{_I_E}"
 )
-"""The prescriptive displacement [in], before its minimum."""
 
 PRESCRIPTIVE_IN = _blank_on_error(
     f'IF(AND(rule_low_sdc="{ONE_VALUE}",live_sdc_used<>"",ISNUMBER(FIND(live_sdc_used,"ABC"))),'
@@ -335,15 +312,15 @@ PRESCRIPTIVE_IN = _blank_on_error(
     "IF(live_prescriptive_formula_in+0>=rule_prescriptive_minimum_in+0,"
     "live_prescriptive_formula_in,rule_prescriptive_minimum_in))"
 )
+# What governs the prescriptive displacement, in words.
 PRESCRIPTIVE_BASIS = (
     'IF(live_prescriptive_in="","",'
     f'IF(AND(rule_low_sdc="{ONE_VALUE}",ISNUMBER(FIND(live_sdc_used,"ABC"))),"SDC A, B, C",'
     'IF(live_prescriptive_formula_in>=rule_prescriptive_minimum_in,"formula","minimum")))'
 )
-"""What governs the prescriptive displacement, in words."""
 
+# The floor of the value from analysis without peer review [in]; with it there is none.
 FLOOR_IN = _blank_on_error("rule_analysis_floor*live_prescriptive_in")
-"""The floor of the value from analysis without peer review [in]; with it there is none."""
 
 
 def worst(column: str) -> tuple[str, str]:

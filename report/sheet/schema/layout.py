@@ -16,9 +16,10 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.schema.fields import SheetSection
 
+# Last row that dropdowns and conditional formats reach.
 LAST_ROW = 500
-"""Last row that dropdowns and conditional formats reach."""
 
+# Within brackets an apostrophe goes before these (Excel, structured references).
 _SPECIAL, _ESCAPED = re.compile(r"(['#\[\]])"), r"'\1"
 
 
@@ -35,6 +36,7 @@ class TablePlace:
 
     def this(self, name: str) -> str:
         """Return the reference to a column in the row of the formula."""
+        # Files have this form of what Excel shows as [@Name].
         return f"{self.section.table_name}[[#This Row],{self._column(name)}]"
 
     def head(self, name: str) -> str:
@@ -103,34 +105,30 @@ LABELS: Mapping[tuple[str, str], tuple[str, ...]] = {
 }
 """Earlier labels and headings, by section and field."""
 
+# Headings of formulas that every table had, lowercase: what a row lacks, which `check` says.
 ANSWERS = frozenset({"status"})
-"""Headings of formulas that every table had, lowercase: what a row lacks, which `check` says."""
 
+# Earlier names of a field, which defined names of cells end with.
 FIELDS: Mapping[tuple[str, str], tuple[str, ...]] = {("site", "stories"): ("storeys",)}
-"""Earlier names of a field, which defined names of cells end with."""
 
 SHEETS: Mapping[str, str] = {"roof": "Site", "target": "Options"}
 """Earlier sheet of a block."""
 
+# Earlier order of the first fields of a block, in which confirmations are hashed.
 ORDERS: Mapping[str, str] = {
     "site": "rule_set risk_category i_e s_s_g s_1_g site_class f_a f_v s_ds_g sdc stories"
     " structure_height_m roof_height_m edition_name s_ms_g s_m1_g s_d1_g",
 }
-"""Earlier order of the first fields of a block, in which confirmations are hashed."""
 
+# Single cells that earlier workbooks do not have, those of one version together; a workbook
+# without any of a group is of an earlier version.
 ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(
     frozenset((section, field) for field in fields.split())
     for section, fields in (
-        (
-            "site",
-            "edition_name s_ms_g s_m1_g s_d1_g hazard hazard_source hazard_date force_factor"
-            " force_divisor",
-        ),
-        (
-            "options",
-            "peer_reviewer peer_license peer_date directional directional_reason"
-            " directional_reviewer directional_license directional_date smaller_events",
-        ),
+        ("site", "edition_name s_ms_g s_m1_g s_d1_g hazard hazard_source hazard_date force_factor"
+                 " force_divisor"),
+        ("options", "peer_reviewer peer_license peer_date directional directional_reason"
+                    " directional_reviewer directional_license directional_date smaller_events"),
         ("site", "hazard_report"),
         ("site", "building_code building_code_year jurisdiction"),
         ("friction_tests", "report_file"),
@@ -146,9 +144,7 @@ ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(
         ("options", "package_edition letter"),
         ("site", "hazard_printout"),
     )
-)
-"""Single cells that earlier workbooks do not have, those of one version together; a workbook
-without any of a group is of an earlier version."""
+)  # fmt: skip
 
 PROVISIONS: Mapping[str, str] = {"max_storeys": "max_stories"}
 """Earlier keys of provisions to override, with the present ones."""

@@ -175,8 +175,8 @@ class SpectrumPoint(Frozen):
     """In every row, or blank in every row to use AC156."""
 
 
+# Fewest and most blocks of a row.
 BLOCKS = (2, 20)
-"""Fewest and most blocks of a row."""
 
 
 def coefficients(text: str) -> tuple[float, ...]:

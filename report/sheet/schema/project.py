@@ -210,17 +210,7 @@ class Site(Frozen):
     @property
     def parameters(self) -> SeismicParameters:
         """S_MS, S_M1, S_DS, S_D1 [g], as given or derived."""
-        return seismic_parameters(
-            self.edition,
-            s_s=self.s_s_g,
-            s_1=self.s_1_g,
-            f_a=self.f_a,
-            f_v=self.f_v,
-            s_ms=self.s_ms_g,
-            s_m1=self.s_m1_g,
-            s_ds=self.s_ds_g,
-            s_d1=self.s_d1_g,
-        )
+        return _parameters(self.edition, dict(self))
 
     @property
     def s_ds(self) -> float:
@@ -296,6 +286,10 @@ def site_parameters(row: DraftRow) -> SeismicParameters | None:
     edition = edition_of_row(row)
     if edition is None or any(name not in row for name in _PARAMETERS):
         return None
+    return _parameters(edition, row)
+
+
+def _parameters(edition: Edition, row: DraftRow) -> SeismicParameters:
     values = {name.removesuffix("_g"): row[name] for name in _PARAMETERS}
     return seismic_parameters(edition, **values)
 

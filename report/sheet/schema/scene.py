@@ -38,10 +38,10 @@ RateCell = Annotated[float, Field(gt=0.0, le=MOST_RATE_S_PER_M)]
 
 
 OR_OUTLINE = "required, or an outline"
+# Whence a row comes that a command has taken from a drawing.
 DRAWING = "drawing"
-"""Whence a row comes that a command has taken from a drawing."""
+# The same with the number of modules.
 DRAWN_MODULES = f"{DRAWING}, modules too"
-"""The same with the number of modules."""
 ROOF = "roof"
 """Name of the roof on the sheet Outlines."""
 

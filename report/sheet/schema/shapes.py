@@ -13,8 +13,8 @@ from typing import Any
 
 Point = tuple[float, float]
 
+# Differences in plan [m] that are rounding error.
 NEAR_M = 1e-6
-"""Differences in plan [m] that are rounding error."""
 _MOST_COORDINATES = 12  # tried as sides of the room for a name
 
 
@@ -145,7 +145,7 @@ def _facing_sides(a: Shape, b: Shape) -> tuple[float, Point, Point]:
     distances = shapely.distance(shapely.linestrings(own)[:, None], shapely.linestrings(others))
     near = np.argwhere(distances <= distances.min() + NEAR_M)
     facing = [_facing(own[i], others[j]) for i, j in near]
-    return max(facing, key=lambda found: found[0])
+    return max(facing, key=lambda side: side[0])
 
 
 def _facing(a: tuple[Point, Point], b: tuple[Point, Point]) -> tuple[float, Point, Point]:

@@ -28,17 +28,17 @@ from report.sheet.reading.what_if import cells
 from report.sheet.schema import SECTIONS
 from report.sheet.schema.choices import ClearanceSource
 from report.sheet.schema.fields import DraftRow, Finding, Level, Place
-from report.sheet.writing.start import START
 from report.sheet.writing.style import is_answer
+from report.sheet.writing.template import START
 from report.text.counts import cut
 from solver.files import check_plain, locked, write_all
 from solver.model import InputError
 
+# Ends the name under which a workbook is kept as it was before the last command changed it.
 BEFORE = ".before.xlsx"
-"""Ends the name under which a workbook is kept as it was before the last command changed it."""
 
+# Files that Excel and LibreOffice put beside a workbook while they have it open.
 _OPEN_ELSEWHERE = ("~${}", ".~lock.{}#")
-"""Files that Excel and LibreOffice put beside a workbook while they have it open."""
 
 
 @dataclass
@@ -207,8 +207,8 @@ def _drawn(sheet: Sheet) -> list[DraftRow]:
 
 
 _PANEL = "live_prescriptive_in"
+# In a formula that refers to a column which the workbook lacks.
 _BROKEN = "#REF!"
-"""In a formula that refers to a column which the workbook lacks."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -216,20 +216,20 @@ class Overwritten:
     """A cell that has lost its formula."""
 
     position: CellPosition
-    found: Found  # what it contains instead
+    content: Found  # what it has instead
     title: str  # what the formula computes
 
     @property
     def is_broken(self) -> bool:
         """Whether the workbook lacks a column that the formula refers to."""
-        return _BROKEN in self.found.formula
+        return _BROKEN in self.content.formula
 
 
 def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
     """Return the blue cells that have lost their formula, by sheet, column and row."""
     # Of earlier workbooks the column Status has no use.
     lost = [
-        Overwritten(position=position, found=cell, title=title)
+        Overwritten(position=position, content=cell, title=title)
         for position in _blue(book)
         if not (cell := found_at(book, position)).formula or _BROKEN in cell.formula
         if (title := _title(book, position)) != "Status"
@@ -276,9 +276,9 @@ def _text(item: Overwritten, count: int) -> str:
     title = f"{item.title} ({count} cells)" if count > 1 else item.title
     if item.is_broken:
         return f"{title} refers to a column that is missing; write its heading again, or {FRESH}"
-    if item.found.is_blank:
+    if item.content.is_blank:
         return f"{title} is blank, and its formula is gone; {FRESH}"
-    return f"{title} is {cut(plain(item.found.value))}, typed over its formula; {FRESH}"
+    return f"{title} is {cut(plain(item.content.value))}, typed over its formula; {FRESH}"
 
 
 def _title(book: OpenBook, position: CellPosition) -> str:

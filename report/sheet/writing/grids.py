@@ -16,20 +16,15 @@ from openpyxl.worksheet.table import Table, TableColumn, TableFormula, TableStyl
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.schema import provision_name
-from report.sheet.schema.answers import (
-    SITE_ANSWERS,
-    SITE_FORMAT,
-    FormulaColumn,
-    table_answers,
-)
+from report.sheet.schema.answers import SITE_ANSWERS, SITE_FORMAT, FormulaColumn, table_answers
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.fields import Entry, Frozen, SheetSection, entries
 from report.sheet.schema.layout import TablePlace, Tables, name_cell
 from report.sheet.writing import style
 from report.text.units import Unit
 
+# Rows of a table without rows, and of one that is below others on its sheet.
 BLANK_ROWS, FEWER_ROWS = 20, 6
-"""Rows of a table without rows, and of one that is below others on its sheet."""
 
 SPARE_ROWS = 5
 BLOCK_HEADS = ("", "Value", "Unit", "Computed", "Allowed", "Example", "Note")
@@ -37,21 +32,21 @@ BLOCK_WIDTHS = (29, 31, 13, 16, 27, 19, 54)
 HINT_ROWS = ("", "Allowed", "Example")
 CODE_WIDTH, NUMBER_WIDTH, TEXT_WIDTH = 10, 9, 22
 HINTS_WIDTH = 10
+# First column of a table; the words for its hints are in the one before it.
 FIRST = 2
-"""First column of a table; the words for its hints are in the one before it."""
 
 MANY, MANY_WIDTH = 6, 12
 _WIDER = 0.85  # of a column for text that is typed, as fonts may be wider than Calibri
+# Most lines of text that a row of a table is made tall for.
 DATA_LINES = 5
-"""Most lines of text that a row of a table is made tall for."""
 
+# Names of the ranges that supply the dropdowns of columns.
 _SOURCES = {
     ("overrides", "provision"): "rule_names",
     ("clearances", "array"): "live_array_names",
     ("clearances", "object"): "live_names",
     ("links", "array"): "live_array_names",
 }
-"""Names of the ranges that supply the dropdowns of columns."""
 
 
 def _put_section_title(sheet: Worksheet, section: SheetSection) -> tuple[int, bool]:

@@ -12,17 +12,9 @@ from openpyxl import Workbook
 from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.sheet.schema import SECTIONS, provision_name, provision_unit
+from report.sheet.schema import SECTIONS, layout, provision_name, provision_unit
 from report.sheet.schema.answers import BY_FORMULA, IN_DISPLACEMENT, IN_SEPARATION, ONE_VALUE
 from report.sheet.schema.fields import entries
-from report.sheet.schema.layout import (
-    LAST_ROW,
-    TablePlace,
-    Tables,
-    name_cell,
-    name_formula,
-    name_range,
-)
 from report.sheet.writing import style
 from report.sheet.writing.style import Answer
 from report.text.units import LENGTHS, PRESSURES, STIFFNESSES, VELOCITIES, WEIGHTS
@@ -32,8 +24,8 @@ from solver.rules.rulesets import ALLOWED, RULE_SETS, Confidence, RuleSet, usual
 from solver.rules.site_coefficients import F_A, F_V, CoefficientTable
 
 TABLES = "Tables"
+# Ids that the dropdown of the sheet Clearances can show.
 MOST_NAMES = 120
-"""Ids that the dropdown of the sheet Clearances can show."""
 
 _HINT = "What the formulas of this workbook look up. This sheet has no input cells."
 _STATUS = {
@@ -43,7 +35,7 @@ _STATUS = {
 }
 
 
-def write_lookups(book: Workbook, tables: Tables) -> None:
+def write_lookups(book: Workbook, tables: layout.Tables) -> None:
     """Write the sheet, with the defined names that other formulas use."""
     sheet = book.create_sheet(TABLES)
     sheet.sheet_state = "hidden"
@@ -79,7 +71,7 @@ def _write_table(
         at += 1
     for letter, name in zip("ABC", names, strict=False):
         if name:
-            name_range(name, sheet, f"${letter}${top}:${letter}${at - 1}")
+            layout.name_range(name, sheet, f"${letter}${top}:${letter}${at - 1}")
     return at
 
 
@@ -91,10 +83,10 @@ def _write_coefficients(sheet: Worksheet, row: int, table: CoefficientTable) -> 
     rows: list[list[style.Value]] = [[name, *values] for name, values in table.rows.items()]
     name = f"table_{table.symbol.lower()}"
     after = _write_table(sheet, row, (title, note), heads, rows, [f"{name}_classes"])
-    name_range(name, sheet, f"$B${row + 3}:$G${after - 1}")
-    name_range(f"{name}_mapped", sheet, f"$B${row + 2}:$G${row + 2}")
+    layout.name_range(name, sheet, f"$B${row + 3}:$G${after - 1}")
+    layout.name_range(f"{name}_mapped", sheet, f"$B${row + 2}:$G${row + 2}")
     style.put(sheet, after, 1, table.edition, color=style.GRAY)
-    name_cell(f"{name}_edition", sheet, after, 1)
+    layout.name_cell(f"{name}_edition", sheet, after, 1)
     return after + 2
 
 
@@ -108,28 +100,22 @@ def _write_sdc(sheet: Worksheet, row: int) -> int:
     words = ("Seismic design category", note)
     after = _write_table(sheet, row, words, ("Value [g]", "", "", ""), rows)
     for at, name in enumerate(("sdc_limits_s_ds", "sdc_limits_s_d1"), start=row + 3):
-        name_range(name, sheet, f"$B${at}:$D${at}")
-    name_cell("sdc_limit_s_1", sheet, after - 1, 2)
+        layout.name_range(name, sheet, f"$B${at}:$D${at}")
+    layout.name_cell("sdc_limit_s_1", sheet, after - 1, 2)
     return after + 1
 
 
 def _write_separations(sheet: Worksheet, row: int) -> int:
     least = {Neighbor.EDGE: "rule_separation_edge_min_in"}
-    rows = (
-        (
-            neighbor.value,
-            Answer(f"rule_{SEPARATION_KEYS[neighbor]}"),
-            Answer(least.get(neighbor, "0")),
-        )
-        for neighbor in Neighbor
-    )
+    factors = {each: Answer(f"rule_{SEPARATION_KEYS[each]}") for each in Neighbor}
+    rows = ((each.value, factors[each], Answer(least.get(each, "0"))) for each in Neighbor)
     words = ("Separations in use", "From the sheet Provisions, for the rule set on the sheet Site")
     heads = ("Neighbor", "Factor", "Minimum [in]")
     names = ("live_neighbors", "live_separation_factors", "live_separation_minima_in")
     return _write_table(sheet, row, words, heads, rows, names) + 1
 
 
-def _write_units(sheet: Worksheet, tables: Tables, row: int) -> int:
+def _write_units(sheet: Worksheet, tables: layout.Tables, row: int) -> int:
     sizes = (LENGTHS | WEIGHTS | STIFFNESSES | VELOCITIES | PRESSURES).items()
     words = ("Units", "Size of each unit in SI")
     names = ("unit_symbols", "unit_sizes")
@@ -144,14 +130,14 @@ def _write_units(sheet: Worksheet, tables: Tables, row: int) -> int:
         for at, (_, words, symbol) in enumerate(in_use, start=row + 3)
     ]
     for at, (name, _, _) in enumerate(in_use, start=row + 3):
-        name_cell(f"unit_{name}", sheet, at, 3)
+        layout.name_cell(f"unit_{name}", sheet, at, 3)
     words = ("Units in use", "As written in headings and unit cells")
     return (
         _write_table(sheet, row, words, ("Input", "Unit", "In SI"), rows, ("", "units_in_use")) + 1
     )
 
 
-def _units_in_use(tables: Tables) -> Iterator[tuple[str, str, str]]:
+def _units_in_use(tables: layout.Tables) -> Iterator[tuple[str, str, str]]:
     """Yield the name of each field with a choice of units, words, and the symbol's formula."""
     for section in SECTIONS:
         for entry in entries(section.model):
@@ -167,12 +153,13 @@ def _units_in_use(tables: Tables) -> Iterator[tuple[str, str, str]]:
             yield section.cell_name(entry.name), words, symbol
 
 
-def _write_names(book: Workbook, sheet: Worksheet, tables: Tables, row: int) -> None:
+def _write_names(book: Workbook, sheet: Worksheet, tables: layout.Tables, row: int) -> None:
     """Write the ids of arrays and objects, one list, which the sheet Clearances offers."""
     arrays, objects = (tables[key].all("id") for key in ("arrays", "objects"))
     factors = ",".join(tables[key].all("i_p") for key in ("arrays", "objects"))
     count, top = f"COUNTA({arrays})", row + 3
 
+    # INDEX gives 0 for an empty cell; with &"" it gives nothing.
     def name_of(number: str) -> Answer:
         other = f'IF({number}<={count}+COUNTA({objects}),INDEX({objects},{number}-{count})&"","")'
         return Answer(f'IFERROR(IF({number}<={count},INDEX({arrays},{number})&"",{other}),"")')
@@ -182,23 +169,21 @@ def _write_names(book: Workbook, sheet: Worksheet, tables: Tables, row: int) -> 
     below = _write_table(sheet, row, words, ("Name",), rows, ("name_list",)) + 1
     outlines = tables["outlines"]
     letter, first_row = outlines.letters["name"], outlines.header + 1
-    area = f"${letter}${first_row}:${letter}${LAST_ROW}"
-    name_range("live_outlines", book[outlines.section.sheet], area)
-    for at, (said, formula, name) in enumerate(
-        (
-            ("Arrays", count, "live_array_count"),
-            ("Arrays and objects", f"{count}+COUNTA({objects})", "live_name_count"),
-            ("Largest I_p", f"MAX(1,{factors})", "live_largest_i_p"),
-        ),
-        start=below,
-    ):
+    area = f"${letter}${first_row}:${letter}${layout.LAST_ROW}"
+    layout.name_range("live_outlines", book[outlines.section.sheet], area)
+    totals = (
+        ("Arrays", count, "live_array_count"),
+        ("Arrays and objects", f"{count}+COUNTA({objects})", "live_name_count"),
+        ("Largest I_p", f"MAX(1,{factors})", "live_largest_i_p"),
+    )
+    for at, (said, formula, name) in enumerate(totals, start=below):
         style.put(sheet, at, 1, said)
         style.put_answer(sheet.cell(at, 2), formula)
-        name_cell(name, sheet, at, 2)
+        layout.name_cell(name, sheet, at, 2)
     first = f"{TABLES}!$A${top},0,0"
     for name, length in (("names", "name_count"), ("array_names", "array_count")):
         reach = f"MIN({MOST_NAMES},MAX(1,live_{length}))"
-        name_formula(book, f"live_{name}", f"OFFSET({first},{reach},1)")
+        layout.name_formula(book, f"live_{name}", f"OFFSET({first},{reach},1)")
 
 
 PROVISIONS = "Provisions"
@@ -217,35 +202,26 @@ _MARKS = (
 )
 
 
+# What of a rule set is no number: its name, words, and what a rule set says.
 _FACTS: Sequence[tuple[str, str, Callable[[RuleSet], str]]] = (
-    (
-        "importance",
-        "The importance factor is applied",
-        lambda rules: IN_SEPARATION if rules.importance_in_separation else IN_DISPLACEMENT,
-    ),
-    (
-        "low_sdc",
-        "In SDC A, B, C the prescriptive displacement is",
-        lambda rules: ONE_VALUE if rules.low_sdc_is_flat else BY_FORMULA,
-    ),
+    ("importance", "The importance factor is applied",
+     lambda rules: IN_SEPARATION if rules.importance_in_separation else IN_DISPLACEMENT),
+    ("low_sdc", "In SDC A, B, C the prescriptive displacement is",
+     lambda rules: ONE_VALUE if rules.low_sdc_is_flat else BY_FORMULA),
     ("edition", "Edition of ASCE 7, unless Site names one", lambda rules: rules.edition),
-    (
-        "low_profile",
-        "The height of the center of gravity is limited by a fraction of the",
-        lambda rules: rules.low_profile_length.value,
-    ),
-)
-"""What of a rule set is no number: its name, words, and what a rule set says."""
+    ("low_profile", "The height of the center of gravity is limited by a fraction of the",
+     lambda rules: rules.low_profile_length.value),
+)  # fmt: skip
 
 
-def write_rules(book: Workbook, tables: Tables) -> None:
+def write_rules(book: Workbook, tables: layout.Tables) -> None:
     """Write the sheet, with a defined name for each number in use."""
     sheet = book.create_sheet(PROVISIONS)
     style.put_title(sheet, PROVISIONS, _PROVISIONS_HINT)
     style.put(sheet, 3, 1, _MARKS, color=style.GRAY, size=9, wrap=False)
     names = (head for rules in RULE_SETS.values() for head in (rules.name, "Clause"))
     head = 5
-    name_range("rule_sets", sheet, f"${_FROM}${head}:${_TO}${head}")
+    layout.name_range("rule_sets", sheet, f"${_FROM}${head}:${_TO}${head}")
     style.put_values(sheet, head, (*_HEADS, *names), are_heads=True)
     for column, width in enumerate((*_WIDTHS, *(_RULE_WIDTHS * len(RULE_SETS))), start=1):
         sheet.column_dimensions[get_column_letter(column)].width = width
@@ -254,13 +230,13 @@ def write_rules(book: Workbook, tables: Tables) -> None:
     for row, key in enumerate(OVERRIDABLE, start=first):
         _write_rule(sheet, tables["overrides"], row, key)
     last = first + len(OVERRIDABLE) - 1
-    name_range("rule_names", sheet, f"$A${first}:$A${last}")
+    layout.name_range("rule_names", sheet, f"$A${first}:$A${last}")
     _write_facts(sheet, last + 2)
     sheet.freeze_panes = f"B{first}"
     sheet.print_title_rows = f"{head}:{head}"
 
 
-def _write_rule(sheet: Worksheet, overrides: TablePlace, row: int, key: str) -> None:
+def _write_rule(sheet: Worksheet, overrides: layout.TablePlace, row: int, key: str) -> None:
     style.put(sheet, row, 1, provision_name(key)).border = style.LINE
     style.put(sheet, row, 2, provision_unit(key), color=style.GRAY).border = style.LINE
     for column, span in enumerate((ALLOWED[key].span, usual(key).span), start=_FIRST - 2):
@@ -280,8 +256,8 @@ def _write_rule(sheet: Worksheet, overrides: TablePlace, row: int, key: str) -> 
         clause = f'IF(ISNUMBER({at}),"override‡",{clause})'
     style.put_answer(sheet.cell(row, 3), value, "0.####")
     style.put_answer(sheet.cell(row, 4), clause)
-    name_cell(f"rule_{key}", sheet, row, 3)
-    name_cell(f"rule_{key}_clause", sheet, row, 4)
+    layout.name_cell(f"rule_{key}", sheet, row, 3)
+    layout.name_cell(f"rule_{key}_clause", sheet, row, 4)
     lines = math.ceil(len(provision_name(key)) / _WIDTHS[0])
     sheet.row_dimensions[row].height = 7 + 13 * lines
 
@@ -311,7 +287,7 @@ def _write_facts(sheet: Worksheet, top: int) -> None:
             _write_pair(sheet, row, count, fact(rules), "")
             _merge(sheet, row, _FIRST + 2 * count)
         style.put_answer(sheet.cell(row, 3), _chosen(row, 0))
-        name_cell(f"rule_{key}", sheet, row, 3)
+        layout.name_cell(f"rule_{key}", sheet, row, 3)
         _merge(sheet, row, 3)
         sheet.row_dimensions[row].height = 32
 

@@ -70,6 +70,7 @@ def put(
     """Write a text in a cell that has no format yet; return the cell."""
     cell: Any = sheet.cell(row, column)
     # Its commands begin as the reader typed the one that writes it.
+    # openpyxl would take a text that begins with = for a formula.
     cell.value, cell.data_type = as_typed(text), "s"
     indent = 1 if wrap and column > 1 else 0
     cell.font = _font(size, color, bold, italic)
@@ -240,8 +241,8 @@ def _number_rule(entry: Entry, si: float) -> DataValidation:
     return rule
 
 
+# Percent at which every sheet is printed, and characters that a page then has room for.
 _ZOOM, _WIDEST = 55, 190
-"""Percent at which every sheet is printed, and characters that a page then has room for."""
 
 
 def finish(sheet: Worksheet, is_us: bool) -> None:

@@ -21,7 +21,7 @@ from commands import refused, run
 from report.figures import work
 from report.text import formats
 from report.text.counts import lettered
-from report.text.validation import NOT_VALIDATED
+from report.text.formats import NOT_VALIDATED
 from solver.model import Status
 from solver.rivals.methods import METHODS
 from solver.verification.evidence import PeerPoint

@@ -11,7 +11,7 @@ import printed
 import tables
 from report.document.templates import section
 from report.manual.measured import result, shake_table
-from report.text.validation import NOT_VALIDATED, explained
+from report.text.formats import NOT_VALIDATED, explained
 from solver.verification.design_checks import design_checks
 from solver.verification.evidence import SECTIONS, Check
 from solver.verification.features import FEATURES, statuses

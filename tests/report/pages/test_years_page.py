@@ -10,8 +10,7 @@ import pytest
 import scenes
 from printed import printed
 from report.pages.registry import package_data
-from report.sheet.reading.linked_files import Document, read_documents
-from report.sheet.schema.years import SUPPORTING, StudyYears
+from report.sheet.reading.linked_files import SUPPORTING, Document, StudyYears, read_documents
 
 DISTANCE = {"mean_m": 0.1, "p95_m": 0.4, "beyond": 0.03, "without_value": 0.001}
 ARRAY = {

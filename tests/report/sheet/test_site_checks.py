@@ -3,7 +3,7 @@
 import pytest
 
 from inputs import SITE
-from report.sheet.checking.site_checks import site_faults
+from report.sheet.checking.checks import site_faults
 from report.sheet.schema.choices import SiteClass
 from report.sheet.schema.project import Site
 from solver.rules.hazard import HazardBasis

@@ -11,7 +11,7 @@ from openpyxl import load_workbook
 from test_study_read import given, plan, problems, write
 
 import printed
-from report.sheet.schema.years import SUPPORTING, StudyYears
+from report.sheet.reading.linked_files import SUPPORTING, StudyYears
 from report.study.files import study_files
 from report.study.run import planned, run_study
 from report.study.schema import Hazard, HazardPoint, Intensity, StudyArray, StudyFrictionRun
