@@ -13,27 +13,15 @@ NO_SIDES = dict.fromkeys(SIDES)
 Row = dict[str, object]
 
 HEAD: Row = {
-    "name": "Alameda Warehouse",
-    "number": "24-117",
-    "client": "Harbor Logistics LLC",
-    "address": "1200 Alameda St, Los Angeles, CA",
-    "prepared_by": "Engineer of record",
-    "checked_by": "",
-    "date": dt.date(2026, 3, 5),
-    "revision": "0",
-}
+    "name": "Alameda Warehouse", "number": "24-117", "client": "Harbor Logistics LLC",
+    "address": "1200 Alameda St, Los Angeles, CA", "prepared_by": "Engineer of record",
+    "checked_by": "", "date": dt.date(2026, 3, 5), "revision": "0",
+}  # fmt: skip
 SITE: Row = {
-    "rule_set": "SEAOC PV1-2012",
-    "risk_category": "II",
-    "i_e": 1.0,
-    "s_1_g": 0.7,
-    "site_class": "D",
-    "s_ds_g": 1.566,
-    "sdc": "D",
-    "stories": 1,
-    "structure_height_m": 36 * FT,
-    "roof_height_m": 36 * FT,
-}
+    "rule_set": "SEAOC PV1-2012", "risk_category": "II", "i_e": 1.0, "s_1_g": 0.7,
+    "site_class": "D", "s_ds_g": 1.566, "sdc": "D", "stories": 1,
+    "structure_height_m": 36 * FT, "roof_height_m": 36 * FT,
+}  # fmt: skip
 
 
 def project(**sections: object) -> ProjectInput:

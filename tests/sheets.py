@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime as dt
 import math
+import re
 import shutil
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -244,8 +245,21 @@ def at(text: str) -> str:
 
 
 def said(*lines: str) -> tuple[str, ...]:
-    """Return lines with the addresses of the cells of `make` that they name."""
-    return tuple(map(at, lines))
+    """Return lines with the addresses of the cells of `make` that they name.
+
+    `Arrays/A1/Slope is 50` is short for `<Arrays/A1/Slope>: slope is 50`.
+    """
+    return tuple(at(_SHORT.sub(_with_label, line)) for line in lines)
+
+
+_WORDS = r"(?:(?! is )[^<>/])+"
+_SHORT = re.compile(rf"\A([A-Z][^<>/]*/(?:{_WORDS}/)?({_WORDS})) is ")
+
+
+def _with_label(line: re.Match[str]) -> str:
+    name, label = line.groups()
+    spoken = label[0].lower() + label[1:] if label[1:2].islower() else label
+    return f"<{name}>: {spoken} is "
 
 
 def _position(place: str) -> CellPosition:

@@ -13,7 +13,6 @@ from pathlib import Path
 import pytest
 
 import commands
-import report.suite.files
 import sheets
 import waves
 from nightly import by_day
@@ -27,19 +26,12 @@ from stranger import KINDS, occupied, state
 
 
 @pytest.fixture(autouse=True)
-def no_hang():
-    """A command that opens a pipe would wait for ever."""
+def quick_without_a_hang(monkeypatch):
+    """Motions of sines at once; a command that opens a pipe would wait for ever."""
+    monkeypatch.setattr("report.suite.files.make_suite", lambda *_, count, **__: waves.suite(count))
     signal.alarm(120)
     yield
     signal.alarm(0)
-
-
-@pytest.fixture(autouse=True)
-def quick(monkeypatch):
-    """Motions of sines at once."""
-    monkeypatch.setattr(
-        report.suite.files, "make_suite", lambda *_, count, **__: waves.suite(count)
-    )
 
 
 @pytest.fixture
@@ -60,29 +52,19 @@ A1 = sheets.project().arrays[0].shape
 X, Y = (A1.x_from_m, A1.x_to_m), (A1.y_from_m, A1.y_to_m)
 
 
-def rows(job):
-    return ("motion", "rows", job.parent / "library", job, "--at", "roof")
+WRITERS = {
+    "motion rows": lambda job: (job.parent / "library", job, "--at", "roof"),
+    "motion suite": lambda job: (job / "made", "--into", job, "--count", 1),
+    "plan clearances": lambda job: (job,),
+    "plan ballast": lambda job: (job.parent / "map.csv", job, "--units", "m", "--block-weight", 32,
+                                 "lb", "--replace"),
+    "plan read": lambda job: (job.parent / "roof.dxf", job, "--layer", "PV=array"),
+}  # fmt: skip
+"""Every command that changes the workbook, with its arguments."""
 
 
-def suite(job):
-    return ("motion", "suite", job.parent / "job" / "made", "--into", job, "--count", 1)
-
-
-def plan_read(job):
-    return ("plan", "read", job.parent / "roof.dxf", job, "--layer", "PV=array")
-
-
-def clearances(job):
-    return ("plan", "clearances", job)
-
-
-def ballast(job):
-    more = ("--units", "m", "--block-weight", 32, "lb", "--replace")
-    return ("plan", "ballast", job.parent / "map.csv", job, *more)
-
-
-WRITERS = (rows, suite, clearances, ballast, plan_read)
-"""Every command that changes the workbook."""
+def writes(name, job):
+    return (*name.split(), *WRITERS[name](job))
 
 
 @pytest.mark.parametrize("writer", WRITERS)
@@ -91,7 +73,7 @@ def test_a_workbook_that_is_a_link_is_not_written_through(folder, writer):
     (folder / "input.xlsx").rename(outside)
     (folder / "input.xlsx").symlink_to(outside)
     before = state(folder.parent)
-    told = commands.refused(*writer(folder))
+    told = commands.refused(*writes(writer, folder))
     assert f"{folder / 'input.xlsx'}: is a link to {outside}, and is not written to" in told
     assert state(folder.parent) == before
 
@@ -101,7 +83,7 @@ def test_a_workbook_that_the_user_gave_may_be_a_link(folder, writer):
     link = folder / "given.xlsx"
     link.symlink_to(folder / "input.xlsx")
     before = (folder / "input.xlsx").read_bytes()
-    words = [link if word == folder else word for word in writer(folder)]
+    words = [link if word == folder else word for word in writes(writer, folder)]
     commands.printed(*words)
     assert link.is_symlink()
     assert (folder / "input.xlsx").read_bytes() != before
@@ -113,19 +95,19 @@ def test_a_workbook_that_the_user_gave_may_be_a_link(folder, writer):
 def test_a_workbook_that_a_program_has_open_is_not_changed(folder, writer, lock):
     (folder / lock).write_bytes(b"")
     before = state(folder.parent)
-    told = commands.refused(*writer(folder))
+    told = commands.refused(*writes(writer, folder))
     assert f"{folder / lock}: is there, so a program has the workbook open; close it there" in told
     assert "delete that file if none has" in told
     assert state(folder.parent) == before
     (folder / lock).unlink()
-    commands.printed(*writer(folder))
+    commands.printed(*writes(writer, folder))
 
 
 @pytest.mark.parametrize("writer", by_day(WRITERS, 2))
 def test_the_workbook_as_it_was_is_kept_by_one_name(folder, writer):
     before = (folder / "input.xlsx").read_bytes()
     (folder / "input.before.xlsx").write_bytes(b"of the command before")
-    commands.printed(*writer(folder))
+    commands.printed(*writes(writer, folder))
     assert (folder / "input.before.xlsx").read_bytes() == before
     assert (folder / "input.xlsx").read_bytes() != before
     names = {"input.xlsx", "input.before.xlsx", "records", "made"}
@@ -145,7 +127,7 @@ def test_nothing_is_written_through_what_is_in_a_place(folder, place, kind):
         outside.write_bytes(b"theirs")
     occupied(folder / place, kind, outside)
     before = state(folder.parent)
-    told = commands.refused(*rows(folder))
+    told = commands.refused(*writes("motion rows", folder))
     where = {"link": str(outside), "dangling link": "nowhere", "device": os.devnull}
     assert f"{folder / place}: is a" in told
     assert where.get(kind, kind) in told
@@ -170,11 +152,10 @@ def test_no_instruction_is_read_from_a_folder(folder):
     os.mkfifo(folder / ".roofslip-fedcba9876543210.part")
     before = state(folder.parent)
     for writer in WRITERS:
-        commands.printed(*writer(folder))
+        commands.printed(*writes(writer, folder))
     after = state(folder.parent)
-    assert {name: after[name] for name in before if not name.startswith("job/input")} == {
-        name: what for name, what in before.items() if not name.startswith("job/input")
-    }
+    others = {name for name in before if not name.startswith("job/input")}
+    assert {name: after[name] for name in others} == {name: before[name] for name in others}
 
 
 @pytest.mark.parametrize("kind", by_day(["link", "dangling link", "pipe", "device"], 2))
@@ -235,7 +216,7 @@ def test_a_plan_with_its_clearances_is_one_write(folder, monkeypatch):
         rename(source, target)
 
     monkeypatch.setattr(os, "replace", renamed)
-    commands.printed(*plan_read(folder))
+    commands.printed(*writes("plan read", folder))
     assert replaced == ["input.before.xlsx", "input.xlsx"]
     assert len(read(folder).draft["arrays"]) == before + 1
 
@@ -252,7 +233,7 @@ main(sys.argv[1:])
 
 @pytest.mark.nightly
 def test_of_two_commands_at_once_none_loses_a_row(folder):
-    command = [sys.executable, "-c", ROWS, *map(str, rows(folder))]
+    command = [sys.executable, "-c", ROWS, *map(str, writes("motion rows", folder))]
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE) as other:
         with changing(folder) as change:
             other.stdout.readline()

@@ -1,15 +1,14 @@
-"""Which input cells of a workbook are filled, and where the first cell of a field is."""
+"""Which input cells of a workbook are filled."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from openpyxl import Workbook, load_workbook
-from openpyxl.utils import range_boundaries
+from openpyxl import load_workbook
 
 from report.sheet.reading.read import read
 from report.sheet.schema import SECTIONS
-from report.sheet.schema.fields import Entry, Place, SheetSection, entries
+from report.sheet.schema.fields import Place, entries
 
 
 def typed_cells(workbook: Path) -> dict[str, dict[str, str]]:
@@ -29,16 +28,3 @@ def typed_cells(workbook: Path) -> dict[str, dict[str, str]]:
                     if book[title.strip("'")][at].value is not None:  # a weight may be computed
                         found[section.sheet][address] = f"{section.key}.{entry.name}"
     return found
-
-
-def address_of(book: Workbook, section: SheetSection, entry: Entry) -> tuple[str, str]:
-    """Return sheet and coordinate of a field of a new workbook; of a table, in its first row."""
-    if not section.is_table:
-        area = book.defined_names[section.cell_name(entry.name)].attr_text
-        title, _, place = area.rpartition("!")
-        return title.strip("'"), place.replace("$", "")
-    sheet = book[section.sheet]
-    left, top, right, _ = range_boundaries(sheet.tables[section.table_name].ref)
-    heads = (sheet.cell(top, column) for column in range(left, right + 1))
-    head = next(h for h in heads if str(h.value).partition(" [")[0] == entry.cell.label)
-    return section.sheet, head.offset(row=1).coordinate

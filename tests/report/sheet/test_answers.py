@@ -70,8 +70,8 @@ def edge_cases() -> dict[str, ProjectInput]:
                 f_a=1.2, s_1_g=0.455, f_v=1.845, site_class="D (default)", sdc="D",
             ),
             overrides=[
-                {"provision": "separation_edge", "value": 2.5, "reason": "agreed"},
-                {"provision": "prescriptive_factor_in", "value": 50.0, "reason": "agreed"},
+                {"provision": key, "value": value, "reason": "agreed"}
+                for key, value in (("separation_edge", 2.5), ("prescriptive_factor_in", 50.0))
             ],
         ),
         "asce-22 and odd ids": project(
@@ -116,23 +116,11 @@ class Filled:
             self.rules, s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
         )
 
-    @property
-    def prescriptive_m(self) -> float:
-        return self.prescriptive.value_m
-
     def checks(self, design_m: float) -> list[ClearanceCheck]:
         """Return the clearances for a design displacement of every array."""
-        arrays = [
-            SimpleNamespace(
-                id=array.id,
-                array=array,
-                adopted=None,
-                opened_mark="",
-                is_permitted=True,
-                permitted_toward_m=lambda direction: design_m,
-            )
-            for array in self.data.arrays
-        ]
+        same = {"adopted": None, "opened_mark": "", "is_permitted": True,
+                "permitted_toward_m": lambda direction: design_m}  # fmt: skip
+        arrays = [SimpleNamespace(id=each.id, array=each, **same) for each in self.data.arrays]
         rows = self.data.clearances
         return [check_clearance(self.data, self.rules, arrays, row) for row in rows]
 
@@ -148,12 +136,12 @@ class Filled:
         at = [head.partition(" [")[0] for head in self.headings(sheet)].index(heading)
         return [row[at] for row in self.sheets[sheet][HEAD_ROW:]]
 
-    def answers(self, label: str) -> list[Cell]:
+    def panel(self, label: str) -> list[Cell]:
         """Return the row of the sheet Start with a label."""
         return next(row for row in self.sheets["Start"] if row[1] == label)
 
     def lengths(self, label: str) -> list[Cell]:
-        return sorted(self.answers(label)[2:4])
+        return sorted(self.panel(label)[2:4])
 
 
 def in_both_units(length_m: float) -> object:
@@ -174,21 +162,13 @@ COMPUTED = {
     "f_a": site_coefficient(F_A, "D", 0.6), "f_v": 2.4, "sdc": "D",
     **dict.fromkeys(("s_ds_g", "s_ms_g", "s_m1_g", "s_d1_g", "edition_name")),
 }  # fmt: skip
-CASES = {
-    **dict.fromkeys(PROJECTS),
-    **edge_cases(),
-    BLANK: project(site=site(**COMPUTED)),
-}
+CASES = {**dict.fromkeys(PROJECTS), **edge_cases(), BLANK: project(site=site(**COMPUTED))}
 CHANGED = "low-category"
 IN_SI = {f"{name} in SI": name for name in ("given-twice and importance", "asce-16 and overrides")}
 
 
-GRID = tuple(
-    itertools.product(
-        [c for c in SiteClass if c.value in F_A.rows],
-        (0.1, 0.2, 0.25, 0.5, 0.6, 0.75, 0.9, 1.0, 1.25, 1.4, 1.5, 2.0),
-    )
-)
+S_S_G = (0.1, 0.2, 0.25, 0.5, 0.6, 0.75, 0.9, 1.0, 1.25, 1.4, 1.5, 2.0)
+GRID = tuple(itertools.product([c for c in SiteClass if c.value in F_A.rows], S_S_G))
 """Site classes and values of S_S; S_1 is S_S / 2.5."""
 
 
@@ -216,13 +196,9 @@ def weigh_in_kips(book: Workbook) -> None:
 def weigh_by_modules(book: Workbook) -> None:
     """Give the weight of the first array by its modules, in lb, and its ballast."""
     weight = cell(book, "Arrays/A1/Weight")
-    parts = {
-        "Modules": 20,
-        "Module weight": 30.0 * weight.value,
-        "Ballast weight": 400.0 * weight.value,
-    }
-    for heading, value in parts.items():
-        cell(book, f"Arrays/A1/{heading}").value = value
+    cell(book, "Arrays/A1/Modules").value = 20
+    for heading, share in (("Module weight", 30.0), ("Ballast weight", 400.0)):
+        cell(book, f"Arrays/A1/{heading}").value = share * weight.value
     weight.value = None
 
 
@@ -253,11 +229,10 @@ def filled(tmp_path_factory):
     names = ("Importance factor I_e", "F_a", "Seismic design category")
     type_into(folder / f"{BLANK}.xlsx", dict.fromkeys(f"Site/{name}" for name in names))
     assert same(read(folder / f"{BLANK}.xlsx").project, data[BLANK])
+    sheets = recalculated_sheets(paths, folder)
     return {
-        name: Filled(case, si if is_si(name, case) else us, sheets)
-        for (name, case), sheets in zip(
-            data.items(), recalculated_sheets(paths, folder), strict=True
-        )
+        name: Filled(case, si if is_si(name, case) else us, of_case)
+        for (name, case), of_case in zip(data.items(), sheets, strict=True)
     }
 
 
@@ -286,11 +261,9 @@ def test_the_seismic_parameters_are_those_of_the_package(case):
 
 def test_the_category_is_the_least_of_the_package(case):
     values, data = case.data.site.parameters, case.data.site
+    is_essential = data.risk_category == "IV"
     categories = hazard.design_categories(
-        s_ds_g=values.s_ds,
-        s_d1_g=values.s_d1,
-        s_1_g=data.s_1_g,
-        is_essential=data.risk_category == "IV",
+        s_ds_g=values.s_ds, s_d1_g=values.s_d1, s_1_g=data.s_1_g, is_essential=is_essential
     )
     assert case.named("live_sdc") == max(categories)
 
@@ -318,7 +291,7 @@ def test_what_is_used_where_a_cell_is_blank_is_that_of_the_package(filled):
 
 
 def test_the_prescriptive_displacement_is_that_of_the_package(case):
-    wanted = case.prescriptive_m
+    wanted = case.prescriptive.value_m
     assert number(case.named("live_prescriptive_in"), 1) == number(wanted / INCH, 1)
     assert case.lengths("Prescriptive displacement") == in_both_units(wanted)
 
@@ -326,18 +299,17 @@ def test_the_prescriptive_displacement_is_that_of_the_package(case):
 def test_the_four_separations_are_those_of_the_package(case):
     data = case.data
     largest = max(row.i_p for row in (*data.arrays, *data.objects))
-    labels = {
-        Neighbor.LIKE: "Separation, like arrays",
-        Neighbor.FIXED: "Separation, fixed object or unlike array",
-        Neighbor.PARAPET: "Separation, edge with qualifying parapet",
-        Neighbor.EDGE: "Separation, edge without qualifying parapet",
-    }
-    for neighbor, label in labels.items():
+    for neighbor, what in (
+        (Neighbor.LIKE, "like arrays"),
+        (Neighbor.FIXED, "fixed object or unlike array"),
+        (Neighbor.PARAPET, "edge with qualifying parapet"),
+        (Neighbor.EDGE, "edge without qualifying parapet"),
+    ):
         importance = data.site.i_e if neighbor.is_edge else largest
         wanted = required_separation(
-            case.rules, neighbor, design_m=case.prescriptive_m, importance=importance
+            case.rules, neighbor, design_m=case.prescriptive.value_m, importance=importance
         )
-        assert case.lengths(label) == in_both_units(wanted)
+        assert case.lengths(f"Separation, {what}") == in_both_units(wanted)
 
 
 def test_the_floor_and_what_peer_review_saves_are_those_of_the_rules(case):
@@ -353,11 +325,11 @@ def test_the_floor_and_what_peer_review_saves_are_those_of_the_rules(case):
 @pytest.mark.parametrize("label", ["Prescriptive displacement", "Floor of the value from analysis"])
 def test_the_worst_clearance_is_the_first_of_the_largest_ratio(case, label):
     floor_m = analysis_floor_m(case.rules, case.prescriptive)
-    checks = case.checks(floor_m if "Floor" in label else case.prescriptive_m)
+    checks = case.checks(floor_m if "Floor" in label else case.prescriptive.value_m)
     ratios = [ratio(check.demand_capacity) for check in checks]
     worst = max(ratios, key=lambda text: math.inf if text == "∞" else float(text))
     row = case.data.clearances[ratios.index(worst)]
-    found, of = case.answers(label)[6:8]
+    found, of = case.panel(label)[6:8]
     assert (found if found == "∞" else number(found, 2)) == worst
     assert of == f"{row.array} to {row.object}"
 
@@ -369,7 +341,7 @@ def test_the_ratio_of_each_clearance_is_that_of_the_package(case):
         case.column("Clearances", name)
         for name in ("Neighbor", "Required, prescriptive", "D/C, prescriptive")
     )
-    for count, wanted in enumerate(case.checks(case.prescriptive_m)):
+    for count, wanted in enumerate(case.checks(case.prescriptive.value_m)):
         wanted_length = number(wanted.required_m / unit.si, unit.decimals)
         assert neighbors[count] == wanted.neighbor.value
         assert number(required[count], unit.decimals) == wanted_length

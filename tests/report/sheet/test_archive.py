@@ -23,8 +23,7 @@ OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(600)
 
 
 def zipped(**members: bytes | str) -> bytes:
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as file:
+    with zipfile.ZipFile(buffer := io.BytesIO(), "w", zipfile.ZIP_DEFLATED) as file:
         for name, data in members.items():
             file.writestr(name, data)
     return buffer.getvalue()
@@ -49,12 +48,15 @@ def test_openpyxl_reads_with_the_parser_of_python():
     assert not DEFUSEDXML  # in Python itself: the scan has refused entities by then
 
 
+TRUNCATED = f"not a workbook, or truncated; {REOPEN}"
+
+
 @pytest.mark.parametrize(
     ("content", "line"),
     [
         (b"", "empty file; start again from a fresh workbook (roofslip new FOLDER)"),
-        (b"name,number\n", f"not a workbook, or truncated; {REOPEN}"),
-        (b"PK\x03\x04" + bytes(50), f"not a workbook, or truncated; {REOPEN}"),
+        (b"name,number\n", TRUNCATED),
+        (b"PK\x03\x04" + bytes(50), TRUNCATED),
         (OLE, f"an old Excel workbook (.xls) by its content; {SAVE_AS}"),
         (OLE + "EncryptedPackage".encode("utf-16-le"),
          "protected with a password; save it without one"),
@@ -152,10 +154,9 @@ def test_a_workbook_with_a_spoiled_part_is_refused(tmp_path, case):
 
 def test_a_default_type_for_macros_that_are_not_there_is_harmless(tmp_path):
     """As every workbook of SheetJS has one."""
-    path = make(tmp_path)
     default = b'<Default Extension="bin" ContentType="application/vnd.ms-excel.sheet.binary.'
-    default += b'macroEnabled.main"/>'
-    rewritten(path, "[Content_Types].xml", replaced(b"<Override", default + b"<Override"))
+    more = replaced(b"<Override", default + b'macroEnabled.main"/><Override')
+    path = rewritten(make(tmp_path), "[Content_Types].xml", more)
     assert same(read_workbook(path).input, project())
 
 
@@ -176,7 +177,7 @@ def test_a_truncated_file_or_one_with_changed_bytes_is_reported(tmp_path):
     path = make(tmp_path)
     data = path.read_bytes()
     path.write_bytes(data[:-2000])
-    assert problems(path) == (f"not a workbook, or truncated; {REOPEN}",)
+    assert problems(path) == (TRUNCATED,)
     path.write_bytes(data[:200] + bytes(40) + data[240:])
     assert problems(path)[0].endswith(REOPEN)
 
@@ -247,9 +248,8 @@ def test_a_table_that_does_not_say_where_it_is_is_found_by_its_headings(tmp_path
 
 
 def test_a_workbook_that_openpyxl_cannot_read_is_reported(tmp_path):
-    path = make(tmp_path)
-    (line,) = problems(rewritten(path, STYLES, to(b"<styleSheet/>")))
-    assert line == f"damaged, or not as Excel writes it; {REOPEN}"
+    path = rewritten(make(tmp_path), STYLES, to(b"<styleSheet/>"))
+    assert problems(path) == (f"damaged, or not as Excel writes it; {REOPEN}",)
 
 
 @pytest.mark.parametrize(
@@ -308,25 +308,19 @@ def test_what_is_odd_and_harmless_is_read_all_the_same(tmp_path):
         name.parent.merge_cells(f"{name.coordinate}:{beside}")
         # These fields are found by their labels.
         for field, text in {
-            "project_name": "Project!#REF!",
-            "site_i_e": "Gone!$B$5",
-            "site_s_1_g": "Site!$A:$XFD",
-            "site_sdc": "Site!$B$0",
-            "site_stories": '"',
-        }.items():
+            "project_name": "Project!#REF!", "site_i_e": "Gone!$B$5", "site_stories": '"',
+            "site_s_1_g": "Site!$A:$XFD", "site_sdc": "Site!$B$0",
+        }.items():  # fmt: skip
             book.defined_names[field].attr_text = text
 
     assert same(read_workbook(edit(make(tmp_path), change)).input, project())
 
 
-@pytest.mark.parametrize(
-    "xml",
-    [
-        b'<mergeCells count="1"><mergeCell ref="A30:XFD1048576"/></mergeCells>',
-        b'<mergeCells count="1"><mergeCell ref="A:XFD"/></mergeCells>',
-        b'<hyperlinks><hyperlink ref="A30:XFD1048576" location="x"/></hyperlinks>',
-    ],
-)
+MERGED = b'<mergeCells count="1"><mergeCell ref="%b"/></mergeCells>'
+LINKED = b'<hyperlinks><hyperlink ref="A30:XFD1048576" location="x"/></hyperlinks>'
+
+
+@pytest.mark.parametrize("xml", [MERGED % b"A30:XFD1048576", MERGED % b"A:XFD", LINKED])
 @pytest.mark.quick
 def test_a_range_over_a_whole_sheet_is_rejected_before_it_is_made(tmp_path, xml):
     path = make(tmp_path)

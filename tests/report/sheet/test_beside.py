@@ -46,26 +46,20 @@ def test_without_a_document_none_is_read(workbook):
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        ("../letter.pdf", "is outside the workbook's folder; give a file in the workbook's folder"),
-        ("/etc/letter.pdf", "is outside the workbook's folder"),
-        ("C:\\letter.pdf", "is outside the workbook's folder"),
-        ("linked.pdf", "is a link to a file outside the workbook's folder"),
         ("up/letter.pdf", "is a link to a file outside the workbook's folder"),
-        ("records", "is not a file"),
         ("records/x.csv", "is no PDF; attach it as a PDF"),
         ("leter.pdf", "does not exist; did you mean 'letter.pdf'?"),
         ("missing.pdf", "does not exist; give a file in the workbook's folder, such as"),
     ],
 )
 def test_what_may_not_be_attached_is_an_error_of_its_cell(workbook, name, said):
+    """`test_read` has the other files that a workbook may not name."""
     folder = workbook.parent
-    (folder.parent / "letter.pdf").write_bytes(PDF)
-    (folder / "letter.pdf").write_bytes(PDF)
-    (folder / "linked.pdf").symlink_to(folder.parent / "letter.pdf")
+    for home in (folder, folder.parent):
+        (home / "letter.pdf").write_bytes(PDF)
     (folder / "up").symlink_to(folder.parent)
     (problem,) = problems(naming(workbook, name))
-    shown = name.replace("\\", "/")
-    assert problem.startswith(f"{at(LETTER)}: letter of review: '{shown}' {said}")
+    assert problem.startswith(f"{at(LETTER)}: letter of review: '{name}' {said}")
 
 
 def test_all_documents_together_have_a_limit(workbook, monkeypatch):
@@ -80,11 +74,10 @@ def test_all_documents_together_have_a_limit(workbook, monkeypatch):
 
 def test_one_file_in_three_cells_is_named_three_times(workbook):
     naming(workbook, "both.pdf", PDF)
-    found = read(type_into(workbook, {REPORT: "both.pdf", PRINTOUT: "both.pdf"})).documents
-    assert [(one.label, one.path) for one in found] == [
-        ("Hazard printout", "both.pdf"),
-        ("Test report file", "both.pdf"),
-        ("Letter of review", "both.pdf"),
+    documents = read(type_into(workbook, {REPORT: "both.pdf", PRINTOUT: "both.pdf"})).documents
+    labels = ["Hazard printout", "Test report file", "Letter of review"]
+    assert [(each.label, each.path) for each in documents] == [
+        (name, "both.pdf") for name in labels
     ]
 
 

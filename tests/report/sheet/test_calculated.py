@@ -36,14 +36,11 @@ MANUAL = b'calcId="191029" calcMode="manual" calcCompleted="0"'
 @pytest.mark.quick
 def test_formulas_that_manual_calculation_left_are_named(saved):
     first, second = typed(saved)
-    assert told(saying(saved, MANUAL)) == [
-        (
-            "calculation",
-            first,
-            "the workbook was saved before its formulas were calculated (calculation is manual),"
-            f" and {first}, {second} may show former values: {CALCULATE}",
-        )
-    ]
+    assert told(saying(saved, MANUAL)) == [(
+        "calculation", first,
+        "the workbook was saved before its formulas were calculated (calculation is manual), and"
+        f" {first}, {second} may show former values: {CALCULATE}",
+    )]  # fmt: skip
 
 
 @pytest.mark.quick
@@ -71,14 +68,11 @@ def test_a_workbook_that_was_calculated_is_no_warning(saved, says):
 def test_computed_cells_alone_are_a_warning_in_manual_mode_and_none_in_a_fresh_workbook(tmp_path):
     path = make(tmp_path)
     assert told(path) == []  # it asks to be calculated when it is opened
-    assert told(saying(path, MANUAL)) == [
-        (
-            "calculation",
-            "Project",
-            "the workbook was saved before its formulas were calculated (calculation is manual),"
-            f" and its computed cells may show former values: {CALCULATE}",
-        )
-    ]
+    assert told(saying(path, MANUAL)) == [(
+        "calculation", "Project",
+        "the workbook was saved before its formulas were calculated (calculation is manual), and"
+        f" its computed cells may show former values: {CALCULATE}",
+    )]  # fmt: skip
 
 
 def test_a_workbook_without_formulas_has_none_that_was_not_calculated(tmp_path):
@@ -111,39 +105,23 @@ def valued(path, formulas, at, value):
     return [book.book["Arrays"][cell.cell].value for cell in formulas]
 
 
-@pytest.mark.parametrize(
-    ("formula", "is_kept"),
-    [
-        ("E8", False),
-        ("SUM($E$7:$E$8)", False),
-        ("'Arrays'!E8+0", False),
-        ("arrays!E8", False),
-        ("SUM(E:E)", False),
-        ('INDIRECT("E"&amp;8)', False),
-        ("OFFSET(E7,1,0)", False),
-        ("TABLE()", False),
-        ("SUM(E7:INDEX(C7:C9,2))", False),
-        ("a_name", False),
-        ("SUM(arrays_table[Slope])", False),
-        ("SUM(Arrays:Site!E8)", False),
-        ("0.4+0.05", True),
-        ("C8+D9*0", True),
-        ("Site!E8+0.45", True),
-        ("SUM(E80:E88)+0.45", True),
-    ],
-)
-def test_a_command_takes_the_value_of_a_formula_that_may_refer_to_what_it_wrote(
-    saved, formula, is_kept
-):
-    kept = 0.45 if is_kept else None
+MAY_REFER = (
+    "E8", "SUM($E$7:$E$8)", "'Arrays'!E8+0", "arrays!E8", "SUM(E:E)", 'INDIRECT("E"&amp;8)',
+    "OFFSET(E7,1,0)", "TABLE()", "SUM(E7:INDEX(C7:C9,2))", "a_name", "SUM(arrays_table[Slope])",
+    "SUM(Arrays:Site!E8)",
+)  # fmt: skip
+OTHERS = ("0.4+0.05", "C8+D9*0", "Site!E8+0.45", "SUM(E80:E88)+0.45")
+
+
+@pytest.mark.parametrize("formula", [*MAY_REFER, *OTHERS])
+def test_a_command_takes_the_value_of_a_formula_that_may_refer_to_what_it_wrote(saved, formula):
+    kept = 0.45 if formula in OTHERS else None
     assert valued(saved, {SECOND: formula}, FIRST, 0.5) == [kept]
 
 
 def test_a_formula_of_a_formula_loses_its_value_and_check_and_report_refuse_alike(saved):
-    assert valued(saved, {FIRST: "C8*0.9", SECOND: "E8"}, CellPosition("Arrays", 8, 3), 0.6) == [
-        None,
-        None,
-    ]
+    slope = CellPosition("Arrays", 8, 3)
+    assert valued(saved, {FIRST: "C8*0.9", SECOND: "E8"}, slope, 0.6) == [None, None]
     check, report = (commands.refused(name, saved) for name in ("check", "report"))
     assert check == report
     for cell, formula in ((FIRST, "C8*0.9"), (SECOND, "E8")):
@@ -162,14 +140,12 @@ TARGET = (
 OUTSIDE = {
     "DDE cmd|/c calc": {"link": LINK % b'<ddeLink ddeService="cmd" ddeTopic="/c calc"/>'},
     "file:///C:/other.xlsx": {
-        "_rels/link": TARGET % (b"file:///C:/other.xlsx", b"externalLinkPath")
-    },
+        "_rels/link": TARGET % (b"file:///C:/other.xlsx", b"externalLinkPath")},
     "http://a.test/b.doc": {
         "link": LINK % b'<oleLink progId="Word"/>',
-        "_rels/link": TARGET % (b"http://a.test/b.doc", b"oleObject"),
-    },
+        "_rels/link": TARGET % (b"http://a.test/b.doc", b"oleObject")},
     "connection Query": {"link": b'<connections><connection name="Query"/></connections>'},
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", OUTSIDE)
@@ -180,12 +156,8 @@ def test_links_to_elsewhere_are_named(tmp_path, name):
 
 
 def elsewhere(name):
-    return (
-        "outside",
-        "Project",
-        f"the workbook takes values from elsewhere ({name}), of which the saved ones are read: type"
-        " the values instead",
-    )
+    text = f"the workbook takes values from elsewhere ({name}), of which the saved ones are read:"
+    return "outside", "Project", f"{text} type the values instead"
 
 
 @pytest.mark.parametrize(

@@ -56,19 +56,15 @@ def changed(records=RECORDS, **changes):
 
 
 def test_each_confirmation_is_put_on_record_with_its_date_and_the_sheets_that_it_covers():
-    found = to_record(given(), RECORDS)
     sheets = {
         place.field: (text[:10], [part.rpartition(" ")[0] for part in text[12:].split(", ")])
-        for place, text in found.items()
+        for place, text in to_record(given(), RECORDS).items()
     }
     assert sheets == {
         "drawing_covered": (str(ON), ["Clearances"]),
         "hazard_covered": (str(ON), ["Site"]),
         "tests_covered": ("2025-06-12", ["Friction tests"]),
-        "peer_covered": (
-            "2026-03-01",
-            ["Site", "Arrays", "Friction tests", "Motions", "Options"],
-        ),
+        "peer_covered": ("2026-03-01", ["Site", "Arrays", "Friction tests", "Motions", "Options"]),
         "covered": ("2026-03-01", ["Site", "Options"]),
     }
     assert to_record(recorded(given()), RECORDS) == {}
@@ -92,70 +88,54 @@ def of(section, index, **changes):
     return {section: rows}
 
 
-@pytest.mark.parametrize(
-    ("change", "said"),
-    [
-        (of("arrays", 0, mu=0.42), {"options": "sheet Arrays"}),
-        ({"records": (RECORDS[0], "M2 horizontal ef")}, {"options": "sheet Motions"}),
-        (of("motions", 1, scale_value=2.1), {"options": "sheet Motions"}),
-        ({"site": {"s_ds_g": 1.6}}, {"site": "sheet Site", "options": "sheet Site"}),
-        ({"site": {"roof_height_m": 9.0}}, {"options": "sheet Site"}),
-        (
-            of("friction_runs", 0, mu=0.47),
-            {"friction_tests": "sheet Friction tests", "options": "sheet Friction tests"},
-        ),
-        ({"friction_tests": {"report": "FT-2"}}, {"options": "sheet Friction tests"}),
-        (of("clearances", 2, provided_m=96 * INCH), {"project": "sheet Clearances"}),
-        (of("clearances", 0, source="drawing"), {"project": "sheet Clearances"}),
-        ({"building": {"period_s": 0.5}}, {"options": "sheet Building"}),
-        ({"target": {"t_l_s": 6.0}}, {"options": "sheet Site"}),
-        ({"target": {"to_s": 3.0}}, {"options": "sheet Building"}),
-        ({"links": [inputs.links("A1", "0.40, 0.45", 50)]}, {"options": "sheet Links"}),
-        ({"options": {"statistic": "mean"}}, {"options": "sheet Options"}),
-        ({"overrides": []}, {"options": "sheet Options", "confirmation": "sheet Options"}),
-        ({"confirmation": {"by": "MT"}}, {"confirmation": "sheet Options"}),
-        ({"confirmation": {"edition": "ASCE 7-22"}}, {"confirmation": "sheet Options"}),
-        (
-            {"site": {"rule_set": "ASCE 7-16"}},
-            {"options": "sheet Site", "confirmation": "sheet Site"},
-        ),
-        ({"site": {"building_code_year": 2019}}, {"confirmation": "sheet Site"}),
-        (
-            {"site": {"roof_height_m": 9.0}} | of("arrays", 0, mu=0.42),
-            {"options": "sheets Site, Arrays"},
-        ),
-    ],
-)
+CHANGES = [
+    (of("arrays", 0, mu=0.42), {"options": "sheet Arrays"}),
+    ({"records": (RECORDS[0], "M2 horizontal ef")}, {"options": "sheet Motions"}),
+    (of("motions", 1, scale_value=2.1), {"options": "sheet Motions"}),
+    ({"site": {"s_ds_g": 1.6}}, {"site": "sheet Site", "options": "sheet Site"}),
+    ({"site": {"roof_height_m": 9.0}}, {"options": "sheet Site"}),
+    (of("friction_runs", 0, mu=0.47),
+     {"friction_tests": "sheet Friction tests", "options": "sheet Friction tests"}),
+    ({"friction_tests": {"report": "FT-2"}}, {"options": "sheet Friction tests"}),
+    (of("clearances", 2, provided_m=96 * INCH), {"project": "sheet Clearances"}),
+    (of("clearances", 0, source="drawing"), {"project": "sheet Clearances"}),
+    ({"building": {"period_s": 0.5}}, {"options": "sheet Building"}),
+    ({"target": {"t_l_s": 6.0}}, {"options": "sheet Site"}),
+    ({"target": {"to_s": 3.0}}, {"options": "sheet Building"}),
+    ({"links": [inputs.links("A1", "0.40, 0.45", 50)]}, {"options": "sheet Links"}),
+    ({"options": {"statistic": "mean"}}, {"options": "sheet Options"}),
+    ({"overrides": []}, {"options": "sheet Options", "confirmation": "sheet Options"}),
+    ({"confirmation": {"by": "MT"}}, {"confirmation": "sheet Options"}),
+    ({"confirmation": {"edition": "ASCE 7-22"}}, {"confirmation": "sheet Options"}),
+    ({"site": {"rule_set": "ASCE 7-16"}}, {"options": "sheet Site", "confirmation": "sheet Site"}),
+    ({"site": {"building_code_year": 2019}}, {"confirmation": "sheet Site"}),
+    ({"site": {"roof_height_m": 9.0}} | of("arrays", 0, mu=0.42),
+     {"options": "sheets Site, Arrays"}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("change", "said"), CHANGES)
 def test_an_input_that_changes_after_a_confirmation_is_named(change, said):
     assert changed(**change) == said
 
 
 EARLIER = {  # as c9c3a2cf put it on record, whose sheet Options had the target spectrum
     "project": GIVEN["project"] | {"drawing_covered": "2026-02-20: Clearances 0eb8ae"},
-    "site": GIVEN["site"]
-    | {
-        "edition_name": "ASCE 7-16",
-        "s_s_g": 1.97,
-        "s_1_g": 0.7,
-        "site_class": "D",
-        "f_a": 1.2,
-        "f_v": 1.7,
-        "s_ms_g": 2.364,
-        "s_m1_g": 1.19,
-        "s_d1_g": 0.793,
-        "hazard": "site-specific analysis",
-        "hazard_covered": "2026-02-20: Site 4de9ae",
+    "site": GIVEN["site"] | {
+        "edition_name": "ASCE 7-16", "s_s_g": 1.97, "s_1_g": 0.7, "site_class": "D", "f_a": 1.2,
+        "f_v": 1.7, "s_ms_g": 2.364, "s_m1_g": 1.19, "s_d1_g": 0.793,
+        "hazard": "site-specific analysis", "hazard_covered": "2026-02-20: Site 4de9ae",
     },
-    "friction_tests": GIVEN["friction_tests"]
-    | {"tests_covered": "2025-06-12: Friction tests 56db8c"},
+    "friction_tests": GIVEN["friction_tests"] | {
+        "tests_covered": "2025-06-12: Friction tests 56db8c",
+    },
     "target": {"t_l_s": 8.0, "from_s": 0.3, "to_s": 2.0},
-    "options": GIVEN["options"]
-    | {
+    "options": GIVEN["options"] | {
         "peer_covered": "2026-03-01: Site ff39b0, Arrays 953ec0, Friction tests 540e4e,"
-        " Motions f2663d, Options bee9a4"
+                        " Motions f2663d, Options bee9a4",
     },
     "confirmation": {},
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize(

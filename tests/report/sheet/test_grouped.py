@@ -27,17 +27,13 @@ def test_1500_equal_errors_are_one_line_with_their_count():
 
 
 def test_errors_that_differ_stay_apart_in_their_order():
-    given = [
-        Problem("no such file"),
-        Problem(IS_WET, NUMBER, "Arrays!E8"),
-        Problem.of(OTHER).at("Arrays!H8"),
-        Problem(IS_WET, NUMBER, "Arrays!E9"),
-        Problem(IS_WET, NUMBER, "Objects!E8"),
-        Problem("no such file"),
-    ]
-    lines = list(map(str, given))
-    together = f"Arrays!E8, Arrays!E9: {WRONG}"
-    assert [each.line for each in grouped(given)] == [lines[0], together, lines[2], *lines[4:]]
+    first, second, elsewhere = (
+        Problem(IS_WET, NUMBER, cell) for cell in ("Arrays!E8", "Arrays!E9", "Objects!E8")
+    )
+    no_file, weight = Problem("no such file"), Problem.of(OTHER).at("Arrays!H8")
+    lines = [each.line for each in grouped([no_file, first, weight, second, elsewhere, no_file])]
+    apart = list(map(str, (no_file, weight, elsewhere, no_file)))
+    assert lines == [apart[0], f"Arrays!E8, Arrays!E9: {WRONG}", *apart[1:]]
 
 
 MU = "Arrays/{}/Friction coefficient"
@@ -72,9 +68,8 @@ def test_the_page_shows_what_was_typed_whole_with_a_semicolon_in_it(tmp_path):
 def test_a_problem_without_a_cell_names_its_sheet_on_the_page_and_in_a_line(tmp_path):
     error = InputError([Problem("one row is given", "give two", "Spectrum"), "no file; give one"])
     found = problems(tmp_path / "none.xlsx", error)
-    assert [(one["found"], one["remedy"]) for one in found] == [
-        ("Spectrum: one row is given", "give two"), ("no file", "give one"),
-    ]  # fmt: skip
+    shown = [(each["found"], each["remedy"]) for each in found]
+    assert shown == [("Spectrum: one row is given", "give two"), ("no file", "give one")]
     assert error.problems == ("Spectrum: one row is given; give two", "no file; give one")
     assert pickle.loads(pickle.dumps(error)).parts == error.parts
 

@@ -38,15 +38,14 @@ def test_check_has_one_note_of_what_a_workbook_of_0_1_lacks_and_a_new_one_has_no
     assert list(what_is_new(open_book(make(tmp_path / "new")))) == []
 
 
-def present():
-    return [(section, entry) for section in SECTIONS for entry in entries(section.model)]
+PRESENT = [(section, entry) for section in SECTIONS for entry in entries(section.model)]
 
 
 def earlier_labels(book):
     """Replace each renamed label and heading by its oldest name, and remove all defined names."""
     oldest = {
         (section.sheet, entry.cell.label): layout.LABELS[section.key, entry.name][0]
-        for section, entry in present()
+        for section, entry in PRESENT
         if (section.key, entry.name) in layout.LABELS
     }
     book.defined_names.clear()
@@ -79,15 +78,10 @@ def without(section, *fields):
 
 @pytest.mark.parametrize(
     "fields",
-    [
-        ("site", "hazard_report"),
-        ("site", "building_code", "building_code_year", "jurisdiction"),
-        ("friction_tests", "report_file"),
-        ("options", "peer_letter"),
-        ("site", "hazard_printout"),
-        ("site", "fire_code_section", "fire_lane_m"),
-    ],
-)
+    [("site", "hazard_report"), ("site", "building_code", "building_code_year", "jurisdiction"),
+     ("friction_tests", "report_file"), ("options", "peer_letter"), ("site", "hazard_printout"),
+     ("site", "fire_code_section", "fire_lane_m")],
+)  # fmt: skip
 def test_a_workbook_from_before_some_cells_is_read_as_it_is(tmp_path, fields):
     book = read(edit(make(tmp_path), without(*fields)))
     assert book.problems == ()
@@ -108,9 +102,9 @@ def test_an_earlier_provision_key_overrides_the_present_one(tmp_path):
 
 @pytest.mark.quick
 def test_every_earlier_name_belongs_to_a_present_one():
-    known = {(section.key, entry.name) for section, entry in present()}
+    known = {(section.key, entry.name) for section, entry in PRESENT}
     assert layout.LABELS.keys() | layout.FIELDS.keys() <= known
-    labels = {(section.key, other.cell.label): other.name for section, other in present()}
+    labels = {(section.key, other.cell.label): other.name for section, other in PRESENT}
     for (section, field), earlier in layout.LABELS.items():
         for label in earlier:
             assert labels.get((section, label), field) == field

@@ -3,12 +3,11 @@
 import re
 
 import pytest
-from click.testing import CliRunner
 
+import commands
 from cells import address
 from nightly import by_day
 from places import DATA
-from report.cli.main import main
 from report.sheet.reading.archive import open_book
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.writing.filled import findings, overwritten
@@ -20,16 +19,9 @@ def lost(path):
     return [item.position.address for item in overwritten(open_book(path))]
 
 
-def check(*arguments):
-    return CliRunner().invoke(main, ["check", *map(str, arguments)])
-
-
 def formulas(path):
     """Every formula of a workbook by cell."""
-    return formulas_of(open_book(path))
-
-
-def formulas_of(book):
+    book = open_book(path)
     return {f"{t}!{c}": book.formula(t, c) for t, scan in book.scans.items() for c in scan.formulas}
 
 
@@ -37,11 +29,11 @@ def formulas_of(book):
 def test_every_blue_cell_of_a_new_workbook_that_loses_its_formula_is_named(tmp_path, units):
     path = make(tmp_path, units)
     assert lost(path) == []
-    formulas = formulas_of(open_book(path)).keys()
+    blue = formulas(path).keys()
     edit(path, lambda book: [setattr(one, "value", None) for one in formula_cells(book)])
     unmarked = {f"Start!F{row}" for row in range(8, 16)}  # clauses beside the panel
-    assert set(lost(path)) == formulas - unmarked
-    assert len(formulas) > 400
+    assert set(lost(path)) == blue - unmarked
+    assert len(blue) > 400
 
 
 def typed_over(book):
@@ -74,18 +66,10 @@ def test_each_cell_is_named_with_what_is_in_it_and_what_belongs_there(tmp_path):
         ratios: "D/C, prescriptive (3 cells) is 0.5, typed",
     }.items():
         assert words in texts[at(place)]
-    assert all(
-        text.endswith("copy it from a fresh workbook (roofslip new FOLDER)")
-        for text in texts.values()
-    )
-
-
-def test_check_warns_of_each(tmp_path):
-    path = edit(make(tmp_path), typed_over)
-    warned = check(path)
-    assert warned.exit_code == 0
-    for name in ("Site/S_DS/Computed", FACTOR):
-        assert f"warning: {at(name)}: " in warned.output
+    fresh = "copy it from a fresh workbook (roofslip new FOLDER)"
+    assert all(text.endswith(fresh) for text in texts.values())
+    warned = commands.printed("check", path)
+    assert all(f"warning: {at(name)}: " in warned for name in ("Site/S_DS/Computed", FACTOR))
 
 
 def test_a_renamed_sheet_other_units_and_new_rows_give_no_warning(tmp_path):

@@ -86,24 +86,25 @@ def test_an_unknown_name_is_told_by_its_cell(tmp_path):
     )
 
 
-def test_two_vertices_are_no_outline(tmp_path):
-    headings = ("Outline of", "x", "y")
-    cleared = {f"{row}/{heading}": None for heading in headings for row in range(3, 7)}
-    line = at(f"{FIRST}: A1 has 2 vertices; give at least 3, one to a row")
-    assert changed(tmp_path, cleared) == (line,)
+BEYOND_TWO = {f"{row}/{head}": None for head in ("Outline of", "x", "y") for row in range(3, 7)}
+NO_NUMBER = "<Outlines/2/y>: y is "
 
 
-def test_an_outline_that_crosses_itself_is_told_with_the_point(tmp_path):
-    (found,) = changed(tmp_path, {"2/x": 30, "2/y": 90})  # across the upper side
-    assert found.startswith(at(f"{FIRST}: outline of A1 touches or crosses itself near x "))
-    assert found.endswith("; give its vertices in order, none of them twice")
-
-
-@pytest.mark.parametrize("typed", ["nan", None])
-def test_a_coordinate_that_is_no_number_is_told_by_its_cell(tmp_path, typed):
-    (found,) = changed(tmp_path, {"2/y": typed})
-    assert found.startswith(at("<Outlines/2/y>: y is "))
-    assert found.endswith("; give a number [ft]")
+@pytest.mark.parametrize(
+    ("typed", "begin", "end"),
+    [
+        (BEYOND_TWO, f"{FIRST}: A1 has 2 vertices", "; give at least 3, one to a row"),
+        ({"2/x": 30, "2/y": 90},  # across the upper side
+         f"{FIRST}: outline of A1 touches or crosses itself near x ",
+         "; give its vertices in order, none of them twice"),
+        ({"2/y": "nan"}, NO_NUMBER, "; give a number [ft]"),
+        ({"2/y": None}, NO_NUMBER, "; give a number [ft]"),
+    ],
+)  # fmt: skip
+def test_what_is_no_outline_is_told_by_its_cell(tmp_path, typed, begin, end):
+    (line,) = changed(tmp_path, typed)
+    assert line.startswith(at(begin))
+    assert line.endswith(end)
 
 
 def test_an_outline_in_two_places_is_refused(tmp_path):
@@ -112,39 +113,29 @@ def test_an_outline_in_two_places_is_refused(tmp_path):
     assert at(f"{here}: {line}") in changed(tmp_path, {"4/Outline of": "A2"})
 
 
-def test_a_rectangle_and_an_outline_of_the_same_name_are_refused(tmp_path):
-    path = make(tmp_path, **outlined() | {"arrays": arrays()})
-    (found,) = problems(path)
-    assert found.startswith("Arrays!")
-    assert found.endswith(
-        f": x from is given, and A1 has an outline at {at(FIRST)}; leave the four sides blank, or"
-        " delete the outline"
-    )
+ROOF_AS_ID = project().objects[0].model_dump() | {"id": "Roof"}
+NOTCHED = ((0, 0), (300, 0), (300, 60), (80, 60), (80, 100), (0, 100))
 
 
-def test_the_roof_is_no_id_where_it_has_an_outline(tmp_path):
-    changes = outlined(roof=ROOF_FT)
-    item = project().objects[0].model_dump() | {"id": "Roof"}
-    found = problems(make(tmp_path, **changes | {"objects": [item]}))
-    assert found == (at(
-        "<Outlines/7/Outline of>: outline of 'roof', which is also the ID of an array or object;"
-        " give that another ID"
-    ),)  # fmt: skip
-
-
-def test_an_array_that_spans_the_notch_of_the_roof_is_outside(tmp_path):
-    roof = ((0, 0), (300, 0), (300, 60), (80, 60), (80, 100), (0, 100))
-    (found,) = problems(make(tmp_path, **outlined(roof=roof)))  # A1, an L, is beside the notch
-    assert found.startswith("Arrays!")
-    assert "A2 is outside the roof near x " in found
-    assert found.endswith(at("; correct it, or the outline of the roof at <Outlines/7/Outline of>"))
-
-
-def test_an_outlined_array_outside_of_a_rectangular_roof_is_told_at_its_outline(tmp_path):
-    roof = ROOF_SIDES | {"y_to_m": 74 * FT}
-    changes = outlined() | {"arrays": arrays(**NO_SIDES)[:1], "roof": roof}
-    (found,) = problems(make(tmp_path, **changes))
-    assert found.startswith(at(f"{FIRST}: A1 is outside the roof near x "))
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        (outlined() | {"arrays": arrays()},
+         f": x from is given, and A1 has an outline at {FIRST}; leave the four sides blank, or"
+         " delete the outline"),
+        (outlined(roof=ROOF_FT) | {"objects": [ROOF_AS_ID]},
+         "<Outlines/7/Outline of>: outline of 'roof', which is also the ID of an array or object;"
+         " give that another ID"),
+        # A1, an L, is beside the notch, which A2 spans.
+        (outlined(roof=NOTCHED), "A2 is outside the roof near x "),
+        (outlined(roof=NOTCHED), "or the outline of the roof at <Outlines/7/Outline of>"),
+        (outlined() | {"arrays": arrays(**NO_SIDES)[:1], "roof": ROOF_SIDES | {"y_to_m": 74 * FT}},
+         f"{FIRST}: A1 is outside the roof near x "),
+    ],
+)  # fmt: skip
+def test_what_contradicts_an_outline_is_told_by_its_cell(tmp_path, changes, words):
+    (line,) = problems(make(tmp_path, **changes))
+    assert at(words) in line
 
 
 def test_a_clearance_is_compared_with_the_gap_to_the_outline(tmp_path):

@@ -1,6 +1,7 @@
 """Cells are changed within the parts of a workbook; nothing else of it changes."""
 
 import io
+import itertools
 import re
 
 import numpy as np
@@ -19,10 +20,7 @@ from report.sheet.writing import style
 from sheets import at, edit, make, pack, parts
 from solver.model import InputError
 
-DRAWING = (
-    b'<xdr:wsDr xmlns:xdr="http://schemas.openxmlformats.org/drawingml/2006/spreadsheetDrawing">'
-    b"</xdr:wsDr>"
-)
+DRAWING = b"<a/>"  # whatever it is, it stays
 
 
 def place(name):
@@ -98,8 +96,7 @@ def test_only_the_changed_cells_change(book):
     assert b"<f>21000*2</f><v>42000</v>" in new[name]
     for key, value in typed.items():
         it, before = cell(now, key), cell(was, key)
-        assert it.value == value
-        assert it.number_format == before.number_format
+        assert (it.value, it.number_format) == (value, before.number_format)
         assert it.fill.fgColor.rgb == before.fill.fgColor.rgb
     assert b'fullCalcOnLoad="1"' in new["xl/workbook.xml"]
 
@@ -139,26 +136,19 @@ def test_a_cell_is_added_before_one_that_is_changed(book):
 def test_rows_are_added_to_a_sheet_without_any(book):
     path, _ = book
     edit(path, lambda opened: opened.create_sheet("Blank"))
-    cells = {
-        CellPosition("Blank", row, column): row * column for row in (2, 5) for column in (3, 1)
-    }
+    places = itertools.product((2, 5), (3, 1))
+    cells = {CellPosition("Blank", row, column): row * column for row, column in places}
     found = opened(after(path, cells))["Blank"]
     assert {at: found.cell(at.row, at.column).value for at in cells} == cells
 
 
 def test_any_number_is_written_as_one_and_a_cleared_cell_keeps_its_format(book):
-    values = {
-        HEIGHT: 3,
-        "Arrays/A2/CG height": 2.5,
-        "Arrays/A1/x to": np.float64(0.1),
-        "Arrays/A2/x to": 1e-12,
-        WEIGHT: None,
-    }
+    values = {HEIGHT: 3, "Arrays/A2/CG height": 2.5, "Arrays/A1/x to": np.float64(0.1),
+              "Arrays/A2/x to": 1e-12, WEIGHT: None}  # fmt: skip
     now = opened(after(book[0], {place(name): value for name, value in values.items()}))
     for name, value in values.items():
         it = cell(now, name)
-        assert it.value == value
-        assert it.fill.fgColor.rgb == style.INPUT_FILL.fgColor.rgb
+        assert (it.value, it.fill.fgColor.rgb) == (value, style.INPUT_FILL.fgColor.rgb)
 
 
 def test_a_table_grows_to_the_rows_below_it(tmp_path):
@@ -177,18 +167,14 @@ def test_a_shared_formula_is_refused(book):
     files = parts(path)
     first, below = named(WEIGHT), named(BELOW)
     shared = b'<f t="shared" ref="%b:%b" si="0">1</f>' % (first, below)
-    files[name] = re.sub(
-        whole(BELOW),
-        b'<c r="%b"><f t="shared" si="0"/><v>1</v></c>' % below,
-        files[name].replace(b"<f>21000*2</f>", shared),
-    )
+    again = b'<c r="%b"><f t="shared" si="0"/><v>1</v></c>' % below
+    files[name] = files[name].replace(b"<f>21000*2</f>", shared)
+    files[name] = re.sub(whole(BELOW), again, files[name])
     with pytest.raises(InputError, match=at(f"<{WEIGHT}>: shares its formula")):
-        changed(pack(path, files).read_bytes(), {place(WEIGHT): 1.0})
+        after(pack(path, files), {place(WEIGHT): 1.0})
 
 
-@pytest.mark.parametrize(
-    "entity", ['"ha"', 'SYSTEM "file:///etc/passwd"'], ids=["entity", "entity of a file"]
-)
+@pytest.mark.parametrize("entity", ['"ha"', 'SYSTEM "file:///etc/passwd"'])
 def test_a_part_with_a_document_type_is_refused(book, entity):
     path, name = book
     files = parts(path)
@@ -196,13 +182,13 @@ def test_a_part_with_a_document_type_is_refused(book, entity):
     doctype = f"<!DOCTYPE worksheet [<!ENTITY a {entity}>]>".encode()
     files[name] = head + doctype + b"<worksheet" + body.replace(b"Tray", b"&a;", 1)
     with pytest.raises(InputError, match="Arrays: has a document type"):
-        changed(pack(path, files).read_bytes(), {place(WEIGHT): 1.0})
+        after(pack(path, files), {place(WEIGHT): 1.0})
 
 
 @pytest.mark.quick
-def test_a_sheet_that_is_not_there_is_refused(tmp_path):
+def test_a_sheet_that_is_not_there_is_refused(book):
     with pytest.raises(InputError, match="Nowhere: the sheet is missing"):
-        changed(make(tmp_path).read_bytes(), {CellPosition("Nowhere", 1, 1): 1.0})
+        after(book[0], {CellPosition("Nowhere", 1, 1): 1.0})
 
 
 def test_a_folded_column_that_is_filled_is_shown_and_the_others_stay_folded(book):

@@ -7,9 +7,11 @@ from dataclasses import replace
 import pytest
 
 from inputs import FT, INCH, LB
-from report.sheet.checking.findings import lines, note, warning
+from report.sheet.checking.findings import lines, note, unusual, warning
 from report.sheet.checking.plausible import implausible
-from report.sheet.schema.fields import Level, Place
+from report.sheet.schema import SECTIONS
+from report.sheet.schema.choices import ObjectKind
+from report.sheet.schema.fields import Level, Place, entries
 from sheets import arrays, at, make, project, row_changed, told
 
 
@@ -84,16 +86,16 @@ def test_an_improbable_value_gives_one_warning(section, index, change, name, tex
 ISSUED, LATER = dt.date(2026, 3, 5), dt.date(2026, 3, 6)
 
 
-@pytest.mark.parametrize(
-    ("section", "field", "noun"),
-    [
-        ("options", "peer_date", "date of review"),
-        ("friction_tests", "date", "date of the test report"),
-        ("site", "hazard_date", "date of hazard"),
-        ("options", "directional_date", "date for direction"),
-    ],
-)
-def test_a_source_later_than_the_package_gives_a_warning(section, field, noun):
+DATED = {
+    ("options", "peer_date"): "date of review", ("site", "hazard_date"): "date of hazard",
+    ("friction_tests", "date"): "date of the test report",
+    ("options", "directional_date"): "date for direction",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("section", "field"), DATED)
+def test_a_source_later_than_the_package_gives_a_warning(section, field):
+    noun = DATED[section, field]
     assert warnings(row_changed(section, None, **{field: ISSUED})) == {}
     assert warnings(row_changed(section, None, **{field: LATER})) == {
         noun: f"{noun} is 2026-03-06, later than the package, 2026-03-05; correct one of them"
@@ -139,9 +141,7 @@ def test_a_site_coefficient_that_differs_from_its_table_gives_a_note(change, fie
         {"site_class": "D", "s_s_g": 1.271, "s_1_g": 0.455, "f_a": 1.0, "f_v": 1.845},
         {"site_class": "D (default)", "f_a": 1.2, "f_v": 1.7},
         # Site-specific in the table, or no row of it.
-        {"site_class": "E", "f_a": 0.8, "f_v": 0.8},
-        {"site_class": "CD", "f_a": 0.8, "f_v": 0.8},
-        {"site_class": None, "f_a": 0.8, "f_v": 0.8},
+        *({"site_class": name, "f_a": 0.8, "f_v": 0.8} for name in ("E", "CD", None)),
         {"rule_set": "ASCE 7-22", "f_a": 0.8, "f_v": 0.8, "s_ds_g": 1.0},
     ],
 )
@@ -255,3 +255,49 @@ def test_a_sample_far_above_all_others_gives_a_warning_that_names_it(tmp_path, i
         f"records/x.csv: {which} 57.31 g, and no other is more than 0.3 g; correct the file, or"
         " give another record"
     )
+
+
+@pytest.mark.parametrize(
+    ("section", "index", "change", "name", "text"),
+    [
+        ("arrays", 0, {"cg_height_m": 0.75 * INCH}, "usual CG height A1",
+         "CG height is 0.75 in; 4 to 36 in is usual: correct the value or its unit"),
+        ("arrays", 1, {"mu": 0.2}, "usual friction coefficient A2",
+         "friction coefficient is 0.2; 0.3 to 0.8 is usual: correct the value or its unit"),
+        ("objects", 0, {"height_m": 3.5 * INCH}, "usual height RTU-1", "3.5 in; 4 to 240 in is"),
+        ("clearances", 0, {"provided_m": 5 * INCH}, "usual provided clearance A1 to A2 across",
+         "provided clearance is 5 in; 6 to 600 in is usual"),
+        ("motions", 2, {"scale_value": 14.0}, "usual factor or PPA M3",
+         "factor or PPA is 14; 0.2 to 5 is usual"),
+        ("site", None, {"structure_height_m": 36 * INCH}, "usual structure height h",
+         "structure height h is 3 ft; 8 to 120 ft is usual"),
+        ("site", None, {"s_1_g": 0.02}, "usual S_1", "S_1 is 0.02 g; 0.03 to 1.5 g is usual"),
+    ],
+)  # fmt: skip
+def test_a_number_outside_its_usual_range_gives_a_warning(section, index, change, name, text):
+    (finding,) = unusual(row_changed(section, index, **change))
+    assert finding.id == name
+    assert finding.place == Place(section, index or 0, next(iter(change)))
+    assert text in finding.text
+
+
+def test_the_range_is_in_the_units_that_come_first():
+    metric = project().project.model_dump() | {"units_first": "SI"}
+    (finding,) = unusual(project(project=metric, arrays=arrays(cg_height_m=0.05)))
+    assert finding.text.startswith("CG height is 50 mm; 101.6 to 914.4 mm is usual")
+
+
+def test_the_limits_of_a_range_and_the_height_0_of_an_edge_without_parapet_are_usual():
+    for inches in (4, 36):
+        assert list(unusual(row_changed("arrays", 0, cg_height_m=inches * INCH))) == []
+    for kind, count in ((ObjectKind.EDGE_WITHOUT_PARAPET, 0), (ObjectKind.EDGE_WITH_PARAPET, 1)):
+        data = row_changed("objects", 0, kind=kind, height_m=0.0)
+        assert len(list(unusual(data))) == count
+
+
+def test_every_example_is_usual():
+    for section in SECTIONS:
+        for entry in entries(section.model):
+            if entry.cell.usual is not None:
+                low, high = entry.cell.usual
+                assert low <= entry.cell.example <= high

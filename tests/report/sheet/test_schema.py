@@ -49,13 +49,10 @@ def test_input_messages_fit_into_excel():
             assert not any("," in choice for choice in item.choices)
 
 
-def test_record_units_are_those_that_records_are_read_in():
-    assert entry(MotionInput, "units").choices == ("from file", *UNIT_CHOICES)
-
-
 def test_a_field_has_its_type_requirement_and_range():
     mu = entry(Array, "mu")
     assert (mu.kind, mu.is_required, mu.bounds.words()) == (float, True, "0 to 1.5")
+    assert entry(MotionInput, "units").choices == ("from file", *UNIT_CHOICES)
     step = entry(MotionInput, "dt_s")  # optional
     assert (step.kind, step.is_required, step.bounds.words()) == (float, False, "more than 0 to 1")
     assert mu.spoken == "friction coefficient"
@@ -65,40 +62,31 @@ def test_a_field_has_its_type_requirement_and_range():
     assert (client.default, client.max_length) == ("", 2000)
     assert entry(Array, "weight_n").quantity is Quantity.WEIGHT
     assert entry(Project, "date").kind is dt.date
-
-
-def test_yes_and_no_are_the_choices_of_a_boolean():
     assert entry(Options, "peer_reviewed").choices == tuple(YesNo)
 
 
-@pytest.mark.parametrize(
-    ("bounds", "words"),
-    [
-        (Bounds(), ""),
-        (Bounds(low=0), "0 or more"),
-        (Bounds(low=0, excludes_low=True), "more than 0"),
-        (Bounds(high=3), "at most 3"),
-        (Bounds(high=3, excludes_high=True), "less than 3"),
-        (Bounds(low=1, high=2), "1 to 2"),
-        (Bounds(low=1, high=2, excludes_low=True), "more than 1 to 2"),
-        (Bounds(low=1, high=2, excludes_high=True), "1 to less than 2"),
-    ],
-)
-def test_ranges_are_written_in_words(bounds, words):
-    assert bounds.words() == words
+RANGES = {
+    Bounds(): "",
+    Bounds(low=0): "0 or more",
+    Bounds(low=0, excludes_low=True): "more than 0",
+    Bounds(high=3): "at most 3",
+    Bounds(high=3, excludes_high=True): "less than 3",
+    Bounds(low=1, high=2): "1 to 2",
+    Bounds(low=1, high=2, excludes_low=True): "more than 1 to 2",
+    Bounds(low=1, high=2, excludes_high=True): "1 to less than 2",
+}
 
 
-def test_ranges_are_written_in_the_unit_of_the_sheet():
+def test_ranges_are_written_in_words_and_in_the_unit_of_the_sheet():
+    assert [bounds.words() for bounds in RANGES] == [*RANGES.values()]
     assert Bounds(low=0, high=10 * INCH).words(INCH) == "0 to 10"
 
 
 def test_slopes_become_angles():
     for value, unit, degrees in (
-        (3.0, SlopeUnit.DEGREES, 3.0),
-        (5.0, SlopeUnit.PERCENT, 2.8624052261117479),
-        (0.25, SlopeUnit.IN_PER_12, 1.1934894239820351),
-        (0.0, SlopeUnit.PERCENT, 0.0),
-    ):
+        (3.0, SlopeUnit.DEGREES, 3.0), (5.0, SlopeUnit.PERCENT, 2.8624052261117479),
+        (0.25, SlopeUnit.IN_PER_12, 1.1934894239820351), (0.0, SlopeUnit.PERCENT, 0.0),
+    ):  # fmt: skip
         assert math.degrees(slope_rad(value, unit)) == pytest.approx(degrees, rel=1e-12)
 
 
@@ -113,10 +101,9 @@ def test_input_models_are_frozen_and_accept_no_other_fields():
     site = Site(**SITE, s_ds_g=1.0)
     with pytest.raises(ValidationError):
         site.i_e = 1.5
-    with pytest.raises(ValidationError):
-        Site(**SITE, s_ds_g=1.0, color="red")
-    with pytest.raises(ValidationError):
-        Site(**SITE, s_ds_g=math.nan)
+    for wrong in ({"s_ds_g": 1.0, "color": "red"}, {"s_ds_g": math.nan}):
+        with pytest.raises(ValidationError):
+            Site(**SITE, **wrong)
 
 
 def test_rectangles_come_with_arrays_and_with_objects_that_have_all_sides():

@@ -9,37 +9,25 @@ import shapely
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from report.sheet.schema.shapes import (
-    Polygon,
-    Rectangle,
-    around,
-    between,
-    closest,
-    crossing,
-    gap_m,
-    merged,
-    outside,
-    ring,
-    room,
-    spans_near,
-)
+from report.sheet.schema import shapes
+from report.sheet.schema.shapes import Polygon, Rectangle, closest, crossing, gap_m, outside, ring
 
 # An L: 10 m x 10 m without its upper right 6 m x 6 m.
 L_SHAPE = Polygon(((0.0, 0.0), (10.0, 0.0), (10.0, 4.0), (4.0, 4.0), (4.0, 10.0), (0.0, 10.0)))
 
 
-@pytest.mark.parametrize(
-    ("other", "gap"),
-    [
-        (Rectangle(6, 8, 6, 8), 2.0),  # within the notch, 2 m from both legs
-        (Rectangle(7, 8, 6, 8), 2.0),  # 3 m from one leg, 2 m from the other
-        (Rectangle(13, 14, 8, 9), 5.0),  # 3-4-5 from the corner (10, 4)
-        (Rectangle(4, 6, 4, 6), 0.0),  # touches both legs
-        (Rectangle(10, 12, 0, 1), 0.0),
-        (Rectangle(3, 6, 6, 8), -1.0),  # 1 m into the upright leg
-        (Rectangle(1, 2, 1, 3), -1.0),  # within it: the smaller side
-    ],
-)
+GAPS = {
+    Rectangle(6, 8, 6, 8): 2.0,  # within the notch, 2 m from both legs
+    Rectangle(7, 8, 6, 8): 2.0,  # 3 m from one leg, 2 m from the other
+    Rectangle(13, 14, 8, 9): 5.0,  # 3-4-5 from the corner (10, 4)
+    Rectangle(4, 6, 4, 6): 0.0,  # touches both legs
+    Rectangle(10, 12, 0, 1): 0.0,
+    Rectangle(3, 6, 6, 8): -1.0,  # 1 m into the upright leg
+    Rectangle(1, 2, 1, 3): -1.0,  # within it: the smaller side
+}
+
+
+@pytest.mark.parametrize(("other", "gap"), GAPS.items())
 @pytest.mark.quick
 def test_the_gap_to_an_l_shape_by_hand(other, gap):
     assert gap_m(L_SHAPE, other) == pytest.approx(gap, abs=1e-12)
@@ -53,7 +41,9 @@ def test_closest_points_an_area_and_its_bounds_by_hand():
     assert closest(L_SHAPE, Rectangle(13, 14, 8, 9)) == ((10.0, 4.0), (13.0, 8.0))
     assert L_SHAPE.area_m2 == 64.0
     assert L_SHAPE.bounds == Rectangle(0.0, 10.0, 0.0, 10.0)
-    assert around([L_SHAPE, Rectangle(-1.0, 2.0, 3.0, 12.0)]) == Rectangle(-1.0, 10.0, 0.0, 12.0)
+    assert shapes.around([L_SHAPE, Rectangle(-1.0, 2.0, 3.0, 12.0)]) == Rectangle(
+        -1.0, 10.0, 0.0, 12.0
+    )
 
 
 boxes = st.tuples(*[st.floats(-20.0, 20.0), st.floats(0.1, 20.0)] * 2).map(
@@ -155,38 +145,38 @@ def test_what_is_outside_of_an_l_shaped_roof():
 
 def test_the_parts_of_a_strip_near_an_oblique_side():
     strip = Polygon(((0.0, 0.1), (0.1, 0.0), (3.1, 3.0), (3.0, 3.1)))
-    (part,) = spans_near(strip, (0.0, 0.0), (10.0, 10.0), 0.3)
+    (part,) = shapes.spans_near(strip, (0.0, 0.0), (10.0, 10.0), 0.3)
     along = [(x + y) / math.sqrt(2.0) for x, y in part]
     assert min(along) == pytest.approx(0.1 / math.sqrt(2.0))
     assert max(along) == pytest.approx(6.1 / math.sqrt(2.0))
-    assert spans_near(strip, (0.0, 5.0), (5.0, 10.0), 0.3) == []
+    assert shapes.spans_near(strip, (0.0, 5.0), (5.0, 10.0), 0.3) == []
 
 
 def test_merged_rings_have_no_holes():
     sides = [((0, 0), (5, 0), (5, 1), (0, 1)), ((4, 0), (5, 0), (5, 5), (4, 5)),
              ((0, 4), (5, 4), (5, 5), (0, 5)), ((0, 0), (1, 0), (1, 5), (0, 5))]  # fmt: skip
-    assert Polygon(merged(sides)).area_m2 == 25.0
+    assert Polygon(shapes.merged(sides)).area_m2 == 25.0
 
 
 def test_the_room_of_an_l_shape_is_its_larger_leg():
     long_leg = Polygon(((0, 0), (20, 0), (20, 4), (4, 4), (4, 10), (0, 10)))
-    assert room(long_leg) == Rectangle(0, 20, 0, 4)
-    assert room(Rectangle(0, 1, 0, 2)) == Rectangle(0, 1, 0, 2)
+    assert shapes.room(long_leg) == Rectangle(0, 20, 0, 4)
+    assert shapes.room(Rectangle(0, 1, 0, 2)) == Rectangle(0, 1, 0, 2)
 
 
 @settings(max_examples=30)
 @given(stars())
 def test_the_room_is_within(shape):
-    box = room(shape)
+    box = shapes.room(shape)
     assert box.area_m2 > 0.0
     assert outside(box, shape) is None
 
 
 @pytest.mark.quick
 def test_the_area_between_shapes():
-    notch = between(L_SHAPE, Rectangle(7.0, 9.0, 6.0, 8.0))
+    notch = shapes.between(L_SHAPE, Rectangle(7.0, 9.0, 6.0, 8.0))
     assert notch.bounds == Rectangle(7.0, 9.0, 4.0, 6.0)
-    assert between(L_SHAPE, Rectangle(10.0, 12.0, 0.0, 1.0)) is None
-    assert between(L_SHAPE, Rectangle(13, 14, 8, 9)) is None
-    common = between(L_SHAPE, Rectangle(3.0, 6.0, 6.0, 8.0))
+    assert shapes.between(L_SHAPE, Rectangle(10.0, 12.0, 0.0, 1.0)) is None
+    assert shapes.between(L_SHAPE, Rectangle(13, 14, 8, 9)) is None
+    common = shapes.between(L_SHAPE, Rectangle(3.0, 6.0, 6.0, 8.0))
     assert common.area_m2 == 2.0

@@ -42,9 +42,8 @@ def hide_options(path, state):
     [("hidden", "hidden"), ("veryHidden", "hidden so that Excel's menu does not list it")],
 )
 def test_an_override_on_a_hidden_sheet_is_a_warning(tmp_path, state, said):
-    path = make(tmp_path)
     sheet, column, row = cell_of("Options/1/Value")
-    ((name, _, text),) = told(hide_options(path, state))
+    ((name, _, text),) = told(hide_options(make(tmp_path), state))
     assert name == f"hidden sheet {sheet}"
     assert text.startswith(f"the sheet is {said}, and cells B")
     assert has(text, f"{column}{row}")
@@ -138,17 +137,23 @@ def looking(path, look):
     return edit(path, change)
 
 
-@pytest.mark.parametrize(
-    "look",
-    [
-        {"font": Font(color="FFFFFF"), "fill": PatternFill("solid", start_color="FFFFFF")},
-        {"font": Font(color="FFFDFB"), "fill": PatternFill()},
-        {"font": Font(color=Color(theme=0)), "fill": PatternFill()},
-        {"font": Font(color="FFF6CC")},  # that of the input cells
-        {"fill": PatternFill("solid", start_color="000000")},
-        {"number_format": ";;;"},
-    ],
+INVISIBLE = (
+    {"font": Font(color="FFFFFF"), "fill": PatternFill("solid", start_color="FFFFFF")},
+    {"font": Font(color="FFFDFB"), "fill": PatternFill()},
+    {"font": Font(color=Color(theme=0)), "fill": PatternFill()},
+    {"font": Font(color="FFF6CC")},  # that of the input cells
+    {"fill": PatternFill("solid", start_color="000000")},
+    {"number_format": ";;;"},
 )
+SEEN = (
+    {"font": Font(color="FF0000")},
+    {"font": Font(color=Color(theme=1)), "fill": PatternFill()},
+    {"font": Font(color=Color(indexed=8)), "fill": PatternFill()},
+    {"fill": PatternFill("darkGray", start_color="000000")},
+)
+
+
+@pytest.mark.parametrize("look", INVISIBLE)
 def test_a_number_that_cannot_be_seen_is_a_warning(tmp_path, look):
     ((name, place, text),) = told(looking(make(tmp_path), look))
     sheet, _, cell = place.partition("!")
@@ -159,15 +164,7 @@ def test_a_number_that_cannot_be_seen_is_a_warning(tmp_path, look):
     )
 
 
-@pytest.mark.parametrize(
-    "look",
-    [
-        {"font": Font(color="FF0000")},
-        {"font": Font(color=Color(theme=1)), "fill": PatternFill()},
-        {"font": Font(color=Color(indexed=8)), "fill": PatternFill()},
-        {"fill": PatternFill("darkGray", start_color="000000")},
-    ],
-)
+@pytest.mark.parametrize("look", SEEN)
 def test_text_in_another_color_is_no_warning(tmp_path, look):
     assert told(looking(make(tmp_path), look)) == []
 
@@ -222,13 +219,9 @@ def test_a_pasted_record_on_a_hidden_sheet_is_one_warning_and_a_note_of_the_reco
 
 @pytest.mark.quick
 def test_many_cells_are_named_by_their_first_ranges():
-    scattered = Unseen(
-        kind=Concealment.STRUCK,
-        sheet="Arrays",
-        state="visible",
-        place=Place("arrays", 0, "id"),
-        cells=tuple((row, column) for row in range(8, 31, 2) for column in (2, 3)),
-    )
+    cells = tuple((row, column) for row in range(8, 31, 2) for column in (2, 3))
+    place, kind = Place("arrays", 0, "id"), Concealment.STRUCK
+    scattered = Unseen(kind=kind, sheet="Arrays", state="visible", place=place, cells=cells)
     named = "B8:C8, B10:C10, B12:C12, B14:C14, B16:C16, B18:C18, B20:C20, B22:C22"
     assert scattered.words == f"cells {named} and 4 more ranges"
     pairs = tuple((row, column) for row in range(8, 31) for column in (2, 4))

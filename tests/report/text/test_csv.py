@@ -1,13 +1,16 @@
-"""Text for files: a field of a CSV is no formula to a spreadsheet."""
+"""Text for files: a field of a CSV is no formula; and whether tests validate the solution."""
 
 import csv
 import io
 
+import numba
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from report.text.formats import csv_text
+import tables
+from report.text.formats import NOT_VALIDATED, csv_text, explained, validation
+from solver.verification.shake_table import compare, table_tests
 
 pytestmark = pytest.mark.quick
 
@@ -40,3 +43,23 @@ def test_a_line_end_in_a_text_begins_no_row():
 @given(st.floats() | st.integers() | st.none())
 def test_a_value_that_is_no_text_is_as_python_prints_it(value):
     assert fields("a", value) == ["a", "" if value is None else str(value)]
+
+
+compiled = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="runs of whole records")
+
+
+def test_without_tests_nothing_is_validated_and_the_text_says_what_that_means():
+    assert validation(()) == NOT_VALIDATED
+    assert explained(()).startswith(f"{NOT_VALIDATED} The checks of the verification manual")
+
+
+@compiled
+@pytest.mark.parametrize(
+    ("ratio", "data", "is_validated"),
+    [(1.02, "measured", True), (1.02, "computed", False), (1.6, "measured", False)],
+)
+def test_only_accepted_measured_tests_validate(tmp_path, ratio, data, is_validated):
+    tables.write_folder(tmp_path, [ratio] * 5, data=data)
+    found = compare(table_tests(tmp_path))
+    assert (NOT_VALIDATED not in explained((found,))) is is_validated
+    assert validation((found,)) == explained((found,)) or not is_validated

@@ -6,19 +6,8 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from report.text.units import (
-    Quantity,
-    beside,
-    compared_pairs,
-    digits_down,
-    digits_up,
-    measured,
-    no_less,
-    number,
-    pair,
-    round_below,
-    round_down,
-)
+from report.text import units
+from report.text.units import Quantity, beside, digits_down, digits_up, measured, no_less, number
 
 pytestmark = pytest.mark.quick
 
@@ -45,7 +34,7 @@ def test_a_provided_value_prints_as_elsewhere_unless_that_shows_another_order():
     _, mm = Quantity.SIZE.value
     for required_m, shown in ((0.5486, "305"), (0.2, "305"), (0.3049, "304"), (math.nan, "305")):
         assert beside(required_m, 12.0 * 0.0254)(12.0 * 0.0254, mm) == shown
-    assert compared_pairs(0.3041, 0.3042, Quantity.SIZE, us_first=False) == (
+    assert units.compared_pairs(0.3041, 0.3042, Quantity.SIZE, us_first=False) == (
         "305 mm (12.0 in)",
         "305 mm (12.0 in)",
     )
@@ -57,7 +46,7 @@ def test_rounding_up_leaves_a_value_that_is_exact_in_its_unit():
     assert no_less(40.8001 * 0.0254, inch) == "40.9"
     for tenths in range(1, 2000):
         length_m, text = tenths / 10 * 0.0254, f"{tenths / 10:.1f}"
-        assert no_less(length_m, inch) == number(round_down(length_m / inch.si, 1), 1) == text
+        assert no_less(length_m, inch) == number(units.round_down(length_m / inch.si, 1), 1) == text
 
 
 @given(st.floats(1e-6, 999.0), st.integers(1, 4))
@@ -79,8 +68,8 @@ def test_no_value_and_an_infinite_one_have_their_signs():
     for show in (measured, no_less):
         assert show(math.nan, Quantity.SIZE.si) == "—"
         assert show(math.inf, Quantity.SIZE.si) == "∞"
-    assert math.isnan(round_down(math.nan, 1))
-    assert round_down(math.inf, 1) == math.inf
+    assert math.isnan(units.round_down(math.nan, 1))
+    assert units.round_down(math.inf, 1) == math.inf
 
 
 @pytest.mark.parametrize(
@@ -89,9 +78,9 @@ def test_no_value_and_an_infinite_one_have_their_signs():
      (12.345, "486.0 in (12345 mm)"), (-1.2346, "−48.6 in (−1235 mm)")],
 )  # fmt: skip
 def test_displacements_print_in_whole_millimeters_of_any_size(value_m, text):
-    assert pair(value_m, Quantity.DISPLACEMENT) == text
+    assert units.pair(value_m, Quantity.DISPLACEMENT) == text
 
 
 @pytest.mark.parametrize(("value", "length"), [(1.0, 1.0), (4.9, 2.0), (99.0, 50.0), (0.7, 0.5)])
 def test_the_bar_is_one_two_or_five(value, length):
-    assert round_below(value) == pytest.approx(length)
+    assert units.round_below(value) == pytest.approx(length)

@@ -1,0 +1,214 @@
+"""Records that a workbook names: which files it may, what is run of them, and what is refused."""
+
+import hashlib
+import os
+
+import numpy as np
+import pytest
+
+from sheets import at, make, of, problems, read_workbook, said, type_into
+
+
+@pytest.fixture(scope="module")
+def shaken(tmp_path_factory):
+    """The project, its first motion with a transverse record: with the slashes of Windows."""
+    path = recorded(make(tmp_path_factory.mktemp("shaken")), y="0.1\n" * 200)
+    return read_workbook(type_into(path, {"Motions/M1/Transverse record": "records\\y.csv"}))
+
+
+def test_motions_are_scaled_and_signed_as_requested(shaken):
+    m1, m2, m3 = shaken.motions
+    assert [m.id for m in shaken.motions] == ["M1", "M2", "M3"]
+    assert (m1.scale, m1.signs, m1.has_vertical, m1.source) == (1.0, (1, -1), True, "made")
+    assert (m2.scale, m2.signs, m2.has_vertical) == (2.0, (-1,), False)
+    assert m3.signs == (1,)
+    assert m3.scale * np.abs(m3.ax_mps2).max() == pytest.approx(1.5 * 9.80665, rel=1e-12)
+    assert (m1.dt_s, m3.dt_s) == (0.01, 0.02)
+
+
+def test_a_transverse_record_is_run_beside_the_horizontal_one_and_all_are_read_only(shaken):
+    m1, m2, _ = shaken.motions
+    assert np.allclose(m1.ay_mps2, 0.980665)
+    names = [[one.name for one in motion.orientations] for motion in (m1, m2)]
+    assert names == [["record +", "record −", "transverse +", "transverse −"], ["record −"]]
+    for motion in shaken.motions:
+        for a in (motion.ax_mps2, motion.ay_mps2, motion.az_mps2):
+            assert not a.flags.writeable
+
+
+def test_records_are_listed_with_their_hashes(shaken):
+    assert [(r.motion_id, r.component, r.name) for r in shaken.records] == [
+        ("M1", "horizontal", "records/x.csv"),
+        ("M1", "transverse", "records\\y.csv"),
+        ("M1", "vertical", "records/z.csv"),
+        ("M2", "horizontal", "records/x2.csv"),
+        ("M3", "horizontal", "records/x3.csv"),
+    ]
+    z = shaken.records[2]
+    data = (shaken.path.parent / "records" / "z.csv").read_bytes()
+    assert (z.sha256, z.npts) == (hashlib.sha256(data).hexdigest(), 200)
+    assert z.peak_g == pytest.approx(0.25, abs=1e-4)
+
+
+WITHIN = "give a file in the workbook's folder, such as records/m1-x.csv"
+NEARLY = {
+    "records/long_nmae.csv": "csv", "records/Long_Name.CSV": "csv", "records/long_name.at": "at2",
+    "recs/long_name.at2": "at2", "long_name.csv | EW": "csv",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", NEARLY)
+def test_a_file_name_that_nearly_fits_is_asked_about(tmp_path, name):
+    path = type_into(make(tmp_path), {"Motions/M1/Horizontal record": name})
+    for kind in ("at2", "csv"):
+        (path.parent / "records" / f"long_name.{kind}").write_text("acc_g\n0\n1\n")
+    (problem,) = problems(path)
+    asked = f"'{name.partition(' |')[0]}' does not exist"
+    assert problem.endswith(f"{asked}; did you mean 'records/long_name.{NEARLY[name]}'?")
+
+
+REFUSED = [
+    ("records/none.csv", f"'records/none.csv' does not exist; {WITHIN}"),
+    ("records", f"'records' is not a file; {WITHIN}"),
+    ("/etc/hostname", f"'/etc/hostname' is outside the workbook's folder; {WITHIN}"),
+    ("../x.csv", f"'../x.csv' is outside the workbook's folder; {WITHIN}"),
+    ("..\\x.csv", f"'../x.csv' is outside the workbook's folder; {WITHIN}"),
+    ("C:\\x.csv", f"'C:/x.csv' is outside the workbook's folder; {WITHIN}"),
+    ("\\\\host\\x", f"'//host/x' is outside the workbook's folder; {WITHIN}"),
+    ("link.csv", f"'link.csv' is a link to a file outside the workbook's folder; {WITHIN}"),
+    ("loop.csv", f"'loop.csv' cannot be found; {WITHIN}"),
+    ("n" * 300, f"'{'n' * 300}' cannot be found; {WITHIN}"),
+    ("pipe.csv", f"'pipe.csv' is not a file; {WITHIN}"),
+    ("big.csv", "'big.csv' has 65 MB; give at most 64 MB"),
+    ("input.xlsx",
+     "input.xlsx: not a text file; a zip or a workbook; unpack it, or save its sheet as CSV"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("start", range(0, len(REFUSED), 3))
+def test_a_record_must_be_a_file_within_the_folder(tmp_path, start):
+    """Three at a time: the workbook has three motions."""
+    cases, folder = REFUSED[start : start + 3], tmp_path / "job"
+    rows = [f"Motions/{row}/Horizontal record" for row in range(1, len(cases) + 1)]
+    path = type_into(make(folder), dict(zip(rows, [name for name, _ in cases], strict=True)))
+    (tmp_path / "outside.csv").write_text("0.1\n0.2\n")
+    (folder / "link.csv").symlink_to(tmp_path / "outside.csv")
+    (folder / "loop.csv").symlink_to(folder / "loop.csv")
+    os.mkfifo(folder / "pipe.csv")
+    with (folder / "big.csv").open("wb") as file:
+        file.truncate(65_000_000)
+    lines = zip(rows, cases, strict=True)
+    assert problems(path) == said(
+        *(f"<{row}>: horizontal record: {line}" for row, (_, line) in lines)
+    )
+
+
+def recorded(path, **texts):
+    """Write records beside the workbook."""
+    for name, text in texts.items():
+        (path.parent / "records" / f"{name}.csv").write_text(text)
+    return path
+
+
+def timed(step, count):
+    return "".join(f"{i * step:.2f},0.1\n" for i in range(count))
+
+
+CHANNELS = "time (s),East (g),North (g),Up (g)\n" + "".join(
+    f"{0.01 * i:.2f},{0.1 * i},{0.2 * i},{0.3 * i}\n" for i in range(101)
+)
+ONE_OF = "give one by name or number: 1 East; 2 North; 3 Up"
+AS_IN_FILE = of("Motions/M1", {"Record units": None, "Time step": None})
+PART = "0.1\n" * 100 + "0\n" * 100
+STILL = {"Motions/M2/Horizontal record": "records/still.csv"}
+FIRST, SECOND, THIRD = (f"<Motions/M{k}/Horizontal record>: horizontal record" for k in (1, 2, 3))
+VERTICAL = "<Motions/M1/Vertical record>: vertical record"
+NO_PEAK = "is all zeros and cannot be scaled to a"
+
+# Records, cells, and the resulting lines.
+FAULTS = [
+    ({"z": "0.1\nabc\n0.2\n"}, {}, f"{VERTICAL}: z.csv:2: found 'abc'; give a number"),
+    ({"x": timed(0.01, 150), "z": timed(0.02, 100)}, {"Motions/M1/Time step": None},
+     f"{VERTICAL} has a time step of 0.02 s, but the horizontal record has 0.01 s; make them"
+     " equal"),
+    ({"all": CHANNELS},
+     AS_IN_FILE | of("Motions/M1", {"Horizontal record": "records/all.csv",
+                                    "Vertical record": "records/all.csv | Down"}),
+     f"{FIRST}: all.csv: found several channels; {ONE_OF}",
+     f"{VERTICAL}: all.csv: found no channel 'Down'; {ONE_OF}"),
+    ({"x3": "0\n" * 200}, {}, f"{THIRD} {NO_PEAK} PPA; change the record or scaling"),
+    *(({"x": PART}, of("Motions/M1", {"Scaling": scaling, "Factor or PPA": scale, "Start time": 1}),
+       f"{FIRST} {NO_PEAK} {scaling}; change the record or scaling")
+      for scaling, scale in (("PPA", 1), ("target spectrum", None))),
+    # A verdict of OK followed from any of these.
+    ({"still": "0\n" * 200}, STILL, f"{SECOND} is all zeros; give a record of the shaking"),
+    *(({"still": samples}, STILL, f"{SECOND} lasts {lasts}; give a record of 1 s or more")
+      for samples, lasts in (("0.1\n-0.1\n", "0.01 s as run (2 samples)"),
+                             ("0.1\n-0.1\n" * 50, "0.99 s as run (100 samples)"))),
+    # Most of the weight was gone, or the block was pushed downslope by 1 g.
+    ({"still": "1.1\n0.9\n" * 100}, STILL,
+     f"{SECOND} has a mean of 1 g: gravity is in it; give it without, or remove the mean by the"
+     " column Baseline"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("case", FAULTS, ids=[lines[0][:70] for _, _, *lines in FAULTS])
+def test_a_record_that_cannot_be_run_is_refused_at_its_cell(tmp_path, case):
+    texts, cells, *lines = case
+    assert problems(type_into(recorded(make(tmp_path), **texts), cells)) == said(*lines)
+
+
+@pytest.mark.parametrize(
+    ("cells", "wanted"),
+    [
+        # Units that neither file nor sheet states are requested; those that differ are reported.
+        ({"Record units": "from file"},
+         {"Horizontal record": "give units, one of", "Vertical record": "give units, one of"}),
+        ({"Horizontal record": "records/all.csv | 1", "Vertical record": None,
+          "Record units": "cm/s2"},
+         {"Horizontal record": "horizontal record: all.csv:1: the file is in g but units"}),
+        ({"Low-pass corner": 60},
+         {"Horizontal record": "horizontal record: x.csv: low-pass corner is 60 Hz; give"}),
+        # Records are checked even if their row has other errors.
+        ({"ID": None, "Record units": "furlongs", "Horizontal record": "records/none.csv"},
+         {"ID": "", "Horizontal record": "does not exist", "Record units": "furlongs"}),
+    ],
+)  # fmt: skip
+def test_what_does_not_suit_a_record_is_reported_at_its_cell(tmp_path, cells, wanted):
+    path = type_into(recorded(make(tmp_path), all=CHANNELS), of("Motions/M1", cells))
+    for line, (heading, words) in zip(problems(path), wanted.items(), strict=True):
+        assert line.startswith(at(f"<Motions/M1/{heading}>: "))
+        assert words in line
+
+
+def test_components_of_different_length_are_trimmed(tmp_path):
+    path = recorded(make(tmp_path), x="0.1\n-0.2\n" * 100, z="0.1\n-0.2\n" * 98)
+    book = read_workbook(path)
+    assert len(book.motions[0].ax_mps2) == len(book.motions[0].az_mps2) == 196
+    x, z = book.records[:2]
+    assert (x.npts, x.npts_trimmed, z.npts_trimmed, z.notes) == (200, 4, 0, ())
+    assert x.notes[-1] == "last 4 of 200 samples trimmed, to the length of the shortest component"
+    # Not up to a common end time.
+    book = read_workbook(type_into(path, {"Motions/M1/End time": 1.5}))
+    assert len(book.motions[0].ax_mps2) == len(book.motions[0].az_mps2) == 151
+    assert [record.npts_trimmed for record in book.records[:2]] == [0, 0]
+
+
+@pytest.mark.parametrize("names", [("East", "north", " UP "), ("1", "2", "3")])
+def test_channels_of_one_file_are_components(tmp_path, names):
+    channels = dict(zip(("Horizontal", "Transverse", "Vertical"), names, strict=True))
+    cells = {f"Motions/M1/{c} record": f"records/all.csv | {n}" for c, n in channels.items()}
+    book = read_workbook(type_into(recorded(make(tmp_path), all=CHANNELS), cells | AS_IN_FILE))
+    first = book.motions[0]
+    for a, slope in ((first.ax_mps2, 0.1), (first.ay_mps2, 0.2), (first.az_mps2, 0.3)):
+        assert a == pytest.approx(slope * 9.80665 * np.arange(101))
+    assert book.records[1].name == f"records/all.csv | {names[1]}".strip()
+    assert book.records[1].format == "text"
+
+
+def test_one_horizontal_record_of_zeros_is_read_if_the_other_shakes(tmp_path):
+    path = recorded(make(tmp_path), still="0\n" * 200)
+    cells = STILL | {"Motions/M2/Transverse record": "records/x2.csv"}
+    motion = read_workbook(type_into(path, cells)).motions[1]
+    assert not motion.ax_mps2.any()
+    assert motion.ay_mps2.any()
