@@ -4,7 +4,6 @@ import os
 import signal
 
 import pytest
-from test_study_read import command, write
 
 from report.study import run as clusters
 from report.study.manifest import manifest_of
@@ -12,6 +11,7 @@ from report.study.parts import begin, done_parts, part_name, run_missing
 from report.study.run import connected, run_on_cluster
 from solver.model import InputError
 from studied import KEY, campaign, row_bytes
+from study_books import command, write
 
 pytestmark = pytest.mark.filterwarnings("ignore")
 

@@ -10,7 +10,6 @@ import pytest
 from hypothesis import HealthCheck, example, settings
 from hypothesis import given as over
 from hypothesis import strategies as st
-from test_study_read import given, sheet_rows, with_study, write
 
 import printed
 import stand_in
@@ -28,6 +27,7 @@ from solver.rules.provisions import (
     prescriptive_displacement,
 )
 from solver.studies.fragility import Lognormal
+from study_books import given, sheet_rows, with_study, write
 
 S_DS = 1.0
 S_DS_GIVEN = {"intensity": Intensity.S_DS, "s_ds_g": 0.5, "intensities": "0.5, 1, 2"}

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 import pytest
-from test_study_read import command, given, sheet_rows, write
 
 import printed
 from report.study.array_capacities import curves_of
@@ -18,6 +17,7 @@ from report.study.wording import dispersions, exported, headline
 from solver.studies.capacity import capacities
 from solver.studies.fragility import fit_lognormal
 from solver.studies.runs import Runner, Track
+from study_books import command, given, sheet_rows, write
 
 SIGMA = np.log([0.38, 0.40, 0.42]).std(ddof=1)
 """Standard deviation of ln of the tests of mat A."""

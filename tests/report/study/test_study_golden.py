@@ -3,12 +3,11 @@
 import re
 
 import pytest
-from test_study import small
-from test_study_read import write
 
 import printed
 from report.study.run import planned, run_study
 from report.study.schema import Intensity
+from study_books import small, write
 
 pytestmark = pytest.mark.quick
 

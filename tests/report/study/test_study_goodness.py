@@ -6,7 +6,6 @@ import re
 
 import numpy as np
 import pytest
-from test_study_read import given, sheet_rows, write
 
 import printed
 from report.study.array_page import fragility as pages
@@ -15,6 +14,7 @@ from report.study.run import planned, run_study
 from report.text.units import digits_down
 from solver.studies.capacity import Capacities
 from solver.studies.fragility import fragility
+from study_books import given, sheet_rows, write
 
 LEVELS = np.array([0.5, 1.0, 1.5, 2.0])
 

@@ -6,10 +6,10 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
-from test_study_read import command, write
 
 from report.study.manifest import KEY_BYTES, state_folder, user_key
 from solver.model import InputError
+from study_books import command, write
 
 pytestmark = pytest.mark.quick
 

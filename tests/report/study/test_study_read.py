@@ -1,120 +1,29 @@
 """The study workbook: what is written is read, and every error names its cell."""
 
-import datetime as dt
-import io
 import shutil
-from dataclasses import replace
-from functools import cache
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from zipfile import ZipFile
 
 import pytest
-from click.testing import CliRunner
-from openpyxl import load_workbook
 
-from cells import address, addressed, cell
+from cells import address, cell
 from places import ROOT
 from projects.study.make import study
-from report.cli.main import main
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import UnitsFirst
-from report.study.plan import plan_study
 from report.study.read import read_study, write_study
 from report.study.schema import (
     Intensity,
     Mat,
     Sampling,
-    Study,
-    StudyArray,
     StudyBuilding,
-    StudyInput,
     StudyMotion,
     values,
 )
-from report.study.shaking import study_motions
-from report.study.tables import study_xlsx
 from sheets import edit, type_into
 from solver.model import InputError
-from solver.records.record import Record, write_record
-from studied import wave
+from study_books import at, command, given, plan, problems, usual, write
 
 FOLDER = "<Study/Folder of motions>"
-ABOUT = {
-    "title": "A study",
-    "date": dt.date(2026, 3, 1),
-    "slopes_deg": "0, 2, 4",
-    "intensities": "0.5 to 2 by 0.5",
-    "folder": "records",
-}
-
-
-def given(**changes):
-    """A complete study; fields of the sheet Study by name, and whole tables."""
-    tables = {
-        "mats": (Mat(id="A", mu=0.4, tested="0.38, 0.40, 0.42"), Mat(id="B", mu=0.6)),
-        "study_arrays": (StudyArray(id="S1", mat="a", slope_deg=2.0, clearance_m=0.3),),
-    }
-    names = StudyInput.model_fields.keys() - {"study"}
-    tables |= {name: changes.pop(name) for name in list(changes) if name in names}
-    return StudyInput(study=Study(**{**ABOUT, **changes}), **tables)
-
-
-def write(folder, study=None, *, motions=3, letters="x"):
-    """Write a study and its records; return the folder."""
-    records = folder / "records"
-    records.mkdir(parents=True, exist_ok=True)
-    for number in range(motions):
-        for at, letter in enumerate(letters):
-            name = f"M{number}-{letter}"
-            record = Record(name=name, dt_s=0.02, a_mps2=wave(10 * number + at))
-            write_record(records / f"{name}.csv", record)
-    write_study(folder / "input.xlsx", units=UnitsFirst.US, example=study or given())
-    return folder
-
-
-def command(source, *options):
-    """Do what `roofslip study` does with a folder or a workbook."""
-    return CliRunner().invoke(main, ["study", str(source), *map(str, options)])
-
-
-def with_study(results, **changes):
-    """The results of a study whose sheet Study has other values."""
-    former = results.plan.input
-    study = former.study.model_copy(update=changes)
-    altered = former.model_copy(update={"study": study})
-    return replace(results, plan=replace(results.plan, input=altered))
-
-
-def sheet_rows(results, sheet):
-    """The rows of a sheet of study.xlsx, each cell by its heading."""
-    heads, *rows = load_workbook(io.BytesIO(study_xlsx(results)))[sheet].values
-    return [dict(zip(heads, row, strict=True)) for row in rows]
-
-
-def plan(folder):
-    sheet = read_study(folder)
-    return plan_study(sheet, study_motions(sheet))
-
-
-def problems(folder):
-    with pytest.raises(InputError) as caught:
-        plan(folder)
-    return "\n".join(caught.value.problems)
-
-
-@cache
-def usual():
-    """The bytes of a complete study: its rows and columns are those of every other."""
-    with TemporaryDirectory() as folder:
-        path = Path(folder) / "input.xlsx"
-        write_study(path, units=UnitsFirst.US, example=given())
-        return path.read_bytes()
-
-
-def at(text):
-    """A line with the addresses of the cells of a study that it names as `<Study/Slopes>`."""
-    return addressed(usual(), text)
 
 
 @pytest.mark.parametrize(

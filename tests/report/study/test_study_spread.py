@@ -10,7 +10,6 @@ from statistics import NormalDist
 import defusedxml.ElementTree
 import numpy as np
 import pytest
-from test_study_read import command, given, with_study, write
 
 import printed
 from report.study import files
@@ -25,6 +24,7 @@ from solver.studies.capacity import Capacities
 from solver.studies.fragility import Fragility, Lognormal
 from solver.studies.uncertainty import Spread
 from studied import motion
+from study_books import command, given, with_study, write
 
 
 def like(number, factor):

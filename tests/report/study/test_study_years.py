@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from openpyxl import load_workbook
-from test_study_read import given, plan, problems, write
 
 import printed
 from report.sheet.reading.linked_files import SUPPORTING, StudyYears
@@ -20,6 +19,7 @@ from report.study.years import RECURRENCES
 from solver.friction_tests import Surface
 from solver.model import InputError
 from solver.studies.rates import exceedance_rates
+from study_books import given, plan, problems, write
 
 POINTS = ((0.01, 0.5), (0.1, 0.05), (0.3, 0.006), (1.0, 1e-4), (3.0, 5e-7), (7.0, 0.0))
 TWO = "im_g,annual_rate\n" + "\n".join(f"{x},{rate}" for x, rate in POINTS) + "\n"
