@@ -322,6 +322,6 @@ def test_one_array_with_one_clearance_has_at_most_12_sheets(tmp_path):
         given | {"arrays": first, "clearances": gap, "objects": near}
     )
     shutil.copytree(PROJECTS / "example" / "records", tmp_path / "records")
-    write_template(tmp_path / "input.xlsx", units=project.units_first, example=project)
+    write_template(tmp_path / "input.xlsx", units=project.project.units_first, example=project)
     _, _, made, _ = make(tmp_path / "input.xlsx", None, None, lambda _: None)
     assert len(PdfReader(io.BytesIO(made["calc-package.pdf"])).pages) <= 12
