@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Any
 
 from report.assessment.arrays import NOT_PERMITTED
@@ -105,8 +105,10 @@ def answer(
 
 
 def _line(assessment: Assessment) -> str:
-    """Return the worst clearance and the other causes, for one line."""
+    """Return the worst clearance, the first other cause and how many there are, for one line."""
     short, causes = short_clearances(assessment), outcome(assessment)
+    if more := causes.others[1:]:
+        causes = replace(causes, others=(f"{causes.others[0]} and {len(more)} more",))
     words = causes.causes(assessment.project.us_first)
     return f"{words}; {len(short)} clearances NG" if len(short) > 1 else words
 

@@ -219,7 +219,7 @@ function fillSelects() {
 // The session reports: a slider moves, the full model runs, or an answer came.
 function show({ phase, answer: next }) {
   document.body.dataset.phase = phase;
-  part("changed").textContent = `Values: ${changes(session.values(), state)}`;
+  part("changed").textContent = `With ${changes(session.values(), state)}`;
   part("changed").title = part("changed").textContent;
   if (next) {
     hideError();

@@ -245,7 +245,7 @@ def test_undo_and_back_return_to_the_values_before_and_never_leave_the_project(p
     moved(page, "slope", 1.0)
     page.wait_for_url("**/#friction=0.9&slope=1")
     at_rest(page)
-    assert page.inner_text("#changed") == "Values: Friction × 0.90, Slope +1.0°"
+    assert page.inner_text("#changed") == "With Friction × 0.90, Slope +1.0°"
     page.keyboard.press("Control+z")
     page.wait_for_url("**/#friction=0.9")
     assert page.locator("#slider-slope").input_value() == "0"
@@ -260,7 +260,7 @@ def test_undo_and_back_return_to_the_values_before_and_never_leave_the_project(p
     at_rest(page)
     page.click("#reset-all")
     page.wait_for_url(re.compile(r"/$"))
-    assert page.inner_text("#changed") == "Values: the values of the workbook"
+    assert page.inner_text("#changed") == "With the values of the workbook"
 
 
 @pytest.mark.nightly
