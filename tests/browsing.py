@@ -130,3 +130,20 @@ def moved(page, slider, value):
         }""",
         value,
     )
+
+
+def verdicts(page):
+    """The verdict of the project and those in the tables."""
+    return page.locator("#verdict .tag, #results .tag").all_inner_texts()
+
+
+def numbers(page, table, column):
+    """A column of a table."""
+    return page.locator(f"#{table} tbody tr > :nth-child({column})").all_inner_texts()
+
+
+def saved(page, click):
+    """Name and bytes of what a click saves."""
+    with page.expect_download() as download:
+        click()
+    return download.value.suggested_filename, download.value.path().read_bytes()

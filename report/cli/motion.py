@@ -236,7 +236,7 @@ def rows(
         from report.motions.sets import sets_of, table
         from report.results.motions import row_cells, set_rows
         from report.sheet.writing.filled import changing
-        from report.web.receiving import unpack
+        from report.web.files import unpack
         from solver.model import InputError
 
         if project and not at:

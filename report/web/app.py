@@ -22,8 +22,7 @@ from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
 from report.web.access import ENTRY, TOKEN_HEADER, Access, Keys
-from report.web.downloads import package_routes, workbook
-from report.web.receiving import is_alone, receive_json, received, remove
+from report.web.files import is_alone, package_routes, receive_json, received, remove, workbook
 from report.web.session import (
     EXAMPLE,
     Desk,

@@ -3,6 +3,7 @@
 import pytest
 from starlette.testclient import TestClient
 
+from browsing import opened, quiet_page, served
 from report.web.access import KEY_HEADER, Keys
 from report.web.app import made
 from report.web.session import Desk
@@ -44,3 +45,21 @@ def client(visitor, keys):
 @pytest.fixture
 def desk(serving):
     return serving.app.state.desk
+
+
+@pytest.fixture(scope="module")
+def server():
+    with served() as server:
+        yield server
+
+
+@pytest.fixture(scope="module")
+def address(server):
+    return server[0]
+
+
+@pytest.fixture
+def page(browser, address):
+    with quiet_page(browser) as page:
+        opened(page, address)
+        yield page

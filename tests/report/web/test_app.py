@@ -16,8 +16,8 @@ from nightly import by_day
 from places import ROOT
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import ClearanceSource
-from report.web import receiving
 from report.web.access import KEY_HEADER
+from report.web.files import store
 from report.web.worker import State, answered
 from sheets import SECTIONS, at, make, type_into
 
@@ -177,16 +177,14 @@ def test_a_folder_and_its_zip_give_the_same_state(client):
 
 
 def test_of_two_uploads_the_last_is_open_whichever_arrives_first(client, monkeypatch):
-    store = receiving.store
-
     def meanwhile(files, folder):
         """While the first is stored, the second comes and is read."""
-        monkeypatch.setattr(receiving, "store", store)
+        monkeypatch.setattr("report.web.files.store", store)
         arrived.append(sent(client, folder_of(CONDITIONS)).json()["project"]["name"])
         return store(files, folder)
 
     arrived = []
-    monkeypatch.setattr(receiving, "store", meanwhile)
+    monkeypatch.setattr("report.web.files.store", meanwhile)
     told = error_of(sent(client, folder_of(EXAMPLE)))
     assert told.startswith("Another project was opened meanwhile")
     state = state_of(client)
@@ -220,7 +218,7 @@ IS_FULL = "The disk is full"
 @pytest.mark.parametrize(
     ("fails", "ask"),
     [
-        (["report.web.receiving.store"], lambda client: sent(client, folder_of(EXAMPLE))),
+        (["report.web.files.store"], lambda client: sent(client, folder_of(EXAMPLE))),
         (
             ["os.link", "shutil.copyfile"],
             lambda client: client.post("/api/package", json={"values": {}}),
@@ -355,7 +353,7 @@ def test_a_package_of_a_workbook_that_is_no_longer_open_is_not_begun(client, mon
         client.post("/api/example")
 
     sent(client, folder_of(EXAMPLE))
-    monkeypatch.setattr("report.web.downloads.copied", meanwhile)
+    monkeypatch.setattr("report.web.files.copied", meanwhile)
     told = error_of(client.post("/api/package", json={"values": {}}))
     assert told.startswith("Another workbook was opened meanwhile")
 

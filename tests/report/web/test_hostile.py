@@ -9,7 +9,6 @@ import json
 import pytest
 
 from places import ROOT
-from report.web import receiving
 from report.web.access import KEY_HEADER
 from sheets import type_into
 
@@ -23,7 +22,7 @@ def sent(client, *files):
 
 
 def test_a_body_that_is_too_long_is_not_read_to_its_end(client, monkeypatch):
-    monkeypatch.setattr(receiving, "MOST_SENT", 100_000)
+    monkeypatch.setattr("report.web.files.MOST_SENT", 100_000)
     assert sent(client, ("input.xlsx", bytes(200_000))).status_code == 413
     taken = []
 

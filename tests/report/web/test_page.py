@@ -1,51 +1,28 @@
-"""The page in a real browser, with a real server: what a user sees and takes away."""
+"""The page in a real browser, with a real server: what a user sees and moves."""
 
-import base64
-import io
-import json
-import math
 import os
 import re
-import shutil
 import signal
 from urllib.parse import urlsplit
-from xml.etree import ElementTree
 
-import openpyxl
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from pypdf import PdfReader
 
-import cells
-from browsing import DESK, PHONE, TABLET, at_rest, moved, opened, processes_of, quiet_page, served
-from inputs import FT
+from browsing import (
+    PHONE,
+    TABLET,
+    at_rest,
+    moved,
+    numbers,
+    opened,
+    processes_of,
+    quiet_page,
+    verdicts,
+)
 from nightly import by_day
 from places import ROOT
-from report.sheet.reading.read import read
-from sheets import SECTIONS, blank, make, type_into
-from sketch import BOX_FT, ROOF_FT, Sketch
 
 EXAMPLE = ROOT / "projects" / "example"
-CONDITIONS = ROOT / "projects" / "conditions"
-INCH_M = 0.0254
-
-
-@pytest.fixture(scope="module")
-def server():
-    with served() as server:
-        yield server
-
-
-@pytest.fixture(scope="module")
-def address(server):
-    return server[0]
-
-
-@pytest.fixture
-def page(browser, address):
-    with quiet_page(browser) as page:
-        opened(page, address)
-        yield page
 
 
 @pytest.fixture(scope="module")
@@ -54,27 +31,6 @@ def untouched(browser, address):
     with quiet_page(browser) as page:
         opened(page, address)
         yield page
-
-
-def verdicts(page):
-    return page.locator("#verdict .tag, #results .tag").all_inner_texts()
-
-
-def numbers(page, table, column):
-    return page.locator(f"#{table} tbody tr > :nth-child({column})").all_inner_texts()
-
-
-def required(clearance):
-    """A required separation [in], rounded up where a smaller one provided would print alike."""
-    needed, given = (clearance[name] / INCH_M for name in ("required_m", "provided_m"))
-    is_alike = needed > given and f"{needed:.1f}" == f"{given:.1f}"
-    return f"{math.ceil(10 * needed - 1e-6) / 10 if is_alike else needed:.1f} in"
-
-
-def saved(page, click):
-    with page.expect_download() as download:
-        click()
-    return download.value.suggested_filename, download.value.path().read_bytes()
 
 
 def test_a_first_visit_shows_the_example_running_and_says_what_to_do(untouched):
@@ -289,23 +245,6 @@ def test_units_are_a_choice_of_the_page_and_of_what_is_saved(page):
     assert "mm" in page.inner_text("#verdict")
 
 
-@pytest.mark.parametrize("tab", ["plan", "contour", "paths"])
-@pytest.mark.nightly
-def test_a_drawing_is_saved_as_svg_and_png(page, tab):
-    page.click(f"#tab-{tab}")
-    page.wait_for_selector(f"#{tab} svg text")
-    name, vector = saved(page, lambda: page.click("#save-svg"))
-    assert name.endswith(f"{tab}.svg")
-    texts = [
-        each.text for each in ElementTree.fromstring(vector).iter() if each.tag.endswith("text")
-    ]
-    assert {"plan": "PV-OLD", "contour": "Slope [deg]", "paths": "downslope"}[tab] in texts
-    name, bytes_ = saved(page, lambda: page.click("#save-png"))
-    wide, tall = (int.from_bytes(bytes_[at : at + 4], "big") for at in (16, 20))
-    box = page.locator(f"#{tab}").bounding_box()
-    assert (wide, tall) == pytest.approx((2 * box["width"], 2 * box["height"]), abs=2)
-
-
 WATCH = """() => {
   window.seen = [];
   const visible = (all) => [...document.querySelectorAll(all)]
@@ -373,46 +312,6 @@ def test_the_verdict_blanks_with_the_change_and_stays_so_until_its_answer(page, 
 
 
 @pytest.mark.nightly
-def test_a_link_restores_the_values_and_reset_those_of_the_workbook(page, address):
-    moved(page, "slope", 1.0)
-    page.wait_for_url("**/#slope=1")
-    shown = numbers(page, "arrays", 3)
-    page.reload()
-    at_rest(page)
-    assert page.locator("#slider-slope").input_value() == "1"
-    assert numbers(page, "arrays", 3) == shown
-    page.get_by_label("Slope: back to the workbook's value").click()
-    page.wait_for_url(re.compile(r"/$"))
-    assert numbers(page, "arrays", 3) != shown
-
-
-@pytest.mark.nightly
-def test_an_address_is_good_once_and_the_page_gives_another_one(page, browser, address):
-    moved(page, "slope", 1.0)
-    page.wait_for_url("**/#slope=1")
-    page.evaluate("() => { navigator.clipboard.writeText = () => Promise.reject(); }")
-    page.click("#copy-link")
-    link = page.locator("#package-status input").input_value()
-    with quiet_page(browser) as other:
-        other.goto(link)
-        at_rest(other)
-        assert other.url == page.url  # the token has left the address
-        assert other.locator("#slider-slope").input_value() == "1"
-        assert other.context.cookies() == []
-        other.reload()
-        at_rest(other)
-    for used in (link, link.partition("?")[0]):
-        with quiet_page(browser) as third:
-            assert third.goto(used).status == (403 if used == link else 200)
-            third.wait_for_selector("#no-key:visible")
-            assert "press Enter in the terminal" in third.inner_text("#no-key")
-            assert third.inner_text("h1") == "This tab needs a new address"
-            assert third.locator("#desk, .open").evaluate_all(
-                "(all) => all.every((one) => !one.checkVisibility())"
-            )
-
-
-@pytest.mark.nightly
 def test_the_page_works_with_the_keyboard_alone(page):
     def tabbed_to(selector):
         for _ in range(40):
@@ -449,189 +348,6 @@ def test_a_value_that_the_workbook_refuses_gets_its_reason_and_no_verdict(page):
     page.get_by_label("Friction: back to the workbook's value").click()
     at_rest(page)
     assert verdicts(page)[0] == "OK with conditions"
-
-
-@pytest.mark.nightly
-def test_errors_are_listed_by_cell_beside_a_picture_of_the_row(page, tmp_path):
-    project, name = tmp_path / "yours", "Arrays/A2/CG height"
-    shutil.copytree(EXAMPLE, project, ignore=shutil.ignore_patterns("out"))
-    book = type_into(project / "input.xlsx", {name: "low"})
-    page.set_input_files("#folder", project)
-    page.wait_for_selector("#problems tbody tr")
-    where = page.locator("#problems tbody th").first.inner_text()
-    assert where.startswith(cells.address(book, name))
-    assert page.locator("#problems .is-faulty").first.inner_text().startswith("low")
-    assert page.locator("#desk").is_hidden()
-    assert page.evaluate("document.activeElement.textContent") == "Errors in the workbook"
-    page.click("text=Back to Distribution Warehouse")
-    page.wait_for_selector("#problems", state="hidden")
-    assert "Distribution Warehouse" in page.inner_text("h1")
-    moved(page, "friction", 0.95)
-    page.wait_for_url("**/#friction=0.95")
-    at_rest(page)
-
-
-@pytest.mark.nightly
-def test_of_a_workbook_that_is_sent_alone_the_page_says_first_that_its_records_are_missing(page):
-    page.set_input_files("#files", EXAMPLE / "input.xlsx")
-    page.wait_for_selector("#problems tbody tr")
-    assert page.inner_text("#problems h2") == "The records were not sent"
-    assert page.inner_text("#problems p").startswith("The workbook came alone. Drop its folder")
-
-
-@pytest.mark.nightly
-def test_what_is_sent_is_told_before_the_server_answers_and_the_example_as_well(page, tmp_path):
-    held = []
-    page.route("**/api/upload", lambda route: held.append(route))
-    sent(page, CONDITIONS, tmp_path / "conditions")
-    page.wait_for_selector("#busy:has-text('Sending and checking')")
-    held[0].continue_()
-    page.wait_for_selector("h1:has-text('Small Warehouse')")
-    assert page.locator("#busy").is_hidden()
-    page.click("#example")
-    page.wait_for_selector("h1:has-text('Distribution Warehouse')")
-    page.wait_for_selector("#busy", state="hidden")
-
-
-@pytest.mark.nightly
-def test_names_of_40_characters_are_cut_with_the_whole_as_a_tooltip(page, tmp_path):
-    long = {name: f"{name} of the roof north of the expansion jt" for name in ("A1", "A2")}
-    rows = {
-        section: [dict(row) for row in SECTIONS[section]] for section in ("arrays", "clearances")
-    }
-    for row in (*rows["arrays"], *rows["clearances"]):
-        row |= {key: long[row[key]] for key in ("id", "array", "object") if row.get(key) in long}
-    make(tmp_path, **rows)
-    page.set_input_files("#folder", tmp_path)
-    page.wait_for_selector(f"#arrays th[title='{long['A1']}']")
-    at_rest(page)
-    assert page.locator("#clearances th[title]").first.get_attribute("title").count(" ") > 8
-    for size in (DESK, TABLET, PHONE):
-        page.set_viewport_size(size)
-        assert page.evaluate("document.body.scrollWidth <= innerWidth"), size
-        name = page.locator("#arrays tbody .cut").first
-        assert name.evaluate("(one) => one.scrollWidth > one.clientWidth"), size
-
-
-@pytest.mark.nightly
-def test_a_folder_that_is_dropped_is_read_with_its_paths(page):
-    workbook = base64.b64encode((EXAMPLE / "input.xlsx").read_bytes()).decode()
-    page.evaluate(
-        """(workbook) => {
-          // What a browser gives for a dropped folder, which no script can make.
-          const bytes = Uint8Array.from(atob(workbook), (letter) => letter.charCodeAt(0));
-          const entry = (path, content) => ({ isFile: true, fullPath: `/mine/${path}`,
-            file: (done) => done(new File([content], path.split("/").at(-1))) });
-          const listed = [entry("input.xlsx", bytes), entry("~$input.xlsx", "locked"),
-            entry("records/RM1-x.csv", "0 0")];
-          const folder = { isFile: false, fullPath: "/mine",
-            createReader: () => ({ readEntries: (done) => done(listed.splice(0, 2)) }) };
-          const drop = new Event("drop", { bubbles: true, cancelable: true });
-          drop.dataTransfer = { items: [{ webkitGetAsEntry: () => folder }] };
-          document.body.dispatchEvent(drop);
-        }""",
-        workbook,
-    )
-    page.wait_for_selector("#problems tbody tr")
-    files = page.inner_text("#problems")
-    assert "records/RM1-y.csv" in files
-    assert "RM1-x.csv does not exist" not in files
-
-
-@pytest.mark.nightly
-def test_real_files_that_are_dragged_onto_the_page_are_opened(page, tmp_path):
-    folder = tmp_path / "small"
-    shutil.copytree(CONDITIONS, folder, ignore=shutil.ignore_patterns("out"))
-    (folder / "roof.dxf").write_text("no drawing")
-    drag = page.context.new_cdp_session(page)
-    for kind in ("dragEnter", "dragOver", "drop"):
-        files = {"items": [], "files": [str(folder)], "dragOperationsMask": 1}
-        where = {"x": 500, "y": 400}
-        drag.send("Input.dispatchDragEvent", {"type": kind, **where, "data": files})
-        assert page.locator("#drop").is_visible() == (kind != "drop")
-    page.wait_for_selector("h1:has-text('Small Warehouse')")
-    at_rest(page)
-    said = page.inner_text("#drawing")
-    assert said.startswith("roof.dxf: ")
-    assert page.locator("#drawing button").count() == 0
-    page.click("#example")
-    page.wait_for_selector("#drawing", state="hidden")
-
-
-@pytest.mark.nightly
-def test_the_plan_is_read_from_a_drawing_beside_the_workbook(page, tmp_path):
-    folder = tmp_path / "new"
-    folder.mkdir()
-    blank(folder / "input.xlsx")
-    sketch = Sketch("R2018")
-    sketch.ring("PV MODULES", BOX_FT, "A2")
-    sketch.ring("X-9", ROOF_FT)
-    sketch.saved(folder)
-    page.set_input_files("#folder", folder)
-    page.wait_for_selector("#drawing .layers")
-    kinds = page.locator("#drawing td select")
-    assert [each.input_value() for each in kinds.all()] == ["array", "not read"]
-    kinds.last.select_option("roof")
-    page.click("text=Fill in the plan")
-    page.wait_for_selector("text=The plan is filled in from")
-    name, content = saved(page, lambda: page.click("text=Save filled workbook"))
-    assert name == "input.xlsx"
-    (tmp_path / name).write_bytes(content)
-    draft = read(tmp_path / name).draft
-    assert [row["id"] for row in draft["arrays"]] == ["A2"]
-    assert draft["roof"][0]["x_to_m"] == pytest.approx(240 * FT, abs=1e-6)
-    assert {row["layer"]: row["kind"] for row in draft["layers"]}["X-9"] == "roof"
-
-
-def sent(page, project, folder):
-    """Open a copy of a project in a page."""
-    shutil.copytree(project, folder, ignore=shutil.ignore_patterns("out"))
-    page.set_input_files("#folder", folder)
-
-
-@pytest.mark.nightly
-def test_the_package_the_workbook_and_the_page_agree(page, tmp_path):
-    # Its package is made in half the time of the example's, with clearances OK and NG.
-    sent(page, CONDITIONS, tmp_path / "conditions")
-    page.wait_for_selector("h1:has-text('Small Warehouse')")
-    at_rest(page)
-    of_the_workbook = numbers(page, "arrays", 3)
-    moved(page, "friction", 0.9)  # with less, no route is permitted
-    moved(page, "intensity", 1.1)
-    page.wait_for_url("**/#friction=0.9&intensity=1.1")
-    at_rest(page)
-    assert numbers(page, "arrays", 3) != of_the_workbook
-    name, bytes_ = saved(page, lambda: page.click("#save-workbook"))
-    book = openpyxl.load_workbook(io.BytesIO(bytes_))
-    mus = [cell.value for row in book["Arrays"].iter_rows() for cell in row]
-    assert name.endswith(".xlsx")
-    assert 0.45 in mus
-    page.click("#make-package")
-    page.wait_for_selector("#package-status progress")
-    page.wait_for_selector("#package-status .made", timeout=150_000)
-    _, made = saved(page, lambda: page.click("text=results.json"))
-    results = json.loads(made)
-    assert page.inner_text("#verdict .tag") == results["verdict"]
-    design = [f"{array['design_m'] / INCH_M:.1f} in" for array in results["arrays"]]
-    assert numbers(page, "arrays", 3) == design
-    made = results["clearances"]
-    assert {item["verdict"] for item in made} == {"NG", "OK"}
-    assert numbers(page, "clearances", 4) == list(map(required, made))
-    assert numbers(page, "clearances", 6) == [item["verdict"] for item in made]
-    name, pdf = saved(page, lambda: page.click("text=Calc package"))
-    assert name == "calc-package.pdf"
-    summary = "".join(sheet.extract_text() for sheet in PdfReader(io.BytesIO(pdf)).pages[:6])
-    assert all(value.removesuffix(" in") in summary for value in design)
-    moved(page, "friction", 0.95)
-    assert "before the last change" in page.inner_text("#package-status")
-
-
-@pytest.mark.nightly
-def test_a_package_that_is_canceled_leaves_the_page_as_it_was(page):
-    page.click("#make-package")
-    page.click("text=Cancel")
-    page.wait_for_selector("text=The package was canceled.")
-    assert page.locator("#make-package").is_enabled()
 
 
 @pytest.mark.nightly
@@ -705,23 +421,6 @@ def test_without_the_server_the_page_says_what_to_do_and_goes_on_when_it_is_back
 
 
 @pytest.mark.nightly
-def test_a_tab_whose_project_another_tab_has_replaced_shows_none_of_the_other(
-    page, address, tmp_path
-):
-    other = page.context.new_page()
-    opened(other, address)
-    sent(other, CONDITIONS, tmp_path / "other")
-    other.wait_for_selector("h1:has-text('Small Warehouse')")
-    before = numbers(page, "arrays", 3)
-    moved(page, "friction", 0.9)
-    page.wait_for_selector("#error:visible")
-    assert "opened in another tab" in page.inner_text("#error")
-    assert numbers(page, "arrays", 3) == before
-    page.click("#error button")
-    page.wait_for_selector("h1:has-text('Small Warehouse')")
-
-
-@pytest.mark.nightly
 def test_when_every_process_is_killed_the_page_goes_on(page, server):
     before = verdicts(page)
     for pid in processes_of(server[1]):
@@ -729,19 +428,3 @@ def test_when_every_process_is_killed_the_page_goes_on(page, server):
     moved(page, "friction", 0.8)
     page.wait_for_selector("body[data-phase=rest]", timeout=60_000)
     assert verdicts(page)[0] == "NG" != before[0]
-
-
-@pytest.mark.nightly
-def test_clearances_that_the_plan_lacks_are_added_by_a_button(page, tmp_path):
-    assert not page.is_visible("#add-clearances")
-    make(tmp_path / "roof", clearances=[], objects=SECTIONS["objects"][:1])
-    page.set_input_files("#folder", tmp_path / "roof")
-    page.wait_for_selector("#add-clearances", timeout=60_000)
-    assert page.inner_text("#steps [aria-current]") == "Clearances"
-    page.click("#add-clearances")
-    page.wait_for_selector("#steps", state="hidden", timeout=60_000)
-    at_rest(page)
-    assert page.locator("#clearances tbody tr").count() == 2
-    name, bytes_ = saved(page, lambda: page.click("#save-workbook"))
-    (tmp_path / name).write_bytes(bytes_)
-    assert [row.object for row in read(tmp_path / name).project.clearances] == ["A2", "RTU-1"]
