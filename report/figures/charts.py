@@ -122,10 +122,13 @@ def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit) -> None:
     peaks = np.array([run.governing.prd_m for run in array.motions]) / unit.si
     axes.plot(peaks, np.full(peaks.shape, row), "o", **_PEAK, label="PRD of each motion")
     mean = array.analysis.mean_m / unit.si
-    axes.plot([mean, mean], [row - 0.25, row + 0.25], color=ACCENT, linewidth=2.0, label="mean")
+    # A line of NaN is a path without data, which the layout of the PDF refuses.
+    if not math.isnan(mean):
+        axes.plot([mean, mean], [row - 0.25, row + 0.25], color=ACCENT, linewidth=2.0, label="mean")
     design = array.permitted_m / unit.si
-    axes.plot([design], [row], "D", markersize=6, color=INK, label="design")
-    if math.isnan(design):
+    if not math.isnan(design):
+        axes.plot([design], [row], "D", markersize=6, color=INK, label="design")
+    else:
         axes.text(0.0, row - _ABOVE, "no design displacement", **_NOTE, ha="left")
     if not all(check.ok for check in array.prescriptive_checks):
         words = f"prescriptive displacement {NOT_PERMITTED}"
