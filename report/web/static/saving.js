@@ -4,10 +4,13 @@ import { html, set, svg } from "./make.js";
 
 const LOOK = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "paint-order", "opacity", "font-size", "font-weight", "font-style", "text-anchor", "marker-end", "visibility"];
 const SHARPER = 2; // pixels of a PNG in one of the page
+const BUSY = '[aria-busy="true"]';
 const NOT_DRAWN = "button, select, input, label, .toolbar, .player, .plan-head, .visually-hidden, [id$=-keys]";
 
-/** Save what a panel shows, as the kind says: `svg` or `png`. */
+/** Save what a panel shows, as the kind says: `svg` or `png`; where it is still calculated, then. */
 export async function saveDrawing(panel, kind, name) {
+  while (panel.matches(BUSY) || panel.querySelector(BUSY)) await new Promise(requestAnimationFrame);
+  if (panel.hidden) return; // another one was opened meanwhile: a hidden panel has no size
   const drawn = drawing(panel);
   const text = new XMLSerializer().serializeToString(drawn);
   const vector = new Blob([text], { type: "image/svg+xml" });
