@@ -37,10 +37,7 @@ def test_peaks_are_the_largest_of_all_cubics_between_the_samples():
 
 def largest(a, dt, omega, zeta):
     """Peak and step by the matrix exponential, and each cubic at 2,000 points."""
-    p = omega * dt
-    # y' = z, z' = -y - 2 zeta z - a - r tau, and r are constants, in the time omega t.
-    rates = np.array([[0, 1, 0, 0], [-1, -2 * zeta, -1, 0], [0, 0, 0, 1], [0, 0, 0, 0.0]])
-    vectors = np.linalg.matrix_power(np.eye(4) + rates * p / 2**24, 2**24)
+    p, vectors = omega * dt, of_a_step(omega * dt, zeta)
     s = np.linspace(0.0, 1.0, 2001) if p <= 1.0 else np.array([1.0])
     y = z = 0.0
     best, where = 0.0, 0
@@ -54,6 +51,33 @@ def largest(a, dt, omega, zeta):
             best, where = top, i
         y, z = moved, turned
     return best, where
+
+
+def of_a_step(p, zeta):
+    """The matrix exponential of a step, of p in the time omega t."""
+    # y' = z, z' = -y - 2 zeta z - a - r tau, and r are constants.
+    rates = np.array([[0, 1, 0, 0], [-1, -2 * zeta, -1, 0], [0, 0, 0, 1], [0, 0, 0, 0.0]])
+    return np.linalg.matrix_power(np.eye(4) + rates * p / 2**24, 2**24)
+
+
+def test_crests_are_the_samples_that_exceed_their_neighbors_and_the_limit():
+    n, dt, zeta = 200, 0.01, 0.05
+    a = np.random.default_rng(5).standard_normal(n)
+    omega, above = np.array([20.0, 60.0]), np.array([0.3, 0.5])
+    which, where, values = oscillator.crests(readonly(a), dt, omega, zeta, above)
+    expected = []
+    for k, p in enumerate(omega * dt):
+        vectors, y, z = of_a_step(p, zeta), [0.0], 0.0
+        for i in range(1, n):
+            moved, z = (vectors @ [y[-1], z, a[i - 1], (a[i] - a[i - 1]) / p])[:2]
+            y.append(moved)
+        far = np.abs(y)
+        expected += [(k, i) for i in range(1, n - 1)
+                     if far[i] > above[k] and far[i - 1] <= far[i] > far[i + 1]]  # fmt: skip
+        own = which == k
+        assert values[own] == pytest.approx(np.array(y)[where[own]], rel=1e-6)
+    assert list(zip(which, where, strict=True)) == expected
+    assert len(expected) > 10
 
 
 def test_reversed_pulses_are_second_differences_of_the_response_to_a_ramp():

@@ -85,3 +85,35 @@ def test_constant_acceleration_gives_the_numbers_of_the_papers_equations(noise, 
     scale = np.abs(expected[0]).max()
     np.testing.assert_allclose(np.cos(theta) * history, expected, rtol=0, atol=1e-11 * scale)
     assert max(outcome[1], -outcome[2]) * np.cos(theta) >= scale * (1 - 1e-11)
+
+
+def test_a_block_that_slides_one_way_has_the_net_acceleration():
+    assert rivals.line_rate(2.0, np.array([7.0, 3.0]), 1.5, -0.5) == pytest.approx([3.0, 0.5])
+
+
+def test_friction_in_two_axes_is_against_the_velocity():
+    rates = rivals.plane_rate(2.0, np.array([0.0, 0.0, 3.0, 4.0]), 1.0, 2.0, 9.0, 0.5, -0.5, 0.5)
+    # G = (2, 1) and mu N = 10, along (0.6, 0.8).
+    assert rates == pytest.approx([3.0, 4.0, 2.0 - 6.0, 1.0 - 8.0])
+
+
+@pytest.mark.parametrize(
+    "velocity", [(0.0,), (3e-4,), (-0.2,), (0.0, 0.0), (2e-4, -3e-4), (0.3, 0.4)], ids=str
+)
+def test_regularized_friction_is_mu_n_tanh_and_its_jacobian_the_slope(velocity):
+    d, dt, v0 = len(velocity), 0.01, 1e-3
+    rows = np.array([[1.0, 2.0], [2.0, 3.0], [4.0, 4.0]]) if d == 1 else np.array(
+        [[1.0, -1.0, 2.0], [2.0, 0.0, 3.0], [4.0, 2.0, 4.0]]
+    )  # fmt: skip
+    t, y = 0.015, np.array([0.1] * d + list(velocity))
+    g, cap, v = (rows[1] + rows[2])[:d] / 2.0, (rows[1, d] + rows[2, d]) / 2.0, np.array(velocity)
+    w = np.linalg.norm(v)
+    friction = cap * np.tanh(w / v0) * v / w if w else np.zeros(d)
+    rates = rivals.regularized_rate(t, y, rows, dt, v0)
+    assert rates == pytest.approx([*velocity, *(g - friction)], rel=1e-9)
+    h, slopes = 1e-8, rivals.regularized_jacobian(t, y, rows, dt, v0)
+    for j, step in enumerate(np.eye(2 * d) * h):
+        change = [rivals.regularized_rate(t, y + s * step, rows, dt, v0) for s in (1.0, -1.0)]
+        assert slopes[:, j] == pytest.approx(
+            (change[0] - change[1]) / (2.0 * h), rel=1e-5, abs=1e-3
+        )
