@@ -142,8 +142,8 @@ class Names:
         keys = self._written
         if not keys:
             return text
-        any_of = _any_of(keys)
-        return re.compile(any_of).sub(lambda match: keys[match[0]], text)
+        one = _any_of(keys)
+        return re.sub(f"{one}(?:, {one})*", lambda names: _keyed(names[0], one, keys), text)
 
     def in_html(self, html: str) -> str:
         """Return a document with the keys of the names in its texts.
@@ -154,9 +154,19 @@ class Names:
             return html
         keys = {str(escape(name)): key for name, key in self._written.items()}
         head, body, rest = html.partition("<body")
-        any_of = rf"{_KEPT}|{_any_of(keys)}"
-        pattern = re.compile(any_of, re.DOTALL)
-        return head + pattern.sub(lambda match: keys.get(match[0], match[0]), body + rest)
+        one = _any_of(keys)
+        pattern = re.compile(f"{_KEPT}|(?P<names>{one}(?:, {one})*)", re.DOTALL)
+        return head + pattern.sub(
+            lambda match: _keyed(match[0], one, keys) if match["names"] else match[0], body + rest
+        )
+
+
+def _keyed(names: str, one: str, keys: Mapping[str, str]) -> str:
+    """Return the keys of listed names: three or more that count on are a range of keys."""
+    text = re.sub(one, lambda name: keys[name[0]], names)
+    numbers = re.findall(r"\d+", text)
+    # Names that end in words are no range, as "A1 to A6" is; their keys are.
+    return text if len(numbers) < 3 else re.sub(r"\d+", r"[\g<0>]", ranged(numbers))
 
 
 def _is_long(name: str) -> bool:

@@ -75,6 +75,14 @@ def test_a_range_of_names_is_the_range_of_their_keys(count):
     assert keys.keys["LOWER ROOF EAST 7"] == "[1]"
 
 
+def test_names_that_end_in_words_are_a_range_of_keys():
+    roofs = [f"roof of bay {word}" for word in ("east", "north", "south", "west")]
+    names = Names.of(roofs)
+    assert names(ranged(roofs)) == "[1] to [4]"
+    assert names(ranged([roofs[0], *roofs[2:]])) == "[1], [3], [4]"
+    assert names.in_html(f"<body><td>{', '.join(roofs)}</td>") == "<body><td>[1] to [4]</td>"
+
+
 def test_a_document_has_keys_in_its_texts_alone():
     html = (
         "<html><title>Kitchen &amp; make-up air</title><body>"
