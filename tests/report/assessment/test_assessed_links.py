@@ -112,14 +112,11 @@ def test_the_least_coefficient_entered_as_that_of_the_array_does(friction, lb_pe
     assert done.verdict.is_permitted
 
 
-def test_where_the_floor_governs_links_may_change_what_stays_below_it():
+def test_the_floor_and_the_model_that_the_motions_need_bear_on_links():
     done, item = assessed("0.40, 0.45, 0.50", 50, peer_reviewed=False)
     assert item.ratio > 1.1
     assert item.estimated_m == item.design.floor_m == item.design.design_m
     assert done.verdict.is_permitted
-
-
-def test_links_raise_the_value_of_the_model_that_the_motions_need():
     _, item = assessed("0.40, 0.50", 50, array={"model": "one axis"})
     fuller = item.design.chosen["any"].value_m
     assert fuller > item.design.analysis.value_m
@@ -150,10 +147,13 @@ def test_a_block_that_slides_where_one_rigid_one_does_not_has_no_ratio():
 
 
 @pytest.mark.quick
-def test_one_rigid_block_is_not_adequate_for_a_displacement_that_is_not_permitted():
+def test_too_few_motions_and_what_is_not_permitted_are_not_adequate():
     """Nothing moves under motions that do not qualify, as one block or as a row."""
     (item,) = stand_in.unpermitted(links=[stand_in.links("A1", "0.3, 0.3", 50)]).linked
     assert (item.is_within, item.is_final) == (True, True)
+    assert not item.is_rigid_enough
+    _, item = assessed("0.40, 0.50", 50, shaking=MOTIONS[:2])
+    assert math.isnan(item.estimated_m)
     assert not item.is_rigid_enough
 
 
@@ -191,13 +191,6 @@ def test_a_row_that_still_slides_at_the_end_is_not_final():
     assert not item.is_final
     assert not item.is_rigid_enough
     assert not done.verdict.is_permitted
-
-
-@pytest.mark.quick
-def test_too_few_motions_give_no_value():
-    _, item = assessed("0.40, 0.50", 50, shaking=MOTIONS[:2])
-    assert math.isnan(item.estimated_m)
-    assert not item.is_rigid_enough
 
 
 def test_assessments_of_other_friction_run_no_rows():

@@ -89,18 +89,15 @@ def test_the_page_says_the_range_of_the_means(made):
     assert f"is {min(shares):.2f} to {max(shares):.2f} times that used" in str(page)
 
 
-def test_a_building_at_the_longest_period_is_made_no_slower():
+def test_the_slowest_building_is_made_no_slower_and_without_ground_motions_none_is_varied():
     rows = [{"id": f"M{k}", "record": "x", "recorded_at": "ground"} for k in (1, 2, 3)]
     data = stand_in.project(motions=rows, building={"period_s": 10.0})
     found = building_variations(stand_in.assessed(scenes.grounded(data, GROUND)))
     assert [building.period_s for building, _ in found[:4]] == [10.0, 8.0, 10.0, 10.0]
+    assert building_variations(scenes.package().assessment) == ()
 
 
 @pytest.mark.nightly
 def test_seven_motions_take_the_statistic_of_their_mean():
     for _, value in building_variations(scenes.shipped("school")):
         assert value.value_m == pytest.approx(1.1 * value.mean_m)
-
-
-def test_without_ground_motions_no_building_is_varied():
-    assert building_variations(scenes.package().assessment) == ()

@@ -37,7 +37,7 @@ def test_clearances_take_the_factor_of_what_lies_across(done):
         assert item.demand_capacity == item.required_m / item.clearance.provided_m
 
 
-def test_between_arrays_the_larger_displacement_governs_for_both():
+def test_larger_displacements_and_low_parapets_govern():
     arrays = [stand_in.array("A1", 0.5, mu=0.6), stand_in.array("A2", 3.0, mu=0.3, x=120)]
     done = assessed(arrays=arrays, clearances=[stand_in.clearance("A1", "a2", 3.0)], options=PEER)
     (gap,) = done.clearances
@@ -45,6 +45,9 @@ def test_between_arrays_the_larger_displacement_governs_for_both():
     assert gap.design_m == done.arrays[1].design_m > done.arrays[0].design_m
     assert done.governing_gap("A2") is gap
     assert (gap.across_from("A2"), gap.across_from("A1")) == ("A1", "A2")
+    objects = [stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=0.5)]
+    done = assessed(objects=objects, clearances=[stand_in.clearance("A1", "N", 5.0)])
+    assert done.clearances[0].neighbor is Neighbor.EDGE
 
 
 @pytest.mark.parametrize(
@@ -67,13 +70,7 @@ def test_like_arrays_slide_alike(change, neighbor):
     assert gap.factor == (0.5 if neighbor is Neighbor.LIKE else 1.0)
 
 
-def test_a_low_parapet_leaves_an_edge_without():
-    objects = [stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=0.5)]
-    done = assessed(objects=objects, clearances=[stand_in.clearance("A1", "N", 5.0)])
-    assert done.clearances[0].neighbor is Neighbor.EDGE
-
-
-def test_importance_enters_the_separation_in_pv1_and_the_displacement_in_asce_7():
+def test_importance_enters_as_each_code_has_it():
     pv1 = assessed(site=stand_in.site(risk_category="III", i_e=1.25))
     asce = assessed(site=stand_in.site(risk_category="III", i_e=1.25, rule_set="ASCE 7-16"))
     assert [gap.importance for gap in pv1.clearances] == [1.0, 1.0, 1.0, 1.25, 1.25]
@@ -81,6 +78,14 @@ def test_importance_enters_the_separation_in_pv1_and_the_displacement_in_asce_7(
     assert asce.clearances[1].factor == 1.0
     ratio = asce.arrays[0].prescriptive.value_m / pv1.arrays[0].prescriptive.value_m
     assert ratio == pytest.approx(1.25)
+    arrays = [stand_in.array("A1", 0.5) | {"i_p": 1.25}, stand_in.array("A2", 0.5, x=120)]
+    objects = [stand_in.roof_object("RTU", "fixed object", 107, 112, 35, 42) | {"i_p": 1.5}]
+    gaps = [stand_in.clearance("A2", "A1", 3.0), stand_in.clearance("A1", "RTU", 7.0)]
+    for rule_set, expected in (("SEAOC PV1-2012", [1.25, 1.5]), ("ASCE 7-16", [1.0, 1.0])):
+        done = assessed(
+            arrays=arrays, objects=objects, clearances=gaps, site=stand_in.site(rule_set=rule_set)
+        )
+        assert [gap.importance for gap in done.clearances] == expected
 
 
 @pytest.mark.quick
@@ -92,17 +97,6 @@ def test_asce_requires_four_feet_to_an_edge():
     assert edge.required_m == pytest.approx(4 * 0.3048)
     assert edge.is_minimum_value
     assert not done.clearances[1].is_minimum_value
-
-
-def test_the_larger_component_importance_of_both_sides_governs():
-    arrays = [stand_in.array("A1", 0.5) | {"i_p": 1.25}, stand_in.array("A2", 0.5, x=120)]
-    objects = [stand_in.roof_object("RTU", "fixed object", 107, 112, 35, 42) | {"i_p": 1.5}]
-    gaps = [stand_in.clearance("A2", "A1", 3.0), stand_in.clearance("A1", "RTU", 7.0)]
-    for rule_set, expected in (("SEAOC PV1-2012", [1.25, 1.5]), ("ASCE 7-16", [1.0, 1.0])):
-        done = assessed(
-            arrays=arrays, objects=objects, clearances=gaps, site=stand_in.site(rule_set=rule_set)
-        )
-        assert [gap.importance for gap in done.clearances] == expected
 
 
 def test_a_clearance_takes_the_full_displacement_unless_the_workbook_departs():
@@ -133,16 +127,12 @@ def test_without_a_permitted_route_there_is_no_required_separation_and_no_verdic
 
 
 @pytest.mark.quick
-def test_where_the_prescriptive_displacement_is_used_a_clearance_has_its_verdict(unpermitted):
+def test_beside_no_permitted_route_other_clearances_keep_their_verdicts(unpermitted):
     third = unpermitted.clearances[2]
     assert third.required_m == pytest.approx(1.5 * unpermitted.arrays[1].prescriptive.value_m)
     assert third.verdict is Verdict.OK
     narrow = [stand_in.clearance("A2", "S edge", 5 * stand_in.FOOT)]
     assert stand_in.unpermitted(clearances=narrow).clearances[0].verdict is Verdict.NG
-
-
-@pytest.mark.quick
-def test_an_array_beside_a_clearance_without_a_verdict_is_ng(unpermitted):
     assert [unpermitted.array_verdict(item) for item in unpermitted.arrays] == [Verdict.NG] * 2
     assert unpermitted.governing_gap("A2").verdict is Verdict.NONE
     alone = [stand_in.clearance("A2", "S edge", 15 * stand_in.FOOT)]

@@ -69,13 +69,9 @@ def test_the_sums_carry_the_factor_of_the_design_value_beside_them():
 
 
 @pytest.mark.quick
-def test_a_run_without_a_final_value_leaves_no_sum():
+def test_smaller_events_are_off_or_without_a_sum_where_a_run_has_no_value():
     first = cumulative(made())[0]
     assert math.isnan(replace(first, sums_m={"M1": 1.0, "M2": math.nan}).largest_m)
-
-
-@pytest.mark.quick
-def test_it_is_off_unless_the_workbook_names_events():
     assert cumulative(made("")) == ()
 
 

@@ -35,7 +35,7 @@ def margins(outline, points):
     return np.min(inward @ x.T - np.sum(inward * p, axis=1)[:, None], axis=0)
 
 
-def test_every_governing_run_stays_in_the_envelope_of_the_runs(done):
+def test_the_envelope_of_the_runs_contains_each_and_reaches_no_farther(done):
     for array in done.arrays:
         outline = runs_envelope(array)
         turn = math.radians(array.array.downslope_deg)
@@ -47,9 +47,6 @@ def test_every_governing_run_stays_in_the_envelope_of_the_runs(done):
             for corner in array.array.shape.points:
                 points = np.column_stack((corner[0] + x, corner[1] + y))
                 assert margins(outline, points).min() > -1e-6
-
-
-def test_the_envelope_of_the_runs_reaches_no_farther_than_their_largest_prd(done):
     for array in done.arrays:
         largest = max(run.result.prd_m for m in array.motions for run in m.runs)
         reach = [point_gap(array.array.shape, point) for point in runs_envelope(array)]
@@ -62,7 +59,7 @@ def point_gap(shape, point):
     return max(gap_m(shape, Rectangle(point[0], point[0], point[1], point[1])), 0.0)
 
 
-def test_the_design_envelope_contains_the_offset_and_is_close_to_it(done):
+def test_the_design_envelope_is_close_to_its_offset_and_needs_a_displacement(done):
     for array in done.arrays:
         reach = [point_gap(array.array.shape, point) for point in design_envelope(array)]
         assert max(reach) == pytest.approx(array.design_m, rel=0.009)
@@ -70,13 +67,7 @@ def test_the_design_envelope_contains_the_offset_and_is_close_to_it(done):
             circle = np.linspace(0.0, 2.0 * np.pi, 100)
             points = array.design_m * np.column_stack((np.cos(circle), np.sin(circle))) + corner
             assert margins(design_envelope(array), points).min() > -1e-9
-
-
-def test_without_a_displacement_there_is_no_envelope(done):
     assert design_envelope(replace(done.arrays[0], design_m=math.nan)) == ()
-
-
-def test_keep_clear_is_the_separation_from_a_fixed_object(done):
     assert keep_clear_m(done, done.arrays[0]) == done.arrays[0].design_m  # factor 1.0, I_e = 1.0
 
 

@@ -34,7 +34,7 @@ def test_fire_lanes_limit_an_array_to_150_feet_by_the_section_given(to_ft, verdi
     assert row.limit == "≤ 45.72 m (150.00 ft)"
 
 
-def test_arrays_closer_than_a_lane_are_one_and_each_has_the_condition():
+def test_arrays_closer_than_a_lane_by_their_shapes_are_one():
     found = rows((0, 80), (83.9, 163.9), (167.9, 200))
     assert [(row.found, row.verdict) for row in found.values()] == [
         *[("A1, A2 together: 163.90 ft (49.96 m)", Verdict.CONDITION)] * 2,
@@ -46,6 +46,19 @@ def test_arrays_closer_than_a_lane_are_one_and_each_has_the_condition():
     # Through a neighbor, in any order.
     found = rows((0, 60), (126, 186), (63, 123))
     assert {row.found for row in found.values()} == {"A1 to A3 together: 186.00 ft (56.70 m)"}
+    # A ring of an outline around another array is one with it only where it is near.
+    ring = [(0, 0), (140, 0), (140, 140), (130, 140), (130, 10), (10, 10), (10, 140), (0, 140)]
+    outlines = [{"name": "A1", "x_m": x * FOOT, "y_m": y * FOOT} for x, y in ring]
+    arrays = [
+        stand_in.array("A1", 0.5, **dict.fromkeys(("x_from_m", "x_to_m", "y_from_m", "y_to_m"))),
+        stand_in.array("A2", 0.5, x_from_m=30 * FOOT, x_to_m=110 * FOOT, y_from_m=30 * FOOT,
+                       y_to_m=160 * FOOT),
+    ]  # fmt: skip
+    site = stand_in.site(fire_code_section=SECTION)
+    data = stand_in.project(arrays=arrays, outlines=outlines, clearances=[], site=site)
+    found = {row.subject: row.found for row in fire_lane_rows(data)}
+    assert found["A1"].startswith("140.00 ft")
+    assert found["A2"].startswith("130.00 ft")
 
 
 @pytest.mark.parametrize(
@@ -62,22 +75,6 @@ def test_a_gap_that_is_a_lane_within_rounding_is_one(gap_m, lane_m, is_one):
     width = {} if lane_m is None else {"fire_lane_m": lane_m}
     found = rows((0, 100), (100 + gap_m / FOOT, 200), **width)
     assert [row.is_satisfied for row in found.values()] == [not is_one] * 2
-
-
-def test_the_distance_is_that_of_the_shapes_not_of_their_boxes():
-    """A ring of an outline around another array is one with it only where it is near."""
-    ring = [(0, 0), (140, 0), (140, 140), (130, 140), (130, 10), (10, 10), (10, 140), (0, 140)]
-    outlines = [{"name": "A1", "x_m": x * FOOT, "y_m": y * FOOT} for x, y in ring]
-    arrays = [
-        stand_in.array("A1", 0.5, **dict.fromkeys(("x_from_m", "x_to_m", "y_from_m", "y_to_m"))),
-        stand_in.array("A2", 0.5, x_from_m=30 * FOOT, x_to_m=110 * FOOT, y_from_m=30 * FOOT,
-                       y_to_m=160 * FOOT),
-    ]  # fmt: skip
-    site = stand_in.site(fire_code_section=SECTION)
-    data = stand_in.project(arrays=arrays, outlines=outlines, clearances=[], site=site)
-    found = {row.subject: row.found for row in fire_lane_rows(data)}
-    assert found["A1"].startswith("140.00 ft")
-    assert found["A2"].startswith("130.00 ft")
 
 
 def test_without_a_section_the_row_says_so_and_is_a_condition():

@@ -33,14 +33,11 @@ def test_friction_is_said_as_it_was_run(friction, words):
     assert mu_words(friction) == words
 
 
-def test_arrays_of_one_friction_are_said_together():
+def test_arrays_of_one_friction_and_the_low_velocity_coefficient_are_said():
     alike = [stand_in.array("A1", 0.5), stand_in.array("A2", 2.0)]
     data = stand_in.project(arrays=[*alike, stand_in.array("A3", 3.0, **LAW)])
     assert mus_words(data.arrays) == "A1, A2: 0.45; A3: 0.40 to 0.50, by velocity"
     assert mus_words(data.arrays[2:]) == "A3: 0.40 to 0.50, by velocity"
-
-
-def test_the_low_velocity_coefficient_alone_is_constant_friction():
     given = stand_in.project(arrays=[stand_in.array("A1", 3.0, mu_static=0.48, **LAW)]).arrays[0]
     assert at_low_velocity(given).friction == coulomb(0.40)
     assert at_low_velocity(given).slope_rad == given.slope_rad

@@ -54,7 +54,7 @@ def by_velocity():
     return assessed(arrays, runs(0.45, 0.0254), clearances=gaps, options=scenes.REVIEW)
 
 
-def test_the_velocity_is_the_largest_of_all_runs(by_velocity):
+def test_the_largest_velocity_and_friction_beyond_the_tests_are_told(by_velocity):
     item = by_velocity.arrays[0]
     each = [run.result.peak_speed_mps for motion in item.motions for run in motion.runs]
     assert item.fastest_mps == max(each)
@@ -66,9 +66,6 @@ def test_the_velocity_is_the_largest_of_all_runs(by_velocity):
         peak = motion.governing.result.peak_speed_mps
         assert seen <= peak * (1.0 + 1e-9)
         assert seen == pytest.approx(peak, rel=0.02)
-
-
-def test_friction_beyond_the_tests_above_their_smallest_is_a_condition(by_velocity):
     first, second = rows(by_velocity)["A1"], rows(by_velocity)["A2"]
     assert first.is_satisfied  # 0.30 at every velocity
     assert second.is_satisfied  # 0.45 at most
@@ -87,7 +84,7 @@ def test_friction_beyond_the_tests_above_their_smallest_is_a_condition(by_veloci
     assert done.array_verdict(done.arrays[0]) is not Verdict.OK
 
 
-def test_tests_as_fast_as_the_array_slides_leave_nothing_beyond():
+def test_nothing_is_beyond_fast_tests_or_where_nothing_slides():
     fastest = one().arrays[0].fastest_mps
     assert fastest > 0.1
     for share, satisfied in ((1.01, True), (0.99, False)):
@@ -96,23 +93,17 @@ def test_tests_as_fast_as_the_array_slides_leave_nothing_beyond():
         row = rows(one(tests=wet))["A1"]
         assert row.is_satisfied is satisfied
         assert ("μ beyond" in row.found) is not satisfied
-
-
-def test_an_array_that_does_not_slide_is_not_beyond_any_test():
     weak = [replace(motion, scale=1e-3 * motion.scale) for motion in MOTIONS]
     row = rows(one(slope=0.5, tests=runs(0.2), shaking=weak))["A1"]
     assert row.is_satisfied
     assert row.found == "does not slide; tested to 1.00 in/s (25.4 mm/s)"
 
 
-def test_tests_without_velocities_show_friction_up_to_their_smallest_mean():
+def test_tests_without_velocities_or_none_are_compared_as_far_as_they_go():
     for mu, satisfied in ((0.44, True), (0.46, False)):
         row = rows(one(mu, tests=runs(0.45, None)))["A1"]
         assert row.is_satisfied is satisfied
         assert f"; velocities tested not given; μ beyond {mu:.3f}" in row.found
-
-
-def test_without_tests_there_is_nothing_to_compare_with():
     done = one()
     assert rows(done) == {}
     assert velocity_check(done.project, done.arrays[0]) is None
@@ -127,7 +118,7 @@ def check(friction, fastest, *tested):
     return VelocityCheck(friction=friction, fastest_mps=fastest, tests=tests)
 
 
-def test_friction_beyond_is_the_largest_between_the_tests_and_the_fastest_run():
+def test_friction_beyond_is_the_largest_of_any_velocity_that_may_be():
     rising = Friction(mu_slow=0.4, mu_fast=0.5, rate_s_per_m=2.0, mu_static=0.4)
     falling = Friction(mu_slow=0.5, mu_fast=0.4, rate_s_per_m=2.0, mu_static=0.5)
     tested = ((0.1, 0.45), (0.2, 0.47))
@@ -135,9 +126,6 @@ def test_friction_beyond_is_the_largest_between_the_tests_and_the_fastest_run():
     assert check(falling, 0.3, *tested).mu_beyond == pytest.approx(0.4 + 0.1 * math.exp(-0.4))
     assert check(rising, math.nan, *tested).mu_beyond == 0.5
     assert math.isnan(check(rising, 0.2, *tested).mu_beyond)
-
-
-def test_a_run_without_a_velocity_may_be_any_velocity():
     unknown = check(coulomb(0.454), math.nan, (0.1, 0.45))
     assert not replace(unknown, friction=coulomb(0.50)).is_satisfied
     assert unknown.is_satisfied  # within rounding
@@ -152,7 +140,7 @@ def test_the_smallest_value_is_compared_within_rounding(mu, satisfied):
     assert check(coulomb(mu), 1.0, (0.1, 0.46)).is_satisfied is satisfied
 
 
-def test_the_low_velocity_coefficient_alone_gives_what_it_gives_when_entered(by_velocity):
+def test_the_low_velocity_coefficient_alone_is_as_entered_and_has_no_reruns(by_velocity):
     slow = by_velocity.low_velocity
     assert [item.id for item in slow.arrays] == ["A2"]
     entered = [stand_in.array("A1", 2.0, mu=0.30), stand_in.array("A2", 2.0, x=120, mu=0.30)]
@@ -172,9 +160,6 @@ def test_the_low_velocity_coefficient_alone_gives_what_it_gives_when_entered(by_
     outcome = rows(by_velocity)["A2"].outcome
     assert all(f"{gap.array} to {gap.object}" in outcome for gap in failed)
     assert ("NG: " in outcome) is bool(failed)
-
-
-def test_reruns_with_other_friction_have_none_of_their_own(by_velocity):
     assert by_velocity.at_reduced_friction.low_velocity.arrays == ()
     constant = one(tests=runs())
     assert (constant.low_velocity.arrays, constant.low_velocity.clearances) == ((), {})

@@ -41,9 +41,7 @@ def mean_m(governing, **changes):
     return sum(peaks) / len(peaks)
 
 
-def test_the_grid_has_eight_by_six_points_around_the_arrays_and_that_of_the_governing_one(
-    usual, grid
-):
+def test_the_grid_is_around_the_arrays_and_agrees_with_runs_one_by_one(usual, grid):
     assessment, _ = usual
     assert grid.mean_m.shape == (6, 8)
     mus = [one.array.mu for one in assessment.arrays]
@@ -54,9 +52,6 @@ def test_the_grid_has_eight_by_six_points_around_the_arrays_and_that_of_the_gove
     assert (np.diff(grid.mus) > 0).all()
     assert (np.diff(grid.slopes_rad) > 0).all()
     assert grid.n_runs == 6 * 8 * 3
-
-
-def test_the_grid_agrees_with_runs_one_by_one_and_with_the_package(usual, grid):
     governing = usual[0].governing
     for row, column in ((0, 0), (5, 0), (3, 4), (5, 7)):
         point = {
@@ -100,7 +95,7 @@ def test_each_array_of_a_clearance_has_its_margin_and_an_unsatisfied_one_has_non
     assert found.margins[2].minimum_mu == pytest.approx(0.23)  # half of 0.45, in whole hundredths
 
 
-def test_turned_shaking_agrees_with_the_public_solver(usual):
+def test_turned_and_reversed_shaking_agree_with_the_public_solver(usual):
     assessment, found = usual
     array, motion = assessment.governing.array, found.motion.motion
     assert len(found.turned) == 12
@@ -113,11 +108,6 @@ def test_turned_shaking_agrees_with_the_public_solver(usual):
         wanted = slid(motion, along, across, array).prd_m
         assert turned.result.prd_m == pytest.approx(wanted, rel=0.006)
     assert found.worst.result.prd_m == max(turned.result.prd_m for turned in found.turned)
-
-
-def test_the_reversed_vertical_is_run_in_every_heading(usual):
-    assessment, found = usual
-    array, motion = assessment.governing.array, found.motion.motion
     largest = prd_m(motion, array, az_mps2=-motion.az_mps2)
     assert found.reversed_m == pytest.approx(largest, rel=1e-5)
 

@@ -52,16 +52,13 @@ def by_pair(done):
     return {(neighbor.array, neighbor.other): neighbor for neighbor in of(done)}
 
 
-def test_every_pair_with_a_clearance_is_listed_with_its_row(done):
+def test_every_pair_with_a_clearance_from_either_side_is_listed(done):
     pairs = by_pair(having(done, design_m=0.01))
     assert list(pairs) == [
         ("A1", "A3"), ("A1", "RTU-1"), ("A2", "S edge"), ("A3", "T-1"), ("A3", "N edge"),
     ]  # fmt: skip
     assert not any(neighbor.is_missing for neighbor in pairs.values())
     assert pairs["A1", "A3"].given[0].clearance == done.project.clearances[0]
-
-
-def test_a_clearance_from_the_other_side_covers_the_pair(done):
     rows = [stand_in.clearance("A3", "A1", 15 * FT)]
     pairs = by_pair(having(done, design_m=10 * FT, clearances=rows))
     assert pairs["A1", "A3"].given
@@ -76,14 +73,11 @@ def test_a_neighbor_within_twice_the_design_displacement_is_missing(done, design
         assert pairs["A1", "A2"].is_missing
 
 
-def test_the_larger_displacement_of_two_arrays_decides(done):
+def test_the_larger_displacement_or_the_prescriptive_one_decides(done):
     quiet = having(done, design_m=0.01)
     moving = replace(quiet.arrays[1], design_m=11 * FT)
     pairs = by_pair(replace(quiet, arrays=(quiet.arrays[0], moving, quiet.arrays[2])))
     assert pairs["A1", "A2"].reach_m == pytest.approx(22 * FT)
-
-
-def test_without_a_design_displacement_the_prescriptive_one_decides(done):
     pairs = by_pair(having(done, design_m=math.nan))
     expected = 2.0 * done.arrays[0].prescriptive.value_m
     assert pairs["A1", "A3"].reach_m == expected
@@ -163,8 +157,19 @@ def test_edges_are_named_by_the_compass(north_deg, names):
     assert [edge.name for edge in edges] == [f"{name} edge of the roof" for name in names.split()]
 
 
-def test_without_an_outline_no_edge_is_known():
+def test_the_edges_of_an_l_shaped_roof_are_its_sides_and_none_without_an_outline():
     assert bare_edges(stand_in.project()) == ()
+    data = stand_in.project(outlines=vertices("roof", L_ROOF))
+    edges = bare_edges(data)
+    assert [edge.name for edge in edges] == [
+        "east edge of the roof (side 2)",
+        "north edge of the roof (side 3)",
+        "east edge of the roof (side 4)",
+        "west edge of the roof (side 6)",
+    ]  # the objects N edge and S edge cover the others
+    start, end = edges[2].ends
+    assert start == pytest.approx((120 * FT, 100 * FT))
+    assert end == pytest.approx((120 * FT, 170 * FT))
 
 
 length = st.floats(0.0, 60.0)
@@ -231,20 +236,6 @@ def test_a_unit_in_the_notch_of_an_outlined_array_is_as_far_as_its_nearer_leg(do
     assert pair.gap_m == pytest.approx(5 * FT)
     (text,) = pair.shortcomings()
     assert text.endswith("correct the clearance or the outlines")
-
-
-def test_the_edges_of_an_l_shaped_roof_are_its_sides():
-    data = stand_in.project(outlines=vertices("roof", L_ROOF))
-    edges = bare_edges(data)
-    assert [edge.name for edge in edges] == [
-        "east edge of the roof (side 2)",
-        "north edge of the roof (side 3)",
-        "east edge of the roof (side 4)",
-        "west edge of the roof (side 6)",
-    ]  # the objects N edge and S edge cover the others
-    start, end = edges[2].ends
-    assert start == pytest.approx((120 * FT, 100 * FT))
-    assert end == pytest.approx((120 * FT, 170 * FT))
 
 
 def test_an_oblique_edge_is_covered_by_an_oblique_strip():

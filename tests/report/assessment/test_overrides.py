@@ -97,7 +97,7 @@ def test_a_separation_carries_the_mark_of_its_factor(factor, mark):
     assert (gap.design_mark, gap.ratio_words.endswith("‡")) == ("", bool(mark))
 
 
-def test_a_floor_that_is_lowered_marks_what_it_governed():
+def test_a_lowered_floor_marks_what_it_governed_alone():
     """The value from analysis is between the two floors: without the override it would not do."""
     plain = assessed()
     assert (marks(plain), plain.is_overridden) == ((["", ""], ["", ""]), False)
@@ -108,9 +108,6 @@ def test_a_floor_that_is_lowered_marks_what_it_governed():
     assert all(
         item.design_m < p.design_m for item, p in zip(done.arrays, plain.arrays, strict=True)
     )
-
-
-def test_a_floor_that_is_lowered_marks_nothing_where_it_did_not_govern():
     strong = scenes.motions(7, peak_g=6.0)
     lower = overrides(analysis_floor=0.1)
     done = scenes.package(strong, overrides=lower, clearances=[]).assessment
@@ -119,7 +116,7 @@ def test_a_floor_that_is_lowered_marks_nothing_where_it_did_not_govern():
     assert "override" in [row.id for row in done.conditions]
 
 
-def test_a_route_that_an_override_alone_permits_is_marked():
+def test_a_route_and_the_mean_that_an_override_alone_permits_are_marked():
     done = scenes.package(
         scenes.motions(7),
         arrays=[stand_in.array("A1", 8.0, mu=0.6)],
@@ -128,9 +125,6 @@ def test_a_route_that_an_override_alone_permits_is_marked():
     ).assessment
     assert done.arrays[0].is_permitted
     assert marks(done) == (["‡"], [])
-
-
-def test_the_mean_without_factor_is_marked():
     strong = scenes.motions(11, peak_g=6.0)
     done = scenes.package(strong, options={"statistic": "mean"}, clearances=[]).assessment
     by_analysis = [item for item in done.arrays if item.governs == "analysis"]

@@ -223,7 +223,7 @@ def test_rows_from_the_drawing_are_renewed_and_typed_ones_stay(tmp_path):
     assert path.read_bytes() == content
 
 
-def test_a_row_from_the_drawing_has_the_direction_of_the_plan_from_either_side(tmp_path):
+def test_the_direction_is_that_of_the_plan_and_only_the_sheet_clearances_changes(tmp_path):
     path = make(tmp_path, **BARE)
     rows = {"Clearances/1/Array": "A2", "Clearances/1/Object": "A1",
             "Clearances/1/Direction": "any", "Clearances/1/Provided clearance": 1,
@@ -233,9 +233,6 @@ def test_a_row_from_the_drawing_has_the_direction_of_the_plan_from_either_side(t
     first = read(path).project.clearances[0]
     assert (first.array, first.object, first.direction) == ("A2", "A1", Direction.ACROSS)
     assert first.provided_m == pytest.approx(120 * INCH)
-
-
-def test_only_the_sheet_clearances_changes(tmp_path):
     path = make(tmp_path, **BARE)
     before = parts(path)
     fill(tmp_path)
@@ -379,7 +376,7 @@ CONFIRMED = {
 
 
 @pytest.mark.nightly
-def test_a_confirmation_of_distances_is_taken_out_where_a_command_writes_other_ones(tmp_path):
+def test_confirmed_distances_stay_until_other_ones_are_written(tmp_path):
     path = make(tmp_path, **BARE, project=CONFIRMED)
     said = at(
         "<Project/Drawing distances confirmed by>, <Project/Drawing distances confirmed on>,"
@@ -390,10 +387,6 @@ def test_a_confirmation_of_distances_is_taken_out_where_a_command_writes_other_o
     issue = read(path).project.project
     assert (issue.drawing_confirmed_by, issue.drawing_confirmed_date) == ("", None)
     assert issue.drawing_covered == ""
-
-
-@pytest.mark.nightly
-def test_a_confirmation_of_distances_stays_where_a_command_writes_none(tmp_path):
     fill(make(tmp_path, **BARE).parent)
     rows = [row.model_dump() for row in read(tmp_path).project.clearances]
     path = make(tmp_path, clearances=rows, objects=PLACED, project=CONFIRMED)

@@ -36,7 +36,7 @@ def done():
     ).assessment
 
 
-def test_a_gap_without_a_row_that_is_less_than_required_is_a_gap_of_the_plan(done):
+def test_a_short_gap_without_a_row_is_ng_in_the_drawing_the_picture_and_on_the_page(done):
     gaps = list(plan_gaps(done))
     assert [(gap.number, gap.array, gap.other) for gap in gaps] == [
         (1, "A2", "A1"), (2, "A1", "N"), (3, "A1", "S"), (0, "A1", "RTU-9"),
@@ -45,9 +45,6 @@ def test_a_gap_without_a_row_that_is_less_than_required_is_a_gap_of_the_plan(don
     missing = gaps[-1]
     assert missing.provided_m == pytest.approx(0.3048)  # from x = 100 to 101 ft
     assert missing.required_m == done.arrays[0].design_m
-
-
-def test_it_is_ng_in_the_drawing_the_picture_and_on_the_page(done):
     gap = "no clearance given: 12.0 in (305 mm) in plan, required 40.8 in (1036 mm), NG"
     words = f"A1 to RTU-9: {gap}"
     assert [t.layer for t in plan_drawing(done).texts if t.words == words] == [Layer.CLEARANCE_NG]

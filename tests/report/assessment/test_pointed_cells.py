@@ -141,15 +141,12 @@ def test_a_finding_names_the_cells_that_are_missing_or_wrong(case):
     assert named == {Place(*each) for each in places}
 
 
-def test_the_component_that_drifts_is_named(tmp_path):
+def test_cells_of_a_drift_and_of_several_values_are_printed(tmp_path):
     path = sheets.make(tmp_path)
     drift = "".join(f"{2.0 if 20 < i < 60 else 0.0}\n" for i in range(200))
     (tmp_path / "records" / "z.csv").write_text(drift)
     found = [line for line in printed("check", path).splitlines() if "M1, final displ" in line]
     assert [line.split(": ")[1] for line in found] == [sheets.at("Motions/M1/Vertical record")]
-
-
-def test_every_cell_of_one_finding_is_printed(tmp_path):
     path = sheets.make(tmp_path, site=sheets.site(s_1_g=None))
     line = next(line for line in printed("check", path).splitlines() if "basis of the se" in line)
     cells = f"{sheets.at('Site/S_1')}, {sheets.at('Site/S_D1')}"

@@ -51,7 +51,7 @@ def stated(slope_deg, mu):
     return SimpleNamespace(slope_rad=math.radians(slope_deg), mu=mu)
 
 
-def test_each_motion_is_governed_by_its_worst_component_and_polarity(done):
+def test_each_motion_and_direction_has_the_farthest_of_all_runs(done):
     item = done.arrays[1]
     peaks = [max(run.prd_m for run in slides(motion, stated(2.0, 0.45))) for motion in SEVEN]
     assert [run.governing.result.prd_m for run in item.motions] == peaks
@@ -59,9 +59,6 @@ def test_each_motion_is_governed_by_its_worst_component_and_polarity(done):
     assert item.analysis.value_m == pytest.approx(1.1 * sum(peaks) / 7)
     assert item.worst.governing.result.prd_m == max(peaks)
     assert item.variation == pytest.approx(statistics.stdev(peaks) / statistics.mean(peaks))
-
-
-def test_each_direction_has_the_farthest_of_all_runs_of_each_motion(done):
     item = done.arrays[2]
     by_motion = [slides(motion, stated(3.0, 0.55)) for motion in SEVEN]
     for direction, name in (("down", "down_m"), ("up", "up_m"), ("across", "across_m")):
@@ -175,13 +172,10 @@ def test_two_motions_are_too_few_and_without_either_route_there_is_no_value():
     assert math.isnan(alone(SEVEN[:1]).arrays[0].variation)
 
 
-def test_too_few_motions_for_a_chosen_statistic_are_never_ok():
+def test_too_few_motions_are_never_ok_and_runs_bound_the_prescriptive_route():
     done = alone(SEVEN[:5], arrays=STEEP, options={"statistic": "mean"})
     assert math.isnan(done.arrays[0].design_m)
     assert not done.verdict.is_permitted
-
-
-def test_the_prescriptive_route_takes_no_less_than_a_computed_displacement():
     done = alone(scenes.motions(2, 30.0, peak_g=6.0, vertical_peak_g=0.1))
     for item in done.arrays:
         largest = max(run.governing.prd_m for run in item.motions)

@@ -48,15 +48,12 @@ def test_nothing_is_tried_for_a_clearance_that_is_satisfied_or_without_a_permitt
     assert remedies(done) == remedies(made(9.0)) == ()  # nor where everything is satisfied
 
 
-def test_a_walk_returns_every_value_before_the_first_failure():
+def test_a_walk_returns_every_value_before_the_first_failure_and_tries_none_twice():
     assert search(lambda k: k >= 23, 150, 11)[-1] == 23
     assert search(lambda k: k <= 44, 5, 99)[-1] == 44
     assert search(lambda k: k >= 0, 20, 7)[-1] == 7
     assert search(lambda k: k < 0, 20, 7) == ()
     assert search(lambda k: True, 20, 20) == (20,)
-
-
-def test_a_walk_stops_at_an_isolated_failure_and_tries_no_value_twice():
     tried = []
 
     def satisfies(k):
@@ -67,9 +64,6 @@ def test_a_walk_stops_at_an_isolated_failure_and_tries_no_value_twice():
     assert held[-1] == 51
     assert all(k > 50 for k in held)
     assert len(tried) == len(set(tried)) + 1  # the failure of the first pass is met again
-
-
-def test_the_hundredths_beside_a_value_are_never_the_value():
     assert (above(0.45), below(0.45)) == (46, 44)
     assert (above(0.425), below(0.425)) == (43, 42)
     assert (above(0.0), below(1.566)) == (1, 156)

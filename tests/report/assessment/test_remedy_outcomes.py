@@ -69,7 +69,7 @@ def test_an_array_is_moved_where_the_plan_has_room_and_everything_is_checked_aga
     assert outcome(done).words(us_first=True) == words
 
 
-def test_no_move_is_offered_that_makes_something_else_ng():
+def test_no_move_makes_something_else_ng_or_leaves_the_roof():
     west = unit(18.0, "RTU-2", width=1.0)  # a foot from the other side of the array
     north = unit(20.0, "RTU-3", width=60.0) | {"y_from_m": 76 * FOOT, "y_to_m": 80 * FOOT}
     south = unit(20.0, "RTU-4", width=60.0) | {"y_from_m": 10 * FOOT, "y_to_m": 14 * FOOT}
@@ -78,9 +78,6 @@ def test_no_move_is_offered_that_makes_something_else_ng():
     assert not found.exists
     assert found.outcome is None
     assert "no move of one array along an axis of the plan" in found.basis
-
-
-def test_no_move_leaves_the_roof():
     given = made(roof=ROOF | {"x_from_m": 19 * FOOT})
     for found in of(given, RemedyKind.SEPARATION):
         assert "west" not in found.basis
@@ -156,16 +153,13 @@ def test_peer_review_is_offered_where_it_removes_a_floor_that_governs_and_only_t
     assert not of(made(x=150.0), RemedyKind.REVIEW)  # nothing is NG
 
 
-def test_a_review_of_the_day_of_the_package_that_was_of_other_inputs_is_offered_anew():
+def test_a_later_review_is_offered_anew_and_the_best_remedy_is_not_ng():
     day = inputs.HEAD["date"]
     of_others = {"peer_date": day, "peer_covered": f"{day}: Arrays 000000"}
     given = made(x=102.5, options=PEER | of_others)
     (found,) = of(given, RemedyKind.REVIEW)
     (item,) = given.arrays
     assert (found.given, found.value) == (item.floor_m, item.analysis.value_m)
-
-
-def test_the_best_remedy_is_one_with_which_the_project_is_not_ng():
     given = made(x=102.5)
     (best,) = best_remedy(given)
     assert best.outcome.verdict.is_permitted

@@ -66,9 +66,6 @@ def test_friction_is_changed_by_five_percent_and_all_motions_run_again(usual):
     ):
         assert row["5 % less [in]"].rstrip("†") == inches_up(less.design_m)
         assert row["5 % more [in]"].rstrip("†") == inches_up(more.design_m)
-
-
-def test_the_runs_with_less_friction_are_those_of_the_conditions(usual):
     scene, evidence, _ = usual
     assert evidence.at_reduced_friction is scene.assessment.at_reduced_friction
 

@@ -57,15 +57,12 @@ def test_all_three_components_are_taken_as_run(assessment):
     assert parts[2].target is assessment.targets.vertical
 
 
-def test_motions_without_a_component_are_omitted_there(assessment):
+def test_ordinates_are_of_mean_and_single_motions_that_have_the_component(assessment):
     first, second, third = HALVED
     bare = [replace(first, ay_mps2=np.empty(0), az_mps2=np.empty(0)), second, third]
     parts = spectra(under(assessment, bare))
     assert [part.ids for part in parts] == [("M1", "M2", "M3"), ("M2", "M3"), ("M2", "M3")]
     assert [part.title for part in spectra(under(assessment, bare[:1]))] == ["Horizontal"]
-
-
-def test_ratios_of_the_ordinates_are_those_of_mean_and_single_motions(assessment):
     part = spectra(under(assessment))[0]
     head, target, mean, over, least, largest = ordinates(assessment, part).rows
     assert part.title in head["Period"]
@@ -126,13 +123,10 @@ def said(*parts):
     return [line for line in lines if ": the mean of the motions " in line]
 
 
-def test_motions_that_reach_their_target_or_have_none_are_not_said_to_miss_it():
+def test_motions_are_named_where_they_are_below_their_target_alone():
     nowhere = TargetSpectrum(name="", at=FLAT.at, from_s=np.inf, to_s=0.0)
     assert said(relative("Horizontal", [1.0, 1.29, 1.1, 1.0, 0.1])) == []
     assert said(relative("Ground, horizontal", [0.1] * 5, nowhere, is_ground=True)) == []
-
-
-def test_motions_below_their_target_are_named_with_ratio_period_band_and_what_follows():
     (text,) = said(relative("Ground, horizontal", [1.1, 1.0, 0.7, 0.4, 0.1], is_ground=True))
     assert text == (
         "Ground, horizontal: the mean of the motions falls to 0.40 times the target (AC156) at 0.2 "
