@@ -128,8 +128,8 @@ def conditioning(verification: Verification) -> Section:
     )
 
 
+# Differences in RRD between the paper's method and SAP 2000.
 PAPER_WORST_PERCENT, PAPER_MEAN_PERCENT = 6.78, 1.69
-"""Differences in RRD between the paper's method and SAP 2000."""
 
 
 def convergence(verification: Verification) -> Section:

@@ -201,10 +201,7 @@ def files(
 ) -> Mapping[str, bytes]:
     """Return the manual, its table and its charts by file name.
 
-    Raises
-    ------
-    DefectError
-        Where the renderer complains.
+    Raises `DefectError` where the renderer complains.
     """
     machine = this_machine()
     on_stage("Drawing the charts")

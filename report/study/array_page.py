@@ -207,16 +207,10 @@ def _values(results: StudyResults, array_years: ArrayYears) -> Iterator[Row]:
         yield "Clearance exceeded", f"{low:.3g} to {high:.3g}", share, *none, "share of the rate"
     for name, distances in array_years.statistics.items():
         for which, distance in zip(("Largest", "Last"), distances, strict=True):
-            case = f"put back {name}"
+            case, lives = f"put back {name}", "share of lives"
             yield f"{which} distance, mean", case, distance.mean_m / unit.si, *none, unit.symbol
             yield f"{which} distance, 95 %", case, distance.p95_m / unit.si, *none, unit.symbol
-            yield (
-                f"{which} distance beyond clearance",
-                case,
-                distance.beyond,
-                *none,
-                "share of lives",
-            )
+            yield f"{which} distance beyond clearance", case, distance.beyond, *none, lives
     for mu, of_mu in zip(array_years.mus, array_years.prd_by_mu_m, strict=True):
         for span, prd_m in zip(rates.RECURRENCES, of_mu, strict=True):
             yield f"PRD with μ = {mu:.4g}", f"{span:g} years", prd_m / unit.si, *none, unit.symbol
@@ -225,13 +219,8 @@ def _values(results: StudyResults, array_years: ArrayYears) -> Iterator[Row]:
         yield "Friction, scatter within surfaces", "s", of_mat.within, *none, ""
         yield "Friction, scatter between surfaces", "s", of_mat.between, *none, ""
         yield "Friction, Student t scale", f"{of_mat.freedom} degrees", of_mat.scale, *none, ""
-        yield (
-            "Friction, more runs",
-            f"{rates.VERDICT_YEARS:g} years",
-            array_years.more_runs,
-            *none,
-            "runs",
-        )
+        case = f"{rates.VERDICT_YEARS:g} years"
+        yield "Friction, more runs", case, array_years.more_runs, *none, "runs"
 
 
 def years_json(results: StudyResults) -> bytes:
@@ -252,6 +241,7 @@ def years_json(results: StudyResults) -> bytes:
 
 def _of_array(results: StudyResults, array_years: ArrayYears) -> YearsOfArray:
     building, array = who(results, array_years.plan)
+    statistics = array_years.statistics
     return YearsOfArray(
         array=array,
         building=building,
@@ -260,8 +250,6 @@ def _of_array(results: StudyResults, array_years: ArrayYears) -> YearsOfArray:
         clearance_m=array_years.plan.array.clearance_m,
         clearance_rate=float(array_years.clearance_rates[0]),
         prd_m={f"{span:g}": prd_m for span, prd_m, *_ in array_years.recurrences},
-        largest={
-            name: Distance.model_validate(of[0]) for name, of in array_years.statistics.items()
-        },
-        last={name: Distance.model_validate(of[1]) for name, of in array_years.statistics.items()},
+        largest={name: Distance.model_validate(of[0]) for name, of in statistics.items()},
+        last={name: Distance.model_validate(of[1]) for name, of in statistics.items()},
     )

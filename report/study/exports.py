@@ -33,24 +33,22 @@ from report.text.units import digits_down, digits_up, round_up
 from report.typeset.pdf import TEMPLATES
 from solver.model import Floats
 
+# Demand type and unit of pelicun; it has none for S_DS. Its PRD is peak roof drift ratio.
 DEMANDS: Mapping[Intensity, tuple[str, str]] = {
     Intensity.PPA: ("Peak Floor Acceleration", "g"),
     Intensity.PPV: ("Peak Floor Velocity", "mps"),
     Intensity.PGA: ("Peak Ground Acceleration", "g"),
     Intensity.SA1: ("Spectral Acceleration|1.0", "g"),
 }
-"""Demand type and unit of pelicun; it has none for S_DS. Its PRD is peak roof drift ratio."""
 
+# Intensity measure type of OpenQuake, its unit and how many of it are one of ours. OpenQuake reads
+# no unit: accelerations are in g and PGV is in cm/s (openquake.hazardlib.imt).
 MEASURES: Mapping[Intensity, tuple[str, str, float]] = {
     Intensity.PPA: ("PGA", "g", 1.0),
     Intensity.PGA: ("PGA", "g", 1.0),
     Intensity.SA1: ("SA(1.0)", "g", 1.0),
     Intensity.PPV: ("PGV", "cm/s", 100.0),
 }
-"""Intensity measure type of OpenQuake, its unit and how many of it are one of ours.
-
-OpenQuake reads no unit: accelerations are in g and PGV is in cm/s (openquake.hazardlib.imt).
-"""
 
 QUANTITIES: Mapping[Intensity, str] = {
     Intensity.PPA: "peak horizontal acceleration",
@@ -59,19 +57,17 @@ QUANTITIES: Mapping[Intensity, str] = {
     Intensity.SA1: "horizontal spectral acceleration at 1 s with 5 % damping",
 }
 
+# Share of the lowest intensity below which OpenQuake takes no damage. OpenQuake interpolates
+# linearly from there to the lowest intensity. It has a value for no intensity below the lowest one
+# without a limit, and warns of a limit of zero.
 NO_DAMAGE_SHARE = 1e-3
-"""Share of the lowest intensity below which OpenQuake takes no damage.
-
-OpenQuake interpolates linearly from there to the lowest intensity. It has a value for no intensity
-below the lowest one without a limit, and warns of a limit of zero.
-"""
 
 EXPORTS = ("fragility.csv", "fragility.json", "placement.csv", "fragility.xml")
 
 NRML = "http://openquake.org/xmlns/nrml/0.5"
 MOST_STATES = 4
+# Those of a library, and a description of the limit state, which its readers pass over.
 _COLUMNS = ("Family", "Theta_0", "Theta_1", "DamageStateWeights", "Description")
-"""Those of a library, and a description of the limit state, which its readers pass over."""
 
 
 def export_files(results: StudyResults) -> Mapping[str, bytes]:

@@ -223,10 +223,7 @@ def fragilities(states: Sequence[LimitState], along: str) -> str:
 def goodness(states: Sequence[LimitState], along: str) -> str:
     """Return the ranks of capacities with their lognormal, a panel for each state.
 
-    Parameters
-    ----------
-    states : sequence of LimitState
-        At least one, each with a p-value.
+    `states`: at least one, each with a p-value.
     """
     with style():
         margins = {"left": 0.085, "right": 0.985, "above": 0.216, "below": 0.816}

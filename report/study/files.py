@@ -23,10 +23,7 @@ TABLE = "study.xlsx"
 def study_files(results: StudyResults) -> Mapping[str, bytes]:
     """Return the report, the tables and the exports of a study by file name.
 
-    Raises
-    ------
-    DefectError
-        Where the renderer complains.
+    Raises `DefectError` where the renderer complains.
     """
     return {
         "study.pdf": lay_out(study_html(results)),

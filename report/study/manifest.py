@@ -33,11 +33,11 @@ from solver.model import InputError, Motion
 from solver.sliding.least_model import DEFAULT
 from solver.studies.runs import Campaign
 
+# Raised where a key of the manifest or a column of the parts changes its name or meaning.
 SCHEMA_VERSION = 1
-"""Raised where a key of the manifest or a column of the parts changes its name or meaning."""
 
+# Beside the folder of the parts: a reader of that folder takes every file in it for a part.
 NAME = "manifest.json"
-"""Beside the folder of the parts: a reader of that folder takes every file in it for a part."""
 
 OWN_KEY, TRUST_PARTS = "the key of this user", "--trust-parts"
 """On whose word runs are taken over from parts that are there."""
@@ -130,10 +130,8 @@ def _cases_sha256(campaign: Campaign) -> str:
 def check_former(folder: Path, manifest: Mapping[str, Any]) -> int:
     """Return how many parts the study that wrote to a folder has; 0 for none.
 
-    Raises
-    ------
-    InputError
-        If another version of the program wrote them, with what to do, or the manifest is damaged.
+    Raises `InputError` if another version of the program wrote them, with what to do, or the
+    manifest is damaged.
     """
     path = folder.parent / NAME
     away = f"move the folder {folder} away or delete it, or give another one with --out"
@@ -163,10 +161,7 @@ KEY_BYTES = 32
 def user_key() -> bytes:
     """Return the key of this user on this machine; it is made at its first use.
 
-    Raises
-    ------
-    InputError
-        If it cannot be kept or read, with what to do.
+    Raises `InputError` if it cannot be kept or read, with what to do.
     """
     try:
         path = state_folder() / "roofslip" / "study.key"
@@ -218,10 +213,7 @@ def _make(path: Path) -> None:
 def extra(name: str) -> Any:
     """Return a package, by the name of the module of it that is needed.
 
-    Raises
-    ------
-    InputError
-        If it is not installed, with what to type.
+    Raises `InputError` if it is not installed, with what to type.
     """
     package = name.partition(".")[0]
     try:
@@ -237,5 +229,5 @@ def extra(name: str) -> Any:
 
 ARROW = "pyarrow.parquet"
 DASK = "distributed"
+# By every study; the modules that import them need not be loaded to say so.
 NEEDED = ("scipy", ARROW)
-"""By every study; the modules that import them need not be loaded to say so."""

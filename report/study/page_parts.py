@@ -40,11 +40,11 @@ from solver.verification.shake_table import SHIPPED
 
 MOST_LINES = 8
 """Lines of a chart."""
+# Friction coefficients with pages of their own; a grid of more is drawn over friction.
 MOST_FRICTIONS = 4
-"""Friction coefficients with pages of their own; a grid of more is drawn over friction."""
 MOST_CUTS = 3
+# Intensity [g] below which displacements are small and drawn on a logarithmic axis as well.
 LOW_G = 0.8
-"""Intensity [g] below which displacements are small and drawn on a logarithmic axis as well."""
 
 
 def some(values: Sequence[float], maximum: int) -> list[int]:

@@ -34,8 +34,8 @@ Flags = np.ndarray[Any, np.dtype[np.bool_]]
 
 _PARTS = "part-?????.parquet"
 
+# Size of a row on disk, for `--dry-run`: five lengths, and keys that repeat.
 BYTES_A_ROW = 40.0
-"""Size of a row on disk, for `--dry-run`: five lengths, and keys that repeat."""
 
 _ABOUT, _SIGNATURE = b"roofslip_study", b"roofslip_signature"
 """Keys of the metadata."""
@@ -85,10 +85,7 @@ def mixed(numbers: Sequence[int]) -> list[int]:
 def made_part(runner: Runner, number: int, identity: str, names: Sequence[str]) -> bytes:
     """Run a part and return it as Parquet, not yet signed, in any process.
 
-    Parameters
-    ----------
-    names : sequence of str
-        Of the buildings.
+    `names`: of the buildings.
     """
     pa, started = extra(ARROW), time.thread_time()
     part = runner.campaign.parts[number]
@@ -198,10 +195,7 @@ def done_parts(folder: Path, campaign: Campaign, identity: str, key: bytes) -> d
 def _opened(content: bytes, key: bytes) -> Done:
     """Return a part.
 
-    Raises
-    ------
-    ValueError
-        If it is not whole.
+    Raises `ValueError` if it is not whole.
     """
     end = content.rindex(_SHA256) + len(_UNSIGNED)
     tag, wanted = slice(end - 64, end), signed(content, key)
@@ -220,10 +214,7 @@ def _opened(content: bytes, key: bytes) -> Done:
 def read_part(folder: Path, done: Done) -> bytes:
     """Return the content of a part.
 
-    Raises
-    ------
-    InputError
-        If it changed since it was checked.
+    Raises `InputError` if it changed since it was checked.
     """
     path = folder / part_name(done.about.number)
     content = path.read_bytes()
@@ -243,15 +234,11 @@ def keep(folder: Path, content: bytes, key: bytes) -> Done:
 def begin(folder: Path, manifest: Mapping[str, Any], former: int) -> None:
     """Write the manifest.
 
-    Parameters
-    ----------
-    former : int
-        Parts of the study that wrote to the folder before: theirs are replaced, damaged or not.
+    `former`: parts of the study that wrote to the folder before: theirs are replaced, damaged or
+    not.
 
-    Raises
-    ------
-    InputError
-        If another file has the name of a part and no study wrote it: it would be replaced.
+    Raises `InputError` if another file has the name of a part and no study wrote it: it would be
+    replaced.
     """
     folder.mkdir(parents=True, exist_ok=True)
     ours = {part_name(number) for number in range(former)}
@@ -267,9 +254,7 @@ def begin(folder: Path, manifest: Mapping[str, Any], former: int) -> None:
 def check_places(out: Path, folder: Path) -> None:
     """Refuse what is no plain file in the places of the manifest and the parts.
 
-    Raises
-    ------
-    InputError
+    Raises `InputError`.
     """
     check_plain(out / NAME, out)
     check_plain(folder, out, is_folder=True)

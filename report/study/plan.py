@@ -49,8 +49,8 @@ from solver.studies.uncertainty import (
     one_at_a_time,
 )
 
+# Category and importance factor of the prescriptive displacement, which a study does not know.
 SDC, I_E = "D", 1.0
-"""Category and importance factor of the prescriptive displacement, which a study does not know."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -193,10 +193,7 @@ class StudyPlan:
 def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
     """Return the runs of a study.
 
-    Raises
-    ------
-    InputError
-        If they are more than a study may have, at the cell of the intensities.
+    Raises `InputError` if they are more than a study may have, at the cell of the intensities.
     """
     study_input = sheet.project
     buildings = len(motions.buildings)

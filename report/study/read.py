@@ -51,10 +51,7 @@ StudySheet = SheetOf[StudyInput]
 def read_study(path: Path) -> StudySheet:
     """Read the study workbook at a path, or `input.xlsx` in a folder.
 
-    Raises
-    ------
-    InputError
-        If it is not a study workbook, or with every problem by its cell.
+    Raises `InputError` if it is not a study workbook, or with every problem by its cell.
     """
     book = open_book(path)
     study = sections_of(StudyInput)[0]
@@ -68,12 +65,12 @@ def read_study(path: Path) -> StudySheet:
     return sheet
 
 
+# Lists of the sheet Study: in words, and what their numbers may be. NaN fits none.
 _AXES: Mapping[str, tuple[str, Callable[[float], bool], str]] = {
     "slopes_deg": ("slopes", lambda v: 0.0 <= v <= 45.0, "from 0 to 45"),
     "intensities": ("intensities", lambda v: 0.0 < v <= 100.0, "above 0, to 100"),
     "mus": ("friction coefficients", lambda v: 0.0 < v <= 2.0, "above 0, to 2"),
 }
-"""Lists of the sheet Study: in words, and what their numbers may be. NaN fits none."""
 
 
 def _faults(draft: Draft, where: Where) -> Iterator[Finding]:
@@ -223,10 +220,7 @@ _NEEDLESS = {
 def write_study(path: Path, *, units: UnitsFirst, example: StudyInput | None = None) -> None:
     """Write or replace a study workbook, with the values of a study or blank but for defaults.
 
-    Parameters
-    ----------
-    units : UnitsFirst
-        System of units of the sheets.
+    `units`: system of units of the sheets.
     """
     sections = sections_of(StudyInput)
     book, _ = book_of(sections, sections[0].sheet, units, example)

@@ -34,8 +34,8 @@ MEAN = "mean PRD"
 STATISTICS = (MEAN, "84th percentile of the PRD", "largest PRD")
 """Beside the design displacement."""
 
+# Decimals of answers [deg for slopes]: rounded to the safe side.
 FRICTION_DECIMALS, SLOPE_DECIMALS = 2, 1
-"""Decimals of answers [deg for slopes]: rounded to the safe side."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,9 +71,8 @@ class StudyResults:
     analysis_m: Floats  # value from analysis
     design_m: Floats
     spread: SpectralSpread  # of the motions' spectra
-    ppa_g: (
-        Floats  # mean peak horizontal acceleration at the roof for an intensity of 1, by building
-    )
+    # mean peak horizontal acceleration at the roof for an intensity of 1, by building
+    ppa_g: Floats
     fits: tuple[Fit | str, ...]  # by building; a text says why there is none
     arrays: tuple[ArrayStudyResult, ...]
     years: tuple[ArrayYears, ...]  # in the order of the arrays; empty without a hazard curve

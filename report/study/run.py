@@ -217,10 +217,7 @@ RETRIES = 2
 def connected(address: str, manifest: Mapping[str, Any]) -> Iterator[Any]:
     """Yield a client of a cluster whose workers agree with this program.
 
-    Raises
-    ------
-    InputError
-        If no scheduler answers, it has no worker, or a worker has other versions.
+    Raises `InputError` if no scheduler answers, it has no worker, or a worker has other versions.
     """
     distributed = extra(DASK)
     try:
@@ -269,10 +266,7 @@ def run_on_cluster(
     The records are the result of a task, as the parts are: with a worker that dies both are lost,
     and both are computed again by another one.
 
-    Raises
-    ------
-    Exception
-        Of a part that fails whenever it is tried.
+    Raises `Exception` of a part that fails whenever it is tried.
     """
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Sending large graph", UserWarning)

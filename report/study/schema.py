@@ -40,11 +40,11 @@ MOST_RUNS = 2_000_000_000
 MOST_CASES = 2_000_000
 """Most runs and most cases of a study."""
 
+# Most samples of all records, which are held in memory.
 MOST_SAMPLES = 30_000_000
-"""Most samples of all records, which are held in memory."""
 
+# From here on a site is rock: the boundary of site classes B and C (ASCE 7-22, Table 20.2-1).
 ROCK_VS30_MPS = 760.0
-"""From here on a site is rock: the boundary of site classes B and C (ASCE 7-22, Table 20.2-1)."""
 
 _STEPS = re.compile(r"(\S+)\s+to\s+(\S+)\s+by\s+(\S+)")
 

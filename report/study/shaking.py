@@ -7,7 +7,6 @@ records, `solver.studies.rates` computes the rates. Read `study_motions` and `ha
 
 from __future__ import annotations
 
-import codecs
 import csv
 import math
 import re
@@ -29,6 +28,7 @@ from report.text.counts import numbered
 from report.text.units import G_MPS2
 from solver.building.roof import shaking_to_roof
 from solver.building.structure import building_of_periods
+from solver.formats.source import open_source
 from solver.model import Floats, InputError, Motion
 from solver.records.measures import measures
 from solver.records.record import Record, read_only
@@ -58,10 +58,7 @@ class StudyMotions:
 def study_motions(sheet: StudySheet) -> StudyMotions:
     """Read the records of a study and carry ground motions through its buildings.
 
-    Raises
-    ------
-    InputError
-        With every problem of the records, by cell.
+    Raises `InputError` with every problem of the records, by cell.
     """
     read: list[tuple[MotionInput, Components]] = []
     faults: list[Finding] = []
@@ -207,8 +204,8 @@ def _intensity(study_input: StudyInput, recorded: Record, at_roof: Record) -> fl
 
 MAX_BYTES = 1_000_000
 
+# Most events a year: a greater number is no annual rate, and lives of as many fill the memory.
 MOST_RATE = 10.0
-"""Most events a year: a greater number is no annual rate, and lives of as many fill the memory."""
 
 _NAMES: Mapping[bool, re.Pattern[str]] = {
     False: re.compile(r"\bPGA\b|peak ground", re.IGNORECASE),
@@ -222,53 +219,43 @@ _TWO = "give intensity and annual rate in two columns, or the CSV of the USGS ha
 def hazard_curves(sheet: StudySheet) -> tuple[HazardCurve, ...]:
     """Return the curve for the intensity of the motions; empty if none is given.
 
-    Raises
-    ------
-    InputError
-        At the cell of the file, or at the row of the table.
+    Raises `InputError` at the cell of the file, or at the row of the table.
     """
     study_input, hazard = sheet.project, sheet.project.hazard
     if not (hazard.file or study_input.hazard_points):
         return ()
-    place, points = (
-        Place("hazard_points"),
-        [(point.intensity, point.annual_rate) for point in study_input.hazard_points],
-    )
+    place = Place("hazard_points")
+    points = [(point.intensity, point.annual_rate) for point in study_input.hazard_points]
     try:
         if hazard.file:
             place = Place("hazard", 0, "file")
             path = path_beside(sheet.path.parent, hazard.file, MAX_BYTES, "hazard-pga.csv")
-            data = path.read_bytes()
-            is_utf_16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
-            text = data.decode("utf-16" if is_utf_16 else "utf-8-sig", errors="replace")
-            points = points_of(text, is_spectral=study_input.study.intensity is Intensity.SA1)
+            # As the records: Excel may save a CSV as UTF-16.
+            lines = open_source(path, units="", dt_s=math.nan).lines
+            points = points_of(lines, is_spectral=study_input.study.intensity is Intensity.SA1)
         x, rate = _checked(points)
     except InputError as error:
         sheet.refuse([Finding.error(place, p.found, p.remedy) for p in error.parts])
         raise
-    return (
-        HazardCurve(
-            intensity=hazard.factor * x, rate=rate, beta=study_input.study.record_beta or 0.0
-        ),
-    )
+    beta = study_input.study.record_beta or 0.0
+    return (HazardCurve(intensity=hazard.factor * x, rate=rate, beta=beta),)
 
 
-def points_of(text: str, *, is_spectral: bool) -> list[tuple[float, float]]:
-    """Return the points of a file, intensity and annual rate.
+def points_of(lines: Sequence[str], *, is_spectral: bool) -> list[tuple[float, float]]:
+    """Return the points of the lines of a file, intensity and annual rate.
 
     The USGS hazard tool saves for each curve a line with its name, one that begins with a label and
     has the intensities, and one with the rates (`D3SaveLineData` of nshmp-haz-ws).
 
-    Raises
-    ------
-    InputError
-        If it has neither, or no single curve of the measure.
+    Raises `InputError` if it has neither, or no single curve of the measure.
     """
-    lines = text.splitlines()
     mark = separator(lines)
-    read = [[cell.strip() for cell in row] for row in csv.reader(lines, delimiter=mark)]
-    if mark == ";":
-        read = [[cell.replace(",", ".") for cell in row] for row in read]
+    # Semicolons go with decimal commas, before an exponent too: 1,2E-5.
+    point = "." if mark == ";" else ","
+    read = [
+        [cell.strip().replace(",", point) for cell in row]
+        for row in csv.reader(lines, delimiter=mark)
+    ]
     # A spreadsheet pads the shorter rows with blanks.
     rows = [row[: max(k for k, cell in enumerate(row) if cell) + 1] for row in read if any(row)]
     if curves := list(_saved_curves(rows)):
@@ -282,7 +269,7 @@ def points_of(text: str, *, is_spectral: bool) -> list[tuple[float, float]]:
     first = next((k for k, values in enumerate(columns) if values), len(rows))
     wrong = [k for k, values in enumerate(columns) if k >= first and len(values) != 2]
     if wrong or first == len(rows):
-        shown = mark.join(rows[wrong[0]])[:60] if wrong else text[:60].strip()
+        shown = mark.join(rows[wrong[0]] if wrong else lines)[:60].strip()
         raise InputError(f"has '{shown}'; {_TWO}")
     return [(values[0], values[1]) for values in columns[first:]]
 

@@ -74,10 +74,7 @@ def who(results: StudyResults, plan: ArrayPlan) -> tuple[str, str]:
 def study_xlsx(results: StudyResults, more: Iterable[tuple[str, Row, Iterable[Row]]] = ()) -> bytes:
     """Return the summaries as a workbook: never a row for each run.
 
-    Parameters
-    ----------
-    more : iterable of tuple
-        Title, heading and rows of further sheets.
+    `more`: title, heading and rows of further sheets.
     """
     buffer = io.BytesIO()
     unit, study_input = length_unit(results), results.plan.input

@@ -28,8 +28,8 @@ from solver.studies.fragility import Lognormal
 
 NAMES = ("record-to-record", "modeling", "quality of data", "friction", "slope")
 NOT_GIVEN, NOT_DETERMINED = "not given", "not determined"
+# Each force on such a block is proportional to its mass; a study has no others.
 MASS = "Mass has no effect: each array is one rigid block with Coulomb friction"
-"""Each force on such a block is proportional to its mass; a study has no others."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -16,6 +16,7 @@ from report.sheet.reading.linked_files import ABOVE, ALWAYS, NEVER
 from report.study.array_capacities import curves_of
 from report.study.plan import ArrayPlan, StudyPlan
 from solver.model import Floats
+from solver.studies.curves import first_allowed
 from solver.studies.lives import (
     BELOW_UPLIFT,
     Draws,
@@ -43,8 +44,8 @@ from solver.studies.runs import Runner
 RECURRENCES = (72.0, 475.0, 700.0, 975.0, 2475.0)
 """Mean recurrence intervals [years]."""
 
+# Recurrence of the PRD that is compared with the clearance: as permit packages promise it.
 VERDICT_YEARS = 700.0
-"""Recurrence of the PRD that is compared with the clearance: as permit packages promise it."""
 
 SPANS = (25.0, 50.0)
 LIFE_YEARS = 25.0
@@ -75,11 +76,6 @@ class ArrayYears:
     lives: Mapping[str, Floats]  # `distances` by when the array is put back
     required_mu: float  # with it the PRD of `VERDICT_YEARS` is the clearance; inf or 0 beyond
     more_runs: float  # until it is the lowest of the predictive distribution; NaN without tests
-
-    @property
-    def runs(self) -> int:
-        """Runs of its own."""
-        return math.prod(self.responses.values.shape[:3])
 
     @property
     def clearance_rates(self) -> Floats:
@@ -133,11 +129,10 @@ def years_of(plan: StudyPlan, curve: HazardCurve, array: ArrayPlan, runner: Runn
     )
     limits_m, by_run = _by_run(curve, array, responses)
     rates, years = by_run.mean(axis=(1, 2)), np.array(RECURRENCES)
-    drawn = realizations(by_run.reshape(*by_run.shape[:2], motions, -1).mean(axis=-1),
-                         seed=array.seed)  # fmt: skip
+    by_motion = by_run.reshape(*by_run.shape[:2], motions, -1).mean(axis=-1)
+    drawn = realizations(by_motion, seed=array.seed)
     by_mu = displacements_at(limits_m, by_run.mean(axis=-1), years).T
-    clearance_m = array.array.clearance_m
-    edges = np.geomspace(low, top, _BINS + 1)
+    clearance_m, edges = array.array.clearance_m, np.geomspace(low, top, _BINS + 1)
     required = _required_mu(mus, by_mu[:, RECURRENCES.index(VERDICT_YEARS)], clearance_m)
     above = plan.input.hazard.recenter_m
     recenter = {NEVER: math.inf, **({ABOVE: above} if above else {}), ALWAYS: 0.0}
@@ -183,10 +178,7 @@ def _required_mu(mus: tuple[float, ...], prd_m: Floats, clearance_m: float) -> f
     """Return the coefficient at which the PRD is the clearance; inf or 0 beyond those run."""
     if prd_m[0] <= clearance_m:
         return 0.0
-    if not prd_m[-1] <= clearance_m:
-        return math.inf
-    last = int(np.flatnonzero(~(prd_m <= clearance_m))[-1])
-    share = 1.0
-    if math.isfinite(prd_m[last]):
-        share = float((prd_m[last] - clearance_m) / (prd_m[last] - prd_m[last + 1]))
-    return mus[last] + share * (mus[last + 1] - mus[last])
+    # No line leads from a PRD that is infinite: the next coefficient is the one that is known.
+    known_m = np.where(np.isfinite(prd_m), prd_m, math.nan)
+    required = first_allowed(np.array(mus), known_m, clearance_m)
+    return math.inf if math.isnan(required) else required

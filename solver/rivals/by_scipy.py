@@ -19,11 +19,11 @@ import numpy as np
 from solver.kernels import rivals
 from solver.model import Floats, InputError
 
+# Velocity from which a slip in two axes is integrated, as a share of what the interval gives.
 BEGINNING = 2e-5
-"""Velocity from which a slip in two axes is integrated, as a share of what the interval gives."""
 
+# Part of a step after which the end of a slip is sought that begins with the step.
 LATER = 1e-9
-"""Part of a step after which the end of a slip is sought that begins with the step."""
 
 STEPS = 20_000
 """Steps in a sampling interval after which a regularized run counts as stalled."""

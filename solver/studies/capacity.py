@@ -24,20 +24,18 @@ Flags = NDArray[np.bool_]
 ACCURACY = 1e-4
 """Width of the bracket of a capacity, relative to it."""
 
+# Equal steps from the beginning of slip to the greatest intensity that every scan has. The coarse
+# one is for medians alone: a crossing of one motion that it misses hardly changes them.
 SCAN, COARSE_SCAN = 64, 16
-"""Equal steps from the beginning of slip to the greatest intensity that every scan has.
 
-The coarse one is for medians alone: a crossing of one motion that it misses hardly changes them.
-"""
-
+# Most intensities between those of a scan that are run for a limit: twice what most need.
 MOST_CLOSER = 40
-"""Most intensities between those of a scan that are run for a limit: twice what most need."""
 
 STEEPER = 2.0
 """How much steeper than at the runs around it the PRD may be between two runs of the scan."""
 
+# Up to which the beginning of slip is searched: a record of zeros never has one.
 GREATEST_INTENSITY = 1e9
-"""Up to which the beginning of slip is searched: a record of zeros never has one."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

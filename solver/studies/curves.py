@@ -24,28 +24,19 @@ PERCENTILE = 84.0
 class Statistics:
     """Statistics of the PRD over motions, each of the shape of the cases.
 
-    Attributes
-    ----------
-    mean_m, p84_m, largest_m : array
-        Mean, 84th percentile (linear between order statistics) and maximum [m]; NaN where it
-        depends on a motion without a value.
-    without_value : array of int
-        Number of motions without a value.
+    NaN where it depends on a motion without a value.
     """
 
     mean_m: Floats
-    p84_m: Floats
+    p84_m: Floats  # 84th percentile, linear between order statistics [m]
     largest_m: Floats
-    without_value: NDArray[np.int64]
+    without_value: NDArray[np.int64]  # number of motions
 
 
 def statistics(prd_m: Floats) -> Statistics:
     """Return the statistics over motions.
 
-    Parameters
-    ----------
-    prd_m : array, shape (..., motions)
-        PRD of each case under each motion [m]; NaN for none.
+    `prd_m`: shape (..., motions), PRD of each case under each motion [m]; NaN for none.
     """
     lost = np.isnan(prd_m)
     with np.errstate(invalid="ignore"):
@@ -84,42 +75,29 @@ def first_allowed(values: Floats, prd_m: Floats, allowed_m: float) -> float:
     return float(values[last] + part * (values[last + 1] - values[last]))
 
 
+# PRD from which cases are fitted: below, a factor on the PRD means nothing.
 LEAST_PRD_M = 0.005
-"""PRD from which cases are fitted: below, a factor on the PRD means nothing."""
 
+# Largest r fitted: near 1 the logarithm of a small difference would govern the fit.
 LARGEST_R = 0.9
-"""Largest r fitted: near 1 the logarithm of a small difference would govern the fit."""
 
 TERMS = 5
 
+# Significant digits of the coefficients: the errors are those of the formula as it is printed.
 DIGITS = 4
-"""Significant digits of the coefficients: the errors are those of the formula as it is printed."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fit:
-    """A fitted formula.
+    """A fitted formula: what it is fitted to are the cases in its domain."""
 
-    Attributes
-    ----------
-    coefficients : tuple of float
-        b0 to b4, for a PRD in meters, to `DIGITS`.
-    ppa_g : float
-        p, mean peak acceleration of the motions per unit of intensity [g], to `DIGITS`.
-    sigma_ln, minimum_ratio, maximum_ratio : float
-        Standard deviation of ln(exact / fitted), with the degrees of freedom that are left, and
-        extremes of exact / fitted, in the cases fitted.
-    domain : mapping of str to (float, float)
-        Least and greatest slope [rad], friction, intensity, r and PRD [m] of the cases fitted.
-    """
-
-    coefficients: tuple[float, ...]
-    ppa_g: float
-    sigma_ln: float
-    minimum_ratio: float
+    coefficients: tuple[float, ...]  # b0 to b4, for a PRD in meters, to `DIGITS`
+    ppa_g: float  # p, mean peak acceleration of the motions at intensity 1 [g], to `DIGITS`
+    sigma_ln: float  # of ln(exact / fitted), with the degrees of freedom that are left
+    minimum_ratio: float  # of exact / fitted
     maximum_ratio: float
     cases: int
-    domain: Mapping[str, tuple[float, float]]
+    domain: Mapping[str, tuple[float, float]]  # of slope [rad], friction, intensity, r, PRD [m]
 
     def prd_m(self, slope_rad: float, mu: float, intensity: float) -> float:
         """Return the fitted PRD [m], of a case that the formula covers."""

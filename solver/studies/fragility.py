@@ -77,8 +77,6 @@ class Fragility:
     fitted : Lognormal
     theta_range, beta_range : tuple of float
         Confidence interval of `CONFIDENCE`; NaN if not determined.
-    unfitted : int
-        Samples drawn for the intervals that determine no lognormal.
     p_value : float
         Of the goodness of fit (`lilliefors_p`); NaN with a censored capacity or fewer than four.
     critical : float
@@ -93,7 +91,6 @@ class Fragility:
     fitted: Lognormal
     theta_range: tuple[float, float]
     beta_range: tuple[float, float]
-    unfitted: int
     p_value: float
     critical: float
 
@@ -169,9 +166,9 @@ def fragility(
         Whether the limit state is exceeded, and whether the run is counted.
     """
     fitted = fit_lognormal(capacities)
-    theta_range, beta_range, unfitted = UNKNOWN_RANGE, UNKNOWN_RANGE, 0
+    theta_range = beta_range = UNKNOWN_RANGE
     if fitted.is_known and capacities.is_censored.any():
-        theta_range, beta_range, unfitted = _drawn_ranges(capacities, fitted, seed)
+        theta_range, beta_range = _drawn_ranges(capacities, fitted, seed)
     elif fitted.is_known:
         free = capacities.intensity.size - 1
         far = float(student.ppf(TAILS[1], free)) * fitted.beta / math.sqrt(free + 1)
@@ -190,7 +187,6 @@ def fragility(
         fitted=fitted,
         theta_range=theta_range,
         beta_range=beta_range,
-        unfitted=unfitted,
         p_value=p_value,
         critical=math.nan if math.isnan(p_value) else lilliefors_critical(motions),
     )
@@ -199,13 +195,10 @@ def fragility(
 TAILS = (0.5 * (1.0 - CONFIDENCE), 0.5 * (1.0 + CONFIDENCE))
 
 
-def _drawn_ranges(capacities: Capacities, fitted: Lognormal, seed: int) -> tuple[Range, Range, int]:
+def _drawn_ranges(capacities: Capacities, fitted: Lognormal, seed: int) -> tuple[Range, Range]:
     """Return the intervals of theta and beta, and the number of samples without a lognormal."""
-    y, flags, mean = (
-        np.log(capacities.intensity)[None],
-        capacities.is_censored[None],
-        math.log(fitted.theta),
-    )
+    y, flags = np.log(capacities.intensity)[None], capacities.is_censored[None]
+    mean = math.log(fitted.theta)
     drawn = mean + fitted.beta * np.random.default_rng(seed).standard_normal((REPEATS, y.size))
     ends = np.log(capacities.end)
     is_beyond, drawn = drawn > ends, np.minimum(drawn, ends)
@@ -226,7 +219,7 @@ def _drawn_ranges(capacities: Capacities, fitted: Lognormal, seed: int) -> tuple
 
     of_mean, of_log = float(own.of_mean[0]), float(own.of_log[0])
     beta_range = fitted.beta * math.exp(-high * of_log), fitted.beta * math.exp(-low * of_log)
-    return (end(-of_mean), end(of_mean)), beta_range, int(np.isnan(deviances).sum())
+    return (end(-of_mean), end(of_mean)), beta_range
 
 
 def lilliefors(values: Floats) -> Floats:
@@ -234,9 +227,7 @@ def lilliefors(values: Floats) -> Floats:
 
     Of the distribution functions (Lilliefors 1967, J. Am. Stat. Assoc. 62, 399-402).
 
-    Parameters
-    ----------
-    values : array, shape (..., n)
+    `values`: shape (..., n).
     """
     n = values.shape[-1]
     off = np.sort(values, axis=-1) - values.mean(axis=-1, keepdims=True)

@@ -16,11 +16,11 @@ from scipy.stats import t as student
 from solver.friction_tests import Series
 from solver.model import InputError
 
+# Of the predictive distribution, the middles of five equal probabilities.
 QUANTILES = (0.1, 0.3, 0.5, 0.7, 0.9)
-"""Of the predictive distribution, the middles of five equal probabilities."""
 
+# More runs than anybody makes.
 MOST_RUNS = 1000
-"""More runs than anybody makes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,10 +69,8 @@ class Predictive:
 def predictive(surfaces: Sequence[Series]) -> Predictive:
     """Return the predictive distribution from runs by surface.
 
-    Raises
-    ------
-    InputError
-        If they have fewer than two degrees of freedom, or reach 0 at the lowest of `QUANTILES`.
+    Raises `InputError` if they have fewer than two degrees of freedom, or reach 0 at the lowest of
+    `QUANTILES`.
     """
     groups = [np.array([run.mu for run in surface.runs]) for surface in surfaces]
     sizes = np.array([group.size for group in groups])

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from solver.model import Floats
 
+# Annual rate beyond which no intensity is run: they count as exceedances.
 LEAST_RATE = 1e-6
-"""Annual rate beyond which no intensity is run: they count as exceedances."""
 
 BAND = (0.16, 0.84)
 REPEATS = 1000
@@ -160,17 +160,16 @@ def displacements_at(limits_m: Floats, rates: Floats, years: Floats) -> Floats:
     array
         0 where the block slips less often, and inf where every limit is exceeded more often.
     """
-    flat = rates.reshape(limits_m.size, -1)
-    displacements = np.empty((years.size, flat.shape[1]))
+    # The limit of 0 has no logarithm: half the next one stands for it.
+    x = np.log(np.maximum(limits_m, 0.5 * limits_m[1]))
+
+    def exceeded(of_limits: Floats) -> Floats:
+        interpolated = np.interp(np.log(years), -np.log(of_limits), x, right=np.inf)
+        return np.asarray(np.exp(interpolated))
+
     with np.errstate(divide="ignore"):
-        logs, x = np.log(flat), np.log(np.maximum(limits_m, 0.5 * limits_m[1]))
-    for column in range(flat.shape[1]):
-        displacements[:, column] = np.exp(
-            np.interp(np.log(years), -logs[:, column], x, right=np.inf)
-        )
-    return np.where(flat[0] * years[:, None] < 1.0, 0.0, displacements).reshape(
-        years.size, *rates.shape[1:]
-    )
+        displacements = np.apply_along_axis(exceeded, 0, rates)
+    return np.where(np.multiply.outer(years, rates[0]) < 1.0, 0.0, displacements)
 
 
 def realizations(rates: Floats, *, seed: int) -> Floats:

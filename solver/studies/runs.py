@@ -26,12 +26,12 @@ from solver.sliding import least_model
 from solver.sliding.least_model import DEFAULT, Model
 from solver.sliding.sweep import order_alike
 
+# Rows of a part at most, in one axis and in two: some seconds, so that a killed study repeats
+# little.
 PART_ROWS, PLANE_PART_ROWS = 500_000, 5_000
-"""Rows of a part at most, in one axis and in two: some seconds, so that a killed study repeats
-little."""
 
+# Enough parts for the cores, and few enough for a scheduler and a file system.
 LEAST_PARTS, MOST_PARTS = 32, 4_000
-"""Enough parts for the cores, and few enough for a scheduler and a file system."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -61,10 +61,7 @@ def spread_of_tests(values: Sequence[float]) -> Spread:
     The median is their geometric mean, beta the standard deviation of their logarithms with n - 1
     degrees of freedom.
 
-    Raises
-    ------
-    InputError
-        With fewer than three values, or one that is not above 0.
+    Raises `InputError` with fewer than three values, or one that is not above 0.
     """
     if len(values) < 3 or min(values) <= 0.0:
         raise InputError(f"{len(values)} tested values; give three or more, each above 0")
@@ -104,10 +101,7 @@ class Exceedance:
 def exceedance(prd_m: Floats, limit_m: float, *, seed: int) -> Exceedance:
     """Return the probability that a limit is exceeded.
 
-    Parameters
-    ----------
-    prd_m : array, shape (samples, motions)
-        NaN for a run without a value, which counts as an exceedance.
+    `prd_m`: shape (samples, motions); NaN for a run without a value, which counts as an exceedance.
     """
     by_motion = (~(prd_m <= limit_m)).mean(axis=0)
     rng = np.random.default_rng(seed)
@@ -125,20 +119,12 @@ def exceedance(prd_m: Floats, limit_m: float, *, seed: int) -> Exceedance:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bar:
-    """Effect of one variable alone, the others at their centers.
-
-    Attributes
-    ----------
-    at_low, at_high : float
-        The variable at its 5 % and 95 % quantile.
-    prd_low_m, prd_high_m : float
-        Mean PRD there [m]; NaN for none.
-    """
+    """Effect of one variable alone, the others at their centers."""
 
     name: str
-    at_low: float
+    at_low: float  # the variable at its quantiles `LOW` and `HIGH`
     at_high: float
-    prd_low_m: float
+    prd_low_m: float  # mean PRD there [m]; NaN for none
     prd_high_m: float
 
     @property
@@ -161,10 +147,7 @@ def one_at_a_time(spreads: Mapping[str, Spread]) -> tuple[tuple[float, ...], ...
 def tornado(spreads: Mapping[str, Spread], means_m: Floats) -> tuple[Bar, ...]:
     """Return the bars of a tornado chart, the longest first; a fixed variable has none.
 
-    Parameters
-    ----------
-    means_m : array, shape (1 + 2 variables,)
-        Mean PRD of the cases of `one_at_a_time` [m].
+    `means_m`: shape (1 + 2 variables,), mean PRD of the cases of `one_at_a_time` [m].
     """
     bars = [
         Bar(

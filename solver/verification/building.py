@@ -37,11 +37,11 @@ from solver.sliding.checked import slide
 from solver.verification.evidence import RoofComparison, RoofPrediction
 from solver.verification.study import best_of, unexplained
 
+# Modes of the beam; further modes do not change the floor motions noticeably.
 MODES = 12
-"""Modes of the beam; further modes do not change the floor motions noticeably."""
 
+# The coarse grid; periods are 4 % apart, less than the width of a resonance peak.
 DAMPINGS, ALPHAS = (0.02, 0.05, 0.12), (0.0, 2.0, 6.0, 15.0, 40.0)
-"""The coarse grid; periods are 4 % apart, less than the width of a resonance peak."""
 
 _PERIOD_STEP, _LAST_STEP = 0.04, 1e-4
 
@@ -84,7 +84,7 @@ def identify(
     """
 
     def misfit(point: _Point) -> float:
-        period_s, damping, alpha0 = (float(v) for v in _plain(point))
+        period_s, damping, alpha0 = _plain(point)
         modes = _beam(alpha0, heights)
         zeta = np.full(MODES, damping)
         responses = absolute_accelerations(ground_mps2, dt_s, period_s * modes.period_ratios, zeta)
@@ -136,12 +136,12 @@ SPECTRUM_S = np.geomspace(0.05, 8.0, 89)
 
 BANDS_S = ((0.05, 0.2), (0.2, 0.5), (0.5, 1.0), (1.0, 2.0), (2.0, 4.0), (4.0, 8.0))
 
+# Both signs of the slope are run; the recorded roof motion is scaled to this peak.
 SLOPE_DEG, MUS, PPA_G = 2.0, (0.1, 0.2, 0.3, 0.4), 1.0
-"""Both signs of the slope are run; the recorded roof motion is scaled to this peak."""
 
 CODE_DAMPING = 0.05
+# Middle of the usual stiffness ratios of moment frames, see `solver.building.structure`.
 FRAME_ALPHA0 = 12.5
-"""Middle of the usual stiffness ratios of moment frames, see `solver.building.structure`."""
 
 BY_HEIGHT = "approximate period from height, no measurement"
 """Name of the prediction that needs no measurement of the building."""
@@ -173,10 +173,8 @@ def recorded_buildings(folder: Path) -> tuple[FloorRecords, ...]:
     Loma Prieta earthquake, from the U.S. Geological Survey, as text of time [s] and
     acceleration [g].
 
-    Raises
-    ------
-    InputError
-        If the folder has no known building, or a record is missing or cannot be read.
+    Raises `InputError` if the folder has no known building, or a record is missing or cannot be
+    read.
     """
     market = folder / "roof_575_market"
     if not market.is_dir():

@@ -28,8 +28,8 @@ from solver.verification.evidence import ROUNDING, Check, RoofComparison
 STORIES, PERIOD_S, DAMPING, ALPHA0 = 24, 1.2, 0.04, 6.0
 """The model building."""
 
+# gamma and sigma of a clamped-free beam: Blevins, Formulas for Natural Frequency (1979), 8-1.
 _BENDING = ((1.875104069, 0.734095514), (4.694091133, 1.018467319), (7.854757438, 0.999224497))
-"""gamma and sigma of a clamped-free beam: Blevins, Formulas for Natural Frequency (1979), 8-1."""
 
 
 def building_checks(made: FloorRecords, comparison: RoofComparison) -> Iterator[Check]:

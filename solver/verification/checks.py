@@ -21,8 +21,8 @@ from solver.verification.evidence import ROUNDING, Check
 from solver.verification.reference import Reference
 from solver.verification.study import Case, run, runnable_methods, scale_to
 
+# Gravity in the closed forms [m/s2], as in their printed values.
 G = 9.81
-"""Gravity in the closed forms [m/s2], as in their printed values."""
 
 PIECEWISE = "Closed-form integration of the piecewise-linear pulse; 0.01 s ramps"
 """Source of the checks with pulses."""

@@ -31,8 +31,8 @@ from solver.verification.evidence import Check
 _INCH, _FOOT = 0.0254, 0.3048
 _PUBLISHED = "Published permit calculation, S_DS = 1.0 g, I_e = 1.25, SEAOC PV1-2012"
 _SHEET = "Permit sheet, S_S = 1.313 g, F_a = 1.2, I_e = 1.0, ASCE 7-16; printed to 0.01 ft"
+# Half the last digit of 110.0 lb as the calculation prints it, relative.
 _PRINTED = 4.5e-4
-"""Half the last digit of 110.0 lb as the calculation prints it, relative."""
 
 _FILTER_HZ, _FILTER_ORDER = 1.0, 4
 

@@ -19,8 +19,8 @@ from solver.studies.curves import first_allowed
 from solver.verification.reference import DIGITS
 from solver.verification.shake_table import ShakeTable
 
+# Least PRD of both models for which their ratio is reported [m]; smaller ones are not telling.
 LEAST_M = 5e-3
-"""Least PRD of both models for which their ratio is reported [m]; smaller ones are not telling."""
 
 VERTICAL, SECOND, WORST = "Vertical", "Second axis", "Second axis, worst heading"
 STIFF, SOFT = "Row, links of 1 mm", "Row, links of 10 mm"
@@ -88,8 +88,8 @@ class ModelEvidence:
     work: pd.DataFrame  # see `solver.verification.workprecision.work`
 
 
+# Errors in percent are relative to the exact displacement, or to 1 mm if that is larger [m].
 FLOOR_M = 1e-3
-"""Errors in percent are relative to the exact displacement, or to 1 mm if that is larger [m]."""
 
 
 ROUNDING = 1e-12

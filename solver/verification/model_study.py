@@ -16,7 +16,7 @@ import pandas as pd
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Motion, Scene, coulomb
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import one_axis, two_axes
-from solver.sliding.row import BlockRow, RowResult, slide_row
+from solver.sliding.row import BlockRow, slide_row
 from solver.verification import workprecision
 from solver.verification.evidence import (
     HELD,
@@ -46,11 +46,11 @@ from solver.verification.study import (
 ACROSS_MPS2 = (0.0, 1e-9, 1e-6, 0.1)
 """Transverse accelerations of the block that is driven back [m/s2]."""
 
+# Acceleration that drives it back [g], between kinetic and static friction.
 PUSHED_BACK_G = 0.45
-"""Acceleration that drives it back [g], between kinetic and static friction."""
 
+# Tolerance of its runs: above the least transverse accelerations, so that the change shows.
 PUSHED_TOLERANCE = 1e-8
-"""Tolerance of its runs: above the least transverse accelerations, so that the change shows."""
 
 
 def held(mu: float, ratio: float) -> Friction:
@@ -93,8 +93,8 @@ def pushed() -> pd.DataFrame:
     return pd.DataFrame(rows, index=ACROSS_MPS2)
 
 
+# All combinations are run; if quick, only the first and last values.
 SLOPES_DEG, MUS, PPAS_G = (0.0, 2.0, 5.0), (0.3, 0.4, 0.5, 0.6), (0.5, 1.0, 1.5)
-"""All combinations are run; if quick, only the first and last values."""
 
 SLOW_SHARE, RATE_S_PER_M = 0.8, 30.0
 """mu_slow over mu_fast, and the rate between them [s/m]; also used as kinetic over static."""
@@ -199,13 +199,10 @@ def _change(name: str, lesser_m: Floats, fuller_m: Floats) -> ModelChange:
 def _rows(scenes: Sequence[Scene]) -> Iterator[ModelChange]:
     """Compare the largest PRD of the blocks of a row with the row as one rigid array."""
     for name, stretch_m in STRETCHES_M.items():
-        results = [_slide_row(scene, stretch_m) for scene in scenes]
+        rows = [row_of(scene.friction.mu_slow, stretch_m, scene.g_mps2) for scene in scenes]
+        results = list(map(slide_row, scenes, rows))
         rigid_m = np.array([result.rigid.prd_m for result in results])
         yield _change(name, rigid_m, np.array([max(result.prd_m) for result in results]))
-
-
-def _slide_row(scene: Scene, stretch_m: float = STRETCHES_M[STIFF]) -> RowResult:
-    return slide_row(scene, row_of(scene.friction.mu_slow, stretch_m, scene.g_mps2))
 
 
 def row_of(mu: float, stretch_m: float, g_mps2: float) -> BlockRow:

@@ -30,8 +30,8 @@ CONVERGENCE_CASES = grid((-7.0, -4.0, 0.0, 4.0, 7.0), (0.0, 0.1, 0.5), (0.0, 0.1
 SUBSTEPS = (1, 2, 4, 8, 16, 32, 64, 128, 256)
 
 LINK_PER_M = 1e5
+# The link of the paper's SAP 2000 model, 100 N/mm for a weight of 1 N, and its sub-step.
 LINK_STEP_S = 0.001
-"""The link of the paper's SAP 2000 model, 100 N/mm for a weight of 1 N, and its sub-step."""
 
 LINK_PPA_G = 1.0
 LINK_MUS = {

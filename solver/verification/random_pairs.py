@@ -73,10 +73,7 @@ class Pair:
     def run(self) -> PairComparison:
         """Run both.
 
-        Raises
-        ------
-        ArithmeticError
-            If one of them has no result.
+        Raises `ArithmeticError` if one of them has no result.
         """
         scenes = zip((self.first, self.second), self.tolerances, strict=True)
         a, b = (follow(scene, tolerance) for scene, tolerance in scenes)

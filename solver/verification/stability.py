@@ -22,11 +22,11 @@ from solver.verification.evidence import Conditioning, StabilityMap, percent_off
 from solver.verification.study import CASES, Case, run, scale_to, shortened
 
 SLOPE_DEG = 4.0
+# Least friction without slip on an unshaken roof of that slope.
 CRITICAL_MU = math.tan(math.radians(SLOPE_DEG))
-"""Least friction without slip on an unshaken roof of that slope."""
 
+# PPA of the maps near the critical friction, where the block both sticks and slips.
 PPA_G = 0.3
-"""PPA of the maps near the critical friction, where the block both sticks and slips."""
 
 _SUB_STEP = "Sub-step [s]"
 

@@ -67,6 +67,7 @@ class Case(NamedTuple):
         return f"{self.slope_deg:g}°, μ = {self.mu:g}, PPA = {self.ppa_g:g} g"
 
 
+# From small to large slip, with both signs of the slope; quick runs take the first ones.
 CASES = (
     Case(0.0, 0.3, 1.0),
     Case(4.0, 0.4, 1.0),
@@ -75,7 +76,6 @@ CASES = (
     Case(2.0, 0.1, 0.5),
     Case(-2.0, 0.5, 1.5),
 )
-"""From small to large slip, with both signs of the slope; quick runs take the first ones."""
 
 
 def own_records(quick: bool) -> tuple[Record, ...]:

@@ -106,8 +106,8 @@ CHATTERING = "Fixed steps, no stick"
 REGULARIZED = METHODS["regularized"]
 
 CASE = MODEL_CASES[1]
+# Samples of the part of a motion, quick and full: SciPy takes up to a second per run.
 SAMPLES = (101, 151)
-"""Samples of the part of a motion, quick and full: SciPy takes up to a second per run."""
 
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
 OF_EVENTS = (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)

@@ -80,12 +80,18 @@ def made(results):
 
 
 def test_files_of_two_columns_and_of_the_tool_are_read():
-    assert points_of(TWO, is_spectral=False) == list(POINTS)
-    assert points_of(SAVED, is_spectral=False) == [(0.01, 0.5), (0.1, 0.05), (1.0, 1e-4)]
-    assert points_of(SAVED, is_spectral=True) == [(0.02, 0.3), (0.2, 0.03)]
+    assert points_of(TWO.splitlines(), is_spectral=False) == list(POINTS)
+    assert points_of(SAVED.splitlines(), is_spectral=False) == [
+        (0.01, 0.5),
+        (0.1, 0.05),
+        (1.0, 1e-4),
+    ]
+    assert points_of(SAVED.splitlines(), is_spectral=True) == [(0.02, 0.3), (0.2, 0.03)]
     padded = SAVED.replace("IMT,PGA", "IMT,PGA,,").replace(",0.03\n", ",0.03,\n")
-    assert points_of(padded, is_spectral=True) == [(0.02, 0.3), (0.2, 0.03)]
-    assert points_of("im;rate\n0,01;0,5\n0,1;0,05\n", is_spectral=False) == list(POINTS[:2])
+    assert points_of(padded.splitlines(), is_spectral=True) == [(0.02, 0.3), (0.2, 0.03)]
+    assert points_of("im;rate\n0,01;0,5\n0,1;0,05\n".splitlines(), is_spectral=False) == list(
+        POINTS[:2]
+    )
 
 
 @pytest.mark.parametrize(
@@ -98,7 +104,7 @@ def test_files_of_two_columns_and_of_the_tool_are_read():
 )
 def test_other_files_are_refused(text, said):
     with pytest.raises(InputError, match=said):
-        points_of(text, is_spectral=False)
+        points_of(text.splitlines(), is_spectral=False)
 
 
 def test_a_file_is_read_to_the_roof(tmp_path):
