@@ -77,62 +77,30 @@ class RouteLimits:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArrayAssessment(RouteLimits):
-    """One array: its runs, the value from analysis, the prescriptive value, the design value.
+    """One array: its runs, the value from analysis, the prescriptive value, the design value."""
 
-    Attributes
-    ----------
-    array : Array
-        Its row of the workbook.
-    motions : tuple of MotionRun
-        The runs under each motion.
-    analysis : AnalysisValue
-    directions : mapping of Direction to AnalysisValue
-        Value from analysis of the excursions in each direction; `analysis` is that for any.
-    chosen : mapping of Direction to AnalysisValue
-        The same with the adequate models; differs from it where a model is requested.
-    needed : tuple of MotionRun
-        The runs for `chosen`, in the order of `motions`.
-    prescriptive : Prescriptive
-    floor_m : float
-        Minimum design displacement without peer review [m]; 0 with peer review.
-    route : Route
-        By which the design displacement is obtained.
-    is_permitted : bool
-        Whether the route is permitted: its limits are satisfied, and by analysis those on the
-        motions.
-    design_m : float
-        Design displacement [m]. By analysis: the larger of the value from analysis and the floor.
-        By the prescriptive route: the prescriptive value, not less than the largest PRD of any
-        runs. NaN where a run has no final displacement, or neither route gives a value.
-    by_direction : bool
-        Whether clearances take the displacement toward them, a departure from the rule sets.
-    tipping, uplift : Tipping, Uplift
-        Of the run nearest to tipping, and of the run with the smallest normal force. Without runs,
-        tipping by the most that friction transmits, and no uplift.
-    checks : tuple of Limit
-        Limits that apply to both routes.
-    analysis_checks, prescriptive_checks : tuple of Limit
-        Limits of each route.
-    interconnection_n : float
-        Required strength between the parts of the array [N].
-    adopted : ArrayAssessment or None
-        The same under the rule set as adopted, where the workbook overrides it or departs from it.
-    """
-
-    array: Array
-    motions: tuple[MotionRun, ...]
-    analysis: AnalysisValue
-    directions: Mapping[Direction, AnalysisValue]
+    array: Array  # its row of the workbook
+    motions: tuple[MotionRun, ...]  # the runs under each motion
+    analysis: AnalysisValue  # of the excursions in any direction
+    directions: Mapping[Direction, AnalysisValue]  # of those in each
+    # the same with the adequate models, which differs from it where a model is requested, and the
+    # runs for it, in the order of `motions`
     chosen: Mapping[Direction, AnalysisValue]
     needed: tuple[MotionRun, ...]
     prescriptive: Prescriptive
-    floor_m: float
-    is_permitted: bool
+    floor_m: float  # minimum design displacement without peer review [m]; 0 with it
+    is_permitted: bool  # by the limits of the route, and by analysis those on the motions
+    # Design displacement [m]. By analysis: the larger of the value from analysis and the floor. By
+    # the prescriptive route: the prescriptive value, not less than the largest PRD of any runs. NaN
+    # where a run has no final displacement, or neither route gives a value.
     design_m: float
-    by_direction: bool
+    by_direction: bool  # whether clearances take the displacement toward them, a departure
+    # of the run nearest to tipping, and of that with the smallest normal force; without runs, by
+    # the most that friction transmits, and no uplift
     tipping: Tipping
     uplift: Uplift
-    interconnection_n: float
+    interconnection_n: float  # required strength between the parts of the array [N]
+    # the same under the rule set as adopted, where the workbook overrides it or departs from it
     adopted: ArrayAssessment | None
 
     def __repr__(self) -> str:

@@ -36,45 +36,22 @@ _OPPOSITE = {Direction.DOWN: Direction.UP, Direction.UP: Direction.DOWN}
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ClearanceCheck(ComparedGap):
-    """A clearance: object across it, governing displacement, required and provided separation.
+    """A clearance: object across it, governing displacement, required and provided separation."""
 
-    Attributes
-    ----------
-    clearance : Clearance
-        Its row of the workbook.
-    basis : DistanceBasis
-        Of its distance.
-    neighbor : Neighbor
-        What is across it.
-    importance : float
-        I_e or I_p, as the rule set takes it; 1 where the displacement includes it.
-    governing_array, governing_direction : str, Direction
-        Array and direction of the governing design displacement: the larger of the two between
-        arrays.
-    design_m, required_m : float
-        Design displacement and required separation [m]; NaN without a permitted displacement.
-    factor : float
-        Separation / design displacement, with the importance factor.
-    minimum_m : float
-        Minimum separation of the rule set for this neighbor [m]; 0 for none.
-    is_permitted : bool
-        Whether the arrays beside it have a permitted route; if not, there is no verdict.
-    design_mark, mark : str
-        Marks of the displacement and of the required separation, where an override or a departure
-        changes them.
-    """
-
-    clearance: Clearance
-    basis: DistanceBasis
-    neighbor: Neighbor
-    importance: float
+    clearance: Clearance  # its row of the workbook
+    basis: DistanceBasis  # of its distance
+    neighbor: Neighbor  # what is across it
+    importance: float  # I_e or I_p, as the rule set takes it; 1 where the displacement includes it
+    # of the governing design displacement: the larger of the two between arrays
     governing_array: str
     governing_direction: Direction
-    design_m: float
-    factor: float
-    minimum_m: float
-    required_m: float
-    is_permitted: bool
+    design_m: float  # governing design displacement [m]; NaN without a permitted one
+    factor: float  # separation / design displacement, with the importance factor
+    minimum_m: float  # minimum separation of the rule set for this neighbor [m]; 0 for none
+    required_m: float  # required separation [m]; NaN without a permitted displacement
+    is_permitted: bool  # whether the arrays beside it have a permitted route; else no verdict
+    # of the displacement and of the required separation, where an override or a departure changes
+    # them
     design_mark: str
     mark: str
 

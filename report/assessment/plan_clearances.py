@@ -75,10 +75,8 @@ def missing_rows(
     differs from the plan, and for each pair that still lacks one; at last their counts. `arrays`
     are as run, none where nothing is.
 
-    Raises
-    ------
-    InputError
-        For what is wrong elsewhere than in motions and clearances, or if the rows have no place.
+    Raises `InputError` for what is wrong elsewhere than in motions and clearances, or if the rows
+    have no place.
     """
     data = without_motions(sheet)
     us_first = data.us_first

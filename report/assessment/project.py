@@ -105,50 +105,24 @@ THREADS = 2
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Assessment:
-    """Everything that was computed for a project.
+    """Everything that was computed for a project."""
 
-    Attributes
-    ----------
-    sheet : Sheet
-        The workbook as data.
-    shaking : Shaking
-        The motions at the roof.
-    project : ProjectInput
-        As assessed: that of the sheet, except for runs with changed friction.
-    rules : RuleSet
-    targets : Targets
-        Target spectra of the motions: AC156 or project-specific.
-    building_checks : tuple of Limit
-    arrays : tuple of ArrayAssessment
-    clearances : tuple of ClearanceCheck
-    linked : tuple of LinkedArray
-        The arrays for which the workbook requests a check of the rigid-block model.
-    pairs : tuple of PlanNeighbor
-        What the plan shows beside each array, with its clearances; none in `at_reduced_friction`.
-    acceptance : Acceptance
-        Limits on the motions as run, at the roof.
-    rows : tuple of Requirement
-        Requirements beside the numeric limits, of the project, its motions and its arrays.
-    at_reduced_friction : Assessment or None
-        The same with less friction; None in that one itself.
-    low_velocity : LowVelocityAssessment
-        Arrays with their low-velocity coefficient alone; without any in `at_reduced_friction`,
-        and in what `reassess` and `anticipate` give.
-    """
-
-    sheet: Sheet
-    shaking: Shaking
-    project: ProjectInput
+    sheet: Sheet  # the workbook as data
+    shaking: Shaking  # the motions at the roof
+    project: ProjectInput  # as assessed: that of the sheet, except with changed friction
     rules: RuleSet
-    targets: Targets
+    targets: Targets  # target spectra of the motions: AC156 or project-specific
     building_checks: tuple[Limit, ...]
     arrays: tuple[ArrayAssessment, ...]
     clearances: tuple[ClearanceCheck, ...]
-    linked: tuple[LinkedArray, ...]
+    linked: tuple[LinkedArray, ...]  # whose rigid-block model the workbook asks to be checked
+    # what the plan shows beside each array, with its clearances; none in `at_reduced_friction`
     pairs: tuple[PlanNeighbor, ...]
-    acceptance: Acceptance
-    rows: tuple[Requirement, ...]
-    at_reduced_friction: Assessment | None
+    acceptance: Acceptance  # limits on the motions as run, at the roof
+    rows: tuple[Requirement, ...]  # of the project, its motions and arrays, beside the limits
+    at_reduced_friction: Assessment | None  # the same with less friction; None in that one itself
+    # arrays with their low-velocity coefficient alone; without any in `at_reduced_friction`, and in
+    # what `reassess` and `anticipate` give
     low_velocity: LowVelocityAssessment
     # What many ask for, once; not when it is asked for first: nothing may change while it is sent.
     _rows_by_subject: Mapping[str, Sequence[Requirement]] = field(init=False, compare=False)

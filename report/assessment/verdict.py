@@ -193,10 +193,7 @@ def override_rows(data: ProjectInput) -> tuple[Requirement, ...]:
 def rule_set_of(data: ProjectInput) -> RuleSet:
     """Return the rule set of a project with its overrides, as it was confirmed.
 
-    Raises
-    ------
-    InputError
-        For an override of a provision that the rule set does not have.
+    Raises `InputError` for an override of a provision that the rule set does not have.
     """
     changes = {row.provision: (row.value, row.reason) for row in data.overrides}
     rules = RULE_SETS[data.site.rule_set].overridden(changes)

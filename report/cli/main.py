@@ -38,7 +38,7 @@ from report.cli.terminal import (
 )
 from report.cli.verify import sign, verify, verify_package
 from report.libraries import stay_apart
-from report.text.counts import as_typed, called
+from report.text.counts import called
 
 VARIABLE = "_ROOFSLIP_COMPLETE"
 """Set by the script in which the shell asks for completions."""
@@ -130,17 +130,6 @@ def _laid_out(_: str) -> str:
     return f"{len(lay_out(page)):,} bytes"
 
 
-_FORMER = {
-    "batch": "Give its projects to roofslip report.",
-    "sbom": "Each package lists the versions of the software that matters on its page Records and "
-    "software and in its attachment roofslip.json.",
-    "check --repair": "Nothing is read from the formulas of the workbook. Where one was typed "
-    "over, copy it from a fresh workbook (roofslip new FOLDER).",
-    "watch --once": "Run roofslip report in its place.",
-}
-"""What replaces a command or an option, for one version after it was removed."""
-
-
 class _Commands(SectionedGroup):
     """The group of all commands, which says so where what it prints cannot be written."""
 
@@ -160,19 +149,11 @@ class _Commands(SectionedGroup):
             unwritten(error)
             sys.exit(INPUT_ERROR)
 
-    def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
-        """Return a command by its name; for one version, what replaces a former one is said."""
-        _replaced(name, ctx)
-        return super().get_command(ctx, name)
-
     def invoke(self, ctx: click.Context) -> Any:
         """Invoke a command that Ctrl+C may cut off."""
         with interrupts() as received:
             try:
                 return super().invoke(ctx)
-            except click.NoSuchOption as error:
-                _replaced(f"{ctx.invoked_subcommand} {error.option_name}", ctx)
-                raise
             except Exception as error:
                 # Compiled code (pydantic's is) may raise an error of its own for the interrupt.
                 if not received and not isinstance(error, click.Abort):
@@ -181,12 +162,6 @@ class _Commands(SectionedGroup):
                 pass
         click.echo("Interrupted: the work was cut off.", err=True)
         sys.exit(INTERRUPTED)
-
-
-def _replaced(former: str, ctx: click.Context) -> None:
-    """Refuse a command or an option that was removed, with what replaces it."""
-    if former in _FORMER:
-        raise click.UsageError(as_typed(f"'{former}' was removed. {_FORMER[former]}"), ctx)
 
 
 @click.group(

@@ -54,11 +54,8 @@ def choose(
 ) -> dict[str, LayerKind]:
     """Return what is said of layers beyond the sheet Layers: as given, or proposed and accepted.
 
-    Raises
-    ------
-    InputError
-        If a layer that is given is not in the drawing; or, after a table of them, if layers with
-        closed lines are not known.
+    Raises `InputError` if a layer that is given is not in the drawing; or, after a table of them,
+    if layers with closed lines are not known.
     """
     from report.drawing.plan_read import known_layers
     from report.drawing.roof_drawing import proposed

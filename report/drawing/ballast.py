@@ -46,10 +46,7 @@ def read_map(path: Path, unit_m: float) -> Any:
     It is a CSV with the headings x, y and blocks, or block count, and its unit given in m: with
     commas, semicolons or tabs, in UTF-8 or UTF-16. A heading may name the unit of x and y.
 
-    Raises
-    ------
-    InputError
-        With every line that is wrong, or if the file is too large or no such CSV.
+    Raises `InputError` with every line that is wrong, or if the file is too large or no such CSV.
     """
     with path.open("rb") as file:
         # One byte more than allowed tells that there is more, without reading it.

@@ -91,10 +91,7 @@ def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
     the rows that are left: by what they have in common, then by the nearest center of the same
     size. What is left is new.
 
-    Raises
-    ------
-    InputError
-        With the candidates, for what cannot be told.
+    Raises `InputError` with the candidates, for what cannot be told.
     """
     known = [*draft["arrays"], *draft["objects"]]
     rows = {row["id"]: row for row in known if "id" in row}
@@ -256,10 +253,7 @@ def plan_as_rows(
     joined_m : float
         Largest gap between modules of one array [m].
 
-    Raises
-    ------
-    InputError
-        If there is nothing to fill in, or its size is not that of a roof.
+    Raises `InputError` if there is nothing to fill in, or its size is not that of a roof.
     """
     is_us, said = us_first(draft), {**layers_of(draft), **layers}
     plan, known = plan_of(drawn, unit_m, said, joined_m, is_us), known_layers(said)
@@ -334,10 +328,7 @@ def changes(
     that are to be taken out are emptied wherever they are named. A workbook without the sheet
     Layers stays without.
 
-    Raises
-    ------
-    InputError
-        For each place that is filled already, unless it may be replaced.
+    Raises `InputError` for each place that is filled already, unless it may be replaced.
     """
     outlines = None if is_absent(book, SECTION["outlines"]) else GrowingTable.of(book, "outlines")
     fill = _Fill(book, replace, outlines)

@@ -72,11 +72,8 @@ def joined(
     Parallel ones are an array where the gaps along their sides are at most `gap_m` [m]. Coordinates
     were rounded before the drawing was turned by `turned_deg`.
 
-    Raises
-    ------
-    InputError
-        If more rectangles lie at one place than modules can, if they make up too many arrays, or if
-        their coordinates are too coarse to tell.
+    Raises `InputError` if more rectangles lie at one place than modules can, if they make up too
+    many arrays, or if their coordinates are too coarse to tell.
     """
     layers: dict[tuple[LayerKind, str], list[int]] = defaultdict(list)
     for index, (line, kind, _) in enumerate(known):

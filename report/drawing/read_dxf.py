@@ -62,10 +62,7 @@ _HEIGHTS = ("HT", "HEIGHT", "ELEV")
 def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
     """Read a roof drawing; arcs become chords by the size of its unit [m] where it states none.
 
-    Raises
-    ------
-    InputError
-        If it is no DXF, damaged, too large, or its blocks expand to too much.
+    Raises `InputError` if it is no DXF, damaged, too large, or its blocks expand to too much.
     """
     document, repairs = loaded(path)
     try:

@@ -173,10 +173,7 @@ def limit(count: int, most: int, what: str) -> None:
 def loaded(path: Path) -> tuple[Document, str]:
     """Return a drawing, and what to say of its repair if strict reading refuses it.
 
-    Raises
-    ------
-    InputError
-        If it is no DXF, damaged, or too large.
+    Raises `InputError` if it is no DXF, damaged, or too large.
     """
     import ezdxf
     from ezdxf import recover

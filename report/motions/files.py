@@ -217,10 +217,7 @@ def read_component(
     dt_s : float or None
         None if the file must state it.
 
-    Raises
-    ------
-    InputError
-        With every problem of the record.
+    Raises `InputError` with every problem of the record.
     """
     heading = find_heading(book, name)
     if heading is not None:

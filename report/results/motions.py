@@ -37,10 +37,7 @@ def row_cells(book: OpenBook, rows: Sequence[Row]) -> Mapping[CellPosition, Valu
 
     Of a row that has the same generated records the source is renewed.
 
-    Raises
-    ------
-    InputError
-        With each cell that has one of their IDs already, or if they have no room.
+    Raises `InputError` with each cell that has one of their IDs already, or if they have no room.
     """
     table = GrowingTable.of(book, "motions")
     cells: dict[CellPosition, Value] = {}
@@ -69,10 +66,8 @@ def _is_former(table: GrowingTable, number: int, row: Row) -> bool:
 def name_beside(book: OpenBook, path: Path) -> str:
     """Return how a workbook names a file or folder, which must be in its own folder.
 
-    Raises
-    ------
-    InputError
-        If it is outside, also by a link, or has a mark in its name that separates something else.
+    Raises `InputError` if it is outside, also by a link, or has a mark in its name that separates
+    something else.
     """
     home = book.path.parent.resolve()
     if not path.resolve().is_relative_to(home):
@@ -86,10 +81,8 @@ def name_beside(book: OpenBook, path: Path) -> str:
 def suite_rows(book: OpenBook, folder: Path, count: int, source: str) -> list[Row]:
     """Return the rows of the motions of a suite that is to be written to a folder.
 
-    Raises
-    ------
-    InputError
-        If the folder is outside that of the workbook, or a motion of the suite is in it already.
+    Raises `InputError` if the folder is outside that of the workbook, or a motion of the suite is
+    in it already.
     """
     beside = name_beside(book, folder)
     rows: list[Row] = []
@@ -105,10 +98,8 @@ def add_suite(
 ) -> WorkbookChange:
     """Write the files of a suite to a folder and its rows into a workbook: all of it or nothing.
 
-    Raises
-    ------
-    InputError
-        As `suite_rows`, of the workbook as it is now, or if something cannot be written.
+    Raises `InputError` as `suite_rows`, of the workbook as it is now, or if something cannot be
+    written.
     """
     with changing(workbook) as change:
         beside = name_beside(change.book, folder)
@@ -125,10 +116,7 @@ def set_rows(
 
     Files that are in its folder stay where they are; `about` is the same for all motions.
 
-    Raises
-    ------
-    InputError
-        For each file in whose place another one is.
+    Raises `InputError` for each file in whose place another one is.
     """
     home = book.path.parent
     names: dict[str, str] = {}

@@ -36,10 +36,7 @@ def publish(files: Mapping[str, bytes], folder: Path) -> None:
 
     Two runs that write to one folder do so one after the other.
 
-    Raises
-    ------
-    InputError
-        If the folder or a file in it cannot be written; then no file has changed.
+    Raises `InputError` if the folder or a file in it cannot be written; then no file has changed.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -89,10 +86,8 @@ def _sha256(content: bytes) -> str:
 def check_apart(names: Sequence[str], folder: Path, inputs: Sequence[Path]) -> None:
     """Refuse a folder in which an output would replace an input of the same run.
 
-    Raises
-    ------
-    InputError
-        If one of the names, in the folder, is an input by any path, link or hard link.
+    Raises `InputError` if one of the names, in the folder, is an input by any path, link or hard
+    link.
     """
     for path in inputs:
         for name in names:
@@ -108,9 +103,7 @@ def check_apart(names: Sequence[str], folder: Path, inputs: Sequence[Path]) -> N
 def check_of_workbook(folder: Path, results: str, workbook: str) -> None:
     """Refuse a folder with the results of another workbook, as a file of these results names it.
 
-    Raises
-    ------
-    InputError
+    Raises `InputError`.
     """
     try:
         there = from_json(content(folder / results))["workbook"]["name"]
@@ -128,10 +121,7 @@ def output_folder(out: Path | None, home: Path, usual: str, names: Iterable[str]
 
     It is checked before the runs rather than after them, with what is in the place of the names.
 
-    Raises
-    ------
-    InputError
-        If it cannot be written to.
+    Raises `InputError` if it cannot be written to.
     """
     folder = out or home / usual
     if out is None:

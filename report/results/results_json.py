@@ -53,10 +53,8 @@ MOST_CHANGES, MOST_LETTERS = 2_000, 400_000
 def read_former(path: Path) -> tuple[Compared, bytes]:
     """Read results.json of a former revision; return it as data, and the file.
 
-    Raises
-    ------
-    InputError
-        If it cannot be read, is damaged or incomplete, or has another schema version.
+    Raises `InputError` if it cannot be read, is damaged or incomplete, or has another schema
+    version.
     """
     try:
         # A device is refused here, before it is opened: it may have no end.
@@ -76,9 +74,7 @@ def read_former(path: Path) -> tuple[Compared, bytes]:
 def former_from(content: bytes, path: Path) -> Compared:
     """Return the content of results.json as data.
 
-    Raises
-    ------
-    InputError
+    Raises `InputError`.
     """
     # Before they are parsed: millions of empty rows take gigabytes.
     if (count := content.count(b"{")) > MOST_OBJECTS:

@@ -82,10 +82,7 @@ class OpenBook:
 def open_book(path: Path) -> OpenBook:
     """Open an .xlsx, or `input.xlsx` in a folder.
 
-    Raises
-    ------
-    InputError
-        If there is none, or it is another type of file, damaged, or too large.
+    Raises `InputError` if there is none, or it is another type of file, damaged, or too large.
     """
     path = located(path)
     return book_of(path, _read(path))

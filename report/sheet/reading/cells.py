@@ -131,9 +131,7 @@ def read_cell(cell: Found, entry: Entry, unit: str, si: float, shown: str = "") 
     shown : str
         What another cell says of the unit of a number that has none of its own.
 
-    Raises
-    ------
-    CellError
+    Raises `CellError`.
     """
     check_saved(cell)
     wanted = wish(entry, unit, si)

@@ -108,10 +108,7 @@ def path_beside(
 ) -> Path:
     """Return the file of a name within the workbook's folder; names that are taken are not meant.
 
-    Raises
-    ------
-    InputError
-        If it is outside the folder, also by a link, is no file, or is too large.
+    Raises `InputError` if it is outside the folder, also by a link, is no file, or is too large.
     """
     name = name.replace("\\", "/")
     where = f"give a file in the workbook's folder, such as {example}"

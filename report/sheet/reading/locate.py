@@ -64,10 +64,7 @@ class TableFound:
 def find_table(book: OpenBook, section: SheetSection) -> TableFound:
     """Return a table of inputs, by its name, or else by a row of its headings.
 
-    Raises
-    ------
-    InputError
-        If there is neither, or the sheet has data too far away.
+    Raises `InputError` if there is neither, or the sheet has data too far away.
     """
     sheet, left, top, right, below = _table_named(book, section) or _headings(book, section)
     _check_reach(book, sheet, top)

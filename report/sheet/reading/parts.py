@@ -61,10 +61,7 @@ def changed(
     `looks`. Stale formulas lose their values, which LibreOffice would keep. It need not be
     calculated again where no formula refers to the cells.
 
-    Raises
-    ------
-    InputError
-        If a sheet is missing or damaged, or a cell shares its formula.
+    Raises `InputError` if a sheet is missing or damaged, or a cell shares its formula.
     """
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         titles = dict(sheet_parts(archive))

@@ -178,11 +178,8 @@ def read(path: Path) -> Sheet:
 def read_book(book: OpenBook) -> Sheet:
     """Read an input workbook; run nothing.
 
-    Raises
-    ------
-    InputError
-        If there is no workbook to read. `Sheet.project` raises the errors within it, and
-        `report.motions.prepare` those together with the errors of its records.
+    Raises `InputError` if there is no workbook to read. `Sheet.project` raises the errors within
+    it, and `report.motions.prepare` those together with the errors of its records.
     """
     if _STUDY in book.scans and SECTIONS[0].sheet not in book.scans:
         run = f"roofslip study {quoted(book.path)}"

@@ -198,10 +198,8 @@ def scan_parts(parts: Mapping[str, bytes]) -> dict[str, Scan]:
 
     What passes is safe for any parser: it declares no entities.
 
-    Raises
-    ------
-    InputError
-        If a part is damaged, declares entities, or would cost more than an input can.
+    Raises `InputError` if a part is damaged, declares entities, or would cost more than an input
+    can.
     """
     markup = {name: data for name, data in parts.items() if _is_xml(name, data)}
     tags = sum(data.count(b"<") for data in markup.values())

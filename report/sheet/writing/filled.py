@@ -96,10 +96,7 @@ def changing(source: Path, *, keeps_copy: bool = True) -> Iterator[WorkbookChang
     It and the files beside it are written together, with `NAME.before.xlsx`, the workbook as it
     was, unless no copy is kept; nothing is written if the work on it fails, or changes nothing.
 
-    Raises
-    ------
-    InputError
-        If the workbook cannot be read or written, or a program has it open.
+    Raises `InputError` if the workbook cannot be read or written, or a program has it open.
     """
     path = Path(os.path.realpath(source)) if source.is_file() else located(source)
     check_plain(path, path.parent)

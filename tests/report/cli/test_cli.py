@@ -171,18 +171,3 @@ def test_a_damaged_former_revision_is_an_input_error_before_anything_runs(tmp_pa
     told = refused("report", tmp_path / "no-such-project", "--since", former)
     assert "issued.json: is no results.json or is damaged" in told
     assert not (tmp_path / "out").exists()
-
-
-@pytest.mark.parametrize(
-    ("former", "replacement"),
-    [
-        ("batch a b", "Give its projects to ./roofslip report."),
-        ("sbom --out sbom.json", "Each package lists the versions of the software that matters"),
-        ("check --repair x", "copy it from a fresh workbook (./roofslip new FOLDER)"),
-        ("watch --once x", "Run ./roofslip report in its place."),
-    ],
-)
-@pytest.mark.quick
-def test_what_was_removed_is_answered_with_what_replaces_it(former, replacement, monkeypatch):
-    monkeypatch.setenv("ROOFSLIP_COMMAND", "./roofslip")
-    assert replacement in " ".join(refused(*former.split()).split())
