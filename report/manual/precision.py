@@ -45,9 +45,7 @@ def work(verification: Verification) -> Section:
         floor_percent=100.0 * least,
         events_percent=events["PRD error [%]"].max() if len(events) else None,
         medians=_medians(runs),
-        charts={
-            "work-percent": figures.overview(runs, 100.0 * least, verification.peers),
-        },
+        charts={"work-percent": figures.overview(runs, 100.0 * least, verification.peers)},
     )
 
 

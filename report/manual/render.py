@@ -169,11 +169,7 @@ def peers(points: Sequence[PeerPoint]) -> Section:
     groups = grouped_by(
         points, lambda peer: f"{peer.peer} {peer.version}: {peer.model}; {peer.note}"
     )
-    return section(
-        "manual/peers",
-        "Other programs",
-        peers=grouped(groups, _PEER),
-    )
+    return section("manual/peers", "Other programs", peers=grouped(groups, _PEER))
 
 
 def _error(value_percent: float) -> str:

@@ -95,11 +95,9 @@ def _searched(
 def _shifted(
     plan: StudyPlan, array: ArrayPlan, runner: Runner, at: Shift
 ) -> tuple[Capacities, ...]:
-    """Return the capacities at another friction or slope.
-
-    Where a block yields later than at the center, it is searched that much farther: otherwise fewer
-    motions would reach a limit.
-    """
+    """Return the capacities at another friction or slope."""
+    # A block that yields later than at the center is searched that much farther: otherwise fewer
+    # motions would reach a limit.
     later = _yield(*at) / _yield(array.mu, array.array.slope_deg)
     top = np.array([max(1.0, later) * plan.input.intensities[-1]])
     return _searched(plan, array, runner, at, top, COARSE_SCAN)

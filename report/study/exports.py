@@ -95,10 +95,8 @@ def known_states(result: ArrayStudyResult) -> tuple[LimitState, ...]:
 
 
 def has_probabilities(result: ArrayStudyResult) -> bool:
-    """Whether the probability of each limit state is known at every level.
-
-    A state without a lognormal has the fractions of the motions, if none of its runs is censored.
-    """
+    """Whether the probability of each limit state is known at every level."""
+    # A state without a lognormal has the fractions of the motions, if none of its runs is censored.
     return not _lost_states(result)
 
 
@@ -193,10 +191,8 @@ def _placement(results: StudyResults, known: list[ArrayStudyResult]) -> str:
 
 
 def _nrml(results: StudyResults) -> bytes:
-    """Return the discrete form: fractions at each intensity, never decreasing along a limit state.
-
-    The discrete form avoids the doubt whether a mean is of the value or of its logarithm.
-    """
+    """Return the discrete form: probabilities at each intensity."""
+    # The continuous form leaves in doubt whether a mean is of the value or of its logarithm.
     ET.register_namespace("", NRML)
     root = ET.Element(f"{{{NRML}}}nrml")
     model = ET.SubElement(
@@ -255,9 +251,7 @@ def probabilities_of(results: StudyResults, result: ArrayStudyResult) -> Floats:
     """Return the probability of each limit state at each level, shape (states, levels).
 
     That of the lognormal, or the fractions of the motions where there is none; the array must have
-    them (`has_probabilities`). A state that is exceeded includes those before it: where lognormals
-    of different dispersion cross, the larger one counts, or OpenQuake would subtract a larger one
-    from a smaller one.
+    them (`has_probabilities`).
     """
     rows = [
         lognormal.at(state.fragility.levels)
@@ -265,4 +259,6 @@ def probabilities_of(results: StudyResults, result: ArrayStudyResult) -> Floats:
         else np.maximum.accumulate(state.fragility.exceeded / state.fragility.counted)
         for state in result.states
     ]
+    # A state that is exceeded includes those before it: where lognormals of different dispersion
+    # cross, the larger one counts, or OpenQuake would subtract a larger one from a smaller one.
     return np.maximum.accumulate(np.array(rows)[::-1])[::-1]

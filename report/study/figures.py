@@ -51,14 +51,8 @@ def curves(
 ) -> str:
     """Return a displacement [m] against an axis, a line for each member of a family.
 
-    Parameters
-    ----------
-    low : float, optional
-        Up to here, a panel on the left has the same on a logarithmic axis.
-    limits : sequence of (str, array)
-        Reference lines, thick.
-    beside : sequence of array
-        Mean PRD of each member [m], in thin lines.
+    Up to `low`, a panel on the left has the same on a logarithmic axis. `limits` are thick lines;
+    `beside`, the mean PRD of each member [m], are thin ones.
     """
     named = [(f"{label}: none" if np.isnan(v).all() else label, v / unit.si) for label, v in family]
     means = [v / unit.si for v in beside if not np.isnan(v).all()]
@@ -100,12 +94,7 @@ def contours(
 ) -> str:
     """Return contours of displacements on a sheet of its own, the allowed one thick.
 
-    Parameters
-    ----------
-    design_m, mean_m : array, shape (slopes, x)
-        Design displacement, and the mean PRD, whose contours are thin [m]; NaN for none.
-    allowed_m : float
-        NaN for none.
+    Those of the mean PRD are thin. Displacements have the shape (slopes, x) [m]; NaN for none.
     """
     with style():
         figure, axes = boxed(6.7, (0.085, 0.08, 0.89, 0.9))

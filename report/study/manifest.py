@@ -82,11 +82,7 @@ def machine() -> str:
 def manifest_of(campaign: Campaign, about: Mapping[str, Any]) -> dict[str, Any]:
     """Return the manifest of a campaign before its runs.
 
-    Parameters
-    ----------
-    campaign : Campaign
-    about : mapping
-        What else determines the results: intensity measure, limit states, seeds.
+    `about` is what else determines the results: intensity measure, limit states, seeds.
     """
     content = {
         "schema_version": SCHEMA_VERSION,

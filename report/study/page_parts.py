@@ -68,12 +68,7 @@ def axis(results: StudyResults) -> str:
 def by_intensity(results: StudyResults, values: Floats, m: int, **more: Any) -> str:
     """Return displacements at a friction coefficient over intensity, a line for each slope.
 
-    Parameters
-    ----------
-    values : array, shape (slopes, frictions, intensities)
-        Displacements [m].
-    more : optional
-        As `figures.curves` has it.
+    They have the shape (slopes, frictions, intensities) [m]; `more` is as in `figures.curves`.
     """
     study_input = results.plan.input
     return figures.curves(

@@ -43,11 +43,7 @@ from solver.studies.curves import Statistics
 from solver.studies.predictive import Predictive, predictive
 from solver.studies.rates import HazardCurve
 from solver.studies.runs import Campaign, Cases, cases_of, grid, joined
-from solver.studies.uncertainty import (
-    Spread,
-    latin_hypercube,
-    one_at_a_time,
-)
+from solver.studies.uncertainty import Spread, latin_hypercube, one_at_a_time
 
 # Category and importance factor of the prescriptive displacement, which a study does not know.
 SDC, I_E = "D", 1.0
@@ -301,11 +297,7 @@ def _array(
 def _shifts(
     study: Study, motions: StudyMotions, spreads: Mapping[str, Spread]
 ) -> Mapping[str, tuple[Shift, Shift]]:
-    """Return the shifts of an array; none where its fragility is not exported.
-
-    A slope below 0 is one of 0 where each motion has both polarities: the roof is then the same
-    whichever way it tilts, and the capacity depends on the size of the slope.
-    """
+    """Return the shifts of an array; none where its fragility is not exported."""
     if study.intensity is Intensity.S_DS:
         return {}
     is_even = all(len(motion.signs) > 1 for motion in motions.motions[0])
@@ -315,6 +307,8 @@ def _shifts(
         low, high = mu.around
         shifts[FRICTION] = (low, slope_deg.center), (high, slope_deg.center)
     if not slope_deg.is_fixed:
+        # With both polarities the roof is the same whichever way it tilts: the capacity depends on
+        # the size of the slope, and one below 0 counts as 0.
         low, high = slope_deg.around
         shifts[SLOPE] = (mu.center, max(low, 0.0) if is_even else low), (mu.center, high)
     return shifts

@@ -15,15 +15,7 @@ from report.sheet.reading.archive import open_book
 from report.sheet.reading.locate import is_absent
 from report.sheet.reading.read import SheetOf, read_as
 from report.sheet.schema.choices import RecordedAt, UnitsFirst
-from report.sheet.schema.fields import (
-    Draft,
-    DraftRow,
-    Finding,
-    Place,
-    Where,
-    entries,
-    sections_of,
-)
+from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where, entries, sections_of
 from report.sheet.writing.template import book_of, saved
 from report.study.schema import (
     MOST_CASES,

@@ -207,10 +207,7 @@ def _meter(
 
 
 TIMEOUT_S = 10.0
-"""How long a scheduler may take to answer [s]."""
-
 RETRIES = 2
-"""How often a part that fails is tried again."""
 
 
 @contextmanager
@@ -263,11 +260,10 @@ def run_on_cluster(
 ) -> None:
     """Run parts on a cluster; sign and keep each here as it comes back.
 
-    The records are the result of a task, as the parts are: with a worker that dies both are lost,
-    and both are computed again by another one.
-
     Raises `Exception` of a part that fails whenever it is tried.
     """
+    # The records are the result of a task, as the parts are: with a worker that dies both are lost,
+    # and both are computed again by another one.
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Sending large graph", UserWarning)
         runner = client.submit(Runner, campaign, pure=False)

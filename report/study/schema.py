@@ -85,10 +85,7 @@ class Sampling(StrEnum):
 
 @lru_cache(maxsize=64)
 def values(text: str) -> tuple[float, ...]:
-    """Return the numbers of `0, 1, 2.5` or `0 to 7 by 0.5`, increasing; empty if it is neither.
-
-    A comma needs a blank after it, so that a decimal comma never splits a number.
-    """
+    """Return the numbers of `0, 1, 2.5` or `0 to 7 by 0.5`, increasing; empty if it is neither."""
     try:
         if steps := _STEPS.fullmatch(text.strip()):
             low, high, step = map(float, steps.groups())
@@ -96,6 +93,7 @@ def values(text: str) -> tuple[float, ...]:
             if not 0.0 <= count < MOST_VALUES or abs(count - round(count)) > 1e-6:
                 return ()
             return tuple(float(f"{low + step * k:.12g}") for k in range(round(count) + 1))
+        # A comma needs a blank after it, so that a decimal comma never splits a number.
         numbers = [float(part) for part in re.split(r";\s*|,\s+", text.strip())]
     except ValueError:
         return ()

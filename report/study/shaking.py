@@ -244,9 +244,6 @@ def hazard_curves(sheet: StudySheet) -> tuple[HazardCurve, ...]:
 def points_of(lines: Sequence[str], *, is_spectral: bool) -> list[tuple[float, float]]:
     """Return the points of the lines of a file, intensity and annual rate.
 
-    The USGS hazard tool saves for each curve a line with its name, one that begins with a label and
-    has the intensities, and one with the rates (`D3SaveLineData` of nshmp-haz-ws).
-
     Raises `InputError` if it has neither, or no single curve of the measure.
     """
     mark = separator(lines)
@@ -276,6 +273,8 @@ def points_of(lines: Sequence[str], *, is_spectral: bool) -> list[tuple[float, f
 
 def _saved_curves(rows: Sequence[Sequence[str]]) -> Iterator[tuple[str, list[tuple[float, float]]]]:
     """Yield name and points of each curve of the USGS hazard tool."""
+    # It saves for each curve a line with its name, one that begins with a label and has the
+    # intensities, and one with the rates (`D3SaveLineData` of nshmp-haz-ws).
     for k in range(1, len(rows) - 1):
         x, y = _numbers(rows[k][1:]), _numbers(rows[k + 1][1:])
         if len(x) > 1 and len(x) == len(y) and not (_numbers(rows[k][:1]) or _numbers(rows[k - 1])):

@@ -136,10 +136,8 @@ def context(results: StudyResults) -> dict[str, Any]:
 
 
 def both(results: StudyResults, value_m: float) -> str:
-    """Return a displacement or a clearance in both systems of units, rounded up; `none` if none.
-
-    What is found for a clearance holds for a larger one.
-    """
+    """Return a displacement or a clearance in both systems of units, rounded up; `none` if none."""
+    # A clearance is rounded up, too: what is found for one holds for a larger one.
     found = value_m if math.isfinite(value_m) else math.nan
     return UnitFormat(results.plan.input.study.units_first.is_us).both(found, show=no_less)
 

@@ -87,27 +87,10 @@ def _slips(rows: Floats) -> list[bool]:
 def line(drive: Floats, cap: Floats, dt: float, solver: str, history: Floats) -> tuple[Any, ...]:
     """Solve one axis with Coulomb friction, restarted at every sample, onset of slip and stop.
 
-    Between these the motion is cubic in time, which every solver but those of low order follows in
-    one step at any tolerance.
-
-    Parameters
-    ----------
-    drive, cap : array, shape (n,)
-        G and mu N at the samples [m/s2].
-    solver : {"DOP853", "RK45"}
-        Class of `scipy.integrate`.
-    history : array, shape (2, n) or (2, 0)
-        Filled with s and w at the samples.
-
-    Returns
-    -------
-    tuple
-        As from the kernels of `solver.kernels.rivals`, with True in place of the code.
-
-    Raises
-    ------
-    InputError
-        If SciPy is not installed.
+    `drive` and `cap` are G and mu N at the samples [m/s2], shape (n,); the solver is "DOP853" or
+    "RK45". A history of shape (2, n), or (2, 0), is filled with s and w at the samples. Returns
+    what the kernels of `solver.kernels.rivals` do, with True in place of the code. Raises
+    `InputError` if SciPy is not installed.
     """
     rows = np.column_stack([drive, np.zeros_like(drive), cap])
     step, root = getattr(_scipy("integrate"), solver), _scipy("optimize").brentq
@@ -128,7 +111,8 @@ def line(drive: Floats, cap: Floats, dt: float, solver: str, history: Floats) ->
                 break
             sign = math.copysign(1.0, span.x + span.rx * t if begins else w)
             push, rise = span.x - sign * span.c, span.rx - sign * span.rc
-            # One step for the whole interval: the motion is a cubic, which both solvers follow.
+            # One step for the whole interval: the motion is cubic in time, which every solver but
+            # those of low order follows at any tolerance.
             run = step(
                 lambda t, y, push=push, rise=rise: rivals.line_rate(t, y, push, rise),
                 t, np.array((s, w)), dt, first_step=dt - t, rtol=1e-6, atol=1e-9,
@@ -159,20 +143,10 @@ def plane(rows: Floats, dt: float, solver: str = "DOP853", rtol: float = 1e-12) 
     """Solve two axes with Coulomb friction, restarted at every sample, onset of slip and stop.
 
     A slip begins in the direction of the drive, see `BEGINNING`, and ends where the speed, whose
-    direction turns ever faster, is a negligible part of what it was.
-
-    Parameters
-    ----------
-    rows : array, shape (n, 3)
-        Downslope G, cross-slope G and mu N at the samples [m/s2].
-    solver : {"DOP853", "RK45"}
-    rtol : float
-        Relative tolerance of a step.
-
-    Returns
-    -------
-    array, shape (4, n)
-        Distances downslope and cross-slope, and their rates, at the samples [m], [m/s].
+    direction turns ever faster, is a negligible part of what it was. `rows`, shape (n, 3), are
+    downslope G, cross-slope G and mu N at the samples [m/s2]; the solver is "DOP853" or "RK45".
+    Returns distances downslope and cross-slope, and their rates, at the samples [m], [m/s], shape
+    (4, n).
     """
     step = getattr(_scipy("integrate"), solver)
     states = np.zeros((4, len(rows)))
@@ -234,26 +208,12 @@ def _slid(
 def regularized(rows: Floats, dt: float, v0: float, rtol: float) -> Floats:
     """Solve one axis or two with friction mu N tanh(w / v0), by LSODA with its Jacobian.
 
-    Parameters
-    ----------
-    rows : array, shape (n, 2) or (n, 3)
-        G along each axis, and mu N, at the samples [m/s2].
-    v0 : float
-        [m/s]
-    rtol : float
-        Relative tolerance; the absolute one is a thousandth of it, as in SciPy's defaults.
-
-    Returns
-    -------
-    array, shape (2, n) or (4, n)
-        Distances, then velocities, at the samples [m], [m/s]; NaN if the run has stalled.
-
-    Raises
-    ------
-    InputError
-        If SciPy is not installed.
+    `rows`, shape (n, 2) or (n, 3), are G along each axis, and mu N, at the samples [m/s2]; v0 is a
+    velocity [m/s]. Returns distances, then velocities, at the samples [m], [m/s], shape (2, n) or
+    (4, n); NaN if the run has stalled. Raises `InputError` if SciPy is not installed.
     """
     integrate = _scipy("integrate")
+    # The absolute tolerance below is a thousandth of the relative one, as in SciPy's defaults.
     start, times = np.zeros(2 * (rows.shape[1] - 1)), np.arange(len(rows)) * dt
     with warnings.catch_warnings():
         # odeint returns numbers where it has given up; only the warning tells.

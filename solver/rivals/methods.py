@@ -92,8 +92,7 @@ class Method:
         In a sweep (`settings`), sub-steps for each radian omega dt of the link; 0 without a link.
     follow : callable
         Given the `AxisScene`, the parameters by name, and an array of shape (2, n) that it fills
-        with displacement [m] and velocity [m/s] along the slope at the samples, or of shape (2, 0)
-        that it leaves; returns an `Outcome`.
+        with displacement [m] and velocity [m/s] along the slope, or of shape (2, 0).
     """
 
     name: str
@@ -173,11 +172,9 @@ def _exact(scene: AxisScene, _: Parameters, samples: Floats) -> Outcome:
 
 
 def _frozen(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
-    """Run an equivalent flat roof with constant normal force by the exact kernel.
-
-    On a flat roof without vertical shaking N = g' and G = -a'. So g' = g cos(theta) makes the
-    normal force constant, and a' = -G preserves the drive, vertical shaking included.
-    """
+    """Run an equivalent flat roof with constant normal force by the exact kernel."""
+    # On a flat roof without vertical shaking N = g' and G = -a'. So g' = g cos(theta) makes the
+    # normal force constant, and a' = -G preserves the drive, vertical shaking included.
     drive, _ = drive_and_cap(scene)
     a = read_only(-drive)
     x = one_axis.bounds(a)
@@ -260,12 +257,7 @@ ANY_NUMBER = ("a finite number", math.isfinite)
 
 # What methods have in common: those without a setting, by sub-steps, and with a link.
 _without_setting = partial(
-    Method,
-    parameters=MappingProxyType({}),
-    knob="",
-    sweep=(),
-    order=math.nan,
-    takes_vertical=True,
+    Method, parameters=MappingProxyType({}), knob="", sweep=(), order=math.nan, takes_vertical=True
 )
 _by_substeps = partial(Method, parameters=_SUBSTEPS, knob="substeps", sweep=_POWERS_OF_TWO)
 _by_link = partial(
@@ -400,4 +392,3 @@ _ALL = (
 )
 
 METHODS: Mapping[str, Method] = MappingProxyType({method.name: method for method in _ALL})
-"""Every method by its name."""

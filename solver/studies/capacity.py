@@ -67,14 +67,12 @@ class Curve:
         return np.asarray(np.where(final, rows.lengths[0], np.nan).max(axis=1))
 
     def first_slip(self) -> float:
-        """Return the intensity above which the block slips; inf for none.
-
-        The forces at a sample are linear in the intensity, and those without slip are a cone, which
-        is convex: a block that slips at an intensity slips at every greater one.
-        """
+        """Return the intensity above which the block slips; inf for none."""
         return min(map(self._first_slip, self.tracks))
 
     def _first_slip(self, track: Track) -> float:
+        # The forces at a sample are linear in the intensity, and those without slip are a cone,
+        # which is convex: a block that slips at an intensity slips at every greater one.
         def slips(x: float) -> bool:
             return (
                 demand_at(track, np.array([self.slope_rad, 0.0, track.scene.scale * x])) > self.mu

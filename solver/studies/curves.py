@@ -54,14 +54,8 @@ def first_allowed(values: Floats, prd_m: Floats, allowed_m: float) -> float:
 
     Of increasing friction coefficients it is the least that is enough, the reading of the paper's
     Fig. 12; of decreasing slopes the largest that is allowed. Interpolated between the runs; the
-    first value if none exceeds the limit, NaN if the last does.
-
-    Parameters
-    ----------
-    values, prd_m : array, shape (q,)
-        Values in any unit, and their PRD [m].
-    allowed_m : float
-        Limit [m].
+    first value if none exceeds the limit, NaN if the last does. `values` are in any unit; they and
+    `prd_m` have the shape (q,).
     """
     beyond = np.flatnonzero(~(prd_m <= allowed_m))
     if not beyond.size:
@@ -132,19 +126,10 @@ def fit_prd(
 ) -> Fit:
     """Fit the formula to cases by least squares of the logarithm.
 
-    Cases without a value, with a PRD below `LEAST_PRD_M` or with r outside of (0, `LARGEST_R`] are
-    outside of the domain and not fitted.
-
-    Parameters
-    ----------
-    slope_rad, mu, intensity, prd_m : array, shape (m,)
-    ppa_g : float
-        Mean peak acceleration of the motions per unit of intensity [g].
-
-    Raises
-    ------
-    InputError
-        If fewer than ten cases are left, or they do not determine the coefficients.
+    Cases, all of shape (m,), without a value, with a PRD below `LEAST_PRD_M` or with r outside of
+    (0, `LARGEST_R`] are outside of the domain and not fitted; `ppa_g` is the mean peak acceleration
+    of the motions per unit of intensity [g]. Raises `InputError` if fewer than ten cases are left,
+    or they do not determine the coefficients.
     """
     ppa_g = _to_digits(ppa_g)
     with np.errstate(divide="ignore"):

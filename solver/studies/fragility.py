@@ -107,21 +107,17 @@ UNKNOWN_RANGE = (math.nan, math.nan)
 def fit_lognormal(capacities: Capacities) -> Lognormal:
     """Return the lognormal of known and censored capacities.
 
-    Where none is censored, beta has the divisor n - 1, as method A of Porter, Kennedy and Bachman
-    2007 (Earthquake Spectra 23, 471-489), which FEMA P-58 takes, and as the toolkit of OpenQuake
-    for incremental dynamic analyses (gemsciencetools.github.io/oq-vmtk): that of maximum
-    likelihood, with n, is 7 % less for seven motions. With a censored one it is that of maximum
-    likelihood (Baker 2015, Earthquake Spectra 31, 579-599), for which there is no such divisor.
-
-    Returns
-    -------
-    Lognormal
-        Unknown with fewer than two different known capacities, or one of 0.
+    Unknown with fewer than two different known capacities, or one of 0.
     """
     if not (capacities.intensity > 0.0).all():
         return UNKNOWN
     normal = fit_normals(np.log(capacities.intensity)[None], capacities.is_censored[None])
     mean, deviation = float(normal.mean[0]), float(normal.deviation[0])
+    # Where none is censored, beta has the divisor n - 1, as method A of Porter, Kennedy and Bachman
+    # 2007 (Earthquake Spectra 23, 471-489), which FEMA P-58 takes, and as the toolkit of OpenQuake
+    # for incremental dynamic analyses (gemsciencetools.github.io/oq-vmtk): that of maximum
+    # likelihood, with n, is 7 % less for seven motions. With a censored one it is that of maximum
+    # likelihood (Baker 2015, Earthquake Spectra 31, 579-599), for which there is no such divisor.
     if not capacities.is_censored.any() and math.isfinite(deviation):
         deviation *= math.sqrt(capacities.intensity.size / (capacities.intensity.size - 1))
     return Lognormal(theta=math.exp(mean), beta=deviation)
@@ -131,17 +127,8 @@ def first_order_beta(median: float, around: tuple[float, float]) -> float:
     """Return the dispersion of a capacity due to one variable, by first-order second moment.
 
     Half the difference of the logarithms of the medians with the variable at one standard deviation
-    below and above; where one of them is NaN, the difference between the other and the median.
-
-    Parameters
-    ----------
-    median, around : float, tuple of float
-        With the variable at its center, and below and above.
-
-    Returns
-    -------
-    float
-        NaN if neither is known.
+    below and above (`around`); where one of them is NaN, the difference between the other and the
+    median; NaN if neither is known.
     """
     known = [theta for theta in around if math.isfinite(theta)]
     if len(known) == 2:
@@ -316,10 +303,8 @@ def log_likelihood(y: Floats, is_censored: Flags, mean: Floats, b: Floats) -> Fl
 
 
 def deviance(y: Floats, is_censored: Flags, mean: float, fitted: Normals) -> Floats:
-    """Return twice the log of the likelihood ratio of the fitted normals and those of a mean.
-
-    The latter are the most likely ones: concave in b = 1 / deviation, by Newton's method.
-    """
+    """Return twice the log of the likelihood ratio of the fitted normals and those of a mean."""
+    # The latter are the most likely ones: concave in b = 1 / deviation, by Newton's method.
     v, b = y - mean, 1.0 / fitted.deviation
     for _ in range(MOST_STEPS):
         z = b[:, None] * v

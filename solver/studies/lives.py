@@ -49,10 +49,8 @@ class Responses:
 
 
 def uplift_intensity(track: Track, slope_rad: float) -> float:
-    """Return the intensity above which the block lifts off; inf for none.
-
-    The normal force at a sample is linear in the intensity.
-    """
+    """Return the intensity above which the block lifts off; inf for none."""
+    # The normal force at a sample is linear in the intensity: one run of the forces tells.
     scene = scene_of(track.scene, np.array([slope_rad, 0.0, track.scene.scale]))
     at_rest = scene.g_mps2 * math.cos(slope_rad)
     lost = at_rest - float(normal_mps2(scene).min())
@@ -88,22 +86,9 @@ def settled_responses(
 ) -> tuple[Responses, float]:
     """Return responses at intensities so close that halving their steps changes little.
 
-    Parameters
-    ----------
-    run : callable
-        From levels to `Responses.values`.
-    low : float
-        The first intensity.
-    ends : array, shape (runs,)
-        The last one of each run.
-    measured : callable
-        From responses to the displacements that must settle [m]; inf for none.
-
-    Returns
-    -------
-    Responses
-    float
-        Largest change of a result by more than `SETTLED_M` in the last halving, relative to it.
+    And the largest change of a result by more than `SETTLED_M` in the last halving, relative to it.
+    `run` leads from levels to `Responses.values`, between the first intensity and the last one of
+    each run, shape (runs,); `measured` from responses to what must settle [m], inf for none.
     """
 
     def spaced(count: int) -> Floats:
@@ -169,18 +154,11 @@ def draw(
 
 
 def distances(draws: Draws, responses: Responses, recenter_m: float) -> Floats:
-    """Return the largest distance from the installed place and the last one of each life.
+    """Return the largest distance from the installed place and the last one, shape (2, lives) [m].
 
-    Parameters
-    ----------
-    recenter_m : float
-        Distance above which the array is put back after an event [m]: inf for never, 0 for always.
-
-    Returns
-    -------
-    array, shape (2, lives)
-        In two axes the largest is an upper bound (`solver.kernels.lives`) [m]; inf for a life with
-        an event without a final value.
+    The array is put back after an event beyond `recenter_m`: inf for never, 0 for always. In two
+    axes the largest is an upper bound (`solver.kernels.lives`); inf for a life with an event
+    without a final value.
     """
     level, weight = np.full(draws.run.size, -1), np.zeros(draws.run.size)
     for run, levels in enumerate(responses.levels):

@@ -84,20 +84,9 @@ def contributions(
     """Return the annual rate at which runs exceed a limit, by the interval of intensities.
 
     The PRD is linear between the levels; one that is NaN exceeds every limit, from the level below
-    on.
-
-    Parameters
-    ----------
-    levels : array, shape (m,) or (runs, m)
-        Increasing intensities; the last one of a run may repeat.
-    rate : array, shape (m,) or (runs, m)
-        Of the curve at the levels.
-    prd_m : array, shape (..., m)
-
-    Returns
-    -------
-    array, shape (..., m)
-        The last one is of intensities beyond the levels, which exceed every limit.
+    on. Levels, of which the last one of a run may repeat, and `rate`, that of the curve at them,
+    have the shape (m,) or (runs, m); PRDs and results (..., m). The last result is of intensities
+    beyond the levels, which exceed every limit.
     """
     levels, rate = np.broadcast_to(levels, prd_m.shape), np.broadcast_to(rate, prd_m.shape)
     prd = np.where(np.isnan(prd_m), np.inf, prd_m)
@@ -123,17 +112,10 @@ def exceedance_rates(curve: HazardCurve, levels: Floats, prd_m: Floats, limits_m
 def deaggregated(
     curve: HazardCurve, levels: Floats, prd_m: Floats, limit_m: float, edges: Floats
 ) -> Floats:
-    """Return the shares of a rate of exceedance by the intensity at the site.
+    """Return the shares of a rate of exceedance by the intensity at the site, shape (n,).
 
-    Parameters
-    ----------
-    edges : array, shape (n + 1,)
-        Bounds of the intensities; the last bin has those beyond.
-
-    Returns
-    -------
-    array, shape (n,)
-        Their sum is 1; zeros where the limit is never exceeded.
+    `edges`, shape (n + 1,), are the bounds of the intensities; the last bin has those beyond. The
+    sum is 1; zeros where the limit is never exceeded.
     """
     shares = np.zeros(edges.size - 1)
     middles = np.append(np.sqrt(levels[..., :-1] * levels[..., 1:]), levels[..., -1:], axis=-1)
@@ -148,17 +130,8 @@ def deaggregated(
 def displacements_at(limits_m: Floats, rates: Floats, years: Floats) -> Floats:
     """Return the displacements of mean recurrence intervals, shape (years, ...) [m].
 
-    Parameters
-    ----------
-    limits_m : array, shape (m,)
-        Increasing, from 0.
-    rates : array, shape (m, ...)
-        At which they are exceeded.
-
-    Returns
-    -------
-    array
-        0 where the block slips less often, and inf where every limit is exceeded more often.
+    Limits increase from 0, shape (m,), and are exceeded at rates of shape (m, ...). 0 where the
+    block slips less often, and inf where every limit is exceeded more often.
     """
     # The limit of 0 has no logarithm: half the next one stands for it.
     x = np.log(np.maximum(limits_m, 0.5 * limits_m[1]))
@@ -175,15 +148,8 @@ def displacements_at(limits_m: Floats, rates: Floats, years: Floats) -> Floats:
 def realizations(rates: Floats, *, seed: int) -> Floats:
     """Return rates for friction coefficients and sets of motions as they might have been.
 
-    Each has one of the coefficients, equally likely, and as many motions, drawn with replacement.
-
-    Parameters
-    ----------
-    rates : array, shape (limits, frictions, motions)
-
-    Returns
-    -------
-    array, shape (limits, `REPEATS`)
+    Each has one of the coefficients, equally likely, and as many motions, drawn with replacement:
+    from the shape (limits, frictions, motions) to (limits, `REPEATS`).
     """
     _, frictions, motions = rates.shape
     rng = np.random.default_rng(seed)
@@ -194,10 +160,8 @@ def realizations(rates: Floats, *, seed: int) -> Floats:
 
 
 def band(values: Floats) -> Floats:
-    """Return the quantiles of `BAND` over the last axis, first; never between two values.
-
-    One of the values is taken, as a mean with a value that is inf would be none.
-    """
+    """Return the quantiles of `BAND` over the last axis, first."""
+    # One of the values, never between two: a mean with a value that is inf would be none.
     return np.quantile(values, BAND, axis=-1, method="inverted_cdf")
 
 

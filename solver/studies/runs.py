@@ -274,22 +274,20 @@ _NEAR = 1e-12
 
 
 def _demands(track: Track, scenes: Floats) -> Floats:
-    """Return the friction demand of each scene.
-
-    Without a vertical record the demand is tan(theta - atan(a / g)), monotone in a, so that it is
-    largest at the least or greatest sample. Where rounding error might decide, all samples are
-    evaluated, as `least_model.solve` does.
-    """
+    """Return the friction demand of each scene."""
     if track.z is not None:
         pairs, at = np.unique(scenes[:, [0, 2]], axis=0, return_inverse=True)
         exact = [demand_at(track, np.array([slope, 0.0, scale])) for slope, scale in pairs.tolist()]
         return np.array(exact, dtype=np.float64)[at.ravel()]
+    # Without a vertical record the demand is tan(theta - atan(a / g)), monotone in a, so that it is
+    # largest at the least or greatest sample.
     sn, cs = _by_slope(math.sin, scenes), _by_slope(math.cos, scenes)
     a = np.outer(track.x[:, -1], scenes[:, 2])
     normal = STANDARD_GRAVITY_MPS2 * cs + a * sn
     with np.errstate(divide="ignore"):
         demand = (np.abs(STANDARD_GRAVITY_MPS2 * sn - a * cs) / normal).max(axis=0)
     demand[(normal <= 0.0).any(axis=0)] = math.inf
+    # Where rounding error might decide, all samples are evaluated, as `least_model.solve` does.
     near = np.abs(demand - scenes[:, 1]) <= _NEAR * scenes[:, 1]
     near |= (np.abs(normal) <= _NEAR * STANDARD_GRAVITY_MPS2).any(axis=0)
     for index in np.flatnonzero(near):

@@ -56,10 +56,7 @@ class Spread:
 
 
 def spread_of_tests(values: Sequence[float]) -> Spread:
-    """Return the lognormal distribution of tested values.
-
-    The median is their geometric mean, beta the standard deviation of their logarithms with n - 1
-    degrees of freedom.
+    """Return the lognormal of the mean and the deviation of the logarithms of tested values.
 
     Raises `InputError` with fewer than three values, or one that is not above 0.
     """
@@ -70,11 +67,9 @@ def spread_of_tests(values: Sequence[float]) -> Spread:
 
 
 def latin_hypercube(spreads: Sequence[Spread], count: int, *, seed: int) -> Floats:
-    """Return samples of independent variables, shape (count, variables).
-
-    Each variable has exactly one sample in each of `count` intervals of equal probability (McKay,
-    Beckman and Conover 1979, Technometrics 21, 239-245).
-    """
+    """Return samples of independent variables, shape (count, variables)."""
+    # Each variable has exactly one sample in each of `count` intervals of equal probability (McKay,
+    # Beckman and Conover 1979, Technometrics 21, 239-245).
     rng = np.random.default_rng(seed)
     columns = []
     for spread in spreads:

@@ -45,10 +45,7 @@ def building_checks(made: FloorRecords, comparison: RoofComparison) -> Iterator[
 
 
 def made_building(ground: Record) -> FloorRecords:
-    """Return the floor motions of a building with equal stories, integrated directly.
-
-    No modal superposition. A uniform beam half a story taller has nearly the same modes.
-    """
+    """Return the floor motions of a building with equal stories, integrated directly."""
     floors = _stepped(ground.a_mps2, ground.dt_s)
     levels = (STORIES // 2, STORIES)
     return FloorRecords(
@@ -63,6 +60,7 @@ def made_building(ground: Record) -> FloorRecords:
         ground_mps2=ground.a_mps2,
         floors_mps2=floors[:, [level - 1 for level in levels]],
         floors=tuple(f"{level}th" for level in levels),
+        # A uniform beam half a story taller has nearly the same modes.
         heights=tuple(level / (STORIES + 0.5) for level in levels),
         code_period_s=math.nan,
         search_s=(0.5 * PERIOD_S, 2.0 * PERIOD_S),
@@ -70,11 +68,9 @@ def made_building(ground: Record) -> FloorRecords:
 
 
 def _stepped(a: Floats, dt: float) -> Floats:
-    """Absolute accelerations of all floors, unit masses, ground motion linear between samples.
-
-    One matrix exponential advances the floors' displacements and velocities, the ground
-    acceleration and its slope.
-    """
+    """Absolute accelerations of all floors, unit masses, ground motion linear between samples."""
+    # One matrix exponential advances the floors' displacements and velocities, the ground
+    # acceleration and its slope.
     stiff = floor_stiffness(ALPHA0, STORIES)
     squares, shapes = np.linalg.eigh(stiff)
     squares *= (2.0 * math.pi / PERIOD_S) ** 2 / squares[0]

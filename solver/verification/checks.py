@@ -38,10 +38,8 @@ def slip_checks(
     result: SlideResult,
     tolerance: float = ROUNDING,
 ) -> Iterator[Check]:
-    """Yield the rows of PRD and residual.
-
-    A residual may nearly cancel after meters of travel, so both errors are relative to the PRD.
-    """
+    """Yield the rows of PRD and residual."""
+    # A residual may nearly cancel after meters of travel, so both errors are relative to the PRD.
     for quantity, known, value in (
         ("PRD", expected.prd_m, result.prd_m),
         ("Residual (error relative to the PRD)", expected.residual_m, result.residual_m),

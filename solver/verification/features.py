@@ -54,9 +54,7 @@ _TESTS_ONLY = "Automatic tests only"
 
 FEATURES = (
     Feature(
-        "Sliding in one axis",
-        (*_ids("CF", 9), *_ids("PH", 4), "DA-1"),
-        validated_by=_one_axis,
+        "Sliding in one axis", (*_ids("CF", 9), *_ids("PH", 4), "DA-1"), validated_by=_one_axis
     ),
     Feature("Sliding in one axis with vertical shaking", ("CF-3", "DA-1"), validated_by=_vertical),
     Feature("Sliding in two axes", _ids("TA", 5), extra=("TA-13",), validated_by=_two_axes),

@@ -123,8 +123,7 @@ def _circle() -> Iterator[Check]:
     dt = 1.0 / count
     t = np.arange(turns * count + 1) * dt
     history = two_axes.run_history(
-        flat_scene(a * np.cos(omega * t), a * np.sin(omega * t), dt, coulomb(mu)),
-        TIGHT,
+        flat_scene(a * np.cos(omega * t), a * np.sin(omega * t), dt, coulomb(mu)), TIGHT
     )
     # Linear interpolation between samples reduces the amplitude of a sine by this factor.
     a *= (math.sin(0.5 * omega * dt) / (0.5 * omega * dt)) ** 2

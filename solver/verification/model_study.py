@@ -34,14 +34,7 @@ from solver.verification.evidence import (
     ModelEvidence,
     ModelStudy,
 )
-from solver.verification.study import (
-    RECORDED,
-    faded,
-    flat_scene,
-    grid,
-    plane_prds,
-    scenes_of,
-)
+from solver.verification.study import RECORDED, faded, flat_scene, grid, plane_prds, scenes_of
 
 ACROSS_MPS2 = (0.0, 1e-9, 1e-6, 0.1)
 """Transverse accelerations of the block that is driven back [m/s2]."""
@@ -218,8 +211,5 @@ def row_of(mu: float, stretch_m: float, g_mps2: float) -> BlockRow:
 def by_speed(mu_slow: float) -> Friction:
     """Return friction that rises with velocity."""
     return Friction(
-        mu_slow=mu_slow,
-        mu_fast=mu_slow / SLOW_SHARE,
-        rate_s_per_m=RATE_S_PER_M,
-        mu_static=mu_slow,
+        mu_slow=mu_slow, mu_fast=mu_slow / SLOW_SHARE, rate_s_per_m=RATE_S_PER_M, mu_static=mu_slow
     )

@@ -15,12 +15,7 @@ from solver.model import Floats
 from solver.records.record import Record
 from solver.rivals.methods import METHODS
 from solver.sliding.sweep import sweep
-from solver.verification.evidence import (
-    DesignCurves,
-    LinkComparison,
-    percent_of,
-    percent_off,
-)
+from solver.verification.evidence import DesignCurves, LinkComparison, percent_of, percent_off
 from solver.verification.study import grid, history, minimum_seconds, prepared, run, scale_to
 from solver.verification.workprecision import timed
 

@@ -163,10 +163,9 @@ def _prepare_opensees(ops: object, analysis: str, *integrator: object) -> None:
 
 
 def _pyslammer(scene: Scene) -> float:
-    """Run its one-way rigid block downslope and upslope; the larger is the PRD.
-
-    Downslope s'' = (cos(theta) + mu sin(theta)) (-a - g tan(phi - theta)).
-    """
+    """Run its one-way rigid block downslope and upslope; the larger is the PRD."""
+    # Downslope s'' = (cos(theta) + mu sin(theta)) (-a - g tan(phi - theta)), and it integrates the
+    # second factor alone.
     pyslammer = importlib.import_module("pyslammer")
     mu, a = scene.friction.mu_slow, scene.scaled(scene.ax_mps2)
     travels_m = []
@@ -230,8 +229,4 @@ _PYSLAMMER = Peer(
     prd_m=_pyslammer,
 )
 
-JUDGES = {
-    ONE_AXIS: (_OPENSEES, *_MUJOCOS, _PYSLAMMER),
-    VERTICAL: (_OPENSEES,),
-    TWO_AXES: _MUJOCOS,
-}
+JUDGES = {ONE_AXIS: (_OPENSEES, *_MUJOCOS, _PYSLAMMER), VERTICAL: (_OPENSEES,), TWO_AXES: _MUJOCOS}

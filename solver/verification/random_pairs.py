@@ -93,11 +93,9 @@ def pair(kind: str, index: int) -> Pair:
 
 
 def rounding(scene: Scene) -> float:
-    """Return the effect on position of half a unit in the last place of every sample [m].
-
-    Friction is monotone: an acceleration error d changes the velocity by at most d t and the
-    position by d t^2 / 2. The same is added for the time step, whose quotient is rounded.
-    """
+    """Return the effect on position of half a unit in the last place of every sample [m]."""
+    # Friction is monotone: an acceleration error d changes the velocity by at most d t and the
+    # position by d t^2 / 2. The same is added for the time step, whose quotient is rounded.
     sn, cs = abs(math.sin(scene.slope_rad)), math.cos(scene.slope_rad)
     mu = max(scene.friction.mu_slow, scene.friction.mu_fast)
     ax, ay, az = (
@@ -314,7 +312,6 @@ KINDS: dict[str, Callable[[Random], Pair]] = {
     "velocity-dependent friction": lambda rng: _either(rng, _scene(rng, law=_by_speed(rng))),
     "velocity-weakening friction": lambda rng: _tolerances(rng, _scene(rng, law=_falling(rng))),
 }
-"""Generator of each kind of pair."""
 
 UNBOUNDED = ("velocity-weakening friction",)
 """Kinds whose runs have no bound; the runs must only finish."""

@@ -81,11 +81,7 @@ def timed(method: Method, scene: AxisScene, parameters: Mapping[str, float]) -> 
 
 
 def _measured(
-    record: Record,
-    case: Case,
-    method: Method,
-    parameters: Mapping[str, float],
-    exact: SlideResult,
+    record: Record, case: Case, method: Method, parameters: Mapping[str, float], exact: SlideResult
 ) -> dict[str, Any]:
     result, seconds = run(record, case, method.name, **parameters), math.nan
     if result.status not in (Status.DIVERGED, Status.UPLIFT):

@@ -102,7 +102,7 @@ def with_state(results, motions, *, allow_matched=False, **changes):
                 end=np.full(3, 2.0), falls=np.zeros(3, bool), searched=np.zeros(3, int),
             ),
             fitted=Lognormal(theta=1.2, beta=0.06), theta_range=(1.1, 1.3),
-            beta_range=(0.03, 0.1), unfitted=0, p_value=0.5, critical=0.3,
+            beta_range=(0.03, 0.1), p_value=0.5, critical=0.3,
         ),
         effects={},
     )  # fmt: skip
