@@ -118,7 +118,7 @@ def test_the_step_and_the_units_of_a_file_are_checked(given):
         read_record(path, units=given, dt_s=0.01)
 
 
-def test_numbers_of_other_types_are_taken():
+def test_other_types_are_taken_and_long_names_refused():
     run = CALLS["slide"]
     expected = run(RECORD, 0.01, 0.2)
     assert expected.prd_m > 0.0
@@ -126,9 +126,6 @@ def test_numbers_of_other_types_are_taken():
     assert singles.prd_m == pytest.approx(expected.prd_m, rel=1e-6)
     assert run(np.array([0, 3, -3, 0]), 0.01, Fraction(1, 5)) == expected
     assert run(np.ma.array(RECORD), 0.01, 0.2) == expected
-
-
-def test_a_name_that_is_too_long_or_not_a_name_is_an_input_error():
     for path in (Path("x" * 300), Path("a" * 5000), Path("nul\0byte")):
         with refused(longest=400):
             read_record(path, units="g", dt_s=0.01)

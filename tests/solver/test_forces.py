@@ -29,11 +29,18 @@ def test_gravity_less_the_acceleration_of_the_roof_is_turned_into_the_plane(slop
     np.testing.assert_array_equal(on_plane.across_mps2, -0.5 * AY)
 
 
-def test_components_that_are_absent_are_zero():
+def test_absent_components_are_zero_and_the_demand_the_largest_between_samples():
     np.testing.assert_array_equal(forces(scene(AX)).across_mps2, np.zeros(50))
     np.testing.assert_array_equal(
         forces(scene(AX)).normal_mps2, forces(scene(AX, az=np.zeros(50))).normal_mps2
     )
+    demand = friction_demand(scene(AX, AY, AZ))
+    fine, at = np.linspace(0.0, 49.0, 49_001), np.arange(50.0)
+    between = [np.interp(fine, at, a) for a in (AX, AY, AZ)]
+    assert demand == pytest.approx(friction_demand(scene(*between)), rel=1e-14)
+    assert friction_demand(scene(AX, AY, 10.0 * AZ)) == math.inf
+    alone = forces(scene(AX))
+    assert friction_demand(scene(AX)) == np.abs(alone.down_mps2 / alone.normal_mps2).max()
 
 
 @pytest.mark.parametrize("size", [1e-200, 1.0, 1e100, 1e200])
@@ -46,13 +53,3 @@ def test_the_friction_demand_is_to_the_last_bit_the_largest_ratio(size, slope):
     ratios = np.hypot(on_plane.down_mps2, on_plane.across_mps2) / on_plane.normal_mps2
     assert on_plane.normal_mps2.min() > 0.0
     assert friction_demand(run) == ratios.max()
-
-
-def test_the_friction_demand_is_the_largest_between_the_samples_too():
-    demand = friction_demand(scene(AX, AY, AZ))
-    fine, at = np.linspace(0.0, 49.0, 49_001), np.arange(50.0)
-    between = [np.interp(fine, at, a) for a in (AX, AY, AZ)]
-    assert demand == pytest.approx(friction_demand(scene(*between)), rel=1e-14)
-    assert friction_demand(scene(AX, AY, 10.0 * AZ)) == math.inf
-    alone = forces(scene(AX))
-    assert friction_demand(scene(AX)) == np.abs(alone.down_mps2 / alone.normal_mps2).max()

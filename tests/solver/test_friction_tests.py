@@ -25,14 +25,24 @@ def run(mu, *, surface=Surface.DRY, report="R1", velocity=math.nan, static=math.
     return FrictionRun(mu=mu, mu_static=static, **about)
 
 
-def test_the_law_runs_from_the_low_to_the_high_velocity_coefficient():
+def test_a_law_is_averaged_at_tested_velocities_and_the_smallest_mean_governs():
     assert LAW.at(0.0) == 0.40
     assert LAW.at(1e3) == 0.52
     assert LAW.at(math.log(2.0) / 20.0) == pytest.approx(0.46, abs=1e-15)
     assert coulomb(0.45).at(0.3) == 0.45
+    wet, other, none = run(0.46, surface=Surface.WET), run(0.40, report="R10"), run(0.1, report="")
+    groups = series([run(0.50), wet, other, none])
+    wanted = {"": 0.1, "ASTM G115, r1, 2025": 0.46, "R10": 0.4, "R1 and R10": 0.4, "R100": 0.1}
+    assert {named: governing(groups, named).mean for named in wanted} == wanted
+    (tested,) = series([run(0.4, velocity=0.0), run(0.5, velocity=math.log(2.0) / 20.0)])
+    assert tested.mean_of(LAW) == pytest.approx((0.40 + 0.46) / 2, abs=1e-15)
+    assert tested.mean_of(coulomb(0.45)) == 0.45
+    (unknown,) = series([run(0.5)])
+    assert unknown.mean_of(LAW) == 0.52
+    assert unknown.mean_of(law_of(0.3, 20.0, mu_slow=0.5)) == 0.5
 
 
-def test_runs_are_averaged_by_report_and_surface():
+def test_runs_are_averaged_by_report_surface_and_velocity():
     wet = [run(mu, surface=Surface.WET) for mu in (0.45, 0.46, 0.50)]
     dry = [run(0.60, static=0.66), run(0.62, static=0.70), run(0.58)]
     other = [run(0.30, report="R2")]
@@ -43,25 +53,6 @@ def test_runs_are_averaged_by_report_and_surface():
     assert [group.mean for group in groups] == pytest.approx([0.60, 0.47, 0.30], abs=1e-15)
     assert groups[0].static_mean == pytest.approx(0.68)
     assert math.isnan(groups[1].static_mean)
-
-
-def test_the_smallest_mean_governs_among_the_reports_that_an_array_names():
-    wet, other, none = run(0.46, surface=Surface.WET), run(0.40, report="R10"), run(0.1, report="")
-    groups = series([run(0.50), wet, other, none])
-    wanted = {"": 0.1, "ASTM G115, r1, 2025": 0.46, "R10": 0.4, "R1 and R10": 0.4, "R100": 0.1}
-    assert {named: governing(groups, named).mean for named in wanted} == wanted
-
-
-def test_a_law_is_averaged_at_the_tested_velocities_and_taken_at_its_largest_without_any():
-    (tested,) = series([run(0.4, velocity=0.0), run(0.5, velocity=math.log(2.0) / 20.0)])
-    assert tested.mean_of(LAW) == pytest.approx((0.40 + 0.46) / 2, abs=1e-15)
-    assert tested.mean_of(coulomb(0.45)) == 0.45
-    (unknown,) = series([run(0.5)])
-    assert unknown.mean_of(LAW) == 0.52
-    assert unknown.mean_of(law_of(0.3, 20.0, mu_slow=0.5)) == 0.5
-
-
-def test_runs_at_different_velocities_are_no_repeats_of_each_other():
     runs = [run(0.50, velocity=0.1), run(0.40), run(0.44, velocity=0.02), run(0.42)]
     more = [run(0.48, velocity=0.1049), run(0.46, velocity=0.0205), run(0.49, velocity=0.1051)]
     (tested,) = series([*runs, *more])
@@ -107,11 +98,16 @@ def test_scattered_runs_give_the_law_at_which_the_sum_of_squares_is_stationary()
         assert v.size * fit.rms**2 <= squares * (1.0 + 1e-12)
 
 
-def test_fewer_than_four_velocities_give_no_law():
+def test_few_or_low_velocities_and_laws_out_of_range_give_none():
     few = VELOCITIES[: friction_tests.LEAST_VELOCITIES - 1]
     assert fit_law(few * 3, [0.4, 0.42, 0.43] * 3) is None
     assert fit_law((*few, math.nan), [0.4, 0.42, 0.43, 0.44]) is None
     assert fit_law((*few, 0.05), [0.4, 0.42, 0.43, 0.44]) is not None
+    law = law_of(friction_tests.MOST_MU + 0.2, 4.0)
+    fit = fit_law(VELOCITIES, [law.at(v) for v in VELOCITIES])
+    assert fit.law.mu_fast == pytest.approx(law.mu_fast)
+    assert not fit.is_determined
+    assert fit_law((0.0, 1e-6, 2e-6, 3e-6), (0.4, 0.41, 0.42, 0.43)) is None
 
 
 @pytest.mark.parametrize(
@@ -125,14 +121,3 @@ def test_fewer_than_four_velocities_give_no_law():
 )
 def test_runs_that_do_not_show_a_transition_determine_no_law(mus):
     assert not fit_law(VELOCITIES, mus).is_determined
-
-
-def test_a_law_beyond_the_range_of_coefficients_is_not_determined():
-    law = law_of(friction_tests.MOST_MU + 0.2, 4.0)
-    fit = fit_law(VELOCITIES, [law.at(v) for v in VELOCITIES])
-    assert fit.law.mu_fast == pytest.approx(law.mu_fast)
-    assert not fit.is_determined
-
-
-def test_velocities_too_low_for_any_rate_give_no_law():
-    assert fit_law((0.0, 1e-6, 2e-6, 3e-6), (0.4, 0.41, 0.42, 0.43)) is None

@@ -82,11 +82,13 @@ def test_names_are_compared_without_blanks_hyphens_and_leading_zeros_first(value
     assert nearest(value, names[::-1]) == found
 
 
-def test_of_names_as_near_the_one_that_is_free_is_meant():
+def test_names_that_are_near_are_found_free_and_among_many():
     names = [f"RM{k}-x.csv" for k in range(1, 4)]
     assert nearest("RM-x.csv", names) == ""
     assert nearest("RM-x.csv", names, taken=["RM2-x.csv", "RM3-x.csv"]) == "RM1-x.csv"
     assert nearest("RM-x.csv", names, taken=["RM3-x.csv"]) == ""
+    names = [f"{k:02}{'x' * 60}" for k in range(100)]
+    assert nearest(f"98{'x' * 59}y", names) == names[98]
 
 
 def test_the_lock_file_of_a_workbook_is_never_meant(tmp_path):
@@ -104,8 +106,3 @@ def test_as_many_wrong_names_as_there_are_names_take_time_as_their_number():
         return [nearest(f"{'ba' * 18}{k}", names) for k in range(count)]
 
     assert not grows_faster(suggested, lambda count: count, 40)
-
-
-def test_a_name_that_begins_alike_is_found_among_many_long_ones():
-    names = [f"{k:02}{'x' * 60}" for k in range(100)]
-    assert nearest(f"98{'x' * 59}y", names) == names[98]

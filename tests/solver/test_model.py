@@ -25,7 +25,7 @@ def scenes(motion):
     return [motion.scene(orientation, **about) for orientation in motion.orientations]
 
 
-def test_each_component_is_along_the_slope_as_recorded_and_reversed(motion):
+def test_components_of_a_motion_are_in_every_heading_and_shared(motion):
     x, y, z = motion.ax_mps2, motion.ay_mps2, motion.az_mps2
     along = [scene.ax_mps2 for scene in scenes(motion)]
     for found, wanted in zip(along, (x, -x, y, -y), strict=True):
@@ -34,9 +34,6 @@ def test_each_component_is_along_the_slope_as_recorded_and_reversed(motion):
     across = zip(scenes(motion), (y, y, x, x), strict=True)
     assert all(scene.ay_mps2 is wanted for scene, wanted in across)
     assert all(scene.az_mps2 is z and scene.scale == 2.0 for scene in scenes(motion))
-
-
-def test_all_scenes_of_a_motion_share_their_arrays(motion):
     for one, other in zip(scenes(motion), scenes(motion), strict=True):
         assert one.ax_mps2 is other.ax_mps2
 

@@ -28,19 +28,20 @@ LONG = {"make_suite", "assess_project"}
 SECTIONS = ("Parameters", "Returns", "Raises", "Examples")
 
 
-def test_every_public_name_is_one_of_the_solver():
+def test_public_names_are_those_of_the_solver_and_no_others():
     assert dir(solver) == sorted(public.__all__)
     for name in public.__all__:
         assert getattr(solver, name) is getattr(public, name), name
-
-
-def test_help_shows_every_public_function_with_its_sentence():
     told = pydoc.plain(pydoc.render_doc(solver))
     listed = dict(re.findall(r"^ {8}(\w+) +(\S.*\.)$", told.partition("PACKAGE CONTENTS")[0], re.M))
     functions = {name: FUNCTIONS[name] for name in public.__all__ if name in FUNCTIONS}
     assert listed == {name: inspect.getdoc(f).partition("\n")[0] for name, f in functions.items()}
     assert len(listed) == 23
     assert set(re.findall(r"^ {4}(\w+)\(", told.partition("\nFUNCTIONS\n")[2], re.M)) == {*listed}
+    with pytest.raises(AttributeError):
+        _ = solver.slope
+    with pytest.raises(ImportError):
+        from solver import slope  # noqa: F401
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
@@ -83,13 +84,6 @@ def test_docstrings_of_public_names_point_to_public_names():
     ]
     assert len(parts) > 30
     assert wrong == []
-
-
-def test_a_name_that_is_not_public_is_no_attribute():
-    with pytest.raises(AttributeError):
-        _ = solver.slope
-    with pytest.raises(ImportError):
-        from solver import slope  # noqa: F401
 
 
 def test_kernels_are_loaded_with_the_first_name_and_scipy_is_not():

@@ -21,7 +21,7 @@ def path(tmp_path):
     return tmp_path / "a.csv"
 
 
-def test_a_file_is_written_and_replaced(tmp_path, path):
+def test_a_file_is_written_in_one_and_of_two_names_in_one(tmp_path, path):
     write_whole(path, b"1")
     write_whole(path, b"2")
     assert path.read_bytes() == b"2"
@@ -29,6 +29,10 @@ def test_a_file_is_written_and_replaced(tmp_path, path):
     umask = os.umask(0)
     os.umask(umask)
     assert path.stat().st_mode & 0o777 == 0o666 & ~umask
+    path.write_bytes(b"old")
+    os.link(path, tmp_path / "other")
+    write_all({"a.csv": b"new"}, tmp_path)
+    assert (path.read_bytes(), (tmp_path / "other").read_bytes()) == (b"new", b"old")
 
 
 @not_on_windows(LINKS)
@@ -91,13 +95,6 @@ def test_a_folder_that_the_user_gave_may_be_a_link(tmp_path):
     (tmp_path / "given").symlink_to(tmp_path / "real")
     write_all({"sub/a.csv": b"new"}, tmp_path / "given")
     assert (tmp_path / "real" / "sub" / "a.csv").read_bytes() == b"new"
-
-
-def test_a_file_of_two_names_is_replaced_in_one(tmp_path, path):
-    path.write_bytes(b"old")
-    os.link(path, tmp_path / "other")
-    write_all({"a.csv": b"new"}, tmp_path)
-    assert (path.read_bytes(), (tmp_path / "other").read_bytes()) == (b"new", b"old")
 
 
 @pytest.mark.parametrize("name", ["a.csv", "b.csv", "sub/d.csv", "c.csv"])

@@ -68,22 +68,16 @@ def _root(a, n):
     return low
 
 
-def test_a_beam_that_only_bends_has_the_textbook_values():
+def test_beams_that_only_bend_or_shear_have_textbook_values():
     modes = beam_modes(0.0, 4)
     gamma = np.array([1.8751040687, 4.6940911330, 7.8547574382, 10.9955407349])
     np.testing.assert_allclose(1.0 / modes.period_ratios, (gamma / gamma[0]) ** 2, rtol=1e-9)
     np.testing.assert_allclose(modes.factors[:, 0], [1.5660, -0.8679, 0.5089, -0.3638], atol=1e-4)
-
-
-def test_a_beam_that_only_shears_has_odd_ratios_and_sines():
     modes = beam_modes(math.inf, 5, [0.5, 1.0])
     odd, signs = np.array([1.0, 3.0, 5.0, 7.0, 9.0]), np.array([1.0, -1.0, 1.0, -1.0, 1.0])
     np.testing.assert_allclose(1.0 / modes.period_ratios, odd, rtol=1e-14)
     np.testing.assert_allclose(modes.factors[:, 1], 4.0 / math.pi * signs / odd, rtol=1e-14)
     assert modes.factors[0, 0] == pytest.approx(4.0 / math.pi * math.sin(math.pi / 4))
-
-
-def test_much_shear_stiffness_comes_near_the_shear_beam():
     near, limit = beam_modes(1000.0, 6), beam_modes(math.inf, 6)
     np.testing.assert_allclose(near.period_ratios, limit.period_ratios, rtol=1e-3)
     np.testing.assert_allclose(near.factors, limit.factors, rtol=2e-3)
@@ -109,16 +103,12 @@ def test_a_shear_building_of_stories_has_its_closed_form(stories):
 
 
 @pytest.mark.parametrize("alpha0", [0.0, 3.0, math.inf])
-def test_many_stories_become_the_beam_at_first_order_or_better(alpha0):
+def test_stories_become_the_beam_or_one_oscillator(alpha0):
     beam = beam_modes(alpha0, 3)
     off = [np.abs(story_modes(alpha0, n).factors[:3] - beam.factors).max() for n in (20, 40, 80)]
     assert off[2] < 0.04
     assert off[0] / off[1] > 1.75
     assert off[1] / off[2] > 1.85
-
-
-@pytest.mark.parametrize("alpha0", [0.0, 3.0, math.inf])
-def test_one_story_is_a_plain_oscillator(alpha0):
     modes = story_modes(alpha0, 1)
     assert modes.period_ratios == pytest.approx([1.0])
     assert modes.factors == pytest.approx(np.array([[1.0]]))

@@ -65,13 +65,15 @@ def test_an_oscillator_agrees_with_the_matrix_exponential(ground, period_s, zeta
 
 
 @pytest.mark.quick
-def test_a_step_gives_the_closed_form():
+def test_a_step_gives_the_closed_form_and_no_vertical_none(ground):
     dt, w, zeta = 0.01, 7.0, 0.03
     t = np.arange(800) * dt
     accelerations = absolute_accelerations(np.ones(800), dt, [2 * math.pi / w], [zeta])[:, 0]
     kappa = math.sqrt(1.0 - zeta**2)
     wave = np.cos(kappa * w * t) - zeta / kappa * np.sin(kappa * w * t)
     np.testing.assert_allclose(accelerations, 1.0 - np.exp(-zeta * w * t) * wave, atol=1e-13)
+    roof = shaking_to_roof([ground], [], 0.01, [building_of_periods([0.5])])
+    assert roof.vertical_mps2.size == 0
 
 
 @pytest.mark.parametrize(("alpha0", "stories"), [(math.inf, 1), (math.inf, 4), (0.0, 3), (2.5, 6)])
@@ -137,21 +139,18 @@ def test_what_is_left_out_is_seen_between_the_samples_too(noise, period_s, stori
     assert roof.left_out_share == pytest.approx(finer.left_out_share, rel=0.012)
 
 
-def test_a_stiff_building_takes_the_ground_to_the_roof(ground):
+def test_stiff_buildings_take_the_ground_to_the_roof_and_still_ground_stays_still(ground):
     roof = to_roof(ground, 0.01, building_of_periods([0.002], stories=1))
     assert roof.n_modes == 0
     np.testing.assert_array_equal(roof.a_mps2[:1200], ground)
     assert 0.0 < roof.next_share == roof.left_out_share < 0.05
-
-
-def test_a_still_ground_gives_a_still_roof():
     roof = to_roof(np.zeros(50), 0.01, building_of_periods([1.0]))
     assert roof.a_mps2.tolist() == [0.0] * 50
     assert (roof.n_modes, roof.pad_s, roof.roof_peak_mps2) == (0, 0.0, 0.0)
     assert not roof.shares.any()
 
 
-def test_the_motion_goes_on_until_the_building_rests(ground):
+def test_a_motion_goes_on_until_the_building_rests_and_no_longer(ground):
     building = building_of_periods([1.5], damping=[0.02], stories=5)
     roof = to_roof(ground, 0.01, building)
     longer = to_roof(lengthened(ground, 20000), 0.01, building)
@@ -161,12 +160,13 @@ def test_the_motion_goes_on_until_the_building_rests(ground):
     assert np.abs(longer.a_mps2[n:]).max() <= RESTING_SHARE * roof.roof_peak_mps2
     assert np.abs(roof.a_mps2[-2:]).max() <= 1.1 * RESTING_SHARE * roof.roof_peak_mps2
     assert roof.a_mps2.size > 2000  # 40 s at this period and damping
-
-
-def test_a_ground_that_is_still_long_before_its_end_is_not_lengthened(ground):
     roof = to_roof(lengthened(ground, 9000), 0.01, building_of_periods([0.5]))
     assert roof.a_mps2.size == 8999 * round(0.01 / roof.dt_s) + 1
     assert roof.pad_s == 0.0
+    a = lengthened(ground, 9000)
+    roof = shaking_to_roof([a], a, 0.01, [building_of_periods([0.5], stories=1)])
+    assert roof.vertical_mps2.size == roof.horizontal[0].a_mps2.size == 9000
+    np.testing.assert_array_equal(roof.vertical_mps2, a)
 
 
 def test_the_step_is_refined_where_the_roof_would_swing_between_samples(ground):
@@ -217,19 +217,6 @@ def test_all_components_have_one_step_and_one_length(ground):
     np.testing.assert_allclose(roof.vertical_mps2[1:1999:2], between, atol=1e-15)
 
 
-@pytest.mark.quick
-def test_without_vertical_there_is_none_at_the_roof(ground):
-    roof = shaking_to_roof([ground], [], 0.01, [building_of_periods([0.5])])
-    assert roof.vertical_mps2.size == 0
-
-
-def test_nothing_is_added_where_nothing_is_needed(ground):
-    a = lengthened(ground, 9000)
-    roof = shaking_to_roof([a], a, 0.01, [building_of_periods([0.5], stories=1)])
-    assert roof.vertical_mps2.size == roof.horizontal[0].a_mps2.size == 9000
-    np.testing.assert_array_equal(roof.vertical_mps2, a)
-
-
 @settings(max_examples=20)
 @given(
     period_s=st.floats(0.05, 6.0),
@@ -257,19 +244,22 @@ def test_arrays_are_read_only_and_nothing_given_is_changed(ground):
     assert roof.roof_peak_mps2 == np.abs(roof.a_mps2).max()
 
 
-def test_given_periods_are_kept_and_higher_ones_follow_the_last():
+def test_given_periods_and_modes_are_kept_up_to_the_stories():
     building = building_of_periods([1.0, 0.4], damping=[0.03, 0.05, 0.08])
     np.testing.assert_allclose(building.periods_s[:4], [1.0, 0.4, 0.4 * 3 / 5, 0.4 * 3 / 7])
     assert building.damping[:4].tolist() == [0.03, 0.05, 0.08, 0.08]
     assert building.periods_s.size == BEAM_MODES
     assert "period 1, 0.4 s; damping 3, 5, 8 % of critical" in building.words
-
-
-def test_a_building_has_no_more_modes_than_stories():
     building = building_of_periods([1.0, 0.4, 0.2], damping=[0.03, 0.05, 0.06], stories=2)
     assert building.periods_s.tolist() == [1.0, 0.4]
     assert building.damping.tolist() == [0.03, 0.05]
     assert building.roof_factors.sum() == pytest.approx(1.0)
+    building = building_of_modes([0.8, 0.3], [0.05, 0.05], [1.3, -0.4])
+    assert building.roof_factors.tolist() == [1.3, -0.4]
+    assert building.words == "2 modes as given, sum of roof factors 0.900"
+    for factors in ([1.3], [1.3, math.nan]):
+        with pytest.raises(InputError, match="a period, a damping and a roof factor for each"):
+            building_of_modes([0.8, 0.3], [0.05, 0.05], factors)
 
 
 @pytest.mark.parametrize(
@@ -283,12 +273,6 @@ def test_a_building_has_no_more_modes_than_stories():
 )
 def test_a_building_says_how_it_was_made(alpha0, stories, words):
     assert words in building_of_periods([1.0], alpha0=alpha0, stories=stories).words
-
-
-def test_modes_of_an_analysis_are_taken_as_they_are():
-    building = building_of_modes([0.8, 0.3], [0.05, 0.05], [1.3, -0.4])
-    assert building.roof_factors.tolist() == [1.3, -0.4]
-    assert building.words == "2 modes as given, sum of roof factors 0.900"
 
 
 @pytest.mark.parametrize(
@@ -309,12 +293,6 @@ def test_modes_of_an_analysis_are_taken_as_they_are():
 def test_what_cannot_be_a_building_is_refused(arguments, said):
     with pytest.raises(InputError, match=said):
         building_of_periods(**arguments)
-
-
-def test_modes_that_do_not_match_are_refused():
-    for factors in ([1.3], [1.3, math.nan]):
-        with pytest.raises(InputError, match="a period, a damping and a roof factor for each"):
-            building_of_modes([0.8, 0.3], [0.05, 0.05], factors)
 
 
 @pytest.mark.parametrize(

@@ -217,11 +217,25 @@ def test_what_is_written_otherwise_holds_the_same(altered, name, changes, factor
         assert record.a_mps2 == pytest.approx(expected, **held.error)
 
 
-def test_a_sensor_at_the_surface_needs_no_note(altered):
+def test_sensors_and_steps_of_headings_are_taken(altered):
     path = altered("kiknet.ew1", ("Dir.              2", "Dir.              6"))
     motion_file = read_motion_file(path)
     assert motion_file.channel().name == "UD2"
     assert len(motion_file.notes) == 1
+    path = altered("csmip-new.v2", ("  .0078125", "  .0000000"))
+    assert read_motion_file(path).channel().dt_s == 0.008
+    for dt_s in (1 / 128, 0.0084):
+        assert read_motion_file(path, dt_s=dt_s).channel().dt_s == dt_s
+    assert "but dt is 0.0086 s" in problems_of(path, dt_s=0.0086)[0]
+    unknown = ("    -999.000000", "    -999.000000")
+    steps = [("       7.812500", unknown[1]), ("       0.005000", unknown[1])]
+    path = altered("cosmos.v2c", *steps)
+    assert problems_of(path, dt_s=0.01) == (
+        "cosmos.v2c:38: the heading states 0.164062 s, the record lasts 0.21 s; give dt with more"
+        " digits, or a file whose headings agree",
+    )
+    path = altered("cosmos.v2c", *steps, ("       0.164062", unknown[1]))
+    assert read_motion_file(path, dt_s=0.01).channel().dt_s == 0.01
 
 
 COUNT = "      21       0       0      21"
@@ -355,33 +369,17 @@ def test_what_the_caller_says_must_agree(name, units, written, other, step, othe
     assert all(said in one for one in told)
 
 
-def test_a_step_within_the_rounding_of_the_heading_is_taken(altered):
-    path = altered("csmip-new.v2", ("  .0078125", "  .0000000"))
-    assert read_motion_file(path).channel().dt_s == 0.008
-    for dt_s in (1 / 128, 0.0084):
-        assert read_motion_file(path, dt_s=dt_s).channel().dt_s == dt_s
-    assert "but dt is 0.0086 s" in problems_of(path, dt_s=0.0086)[0]
-
-
-def test_a_step_that_no_heading_has_may_be_given(altered):
-    unknown = ("    -999.000000", "    -999.000000")
-    steps = [("       7.812500", unknown[1]), ("       0.005000", unknown[1])]
-    path = altered("cosmos.v2c", *steps)
-    assert problems_of(path, dt_s=0.01) == (
-        "cosmos.v2c:38: the heading states 0.164062 s, the record lasts 0.21 s; give dt with more"
-        " digits, or a file whose headings agree",
-    )
-    path = altered("cosmos.v2c", *steps, ("       0.164062", unknown[1]))
-    assert read_motion_file(path, dt_s=0.01).channel().dt_s == 0.01
-
-
-def test_a_file_cut_behind_its_accelerations_says_so(file):
+def test_a_cut_file_and_one_without_units_say_so(file):
     text = (SAMPLES / "csmip-new.v2").read_text()
     motion_file = read_motion_file(file(text[: text.index("points of displ")]))
     assert motion_file.channel().a_mps2 == pytest.approx(1.5 * WAVE / 100, rel=1e-14)
     assert motion_file.notes[1:] == (
         "no end-of-data line (/&) follows the values: the file may be truncated",
     )
+    bare = "SOMETHING\nELSE\n\nNPTS= 2, DT= .01 SEC\n1 2\n"
+    assert problems_of(file(bare))[0].startswith("roof.csv: found no unit of acceleration; give")
+    record = read_motion_file(file(bare), units="gal").channel()
+    assert (record.name, record.a_mps2.tolist()) == ("roof.csv", [0.01, 0.02])
 
 
 SERIES = "2 acceleration pts, approx 0 secs, units=g(02),Format=(8F10.3)\n"
@@ -439,10 +437,3 @@ def test_count_and_step_are_found_however_they_are_set(file, line):
 def test_faults_of_a_short_file_are_told_with_their_line(file, line, values, expected):
     (problem,) = problems_of(file(f"{PEER_HEADING}{line}\n{values}\n"))
     assert problem.startswith(f"roof.csv:{expected}")
-
-
-def test_units_are_asked_for_only_where_the_heading_has_none(file):
-    bare = "SOMETHING\nELSE\n\nNPTS= 2, DT= .01 SEC\n1 2\n"
-    assert problems_of(file(bare))[0].startswith("roof.csv: found no unit of acceleration; give")
-    record = read_motion_file(file(bare), units="gal").channel()
-    assert (record.name, record.a_mps2.tolist()) == ("roof.csv", [0.01, 0.02])

@@ -25,18 +25,12 @@ def made(*names, notes=()):
     return motion_file(SOURCE, "made", channels, ["of the file"])
 
 
-def test_a_channel_is_chosen_by_name_or_number():
+def test_a_channel_is_chosen_by_name_then_by_number():
     channels = made("CHAN  1: EW ", "CHAN  2: NS", "3: Up")
     assert channels.channel("chan 1:  ew").a_mps2[1] == 1.0
     assert channels.channel(" 2 ").name == "CHAN 2: NS"
     assert channels.channel("3").name == "3: Up"
-
-
-def test_a_name_comes_before_a_number():
     assert made("2", "1").channel("1").a_mps2[1] == 2.0
-
-
-def test_only_a_lone_channel_need_not_be_named():
     assert made("180").channel().name == "180"
     assert made("").channel().name == "a.v2"
 
@@ -58,23 +52,14 @@ def test_a_channel_that_is_not_there_is_refused_with_those_that_are(names, wante
     assert refused(made(*names.split()).channel, wanted) == (f"a.v2: {problem}",)
 
 
-def test_a_long_list_of_channels_is_cut():
+def test_names_and_notes_of_channels_differ_and_long_lists_are_cut():
     (problem,) = refused(made(*(f"c{i}" for i in range(40))).channel, "roof")
     assert problem.endswith("30 c29; ... and 10 more")
-
-
-def test_names_are_made_to_differ():
     assert distinct(["x", " X", "", "x (2)", "x"]) == [
         "x", "X (2)", "channel 3", "x (2) (2)", "x (3)",
     ]  # fmt: skip
-
-
-def test_notes_name_their_channel_where_there_are_several():
     assert made("x", notes=("odd",)).notes == ("of the file", "odd")
     assert made("x", "y", notes=("odd",)).notes == ("of the file", "x: odd", "y: odd")
-
-
-def test_no_channel_or_no_samples_are_refused():
     (problem,) = refused(made)
     assert problem.startswith("a.v2: found no acceleration in this made file; give a")
     short = Channel(name="x", dt_s=0.01, a_mps2=np.zeros(1), notes=())
@@ -82,7 +67,7 @@ def test_no_channel_or_no_samples_are_refused():
     assert problem == "a.v2: found 1 sample; give at least 2"
 
 
-def test_a_peak_that_the_header_states_otherwise_is_told():
+def test_stated_peaks_and_offsets_are_told():
     a = np.array([0.0, -0.5 * G, 0.2 * G])
     assert peak_notes(SOURCE, 3, -0.5 * G, a) == ()
     assert peak_notes(SOURCE, 3, 0.504 * G, a) == ()
@@ -94,9 +79,6 @@ def test_a_peak_that_the_header_states_otherwise_is_told():
     for stated in (0.24 * G, 1.01 * G):
         with pytest.raises(InputError, match=r"a\.v2:4: the header states a peak of .* agree"):
             peak_notes(SOURCE, 3, stated, a)
-
-
-def test_an_offset_is_told_from_one_hundredth_of_the_peak_on():
     assert offset_notes(np.array([1.0, -1.0, 0.0])) == ()
     assert offset_notes(np.zeros(5)) == ()
     assert offset_notes(np.array([0.1 * G, -0.05 * G])) == (
@@ -130,15 +112,12 @@ def test_a_code_for_missing_data_is_no_sample(tmp_path, code, unit, at):
     assert "code for missing data" in problem
 
 
-def test_a_code_beside_weak_or_strong_shaking_is_no_sample(tmp_path):
+def test_codes_beside_shaking_and_gravity_are_told(tmp_path):
     path = tmp_path / "a.txt"
     for code, unit, peak in (("-999", "cm/s2", 0.05), ("-999", "g", 1.4)):
         path.write_text(shaken(code, unit=unit, peak=peak))
         (problem,) = refused(read_motion_file, path, units=unit, dt_s=0.01)
         assert "code for missing data" in problem
-
-
-def test_gravity_in_a_component_is_noted(tmp_path):
     path = tmp_path / "a.csv"
     rows = "".join(f"{k / 100},{0.1 * (-1) ** k},{1 - 0.1 * (-1) ** k}\n" for k in range(50))
     path.write_text(f"t_s,X_g,Z_g\n{rows}")

@@ -57,9 +57,14 @@ def unnoticed(path, whole, at_lines):
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.nightly
-def test_no_damage_of_a_line_changes_a_record_without_a_word(tmp_path, name):
+def test_no_damage_of_a_line_or_cut_in_the_last_value_changes_a_record_without_a_word(
+    tmp_path, name
+):
     count = len((SAMPLES / name).read_bytes().splitlines())
     assert unnoticed(tmp_path / name, SAMPLES / name, range(count)) == []
+    whole = SAMPLES / name
+    left = {lost: whole.read_bytes()[:-lost] for lost in range(1, 40)}
+    assert [lost for lost in left if is_unnoticed(tmp_path / name, whole, left[lost])] == []
 
 
 @pytest.mark.parametrize(
@@ -139,14 +144,6 @@ def test_a_value_cut_short_or_a_duration_that_is_not_there_is_refused(
     assert problems_of(altered(name, (whole, left))) == (f"{name}:{problem}",)
 
 
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.nightly
-def test_no_cut_within_the_last_value_changes_a_record_without_a_word(tmp_path, name):
-    whole = SAMPLES / name
-    left = {lost: whole.read_bytes()[:-lost] for lost in range(1, 40)}
-    assert [lost for lost in left if is_unnoticed(tmp_path / name, whole, left[lost])] == []
-
-
 def test_values_of_unlike_digits_may_end_with_few(altered):
     path = altered("peer-nga.at2", (".2500000E+00", ".25"), ("-.3125000E-01", "-.0625"))
     assert read_motion_file(path).channels[0].a_mps2.size == 7
@@ -170,7 +167,7 @@ def test_a_text_that_is_cut_within_a_line_says_so(file, name):
 VALUES = "".join(f"{i * 0.01:.2f},{(-1) ** i * 0.125:.4f}\n" for i in range(20))
 
 
-def test_a_text_whose_last_value_is_cut_short_is_refused(file):
+def test_a_last_value_cut_short_is_refused_and_stated_steps_are_compared(file):
     assert read_motion_file(file(VALUES), units="g").notes == ()
     assert problems_of(file(VALUES[:-3]), units="g") == (
         "roof.csv:20: found '-0.12' at the end, with fewer digits than the values before it and"
@@ -178,6 +175,11 @@ def test_a_text_whose_last_value_is_cut_short_is_refused(file):
     )
     # With a line end somebody typed it.
     assert read_motion_file(file(VALUES[:-3] + "\n"), units="g").notes == ()
+    assert read_motion_file(file(f"# dt = 0.01 s\ntime_s,acc_g\n{ROWS}")).channel().dt_s == 0.01
+    assert problems_of(file(f"# dt = 0.02 s\ntime_s,acc_g\n{ROWS}")) == (
+        "roof.csv:1: states a step of 0.02 s, the times have 0.01 s; give a file in which they"
+        " agree",
+    )
 
 
 @pytest.mark.parametrize("lines", [1, 60])
@@ -200,12 +202,4 @@ def test_a_text_that_states_its_samples_is_held_to_it(file, words):
     )
     assert problems_of(file(text + "0.20,0.1\n")) == (
         "roof.csv:1: states 20 samples, found 21; correct the count",
-    )
-
-
-def test_times_are_compared_with_the_step_that_a_text_states(file):
-    assert read_motion_file(file(f"# dt = 0.01 s\ntime_s,acc_g\n{ROWS}")).channel().dt_s == 0.01
-    assert problems_of(file(f"# dt = 0.02 s\ntime_s,acc_g\n{ROWS}")) == (
-        "roof.csv:1: states a step of 0.02 s, the times have 0.01 s; give a file in which they"
-        " agree",
     )

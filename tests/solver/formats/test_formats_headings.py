@@ -35,10 +35,14 @@ def test_other_words_are_no_acceleration(text):
     assert math.isnan(unit_size(text))
 
 
-def test_units_to_choose_from_are_those_of_records_and_gal():
+def test_words_and_units_of_headings_are_those_known():
     assert (*UNITS, "gal") == UNIT_CHOICES
     texts = ("cm", "CM/SEC", "m/s", "in", "g", "s")
     assert list(filter(is_other_unit, texts)) == ["cm", "CM/SEC", "m/s", "in"]
+    numbers = ("sample", "Index", "No.", "N", "n_g", "NS", "t")
+    assert [parse(word).is_index for word in numbers] == [True] * 4 + [False] * 3
+    assert words("Time [s] Acc (cm/s2) NS", None) == ["Time [s]", "Acc (cm/s2)", "NS"]
+    assert words("t;a b;c", ";") == ["t", "a b", "c"]
 
 
 @pytest.mark.parametrize(
@@ -103,25 +107,12 @@ def test_a_time_in_an_unknown_unit_has_no_value_in_seconds(text, seconds):
     assert heading.seconds == pytest.approx(seconds, nan_ok=True)
 
 
-def test_a_word_for_the_number_of_a_sample_is_an_index():
-    words = ("sample", "Index", "No.", "N", "n_g", "NS", "t")
-    assert [parse(word).is_index for word in words] == [True] * 4 + [False] * 3
-
-
-def test_words_keep_their_brackets():
-    assert words("Time [s] Acc (cm/s2) NS", None) == ["Time [s]", "Acc (cm/s2)", "NS"]
-    assert words("t;a b;c", ";") == ["t", "a b", "c"]
-
-
-def test_a_remark_names_columns_only_where_it_begins_with_time():
+def test_remarks_and_letters_name_columns_only_where_they_must():
     prose = "t_s,acc_g  San Francisco, 575 Market, 42nd floor"
     assert [heading.name for heading in remark(prose, ",", 2)] == ["t", "acc"]
     assert remark("made by hand, long ago", ",", 2) == []
     assert remark("t_s", ",", 2) == []
     assert remark("t_s", None, 1) == []
-
-
-def test_a_letter_g_is_a_unit_only_where_all_state_one():
     assert [h.unit for h in settled([*map(parse, ("t", "ch_f", "ch_g"))])] == ["", "", ""]
     assert [h.unit for h in settled([*map(parse, ("t", "ch_gal", "ch_g"))])] == ["", "gal", "g"]
     assert settled([*map(parse, ("t", "EW", "vel_g"))])[2].kind is Kind.OTHER

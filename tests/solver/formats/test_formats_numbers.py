@@ -62,19 +62,20 @@ def test_touching_fields_are_cut_by_width(values):
     assert read.tolist() == [value / 1000 for value in values]
 
 
-def test_numbers_set_to_the_left_and_exponents_of_doubles_are_read():
+def test_numbers_may_be_set_left_touch_or_be_unused():
     layout = FieldFormat(per_line=2, width=8)
     read = fixed_values(source("1.5     -2.D+01 ", "3"), block(3, 2), layout)
     assert read.tolist() == [1.5, -20.0, 3.0]
     assert free_values(source("1.5 -2.D+01", "", "3"), block(3, 3)).tolist() == [1.5, -20.0, 3.0]
-
-
-def test_free_numbers_may_touch_at_a_sign():
     read = free_values(source("-.1234E-02-.5678E+01 1.-2.5+3"), block(5, 1))
     assert read.tolist() == [-0.001234, -5.678, 1.0, -2.5, 3.0]
     # An exponent without its letter is not guessed at: the count does not hold.
     with pytest.raises(InputError, match=r"a:10: states 2 values, found 3"):
         free_values(source("1.0-101 2.0"), block(2, 1))
+    numbers = header_values(source("   1****", "    -2.5"), 0, 6, FieldFormat(per_line=2, width=4))
+    none, values = math.nan, [number.value for number in numbers]
+    assert np.array_equal(values, [1.0, none, none, -2.5, none, none], equal_nan=True)
+    assert [number.index for number in numbers] == [0, 0, 1, 1, 2, 2]
 
 
 def test_short_lines_are_allowed_only_where_they_are_asked_for():
@@ -107,13 +108,6 @@ def test_counts_that_do_not_hold_are_told_at_the_line_of_the_promise(count, told
     lines = source("   1   2", "   3   4", "no more")
     problem = refused(fixed_values, lines, block(count, 3), FieldFormat(per_line=2, width=4))[0]
     assert problem.startswith(f"a:10: states {count} values, {told}")
-
-
-def test_unused_fields_of_a_heading_may_be_anything():
-    numbers = header_values(source("   1****", "    -2.5"), 0, 6, FieldFormat(per_line=2, width=4))
-    none, values = math.nan, [number.value for number in numbers]
-    assert np.array_equal(values, [1.0, none, none, -2.5, none, none], equal_nan=True)
-    assert [number.index for number in numbers] == [0, 0, 1, 1, 2, 2]
 
 
 @pytest.mark.parametrize(

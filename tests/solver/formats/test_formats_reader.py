@@ -68,12 +68,8 @@ def test_the_content_tells_the_format_whatever_the_name(file, name):
 
 
 @pytest.mark.quick
-def test_every_sample_is_listed():
+def test_every_sample_is_listed_and_a_record_is_one_of_its_channels():
     assert {path.name for path in SAMPLES.iterdir()} == {*FORMATS, "README.md"}
-
-
-@pytest.mark.quick
-def test_a_record_is_one_channel_of_a_file():
     record = read_record(SAMPLES / "renadic.v1", channel="chan 2: v (sta chn: 2)")
     (_, expected, _) = read_motion_file(SAMPLES / "renadic.v1").channels
     assert record.name == expected.name

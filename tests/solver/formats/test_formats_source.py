@@ -34,9 +34,13 @@ def test_a_known_kind_of_file_is_named_with_what_to_do(file, content, kind):
     assert problem.startswith(f"roof.csv: not a text file; {kind}")
 
 
-def test_what_is_not_a_file_is_refused(tmp_path):
+def test_what_is_no_file_or_too_large_is_refused(tmp_path):
     assert problems_of(tmp_path / "none.csv")[0].startswith("none.csv: no such file")
     assert problems_of(tmp_path)[0].startswith(f"{tmp_path.name}: not a file")
+    with (tmp_path / "roof.csv").open("wb") as hollow:
+        hollow.truncate(MAX_BYTES + 1)
+    (problem,) = problems_of(tmp_path / "roof.csv")
+    assert problem.endswith(f"give at most {MAX_BYTES // 1_000_000} MB")
 
 
 @pytest.mark.skipif(
@@ -47,16 +51,12 @@ def test_a_file_that_cannot_be_read_says_why():
     assert problems_of(Path("/proc/self/mem")) == ("mem: cannot be read (Input/output error)",)
 
 
-def test_a_file_beyond_the_size_cap_is_not_opened(tmp_path):
-    with (tmp_path / "roof.csv").open("wb") as hollow:
-        hollow.truncate(MAX_BYTES + 1)
-    (problem,) = problems_of(tmp_path / "roof.csv")
-    assert problem.endswith(f"give at most {MAX_BYTES // 1_000_000} MB")
-
-
-def test_long_lines_are_refused(file):
+def test_lines_too_long_or_too_many_are_refused(file):
     assert problems_of(file("0 1\n" + "1" * 1200)) == (
         "roof.csv:2: found a line of 1200 characters; give at most 1000",
+    )
+    assert problems_of(file("0\n" * 1_000_001 + "x")) == (
+        "roof.csv: found 1,000,002 lines; give at most 1,000,000",
     )
 
 
@@ -79,9 +79,3 @@ def test_a_stated_step_must_be_one(file, value):
     source = open_source(file("x"), units="", dt_s=math.nan)
     (problem,) = refused(source.step, Stated(value=value, rounding=0.0, index=0))
     assert problem == f"roof.csv:1: found time step {value:g} s; give a number above 0"
-
-
-def test_a_file_of_too_many_lines_is_refused_before_it_is_parsed(file):
-    assert problems_of(file("0\n" * 1_000_001 + "x")) == (
-        "roof.csv: found 1,000,002 lines; give at most 1,000,000",
-    )

@@ -102,7 +102,7 @@ def test_what_may_mean_two_things_is_refused(file, content, problem):
 ACROSS = "0.1 0.2 0.3\n0.4 0.5 0.6\n0.7\n"
 
 
-def test_values_across_the_lines_are_read_where_their_number_in_a_line_is_told(file):
+def test_gravity_raw_counts_and_values_across_lines_are_read_as_told(file):
     expected = [k * G / 10 for k in range(1, 8)]
     commas = ACROSS.replace(" ", ", ").replace("\n", ",\n")
     for content in (ACROSS, commas, ACROSS.replace("0.6", "6.0D-01")):
@@ -112,6 +112,16 @@ def test_values_across_the_lines_are_read_where_their_number_in_a_line_is_told(f
     assert told.a_mps2 == pytest.approx(expected, rel=1e-15)
     peer = read_record(file(f"OpenSees\nNPTS= 7\n{ACROSS}"), units="g", dt_s=0.01)
     assert peer.a_mps2 == pytest.approx(expected, rel=1e-15)
+    rows = "0,0.58,0.01,0.79\n1,0.62,-0.01,0.78\n"
+    motion_file = read_motion_file(file(f"t_s,x_g,y_g,z_g\n{rows}"))
+    assert motion_file.notes == (
+        "the means of the three are about 1 g together: gravity is in them",
+    )
+    for heading in ("time_s,x_counts", "t,x"):
+        record = read_record(file(f"{heading}\n0,100\n1,200\n"), response="50")
+        assert record.a_mps2.tolist() == [2.0, 4.0]
+    for how in ({"response": "50"}, {"response": "50", "units": "g"}):
+        assert len(refused(read_record, file("time_s,x_g\n0,100\n1,200\n"), **how)) == 1
 
 
 @pytest.mark.parametrize(
@@ -183,21 +193,30 @@ def test_a_step_that_a_remark_states_is_taken(file, remark):
     assert read_record(file(f"{remark}\n1\n2\n"), units="g").dt_s == 0.005
 
 
-def test_a_component_to_the_north_is_no_index(file):
+def test_letters_n_and_g_are_no_index_and_no_unit(file):
     content = "N,E\n0,1\n1,2\n0,3\n"
     assert len(read_motion_file(file(content), units="g", dt_s=0.1).channels) == 2
+    motion_file = read_motion_file(file(LETTERS), units="gal")
+    assert [record.name for record in motion_file.channels] == ["ch_f", "ch_g", "ch_h"]
+    assert motion_file.channel("ch_g").a_mps2.tolist() == [0.02, 0.05]
 
 
 CHANNELS = "time_s,NS_g,EW [gal],UD_g,vel_cm/s\n0,1,2,3,9\n0.5,4,5,6,9\n"
 
 
-def test_headings_name_channels_and_each_has_its_unit(file):
+def test_headings_and_comments_name_channels_with_their_units(file):
     motion_file = read_motion_file(file(CHANNELS))
     assert [record.name for record in motion_file.channels] == ["NS", "EW", "UD"]
     assert {record.dt_s for record in motion_file.channels} == {0.5}
     assert motion_file.channel("ew").a_mps2.tolist() == [0.02, 0.05]
     assert motion_file.channel("3").a_mps2.tolist() == [3 * G, 6 * G]
     assert motion_file.notes == ("column 'vel_cm/s' is ignored: it is not an acceleration",)
+    named = read_motion_file(file("x_g,y_g\n1,2\n0,4\n"), dt_s=0.1)
+    assert [record.name for record in named.channels] == ["x", "y"]
+    plain = read_motion_file(file("x,y,z\n1,2,3\n0,4,5\n"), dt_s=0.1, units="m/s2")
+    assert plain.channel("x").a_mps2.tolist() == [1.0, 0.0]
+    motion_file = read_motion_file(file("# t  NS[g]  EW [g]\n0 1 2\n1 3 4\n"))
+    assert motion_file.channel("ew").a_mps2.tolist() == [2 * G, 4 * G]
 
 
 LOGGER = "t [s];Acc x [m/s2];Acc y [m/s2];Acc z [m/s2];{};Temperature [°C];gyro_x [rad/s]\n"
@@ -219,33 +238,7 @@ def test_a_component_that_changes_its_sign_is_no_magnitude(file, name):
     assert read_record(file(f"t_s,{name} [m/s2]\n0,1\n1,-2\n")).a_mps2.tolist() == [1, -2]
 
 
-def test_gravity_is_found_across_the_axes_of_a_tilted_logger(file):
-    rows = "0,0.58,0.01,0.79\n1,0.62,-0.01,0.78\n"
-    motion_file = read_motion_file(file(f"t_s,x_g,y_g,z_g\n{rows}"))
-    assert motion_file.notes == (
-        "the means of the three are about 1 g together: gravity is in them",
-    )
-
-
 LETTERS = "time_s,ch_f,ch_g,ch_h\n0,1,2,3\n1,4,5,6\n"
-
-
-def test_a_letter_g_among_letters_is_no_unit(file):
-    motion_file = read_motion_file(file(LETTERS), units="gal")
-    assert [record.name for record in motion_file.channels] == ["ch_f", "ch_g", "ch_h"]
-    assert motion_file.channel("ch_g").a_mps2.tolist() == [0.02, 0.05]
-
-
-def test_columns_without_times_take_the_step_from_the_argument(file):
-    named = read_motion_file(file("x_g,y_g\n1,2\n0,4\n"), dt_s=0.1)
-    assert [record.name for record in named.channels] == ["x", "y"]
-    plain = read_motion_file(file("x,y,z\n1,2,3\n0,4,5\n"), dt_s=0.1, units="m/s2")
-    assert plain.channel("x").a_mps2.tolist() == [1.0, 0.0]
-
-
-def test_a_comment_may_name_the_columns(file):
-    motion_file = read_motion_file(file("# t  NS[g]  EW [g]\n0 1 2\n1 3 4\n"))
-    assert motion_file.channel("ew").a_mps2.tolist() == [2 * G, 4 * G]
 
 
 RAW = (
@@ -311,14 +304,6 @@ REFUSED = {
 }  # fmt: skip
 
 
-def test_raw_counts_of_a_text_take_the_sensitivity_that_is_told(file):
-    for heading in ("time_s,x_counts", "t,x"):
-        record = read_record(file(f"{heading}\n0,100\n1,200\n"), response="50")
-        assert record.a_mps2.tolist() == [2.0, 4.0]
-    for how in ({"response": "50"}, {"response": "50", "units": "g"}):
-        assert len(refused(read_record, file("time_s,x_g\n0,100\n1,200\n"), **how)) == 1
-
-
 @pytest.mark.parametrize(("content", "how", "problem"), REFUSED.values(), ids=REFUSED)
 def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, problem):
     assert problems_of(file(content), **how) == (f"roof.csv{problem}",)
@@ -369,13 +354,10 @@ def test_each_line_at_fault_is_named_with_what_would_do(file, content, expected)
     assert [p[: len(s)] for p, s in zip(problems, starts, strict=True)] == starts
 
 
-def test_many_faults_are_cut_short_and_counted(file):
+def test_many_faults_are_cut_short_and_counted_to_a_limit(file):
     problems = problems_of(file("0.1\n" + "x\n" * 37), dt_s=0.1)
     assert len(problems) == 11
     assert problems[9:] == ("roof.csv:11: found 'x'; give a number", "... and 27 more")
-
-
-def test_countless_faults_are_not_counted_to_the_end(file):
     problems = problems_of(file("0.1\n" + "x\n" * 12_000), dt_s=0.1)
     assert problems[10:] == ("... and more than 10000 more",)
 

@@ -81,11 +81,15 @@ def test_samples_that_are_no_counts_are_in_the_unit_that_is_told(file, content):
     assert told.notes[0] == "the samples are no whole numbers, and are read as counts"
 
 
-def test_each_component_is_a_channel(file):
+def test_each_component_is_a_channel_and_without_obspy_what_to_install_said(file, monkeypatch):
     both = miniseed(COUNTS) + miniseed((2 * COUNTS).astype(">i4"), channel=b"HNN")
     motion_file = read_motion_file(file(both), response="20000")
     assert [record.name for record in motion_file.channels] == ["XX.ABC..HNE", "XX.ABC..HNN"]
     assert motion_file.channels[1].a_mps2 == pytest.approx(COUNTS / 10000)
+    monkeypatch.setitem(sys.modules, "obspy", None)
+    (problem,) = problems_of(file(miniseed(COUNTS)))
+    assert problem.startswith("roof.csv: miniSEED is read by ObsPy, which is not installed; type")
+    assert problem.endswith("pip install 'roofslip[seismic]'")
 
 
 @pytest.mark.parametrize(
@@ -119,13 +123,6 @@ def test_another_response_is_refused(file, old, new, problem):
     response = file(STATION.replace(old, new), "station.xml")
     (found,) = problems_of(file(miniseed(COUNTS)), response=response)
     assert found.startswith(f"station.xml: {problem}")
-
-
-def test_without_obspy_it_says_what_to_install(file, monkeypatch):
-    monkeypatch.setitem(sys.modules, "obspy", None)
-    (problem,) = problems_of(file(miniseed(COUNTS)))
-    assert problem.startswith("roof.csv: miniSEED is read by ObsPy, which is not installed; type")
-    assert problem.endswith("pip install 'roofslip[seismic]'")
 
 
 @pytest.mark.nightly

@@ -53,7 +53,7 @@ def copied(tmp_path):
     return folder, run
 
 
-def test_an_edited_kernel_is_compiled_again(copied):
+def test_an_edited_kernel_is_compiled_again_whatever_others_are_kept(copied):
     folder, run = copied
     assert run() == 1.0
     assert list(folder.glob("__pycache__/*.nbc"))
@@ -61,9 +61,6 @@ def test_an_edited_kernel_is_compiled_again(copied):
     assert former in source.read_text()
     source.write_text(source.read_text().replace(former, "return -2.0 * most / g, np.nan"))
     assert run() == 2.0
-
-
-def test_one_kernel_that_is_kept_does_not_stand_for_the_others(copied):
     _, run = copied
     run()
     kept = "compiler.is_compiled({})".format

@@ -39,15 +39,12 @@ def test_a_held_block_rests_and_one_without_a_rule_for_rest_chatters_and_drifts(
     assert math.dist(drifted, place) > 0.1 * exact.prd_m
 
 
-def test_a_pushed_block_at_rest_starts_with_what_friction_leaves():
+def test_a_block_at_rest_starts_with_what_friction_leaves_or_free_without():
     rows = np.array([[3.0, 4.0, 2.0]] * 3)
     prd, x, y, speed = rivals.slide_fixed(rows, 0.1, 1.0, 1, True)
     assert speed == pytest.approx(3.0 * 0.2)
     assert (x, y) == pytest.approx((0.6 * 0.06, 0.8 * 0.06))
     assert prd == pytest.approx(0.06)
-
-
-def test_a_free_block_at_rest_feels_no_friction_in_its_first_step():
     rows = np.array([[3.0, 4.0, 2.0]] * 2)
     _, _, _, speed = rivals.slide_fixed(rows, 0.1, 1.0, 1, False)
     assert speed == pytest.approx(0.5)

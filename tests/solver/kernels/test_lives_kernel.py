@@ -24,26 +24,17 @@ def lived(levels, sides, recenter=NEVER):
     return tuple(out[:, 0])
 
 
-def test_an_event_from_the_installed_place_has_its_corner_and_leaves_its_residuals():
+def test_places_add_until_an_array_is_put_back():
     # Its PRD of 5, or the corner of 4 down and 2 across, which is nearer.
     assert lived([0], [1.0]) == pytest.approx((math.hypot(4.0, 2.0), math.hypot(3.0, 2.0)))
-
-
-def test_residuals_add_downslope_and_by_their_side_across():
     largest, last = lived([0, 0], [1.0, -1.0])
     assert last == pytest.approx(6.0)
     # From (3, 2): the PRD from there, or the corner (3 + 4, 2 + 2).
     assert largest == pytest.approx(min(math.hypot(3.0, 2.0) + 5.0, math.hypot(7.0, 4.0)))
-
-
-def test_an_array_that_is_put_back_begins_again():
     assert lived([0, 0], [1.0, 1.0], recenter=3.0) == pytest.approx((math.hypot(4.0, 2.0), 0.0))
+    assert lived([], []) == (0.0, 0.0)
 
 
 @pytest.mark.parametrize("levels", [[-1], [1], [0, -1]])
 def test_an_event_without_a_response_has_no_distance(levels):
     assert lived(levels, [1.0] * len(levels)) == (math.inf, math.inf)
-
-
-def test_a_life_without_events_stays():
-    assert lived([], []) == (0.0, 0.0)

@@ -87,11 +87,8 @@ def test_constant_acceleration_gives_the_numbers_of_the_papers_equations(noise, 
     assert max(outcome[1], -outcome[2]) * np.cos(theta) >= scale * (1 - 1e-11)
 
 
-def test_a_block_that_slides_one_way_has_the_net_acceleration():
+def test_rates_are_the_net_acceleration_against_the_velocity():
     assert rivals.line_rate(2.0, np.array([7.0, 3.0]), 1.5, -0.5) == pytest.approx([3.0, 0.5])
-
-
-def test_friction_in_two_axes_is_against_the_velocity():
     rates = rivals.plane_rate(2.0, np.array([0.0, 0.0, 3.0, 4.0]), 1.0, 2.0, 9.0, 0.5, -0.5, 0.5)
     # G = (2, 1) and mu N = 10, along (0.6, 0.8).
     assert rates == pytest.approx([3.0, 4.0, 2.0 - 6.0, 1.0 - 8.0])

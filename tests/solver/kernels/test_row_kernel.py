@@ -82,14 +82,11 @@ def test_no_root_of_a_polynomial_is_stepped_over(seed):
         assert x == pytest.approx(real[0] if real else row.NEVER, abs=1e-9)
 
 
-def test_where_a_line_is_too_flat_to_reach_its_root_it_says_from_where_to_look_again():
+def test_flat_lines_and_turning_polynomials_are_searched():
     """(x - 1/2)^4 comes to zero so slowly that the steps run out first."""
     x, falls = row._first_below(np.array([0.0625, -0.5, 1.5, -2.0, 1.0]), 4)
     assert not falls
     assert 0.3 < x < 0.5
-
-
-def test_the_largest_value_of_a_polynomial_is_inside_where_it_turns():
     turning = np.array([0.0, 1.0, -1.0])
     assert row._largest(turning, 2, 1.0) == pytest.approx(0.25, rel=1e-15)
     assert row._largest(turning, 2, 0.25) == pytest.approx(0.1875, rel=1e-15)

@@ -101,11 +101,12 @@ def given_up(ax, most_steps, dt=0.05):
         )
 
 
-def test_a_run_without_an_answer_says_why():
+def test_a_run_without_an_answer_says_why_and_shifts_are_alike():
     assert given_up(wave(2, 30), 2000)[0] == two_axes.FOLLOWED
     assert given_up(wave(2, 30), 5)[0] == two_axes.TOO_MANY_STEPS
     assert given_up([0.0, 1e300, -1e300, 0.0], 2000)[0] == two_axes.NOT_FINITE
     assert given_up(wave(2, 30), 2000, dt=1e200)[0] == two_axes.NOT_FINITE
+    assert two_axes.SHIFT == one_axis.SHIFT
 
 
 def test_a_run_keeps_no_references_to_its_arrays():
@@ -127,10 +128,6 @@ def test_what_memory_held_before_changes_nothing(monkeypatch):
     before = run_all(cheap)
     monkeypatch.setattr(np, "empty", lambda shape: np.full(shape, 1e9))
     np.testing.assert_array_equal(run_all(cheap), before)
-
-
-def test_the_blocks_passed_over_are_those_of_the_bounds():
-    assert two_axes.SHIFT == one_axis.SHIFT
 
 
 def hardly_pushed(seed, sn, mu):

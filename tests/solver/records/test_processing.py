@@ -27,13 +27,24 @@ def burst(hz, seconds=400.0, dt_s=0.01):
     return np.sin(2 * np.pi * hz * t) * np.exp(-0.5 * ((t - seconds / 2) / (seconds / 16)) ** 2)
 
 
-def test_the_defaults_leave_the_record_to_the_last_bit(noise):
+def test_the_defaults_leave_the_record_and_steps_come_in_order(noise):
     source = record(noise, name="N1")
     processed = process(source, Processing())
     assert np.array_equal(processed.a_mps2, noise)
     assert (processed.dt_s, processed.name) == (0.01, "N1")
     assert not processed.a_mps2.flags.writeable
     assert noise.flags.writeable
+    stepped, whole = record(noise), {}
+    for step in (
+        {"from_s": 1.0, "to_s": 18.0},
+        {"baseline": 1},
+        {"highpass_hz": 0.2, "lowpass_hz": 20.0, "order": 3},
+        {"dt_s": 0.005},
+        {"pad_s": 2.0},
+    ):
+        whole |= step
+        stepped = process(stepped, Processing(**step))
+    assert np.array_equal(process(record(noise), Processing(**whole)).a_mps2, stepped.a_mps2)
 
 
 @pytest.mark.parametrize(
@@ -148,23 +159,12 @@ class TestResampling:
         assert np.array_equal(process(record(noise), Processing(dt_s=0.01)).a_mps2, noise)
 
 
-def test_zeros_are_added_at_the_end_in_whole_steps():
+def test_zeros_are_added_and_all_problems_said_at_once():
     processed = process(record(np.ones(11), dt_s=0.1), Processing(pad_s=1.05))
     assert processed.a_mps2.tolist() == [1.0] * 11 + [0.0] * 11
-
-
-def test_steps_come_in_the_order_of_the_fields(noise):
-    stepped, whole = record(noise), {}
-    for step in (
-        {"from_s": 1.0, "to_s": 18.0},
-        {"baseline": 1},
-        {"highpass_hz": 0.2, "lowpass_hz": 20.0, "order": 3},
-        {"dt_s": 0.005},
-        {"pad_s": 2.0},
-    ):
-        whole |= step
-        stepped = process(stepped, Processing(**step))
-    assert np.array_equal(process(record(noise), Processing(**whole)).a_mps2, stepped.a_mps2)
+    wrong = Processing(from_s=-1.0, baseline=99, highpass_hz=-1.0, order=0, dt_s=-1.0)
+    assert len(wrong.problems()) == 5
+    assert Processing().problems() == ()
 
 
 class TestTogether:
@@ -226,9 +226,3 @@ def test_words_say_everything_that_is_done():
 )  # fmt: skip
 def test_what_makes_no_sense_is_said(noise, settings, message):
     assert message in "\n".join(refused(process, record(noise), Processing(**settings)))
-
-
-def test_all_problems_are_said_at_once():
-    wrong = Processing(from_s=-1.0, baseline=99, highpass_hz=-1.0, order=0, dt_s=-1.0)
-    assert len(wrong.problems()) == 5
-    assert Processing().problems() == ()

@@ -104,15 +104,12 @@ class TestDesignSpectrum:
 PERIODS = [0.0, 0.3, 1.0]
 
 
-def test_the_spectrum_of_a_record_has_its_name(noise):
+def test_spectra_have_names_periods_and_scaled_components(noise):
     record = Record(name="RM1", dt_s=0.01, a_mps2=noise)
     frame = solver.spectrum(record, PERIODS, damping=0.02).to_frame()
     assert frame.index.name == "period_s"
     assert frame.index.tolist() == PERIODS
     np.testing.assert_array_equal(frame["RM1"], response_spectrum(noise, 0.01, PERIODS, 0.02))
-
-
-def test_the_spectra_of_a_motion_are_those_of_its_components_scaled(noise):
     motion = solver.motion(noise, az_mps2=0.5 * noise, dt_s=0.01, scale=2.0)
     found = solver.spectrum(motion, PERIODS)
     assert list(found.sa_mps2) == ["x", "z"]
@@ -123,9 +120,6 @@ def test_the_spectra_of_a_motion_are_those_of_its_components_scaled(noise):
         f"{name} up to {peak:.3g} m/s2" for name, peak in zip("xz", peaks, strict=True)
     )
     assert repr(found) == f"ResponseSpectrum: 3 periods, 5 %; {told}"
-
-
-def test_periods_are_those_of_the_module_where_none_are_given(noise):
     found = solver.spectrum(Record(name="a", dt_s=0.01, a_mps2=noise[:200]))
     assert found.periods_s.tolist() == PERIODS_S.tolist()
     with pytest.raises(InputError, match="periods: give one column"):

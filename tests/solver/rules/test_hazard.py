@@ -18,13 +18,21 @@ pytestmark = pytest.mark.quick
 E16, E22 = EDITIONS["ASCE 7-16"], EDITIONS["ASCE 7-22"]
 
 
-def test_a_permit_sheet_of_asce_7_16():
+def test_seismic_parameters_of_both_editions_and_of_too_little():
     site = seismic_parameters(E16, s_s=1.271, f_a=1.2, s_1=0.455, f_v=1.845)
     printed = [f"{value:.3f}" for value in (site.s_ms, site.s_ds, site.s_m1, site.s_d1, site.t_s)]
     assert printed == ["1.525", "1.017", "0.839", "0.560", "0.550"]
     assert f"{approximate_period_s('other', 30 * FOOT_M):.3f}" == "0.256"
     given = {"s_ds_g": site.s_ds, "s_d1_g": site.s_d1, "s_1_g": 0.455}
     assert design_categories(**given, is_essential=False) == ("D", "D", "")
+    site = seismic_parameters(E22, s_s=1.0, f_a=1.2, s_ms=1.5, s_d1=0.6)
+    assert (site.s_ms, site.s_ds, site.s_d1) == (1.5, 1.0, 0.6)
+    assert site.s_m1 == pytest.approx(0.9)
+    assert seismic_parameters(E22, s_s=1.0, f_a=1.2).s_ds is None
+    assert seismic_parameters(E16, s_ds=1.2).s_ms == pytest.approx(1.8)
+    for given in ({"s_s": 1.0}, {"f_a": 1.2}, {"s_1": 0.4}, {"f_v": 1.9}):
+        site = seismic_parameters(E16, **given)
+        assert (site.s_ms, site.s_m1, site.s_ds, site.s_d1, site.t_s) == (None,) * 5
 
 
 def force(edition=E16, **given):
@@ -32,11 +40,20 @@ def force(edition=E16, **given):
     return component_force(edition, **(usual | given))
 
 
-def test_the_component_force_of_a_permit_sheet():
+def test_the_component_force_is_that_of_a_permit_sheet_or_by_its_period():
     found = force(s_ds_g=1.0504)
     printed = [f"{value:.2f}" for value in (found.value, found.maximum, found.minimum)]
     assert printed == ["0.84", "1.68", "0.32"]
     assert f"{approximate_period_s('other', 35 * FOOT_M):.3f}" == "0.288"
+    assert force(E22).formula == pytest.approx(0.4 * 3.5 / 1.3 / 1.5, rel=1e-12)
+    assert force(E22, period_s=1.0).formula == pytest.approx(0.4 * 2.84 / 1.3 / 1.5, rel=1e-12)
+    assert force(E16, period_s=1.0) == force(E16)
+    factors = [f"{period_height_factor(1.0, t):.2f}" for t in (0.2, 0.4, 0.5, 1.0, 2.0)]
+    assert factors == ["3.50", "3.50", "3.36", "2.84", "2.46"]
+    # By hand: a1 = 1, a2 = 1 - 0.4^2 = 0.84.
+    assert period_height_factor(0.5, 1.0) == pytest.approx(1.0 + 0.5 + 0.84 / 1024, rel=1e-12)
+    found = force(s_ds_g=1.2, divisor=2.5, i_p=1.5, z_over_h=0.5)
+    assert found.formula == pytest.approx(0.4 * 1.2 * 1.5 * 2.0 / 2.5, rel=1e-12)
 
 
 @pytest.mark.parametrize(("factor", "expected"), [(0.1, 0.45), (10.0, 2.4)])
@@ -45,24 +62,6 @@ def test_the_component_force_keeps_within_its_limits(factor, expected):
     assert found.value in (found.minimum, found.maximum)
     assert (found.minimum, found.maximum) == pytest.approx((0.45, 2.4))
     assert found.value == pytest.approx(expected)
-
-
-def test_the_component_force_of_asce_7_22_takes_the_period_where_it_is_known():
-    assert force(E22).formula == pytest.approx(0.4 * 3.5 / 1.3 / 1.5, rel=1e-12)
-    assert force(E22, period_s=1.0).formula == pytest.approx(0.4 * 2.84 / 1.3 / 1.5, rel=1e-12)
-    assert force(E16, period_s=1.0) == force(E16)
-
-
-def test_the_period_dependent_height_factor_at_the_roof():
-    factors = [f"{period_height_factor(1.0, t):.2f}" for t in (0.2, 0.4, 0.5, 1.0, 2.0)]
-    assert factors == ["3.50", "3.50", "3.36", "2.84", "2.46"]
-
-
-def test_below_the_roof_the_factors_are_those_of_the_height_and_of_the_importance():
-    # By hand: a1 = 1, a2 = 1 - 0.4^2 = 0.84.
-    assert period_height_factor(0.5, 1.0) == pytest.approx(1.0 + 0.5 + 0.84 / 1024, rel=1e-12)
-    found = force(s_ds_g=1.2, divisor=2.5, i_p=1.5, z_over_h=0.5)
-    assert found.formula == pytest.approx(0.4 * 1.2 * 1.5 * 2.0 / 2.5, rel=1e-12)
 
 
 def test_an_ac156_report_that_envelopes_roof_and_grade():
@@ -102,17 +101,3 @@ def test_the_steps_of_both_category_tables(s_ds, s_d1, ordinary, essential):
 def test_categories_by_what_is_known_of_a_site(s_d1, s_1, is_essential, categories):
     given = {"s_ds_g": 0.2, "s_d1_g": s_d1, "s_1_g": s_1, "is_essential": is_essential}
     assert design_categories(**given) == categories
-
-
-def test_edition_22_takes_the_values_of_the_hazard_tool_and_no_coefficients():
-    site = seismic_parameters(E22, s_s=1.0, f_a=1.2, s_ms=1.5, s_d1=0.6)
-    assert (site.s_ms, site.s_ds, site.s_d1) == (1.5, 1.0, 0.6)
-    assert site.s_m1 == pytest.approx(0.9)
-    assert seismic_parameters(E22, s_s=1.0, f_a=1.2).s_ds is None
-    assert seismic_parameters(E16, s_ds=1.2).s_ms == pytest.approx(1.8)
-
-
-def test_a_mapped_value_or_a_coefficient_alone_gives_none():
-    for given in ({"s_s": 1.0}, {"f_a": 1.2}, {"s_1": 0.4}, {"f_v": 1.9}):
-        site = seismic_parameters(E16, **given)
-        assert (site.s_ms, site.s_m1, site.s_ds, site.s_d1, site.t_s) == (None,) * 5

@@ -13,17 +13,11 @@ def made(found, limit=20.0, **more):
     return Limit(title="", found=found, limit=limit, **{"is_at_least": True} | more)
 
 
-def test_each_measure_has_its_unit():
+def test_limits_have_units_and_say_whose_they_are():
     units = {measure.name: measure.unit for measure in Measure}
     assert units == {"ANGLE_DEG": "deg", "LENGTH_M": "m", "TIME_S": "s", "COUNT": "", "PLAIN": ""}
-
-
-def test_a_limit_says_whether_it_is_of_this_program():
     assert made(1.0, provision=PROGRAM).is_program_limit
     assert not made(1.0, provision=MOTIONS).is_program_limit
-
-
-def test_a_limit_on_motions_is_to_be_verified_and_one_of_this_program_stands_in_no_code():
     assert not MOTIONS.verified
     assert PROGRAM.verified
 

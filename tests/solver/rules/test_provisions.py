@@ -65,26 +65,39 @@ def test_every_number_and_mark_is_that_of_the_table_of_provisions(rules, column)
             assert provision.clause == row["pv1_clause"], key
 
 
-def test_the_separations_of_a_published_table():
+def test_separations_strengths_and_edges_are_those_published():
     delta = prescriptive(PV1, 1.0, "D", 1.25).value_m
     kinds = {Neighbor.LIKE: 1.0, Neighbor.FIXED: 1.0, Neighbor.PARAPET: 1.25, Neighbor.EDGE: 1.25}
     inches = [separation(PV1, kind, delta, i_e) / INCH for kind, i_e in kinds.items()]
     assert [f"{one:.1f}" for one in inches] == ["10.8", "21.6", "27.0", "40.5"]
-
-
-def test_the_interconnection_strength_of_a_published_table():
-    """W1,max = min(F / (0.133 S_DS), F / 0.1) for strengths of 358 lb and 110 lb."""
+    # W1,max = min(F / (0.133 S_DS), F / 0.1) for strengths of 358 lb and 110 lb.
     for strength, weight in ((358.0, 2691.7), (110.0, 827.1)):
         required = interconnection_strength_n(PV1, s_ds_g=1.0, w1_n=weight)
         assert f"{required:.1f}" == f"{strength:.1f}"
     assert interconnection_strength_n(PV1, s_ds_g=0.751, w1_n=1.0) == 0.1
     assert interconnection_strength_n(PV1, s_ds_g=0.752, w1_n=1.0) > 0.1
+    for rules, expected in ((PV1, 0.15), (A16, 4 * 0.3048)):
+        assert separation(rules, Neighbor.EDGE, 0.1) == pytest.approx(expected, rel=1e-12)
+    for kind in Neighbor:
+        assert math.isnan(separation(A16, kind, math.nan))
+    assert [kind.name for kind in Neighbor if kind.is_edge] == ["PARAPET", "EDGE"]
 
 
-def test_the_papers_example_gives_81_6_inches_and_2070_mm():
+def test_published_displacements_are_reproduced_with_the_importance_entering_once():
     value = prescriptive_in(PV1, 1.566)
     assert f"{value:.1f}" == "81.6"
     assert float(f"{value * 25.4:.3g}") == 2070
+    s_ds = 2 / 3 * 1.2 * 1.313
+    delta = prescriptive(A16, s_ds).value_m
+    assert (f"{s_ds:.4f}", f"{delta / INCH:.1f}") == ("1.0504", "25.4")
+    kinds = (Neighbor.LIKE, Neighbor.FIXED, Neighbor.PARAPET, Neighbor.EDGE)
+    feet = [f"{separation(A16, kind, delta) / 0.3048:.2f}" for kind in kinds]
+    assert feet == ["1.06", "2.12", "2.12", "4.23"]
+    for rules in (PV1, A16):
+        delta = prescriptive(rules, 1.4, "D", 1.25).value_m
+        assert separation(rules, Neighbor.UNLIKE, delta, 1.25) == pytest.approx(
+            1.25 * 60 * INCH, rel=1e-12
+        )
 
 
 @pytest.mark.parametrize(
@@ -104,33 +117,6 @@ def test_the_papers_example_gives_81_6_inches_and_2070_mm():
 )
 def test_the_prescriptive_displacement_of_worked_values(rules, s_ds, sdc, importance, inches):
     assert prescriptive_in(rules, s_ds, sdc, importance) == pytest.approx(inches, rel=1e-12)
-
-
-def test_a_permit_sheet_is_reproduced_with_full_precision_kept():
-    s_ds = 2 / 3 * 1.2 * 1.313
-    delta = prescriptive(A16, s_ds).value_m
-    assert (f"{s_ds:.4f}", f"{delta / INCH:.1f}") == ("1.0504", "25.4")
-    kinds = (Neighbor.LIKE, Neighbor.FIXED, Neighbor.PARAPET, Neighbor.EDGE)
-    feet = [f"{separation(A16, kind, delta) / 0.3048:.2f}" for kind in kinds]
-    assert feet == ["1.06", "2.12", "2.12", "4.23"]
-
-
-def test_the_importance_factor_enters_once_in_each_rule_set():
-    for rules in (PV1, A16):
-        delta = prescriptive(rules, 1.4, "D", 1.25).value_m
-        assert separation(rules, Neighbor.UNLIKE, delta, 1.25) == pytest.approx(
-            1.25 * 60 * INCH, rel=1e-12
-        )
-
-
-def test_an_edge_without_parapet_needs_at_least_four_feet_in_asce_7():
-    for rules, expected in ((PV1, 0.15), (A16, 4 * 0.3048)):
-        assert separation(rules, Neighbor.EDGE, 0.1) == pytest.approx(expected, rel=1e-12)
-
-
-def test_without_a_design_displacement_there_is_no_separation():
-    for kind in Neighbor:
-        assert math.isnan(separation(A16, kind, math.nan))
 
 
 def peaks(count):
@@ -191,28 +177,30 @@ def test_a_slope_equal_to_the_limit_passes(rules, slope_rad, ok):
     assert prescriptive_checks(rules, slope_rad=slope_rad, mu=0.6)[0].ok is ok
 
 
-def test_a_limit_is_met_but_for_rounding_whatever_its_size():
+def test_limits_hold_but_for_rounding_and_never_of_nan():
     mus = (0.4 * part for part in (1 - 1e-15, 1 - 1.6e-9))
     friction = [prescriptive_checks(PV1, slope_rad=0.0, mu=mu)[1].ok for mu in mus]
     high = PV1.overridden({"low_profile_in": (120.0, "a test")})
     heights_m = (120 * INCH * part for part in (1 + 6e-10, 1 + 1.6e-9))
     height = [checked(high, height_m=h, spacing_m=9.0, base_m=9.0)[0].ok for h in heights_m]
     assert friction == height == [True, False]
+    assert not prescriptive_checks(PV1, slope_rad=math.nan, mu=math.nan)[0].ok
+    assert not prescriptive_checks(PV1, slope_rad=0.0, mu=math.nan)[1].ok
+    assert not analysis_checks(PV1, slope_rad=0.0, n_motions=2, sdc="D", is_reviewed=False)[1].ok
 
 
-def test_friction_required_rises_with_slope_in_asce_7_alone():
+def test_friction_and_profile_are_limited_as_each_code_has_it():
     limits = [
         prescriptive_checks(rules, slope_rad=math.atan(rise), mu=0.4)[1].limit
         for rules in (A16, PV1)
         for rise in (0.0, 0.03, 0.05)
     ]
     assert limits == pytest.approx([0.4, 0.4, 0.414, 0.4, 0.4, 0.4], rel=1e-12)
-
-
-def test_a_check_of_nan_never_passes():
-    assert not prescriptive_checks(PV1, slope_rad=math.nan, mu=math.nan)[0].ok
-    assert not prescriptive_checks(PV1, slope_rad=0.0, mu=math.nan)[1].ok
-    assert not analysis_checks(PV1, slope_rad=0.0, n_motions=2, sdc="D", is_reviewed=False)[1].ok
+    limits = [
+        checked(rules, spacing_m=spacing * INCH, base_m=base * INCH)[0].limit / INCH
+        for rules, spacing, base in ((PV1, 40, 60), (A16, 40, 60), (PV1, 40, 100), (A16, 90, 60))
+    ]
+    assert limits == pytest.approx([30.0, 20.0, 36.0, 36.0], rel=1e-12)
 
 
 def checked(rules, *, height_m=0.1, spacing_m=1.0, base_m=1.0, slope_rad=0.0):
@@ -223,14 +211,6 @@ def checked(rules, *, height_m=0.1, spacing_m=1.0, base_m=1.0, slope_rad=0.0):
         base_m=base_m,
         slope_rad=slope_rad,
     )
-
-
-def test_low_profile_is_the_lesser_of_36_inches_and_half_the_support():
-    limits = [
-        checked(rules, spacing_m=spacing * INCH, base_m=base * INCH)[0].limit / INCH
-        for rules, spacing, base in ((PV1, 40, 60), (A16, 40, 60), (PV1, 40, 100), (A16, 90, 60))
-    ]
-    assert limits == pytest.approx([30.0, 20.0, 36.0, 36.0], rel=1e-12)
 
 
 @pytest.mark.parametrize("rules", [PV1, A16, A22])
@@ -246,7 +226,7 @@ def analysis_slope(rules, rise, sdc, is_reviewed):
     return analysis_checks(rules, slope_rad=math.atan(rise), **about)[0]
 
 
-def test_asce_7_permits_steeper_roofs_in_low_sdc_with_peer_review_alone():
+def test_peer_review_permits_steeper_roofs_in_low_sdc_up_to_13_6_12():
     for rules, sdc, is_reviewed, ok, by_exception in (
         (A16, "C", True, True, True),
         (A22, "A", True, True, True),
@@ -256,9 +236,6 @@ def test_asce_7_permits_steeper_roofs_in_low_sdc_with_peer_review_alone():
     ):
         check = analysis_slope(rules, 0.07, sdc, is_reviewed)
         assert (check.ok, check.passes_by_exception) == (ok, by_exception)
-
-
-def test_the_exception_for_peer_review_keeps_the_limit_of_13_6_12():
     over, within = (analysis_slope(A16, rise, "C", True) for rise in (0.07, 0.05))
     assert over.limit == within.limit == pytest.approx(math.degrees(math.atan(1 / 20)), rel=1e-12)
     assert over.provision.clause == "ASCE 7-16 13.6.12"
@@ -287,19 +264,21 @@ def test_a_parapet_must_clear_the_roof_and_in_asce_7_the_center_of_gravity_alone
     assert found is ok
 
 
-def test_an_override_replaces_one_number_and_keeps_its_reason():
+def test_an_override_keeps_its_reason_and_its_range_has_the_numbers_of_the_codes():
     changed = PV1.overridden({"prescriptive_minimum_in": (12.0, "county amendment")})
     assert prescriptive_in(changed, 0.5) == pytest.approx(12.0)
     assert changed.values["prescriptive_minimum_in"].reason == "county amendment"
     assert prescriptive_in(PV1, 0.5) == pytest.approx(6.0)
     with pytest.raises(InputError, match="provision is 'nonsense'"):
         PV1.overridden({"nonsense": (1.0, "")})
-
-
-def test_every_number_that_may_be_overridden_has_a_range_with_the_numbers_of_the_codes():
     assert ALLOWED.keys() == OVERRIDABLE.keys()
     for rules in RULE_SETS.values():
         assert all(ALLOWED[key].has(row.value) for key, row in rules.values.items())
+    # 60 in (0.9 - 0.4)^2 without rounding.
+    equal = A16.overridden({"prescriptive_minimum_in": (15.0, "a test")})
+    found = prescriptive(equal, 0.9)
+    assert found.minimum_m == found.value_m
+    assert found.governs.name == "FORMULA"
 
 
 @pytest.mark.parametrize(
@@ -318,23 +297,17 @@ def test_an_override_outside_of_its_range_is_refused(key, value, words):
     assert len(problem) < 200
 
 
-def test_the_ac156_spectrum_is_straight_on_log_axes():
+def test_the_ac156_spectrum_is_straight_on_log_axes_and_that_of_published_sites():
     spectrum = ac156_horizontal(E16, s_ds_g=1.0, z_over_h=1.0)
     freq = np.array([0.1, 0.2, 0.5, 1, 1.3, 8.3, 10, 15, 20, 33.3, 50])
     expected = [0.16, 0.2981, 0.6786, 1.2642, 1.6, 1.6, 1.5394, 1.4155, 1.3336, 1.2, 1.2]
     assert spectrum.at(freq) == pytest.approx(expected, abs=6e-5)
-
-
-def test_ac156_accelerations_at_the_roof_of_published_sites():
     spectrum = ac156_horizontal(E16, s_ds_g=1.26, z_over_h=1.0)
     assert [round(v, 2) for v in spectrum.sa_g[[1, 3]]] == [2.02, 1.51]
     edition_22 = ac156_horizontal(E22, s_ds_g=1.0, z_over_h=1.0)
     assert edition_22.sa_g[[1, 3]] == pytest.approx([1.6, 0.4 * 3.5 / 1.3], rel=1e-12)
     assert ac156_horizontal(E22, s_ds_g=1.0, z_over_h=0.0).sa_g[[1, 3]].tolist() == [1.0, 0.4]
     assert ac156_vertical(s_ds_g=1.0).sa_g[[1, 3]] == pytest.approx([0.67, 0.27], rel=1e-12)
-
-
-def test_the_reciprocal_tail_falls_as_one_over_the_period_beyond_0_77_s():
     horizontal = partial(ac156_horizontal, E16, s_ds_g=1.0, z_over_h=1.0)
     for of in (horizontal, partial(ac156_vertical, s_ds_g=1.0)):
         line, reciprocal = of(tail=Tail.AC156), of(tail=Tail.RECIPROCAL)
@@ -355,15 +328,3 @@ def test_what_governs_is_the_formula_from_where_it_reaches_the_minimum(s_ds, bas
     found = prescriptive(A16, s_ds)
     assert found.governs.name == basis
     assert found.value_m / INCH == pytest.approx(value_in, rel=1e-12)
-
-
-def test_a_formula_equal_to_the_minimum_governs():
-    # 60 in (0.9 - 0.4)^2 without rounding.
-    equal = A16.overridden({"prescriptive_minimum_in": (15.0, "a test")})
-    found = prescriptive(equal, 0.9)
-    assert found.minimum_m == found.value_m
-    assert found.governs.name == "FORMULA"
-
-
-def test_edges_are_those_of_a_roof_with_a_parapet_or_without():
-    assert [kind.name for kind in Neighbor if kind.is_edge] == ["PARAPET", "EDGE"]

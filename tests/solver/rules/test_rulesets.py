@@ -37,16 +37,13 @@ interconnection_min         0    2     0.05    0.2
 """
 
 
-def test_the_ranges_are_those_of_the_table_and_half_to_twice_the_rule_sets():
+def test_ranges_are_those_of_the_table_with_zero_where_it_is_allowed():
     rows = {key: map(float, values) for key, *values in map(str.split, RANGES.split("\n")[1:-1])}
     assert ALLOWED.keys() == rows.keys()
     for key, wanted in rows.items():
         allowed, common = ALLOWED[key], usual(key)
         found = (allowed.low, allowed.high, common.low, common.high)
         assert found == pytest.approx(tuple(wanted), rel=1e-4), key
-
-
-def test_a_provision_without_a_value_but_zero_is_usual_wherever_it_is_allowed():
     zero = {"parapet_over_cg_in": replace(VALUE, value=0.0)}
     nothing = {
         name: replace(rules, values=rules.values | zero) for name, rules in RULE_SETS.items()
@@ -57,18 +54,12 @@ def test_a_provision_without_a_value_but_zero_is_usual_wherever_it_is_allowed():
 VALUE = RULE_SETS["SEAOC PV1-2012"].values["parapet_over_cg_in"]
 
 
-def test_a_number_that_limits_from_above_requires_less_where_it_is_larger():
+def test_a_range_has_its_ends_and_requires_less_beyond_its_limit():
     most, least = Allowed(low=0, high=10, is_maximum=True), Allowed(low=0, high=10)
     assert [most.lowers(value, 5.0) for value in (4.0, 5.0, 6.0)] == [False, False, True]
     assert [least.lowers(value, 5.0) for value in (4.0, 5.0, 6.0)] == [True, False, False]
-
-
-def test_a_range_has_its_ends_and_of_whole_numbers_no_other():
     whole = Allowed(low=1, high=4, is_whole=True)
     assert list(filter(whole.has, (0.0, 1.0, 2.5, 4.0, 5.0))) == [1.0, 4.0]
-
-
-def test_only_a_confirmed_provision_that_is_not_overridden_is_verified():
     confirmed = replace(VALUE, confidence=Confidence.CONFIRMED)
     assert confirmed.verified
     assert not replace(confirmed, reason="agreed").verified

@@ -66,13 +66,10 @@ def test_a_site_specific_coefficient_is_none(table, site_class, mapped_g):
     assert math.isnan(site_coefficient(table, site_class, mapped_g))
 
 
-def test_the_default_of_site_class_d_is_never_below_d_nor_below_1_2():
+def test_the_default_is_never_below_d_nor_1_2_and_between_letters_there_is_none():
     for mapped_g in (0.3, 0.7, 0.76, 0.9, 1.3):
         by_default = site_coefficient(F_A, "D (default)", mapped_g)
         assert by_default == max(1.2, site_coefficient(F_A, "D", mapped_g))
-
-
-def test_asce_7_22_site_classes_between_the_letters_have_no_coefficient():
     with pytest.raises(KeyError):
         site_coefficient(F_A, "CD", 1.0)
 

@@ -163,16 +163,13 @@ def assert_same_history(history, exact):
     assert np.array(found).reshape(-1, 2) == pytest.approx(wanted, abs=1e-7 * dt)
 
 
-def test_a_speed_that_dips_to_zero_within_an_interval_stops_there():
+def test_a_speed_that_dips_to_zero_stops_there_or_goes_on_without_friction():
     # The push falls from 3 to -1 about friction and rises again: zero inside, moving at the end.
     ax, scene = [-4.0, 0.5, -8.0], {"slope_rad": 0.0, "mu": 0.2}
     exact = oracle.slide(ax, 1.0, **scene, g=10.0)
     assert_agrees(slide(ax, 1.0, **scene, g_mps2=10.0), exact)
     dip = slide_history([-4.0, 2.0, 2.0, -8.0], 1.0, **scene, g_mps2=10.0)
     assert [event.kind for event in dip.events[:3]] == ["slip", "stop", "slip"]
-
-
-def test_a_speed_that_touches_zero_without_friction_goes_on():
     # The push falls to `low` and rises to `high`, and the speed comes down to zero between: within
     # rounding, the block stops there, is pushed back by nothing, and begins again.
     rng, dt = np.random.default_rng(4), 0.1
@@ -240,7 +237,7 @@ def test_samples_put_between_samples_change_nothing(peaks_g, seed):
     assert other.residual_m == pytest.approx(result.residual_m, abs=1e-10)
 
 
-def test_work_done_by_friction_and_gravity_balances_the_relative_energy(noise):
+def test_work_balances_and_the_history_ends_where_the_result_says(noise):
     slope, mu = 0.05, 0.3
     history = slide_history(noise, 0.01, slope_rad=slope, mu=mu)
     # Fine sums on the cubic motion: a second way to the same numbers, at the order of the sum.
@@ -251,12 +248,6 @@ def test_work_done_by_friction_and_gravity_balances_the_relative_energy(noise):
     drive = 9.80665 * math.sin(slope) - a * math.cos(slope)
     power = drive * v - mu * normal * np.abs(v)
     assert power.sum() * 1e-4 == pytest.approx(0.0, abs=0.01 * (mu * normal * abs(v)).sum() * 1e-4)
-
-
-# History
-
-
-def test_the_history_ends_where_the_result_says_and_passes_through_its_events(noise):
     history = slide_history(noise, 0.01, slope_rad=0.03, mu=0.25)
     result = history.result
     assert result == slide(noise, 0.01, slope_rad=0.03, mu=0.25)
@@ -270,6 +261,9 @@ def test_the_history_ends_where_the_result_says_and_passes_through_its_events(no
     assert np.abs(history.u_m).max() <= result.prd_m
 
 
+# History
+
+
 def test_results_of_the_same_run_are_equal_though_one_time_is_nan(noise):
     first, again = (slide(noise, 0.01, slope_rad=0.02, mu=0.5) for _ in range(2))
     copied = replace(again, t_uplift_s=-float("nan"))  # another object
@@ -281,11 +275,14 @@ def test_results_of_the_same_run_are_equal_though_one_time_is_nan(noise):
 
 
 @pytest.mark.quick
-def test_a_history_at_rest_is_zero_with_no_events():
+def test_histories_at_rest_and_of_solved_scenes():
     history = slide_history([0.0, 1.0, 0.0], 0.1, slope_rad=0.0, mu=0.5)
     assert history.events == ()
     assert not history.u_m.any()
     assert not history.v_mps.any()
+    scene = solver.scene(SWAY, 0.1, slope_rad=0.0, mu=0.1)
+    solution = solver.solve(scene)
+    assert solver.history(scene, solution).result == solution.result
 
 
 # The paper
@@ -377,7 +374,7 @@ def test_arguments_at_fault_raise_the_input_error(change, message):
 # Friction by speed, and the public scene
 
 
-def test_slide_takes_a_law_of_friction_by_speed(noise):
+def test_slide_takes_a_law_of_friction_or_one_that_is_constant(noise):
     scene = {"slope_rad": 0.03, "mu": LAW}
     result = slide(noise, 0.01, **scene, tolerance=1e-8)
     slow, fast = (slide(noise, 0.01, slope_rad=0.03, mu=mu).prd_m for mu in (0.2, 0.3))
@@ -387,21 +384,24 @@ def test_slide_takes_a_law_of_friction_by_speed(noise):
     assert slide_history(noise, 0.01, **scene, tolerance=1e-8).result == result
     solved = solver.solve(solver.scene(noise, 0.01, **scene)).result
     assert solved.prd_m == pytest.approx(result.prd_m, rel=1e-6)
-
-
-def test_a_law_that_is_constant_is_one_coefficient(noise):
     same = law(mu_fast=0.2)
     assert slide(noise, 0.01, slope_rad=0.03, mu=same) == slide(noise, 0.01, slope_rad=0.03, mu=0.2)
     assert slide(noise, 0.01, slope_rad=0.0, mu=same, method="paper").prd_m > 0.0
 
 
-def test_a_scene_is_checked_and_solved(noise):
+def test_made_scenes_are_checked_by_every_call_and_solved(noise):
     about = {"slope_rad": 0.03, "mu": 0.3, "scale": 1.2, "ay_mps2": -noise}
     solved = solver.solve(solver.scene(noise, 0.01, **about)).result
     assert solved.prd_m == pytest.approx(slide(noise, 0.01, **about).prd_m, rel=1e-12)
     with pytest.raises(InputError) as raised:
         solver.scene(noise, "0.01", slope_rad=0.03, mu=law(mu_static=0.0), ay_mps2=[True])
     assert len(raised.value.problems) == 4
+    good = solver.scene(SWAY, 0.1, slope_rad=0.0, mu=0.1)
+    bad = replace(good, dt_s=-0.1, scale=math.nan)
+    for call in (solver.solve, lambda scene: solver.history(scene, solver.solve(good))):
+        with pytest.raises(InputError) as error:
+            call(bad)
+        assert len(error.value.problems) == 2
 
 
 def test_a_result_that_is_not_finite_is_a_status(noise, monkeypatch):
@@ -413,22 +413,6 @@ def test_a_result_that_is_not_finite_is_a_status(noise, monkeypatch):
     both = slide([0.0, 5.0, -5.0], 1e-320, slope_rad=0.0, mu=0.2, ay_mps2=[0.0, 1.0, 0.0])
     assert both.status is Status.DIVERGED
     assert math.isnan(both.error_m)
-
-
-def test_every_public_call_checks_a_scene_made_by_hand():
-    good = solver.scene(SWAY, 0.1, slope_rad=0.0, mu=0.1)
-    bad = replace(good, dt_s=-0.1, scale=math.nan)
-    for call in (solver.solve, lambda scene: solver.history(scene, solver.solve(good))):
-        with pytest.raises(InputError) as error:
-            call(bad)
-        assert len(error.value.problems) == 2
-
-
-@pytest.mark.quick
-def test_a_solved_scene_has_a_history():
-    scene = solver.scene(SWAY, 0.1, slope_rad=0.0, mu=0.1)
-    solution = solver.solve(scene)
-    assert solver.history(scene, solution).result == solution.result
 
 
 @pytest.mark.nightly

@@ -30,7 +30,7 @@ def of_arrays(components):
     return {"ax_mps2": x, "ay_mps2": y, "az_mps2": z, "dt_s": DT_S}
 
 
-def test_a_record_is_its_samples_with_their_step(components):
+def test_records_and_motions_are_taken_with_their_step_and_scale(components):
     x, y, z = components
     for run in (solver.slide, solver.scene):
         by_array = run(x.a_mps2, DT_S, **SCENE)
@@ -38,9 +38,6 @@ def test_a_record_is_its_samples_with_their_step(components):
     together = solver.slide(x, ay_mps2=y, az_mps2=z, **SCENE)
     assert together == solver.slide(**of_arrays(components), **SCENE)
     assert together.prd_m > 0.0
-
-
-def test_a_motion_is_its_components_with_its_scale(components):
     motion = solver.motion(*components, scale=1.5)
     assert solver.slide(motion, scale=0.8, **SCENE) == solver.slide(
         **of_arrays(components), scale=0.8 * 1.5, **SCENE
@@ -177,16 +174,13 @@ def test_arrays_are_taken_in_their_units(units, size):
     assert swept.prd_m == pytest.approx(solver.sweep(PULSE, 0.1, **axes).prd_m, rel=1e-12)
 
 
-def test_units_are_of_arrays_alone_and_known():
+def test_units_are_known_and_too_weak_shaking_is_asked_about():
     record = solver.record_from_values("r", PULSE_G, units="g", dt_s=0.1)
     said = "units are given beside a record or a motion, which is in m/s2; omit them"
     with pytest.raises(solver.InputError, match=said):
         solver.slide(record, slope_rad=0.0, mu=0.2, units="g")
     with pytest.raises(solver.InputError, match=r"units is 'ft/s2'; give one of g, m/s2, cm/s2"):
         solver.slide(PULSE, 0.1, slope_rad=0.0, mu=0.2, units="ft/s2")
-
-
-def test_shaking_that_is_far_too_weak_to_slip_anything_is_asked_about():
     weak = [0.2 * a for a in PULSE_G]  # 0.08 where 3.9 m/s2 slips
     with pytest.warns(UserWarning, match=r"reach 0.08 m/s2, and 3.92 m/s2 slips: give units='g'"):
         solver.slide(weak, 0.1, slope_rad=0.0, mu=0.4)

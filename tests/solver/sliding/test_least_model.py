@@ -73,16 +73,13 @@ def test_in_one_axis_a_vertical_that_matters_is_modelled_and_the_rest_is_not_kno
     assert math.isnan(solution.next_effect_m)
 
 
-def test_a_vertical_that_does_not_matter_is_left_out_and_its_effect_is_exact():
+def test_a_vertical_that_does_not_matter_is_left_out_and_a_transverse_that_does_modelled():
     faint = scene(AX, az=1e-4 * AZ)
     solution, with_it, without = solve(faint), one_axis.run(faint), one_axis.run(FLAT)
     assert solution.model is Model.ONE_AXIS
     assert solution.result == without
     assert solution.next_model is Model.ONE_AXIS_VERTICAL
     assert solution.next_effect_m == off(with_it, without) + with_it.error_m > with_it.error_m
-
-
-def test_a_second_component_that_matters_is_modelled():
     solution = solve(FULL)
     assert solution.model is Model.TWO_AXES
     assert solution.result.across_m > 0.01
@@ -126,14 +123,11 @@ def test_a_faint_push_that_stays_is_carried_along_the_path_and_is_not_left_out()
     assert solution.result.prd_m == pytest.approx(0.1108, abs=1e-4)
 
 
-def test_friction_by_speed_is_modelled_where_it_is_given():
+def test_friction_by_speed_and_forced_models_are_run():
     law = Friction(mu_slow=0.3, mu_fast=0.5, rate_s_per_m=20.0, mu_static=0.3)
     solution = solve(scene(AX, AY, AZ, mu=law))
     assert solution.model is Model.SPEED_FRICTION
     assert solution.result.prd_m < solve(scene(AX, AY, AZ, mu=0.3)).result.prd_m
-
-
-def test_a_forced_model_is_run_and_tells_what_the_next_would_change():
     models = Model.ONE_AXIS, Model.ONE_AXIS_VERTICAL, Model.TWO_AXES
     solution, lifted, two = (solve(FULL, Settings(forced=model)) for model in models)
     assert solution.result == one_axis.run(FLAT)
@@ -144,9 +138,6 @@ def test_a_forced_model_is_run_and_tells_what_the_next_would_change():
     assert lifted.next_model is Model.TWO_AXES
     assert lifted.next_effect_m >= abs(two.result.prd_m - lifted.result.prd_m)
     assert {solution.reason, lifted.reason, two.reason} == {"requested"}
-
-
-def test_no_slip_forced_on_a_block_that_slips_is_refused():
     with pytest.raises(InputError, match="required friction coefficient"):
         solve(FLAT, Settings(forced=Model.NO_SLIP))
 

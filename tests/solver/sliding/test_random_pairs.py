@@ -39,16 +39,13 @@ def test_no_pair_differs_by_more_than_its_bounds(ended, kind):
         assert np.median([outcome.bound_m / outcome.prd_m for outcome in slid]) < 1e-3
 
 
-def test_a_pair_is_the_same_each_time():
+def test_pairs_are_the_same_each_time_and_a_wrong_answer_is_found():
     for kind in KINDS:
         made, again = pair(kind, 7), pair(kind, 7)
         np.testing.assert_array_equal(made.second.ax_mps2, again.second.ax_mps2)
         assert made.tolerances == again.tolerances
 
-
-def test_a_wrong_answer_is_found():
-    """As if the second run had missed an extreme by a ten thousandth of its tolerance."""
-
+    # As if the second run had missed an extreme by a ten thousandth of its tolerance.
     def off(made):
         factor = 1.0 + 1e-4 * made.tolerances[1]
         return lambda one, two: made.compare(one, replace(two, down_m=factor * two.down_m))

@@ -94,12 +94,19 @@ def test_stiff_links_make_the_rigid_array_of_mean_friction(seed, shares):
     assert result.rigid.prd_m == pytest.approx(alone(run, mean).prd_m, rel=1e-12)
 
 
-def test_without_links_each_block_goes_by_itself():
+def test_without_links_each_block_goes_by_itself_and_on_a_dashpot_to_a_steady_speed():
     mus = (0.2, 0.5, 0.35)
     result = slide_row(shaken(4), BlockRow(mus=mus, stiffness_per_s2=0.0))
     assert result.prd_m == pytest.approx([alone(shaken(4), mu).prd_m for mu in mus], rel=1e-9)
     assert result.stretch_m > 0.0
     assert result.link_force == 0.0
+    a, c, t = 2.0, 3.0, 2.0
+    row = BlockRow(mus=(HELD, 0.0), stiffness_per_s2=0.0, damping_per_s=c)
+    result = slide_row(constant(a, t), row)
+    way = a / c * (t - (1.0 - math.exp(-c * t)) / c)
+    assert result.residual_m == pytest.approx((0.0, way), rel=1e-12)
+    assert result.link_force == pytest.approx(a / G * (1.0 - math.exp(-c * t)), rel=1e-12)
+    assert result.status is Status.SLIDING_AT_END
 
 
 # Closed forms
@@ -114,16 +121,6 @@ def test_a_block_without_friction_on_a_held_one_swings_about_its_weight_by_the_s
     assert result.residual_m[1] == pytest.approx(a / k * swung, rel=1e-9)
     assert result.stretch_m == pytest.approx(2.0 * a / k, rel=1e-12)
     assert result.link_force == pytest.approx(2.0 * a / G, rel=1e-12)
-
-
-def test_a_dashpot_alone_lets_a_block_reach_a_steady_speed():
-    a, c, t = 2.0, 3.0, 2.0
-    row = BlockRow(mus=(HELD, 0.0), stiffness_per_s2=0.0, damping_per_s=c)
-    result = slide_row(constant(a, t), row)
-    way = a / c * (t - (1.0 - math.exp(-c * t)) / c)
-    assert result.residual_m == pytest.approx((0.0, way), rel=1e-12)
-    assert result.link_force == pytest.approx(a / G * (1.0 - math.exp(-c * t)), rel=1e-12)
-    assert result.status is Status.SLIDING_AT_END
 
 
 @pytest.mark.parametrize(("a", "mu"), [(5.0, 0.03), (5.0, 0.11), (5.0, 0.24), (5.0, 0.26)])
@@ -285,16 +282,13 @@ def test_a_history_ends_where_the_result_does_and_never_leaves_its_peaks():
     np.testing.assert_allclose(np.abs(history).max(axis=1), result.prd_m, rtol=0.01)
 
 
-def test_where_the_row_lifts_off_it_gives_no_number():
+def test_a_row_that_lifts_off_or_is_given_up_gives_no_number():
     lifting = scene(shaking(1, G), shaking(2, 3.0 * G))
     result = slide_row(lifting, MIXED)
     assert result.status is result.rigid.status is Status.UPLIFT
     assert np.isnan([*result.prd_m, result.stretch_m, result.link_force, result.error_m]).all()
     assert np.isnan(row_history(lifting, MIXED)).all()
-
-
-def test_a_row_that_is_given_up_gives_no_number():
-    """Some 32,000 reversals within one interval of 100 s."""
+    # Some 32,000 reversals within one interval of 100 s.
     row = BlockRow(mus=(HELD, 1e-7), stiffness_per_s2=1e6)
     result = slide_row(constant(2.0, 100.0, dt=100.0), row)
     assert result.status is Status.DIVERGED

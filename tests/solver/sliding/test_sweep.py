@@ -42,11 +42,16 @@ def test_a_sweep_is_every_single_run(noise, across, axes, vertical):
     np.testing.assert_array_equal(sweep(whole, **axes).prd_m, swept.prd_m)
 
 
-def test_uplift_is_a_hole_with_its_status():
+def test_uplift_is_a_hole_and_every_value_at_fault_named():
     swept = sweep([0.0, -40.0, 0.0], 0.1, slopes_rad=[0.5, 0.0], mus=[0.4], scales=[1.0])
     assert np.isnan(swept.prd_m[0, 0, 0])
     assert STATUSES[swept.status[0, 0, 0]] is Status.UPLIFT
     assert np.isfinite(swept.prd_m[1, 0, 0])
+    with pytest.raises(InputError) as raised:
+        sweep([0.0, math.nan], 0.0, slopes_rad=[2.0], mus=[-0.1], scales=[])
+    text = str(raised.value)
+    for name in ("ax_mps2[1]", "dt_s", "slopes_rad has 2.0", "mus has -0.1", "scales has shape"):
+        assert name in text
 
 
 def test_the_number_of_threads_changes_nothing(noise, monkeypatch):
@@ -57,24 +62,13 @@ def test_the_number_of_threads_changes_nothing(noise, monkeypatch):
     np.testing.assert_array_equal(*prds_m)
 
 
-def test_sweeps_run_beside_each_other(noise):
+def test_threads_change_nothing_and_progress_runs_up_to_one(noise):
     with ThreadPoolExecutor(3) as pool:
         first, *others = pool.map(lambda _: sweep(noise, 0.01, **ALL).prd_m, range(6))
     np.testing.assert_array_equal(others, [first] * 5)
-
-
-def test_progress_runs_up_to_one(noise):
     shares = []
     sweep(noise, 0.01, slopes_rad=SLOPES, mus=0.3, scales=1.0, progress=shares.append)
     assert shares == [0.25, 0.5, 0.75, 1.0]
-
-
-def test_every_value_at_fault_is_named():
-    with pytest.raises(InputError) as raised:
-        sweep([0.0, math.nan], 0.0, slopes_rad=[2.0], mus=[-0.1], scales=[])
-    text = str(raised.value)
-    for name in ("ax_mps2[1]", "dt_s", "slopes_rad has 2.0", "mus has -0.1", "scales has shape"):
-        assert name in text
 
 
 def test_scenes_that_yield_alike_are_neighbors():

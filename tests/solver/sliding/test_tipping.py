@@ -52,9 +52,16 @@ def test_a_block_that_slides_cannot_be_given_more_than_friction(peak_g):
     assert tips.is_ok
 
 
-def test_a_block_slides_before_it_tips_just_where_friction_is_below_its_slenderness():
+def test_tipping_has_the_slenderness_the_slope_and_the_resultant():
     for mu, ok in ((0.2499, True), (0.25, True), (0.2501, False)):
         assert tipping(scene([0.0, 5.0, 0.0], mu=mu), SLENDER).is_ok == ok
+    tips = tipping(scene([0.0, -0.4, 0.0], slope=0.1, mu=2.0), STOCKY)
+    assert tips.demand == pytest.approx(math.tan(0.1 + math.atan(0.4)), rel=1e-14)
+    tips = tipping(scene([0.0, 0.3], ay_g=[0.0, 0.4], az_g=[0.0, -0.5], mu=2.0), STOCKY)
+    assert tips.demand == pytest.approx(1.0, rel=1e-14)
+    tips = tipping(scene([0.0, 0.0], az_g=[0.0, -1.5]), STOCKY)
+    assert tips.demand == math.inf
+    assert tips.ratio == 0.25
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.1, 0.3, -0.2])
@@ -63,22 +70,6 @@ def test_on_a_slope_at_rest_it_tips_when_its_weight_leaves_its_supports(slope):
     assert tips.demand == pytest.approx(abs(math.tan(slope)), rel=1e-14)
     edge = tipping(scene([0.0, 0.0], slope=math.atan(0.25) + 1e-9, mu=2.0), SLENDER)
     assert edge.ratio > 1.0 > edge.ratio - 1e-8
-
-
-def test_shaking_on_a_slope_is_gravity_turned():
-    tips = tipping(scene([0.0, -0.4, 0.0], slope=0.1, mu=2.0), STOCKY)
-    assert tips.demand == pytest.approx(math.tan(0.1 + math.atan(0.4)), rel=1e-14)
-
-
-def test_a_second_component_adds_as_a_resultant_and_the_vertical_takes_weight_off():
-    tips = tipping(scene([0.0, 0.3], ay_g=[0.0, 0.4], az_g=[0.0, -0.5], mu=2.0), STOCKY)
-    assert tips.demand == pytest.approx(1.0, rel=1e-14)
-
-
-def test_a_block_that_lifts_off_hands_on_no_more_than_friction():
-    tips = tipping(scene([0.0, 0.0], az_g=[0.0, -1.5]), STOCKY)
-    assert tips.demand == math.inf
-    assert tips.ratio == 0.25
 
 
 def test_lengths_that_cannot_be_are_named_together():

@@ -110,14 +110,11 @@ def test_a_bound_is_never_below_the_rounding_that_one_axis_allows_for(sign):
         assert follow(run, 1e-10).error_m >= 0.5 * one_axis.rounding(one_axis.prepared(run))
 
 
-def test_nothing_moves_below_the_yield_acceleration():
+def test_nothing_moves_below_the_yield_acceleration_and_at_once_beyond_it():
     t = np.arange(3000) * 0.01
     a = 0.3 * G * (1.0 - 1e-9)
     outcome = follow(scene(a * np.cos(t), a * np.sin(t), 0.01, friction=0.3))
     assert (outcome.prd_m, outcome.n_stops, outcome.n_steps, outcome.error_m) == (0.0, 0, 0, 0.0)
-
-
-def test_a_first_sample_beyond_the_yield_acceleration_slides_at_once():
     run = scene([-3.0, -3.0, 6.0, 6.0], [-4.0, -4.0, 8.0, 8.0], 0.1, friction=0.2)
     exact = checked.slide([-5.0, -5.0, 10.0, 10.0], 0.1, slope_rad=0.0, mu=0.2)
     _, events = follow_history(run, follow(run))

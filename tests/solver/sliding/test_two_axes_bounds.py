@@ -70,7 +70,7 @@ def test_scenes_that_broke_the_bound_keep_to_it(group, tolerance):
             assert off <= outcome.error_m + split.error_m + rounding(run)
 
 
-def test_no_slip_stops_before_it_begins():
+def test_no_slip_stops_before_it_begins_and_a_roof_at_the_angle_of_friction_holds():
     # From rest both the first and the second coefficient of the speed are zero but for rounding.
     result = checked.slide(
         [0.0, 0.0, 0.0],
@@ -82,9 +82,6 @@ def test_no_slip_stops_before_it_begins():
     )
     assert result.status is Status.SLIDING_AT_END
     assert 0.0 < result.prd_m < 1e-5
-
-
-def test_a_roof_at_the_angle_of_friction_holds_but_for_rounding():
     # The paper's check 4 in two axes.
     slope = math.radians(0.5)
     pushed = {"slope_rad": slope, "mu": math.tan(slope), "ay_mps2": [0.0, 1e-9, 0.0, 0.0]}
@@ -187,12 +184,9 @@ def test_the_tolerance_is_met_but_for_rounding(kind):
             assert outcome.error_m <= tolerance * max(outcome.prd_m, 1e-6) + 8.0 * rounding(run)
 
 
-def test_a_dip_of_the_speed_below_zero_near_the_begin_of_a_step_is_seen():
+def test_dips_of_the_speed_are_seen_and_a_lost_axis_modelled():
     # The one of 900,000 pairs that was over its bound: w = 1e-13 m/s, its first term upwards.
     assert pair("mu = tan(slope)", 56946).run().ratio < 1.0
-
-
-def test_the_second_axis_of_scenes_that_lost_it_is_modelled():
     for number in every("second_axis_left_out"):
         solution = least_model.solve(scene("second_axis_left_out", number))
         expected = SCENES["second_axis_left_out"][number]["prd_two_axes_m"]

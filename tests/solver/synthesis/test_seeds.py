@@ -43,7 +43,7 @@ def falling(seed):
 
 
 @pytest.mark.nightly
-def test_every_component_keeps_to_its_target_and_is_strong_for_long(made):
+def test_components_keep_to_targets_and_follow_their_records(made):
     for motion in made[1]:
         targets = (HORIZONTAL, HORIZONTAL, VERTICAL)
         for record, wanted in zip(motion.components, targets, strict=True):
@@ -56,15 +56,23 @@ def test_every_component_keeps_to_its_target_and_is_strong_for_long(made):
             assert 0.005 * (strong[1] - strong[0]) >= 19.99
             assert abs(np.rint(record.a_mps2 / G * 1e5).sum()) == 0
         assert max(map(abs, motion.correlations)) <= 0.3
+    for record in (r for motion in made[1] for r in motion.components):
+        early, late = (record.a_mps2[k : k + 1000] for k in (1400, 3800))
+        assert share_of_high(early) > 2.0 * share_of_high(late)
 
 
 @pytest.mark.nightly
-def test_phases_are_the_records_own_the_first_time_round(made):
+def test_phases_are_the_records_own_first_and_turned_where_alike(made):
     (first, second), (own, later) = made
     assert likeness(own.x, first) > 0.6
     assert likeness(own.y, second) > 0.6
     for other, record in ((own.z, first), (later.x, first), (later.y, second), (own.x, second)):
         assert abs(likeness(other, record)) < 0.3
+    same = made[0][0]
+    motion = make_suite(HORIZONTAL, VERTICAL, count=1, seed=1, records=[(same, same, same)])[0]
+    assert motion.seeds[0] == "falling-1"
+    assert all(words.startswith("falling-1, ") and "phases" in words for words in motion.seeds[1:])
+    assert max(map(abs, motion.correlations)) <= 0.3
 
 
 def likeness(made, record):
@@ -83,13 +91,6 @@ def likeness(made, record):
     return float(cosine.mean(axis=1).mean())
 
 
-@pytest.mark.nightly
-def test_frequencies_follow_one_another_as_in_the_record(made):
-    for record in (r for motion in made[1] for r in motion.components):
-        early, late = (record.a_mps2[k : k + 1000] for k in (1400, 3800))
-        assert share_of_high(early) > 2.0 * share_of_high(late)
-
-
 def share_of_high(a):
     """Energy from 3.5 to 12 Hz over that from 0.8 to 3.5 Hz, of 5 s."""
     power = np.abs(np.fft.rfft(np.hanning(1000) * a)) ** 2
@@ -99,39 +100,23 @@ def share_of_high(a):
 
 
 @pytest.mark.nightly
-def test_what_each_component_grew_from_is_told(made):
+def test_what_a_motion_grew_from_is_told_and_is_the_same_whatever_the_count(made):
     own, later = made[1]
     assert own.seeds == ("falling-1", "falling-2", "falling-1, random phases")
     assert later.seeds == tuple(f"falling-{k}, random phases" for k in (1, 2, 1))
     noise = make_suite(HORIZONTAL, VERTICAL, count=1, seed=1, dt_s=0.01)[0]
     assert noise.seeds == ("noise", "noise", "noise")
-
-
-@pytest.mark.nightly
-def test_a_motion_of_records_is_the_same_whatever_the_count(made):
     again = make_suite(HORIZONTAL, VERTICAL, count=1, seed=7, records=[made[0]])[0]
     for record, other in zip(again.components, made[1][0].components, strict=True):
         assert np.array_equal(record.a_mps2, other.a_mps2)
 
 
-@pytest.mark.nightly
-def test_phases_of_components_alike_are_turned(made):
-    same = made[0][0]
-    motion = make_suite(HORIZONTAL, VERTICAL, count=1, seed=1, records=[(same, same, same)])[0]
-    assert motion.seeds[0] == "falling-1"
-    assert all(words.startswith("falling-1, ") and "phases" in words for words in motion.seeds[1:])
-    assert max(map(abs, motion.correlations)) <= 0.3
-
-
-def test_the_strongest_part_of_a_long_record_is_used():
+def test_long_and_short_records_are_used_at_the_motions_step():
     t = 0.01 * np.arange(10_000)
     weak, strong = 0.1 * np.sin(3.0 * t), np.where((t > 40.0) & (t < 65.0), np.sin(9.0 * t), 0.0)
     seed = suite.strongest(Record(name="long", dt_s=0.01, a_mps2=weak + strong), 0.005, 6001)
     at = 0.005 * np.flatnonzero(np.abs(seed) > 0.5)
     assert at[-1] - at[0] == pytest.approx(25.0, abs=0.5)
-
-
-def test_a_short_record_stands_in_the_middle_at_the_motions_step():
     t = 0.02 * np.arange(501)
     seed = suite.strongest(Record(name="short", dt_s=0.02, a_mps2=np.sin(5.0 * t)), 0.005, 6001)
     assert not seed[:2000].any()
