@@ -27,10 +27,12 @@ def row(done, key):
 
 
 @pytest.mark.quick
-def test_the_worst_verdict_is_ng_and_none_is_ok():
+def test_verdicts_have_an_order_and_a_site_specific_analysis_asks_for_its_report():
     assert worst([]) is Verdict.OK
     assert worst([Verdict.OK, Verdict.CONDITION]) is Verdict.CONDITION
     assert worst([Verdict.NG, Verdict.CONDITION]) is Verdict.NG
+    title = "Report on the site-specific hazard analysis"
+    assert hazard(**STUDIED)["hazard_source"].title == title
 
 
 def without(given, missing):
@@ -235,12 +237,6 @@ def test_site_class_d_by_default_says_11_4_8_of_its_edition_alone(site_class):
     title = "Hazard analysis for site class D by default with S_1 = 0.7 g"
     assert found["site_specific_hazard"].title == title
     assert "11.4.8" not in hazard(**SOURCED | ASCE_7_22)["site_class"].remedy
-
-
-@pytest.mark.quick
-def test_a_site_specific_analysis_asks_for_its_report():
-    title = "Report on the site-specific hazard analysis"
-    assert hazard(**STUDIED)["hazard_source"].title == title
 
 
 @pytest.mark.parametrize(

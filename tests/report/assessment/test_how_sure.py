@@ -83,7 +83,7 @@ def test_a_margin_satisfies_with_all_runs_and_one_hundredth_less_does_not(seed, 
         assert margin.required_m == pytest.approx(gap.factor * there, rel=1e-5)
 
 
-def test_each_array_of_a_clearance_has_its_margin_and_an_unsatisfied_one_has_none():
+def test_margins_are_of_each_array_with_a_permitted_route():
     gaps = [stand_in.clearance("A2", "A3", 0.05), stand_in.clearance("A1", "RTU-1", 9.0)]
     found = uncertainty(made(clearances=gaps))
     listed = [(one.number, one.array.id) for one in found.margins]
@@ -93,6 +93,12 @@ def test_each_array_of_a_clearance_has_its_margin_and_an_unsatisfied_one_has_non
     assert found.margins[2].is_beyond
     assert [one.limited_by for one in found.margins] == ["—", "—", "search"]
     assert found.margins[2].minimum_mu == pytest.approx(0.23)  # half of 0.45, in whole hundredths
+    first, second, across, own = uncertainty(stand_in.unpermitted()).margins
+    for margin in (first, second, across):  # the second and third are of one clearance
+        assert math.isnan(margin.minimum_mu)
+    assert own.array.id == "A2"
+    assert own.minimum_mu == 0.40
+    assert own.limited_by == "Friction coefficient, prescriptive route"
 
 
 def test_turned_and_reversed_shaking_agree_with_the_public_solver(usual):
@@ -113,22 +119,16 @@ def test_turned_and_reversed_shaking_agree_with_the_public_solver(usual):
 
 
 @pytest.mark.quick
-def test_one_component_has_no_angles_and_no_vertical_to_reverse():
+def test_one_component_and_blocks_that_lift_off_leave_holes():
     assessment = made(scenes.along(SHORT), clearances=[])
     found = uncertainty(assessment)
     assert found.margins == ()
     assert found.turned == ()
     assert math.isnan(found.reversed_m)
     assert (surface(assessment, assessment.governing).mean_m > 0).all()
-
-
-def test_a_clearance_without_a_permitted_route_has_no_margin():
-    first, second, across, own = uncertainty(stand_in.unpermitted()).margins
-    for margin in (first, second, across):  # the second and third are of one clearance
-        assert math.isnan(margin.minimum_mu)
-    assert own.array.id == "A2"
-    assert own.minimum_mu == 0.40
-    assert own.limited_by == "Friction coefficient, prescriptive route"
+    lifting = made(tuple(stand_in.lifting(f"L{k}", signs=(1,)) for k in range(3)))
+    assert np.isnan(surface(lifting, lifting.governing).mean_m).all()
+    assert all(math.isnan(one.minimum_mu) for one in uncertainty(lifting).margins)
 
 
 def test_a_law_by_velocity_is_scaled_as_a_whole_and_the_other_arrays_are_named():
@@ -146,10 +146,3 @@ def test_a_law_by_velocity_is_scaled_as_a_whole_and_the_other_arrays_are_named()
     friction = Friction(mu_slow=mu, mu_fast=1.2 * mu, rate_s_per_m=20.0, mu_static=mu)
     wanted = mean_m(assessment.governing, mu=friction, slope_rad=float(found.slopes_rad[-1]))
     assert found.mean_m[-1, -1] == pytest.approx(wanted, rel=2e-3)
-
-
-@pytest.mark.quick
-def test_a_block_that_lifts_off_leaves_holes_and_no_margin():
-    lifting = made(tuple(stand_in.lifting(f"L{k}", signs=(1,)) for k in range(3)))
-    assert np.isnan(surface(lifting, lifting.governing).mean_m).all()
-    assert all(math.isnan(one.minimum_mu) for one in uncertainty(lifting).margins)

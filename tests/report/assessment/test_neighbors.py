@@ -118,14 +118,11 @@ def test_a_neighbor_without_a_clearance_has_what_is_required_or_not(done, requir
     assert replace(neighbor, required_m=required_ft * FT).cover is cover
 
 
-def test_a_missing_clearance_has_the_sheet_to_which_it_is_to_be_added(done):
+def test_cells_are_those_of_the_workbook_or_the_sheet_to_add_to(done, tmp_path):
     neighbor = by_pair(having(done, design_m=10.5 * FT))["A1", "A2"]
     assert neighbor.shortcomings() == (
         "Clearances: add a row with their clearance, or run roofslip plan clearances",
     )
-
-
-def test_cells_are_those_of_the_workbook(tmp_path):
     sheet = read(make(tmp_path, clearances=[project().clearances[2].model_dump()]))
     listed = of(assess(sheet, prepare(sheet)))
     row = next(neighbor for neighbor in listed if neighbor.given)

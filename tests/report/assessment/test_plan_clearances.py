@@ -163,15 +163,12 @@ def test_the_reach_of_the_runs_is_taken_and_named(tmp_path, monkeypatch, designs
     assert f"kept; reach {reach}, twice {basis}\n" in fill(tmp_path)
 
 
-def test_motions_run_where_a_row_contradicts_the_plan(tmp_path):
+def test_motions_run_where_they_can_and_else_the_reason_is_given(tmp_path):
     path = type_into(make(tmp_path), {"Clearances/1/Provided clearance": 400})
     assert problems(path)
     output = fill(tmp_path)
     assert "not run" not in output
     assert "twice the prescriptive displacement, which no design displacement exceeds" in output
-
-
-def test_where_motions_cannot_be_run_the_reason_is_given(tmp_path):
     path = make(tmp_path, **BARE)
     (tmp_path / "records" / "x2.csv").unlink()
     output = fill(tmp_path)

@@ -88,7 +88,7 @@ def test_a_requested_model_is_run_and_compared_with_the_adequate_one():
         assert done.verdict.is_permitted is enough
 
 
-def test_friction_by_speed_reaches_the_solver():
+def test_the_floor_governs_unless_reviewed_and_friction_by_speed_is_solved():
     law = {"mu_fast": 0.5, "mu_rate_s_per_m": 20.0}
     by_speed, constant = (
         alone(SHORT, arrays=[stand_in.array("A1", 2.0, mu=0.4, **given)]).arrays[0]
@@ -97,6 +97,10 @@ def test_friction_by_speed_reaches_the_solver():
     models = {run.solution.model for motion in by_speed.motions for run in motion.runs}
     assert models == {Model.SPEED_FRICTION}
     assert by_speed.analysis.mean_m < constant.analysis.mean_m
+    for reviewed, governs in ((False, "floor"), (True, "analysis")):
+        item = assessed(RESTING, options={"peer_reviewed": reviewed}).arrays[0]
+        assert item.governs == governs
+        assert item.design_m == (0.0 if reviewed else 0.5 * item.prescriptive.value_m)
 
 
 @pytest.mark.parametrize(
@@ -118,13 +122,6 @@ def test_swapping_the_horizontal_components_changes_names_alone():
         assert a.governing.orientation.is_transverse is not b.governing.orientation.is_transverse
         assert np.array_equal(a.history().u_m, b.history().u_m)
         assert a.history().result == a.governing.result
-
-
-def test_the_floor_governs_unless_peer_reviewed():
-    for reviewed, governs in ((False, "floor"), (True, "analysis")):
-        item = assessed(RESTING, options={"peer_reviewed": reviewed}).arrays[0]
-        assert item.governs == governs
-        assert item.design_m == (0.0 if reviewed else 0.5 * item.prescriptive.value_m)
 
 
 def test_uplift_withholds_the_displacement_and_fails_every_clearance():

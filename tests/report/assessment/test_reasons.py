@@ -67,14 +67,10 @@ def test_the_reason_stands_first_wherever_the_verdict_does(name):
 
 
 @pytest.mark.quick
-def test_what_is_not_ng_has_no_reason():
+def test_what_is_not_ng_has_no_reason_and_what_slides_on_no_longer_record():
     done = scenes.package(**WIDE).assessment
     assert done.verdict is Verdict.CONDITIONS
     assert list(reasons(done)) == []
-
-
-@pytest.mark.quick
-def test_no_longer_record_is_offered_for_what_slides_on_by_its_weight():
     done = scenes.package(WEAK, **WIDE | SLIPPERY).assessment
     (found,) = done.warnings
     assert found.would_do.startswith(

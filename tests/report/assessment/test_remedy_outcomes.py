@@ -116,7 +116,7 @@ TESTED = [
 ]
 
 
-def test_no_friction_is_offered_that_the_tests_do_not_give():
+def test_friction_is_assessed_as_entered_and_not_beyond_its_tests():
     options = {"options": PEER, "roof": {}, "x": 100.3}
     free = made(mu=0.3, **options)
     if free.clearances[0].ok:
@@ -129,9 +129,6 @@ def test_no_friction_is_offered_that_the_tests_do_not_give():
     (bound,) = of(made(mu=0.3, friction_runs=tests, **options), RemedyKind.FRICTION)
     assert not bound.exists
     assert f"no coefficient up to {round(low, 2):g}, the most that its tests give" in bound.basis
-
-
-def test_friction_is_assessed_as_it_is_entered():
     given = made(mu=0.3, options=PEER, roof={}, x=100.3)
     (found,) = of(given, RemedyKind.FRICTION)
     arrays = tuple(with_mu(row, found.value) for row in given.project.arrays)

@@ -25,7 +25,7 @@ def rows_of(rows, *fields, style=lambda _: "", once=False):
     return [row.cells for row in table.rows], [column.share for column in table.columns]
 
 
-def test_rows_that_differ_in_the_name_alone_are_one_where_the_first_is():
+def test_rows_that_differ_in_names_alone_are_one():
     rows = [
         ("A1", "3", "x"),
         ("A2", "4", "x"),
@@ -35,21 +35,12 @@ def test_rows_that_differ_in_the_name_alone_are_one_where_the_first_is():
     ]
     cells, _ = rows_of(rows)
     assert cells == [("A1, A3 to A5", "3", "x"), ("A2", "4", "x")]
-
-
-def test_names_of_a_second_column_follow_those_of_the_first():
     rows = [("10", "3", "A"), ("2", "3", "A"), ("1", "3", "B"), ("3", "3", "B"), ("4", "5", "A")]
     cells, _ = rows_of(rows, "Array", "Side")
     assert cells == [("1 to 3, 10", "3", "B, A, B, A"), ("4", "5", "A")]
-
-
-def test_names_that_are_all_the_same_are_said_once_and_two_of_one_name_together():
     rows = [("1", "3", "A"), ("2", "3", "A"), ("1", "4", "B"), ("1", "4", "A"), ("2", "4", "C")]
     cells, _ = rows_of(rows, "Array", "Side")
     assert cells == [("1, 2", "3", "A"), ("1, 2", "4", "B and A, C")]
-
-
-def test_names_of_a_second_column_are_each_said_once_where_asked_for():
     rows = [("1", "3", "A2"), ("1", "3", "A1"), ("2", "3", "A3"), ("3", "3", "A2"), ("9", "4", "B")]
     assert rows_of(rows, "Array", "Side", once=True)[0] == [
         ("1 to 3", "3", "A1 to A3"),
@@ -57,14 +48,11 @@ def test_names_of_a_second_column_are_each_said_once_where_asked_for():
     ]
 
 
-def test_a_row_of_another_style_remains_and_so_does_one_without_a_name():
+def test_other_styles_remain_and_a_column_of_many_names_is_wider():
     wide = Wide("Mean", 1)
     rows = [("A1", "3", "x"), ("A2", "3", "x"), (wide, "3", "x"), ("A3", "3", "x")]
     cells, _ = rows_of(rows, style=lambda row: "" if row[0] == "A1" else "total")
     assert cells == [("A1", "3", "x"), ("A2, A3", "3", "x"), (wide, "3", "x")]
-
-
-def test_a_column_of_many_names_is_wider_up_to_a_limit():
     assert rows_of([("A1", "3", "x")])[1] == [0.8, 1.0, 0.5]
     two = [(name, "3", "x") for name in ("A1", "A2")]
     many = [(f"A{number}", "3", "x") for number in range(1, 40, 2)]

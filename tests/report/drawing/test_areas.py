@@ -32,14 +32,20 @@ def hatched(sketch, points, layer="ARRAY", **look):
     return hatch
 
 
-def test_a_hatch_that_looks_down_is_where_it_appears(tmp_path):
+def test_a_hatch_is_where_it_appears_with_its_holes_named(tmp_path):
     sketch = Sketch()
     hatched(sketch, [(-x, y) for x, y in BOX_FT], extrusion=(0, 0, -1))
     box = plan(sketch.saved(tmp_path)).arrays[0].shape.bounds
     assert (box.x_from_m, box.x_to_m) == pytest.approx((120 * FT, 200 * FT))
+    sketch = Sketch()
+    hatch = hatched(sketch, ROOF_FT)
+    hatch.paths.add_polyline_path(BOX_FT, is_closed=True, flags=16)
+    places, left = shown(sketch, tmp_path)
+    assert places == [("array", 240 * 160)]
+    assert left == ["holes of a HATCH, whose outline is read"]
 
 
-def test_the_edges_of_a_hatch_are_read_within_3_mm(tmp_path):
+def test_a_hatch_of_curves_is_read_within_3_mm(tmp_path):
     """Half a disc and half an ellipse between lines, and a circle."""
     sketch = Sketch(unit="m")
     path = sketch.space.add_hatch(dxfattribs=ARRAY).paths.add_edge_path()
@@ -52,9 +58,6 @@ def test_the_edges_of_a_hatch_are_read_within_3_mm(tmp_path):
     areas = [p.shape.area_m2 for p in plan(sketch.saved(tmp_path)).arrays]
     exact = [200 + math.pi * 12.5 + math.pi * 6.25, math.pi * 16]
     assert areas == pytest.approx(exact, rel=2e-3)
-
-
-def test_the_spline_of_a_hatch_is_read(tmp_path):
     sketch = Sketch(unit="m")
     path = sketch.space.add_hatch(dxfattribs=ARRAY).paths.add_edge_path()
     points = [(0, 0), (0, 8), (8, 8), (8, 0)]
@@ -68,7 +71,7 @@ def test_the_spline_of_a_hatch_is_read(tmp_path):
     assert array.shape.area_m2 == pytest.approx(exact, rel=2e-3)
 
 
-def test_a_hatch_that_fills_a_line_is_no_second_outline(tmp_path):
+def test_faces_and_grids_are_one_outline_and_a_hatch_that_fills_a_line_is_none(tmp_path):
     sketch = Sketch()
     sketch.ring("ARRAY", BOX_FT, "A1")
     hatched(sketch, [(x + 0.001, y) for x, y in BOX_FT], "OBJECT")
@@ -77,19 +80,7 @@ def test_a_hatch_that_fills_a_line_is_no_second_outline(tmp_path):
     places, left = shown(sketch, tmp_path)
     assert places == [("array", 80 * 55), ("fixed object", 8 * 10)]
     assert left == ["a HATCH over a closed line"] * 2
-
-
-def test_holes_of_a_hatch_are_named(tmp_path):
-    sketch = Sketch()
-    hatch = hatched(sketch, ROOF_FT)
-    hatch.paths.add_polyline_path(BOX_FT, is_closed=True, flags=16)
-    places, left = shown(sketch, tmp_path)
-    assert places == [("array", 240 * 160)]
-    assert left == ["holes of a HATCH, whose outline is read"]
-
-
-def test_faces_that_touch_are_one_outline(tmp_path):
-    """A box with its four upright sides, of which the plan shows the top, in two triangles."""
+    # A box with its four upright sides, of which the plan shows the top, in two triangles.
     sketch = Sketch()
     a, b, c, d = [(*point, 3.0) for point in UNIT_FT]
     sketch.space.add_3dface([a, b, c], dxfattribs=OBJECT)
@@ -98,6 +89,13 @@ def test_faces_that_touch_are_one_outline(tmp_path):
         sketch.space.add_3dface([p, q, (*q[:2], 0), (*p[:2], 0)], dxfattribs=OBJECT)
     sketch.space.add_3dface([(x + 50, y, 0) for x, y in UNIT_FT], dxfattribs=OBJECT)
     assert shown(sketch, tmp_path) == ([("fixed object", 80), ("fixed object", 80)], [])
+    sketch = Sketch()
+    mesh = sketch.space.add_polymesh((3, 4), dxfattribs={"layer": "ARRAY"})
+    cache = mesh.get_mesh_vertex_cache()
+    for m in range(3):
+        for n in range(4):
+            cache[m, n] = (10.0 * m, 5.0 * n, m * n)
+    assert shown(sketch, tmp_path) == ([("array", 20 * 15)], [])
 
 
 @pytest.mark.parametrize("how", ["render_mesh", "render_polyface", "render_3dfaces"])
@@ -108,16 +106,6 @@ def test_a_mesh_is_its_outline_also_in_a_block(tmp_path, how):
     look = OBJECT | {"rotation": 30, "xscale": 2, "yscale": -2, "zscale": 0.5}
     sketch.space.add_blockref("UNIT", (50, 50), dxfattribs=look)
     assert shown(sketch, tmp_path) == ([("fixed object", 8 * 4)], [])
-
-
-def test_a_surface_of_a_grid_is_its_outline(tmp_path):
-    sketch = Sketch()
-    mesh = sketch.space.add_polymesh((3, 4), dxfattribs={"layer": "ARRAY"})
-    cache = mesh.get_mesh_vertex_cache()
-    for m in range(3):
-        for n in range(4):
-            cache[m, n] = (10.0 * m, 5.0 * n, m * n)
-    assert shown(sketch, tmp_path) == ([("array", 20 * 15)], [])
 
 
 @pytest.mark.parametrize(

@@ -51,16 +51,13 @@ def test_a_block_on_a_layer_that_is_off_shows_what_has_layers_of_its_own(tmp_pat
     assert names(plan(sketch.saved(tmp_path))) == shown
 
 
-def test_what_is_invisible_is_left_out(tmp_path):
+def test_what_is_invisible_is_left_out_and_an_external_reference_is_named(tmp_path):
     sketch = Sketch()
     sketch.ring("ARRAY", BOX_FT).dxf.invisible = 1
     with_block(sketch, invisible=1)
     found = plan(sketch.saved(tmp_path))
     assert names(found) == []
     assert reasons(found) == [("invisible", "ARRAY"), ("invisible", "OBJECT")]
-
-
-def test_an_external_reference_that_is_not_bound_is_named(tmp_path):
     sketch = Sketch()
     sketch.document.add_xref_def("other.dxf", "MECHANICAL")
     sketch.space.add_blockref("MECHANICAL", (0, 0), dxfattribs={"layer": "X"})
@@ -175,15 +172,12 @@ def test_a_drawing_with_a_guessed_number_or_without_its_end_is_refused(damaged_d
         read_dxf(damaged_drawing)
 
 
-def test_a_block_of_no_height_is_read_as_any_other(tmp_path):
+def test_a_flat_block_is_read_and_an_outline_over_an_equal_one_counts_once(tmp_path):
     sketch = Sketch()
     with_block(sketch, zscale=0.0)
     found = plan(sketch.saved(tmp_path))
     assert names(found) == ["OBJ-1"]
     assert reasons(found) == []
-
-
-def test_an_outline_over_an_equal_one_counts_once(tmp_path):
     sketch = Sketch()
     sketch.ring("ARRAY", BOX_FT, "A-1")
     sketch.ring("ARRAY", [(x + 0.001, y) for x, y in BOX_FT[::-1]])

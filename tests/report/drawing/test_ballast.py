@@ -47,9 +47,11 @@ def test_a_wrong_map_is_refused_with_every_line(file, content, wanted):
     assert list(refused(read_map, file(content), 1.0)) == wanted
 
 
-def test_a_map_is_read_in_its_unit_with_any_columns_beside(file):
+def test_a_map_is_read_in_its_unit_with_the_separator_that_it_says(file):
     path = file("\ufeffRow, Blocks ,X,y\nR1,2,10,20\n\nR2,0,1.5,-2\n")
     assert read_map(path, FT).tolist() == [[2, 10 * FT, 20 * FT, 2], [4, 1.5 * FT, -2 * FT, 0]]
+    path = file("sep=;\nx;y;blocks\n\u22121,500;2;3\n")
+    assert read_map(path, 1.0).tolist() == [[3, -1.5, 2.0, 3]]
 
 
 @pytest.mark.parametrize(
@@ -66,11 +68,6 @@ def test_a_map_is_read_in_its_unit_with_any_columns_beside(file):
 )
 def test_a_map_is_read_with_the_separators_of_spreadsheets(file, content):
     assert read_map(file(content), FT).tolist() == [[2, pytest.approx(35.125 * FT), 155 * FT, 2]]
-
-
-def test_a_map_that_says_its_separator_is_read(file):
-    path = file("sep=;\nx;y;blocks\n\u22121,500;2;3\n")
-    assert read_map(path, 1.0).tolist() == [[3, -1.5, 2.0, 3]]
 
 
 def test_the_center_of_gravity_is_that_of_blocks_and_modules():

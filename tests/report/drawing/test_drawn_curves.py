@@ -74,7 +74,7 @@ def test_an_arc_of_a_whole_turn_is_the_circle(angles):
     assert arc[1]
 
 
-def test_a_closed_spline_stays_within_the_hull_of_its_control_points():
+def test_splines_stay_within_their_hulls_and_end_at_their_ends():
     # It is not clamped: the knots before its first point would lead to the origin.
     corners = ((100, 100), (110, 100), (110, 110), (100, 110))
     points = drawn(bent(*corners, closed=True))
@@ -86,9 +86,6 @@ def test_a_closed_spline_stays_within_the_hull_of_its_control_points():
         (x0, y0), (x1, y1), (x2, y2) = (corners[(k + j) % 4] for j in range(3))
         on_it = shapely.Point((x0 + 4 * x1 + x2) / 6, (y0 + 4 * y1 + y2) / 6)
         assert ring.distance(on_it) <= 0.003
-
-
-def test_a_spline_ends_at_its_ends():
     points = drawn(bent((0, 0), (5, 9), (10, -9), (15, 0), closed=False))
     assert points[0] == (0.0, 0.0)
     assert points[-1] == pytest.approx((15.0, 0.0))

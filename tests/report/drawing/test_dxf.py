@@ -43,8 +43,16 @@ def read(data):
     return ezdxf.read(io.StringIO(data.decode("utf-8")))
 
 
-def test_the_same_plan_gives_the_same_bytes(done):
+def test_texts_name_what_is_drawn_and_the_same_plan_gives_the_same_bytes(done):
     assert write_dxf(plan_drawing(done)) == write_dxf(plan_drawing(done))
+    plan = plan_drawing(done)
+    said = [text.words for text in plan.texts]
+    assert {"A1", "A2", "A3", "RTU-1, height 42.0 in", "T-1", "S edge", "N"} <= set(said)
+    (gap,) = [words for words in said if words.startswith("5: ")]
+    assert gap.startswith("5: A2 to S edge: provided 60.0 in (1524 mm), required 61.2 in")
+    assert gap.endswith("NG")
+    failed = [gap.name for gap in plan.dimensions if gap.layer is Layer.CLEARANCE_NG]
+    assert failed == ["A2 to S edge"]
 
 
 @pytest.mark.nightly
@@ -69,14 +77,11 @@ def test_every_process_writes_the_same_bytes():
     assert len(written) == 1
 
 
-def test_the_auditor_finds_nothing_and_the_unit_is_that_of_the_workbook(plan, document):
+def test_the_auditor_finds_nothing_and_lines_texts_and_dimensions_are_read_back(plan, document):
     auditor = document.audit()
     assert not auditor.errors
     assert not auditor.fixes
     assert document.header["$INSUNITS"] == (2 if plan.is_feet else 6)  # feet, meters
-
-
-def test_lines_and_texts_are_read_back_as_they_were_drawn(plan, document):
     space = document.modelspace()
     for line, drawn in zip(plan.lines, space.query("LWPOLYLINE"), strict=True):
         assert drawn.dxf.layer == line.layer.title
@@ -90,38 +95,28 @@ def test_lines_and_texts_are_read_back_as_they_were_drawn(plan, document):
         assert drawn.get_xdata(APPLICATION)[0].value == gap.name
         for point, wanted in zip((drawn.dxf.defpoint2, drawn.dxf.defpoint3), gap.ends, strict=True):
             assert point.vec2.isclose(wanted, abs_tol=1e-6)
-
-
-def test_a_dimension_measured_again_has_the_unit_and_the_digits_of_a_displacement(plan, document):
     style = document.dimstyles.get("ROOFSLIP").dxf
     assert (style.dimlfac, style.dimdec) == ((12.0, 1) if plan.is_feet else (1000.0, 0))
     assert (style.dimtxt, chr(style.dimdsep), style.dimzin) == (plan.height, ".", 0)
 
 
-def test_texts_name_what_is_drawn_and_what_a_clearance_requires(done):
-    plan = plan_drawing(done)
-    said = [text.words for text in plan.texts]
-    assert {"A1", "A2", "A3", "RTU-1, height 42.0 in", "T-1", "S edge", "N"} <= set(said)
-    (gap,) = [words for words in said if words.startswith("5: ")]
-    assert gap.startswith("5: A2 to S edge: provided 60.0 in (1524 mm), required 61.2 in")
-    assert gap.endswith("NG")
-    failed = [gap.name for gap in plan.dimensions if gap.layer is Layer.CLEARANCE_NG]
-    assert failed == ["A2 to S edge"]
-
-
-def test_each_kind_has_its_layer(document):
+def test_each_kind_has_its_layer_and_each_text_shows_as_it_is(document, plan):
     assert {layer.title for layer in Layer} <= {layer.dxf.name for layer in document.layers}
     used = {entity.dxf.layer for entity in document.modelspace()}
     assert used == {layer.title for layer in Layer} - {Layer.CLEARANCE_NONE.title}
+    words = "%%c 5%% %%u^J a^ b 100 %"
+    texts = [replace(text, words=words) for text in plan.texts]
+    (shown,) = {
+        text.plain_text()
+        for text in read(write_dxf(replace(plan, texts=texts))).modelspace().query("TEXT")
+    }
+    assert shown == words
 
 
-def test_the_envelope_is_that_of_the_design_displacement(done):
+def test_the_envelope_is_that_of_the_design_displacement_if_there_is_one(done):
     line = next(line for line in plan_drawing(done).lines if line.layer is Layer.DESIGN)
     wanted = [(x / FT, y / FT) for x, y in design_envelope(done.arrays[0])]
     assert line.points == tuple(wanted)
-
-
-def test_without_a_displacement_there_is_no_envelope(done):
     lost = replace(done, arrays=tuple(replace(a, design_m=math.nan) for a in done.arrays))
     plan = plan_drawing(lost)
     assert not [line for line in plan.lines if line.layer is Layer.DESIGN]
@@ -154,13 +149,3 @@ def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_cl
         "A2 to S edge": Layer.CLEARANCE,
     }
     assert [line.name for line in plan.lines if line.layer is Layer.DESIGN] == ["A2"]
-
-
-def test_a_text_shows_as_it_is_whatever_codes_it_looks_like(plan):
-    words = "%%c 5%% %%u^J a^ b 100 %"
-    texts = [replace(text, words=words) for text in plan.texts]
-    (shown,) = {
-        text.plain_text()
-        for text in read(write_dxf(replace(plan, texts=texts))).modelspace().query("TEXT")
-    }
-    assert shown == words

@@ -58,7 +58,7 @@ def test_a_blank_workbook_is_filled(tmp_path, units):
     assert not [p for p in sheet.problems if p[0].section in ("roof", "objects", "outlines")]
 
 
-def test_places_that_are_filled_stay_unless_they_may_be_replaced(tmp_path):
+def test_filled_places_and_full_tables_are_told(tmp_path):
     path = make(tmp_path)
     before = path.read_bytes()
     output = run(drawing(tmp_path), tmp_path, exit_code=2)
@@ -66,9 +66,17 @@ def test_places_that_are_filled_stay_unless_they_may_be_replaced(tmp_path):
     assert "Objects!" in output  # N
     assert path.read_bytes() == before
 
+    def close(book):
+        book["Outlines"].tables["outlines_table"].totalsRowCount = 1
+        put(book, {f"Outlines/{row}/Outline of": "A9" for row in range(1, 20)})
+
+    output = run(drawing(tmp_path), edit(new(tmp_path), close), exit_code=2)
+    row = re.sub(r"[A-Z]+(?=\d)", "", at("Outlines/20/Outline of"))
+    assert f"{row}: the table has a row of totals, and no blank row above it" in output
+
 
 @pytest.mark.nightly
-def test_replacing_changes_the_places_and_keeps_the_rest(tmp_path):
+def test_replacing_changes_the_places_and_who_confirmed_them_alone(tmp_path):
     path = make(tmp_path, clearances=[])
     run(drawing(tmp_path), tmp_path, "--replace")
     data, was = read(path).project, project(clearances=[])
@@ -80,10 +88,6 @@ def test_replacing_changes_the_places_and_keeps_the_rest(tmp_path):
     assert [item.id for item in data.objects] == ["RTU-1", "OLD", "N", "S", "EDGE-1", "EDGE-2"]
     assert data.objects[3].kind is was.objects[3].kind
     assert same(without_places(data), without_places(was))
-
-
-@pytest.mark.nightly
-def test_reading_a_drawing_takes_out_who_confirmed_other_distances(tmp_path):
     head = HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": "2025-11-18"}
     path = make(tmp_path, clearances=[], project=head)
     output = run(drawing(tmp_path), tmp_path, "--replace")
@@ -151,21 +155,16 @@ def test_rows_that_a_table_grows_by_have_its_formulas_and_formats(tmp_path, unit
     assert str(last.value).startswith("=IFERROR(")
 
 
-def test_a_row_of_totals_with_no_blank_row_above_it_is_told(tmp_path):
-    def close(book):
-        book["Outlines"].tables["outlines_table"].totalsRowCount = 1
-        put(book, {f"Outlines/{row}/Outline of": "A9" for row in range(1, 20)})
-
-    output = run(drawing(tmp_path), edit(new(tmp_path), close), exit_code=2)
-    row = re.sub(r"[A-Z]+(?=\d)", "", at("Outlines/20/Outline of"))
-    assert f"{row}: the table has a row of totals, and no blank row above it" in output
-
-
-def test_a_drawing_without_a_unit_asks_for_it(tmp_path):
+def test_a_drawing_without_a_unit_and_polygons_without_their_sheet_are_refused(tmp_path):
     path, book = drawing(tmp_path, "R12"), new(tmp_path)
     output = run(path, book, exit_code=2)
     assert "states no unit; add --units with one of in, ft, mm, cm, m" in output
     run(path, book, "--units", "ft")
+    path = make(tmp_path, clearances=[])
+    edit(path, lambda book: book.remove(book["Outlines"]))
+    output = run(drawing(tmp_path), tmp_path, "--replace", exit_code=2)
+    assert "Outlines: the sheet is missing, which A1 in the drawing need" in output
+    assert "Run roofslip new FOLDER and copy your cells" in output
 
 
 @pytest.mark.quick
@@ -300,14 +299,6 @@ def test_what_is_not_read_is_said_once_for_each_cause(tmp_path):
         "not read: an open line that closes no outline: 40 on L0, L1, L2 and 5 more (...)",
     ]
     assert all(line.endswith(" and 37 more)") for line in lines)
-
-
-def test_polygons_need_the_sheet_outlines(tmp_path):
-    path = make(tmp_path, clearances=[])
-    edit(path, lambda book: book.remove(book["Outlines"]))
-    output = run(drawing(tmp_path), tmp_path, "--replace", exit_code=2)
-    assert "Outlines: the sheet is missing, which A1 in the drawing need" in output
-    assert "Run roofslip new FOLDER and copy your cells" in output
 
 
 @pytest.mark.parametrize("name", ["none.dxf", "."])

@@ -38,8 +38,12 @@ def test_a_million_entities_are_refused_with_the_limit(file):
 
 
 @pytest.mark.quick
-def test_a_large_file_is_refused_before_it_is_read(file):
+def test_large_files_and_long_names_are_refused(file):
     assert hostile(file, b" " * 26_000_000).startswith("26 MB, more than 25 MB")
+    sketch = Sketch()
+    sketch.ring("L" * 1_000_000, BOX_FT)
+    found = hostile(file, written(sketch))
+    assert found.startswith("1,000,000 letters in a line, more than 10,000; save the layers")
 
 
 @pytest.mark.parametrize(
@@ -113,15 +117,12 @@ def test_a_block_without_a_name_is_listed(file):
     assert missing.reason.startswith("an INSERT that cannot be read")
 
 
-def test_a_line_that_hardly_bulges_is_straight(tmp_path):
+def test_bulges_and_flat_arcs_become_no_more_chords_than_they_need(tmp_path):
     sketch = Sketch()
     line = sketch.ring("OBJECT", BOX_FT, "RTU-1")
     line.set_points([(x, y, 1e-300) for x, y in BOX_FT], format="xyb")
     (found,) = plan(sketch.saved(tmp_path)).objects
     assert len(found.shape.points) == 4
-
-
-def test_the_chords_of_a_flat_arc_stay_within_3_mm_of_it(tmp_path):
     # Of a circle of 3 million km an arc 100 km long, which bulges by 417 mm.
     sketch = Sketch(unit="m")
     bulge = math.tan(1e5 / 3e9 / 4.0)
@@ -217,12 +218,17 @@ def test_a_curve_without_measure_is_listed_with_its_cause(tmp_path, draw, reason
     assert (found.lines, [item.reason for item in found.unread]) == ([], [reason])
 
 
-def test_curves_of_too_many_chords_in_all_are_refused(tmp_path):
+def test_curves_and_texts_of_too_much_in_all_are_refused(tmp_path, file):
     sketch = Sketch(unit="m")
     for _ in range(300):
         sketch.space.add_circle((0, 0), 3500)
     with pytest.raises(InputError, match=r"points of curves, more than 500,000; save"):
         read_dxf(sketch.saved(tmp_path))
+    sketch = Sketch()
+    for _ in range(4):
+        sketch.space.add_mtext("\\S1/2;" * 50_000)
+    found = hostile(file, written(sketch))
+    assert found.startswith(f"600,000 letters of texts, more than {MAX_LETTERS:,}; save the layers")
 
 
 def starred(k):
@@ -262,19 +268,3 @@ def test_a_text_of_many_codes_takes_time_as_its_length(tmp_path, code):
         return sketch.saved(tmp_path)
 
     assert not grows_faster(read_dxf, drawn, 8000)
-
-
-def test_texts_of_too_many_letters_in_all_are_refused(file):
-    sketch = Sketch()
-    for _ in range(4):
-        sketch.space.add_mtext("\\S1/2;" * 50_000)
-    found = hostile(file, written(sketch))
-    assert found.startswith(f"600,000 letters of texts, more than {MAX_LETTERS:,}; save the layers")
-
-
-@pytest.mark.quick
-def test_a_name_of_too_many_letters_is_refused(file):
-    sketch = Sketch()
-    sketch.ring("L" * 1_000_000, BOX_FT)
-    found = hostile(file, written(sketch))
-    assert found.startswith("1,000,000 letters in a line, more than 10,000; save the layers")

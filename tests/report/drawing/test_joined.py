@@ -51,15 +51,12 @@ def test_what_closes_in_one_way_is_joined_and_the_rest_is_returned(lines, areas,
     assert found(*lines) == (areas, rest)
 
 
-def test_lines_of_two_layers_are_not_joined(tmp_path):
+def test_lines_of_one_layer_are_joined_without_end(tmp_path):
     sketch = Sketch()
     for k, side in enumerate(SIDES):
         sketch.space.add_line(*side, dxfattribs={"layer": "AB"[k % 2]})
     read = read_dxf(sketch.saved(tmp_path))
     assert (read.lines, [item.reason for item in read.unread]) == ([], [OPEN] * 4)
-
-
-def test_ends_in_a_row_of_near_ones_do_not_lead_around_without_end():
     # Of three ends at a corner the second is near both others, which are not near each other: from
     # one of them a walk would turn around the box forever.
     lines = [((-5.0, -5.0), (-0.004, 0.0)), *SIDES[:3], (BOX[3], (0.004, 0.0))]

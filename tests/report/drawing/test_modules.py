@@ -156,12 +156,19 @@ def test_few_rectangles_and_those_of_other_sizes_are_arrays(tmp_path, columns, s
     assert counts(plan(sketch.saved(tmp_path))) == wanted
 
 
-def test_rectangles_of_other_sizes_are_no_modules_beside_those(tmp_path):
+def test_rectangles_that_are_no_modules_are_left_and_too_many_refused(tmp_path):
     sketch = Sketch(unit="m")
     grid(sketch, 4, 1)
     grid(sketch, 1, 1, y=20.0, size=(LONG, SHORT + 0.02))
     found = plan(sketch.saved(tmp_path))
     assert counts(found) == {"A1": None, "A2": 4}
+    sketch = Sketch(unit="m")
+    for k in range(40):
+        grid(sketch, 1, 1, x=0.001 * k)
+    with pytest.raises(
+        InputError, match="layer ARRAY: 40 rectangles of the size of modules on one"
+    ):
+        plan(sketch.saved(tmp_path))
 
 
 @pytest.mark.parametrize(("gap_m", "arrays"), [(ROW - 0.02, 2), (ROW, 1), (GAP_M, 1)])
@@ -218,7 +225,7 @@ def test_modules_are_counted_once_in_blocks_with_inner_lines(tmp_path):
     assert found.arrays[1].shape.area_m2 == pytest.approx(LONG * (3 * SHORT + 2 * COLUMN))
 
 
-def test_modules_of_several_sizes_around_an_opening_are_one_array(tmp_path):
+def test_modules_around_openings_are_one_array_and_an_outline_around_them_no_second(tmp_path):
     sketch = Sketch(unit="m")
     grid(sketch, 4, 4, skip=[(k, row) for k in (1, 2) for row in (1, 2)])
     wide = 4 * PITCH_X
@@ -228,9 +235,6 @@ def test_modules_of_several_sizes_around_an_opening_are_one_array(tmp_path):
     assert [n for n, *_ in found.sizes] == [15]
     around = (wide - COLUMN) * (3 * PITCH_Y + SHORT) + 3 * (SHORT + COLUMN) * LONG
     assert found.shape.area_m2 == pytest.approx(around)
-
-
-def test_an_outline_around_modules_is_no_second_array(tmp_path):
     sketch = Sketch(unit="m")
     grid(sketch, 4, 3)
     for layer, y in (("ARRAY", 0.0), ("PV", 0.0), ("ARRAY", 20.0)):
@@ -255,18 +259,8 @@ def test_modules_that_are_turned_to_each_other_are_arrays_of_their_own(tmp_path)
     ]  # fmt: skip
 
 
-def test_more_rectangles_at_one_place_than_modules_are_refused(tmp_path):
-    sketch = Sketch(unit="m")
-    for k in range(40):
-        grid(sketch, 1, 1, x=0.001 * k)
-    with pytest.raises(
-        InputError, match="layer ARRAY: 40 rectangles of the size of modules on one"
-    ):
-        plan(sketch.saved(tmp_path))
-
-
 @pytest.mark.nightly
-def test_the_count_of_modules_is_filled_in_and_the_rule_said(tmp_path):
+def test_counts_are_filled_in_where_there_is_a_column(tmp_path):
     path, book = layout().saved(tmp_path), blank(tmp_path / "input.xlsx")
     output = ended("plan", "read", path, book, "--gap", 18, "in")
     assert "A2: array of 21 modules 78.7 in (2000 mm) by 43.3 in (1100 mm) with gaps of" in output
@@ -274,10 +268,6 @@ def test_the_count_of_modules_is_filled_in_and_the_rule_said(tmp_path):
     rows = read(book).draft["arrays"]
     assert {row["id"]: row["modules"] for row in rows} == COUNTS
     assert "it is 0; give more than 0." in refused("plan", "read", path, book, "--gap", 0, "in")
-
-
-@pytest.mark.nightly
-def test_a_workbook_without_the_column_gets_the_arrays_alone(tmp_path):
     book = make(tmp_path, clearances=[])
     edit(book, lambda found: retitle(found, "Arrays", "Modules", ""))
     ended("plan", "read", layout().saved(tmp_path), book, "--replace")
@@ -323,14 +313,11 @@ def test_modules_that_an_export_has_rounded_are_one_array(tmp_path, angle_deg, u
     assert not is_coarse or angle_deg == 0.0 or step_in in array.note
 
 
-def test_rounded_modules_are_joined_however_the_drawing_is_turned_then(tmp_path):
+def test_rounded_modules_are_joined_turned_or_of_two_sizes(tmp_path):
     drawing = read_dxf(rounded("in", 0, 17.0).saved(tmp_path)).turned(-17.0)
     (array,) = plan_of(drawing, INCH, {}).arrays
     assert array.modules == 40
-
-
-def test_modules_of_two_sizes_along_the_axes_keep_both(tmp_path):
-    """In whole inches, as they were meant: nothing says that a rounding made them."""
+    # In whole inches, as they were meant: nothing says that a rounding made them.
     sketch = Sketch(unit="in")
     for k in range(12):
         long = 65 + (k >= 6)
@@ -339,8 +326,5 @@ def test_modules_of_two_sizes_along_the_axes_keep_both(tmp_path):
     (array,) = plan(sketch.saved(tmp_path)).arrays
     assert [(count, round(long / INCH, 6)) for count, long, _ in array.sizes] == [(6, 65), (6, 66)]
     assert array.note == ""
-
-
-def test_turned_modules_in_whole_feet_are_refused(tmp_path):
     with pytest.raises(InputError, match=r"layer ARRAY: .* rounded to 304\.8 mm, .* more decimals"):
         plan(rounded("ft", 0, 17.0).saved(tmp_path))

@@ -117,13 +117,23 @@ def test_no_leader_crosses_an_array_or_a_label(done):
     ]
     for leader in leaders(paper):
         assert not leader.intersects(shapely.union_all([*arrays, *labels])), leader
+    assert [row[0] for row in scheduled(printed(done, "plan"))] == numbers(done)
 
 
-def test_the_roofs_have_leaders():
+def test_large_roofs_have_leaders_and_small_plans_sizes_and_numbers():
     assert all(leaders(printed_plan(PLANS[name]()).plan) for name in ("thirty", "example"))
+    shown = [text.words for text in words_of(printed_plan(scenes.shipped("example")).plan)]
+    assert {"120 × 92 ft", "120 × 102 ft", "150 × 150 ft"} <= set(shown)
+    tables = printed(thirty(), "plan").tables
+    (arrays,) = (table for table in tables if table.headings[:2] == ("Arrays", "Size [ft]"))
+    rows = [row[:2] for row in arrays.cells]
+    assert rows == [("A1 to A9, A11 to A30", "52 × 24"), ("A10", "36 × 24")]
+    paper = plan_on_paper(thirty(), SMALL).paper
+    solid = shapely.union_all(inner_arrays(paper))
+    assert not any(leader.intersects(solid) for leader in leaders(paper))
 
 
-def test_no_label_is_left_out(done):
+def test_no_label_is_left_out_or_lies_on_another(done):
     printed = printed_plan(done)
     shown = [text.words for text in words_of(printed.plan)]
     assert not printed.unnamed
@@ -134,9 +144,6 @@ def test_no_label_is_left_out(done):
     for item in (*done.arrays, *done.project.objects):
         assert any(words == item.id or words.startswith(f"{item.id}: ") for words in shown)
     assert bool(printed.size.sheet) == printed.beside.is_all(done)
-
-
-def test_no_label_lies_on_another_or_on_a_dimension_line(done):
     paper = printed_plan(done).plan
     areas = [(text, area(text)) for text in words_of(paper)]
     for (one, of_one), (other, of_other) in itertools.combinations(areas, 2):
@@ -162,35 +169,16 @@ def test_the_page_has_each_number_once_in_its_gap_and_equal_gaps_dimensioned_onc
 
 
 @pytest.mark.quick
-def test_equal_gaps_are_dimensioned_once():
+def test_equal_gaps_are_dimensioned_once_and_those_not_satisfied_marked():
     shown = [text.words for text in words_of(printed_plan(thirty()).plan)]
     assert shown.count("48.0 in typ. of 49") == 1
     assert shown.count("192.0 in typ. of 6") == 1
     assert shown.count("72.0 in") == 1
     assert not {"48.0 in", "192.0 in"} & set(shown)
-
-
-def test_an_array_says_its_size_where_it_has_room_and_the_table_that_of_all():
-    shown = [text.words for text in words_of(printed_plan(scenes.shipped("example")).plan)]
-    assert {"120 × 92 ft", "120 × 102 ft", "150 × 150 ft"} <= set(shown)
-    tables = printed(thirty(), "plan").tables
-    (arrays,) = (table for table in tables if table.headings[:2] == ("Arrays", "Size [ft]"))
-    rows = [row[:2] for row in arrays.cells]
-    assert rows == [("A1 to A9, A11 to A30", "52 × 24"), ("A10", "36 × 24")]
-
-
-@pytest.mark.quick
-def test_a_gap_that_is_not_satisfied_is_marked_beside_its_number():
     paper = printed_plan(thirty()).plan
     (ng,) = (text for text in words_of(paper) if text.words == "NG")
     (number,) = (text for text in words_of(paper) if text.words == "51")
     assert shapely.distance(area(ng), area(number)) < 0.15
-
-
-def test_the_small_plan_has_numbers_without_leaders_across_arrays():
-    paper = plan_on_paper(thirty(), SMALL).paper
-    solid = shapely.union_all(inner_arrays(paper))
-    assert not any(leader.intersects(solid) for leader in leaders(paper))
 
 
 @pytest.mark.parametrize(
@@ -229,18 +217,10 @@ def scheduled(page):
 
 
 @pytest.mark.quick
-def test_the_large_sheet_has_a_title_block_and_the_schedule_beside():
+def test_tables_stand_beside_the_large_plan_or_follow_it():
     page = printed(thirty(), "plan")
     assert "Roof plan" in page
     for name, value in (("Scale", "1 in = 40 ft"), ("Sheet title", "Roof plan")):
         assert f"{name} {value}" in " ".join(page.split())
-
-
-def test_the_schedule_has_every_clearance_beside_the_plan_or_below_it(done):
-    assert [row[0] for row in scheduled(printed(done, "plan"))] == numbers(done)
-
-
-@pytest.mark.quick
-def test_on_the_small_paper_the_tables_follow_the_plan():
     page = printed(thirty(PlanPaper.LETTER), "plan")
     assert [row[0] for row in scheduled(page)] == numbers(thirty())

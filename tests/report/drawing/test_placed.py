@@ -91,13 +91,10 @@ def over(shown):
             if one.has_overlap(other)]  # fmt: skip
 
 
-def test_no_text_is_over_another(done, space):
+def test_no_text_is_over_another_and_one_that_is_is_found(done, space):
     shown = texts(space)
     assert len(shown) > 2 * len(list(plan_gaps(done)))  # a dimension and a line of the list
     assert over(shown) == []
-
-
-def test_a_text_that_is_moved_over_another_is_found(space):
     first, second, *_ = texts(space)
     moved = second.copy()
     moved.dxf.insert = moved.dxf.align_point = first.dxf.align_point

@@ -53,7 +53,7 @@ def test_a_roof_is_read_in_its_version_and_unit(tmp_path, version, unit):
     assert found.unread == ()
 
 
-def test_the_sides_of_the_roof_that_have_no_edge_become_edges(tmp_path):
+def test_the_edges_of_square_and_oblique_roofs_are_read(tmp_path):
     sketch = warehouse()
     sketch.ring("ROOF-PARAPET", ((0, 160), (240, 160), (240, 161), (0, 161)), "N")
     edges = plan(sketch.saved(tmp_path)).objects[1:]
@@ -67,9 +67,6 @@ def test_the_sides_of_the_roof_that_have_no_edge_become_edges(tmp_path):
     assert isinstance(south, Rectangle)
     assert list(south.points) == in_feet(((0, -1), (240, -1), (240, 0), (0, 0)))
     assert "south edge of the roof" in edges[1].unnamed
-
-
-def test_the_edges_of_an_oblique_roof_are_strips_outside_of_it(tmp_path):
     sketch = Sketch()
     sketch.ring("ROOF-OUTLINE", ((0, 0), (100, 0), (0, 100)))
     found = plan(sketch.saved(tmp_path))
@@ -82,7 +79,7 @@ def test_the_edges_of_an_oblique_roof_are_strips_outside_of_it(tmp_path):
         assert strip.distance(roof) == pytest.approx(0.0, abs=1e-9)
 
 
-def test_an_arc_turns_the_way_of_its_bulge(tmp_path):
+def test_arcs_and_rotated_coordinates_are_read_as_they_are_in_the_world(tmp_path):
     # A quarter of a circle about (0, 0), outward, and the same cut out of a square.
     bulge = math.tan(math.pi / 8.0)
     sketch = Sketch(unit="m")
@@ -93,6 +90,18 @@ def test_an_arc_turns_the_way_of_its_bulge(tmp_path):
     most = 2.0 / 3.0 * 0.003 * 4.5 * math.pi  # of chords within 3 mm of the arc
     assert 0.0 < math.pi * 81.0 / 4.0 - outward < most
     assert 0.0 < inward - 81.0 * (1.0 - math.pi / 4.0) < most
+    cos, sin = math.cos(0.5), math.sin(0.5)
+    ucs = UCS(origin=(50, 10, 0), ux=(cos, sin, 0), uz=(0, 0, 1))
+    sketch = Sketch()
+    header = sketch.document.header
+    header["$UCSORG"], header["$UCSXDIR"] = (50, 10, 0), (cos, sin, 0)
+    header["$UCSYDIR"] = (-sin, cos, 0)
+    points = [(p.x, p.y) for p in ucs.points_to_wcs([(0, 0), (40, 0), (40, 20), (0, 20)])]
+    sketch.ring("ARRAY", points)
+    shape = plan(sketch.saved(tmp_path)).arrays[0].shape
+    assert isinstance(shape, Polygon)
+    assert list(shape.points) == in_feet(points)
+    assert shape.area_m2 == pytest.approx(800 * FT**2)
 
 
 def test_blocks_are_read_where_they_are_put_with_their_attribute_as_name(tmp_path):
@@ -115,21 +124,6 @@ def test_blocks_are_read_where_they_are_put_with_their_attribute_as_name(tmp_pat
         box = place.shape.bounds
         got = (box.x_from_m, box.x_to_m, box.y_from_m, box.y_to_m)
         assert got == pytest.approx([side * FT for side in sides])
-
-
-def test_what_is_drawn_in_a_rotated_ucs_is_read_in_world_coordinates(tmp_path):
-    cos, sin = math.cos(0.5), math.sin(0.5)
-    ucs = UCS(origin=(50, 10, 0), ux=(cos, sin, 0), uz=(0, 0, 1))
-    sketch = Sketch()
-    header = sketch.document.header
-    header["$UCSORG"], header["$UCSXDIR"] = (50, 10, 0), (cos, sin, 0)
-    header["$UCSYDIR"] = (-sin, cos, 0)
-    points = [(p.x, p.y) for p in ucs.points_to_wcs([(0, 0), (40, 0), (40, 20), (0, 20)])]
-    sketch.ring("ARRAY", points)
-    shape = plan(sketch.saved(tmp_path)).arrays[0].shape
-    assert isinstance(shape, Polygon)
-    assert list(shape.points) == in_feet(points)
-    assert shape.area_m2 == pytest.approx(800 * FT**2)
 
 
 def test_r12_without_handles_and_with_own_layers_is_read(file):
@@ -197,14 +191,11 @@ def test_what_was_not_understood_is_listed_with_handle_and_layer(tmp_path):
     }  # fmt: skip
 
 
-def test_outlines_without_a_text_get_a_name_that_is_free(tmp_path):
+def test_layers_and_names_are_known_or_free(tmp_path):
     sketch = Sketch()
     sketch.ring("ARRAY", BOX_FT)
     sketch.ring("ARRAY", L_FT, "A1")
     assert [place.name for place in plan(sketch.saved(tmp_path)).arrays] == ["A2", "A1"]
-
-
-def test_every_layer_of_the_plan_that_is_written_is_known():
     assert LAYERS.keys() == {layer.title for layer in Layer}
 
 

@@ -74,15 +74,12 @@ def test_a_number_that_no_word_calls_a_height_is_none(text):
     assert read_line(text, UNIT_M)[1] is None
 
 
-def test_the_first_height_counts_and_a_fraction_by_zero_is_none():
+def test_the_first_line_is_the_name_and_the_first_height_counts(tmp_path):
     lines = ["RTU-1", "HT 42 1/0 in", "HT 2 m", "HT 3 m"]
     height, unclear = first_height(lines, UNIT_M)
     assert height is not None
     assert (height.value_m, unclear) == (2.0, "")
     assert first_height(lines[:2], UNIT_M) == (None, "HT 42 1/0 in")
-
-
-def test_the_first_line_of_a_text_is_the_name_and_any_may_give_the_height(tmp_path):
     sketch = Sketch()
     sketch.ring("OBJECT", UNIT_FT)
     look = {"layer": "OBJECT"}

@@ -45,19 +45,16 @@ def words(svg):
     return re.findall(r"<text[^>]*>([^<]*)</text>", svg)
 
 
-def test_charts_carry_no_date_and_only_the_shipped_font(charts):
+def test_charts_carry_no_date_one_font_and_the_same_bytes(charts, assessment):
     for svg in charts:
         assert "<dc:date>" not in svg
         assert set(re.findall(r"font: [^;]*?'([^']+)'", svg)) <= {"Source Sans 3"}
-
-
-def test_two_runs_draw_the_same_bytes_whatever_the_settings_of_the_machine(charts, assessment):
     with mpl.rc_context({"font.size": 30.0, "lines.linewidth": 9.0, "svg.fonttype": "path"}):
         assert drawn(assessment) == charts
 
 
 @pytest.mark.quick
-def test_an_envelope_keeps_the_peaks_and_the_ends():
+def test_envelopes_histories_and_comparisons_keep_what_they_show(assessment):
     rng = np.random.default_rng(3)
     t, u = np.arange(6000) * 0.005, np.cumsum(rng.standard_normal(6000))
     t_few, u_few = history.envelope(t, u)
@@ -65,22 +62,18 @@ def test_an_envelope_keeps_the_peaks_and_the_ends():
     assert (u_few.min(), u_few.max()) == (u.min(), u.max())
     assert (t_few[0], t_few[-1]) == (t[0], t[-1])
     assert np.all(np.diff(t_few) > 0)
-
-
-def test_a_short_record_is_drawn_as_it_is():
-    t, u = np.arange(5.0), np.arange(5.0)
-    assert history.envelope(t, u) == (t, u)
-
-
-@pytest.mark.quick
-def test_each_history_states_its_prd_in_both_systems(assessment):
     printed = words(histories(assessment.arrays[1]))
     assert sum(bool(re.fullmatch(r"[\d.]+ in \(\d+ mm\)", text)) for text in printed) == 3
     printed = words(histories(assessment.arrays[1], us_first=False))
     assert sum(bool(re.fullmatch(r"\d+ mm \([\d.]+ in\)", text)) for text in printed) == 3
+    printed = words(figures.comparison(stand_in.unpermitted().alike, True))
+    assert "no design displacement" in printed
+    assert "prescriptive displacement not permitted" in printed
 
 
-def test_a_run_without_a_value_is_drawn_as_such():
+def test_short_records_and_runs_without_a_value_are_drawn_as_such():
+    t, u = np.arange(5.0), np.arange(5.0)
+    assert history.envelope(t, u) == (t, u)
     up = np.repeat((0.0, -1.5 * stand_in.G, 0.0), 100)
     still = stand_in.motion("M1", np.zeros(300), up, signs=(1,))
     done = scenes.package((still,) * 3).assessment
@@ -94,10 +87,3 @@ def test_the_wanted_unit_is_on_the_main_axis(assessment, us_first):
     printed = words(figures.comparison(assessment.alike, us_first))
     assert f"Horizontal displacement [{'in' if us_first else 'mm'}]" in printed
     assert f"[{'mm' if us_first else 'in'}]" in printed
-
-
-@pytest.mark.quick
-def test_a_comparison_without_a_permitted_route_says_so():
-    printed = words(figures.comparison(stand_in.unpermitted().alike, True))
-    assert "no design displacement" in printed
-    assert "prescriptive displacement not permitted" in printed

@@ -22,28 +22,16 @@ def words(svg):
     return re.findall(r"<text[^>]*>([^<]+)</text>", svg)
 
 
-def test_downslope_is_down_the_page_and_left_of_it_to_the_readers_right(array):
+def test_the_path_has_its_sides_and_its_farthest_point_at_the_prd(array):
     history = array.motions[0].history()
     turned = replace(history, u_m=np.array([0.0, 3.0]), across_m=np.array([0.0, 4.0]))
     path = path_of(turned)
     assert path.x_m.tolist() == [0.0, 4.0]
     assert path.y_m.tolist() == [0.0, -3.0]
-
-
-def test_the_farthest_point_is_at_the_prd_of_the_run(array):
     for run in array.motions:
         # The largest distance between two samples may exceed that at the samples.
         reached_m = np.hypot(*path_of(run.history())).max()
         assert reached_m == pytest.approx(run.governing.prd_m, rel=5e-3)
-
-
-def test_a_run_in_one_axis_is_a_straight_line(array):
-    history = replace(array.motions[0].history(), across_m=np.zeros(0))
-    assert not path_of(history).x_m.any()
-    assert len(path_of(history).x_m) == len(history.u_m)
-
-
-def test_every_path_stays_within_its_panel(array):
     paths = [path_of(run.history()) for run in array.motions]
     panel = PanelScale.around(paths)
     for path in paths:
@@ -53,18 +41,21 @@ def test_every_path_stays_within_its_panel(array):
         assert -panel.tall_in < y.min() <= y.max() < 0.0
 
 
+def test_a_run_in_one_axis_is_a_straight_line_and_one_without_a_value_none(array):
+    history = replace(array.motions[0].history(), across_m=np.zeros(0))
+    assert not path_of(history).x_m.any()
+    assert len(path_of(history).x_m) == len(history.u_m)
+    history = array.motions[0].history()
+    none = replace(history, result=replace(history.result, prd_m=math.nan))
+    assert words(hodographs(array.motions[:1], [none], True)).count("none") == 1
+
+
 @pytest.mark.parametrize(("us_first", "unit"), [(True, "in"), (False, "mm")])
 def test_motions_downslope_and_a_round_scale_are_named(array, us_first, unit):
     printed = words(hodographs(array.motions, [m.history() for m in array.motions], us_first))
     assert [run.motion.id for run in array.motions] == printed[: len(array.motions)]
     assert printed[-2] == "downslope"
     assert re.fullmatch(rf"[125]0* {unit}", printed[-1])
-
-
-def test_a_run_without_a_value_has_no_path(array):
-    history = array.motions[0].history()
-    none = replace(history, result=replace(history.result, prd_m=math.nan))
-    assert words(hodographs(array.motions[:1], [none], True)).count("none") == 1
 
 
 def test_thinning_keeps_the_ends_and_no_point_is_farther_than_a_step_from_the_next():

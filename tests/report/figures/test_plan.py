@@ -147,7 +147,7 @@ def test_the_picture_is_at_the_scale_that_it_states(done, size):
     assert drawn.get_size_inches()[1] <= size.tall + 1e-9
 
 
-def test_every_array_object_and_clearance_is_on_the_large_plan(done):
+def test_arrays_objects_and_clearances_are_drawn_marked_and_named(done):
     found = words(roof_plan(done, LETTER))
     for name in ("A1", "A2", "A3", "RTU-1", "T-1", "1", "2", "3", "4", "5", "x [ft]"):
         assert name in found
@@ -159,9 +159,23 @@ def test_every_array_object_and_clearance_is_on_the_large_plan(done):
         heads = "Req’d [in]", "Prov’d [in]"
         assert [row[head] for head in heads] == [f"{v / INCH_M:.1f}" for v in values]
         assert any(text.startswith(row["Prov’d [in]"] + " in") for text in found)
+    marked = sum(not gap.ok for gap in done.clearances)
+    assert marked == 1
+    for size in SIZES:
+        drawn = figure(done, size)
+        assert [t.get_text() for t in drawn.axes[0].texts].count("NG") == marked
+        heavy = [p for p in drawn.axes[0].patches if (p.get_hatch() or "").startswith("xxx")]
+        assert len(heavy) == marked
+    assert words(legend(done)).count("NG") == 1
+    satisfied = replace(done, clearances=tuple(gap for gap in done.clearances if gap.ok))
+    assert "NG" not in words(roof_plan(satisfied, LETTER))
+    lost = replace(done, arrays=tuple(replace(a, design_m=math.nan) for a in done.arrays))
+    found = words(roof_plan(lost, LETTER))
+    assert found.count("no value") == 3
+    assert not any("keep clear 4" in text for text in found)
 
 
-def test_the_name_of_an_upright_edge_is_at_its_middle():
+def test_upright_edges_and_dollar_signs_are_named_as_they_are():
     west = stand_in.roof_object("W", "edge with parapet", -1, 0, 0, 170, height=30)
     objects = [*stand_in.project().objects, west]
     drawn = figure(scenes.package(objects=objects).assessment, LETTER)
@@ -169,6 +183,13 @@ def test_the_name_of_an_upright_edge_is_at_its_middle():
     (_, low), (_, tall) = place(drawn, "A2")
     middle = low + (85.0 - 15.0) * tall / 60.0
     assert (box.y0 + box.y1) / 2 == pytest.approx(middle, abs=0.02)
+    given = scenes.package(arrays=[stand_in.array("$x_1$", 2.0)], objects=[], clearances=[])
+    assert "$x_1$" in words(roof_plan(given.assessment, SMALL))
+    shown = printed_plan(scenes.shipped("conditions")).key
+    texts = [item for item in shown.items if isinstance(item, Text)]
+    assert "clearance not satisfied" in [text.words for text in texts]
+    for text in texts:
+        assert text.at[0] + width_in(text.words) * (0.5 if text.is_centered else 1.0) < shown.wide
 
 
 def on_roof(drawn, points):
@@ -185,34 +206,18 @@ def test_an_outline_is_drawn_as_it_is(outlined, size):
     assert found == [pytest.approx(point) for point in L_FT]
 
 
-def test_a_gap_is_drawn_between_its_two_nearest_points(outlined):
+def test_outlines_gaps_and_names_are_where_they_are(outlined):
     drawn = figure(outlined, LETTER)
     ends = [tuple(zip(*line.get_data(), strict=True))[:2] for line in drawn.axes[0].lines]
     found = [on_roof(drawn, pair) for pair in ends if len(pair) == 2]
     # RTU-1 is 5 ft from the lower leg, which it faces from x = 67 ft to 75 ft.
     assert any(pair == [pytest.approx((71.0, 50.0)), pytest.approx((71.0, 55.0))] for pair in found)
-
-
-def test_the_name_of_an_outlined_array_is_within_it(outlined):
     drawn = figure(outlined, LETTER)
     (box,) = (box for text, box in extents(drawn) if text.get_text() == "A1")
     ((x, y),) = on_roof(drawn, [((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2)])
     assert 20.0 < x < 100.0
     assert 20.0 < y < 75.0
     assert x < 60.0 or y < 50.0
-
-
-def test_a_clearance_that_is_not_satisfied_is_hatched_and_marked(done):
-    marked = sum(not gap.ok for gap in done.clearances)
-    assert marked == 1
-    for size in SIZES:
-        drawn = figure(done, size)
-        assert [t.get_text() for t in drawn.axes[0].texts].count("NG") == marked
-        heavy = [p for p in drawn.axes[0].patches if (p.get_hatch() or "").startswith("xxx")]
-        assert len(heavy) == marked
-    assert words(legend(done)).count("NG") == 1
-    satisfied = replace(done, clearances=tuple(gap for gap in done.clearances if gap.ok))
-    assert "NG" not in words(roof_plan(satisfied, LETTER))
 
 
 def test_all_is_named_and_neighbors_without_a_clearance_are_in_the_notes(crowded):
@@ -224,13 +229,6 @@ def test_all_is_named_and_neighbors_without_a_clearance_are_in_the_notes(crowded
     missing = page.table("Neighbors in plan")
     assert "A5" in {row[0] for row in missing.cells}
     assert ("Not labeled, for lack of space" in page) == bool(on.unnamed)
-
-
-def test_without_a_design_displacement_the_plan_says_so(done):
-    lost = replace(done, arrays=tuple(replace(a, design_m=math.nan) for a in done.arrays))
-    found = words(roof_plan(lost, LETTER))
-    assert found.count("no value") == 3
-    assert not any("keep clear 4" in text for text in found)
 
 
 @pytest.mark.parametrize("size", SIZES)
@@ -259,11 +257,6 @@ def test_the_plan_does_without_objects_drawn():
     page = printed(done, "plan")
     undrawn = "Neither drawn nor measured, because a place in plan is not given: clearance 1."
     assert undrawn in page
-
-
-def test_a_dollar_sign_in_a_name_is_a_dollar_sign():
-    given = scenes.package(arrays=[stand_in.array("$x_1$", 2.0)], objects=[], clearances=[])
-    assert "$x_1$" in words(roof_plan(given.assessment, SMALL))
 
 
 @pytest.mark.parametrize(
@@ -295,11 +288,3 @@ def test_text_is_as_wide_as_it_is_drawn(done):
         if text.get_rotation() == 0 and text.get_fontsize() == TYPE_PT and text.get_text() != "N":
             is_bold = text.get_weight() == "semibold"
             assert width_in(text.get_text(), is_bold=is_bold) == pytest.approx(box.width, abs=0.02)
-
-
-def test_every_meaning_of_a_symbol_fits_in_the_legend():
-    shown = printed_plan(scenes.shipped("conditions")).key
-    texts = [item for item in shown.items if isinstance(item, Text)]
-    assert "clearance not satisfied" in [text.words for text in texts]
-    for text in texts:
-        assert text.at[0] + width_in(text.words) * (0.5 if text.is_centered else 1.0) < shown.wide

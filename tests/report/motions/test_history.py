@@ -53,20 +53,21 @@ def shaken(records, data_changes=None, unfiltered=None, **changes):
     return pair
 
 
-def test_as_recorded_nothing_is_changed():
+def test_a_roof_motion_is_as_recorded_or_scaled_to_its_peak_with_its_drift():
     given = records()
     motion, prepared = shaken(given)
     assert motion.scale == 1.0
     for a, record in zip(components(motion), given.values(), strict=True):
         assert np.array_equal(a, record.a_mps2)
     assert (prepared.done, prepared.scaling, prepared.roof) == ("as recorded", "as recorded", {})
-
-
-def test_a_ppa_is_the_peak_of_the_horizontal_record_and_one_factor_serves_all():
     motion, prepared = shaken(records(), scaling="PPA", scale_value=1.25)
     assert motion.scale * np.abs(motion.ax_mps2).max() == pytest.approx(1.25 * G, rel=1e-12)
     assert prepared.scaling == "PPA 1.25 g"
     assert prepared.scaled["vertical"].a_mps2 == pytest.approx(motion.scale * motion.az_mps2)
+    drifting = {f: replace(r, a_mps2=r.a_mps2 + 0.02) for f, r in records().items()}
+    _, prepared = shaken(drifting, scaling="factor", scale_value=2.0)
+    scaled = replace(drifting["record"], a_mps2=2.0 * drifting["record"].a_mps2)
+    assert prepared.measures["horizontal"] == measures(scaled)
 
 
 def log_ratio(motion, target, periods_s):
@@ -87,7 +88,7 @@ def test_a_motion_scaled_to_the_target_matches_it_over_the_scaling_periods(start
     assert prepared.scaling == f"target, {start:g} to {end:g} s"
 
 
-def test_a_ground_motion_goes_through_the_building_component_by_component():
+def test_a_ground_motion_goes_through_the_building_scaled_where_it_was_recorded():
     given = records()
     building = {"period_s": 0.62, "transverse_s": 0.5, "damping_percent": 3.0}
     motion, prepared = shaken(given, {"building": building}, **GROUND)
@@ -103,9 +104,6 @@ def test_a_ground_motion_goes_through_the_building_component_by_component():
     for a, other in zip(components(motion), (*across, wanted.vertical_mps2), strict=True):
         assert np.array_equal(a, other)
     assert list(prepared.roof) == ["horizontal", "transverse"]
-
-
-def test_a_ground_motion_is_scaled_where_it_was_recorded():
     given = records()
     building = {"building": {"period_s": 0.62}}
     motion, prepared = shaken(given, building, scaling="PPA", scale_value=0.5, **GROUND)
@@ -113,14 +111,11 @@ def test_a_ground_motion_is_scaled_where_it_was_recorded():
     assert motion.scale * peak == pytest.approx(0.5 * G)
     assert prepared.measures["horizontal"].pga_mps2 == pytest.approx(0.5 * G)
     assert prepared.roof["horizontal"].ground_peak_mps2 == pytest.approx(peak)
-
-
-def test_a_horizontal_component_alone_stays_alone_at_the_roof():
     motion, _ = shaken(records(1), {"building": {"period_s": 0.4}}, **GROUND)
     assert (motion.has_transverse, motion.has_vertical) == (False, False)
 
 
-def test_the_period_is_as_given_or_approximate_by_structure_and_height():
+def test_processing_and_the_period_follow_their_cells():
     height_ft = 36.0
     for building, period in (
         ({"period_s": 0.7, "structure": "other"}, 0.7),
@@ -129,25 +124,6 @@ def test_the_period_is_as_given_or_approximate_by_structure_and_height():
     ):
         assert first_period_s(stand_in.project(building=building)) == pytest.approx(period)
     assert math.isnan(first_period_s(stand_in.project()))
-
-
-def test_drift_is_measured_after_scaling():
-    drifting = {f: replace(r, a_mps2=r.a_mps2 + 0.02) for f, r in records().items()}
-    _, prepared = shaken(drifting, scaling="factor", scale_value=2.0)
-    scaled = replace(drifting["record"], a_mps2=2.0 * drifting["record"].a_mps2)
-    assert prepared.measures["horizontal"] == measures(scaled)
-
-
-def test_the_motion_without_its_high_pass_has_the_same_factor():
-    given = records()
-    cut = {field: replace(r, a_mps2=0.5 * r.a_mps2) for field, r in given.items()}
-    motion, prepared = shaken(cut, None, given, scaling="PPA", scale_value=1.0, highpass_hz=0.2)
-    (bare,) = prepared.unfiltered
-    assert bare.scale == motion.scale
-    assert np.array_equal(bare.ax_mps2, given["record"].a_mps2)
-
-
-def test_each_processing_cell_sets_its_parameter_and_blank_cells_leave_a_record_as_it_is():
     asked = {"from_s": 1.0, "to_s": 5.0, "highpass_hz": 0.2, "lowpass_hz": 20.0, "order": 6}
     asked |= {"pad_s": 3.0}
     typed = MotionInput(**row(**asked, baseline="quadratic", new_dt_s=0.0025))
@@ -158,6 +134,15 @@ def test_each_processing_cell_sets_its_parameter_and_blank_cells_leave_a_record_
     record = records()["record"]
     assert processing_of(MotionInput(**row())) == Processing()
     assert np.array_equal(process(record, Processing()).a_mps2, record.a_mps2)
+
+
+def test_the_motion_without_its_high_pass_has_the_same_factor():
+    given = records()
+    cut = {field: replace(r, a_mps2=0.5 * r.a_mps2) for field, r in given.items()}
+    motion, prepared = shaken(cut, None, given, scaling="PPA", scale_value=1.0, highpass_hz=0.2)
+    (bare,) = prepared.unfiltered
+    assert bare.scale == motion.scale
+    assert np.array_equal(bare.ax_mps2, given["record"].a_mps2)
 
 
 POINTS = [(0.05, 1.0, 0.5), (0.5, 2.0, 0.8), (4.0, 0.2, 0.1)]
@@ -182,23 +167,20 @@ def across_of(tail):
     return ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=1.566, z_over_h=1.0, **tail)
 
 
-def test_at_the_roof_the_target_is_that_of_the_rule_set():
+def test_the_target_at_the_roof_has_the_tail_of_the_sheet():
     goals, across = made(), across_of({})
     upward = ac156_vertical(s_ds_g=1.566)
     inside = PERIODS[PERIODS <= 10.0]
     assert goals.roof.name == "AC156"
     assert np.array_equal(goals.roof.ordinates(inside), across.at(1 / inside))
     assert np.array_equal(goals.vertical.ordinates(inside), upward.at(1 / inside))
-
-
-def test_the_tail_is_chosen_on_the_sheet():
     data = stand_in.project(target={"tail": "1/T"}, spectrum=[])
     wanted = across_of({"tail": Tail.RECIPROCAL})
     assert np.array_equal(ac156(data)[0].sa_g, wanted.sa_g)
     assert np.array_equal(targets(data).roof.at(np.array([0.2])), wanted.at(np.array([0.2])))
 
 
-def test_with_roof_motions_the_project_spectrum_applies_at_the_roof():
+def test_the_project_spectrum_applies_at_the_roof_or_at_the_ground():
     goals = made(spectrum=own())
     assert goals.roof.name == goals.vertical.name == "project-specific"
     for t, across, upward in POINTS:
@@ -208,26 +190,23 @@ def test_with_roof_motions_the_project_spectrum_applies_at_the_roof():
     middle = math.sqrt(0.5 * 4.0)
     assert goals.roof.ordinates(np.array([middle])) == pytest.approx([math.sqrt(2.0 * 0.2)])
     assert np.isnan(goals.roof.ordinates(PERIODS)).tolist() == [True, *[False] * 5, True]
-
-
-def test_without_a_vertical_column_the_vertical_of_ac156_applies():
     goals = made(spectrum=own(with_vertical=False))
     assert (goals.roof.name, goals.vertical.name) == ("project-specific", "AC156")
-
-
-def test_with_ground_motions_the_project_spectrum_applies_at_the_ground():
     goals = made(spectrum=own(), motions=ON_GROUND)
     assert (goals.roof.name, goals.ground.name) == ("AC156", "project-specific")
     assert goals.horizontal(RecordedAt.GROUND) is goals.ground
     assert goals.horizontal(RecordedAt.ROOF) is goals.roof
 
 
-def test_on_the_ground_the_target_is_the_design_spectrum_of_asce_7():
+def test_on_the_ground_the_target_is_the_design_spectrum_where_t_l_is_given():
     ground = made(motions=ON_GROUND, target={"t_l_s": 8.0}).ground
     s_d1 = 2.0 / 3.0 * 1.7 * 0.70
     wanted = [1.566, s_d1 / 2.0, s_d1 * 8.0 / 10.0**2]
     assert ground.ordinates(np.array([0.3, 2.0, 10.0])) == pytest.approx(wanted)
     assert ground.name == "ASCE 7 design spectrum"
+    ground = made(motions=ON_GROUND).ground
+    assert ground.name == ""
+    assert np.isnan(ground.ordinates(PERIODS)).all()
 
 
 @pytest.mark.parametrize("changes", [{}, {"target": {"t_l_s": 8.0}}, {"spectrum": own()}])
@@ -237,9 +216,3 @@ def test_targets_can_be_pickled(changes):
     for name in ("roof", "vertical", "ground"):
         here, there = getattr(goals, name), getattr(handed, name)
         assert np.array_equal(here.ordinates(PERIODS), there.ordinates(PERIODS), equal_nan=True)
-
-
-def test_without_t_l_there_is_no_target_on_the_ground():
-    ground = made(motions=ON_GROUND).ground
-    assert ground.name == ""
-    assert np.isnan(ground.ordinates(PERIODS)).all()

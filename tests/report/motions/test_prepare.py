@@ -117,12 +117,9 @@ def test_parts_of_one_record_are_motions_if_they_do_not_overlap(tmp_path):
     assert len(read_workbook(book(tmp_path, first, second, a=A[0])).motions) == 2
 
 
-def test_records_of_zeros_are_not_compared(tmp_path):
+def test_zeros_and_a_vertical_in_common_are_not_compared(tmp_path):
     zeros = np.zeros(400)
     path = book(tmp_path, taking("a", "z"), taking("b", "z"), a=A[0], b=A[1], z=zeros)
     assert len(read_workbook(path).motions) == 2
-
-
-def test_the_vertical_may_be_in_common(tmp_path):
     motions = [taking(name, vertical="records/z.csv") for name in "ab"]
     assert len(read_workbook(book(tmp_path, *motions, a=A[0], b=A[1], z=A[2])).motions) == 2

@@ -104,14 +104,11 @@ def test_cells_are_printed_as_they_were_entered(rows, cells, notes):
     assert made.notes == notes
 
 
-def test_an_entry_that_changed_stays_in_its_row():
+def test_changed_cells_stay_in_their_rows_and_are_bold():
     made = table(*ALIKE, changed={"S!C9"})
     assert made.headings == ("Row", "B ID", "C Slack [in]")
     assert [*made.cells] == [("8", "A1", "60"), ("9", "A2", "60")]
     assert (made.kinds, made.bold) == (("", "changed"), ("60",))
-
-
-def test_the_cells_that_changed_are_bold_and_their_rows_marked():
     blank = (row("B7", "B7", value="3 (default)"), row("B8", "B8"))
     made = table(row("B5", "B5", "1", "1"), row("B6", "B6", "2", "2"), *blank,
                  changed={"S!B6", "S!B7", "T!B5"})  # fmt: skip

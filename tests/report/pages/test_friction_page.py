@@ -97,7 +97,7 @@ def test_the_row_has_the_units_of_the_project():
     assert found == "dry and wet 3 runs at 25.4 mm/s (1.00 in/s)"
 
 
-def test_a_law_is_fitted_to_four_velocities_and_drawn():
+def test_a_law_is_fitted_to_four_velocities_and_none_to_one_coefficient():
     law = {"mu": 0.38, "mu_fast": 0.46, "mu_rate_s_per_m": 20.0}
     arrays = [stand_in.array("A1", 0.5, **law)]
     friction = stand_in.project(arrays=arrays).arrays[0].friction
@@ -118,9 +118,6 @@ def test_a_law_is_fitted_to_four_velocities_and_drawn():
     assert {"wet runs", "fit, wet", "A1: μ(v)", "Sliding velocity [in/s]"} <= set(texts)
     assert "dry runs" not in texts
     assert least_type_pt(svg) >= 8.5
-
-
-def test_runs_on_one_coefficient_determine_no_law():
     same = [run("dry", k, 0.6, velocity_mps=v) for k, v in enumerate(VELOCITIES, 1)]
     assert page(friction_runs=same).line(
         "Dry, 4 velocities: the runs do not determine a velocity-dependent law."
@@ -155,12 +152,9 @@ def test_the_section_states_its_dimensions_and_stays_on_the_sheet(slope):
     assert drawn_slope_deg(array) == pytest.approx(min(max(slope, 8.0), 15.0))
 
 
-def test_the_weight_is_taken_over_the_plan_area():
+def test_the_weight_is_over_the_plan_area_with_its_parts():
     array = stand_in.project().arrays[0]  # 42,000 lb on 80 ft x 60 ft
     assert array.weight_pa == pytest.approx(8.75 * 47.880259)
-
-
-def test_a_weight_from_modules_and_ballast_is_said_with_its_parts():
     parts = {"modules": 320, "module_weight_n": 75 * LB, "ballast_n": 18000 * LB}
     first, second, *others = stand_in.project().model_dump()["arrays"]
     arrays = [first | parts, second | parts | {"weight_n": 42100 * LB}, *others]

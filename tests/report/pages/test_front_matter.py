@@ -123,22 +123,16 @@ def test_every_document_is_listed_exactly_where_it_is_cited(html):
         assert name not in listed, name
 
 
-def test_every_symbol_of_the_pages_is_in_the_list(html):
+def test_every_symbol_is_in_the_list_and_none_printed_as_typed(html):
     used = set(re.findall(r"<i>([^<]+)</i><sub>([^<]+)</sub>", html[: html.index('id="symbols"')]))
     missing = {f"{stem}_{below}" for stem, below in used} - SYMBOLS.keys()
     assert missing - {"F_p/W_p"} == set()
-
-
-def test_no_symbol_is_printed_as_it_is_typed(html):
-    """The input echo prints headings of the workbook."""
+    # The input echo prints headings of the workbook.
     body = html[html.index("<body>") : html.index('id="echo"')]
     typed = [name for name in SYMBOLS if "_" in name and name.isascii()]
     assert "S_DS" in typed
     found = re.findall(rf"\b(?:{'|'.join(typed)})\b", re.sub(r"<[^>]+>", "", body))
     assert found == []
-
-
-def test_the_symbols_of_the_equations_are_in_the_list(html):
     images = re.findall(r'<div class="symbols"><img src="[^"]*" alt="([^"]*)"', html)
     assert len(images) > 15
     found = set().union(*(symbols(unescape(latex)) for latex in images))

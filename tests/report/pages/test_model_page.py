@@ -58,35 +58,29 @@ def test_a_neglected_vertical_component_has_its_exact_effect():
     )  # fmt: skip
 
 
-def test_a_run_that_has_the_model_says_nothing_of_neglecting_it():
+def test_a_model_that_is_run_or_not_requested_is_said_so():
     gentle, full = alone(scenes.motions(2, 8.0))
     gentle = replace(gentle, az_mps2=gentle.az_mps2 * 1e-3)
     package = scene((gentle, full, full), arrays=[stand_in.array("A1", 1.0, mu=0.5)])
     models = {run.solution.model for m in package.assessment.arrays[0].motions for run in m.runs}
     assert models == {Model.ONE_AXIS, Model.ONE_AXIS_VERTICAL}
     assert float(table(package, NEGLECTED).cells[0][2]) < 0.1
-
-
-def test_where_nothing_slips_nothing_is_neglected():
-    still = tuple(replace(motion, scale=1e-3) for motion in scenes.motions(3, 4.0))
-    package = scene(still, arrays=[stand_in.array("A1", 1.0)])
-    assert table(package, USED).row("A1")["Model"] == "0, no slip"
-    assert table(package, NEGLECTED).row("A1")["Neglected"] == "None: no slip"
-
-
-def test_where_nothing_slips_the_reason_has_the_largest_demand():
-    still = [replace(m, scale=0.02 * k) for k, m in enumerate(scenes.motions(3, 4.0), start=1)]
-    row = table(scene(tuple(still[::-1]), arrays=[stand_in.array("A1", 1.0)]), USED).row("A1")
-    assert row["Model"] == "0, no slip"
-    assert f"the required friction coefficient, {row['Demand']}," in row["Reason"]
-
-
-def test_fewer_runs_are_said_where_a_polarity_is_not_requested():
     one = tuple(replace(motion, signs=(1,)) for motion in scenes.motions())
     package = scene(one)
     said = printed(package, "model")
     assert "in the polarities that the workbook requests: two runs for each motion" in said
     assert "in either polarity: four runs for each motion" in printed(scene(), "model")
+
+
+def test_where_nothing_slips_nothing_is_neglected_and_the_largest_demand_said():
+    still = tuple(replace(motion, scale=1e-3) for motion in scenes.motions(3, 4.0))
+    package = scene(still, arrays=[stand_in.array("A1", 1.0)])
+    assert table(package, USED).row("A1")["Model"] == "0, no slip"
+    assert table(package, NEGLECTED).row("A1")["Neglected"] == "None: no slip"
+    still = [replace(m, scale=0.02 * k) for k, m in enumerate(scenes.motions(3, 4.0), start=1)]
+    row = table(scene(tuple(still[::-1]), arrays=[stand_in.array("A1", 1.0)]), USED).row("A1")
+    assert row["Model"] == "0, no slip"
+    assert f"the required friction coefficient, {row['Demand']}," in row["Reason"]
 
 
 def test_a_stable_array_has_its_tipping_ratios():

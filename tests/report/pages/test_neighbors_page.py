@@ -25,7 +25,7 @@ def page(**changes):
     return printed(package, "plan")
 
 
-def test_a_row_has_the_distance_the_reach_and_the_number_of_the_clearance():
+def test_distances_are_printed_with_their_rows_and_rounded_up():
     rows = [
         stand_in.clearance("A1", "RTU-9", 2 * FOOT), stand_in.clearance("A2", "A1", 120 * FOOT),
     ]  # fmt: skip
@@ -38,15 +38,16 @@ def test_a_row_has_the_distance_the_reach_and_the_number_of_the_clearance():
         " The other three pairs of the plan are farther apart than twice the design displacement, "
         "and no less than is required; the nearest are A2 and RTU-8, 240.0 in (6096 mm)."
     )
-
-
-def test_twice_a_design_displacement_is_rounded_up():
     arrays, options = [stand_in.array("A1", 0.5, mu=0.3)], {"peer_reviewed": True}
     made = scenes.package(arrays=arrays, objects=[NEAR], clearances=[], options=options)
     (near,) = made.assessment.neighbors
     assert near.reach_m / 0.0254 % 0.1 < 0.05  # rounded it would print less
     row = printed(made, "plan").table(CAPTION).row("RTU-9")
     assert float(row["Twice displ. [in]"]) > near.reach_m / 0.0254
+    table = page(objects=[NEAR]).table(CAPTION)
+    assert [[row[part] for part in PARTS] for row in table.rows] == [
+        ["A1", "RTU-9", "fixed object", "12.0", "81.6", "—", "not given; NG"]
+    ]
 
 
 @pytest.mark.parametrize("other", [("A2", 120 * FOOT), ("RTU-9", FOOT)])
@@ -56,23 +57,13 @@ def test_clearances_that_are_as_in_the_plan_are_named_and_not_listed(other):
     assert (CAPTION in made) is (other[0] == "A2")  # the near unit has no clearance
 
 
-def test_a_neighbor_without_a_clearance_is_listed_with_its_verdict():
-    table = page(objects=[NEAR]).table(CAPTION)
-    assert [[row[part] for part in PARTS] for row in table.rows] == [
-        ["A1", "RTU-9", "fixed object", "12.0", "81.6", "—", "not given; NG"]
-    ]
-
-
-def test_what_has_no_place_in_plan_is_named_and_not_measured():
+def test_what_is_not_in_plan_or_near_is_named():
     lost = NOWHERE | {"id": "LOST"}
     made = page(objects=[NOWHERE, lost], clearances=[stand_in.clearance("A1", "OLD", 9.0)])
     line = made.line("To the scale stated")
     assert "Neither drawn nor measured, because a place in plan is not given: clearance 1." in line
     assert made.line("Neither a place").endswith("LOST.")
     assert CAPTION not in made
-
-
-def test_without_a_neighbor_the_nearest_pair_is_named():
     assert page().line("The other pair of the plan is farther apart") == (
         "The other pair of the plan is farther apart than twice the design displacement, and no "
         "less than is required: A1 and A2, 1440.0 in (36576 mm)."
@@ -86,10 +77,13 @@ def test_edges_are_those_of_the_outline_where_it_is_given(is_given):
     assert ("The outline of the roof is not given" in page(roof=roof)) is not is_given
 
 
-def test_no_pair_is_said_to_have_what_is_required_where_that_is_not_known():
+def test_distances_that_are_not_known_or_not_of_the_plan_are_told():
     made = printed(scenes.unpermitted(), "plan")
     (line,) = (line for line in made.splitlines() if "The other seven pairs of the plan" in line)
     assert "farther apart than twice the design displacement; the nearest are A1 and" in line
+    rows = [stand_in.clearance("A1", "RTU-9", 2 * FOOT) | {"source": "drawing"}]
+    (near,) = (near for near in drawn(clearances=rows).assessment.neighbors)
+    assert near.cover is Cover.DIFFERS
 
 
 def drawn(**changes):
@@ -102,7 +96,7 @@ def drawn(**changes):
     return scenes.package(**given | changes)
 
 
-def test_a_distance_from_the_drawing_is_a_condition_of_its_arrays_and_to_be_measured():
+def test_drawing_distances_are_conditions_until_confirmed():
     package = drawn()
     (row,) = (row for row in package.assessment.rows if row.id == "drawing_distances")
     assert (row.subject, row.found, row.is_satisfied) == ("A1", "not confirmed", False)
@@ -112,9 +106,6 @@ def test_a_distance_from_the_drawing_is_a_condition_of_its_arrays_and_to_be_meas
     assert made.line("Factor").endswith(words)
     line = printed(package, "notes").line("Gaps to be measured first")
     assert line.endswith("because their distance is from the drawing and not confirmed: No. 1.")
-
-
-def test_name_and_date_confirm_every_distance_from_the_drawing():
     confirmed = {"drawing_confirmed_by": "MT", "drawing_confirmed_date": inputs.HEAD["date"]}
     package = drawn(project=inputs.HEAD | confirmed)
     (row,) = (row for row in package.assessment.rows if row.id == "drawing_distances")
@@ -124,9 +115,3 @@ def test_name_and_date_confirm_every_distance_from_the_drawing():
     words = " Distances provided: drawing, confirmed No. 1; measured No. 2."
     assert made.line("Factor").endswith(words)
     assert "Gaps to be measured first" not in printed(package, "notes")
-
-
-def test_a_distance_from_the_drawing_that_the_plan_no_longer_has_differs():
-    rows = [stand_in.clearance("A1", "RTU-9", 2 * FOOT) | {"source": "drawing"}]
-    (near,) = (near for near in drawn(clearances=rows).assessment.neighbors)
-    assert near.cover is Cover.DIFFERS

@@ -26,7 +26,7 @@ def notes(**changes):
     return printed(package(**changes), "notes")
 
 
-def test_the_schedule_of_arrays_has_what_the_plan_and_the_runs_have():
+def test_schedules_have_what_plan_and_runs_have():
     made = package()
     table = printed(made, "notes").table("Schedule of arrays")
     for item in made.assessment.arrays:
@@ -41,9 +41,6 @@ def test_the_schedule_of_arrays_has_what_the_plan_and_the_runs_have():
         assert row["Residual [in]"] == f"{max(ends) / INCH_M:.1f}"
         assert row["Weight W [lb]"] == "42000"
         assert row["Interconnection [lb]"] == "4374"
-
-
-def test_the_schedule_of_gaps_has_each_clearance_with_its_least_value_rounded_up():
     near = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42)
     rows = [*GAPS, stand_in.clearance("A1", "RTU-9", FOOT)]
     made = package(objects=[near], clearances=rows, options={"peer_reviewed": True})
@@ -55,11 +52,15 @@ def test_the_schedule_of_gaps_has_each_clearance_with_its_least_value_rounded_up
     assert least[1] != round(made.assessment.clearances[1].required_m * 1e3)
 
 
-def test_a_neighbor_without_a_clearance_is_to_be_resolved_first():
+def test_gaps_without_a_row_or_not_satisfied_are_named_and_none_without():
     near = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42)
     line = notes(objects=[near]).line("Neighbors in plan without a clearance")
     assert line.endswith("to be resolved first (part 1): A1 to RTU-9.")
     assert "without a clearance" not in notes()
+    rows = [*GAPS, stand_in.clearance("A2", "A1", 0.1)]
+    (note,) = notes(clearances=rows).table("Schedule of gaps").notes
+    assert note == "Not satisfied as designed: No. 2."
+    assert "gap" not in notes(clearances=[])
 
 
 def test_membrane_supports_and_report_are_those_of_the_workbook_or_by_others():
@@ -84,16 +85,6 @@ def test_the_first_note_says_whether_the_package_is_for_construction(changes, te
     assert re.search(text, notes(**changes).line("Source: calculation package 24-117, revision 0"))
 
 
-def test_what_is_not_satisfied_as_designed_is_named():
-    rows = [*GAPS, stand_in.clearance("A2", "A1", 0.1)]
-    (note,) = notes(clearances=rows).table("Schedule of gaps").notes
-    assert note == "Not satisfied as designed: No. 2."
-
-
-def test_without_gaps_no_note_speaks_of_them():
-    assert "gap" not in notes(clearances=[])
-
-
 @pytest.mark.parametrize("height_m", [1.2, 0.3])
 def test_only_a_parapet_that_qualifies_is_relied_on(height_m):
     edge = stand_in.roof_object("N", "edge with parapet", 0, 400, 200, 202, height=height_m)
@@ -102,21 +93,18 @@ def test_only_a_parapet_that_qualifies_is_relied_on(height_m):
     assert ("Height of the parapets above the roof is measured: N." in page) is (height_m == 1.2)
 
 
-def test_the_wiring_between_linked_parts_takes_the_elongation_of_the_links():
+def test_wiring_takes_the_elongation_of_links_and_no_displacement_is_printed_without_a_route():
     done = scenes.unpermitted()
     (item,) = done.linked
     most = max(run.row.stretch_m for motion in item.motions for run in motion.runs)
     line = printed(done, "notes").line("Wiring, conduit")
     assert f"links elongate by up to {most * 1e3:.0f} mm" in line
     assert "links" not in notes()
-
-
-def test_an_array_without_a_permitted_displacement_has_none_on_the_notes():
     row = printed(scenes.unpermitted(), "notes").table("Schedule of arrays").row("A1")
     assert [row["Design displ. [mm]"], row["Keep clear"]] == ["none", "unknown"]
 
 
-def test_the_letter_has_the_governing_clearance_and_the_keep_clear_distance():
+def test_the_letter_has_a_row_for_each_governing_distance():
     made = package(clearances=[*GAPS, stand_in.clearance("A2", "A1", 100 * FOOT)])
     table = printed(made, "letter").table("Results")
     for item in made.assessment.arrays:
@@ -125,9 +113,6 @@ def test_the_letter_has_the_governing_clearance_and_the_keep_clear_distance():
         assert row["Provided [in]"] == "1200.0"
         keep = keep_clear_words(keep_clear_m(made.assessment, item), us_first=True)
         assert f"keep clear {row['Keep clear']}" == keep
-
-
-def test_the_letter_without_clearances_keeps_a_row_for_each_keep_clear_distance():
     arrays = [stand_in.array("A1", 0.5, i_p=1.0), stand_in.array("A2", 0.5, x=220, i_p=1.5)]
     made = package(arrays=arrays, clearances=[])
     table = printed(made, "letter").table("Results")
@@ -136,7 +121,7 @@ def test_the_letter_without_clearances_keeps_a_row_for_each_keep_clear_distance(
         assert f"keep clear {table.row(item.id)['Keep clear'].rstrip('†')}" == keep
 
 
-def test_the_letter_says_what_its_results_rest_on():
+def test_the_letter_says_what_its_results_rest_on_and_is_in_the_contents():
     page = printed(package(friction_tests=scenes.TESTS), "letter")
     assert page.line("the roof membrane is TPO, 60 mil and the supports of the arrays are EPDM")
     assert page.line("Friction.").endswith("report FT-118, 2025-06-12.")
@@ -147,8 +132,5 @@ def test_the_letter_says_what_its_results_rest_on():
     page = printed(package(), "letter")
     assert page.line("Friction.").endswith("No friction test report is entered.")
     assert page.line("the roof membrane and the supports of the arrays give the friction above;")
-
-
-def test_the_contents_list_the_letter_where_it_is():
     line = printed(package(), "contents").line("Contents")
     assert line.startswith("Contents (sheet) 1 Summary; Letter of results; 2 Comparison")

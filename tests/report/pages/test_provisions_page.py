@@ -23,7 +23,7 @@ def pages(request):
     return {page: printed(done, page) for page in PAGES}, request.param
 
 
-def test_confirmed_provisions_have_no_mark_on_any_page(pages):
+def test_confirmed_provisions_have_no_mark_and_are_said_by_whom(pages):
     shown, is_confirmed = pages
     for page, text in shown.items():
         if page == "motions":  # limits of AC156, which no confirmation of a rule set covers
@@ -33,25 +33,17 @@ def test_confirmed_provisions_have_no_mark_on_any_page(pages):
             assert ("†" in "".join(lines)) is not is_confirmed, page
     marks = {value[-1] == "†" for value in values(shown["provisions"])}
     assert marks == ({False} if is_confirmed else {False, True})
-
-
-def test_the_page_and_the_summary_say_who_confirmed_them(pages):
-    shown, is_confirmed = pages
     by = "SEAOC PV1-2012, confirmed by RG, SE, 2026-03-01"
     verify = "SEAOC PV1-2012, to be verified against the adopted code"
     assert shown["summary"].facts["Rule set"] == (by if is_confirmed else verify)
     said = "the numbers and clauses of SEAOC PV1-2012, ASCE 7-16, 2022 CBC were compared with"
     assert (f"Confirmed by RG, SE, 2026-03-01: {said}" in shown["provisions"]) is is_confirmed
     assert ("Clause numbers are as commonly cited" in shown["provisions"]) is not is_confirmed
+    verify, by = "† verify against the adopted code", "Confirmed by RG, SE but for †"
+    assert (by in shown["cover"], verify in shown["cover"]) == (is_confirmed, not is_confirmed)
 
 
 def test_an_override_stays_marked():
     done = scenes.package(**scenes.CONFIRMED, overrides=[OVERRIDE]).assessment
     marked = {value for value in values(printed(done, "provisions")) if value[-1] in "†‡"}
     assert marked == {"0.6†‡"}
-
-
-def test_the_foot_of_every_page_says_what_the_mark_means(pages):
-    shown, is_confirmed = pages
-    verify, by = "† verify against the adopted code", "Confirmed by RG, SE but for †"
-    assert (by in shown["cover"], verify in shown["cover"]) == (is_confirmed, not is_confirmed)

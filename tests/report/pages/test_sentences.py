@@ -32,7 +32,7 @@ def test_the_letter_counts_the_clearances(provided_ft, text):
     assert printed(scenes.package(clearances=rows), "letter").line(text)
 
 
-def test_the_smallest_margin_is_that_of_a_satisfied_clearance():
+def test_the_smallest_margin_is_of_a_satisfied_clearance_and_a_drift_over_its_limit_larger():
     """A1 alone would satisfy the first one; A3 beside it does not."""
     arrays = [stand_in.array("A1", 0.5, mu=1.0), stand_in.array("A3", 4.0, y=90)]
 
@@ -44,18 +44,6 @@ def test_the_smallest_margin_is_that_of_a_satisfied_clearance():
     page = printed(made((low + high) / 2.0), "accuracy")
     assert "satisfied clearance" not in page
     assert page.line("Clearance 1 is not satisfied as given")
-
-
-@pytest.mark.quick
-def test_the_drawing_keeps_clear_what_the_package_does():
-    done = scenes.package(options=REVIEW).assessment
-    words = {text.words for text in plan_drawing(done).texts}
-    for array in done.arrays:
-        keep = keep_clear_words(keep_clear_m(done, array), us_first=True)
-        assert any(f"; {keep}; no conduit" in text for text in words)
-
-
-def test_a_drift_over_its_limit_prints_larger():
     book = stand_in.book(stand_in.project(clearances=[]), scenes.motions())
     drifting = replace(
         book.shaking.prepared[0].measures["horizontal"], final_displacement_m=0.010004
@@ -68,6 +56,22 @@ def test_a_drift_over_its_limit_prints_larger():
 
 
 @pytest.mark.quick
+def test_keep_clear_distances_and_low_parapets_are_those_of_the_package():
+    done = scenes.package(options=REVIEW).assessment
+    words = {text.words for text in plan_drawing(done).texts}
+    for array in done.arrays:
+        keep = keep_clear_words(keep_clear_m(done, array), us_first=True)
+        assert any(f"; {keep}; no conduit" in text for text in words)
+    edge = stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=20 * INCH)
+    package = scenes.package(objects=[edge], clearances=[stand_in.clearance("A3", "N", 6.0)])
+    row = printed(package, "plan").table("Parapets").row("N")
+    assert (row["Beside"], row["Result"]) == ("A3", "does not qualify")
+    assert row["Top above the roof [in]"] == "20.0"
+    of_center = float(row["Center of gravity [in]"])
+    assert float(row["Top above it [in]"]) == pytest.approx(20.0 - of_center, abs=0.05)
+
+
+@pytest.mark.quick
 @pytest.mark.parametrize(
     ("options", "words"),
     [
@@ -77,17 +81,6 @@ def test_a_drift_over_its_limit_prints_larger():
 )
 def test_the_plan_says_which_displacement_a_separation_takes(options, words):
     assert words in printed(scenes.package(options=REVIEW | options), "plan")
-
-
-@pytest.mark.quick
-def test_a_parapet_that_is_too_low_does_not_qualify():
-    edge = stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=20 * INCH)
-    package = scenes.package(objects=[edge], clearances=[stand_in.clearance("A3", "N", 6.0)])
-    row = printed(package, "plan").table("Parapets").row("N")
-    assert (row["Beside"], row["Result"]) == ("A3", "does not qualify")
-    assert row["Top above the roof [in]"] == "20.0"
-    of_center = float(row["Center of gravity [in]"])
-    assert float(row["Top above it [in]"]) == pytest.approx(20.0 - of_center, abs=0.05)
 
 
 @pytest.mark.parametrize(

@@ -74,7 +74,7 @@ def full():
 
 
 @pytest.mark.quick
-def test_the_values_are_those_of_a_permit_sheet(full):
+def test_the_values_are_those_of_a_permit_sheet_or_category_e_near_a_fault(full):
     """Permit sheet of provisions.md: S_S 1.271, F_a 1.2, S_1 0.455, F_v 1.845, h 30 ft."""
     found = values(full)
     assert [found[name] for name in ("SMS", "SDS", "SM1", "SD1", "Ta", "TS")] == [
@@ -83,9 +83,14 @@ def test_the_values_are_those_of_a_permit_sheet(full):
     assert found[CATEGORY] == found["SDC"] == "D"
     assert rows(full)[CATEGORY]["Source"] == "largest of D (0.2 s), D (1 s), S1 below 0.75 g"
     assert "not given" not in found.values()
+    found = rows(package(s_ds_g=1.5, s_1_g=0.8, sdc="E"))
+    assert found[CATEGORY]["Source"] == "largest of D (0.2 s), not given (1 s), S1 E"
+    assert found[CATEGORY]["Value"] == found["SDC"]["Value"] == "E (not confirmed)"
+    confirmed = values(package(s_ds_g=1.5, s_1_g=0.8, s_d1_g=0.9, sdc="E"))
+    assert confirmed[CATEGORY] == confirmed["SDC"] == "E"
 
 
-def test_a_derived_period_says_which_structure_it_assumes(full):
+def test_equations_and_periods_follow_what_is_given(full):
     row = rows(full)["Ta"]
     assert row["Description"] == "Approximate period, structure type other"
     assert row["Source"] == "assumed"
@@ -93,14 +98,34 @@ def test_a_derived_period_says_which_structure_it_assumes(full):
     # 0.028 x 30^0.8
     assert (row["Value"], row["Source"]) == ("0.425 s", "computed")
     assert values(package({"building": {"period_s": 0.62}}, **FULL))["T1"] == "0.620 s"
+    computed = {
+        "SMS": "computed: Fa SS = 1.200 × 1.271 g",
+        "SM1": "computed: Fv S1 = 1.845 × 0.455 g",
+        "SDS": "computed: 2/3 SMS = 2/3 × 1.525 g",
+        "SD1": "computed: 2/3 SM1 = 2/3 × 0.839 g",
+    }
+    assert sources(full) == computed
+    for name, clause in (("SMS", "4"), ("SM1", "4"), ("SDS", "5"), ("SD1", "5")):
+        row = rows(full)[name]
+        value_g = float(row["Value"].removesuffix(" g"))
+        assert worked_out(row["Source"]) == pytest.approx(value_g, abs=1.1e-3)
+        assert row["Reference"] == f"ASCE 7-16 11.4.{clause}"
+    assert sources(package(**FULL | {"s_ds_g": 1.017})) == computed | {"SDS": "input"}
+    assert sources(package(s_ds_g=1.0)) == {
+        "SMS": "computed: 1.5 SDS = 1.5 × 1.000 g", "SM1": "—", "SDS": "input", "SD1": "—",
+    }  # fmt: skip
 
 
-def test_the_component_force_is_that_of_a_permit_sheet():
+def test_the_force_and_its_factors_are_those_of_a_permit_sheet():
     """Permit sheet of provisions.md: h 35 ft, S_DS 1.0504, a_p 1, R_p 1.5."""
     height = {"structure_height_m": 35 * FT, "roof_height_m": 35 * FT}
     made = package(s_ds_g=1.0504, force_factor=1.0, force_divisor=1.5, **height)
     assert forces(made) == [("0.840", "computed: at most 1.681, at least 0.315")]
     assert values(made)["Ta"] == "0.288 s"
+    arrays = [stand_in.array("A1", 1.0, i_p=1.5), stand_in.array("A2", 1.0, x=120)]
+    made = package({"arrays": arrays}, s_ds_g=1.0, force_factor=1.0, force_divisor=1.5)
+    assert values(made)["Ip"] == "1.00 to 1.50"
+    assert "at most 2.400," in forces(made)[0][1]  # 1.6 x S_DS x the larger I_p
 
 
 @pytest.mark.parametrize("rule_set", ["SEAOC PV1-2012", "ASCE 7-16", "ASCE 7-22"])
@@ -142,38 +167,3 @@ def test_asce_7_22_has_no_site_coefficients_and_its_own_clauses():
     # 0.4 S_DS H_f / R_mu C_AR / R_po with H_f = 3.5 at the roof and R_mu = 1.3
     ((force, _),) = forces(made)
     assert float(force) == pytest.approx(0.4 * 1.6 * 3.5 / 1.3 * 1.4 / 1.5, abs=6e-4)
-
-
-def test_the_equations_follow_what_is_given(full):
-    computed = {
-        "SMS": "computed: Fa SS = 1.200 × 1.271 g",
-        "SM1": "computed: Fv S1 = 1.845 × 0.455 g",
-        "SDS": "computed: 2/3 SMS = 2/3 × 1.525 g",
-        "SD1": "computed: 2/3 SM1 = 2/3 × 0.839 g",
-    }
-    assert sources(full) == computed
-    for name, clause in (("SMS", "4"), ("SM1", "4"), ("SDS", "5"), ("SD1", "5")):
-        row = rows(full)[name]
-        value_g = float(row["Value"].removesuffix(" g"))
-        assert worked_out(row["Source"]) == pytest.approx(value_g, abs=1.1e-3)
-        assert row["Reference"] == f"ASCE 7-16 11.4.{clause}"
-    assert sources(package(**FULL | {"s_ds_g": 1.017})) == computed | {"SDS": "input"}
-    assert sources(package(s_ds_g=1.0)) == {
-        "SMS": "computed: 1.5 SDS = 1.5 × 1.000 g", "SM1": "—", "SDS": "input", "SD1": "—",
-    }  # fmt: skip
-
-
-def test_i_p_is_a_range_where_arrays_differ():
-    arrays = [stand_in.array("A1", 1.0, i_p=1.5), stand_in.array("A2", 1.0, x=120)]
-    made = package({"arrays": arrays}, s_ds_g=1.0, force_factor=1.0, force_divisor=1.5)
-    assert values(made)["Ip"] == "1.00 to 1.50"
-    assert "at most 2.400," in forces(made)[0][1]  # 1.6 x S_DS x the larger I_p
-
-
-@pytest.mark.quick
-def test_a_near_fault_site_is_category_e():
-    found = rows(package(s_ds_g=1.5, s_1_g=0.8, sdc="E"))
-    assert found[CATEGORY]["Source"] == "largest of D (0.2 s), not given (1 s), S1 E"
-    assert found[CATEGORY]["Value"] == found["SDC"]["Value"] == "E (not confirmed)"
-    confirmed = values(package(s_ds_g=1.5, s_1_g=0.8, s_d1_g=0.9, sdc="E"))
-    assert confirmed[CATEGORY] == confirmed["SDC"] == "E"

@@ -13,7 +13,7 @@ from report.web.controls import opened, with_values
 pytestmark = pytest.mark.quick
 
 
-def test_no_floor_is_removed_where_the_design_is_prescriptive():
+def test_prescriptive_designs_have_no_floor_and_clearances_without_verdict_are_counted():
     arrays = [stand_in.array("A2", 0.5, x=120)]
     done = stand_in.unpermitted(arrays=arrays, clearances=[])
     assert {array.route for array in done.arrays} == {Route.PRESCRIPTIVE}
@@ -23,9 +23,6 @@ def test_no_floor_is_removed_where_the_design_is_prescriptive():
         "reviewer not given; no floor is used: no array takes the value from analysis"
     )
     assert "floor" not in printed(done, "letter")
-
-
-def test_a_clearance_without_a_verdict_is_counted_beside_what_is_ng():
     gaps = [stand_in.clearance("A1", "RTU-1", 7 * stand_in.FOOT)]
     page = printed(stand_in.unpermitted(clearances=gaps), "summary")
     assert page.line("NG ").endswith("; without a verdict: 1 of 1 clearance.")
@@ -47,7 +44,7 @@ def test_the_terminal_marks_what_is_not_permitted_and_calls_nothing_beside_it_ok
     assert lines[-1] == "verdict: NG"
 
 
-def test_a_condition_that_says_the_same_of_several_arrays_is_said_once():
+def test_what_is_alike_of_several_arrays_or_clearances_is_said_once():
     arrays = [stand_in.array(f"A{k}", 0.5, x=120 * k) for k in (1, 2, 3)]
     done = stand_in.assess_input(stand_in.project(arrays=arrays), stand_in.motions(1, seconds=4.0))
     (group,) = [ids for row, ids in done.alike_conditions if row.id == "interconnection"]
@@ -55,9 +52,6 @@ def test_a_condition_that_says_the_same_of_several_arrays_is_said_once():
     assert sum(len(ids) for _, ids in done.alike_conditions) == len(done.conditions)
     page = printed(done, "summary")
     assert "not given" in page.line("Arrays A1 to A3, interconnection strength")
-
-
-def test_clearances_that_differ_alike_from_the_plan_are_one_condition_that_names_them():
     arrays = [stand_in.array(f"A{k}", 0.5, x=120 * k, y=20) for k in (1, 2, 3)]
     rows = [stand_in.clearance("A1", "A2", 2.0), stand_in.clearance("A2", "A3", 2.0)]
     data = stand_in.project(arrays=arrays, clearances=rows, objects=[])

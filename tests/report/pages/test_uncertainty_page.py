@@ -19,7 +19,7 @@ def made(found=None, **changes):
     return package, done, printed(package, "accuracy", uncertainty=done)
 
 
-def test_the_smallest_margin_is_said():
+def test_the_smallest_margin_is_said_with_what_ends_the_search():
     (roomy,) = made(clearances=[stand_in.clearance("A2", "A3", 9.0)])[0].assessment.clearances
     _, found, page = made(clearances=[stand_in.clearance("A2", "A3", 1.3 * roomy.required_m)])
     least = max(found.margins, key=lambda one: one.minimum_mu / one.array.array.mu)
@@ -28,9 +28,6 @@ def test_the_smallest_margin_is_said():
     assert f" % less: {least.minimum_mu:.2f}." in text
     shown = {row["Array"]: row for row in page.table("Least friction").rows}
     assert shown[least.array.id]["μ [least]"] == f"{least.minimum_mu:.2f}"
-
-
-def test_a_required_separation_is_rounded_up_and_what_ends_the_search_is_named():
     package, found, _ = made()
     margins = tuple(
         replace(margin, minimum_mu=0.4, required_m=0.1004, limited_by=limited_by)
@@ -45,7 +42,7 @@ def test_a_required_separation_is_rounded_up_and_what_ends_the_search_is_named()
 
 
 @pytest.mark.quick
-def test_where_nothing_slides_there_are_no_ratios():
+def test_ratios_need_slip_and_levels_are_round():
     still = tuple(replace(motion, scale=1e-3) for motion in scenes.motions(3, 4.0))
     _, _, page = made(still, arrays=[stand_in.array("B1", 0.5, mu=1.0)], objects=[], clearances=[])
     assert "lists no clearances: there is no margin" in page
@@ -53,10 +50,6 @@ def test_where_nothing_slides_there_are_no_ratios():
     line = page.line("PRD used for array B1")
     assert "more angles of the horizontal pair give PRDs up to 0.0 in (0 mm);" in line
     assert "times that PRD" not in line
-
-
-@pytest.mark.quick
-def test_levels_are_round_inside_the_range_and_few():
     assert levels([3.0, 120.0]) == [5, 7, 10, 15, 20, 30, 50, 70, 100]
     for low, high in ((0.1, 3000.0), (1e-4, 1e3), (9.0, 11.0), (5.0, 5.0)):
         found = levels([low, high])

@@ -79,12 +79,17 @@ def test_deleting_the_row_of_a_clearance_lowers_nothing():
     assert "The plan shows one of them without a row" in printed(deleted, "letter")
 
 
-def test_of_one_pair_without_a_row_the_letter_says_so():
+def test_the_letter_and_the_cause_say_what_is_not_given():
     made = scenes.package(arrays=[stand_in.array("A1", 0.5)], objects=[NEAR], clearances=[])
     said = printed(made, "letter")
     assert (
         "The clearance is not satisfied. The plan shows it without a row in the workbook." in said
     )
+    given = scenes.package(arrays=[stand_in.array("A1", 0.5)], objects=[], clearances=[])
+    item = given.assessment.arrays[0]
+    rows = {row.id: row.cause for row in given.assessment.rows_of(item.id)}
+    assert rows["electrical_slack"] == "electrical slack not given"
+    assert rows["interconnection"] == "interconnection strength not given"
 
 
 @pytest.mark.parametrize(
@@ -104,11 +109,3 @@ def test_a_cause_says_what_is_wrong_and_not_what_is_compared(array, gap, cause):
         clearances=[stand_in.clearance("A1", "RTU-1", 9.0) | gap],
     )
     assert printed(given, "letter").table("Results").column("Verdict") == [f"NG {cause}"]
-
-
-def test_the_cause_of_a_condition_says_what_is_not_given():
-    given = scenes.package(arrays=[stand_in.array("A1", 0.5)], objects=[], clearances=[])
-    item = given.assessment.arrays[0]
-    rows = {row.id: row.cause for row in given.assessment.rows_of(item.id)}
-    assert rows["electrical_slack"] == "electrical slack not given"
-    assert rows["interconnection"] == "interconnection strength not given"

@@ -48,7 +48,7 @@ def with_study(years):
     return package_data(replace(given, sheet=sheet))
 
 
-def test_the_comparison_has_the_years_beside_the_design_displacement():
+def test_the_comparison_has_the_years_of_its_own_arrays():
     package = with_study(YEARS)
     text = printed(package, "comparison")
     row = text.table("Beside the design displacement").rows[0]
@@ -60,6 +60,8 @@ def test_the_comparison_has_the_years_beside_the_design_displacement():
     assert "Here; Survey; Model 2018; Vs30 of the curve 760 m/s" in text
     design = printed(scenes.package(), "comparison").tables
     assert printed(package, "comparison").tables[: len(design)] == design
+    text = printed(with_study(YEARS | {"arrays": [ARRAY | {"array": "Z"}]}), "comparison")
+    assert "None of its arrays has the name of an array of this package" in text
 
 
 @pytest.mark.parametrize(("mu", "is_said"), [(0.4, True), (None, False)])
@@ -68,11 +70,6 @@ def test_another_friction_than_that_of_the_package_is_said(mu, is_said):
     one = ARRAY | {"mu": mu or array.array.mu, "slope_deg": array.array.slope_value}
     text = printed(with_study(YEARS | {"arrays": [one]}), "comparison")
     assert ("differ from those of this package" in text) is is_said
-
-
-def test_a_study_of_other_arrays_has_no_row():
-    text = printed(with_study(YEARS | {"arrays": [ARRAY | {"array": "Z"}]}), "comparison")
-    assert "None of its arrays has the name of an array of this package" in text
 
 
 def test_the_file_is_attached_or_refused_at_its_cell(tmp_path):

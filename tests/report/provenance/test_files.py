@@ -85,11 +85,16 @@ def test_the_hash_follows_workbook_records_their_order_and_the_version(job, monk
     assert all(len(short) == 12 for short in hashes)
 
 
-def test_a_record_that_changed_between_two_motions_is_an_input_error(job):
+def test_what_changed_between_two_cells_or_motions_is_an_input_error(job, tmp_path):
     sheet, shaking = job
     changed = replace(shaking.records[0], sha256="0" * 64)
     with pytest.raises(InputError, match=r"records/RM1-x\.csv: changed while the report ran"):
         sources(sheet, replace(shaking, records=(changed, *shaking.records)))
+    given = with_documents(sheet, tmp_path, "letter.pdf", "letter.pdf")
+    other = replace(given.documents[0], sha256=sheet.sha256)
+    given = replace(given, documents=(other, given.documents[1]))
+    with pytest.raises(InputError, match=r"letter\.pdf: changed while the report ran"):
+        sources(given, replace(shaking, records=()))
 
 
 def replacing(monkeypatch, name):
@@ -163,12 +168,19 @@ def test_former_results_are_attached_as_they_were_compared(tmp_path, monkeypatch
     assert kept["since/results.json"] == was
 
 
-def test_records_are_kept_only_as_far_as_a_package_holds_them(job, monkeypatch):
+def test_records_are_kept_up_to_the_limit_and_hashed_beyond(job, monkeypatch):
     monkeypatch.setattr(motion_files, "MOST_RECORDS", 300_000)
     sheet = read(EXAMPLE)
     records = prepare(sheet).records
     assert 0 < sum(map(len, sheet.book.records.values())) <= 300_000 < record_bytes(records)
     assert records == job[1].records
+    sheet, shaking = job
+    monkeypatch.setattr(files, "MOST_RECORDS", 1_000_000)
+    assert not holds_records(shaking.records)
+    contents, listed = attached(sources(sheet, shaking))
+    assert contents.keys() == {"input.xlsx", "results.json", "roofslip.json"}
+    assert listed["has_records"] is False
+    assert sum(entry["kind"] == "record" for entry in listed["files"]) == 21
 
 
 def test_the_page_keeps_no_file_of_a_package():
@@ -189,25 +201,6 @@ def test_a_document_is_attached_once_and_is_part_of_the_hash(job, tmp_path):
         f for f in attachments(sources(given, shaking), b"{}", "abc") if f.name == "letter.pdf"
     )
     assert (letter.mime, letter.relationship) == ("application/pdf", "Supplement")
-
-
-def test_a_document_that_changed_between_two_cells_is_an_input_error(job, tmp_path):
-    sheet, shaking = job
-    given = with_documents(sheet, tmp_path, "letter.pdf", "letter.pdf")
-    other = replace(given.documents[0], sha256=sheet.sha256)
-    given = replace(given, documents=(other, given.documents[1]))
-    with pytest.raises(InputError, match=r"letter\.pdf: changed while the report ran"):
-        sources(given, replace(shaking, records=()))
-
-
-def test_records_beyond_the_limit_are_left_out_and_hashed(job, monkeypatch):
-    sheet, shaking = job
-    monkeypatch.setattr(files, "MOST_RECORDS", 1_000_000)
-    assert not holds_records(shaking.records)
-    contents, listed = attached(sources(sheet, shaking))
-    assert contents.keys() == {"input.xlsx", "results.json", "roofslip.json"}
-    assert listed["has_records"] is False
-    assert sum(entry["kind"] == "record" for entry in listed["files"]) == 21
 
 
 @pytest.mark.quick
@@ -231,7 +224,7 @@ RENAMED = {
 }
 
 
-def test_names_that_collide_are_renamed_with_a_map(job):
+def test_names_that_collide_are_renamed_and_a_former_revision_has_its_own(job):
     sheet, shaking = job
     rows = []
     for row, name in zip(shaking.records, RENAMED, strict=False):
@@ -239,21 +232,19 @@ def test_names_that_collide_are_renamed_with_a_map(job):
     _, listed = attached(sources(sheet, replace(shaking, records=tuple(rows))))
     records = [entry for entry in listed["files"] if entry["kind"] == "record"]
     assert {entry["path"]: entry["name"] for entry in records} == RENAMED
-
-
-def test_a_former_revision_is_attached_under_a_name_of_its_own(job):
-    sheet, shaking = job
     found = sources(sheet, shaking, b"{}")
     assert (found[-1].path, found[-1].content) == ("since/results.json", b"{}")
 
 
 @pytest.mark.quick
-def test_the_parts_that_matter_are_named_with_their_versions_and_no_tool():
+def test_parts_that_matter_and_the_system_are_named():
     known = versions()
     named = "numpy numba llvmlite pandas openpyxl matplotlib weasyprint pydyf fonttools"
     assert known.keys() - {"lxml"} == {"roofslip", "python", *named.split()}
     for name in named.split():
         assert known[name] == metadata.version(name)
+    assert environment().keys() - versions().keys() == {"system"}
+    assert re.fullmatch(r"[\w.+ -]+", environment()["system"])
 
 
 @pytest.mark.quick
@@ -267,9 +258,3 @@ def test_what_is_not_installed_is_left_out(monkeypatch):
 
     monkeypatch.setattr(metadata, "version", version)
     assert "lxml" not in versions.__wrapped__()
-
-
-@pytest.mark.quick
-def test_the_environment_names_system_and_processor_too():
-    assert environment().keys() - versions().keys() == {"system"}
-    assert re.fullmatch(r"[\w.+ -]+", environment()["system"])

@@ -27,7 +27,7 @@ def document():
     return made(scenes.usual())
 
 
-def test_json_has_the_assessment_in_si(document):
+def test_json_has_the_assessment_in_si_with_models_and_peaks(document):
     assessment = scenes.usual()
     designs = [array["design_m"] for array in document["arrays"]]
     assert designs == [item.design_m for item in assessment.arrays]
@@ -36,9 +36,6 @@ def test_json_has_the_assessment_in_si(document):
     assert document["clearances"][4]["required_m"] == assessment.clearances[4].required_m
     assert document["verdict"] == assessment.verdict.value
     assert document["s_ds_g"] == 1.566
-
-
-def test_json_has_the_model_of_each_run_and_the_peaks_in_each_direction(document):
     array, item = document["arrays"][2], scenes.usual().arrays[2]
     for direction in Direction:
         values = array["directions"][direction]
@@ -52,13 +49,31 @@ def test_json_has_the_model_of_each_run_and_the_peaks_in_each_direction(document
     assert found["next_effect_m"] is None
     gap = document["clearances"][3]
     assert (gap["governing_direction"], gap["design_m"]) == ("any", item.design_m)
+    check_units(document)
 
 
-def test_json_has_the_prescriptive_value_in_every_direction_where_it_governs():
+def test_json_has_smaller_events_links_and_prescriptive_values():
     for array in run(scenes.motions(2))[1]["arrays"]:
         assert array["route"] == "prescriptive"
         values = {way["design_m"] for way in array["directions"].values()}
         assert values == {array["design_m"]}
+    links = [stand_in.links("A2", "0.40, 0.50", 50, damping_ratio=0.05)]
+    assessment, document = run(links=links)
+    (item,), (row,) = assessment.linked, document["linked"]
+    assert (row["array"], row["mus"], row["damping_ratio"]) == ("A2", [0.4, 0.5], 0.05)
+    assert (row["ratio"], row["estimated_m"]) == (item.ratio, item.estimated_m)
+    assert row["design_m"] == document["arrays"][1]["design_m"]
+    assert row["rigid_is_enough"] is item.is_rigid_enough
+    assert len(row["runs"]) == 12
+    assert tuple(row["runs"][5]["prd_m"]) == item.motions[1].runs[1].row.prd_m
+    assert max(one["link_force_n"] for one in row["runs"]) == row["link_force_n"]
+    check_units(document)
+    options = {"peer_reviewed": True, "smaller_events": "0.50, 0.50, 0.25"}
+    assessment, document = run(options=options)
+    for row, item in zip(document["cumulative"], assessment.arrays, strict=True):
+        assert row["array"] == item.id
+        assert row["largest_m"] == max(row["sums_m"].values())
+        assert row["mean_m"] > item.analysis.mean_m
 
 
 def test_json_has_velocities_and_what_the_low_velocity_coefficient_alone_gives():
@@ -76,24 +91,6 @@ def test_json_has_velocities_and_what_the_low_velocity_coefficient_alone_gives()
     assert (alone["id"], alone["mu"]) == ("A3", 0.30)
     assert alone["design_m"] == assessment.low_velocity.arrays[0].design_m
     assert (gap["array"], gap["object"]) == ("A3", "T-1")
-
-
-def test_json_has_rows_of_linked_blocks_with_their_runs():
-    links = [stand_in.links("A2", "0.40, 0.50", 50, damping_ratio=0.05)]
-    assessment, document = run(links=links)
-    (item,), (row,) = assessment.linked, document["linked"]
-    assert (row["array"], row["mus"], row["damping_ratio"]) == ("A2", [0.4, 0.5], 0.05)
-    assert (row["ratio"], row["estimated_m"]) == (item.ratio, item.estimated_m)
-    assert row["design_m"] == document["arrays"][1]["design_m"]
-    assert row["rigid_is_enough"] is item.is_rigid_enough
-    assert len(row["runs"]) == 12
-    assert tuple(row["runs"][5]["prd_m"]) == item.motions[1].runs[1].row.prd_m
-    assert max(one["link_force_n"] for one in row["runs"]) == row["link_force_n"]
-    check_units(document)
-
-
-def test_every_number_in_json_states_its_unit_or_has_none(document):
-    check_units(document)
 
 
 UNITS = ("_m", "_s", "_g", "_n", "_rad", "_deg", "_mps", "_mps2", "_hz", "_percent")
@@ -141,7 +138,7 @@ def supported():
     return assessment, evidence, json.loads(results_json(assessment, evidence))
 
 
-def test_json_says_what_would_do(supported):
+def test_json_has_what_would_do_margins_angles_and_neighbors(supported):
     assessment, evidence, document = supported
     rows = {row["quantity"]: row for row in document["remedies"] if row["clearance"] == "1"}
     assert list(rows) == [item.kind for item in evidence.remedies if item.clearance == 1]
@@ -152,10 +149,6 @@ def test_json_says_what_would_do(supported):
     assert rows["friction coefficient"]["value"] is None
     assert rows["friction coefficient"]["basis"] == friction.basis
     check_units(document)
-
-
-def test_json_has_the_margins_and_the_angles(supported):
-    assessment, evidence, document = supported
     margins = document["certainty"]["margins"]
     assert [row["array"] for row in margins] == ["A1", "A1", "A3"]
     assert margins[0]["least_mu"] is None  # NG as given
@@ -166,9 +159,6 @@ def test_json_has_the_margins_and_the_angles(supported):
     assert len(angles["turned"]) == 12
     runs = [one for motion in assessment.governing.motions for one in motion.runs]
     assert angles["prd_m"] == max(one.prd_m for one in runs)
-
-
-def test_json_has_neighbors_that_are_missing_or_contradict_and_the_limits_on_motions(supported):
     assessment, _, document = supported
     rows = {(row["array"], row["other"]): row for row in document["neighbors"]}
     missing = [row["is_missing"] for row in rows.values()]
@@ -189,12 +179,3 @@ def test_json_has_no_verdict_where_no_route_is_permitted():
         assert gap["verdict"] == "none"
     assert document["clearances"][2]["verdict"] == "OK"
     assert document["verdict"] == "NG"
-
-
-def test_json_has_the_sums_over_smaller_events():
-    options = {"peer_reviewed": True, "smaller_events": "0.50, 0.50, 0.25"}
-    assessment, document = run(options=options)
-    for row, item in zip(document["cumulative"], assessment.arrays, strict=True):
-        assert row["array"] == item.id
-        assert row["largest_m"] == max(row["sums_m"].values())
-        assert row["mean_m"] > item.analysis.mean_m

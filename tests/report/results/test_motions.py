@@ -27,10 +27,15 @@ def rows(*words):
     return ("motion", "rows", *words)
 
 
-def test_a_folder_is_listed_without_a_workbook(library):
+def test_a_folder_is_listed_and_where_records_were_recorded_asked(library, tmp_path):
     told = commands.printed(*rows(library))
     assert "KJM     x  kobe/KJM-x.csv" in told
     assert "not taken: lone.csv: neither its heading (none) nor its name has a component" in told
+    path = make(tmp_path / "p")
+    assert "give --at roof or --at ground" in commands.refused(*rows(library, path))
+    assert not (tmp_path / "p" / "records" / "kobe").exists()
+    told = commands.refused(*rows(library, path, "--at", "roof", "--only", "nothing"))
+    assert "no set of two horizontal records and a vertical one to take" in told
 
 
 @pytest.mark.nightly
@@ -60,7 +65,7 @@ def test_sets_become_rows_and_their_files_are_copied(library, tmp_path):
 
 
 @pytest.mark.nightly
-def test_records_with_given_units_are_read_by_their_rows(library, tmp_path):
+def test_records_keep_their_units_and_the_level_goes_into_the_rows(library, tmp_path):
     for axis in "xyz":
         (library / f"raw-{axis}.txt").write_text("".join(f"0.{k:03d}\n" for k in range(200)))
     path = make(tmp_path / "p")
@@ -69,10 +74,6 @@ def test_records_with_given_units_are_read_by_their_rows(library, tmp_path):
     new = prepare(read(path)).motions[-1]
     assert (new.id, new.dt_s) == ("raw", 0.02)
     assert abs(new.ax_mps2).max() == pytest.approx(0.199)
-
-
-@pytest.mark.nightly
-def test_the_level_goes_into_the_rows(library, tmp_path):
     path = make(tmp_path / "p")
     commands.printed(*rows(library, path, "--at", "ground"))
     assert [row["recorded_at"] for row in read(path).draft["motions"]][-2:] == ["ground"] * 2
@@ -123,14 +124,6 @@ def test_a_zip_is_checked_and_unpacked_elsewhere(library, tmp_path, name):
     with zipfile.ZipFile(zipped, "a") as archive:
         archive.writestr(name, "0,0")
     assert "is no path within a folder" in commands.refused(*rows(zipped))
-
-
-def test_where_they_were_recorded_is_asked(library, tmp_path):
-    path = make(tmp_path / "p")
-    assert "give --at roof or --at ground" in commands.refused(*rows(library, path))
-    assert not (tmp_path / "p" / "records" / "kobe").exists()
-    told = commands.refused(*rows(library, path, "--at", "roof", "--only", "nothing"))
-    assert "no set of two horizontal records and a vertical one to take" in told
 
 
 @pytest.mark.nightly

@@ -49,12 +49,22 @@ def shown(cell):
     return f"{cell.value:.{decimals}f}" if isinstance(cell.value, float) else str(cell.value)
 
 
-def test_sheets_are_in_the_order_of_the_package(book):
+def test_sheets_are_in_order_landscape_and_legible(book):
     order = [
         "Design", "Clearances", "Neighbors", "Requirements", "Inputs", "Motions", "Records",
         "Spectra", "Directions", "Peaks", "Runs", "Links", "LinkRuns",
     ]  # fmt: skip
     assert book.sheetnames == [name for name in order if name in book.sheetnames]
+    for sheet in book:
+        wide, top = widths(sheet), heading_row(sheet)
+        for row in sheet.iter_rows(min_row=top):
+            for cell in (cell for cell in row if cell.value is not None):
+                text, letters = shown(cell), wide[cell.column_letter]
+                assert max(map(len, text.split()), default=0) < letters, (sheet.title, text)
+                lines = len(wrap(text, int(letters))) or 1
+                height = sheet.row_dimensions[cell.row].height or 15.0
+                assert height >= 15.0 * lines, (sheet.title, text)
+                assert lines == 1 or cell.alignment.wrap_text, (sheet.title, text)
 
 
 def test_pages_are_landscape_and_legible_on_the_paper_of_the_units(done, book):
@@ -75,16 +85,3 @@ def test_pages_are_landscape_and_legible_on_the_paper_of_the_units(done, book):
             assert keys[0] == "A"
             repeated = sum(columns_in[: list(wide).index(keys[1]) + 1])
             assert (repeated + max(columns_in)) * LEGIBLE <= page_in
-
-
-def test_every_text_fits_its_cell(book):
-    for sheet in book:
-        wide, top = widths(sheet), heading_row(sheet)
-        for row in sheet.iter_rows(min_row=top):
-            for cell in (cell for cell in row if cell.value is not None):
-                text, letters = shown(cell), wide[cell.column_letter]
-                assert max(map(len, text.split()), default=0) < letters, (sheet.title, text)
-                lines = len(wrap(text, int(letters))) or 1
-                height = sheet.row_dimensions[cell.row].height or 15.0
-                assert height >= 15.0 * lines, (sheet.title, text)
-                assert lines == 1 or cell.alignment.wrap_text, (sheet.title, text)

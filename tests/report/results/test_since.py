@@ -68,14 +68,11 @@ def inputs(found):
     return {(i.title, i.before, i.now) for i in found.items if i.kind is ChangeKind.INPUT}
 
 
-def test_nothing_changed_since_itself(assessment, document):
+def test_nothing_changed_since_itself_nor_by_the_word_of_version_0_2(assessment, document):
     found = changes(former(document), assessment)
     assert found.items == ()
     assert found.arrays == found.values == found.clearances == frozenset()
     assert found.revision == assessment.project.project.revision
-
-
-def test_the_word_of_version_0_2_for_a_condition_is_no_change(assessment, document):
     count = json.dumps(document).count('"Condition"')
     assert count
     text = json.dumps(document).replace('"Condition"', '"OK with conditions"')
@@ -137,7 +134,7 @@ def test_a_revision_with_another_record_is_a_condition(assessment, document):
     assert len(reissue(assessment, document)) == 1
 
 
-def test_a_row_that_is_added_or_removed_is_named_once(assessment, document):
+def test_rows_records_and_digits_that_differ_are_named(assessment, document):
     gaps = [row.model_dump() for row in assessment.project.clearances][1:]
     gaps.append(stand_in.clearance("A2", "RTU-1", 30 * stand_in.FOOT))
     found = changes(former(document), made(clearances=gaps))
@@ -146,6 +143,11 @@ def test_a_row_that_is_added_or_removed_is_named_once(assessment, document):
         ("Clearances, A2 RTU-1 any", "—", "added"),
     }
     assert 5 in found.clearances
+    design = document["arrays"][0]["design_m"]
+    document["arrays"][0]["design_m"] = design * (1.0 + 1e-5)
+    (item,) = changes(former(document), assessment).items
+    assert item.before != item.now
+    assert item.now == f"{design:.7g} m"
 
 
 def test_a_record_with_another_hash_the_rule_set_and_the_version_are_found(assessment, document):
@@ -177,14 +179,6 @@ def test_a_document_with_another_hash_is_found_unless_the_former_file_does_not_s
     assert ("00" * 32 in found.before, "ab" * 32 in found.now) == (True, True)
     del document["documents"]  # as of an earlier version
     assert not changes(former(document), now).items
-
-
-def test_two_results_that_print_alike_are_shown_with_more_digits(assessment, document):
-    design = document["arrays"][0]["design_m"]
-    document["arrays"][0]["design_m"] = design * (1.0 + 1e-5)
-    (item,) = changes(former(document), assessment).items
-    assert item.before != item.now
-    assert item.now == f"{design:.7g} m"
 
 
 def test_the_page_and_the_bars_are_there_only_if_asked_for(assessment, document):
@@ -269,13 +263,10 @@ def test_a_character_that_no_page_can_print_is_named(document, where, letter):
     assert letter not in str(error.value)
 
 
-def test_a_letter_that_no_font_has_is_named(document):
+def test_letters_without_a_font_and_millions_of_rows_are_refused(document):
     put(document, ("input", "project", "revision"), "a\u0378b")  # assigned to no letter
     with pytest.raises(InputError, match=r"^x: no font of this machine has .* \(U\+0378\)"):
         former(document)
-
-
-def test_millions_of_empty_rows_are_refused_before_they_are_parsed():
     with pytest.raises(InputError, match=r"^x: has 1,000,000 objects; at most 100,000 are"):
         former_from(b"[" + b"{}," * 1_000_000 + b"]", "x")
 

@@ -216,7 +216,7 @@ def test_the_effect_of_links_follows_from_their_runs():
         assert used == f"={address(formulas, f'Design/{name}/Design [in]')}"
 
 
-def test_the_prescriptive_value_is_a_live_formula(usual):
+def test_values_runs_and_clearances_are_live_and_listed(usual):
     formulas, values = usual
     name = "Design/A1/Prescriptive"
     s_ds, factor, i_e, minimum = (
@@ -225,6 +225,31 @@ def test_the_prescriptive_value_is_a_live_formula(usual):
     )
     assert cell(formulas, name).value == f"=MAX({factor}*{i_e}*MAX({s_ds}-0.4,0)^2,{minimum})"
     assert cell(values, name).value == pytest.approx(81.573, abs=5e-4)
+    gap = scenes.usual().clearances[3]
+    assert cell(values, f"Clearances/4/{GOVERNING}").value == "A3, any"
+    source = cell(formulas, "Clearances/4/Design").value
+    assert source.replace("$", "") == f"={address(formulas, 'Design/A3/Design [in]')}"
+    assert cell(values, "Design/A3/Design [in]").value == pytest.approx(gap.design_m / 0.0254)
+    rows = rows_of(usual[1]["Runs"])
+    assert len(rows) == 3 * 7 * 4
+    assert sum(row["Governs"] == "yes" for row in rows) == 3 * 7
+    assert rows[0]["Model"] == "3, two axes with vertical"
+    assert "second horizontal component" in rows[0]["Reason"]
+    assert rows[0]["Cross-slope [in]"] > 0.0
+    head = [at.value for at in usual[1]["Spectra"][1]]
+    assert head[:3] == ["Period [s]", "Horizontal, target [g]", "Horizontal, M1 [g]"]
+    assert len(head) == 1 + 3 * 8
+    assert "Transverse, M7 [g]" in head
+    first, *_ = rows_of(usual[1]["Neighbors"])
+    assert [first[name] for name in ("Array", "Neighbor", "Kind", "Clearance", "Remark")] == [
+        "A1", "A3", "array", "No. 1", "as in plan; beyond twice displ.",
+    ]  # fmt: skip
+    assert first["Distance in plan [in]"] == pytest.approx(180.0)
+    rows = rows_of(usual[1]["Motions"])
+    assert len(rows) == 7 * 3
+    motion = ["M1", "transverse", "roof", "as recorded", "as recorded"]
+    assert [*rows[1].values()][:5] == motion
+    assert rows[0]["PGA [g]"] == pytest.approx(1.7)
 
 
 def test_a_clearance_follows_from_the_runs_through_its_direction():
@@ -244,25 +269,7 @@ def test_a_clearance_follows_from_the_runs_through_its_direction():
     assert cell(formulas, "Peaks/15/Upslope").value.startswith("=MAX(Runs!")
 
 
-def test_a_clearance_takes_the_full_displacement_of_the_sheet_design(usual):
-    formulas, values = usual
-    gap = scenes.usual().clearances[3]
-    assert cell(values, f"Clearances/4/{GOVERNING}").value == "A3, any"
-    source = cell(formulas, "Clearances/4/Design").value
-    assert source.replace("$", "") == f"={address(formulas, 'Design/A3/Design [in]')}"
-    assert cell(values, "Design/A3/Design [in]").value == pytest.approx(gap.design_m / 0.0254)
-
-
-def test_every_run_is_listed_with_its_model(usual):
-    rows = rows_of(usual[1]["Runs"])
-    assert len(rows) == 3 * 7 * 4
-    assert sum(row["Governs"] == "yes" for row in rows) == 3 * 7
-    assert rows[0]["Model"] == "3, two axes with vertical"
-    assert "second horizontal component" in rows[0]["Reason"]
-    assert rows[0]["Cross-slope [in]"] > 0.0
-
-
-def test_without_a_value_the_workbook_states_no_value_and_no_verdict():
+def test_without_a_value_or_a_route_the_workbook_has_no_verdict():
     steep = stand_in.steep(links=[stand_in.links("A1", "0.40, 0.50", 50)])
     values = opened(xlsx(stand_in.assess_input(steep, scenes.motions(2))))[1]
     assert valued(values, "Design/1", "Design [in]", "Verdict") == ["none", "NG"]
@@ -272,33 +279,24 @@ def test_without_a_value_the_workbook_states_no_value_and_no_verdict():
     assert cell(values, "Design/Verdict").value == "NG"
     rows = list(values["Requirements"].iter_rows(min_row=5, values_only=True))
     assert any(row[0] == "Motions" and row[5] == "NG" for row in rows)
+    links = [stand_in.links("A1", "0.3, 0.3", 50)]
+    formulas, values = opened(xlsx(stand_in.unpermitted(links=links)))
+    check_formulas(formulas, values)
+    headings = ("Design [in]", "Required [in]", "Required [mm]", "D/C", "Verdict")
+    first, second, third = rows_of(values["Clearances"], 4)
+    for row in (first, second):
+        assert row[GOVERNING] == "A1, any"
+        assert [row[heading] for heading in headings] == ["none"] * 5
+    assert third["Verdict"] == "OK"
+    assert [row["Verdict"] for row in rows_of(values["Design"], 4)] == ["NG", "NG"]
+    assert rows_of(values["Links"], 4)[0]["Verdict"] == "NG"
 
 
-def test_text_that_looks_like_a_formula_stays_text():
+def test_texts_stay_texts_and_two_runs_give_the_same_bytes(content, usual):
     _, formulas, _ = made(arrays=[stand_in.array("=1+1", 1.0)], clearances=[])
     for sheet in ("Design", "Runs"):
         name = cell(formulas, f"{sheet}/1/Array")
         assert (name.value, name.data_type) == ("=1+1", "s")
-
-
-def test_spectra_neighbors_and_the_processing_of_motions_are_listed(usual):
-    head = [at.value for at in usual[1]["Spectra"][1]]
-    assert head[:3] == ["Period [s]", "Horizontal, target [g]", "Horizontal, M1 [g]"]
-    assert len(head) == 1 + 3 * 8
-    assert "Transverse, M7 [g]" in head
-    first, *_ = rows_of(usual[1]["Neighbors"])
-    assert [first[name] for name in ("Array", "Neighbor", "Kind", "Clearance", "Remark")] == [
-        "A1", "A3", "array", "No. 1", "as in plan; beyond twice displ.",
-    ]  # fmt: skip
-    assert first["Distance in plan [in]"] == pytest.approx(180.0)
-    rows = rows_of(usual[1]["Motions"])
-    assert len(rows) == 7 * 3
-    motion = ["M1", "transverse", "roof", "as recorded", "as recorded"]
-    assert [*rows[1].values()][:5] == motion
-    assert rows[0]["PGA [g]"] == pytest.approx(1.7)
-
-
-def test_two_runs_give_the_same_bytes(content, usual):
     assert xlsx(scenes.usual()) == content
     assert usual[0].properties.created.date() == scenes.usual().project.project.date
 
@@ -342,20 +340,6 @@ def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(usual)
     height = next(c for c in limits if c.measure == "m")
     found = next(row for row in rows if row[:2] == ("A1", height.title))
     assert found[2] == f"{height.found / 0.0254:.1f} in ({1e3 * height.found:.0f} mm)"
-
-
-def test_the_workbook_has_no_verdict_where_no_route_is_permitted():
-    links = [stand_in.links("A1", "0.3, 0.3", 50)]
-    formulas, values = opened(xlsx(stand_in.unpermitted(links=links)))
-    check_formulas(formulas, values)
-    headings = ("Design [in]", "Required [in]", "Required [mm]", "D/C", "Verdict")
-    first, second, third = rows_of(values["Clearances"], 4)
-    for row in (first, second):
-        assert row[GOVERNING] == "A1, any"
-        assert [row[heading] for heading in headings] == ["none"] * 5
-    assert third["Verdict"] == "OK"
-    assert [row["Verdict"] for row in rows_of(values["Design"], 4)] == ["NG", "NG"]
-    assert rows_of(values["Links"], 4)[0]["Verdict"] == "NG"
 
 
 class WiderRow(PeakRow):

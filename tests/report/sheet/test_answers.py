@@ -248,7 +248,7 @@ def test_no_formula_gives_an_error(case):
     assert [cell for cell in cells if str(cell).startswith(("#", "Err:"))] == []
 
 
-def test_the_seismic_parameters_are_those_of_the_package(case):
+def test_seismic_parameters_category_and_floor_are_those_of_the_package(case):
     values = case.data.site.parameters
     for name in ("s_ms", "s_m1", "s_ds", "s_d1"):
         wanted, found = getattr(values, name), case.named(f"live_{name}")
@@ -257,15 +257,19 @@ def test_the_seismic_parameters_are_those_of_the_package(case):
         else:
             assert number(found, 3) == number(wanted, 3)
             assert found == pytest.approx(wanted, rel=1e-12)
-
-
-def test_the_category_is_the_least_of_the_package(case):
     values, data = case.data.site.parameters, case.data.site
     is_essential = data.risk_category == "IV"
     categories = hazard.design_categories(
         s_ds_g=values.s_ds, s_d1_g=values.s_d1, s_1_g=data.s_1_g, is_essential=is_essential
     )
     assert case.named("live_sdc") == max(categories)
+    floor_m, reviewed_m = (
+        analysis_floor_m(case.rules, case.prescriptive, is_reviewed=reviewed)
+        for reviewed in (False, True)
+    )
+    assert case.lengths("Floor of the value from analysis") == in_both_units(floor_m)
+    saved = case.lengths("Peer review of the analysis saves, at most")
+    assert saved == in_both_units(floor_m - reviewed_m)
 
 
 @pytest.mark.parametrize(
@@ -290,10 +294,28 @@ def test_what_is_used_where_a_cell_is_blank_is_that_of_the_package(filled):
     assert blank.named("live_s_ds") == pytest.approx(site.s_ds, rel=1e-12)
 
 
-def test_the_prescriptive_displacement_is_that_of_the_package(case):
+def test_displacement_ratios_and_weight_are_those_of_the_package(case):
     wanted = case.prescriptive.value_m
     assert number(case.named("live_prescriptive_in"), 1) == number(wanted / INCH, 1)
     assert case.lengths("Prescriptive displacement") == in_both_units(wanted)
+    heading = next(h for h in case.headings("Clearances") if h.startswith("Required"))
+    unit = Quantity.SIZE.us if "[in]" in heading else Quantity.SIZE.si
+    neighbors, required, ratios = (
+        case.column("Clearances", name)
+        for name in ("Neighbor", "Required, prescriptive", "D/C, prescriptive")
+    )
+    for count, wanted in enumerate(case.checks(case.prescriptive.value_m)):
+        wanted_length = number(wanted.required_m / unit.si, unit.decimals)
+        assert neighbors[count] == wanted.neighbor.value
+        assert number(required[count], unit.decimals) == wanted_length
+        shown = ratios[count]
+        assert (shown if shown == "∞" else number(shown, 2)) == ratio(wanted.demand_capacity)
+    is_psf = "Weight per area [psf]" in case.headings("Arrays")
+    unit = Quantity.PRESSURE.us if is_psf else Quantity.PRESSURE.si
+    found = case.column("Arrays", "Weight per area")
+    for array, value in zip(case.data.arrays, found, strict=False):
+        wanted = array.weight_pa / PRESSURES[unit.symbol]
+        assert number(value, unit.decimals) == number(wanted, unit.decimals)
 
 
 def test_the_four_separations_are_those_of_the_package(case):
@@ -312,16 +334,6 @@ def test_the_four_separations_are_those_of_the_package(case):
         assert case.lengths(f"Separation, {what}") == in_both_units(wanted)
 
 
-def test_the_floor_and_what_peer_review_saves_are_those_of_the_rules(case):
-    floor_m, reviewed_m = (
-        analysis_floor_m(case.rules, case.prescriptive, is_reviewed=reviewed)
-        for reviewed in (False, True)
-    )
-    assert case.lengths("Floor of the value from analysis") == in_both_units(floor_m)
-    saved = case.lengths("Peer review of the analysis saves, at most")
-    assert saved == in_both_units(floor_m - reviewed_m)
-
-
 @pytest.mark.parametrize("label", ["Prescriptive displacement", "Floor of the value from analysis"])
 def test_the_worst_clearance_is_the_first_of_the_largest_ratio(case, label):
     floor_m = analysis_floor_m(case.rules, case.prescriptive)
@@ -332,30 +344,6 @@ def test_the_worst_clearance_is_the_first_of_the_largest_ratio(case, label):
     found, of = case.panel(label)[6:8]
     assert (found if found == "∞" else number(found, 2)) == worst
     assert of == f"{row.array} to {row.object}"
-
-
-def test_the_ratio_of_each_clearance_is_that_of_the_package(case):
-    heading = next(h for h in case.headings("Clearances") if h.startswith("Required"))
-    unit = Quantity.SIZE.us if "[in]" in heading else Quantity.SIZE.si
-    neighbors, required, ratios = (
-        case.column("Clearances", name)
-        for name in ("Neighbor", "Required, prescriptive", "D/C, prescriptive")
-    )
-    for count, wanted in enumerate(case.checks(case.prescriptive.value_m)):
-        wanted_length = number(wanted.required_m / unit.si, unit.decimals)
-        assert neighbors[count] == wanted.neighbor.value
-        assert number(required[count], unit.decimals) == wanted_length
-        shown = ratios[count]
-        assert (shown if shown == "∞" else number(shown, 2)) == ratio(wanted.demand_capacity)
-
-
-def test_weight_per_area_is_that_of_the_package(case):
-    is_psf = "Weight per area [psf]" in case.headings("Arrays")
-    unit = Quantity.PRESSURE.us if is_psf else Quantity.PRESSURE.si
-    found = case.column("Arrays", "Weight per area")
-    for array, value in zip(case.data.arrays, found, strict=False):
-        wanted = array.weight_pa / PRESSURES[unit.symbol]
-        assert number(value, unit.decimals) == number(wanted, unit.decimals)
 
 
 def test_weight_per_area_of_an_outlined_array_is_over_its_outline(filled):

@@ -152,12 +152,13 @@ def test_a_workbook_with_a_spoiled_part_is_refused(tmp_path, case):
     assert problems(rewritten(make(tmp_path), part, change)) == (line,)
 
 
-def test_a_default_type_for_macros_that_are_not_there_is_harmless(tmp_path):
+def test_harmless_parts_are_left_alone(tmp_path):
     """As every workbook of SheetJS has one."""
     default = b'<Default Extension="bin" ContentType="application/vnd.ms-excel.sheet.binary.'
     more = replaced(b"<Override", default + b'macroEnabled.main"/><Override')
     path = rewritten(make(tmp_path), "[Content_Types].xml", more)
     assert same(read_workbook(path).input, project())
+    open_book(rewritten(make(tmp_path), "xl/media/image9.png", to(b"\x89PNG\r\n\x1a\n<")))
 
 
 def test_tags_are_counted_before_anything_is_parsed(tmp_path):
@@ -173,16 +174,13 @@ def test_a_missing_file_is_reported(tmp_path):
     assert problems(tmp_path) == (f"not a file; {wanted}",)
 
 
-def test_a_truncated_file_or_one_with_changed_bytes_is_reported(tmp_path):
+def test_odd_bytes_in_a_file_are_told_and_never_crash(tmp_path):
     path = make(tmp_path)
     data = path.read_bytes()
     path.write_bytes(data[:-2000])
     assert problems(path) == (TRUNCATED,)
     path.write_bytes(data[:200] + bytes(40) + data[240:])
     assert problems(path)[0].endswith(REOPEN)
-
-
-def test_damaged_files_are_read_or_rejected_but_never_crash(tmp_path):
     path = make(tmp_path)
     data = path.read_bytes()
     step = len(data) // 25
@@ -202,15 +200,12 @@ def test_a_false_size_in_the_directory_has_no_effect(tmp_path):
     assert problems(path)[0].startswith("damaged at xl/sharedStrings.xml")
 
 
-def test_a_workbook_of_too_many_parts_is_rejected(tmp_path):
+def test_a_workbook_of_too_many_parts_or_bytes_is_rejected(tmp_path):
     path = make(tmp_path)
     with zipfile.ZipFile(path, "a") as file:
         for number in range(2000):
             file.writestr(f"xl/part{number}", "")
     assert problems(path)[0].startswith("has 2")
-
-
-def test_a_workbook_larger_than_any_input_is_rejected(tmp_path):
     path = tmp_path / "input.xlsx"
     with path.open("wb") as file:
         file.truncate(101_000_000)
@@ -232,10 +227,6 @@ def test_xml_entities_are_rejected(tmp_path, part, declaration, encoding, before
     text = f"{before}{declaration}<x>&a;</x>".encode(encoding)
     path = rewritten(make(tmp_path), part, to(text))
     assert problems(path) == (f"contains XML entity declarations at {part}; {REOPEN}",)
-
-
-def test_parts_that_are_no_xml_are_left_alone(tmp_path):
-    open_book(rewritten(make(tmp_path), "xl/media/image9.png", to(b"\x89PNG\r\n\x1a\n<")))
 
 
 def test_a_table_that_does_not_say_where_it_is_is_found_by_its_headings(tmp_path):
@@ -266,7 +257,7 @@ def test_what_openpyxl_says_reaches_nobody(tmp_path, old, new):
     assert line in (f"damaged, or not as Excel writes it; {REOPEN}", f"damaged at {part}; {REOPEN}")
 
 
-def test_a_cell_that_the_file_has_twice_is_refused_by_its_address(tmp_path):
+def test_a_cell_or_a_name_that_the_file_has_twice_is_refused(tmp_path):
     path = make(tmp_path)
     name = at("Options/1/Value")
     sheet, coordinate = name.split("!")
@@ -275,9 +266,6 @@ def test_a_cell_that_the_file_has_twice_is_refused_by_its_address(tmp_path):
     assert problems(rewritten(path, sheet_part(path, sheet), again)) == (
         f"{name}: the file has this cell twice; {REOPEN}",
     )
-
-
-def test_a_name_that_the_file_has_twice_is_refused(tmp_path):
     name = rb'<definedName name="site_s_ds_g"[^>]*>[^<]*</definedName>'
     path = rewritten(make(tmp_path), BOOK, partial(re.sub, name, rb"\g<0>\g<0>"))
     assert problems(path) == (f"the file has the name site_s_ds_g twice; {REOPEN}",)
@@ -338,7 +326,7 @@ SHEET = b"""<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/20
 <row><c/><c><f>1+\n1</f><v>5</v></c></row></sheetData></worksheet>"""
 
 
-def test_formulas_of_every_kind_are_those_that_openpyxl_reads(tmp_path):
+def test_formulas_are_those_that_openpyxl_reads_up_to_their_longest(tmp_path):
     path = make(tmp_path)
     rewritten(path, sheet_part(path, "Project"), to(SHEET))
     typed = load_workbook(path)["Project"]
@@ -348,6 +336,15 @@ def test_formulas_of_every_kind_are_those_that_openpyxl_reads(tmp_path):
     assert texts[:2] == [typed["A1"].value, typed["A2"].value]
     assert texts[2] == typed["A3"].value.text
     assert book.formula("Project", "B5") == typed["B5"].value == "=1+\n1"
+    path = make(tmp_path)
+    part = sheet_part(path, "Project")
+    longest = SHEET.replace(b"B1*$C$1", b"B1" + b"+1" * 4095)
+    rewritten(path, part, to(longest))
+    assert open_book(path).formula("Project", "A2") == "=B2" + "+1" * 4095
+    longer = to(longest.replace(b"B1+1", b"B1+1+11"))
+    assert problems(rewritten(path, part, longer)) == (
+        f"{part}: the formula in A1 has more than 8,192 characters; shorten it",
+    )
 
 
 def spelled(path, prefix):
@@ -388,15 +385,3 @@ def test_a_part_is_scanned_in_every_encoding(tmp_path, encoding):
     part = sheet_part(path, "Arrays")
     rewritten(path, part, lambda old: undeclared(old).decode().encode(encoding))
     assert problems(path)[0].startswith("Arrays!XFD1048576: contains data more than")
-
-
-def test_a_formula_longer_than_excel_allows_is_refused_by_cell(tmp_path):
-    path = make(tmp_path)
-    part = sheet_part(path, "Project")
-    longest = SHEET.replace(b"B1*$C$1", b"B1" + b"+1" * 4095)
-    rewritten(path, part, to(longest))
-    assert open_book(path).formula("Project", "A2") == "=B2" + "+1" * 4095
-    longer = to(longest.replace(b"B1+1", b"B1+1+11"))
-    assert problems(rewritten(path, part, longer)) == (
-        f"{part}: the formula in A1 has more than 8,192 characters; shorten it",
-    )

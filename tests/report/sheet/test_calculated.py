@@ -171,12 +171,10 @@ def test_formulas_that_fetch_are_named_wherever_they_are(tmp_path, formula):
     assert elsewhere(formula) in told(path)
 
 
-def test_a_bar_in_a_text_or_a_name_of_a_sheet_fetches_nothing(tmp_path):
+def test_a_bar_in_a_text_and_a_link_of_a_cell_fetch_nothing(tmp_path):
     formula = """="a|b"&'Ar|rays'!A1&"it's|" """
     assert not told(edit(make(tmp_path), lambda book: book["Site"].cell(90, 60, formula)))
 
-
-def test_a_link_of_a_cell_is_nothing_that_is_fetched(tmp_path):
     def linked(book):
         book["Arrays"]["A1"].hyperlink = "http://a.test"
 

@@ -39,13 +39,19 @@ def test_what_is_blank_is_computed_and_the_echo_says_so(tmp_path):
     assert places == sorted(places, key=lambda place: int(place.partition("!B")[2]))
 
 
-def test_check_says_what_is_computed(tmp_path):
+def test_what_is_computed_is_said_unless_it_is_given(tmp_path):
     done = CliRunner().invoke(main, ["check", str(made(tmp_path))])
     for name, value in zip(NAMES, ("I_e is 1.25", "F_a is 1.2", "category is D"), strict=True):
         (line,) = (
             x for x in done.output.splitlines() if x.startswith(f"note: {at('Site/' + name)}")
         )
         assert f"{value} (computed, ASCE 7" in line
+    typed = {"F_a": 1.3, "Importance factor I_e": 1.5, "Seismic design category": "E"}
+    site = read(made(tmp_path, **typed)).project.site
+    assert (site.i_e, site.f_a, site.sdc) == (1.5, 1.3, "E")
+    for name in ("S_DS", "S_MS"):
+        site = read(made(tmp_path / name, **{name: 1.0})).project.site
+        assert site.f_a is None
 
 
 CATEGORIES = {
@@ -78,15 +84,6 @@ NO_SDC = "Site/Seismic design category is missing; choose A, B, C, D, E or F, or
 )
 def test_what_does_not_follow_is_asked_for(tmp_path, changes, line):
     assert problems(made(tmp_path, **changes)) == said(line)
-
-
-def test_s_ds_and_f_a_that_are_given_are_used(tmp_path):
-    typed = {"F_a": 1.3, "Importance factor I_e": 1.5, "Seismic design category": "E"}
-    site = read(made(tmp_path, **typed)).project.site
-    assert (site.i_e, site.f_a, site.sdc) == (1.5, 1.3, "E")
-    for name in ("S_DS", "S_MS"):
-        site = read(made(tmp_path / name, **{name: 1.0})).project.site
-        assert site.f_a is None
 
 
 def test_what_is_computed_follows_other_values_that_are_tried(tmp_path):

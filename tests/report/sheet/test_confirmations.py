@@ -55,7 +55,7 @@ def changed(records=RECORDS, **changes):
     return dict(outdated(given(**blocks, **changes), records).outdated)
 
 
-def test_each_confirmation_is_put_on_record_with_its_date_and_the_sheets_that_it_covers():
+def test_confirmations_are_put_on_record_where_they_cover_something():
     sheets = {
         place.field: (text[:10], [part.rpartition(" ")[0] for part in text[12:].split(", ")])
         for place, text in to_record(given(), RECORDS).items()
@@ -69,9 +69,6 @@ def test_each_confirmation_is_put_on_record_with_its_date_and_the_sheets_that_it
     }
     assert to_record(recorded(given()), RECORDS) == {}
     assert outdated(recorded(given()), RECORDS).outdated == {}
-
-
-def test_what_is_not_confirmed_or_covers_nothing_is_not_put_on_record():
     none = given(
         project=inputs.HEAD,
         site=inputs.SITE,

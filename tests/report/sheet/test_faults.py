@@ -328,14 +328,18 @@ def test_all_errors_are_reported_together_in_the_order_of_the_sheets(tmp_path):
     assert tuple(line.split(": ")[0] for line in reported) == said(*wrong)
 
 
-def test_at_least_one_array_is_required(tmp_path):
+def test_thousands_of_overlaps_and_settings_given_twice_are_told(tmp_path):
     assert problems(make(tmp_path, clearances=[], arrays=[])) == said(
         "<Arrays/heading/ID>: no array is given; fill in at least one row"
     )
-
-
-def test_no_motion_is_required(tmp_path):
     assert read_workbook(make(tmp_path, motions=[])).input.motions == ()
+    twice = {"Site!A90": "S_DS *", "Site!B90": 0.2, "Site!A91": "S_1"}  # S_1 is beside nothing
+    assert problems(edit(make(tmp_path), lambda book: sheets.put(book, twice))) == said(
+        "<Site/S_DS>: label 'S_DS' appears twice, also in Site!B90; keep one"
+    )
+    same = [sheets.arrays()[0] | {"id": f"A{k}"} for k in range(1, 51)]
+    found = problems(make(tmp_path, arrays=same))
+    assert sum("overlap in plan; correct one of them" in each for each in found) == MOST_OVERLAPS
 
 
 @pytest.mark.quick
@@ -343,13 +347,6 @@ def test_a_gap_may_be_rounded_by_half_an_inch_or_one_percent_up_to_an_inch(tmp_p
     gaps = {1: 120.98, 3: 60.49, 4: 4000}
     changes = {f"Clearances/{row}/Provided clearance": gap for row, gap in gaps.items()}
     assert read_workbook(type_into(make(tmp_path), changes)).input.clearances
-
-
-def test_a_setting_that_is_given_twice_is_reported_with_both_cells(tmp_path):
-    twice = {"Site!A90": "S_DS *", "Site!B90": 0.2, "Site!A91": "S_1"}  # S_1 is beside nothing
-    assert problems(edit(make(tmp_path), lambda book: sheets.put(book, twice))) == said(
-        "<Site/S_DS>: label 'S_DS' appears twice, also in Site!B90; keep one"
-    )
 
 
 FRESH = "copy it from a fresh workbook (roofslip new FOLDER)"
@@ -410,12 +407,6 @@ def test_the_cell_of_an_extreme_value_is_named_where_another_cell_is_wrong_by_it
         low <= at_cell.rstrip("0123456789") <= (high or low) and at_cell.endswith(row)
         for low, row, high in named
     ), message
-
-
-def test_of_a_thousand_overlaps_and_more_a_thousand_are_told(tmp_path):
-    same = [sheets.arrays()[0] | {"id": f"A{k}"} for k in range(1, 51)]
-    found = problems(make(tmp_path, arrays=same))
-    assert sum("overlap in plan; correct one of them" in each for each in found) == MOST_OVERLAPS
 
 
 def test_references_are_spelled_as_the_id_that_they_refer_to():

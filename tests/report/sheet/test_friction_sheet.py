@@ -66,7 +66,7 @@ def test_a_table_below_a_block_leaves_its_columns_as_they_are(path):
 MU = "Arrays/{}/Friction coefficient"
 
 
-def test_a_coefficient_above_the_smaller_mean_is_reported_with_both_cells(tmp_path):
+def test_coefficients_above_the_tested_means_are_reported(tmp_path):
     path = make(tmp_path, arrays=arrays(mu=0.50), friction_tests=REPORT, friction_runs=runs())
     assert problems(path) == said(
         f"{MU.format('A1')} is 0.5; the tests give 0.46 (wet, mean of 3 from"
@@ -76,12 +76,20 @@ def test_a_coefficient_above_the_smaller_mean_is_reported_with_both_cells(tmp_pa
     # They are not compared while a run cannot be read.
     (line,) = problems(type_into(path, {f"{SHEET}/1/Kinetic coefficient": "x"}))
     assert line.startswith(*said(f"{SHEET}/1/Kinetic coefficient is 'x'"))
+    path = make(tmp_path, arrays=arrays(mu_static=0.52), friction_runs=runs())
+    assert problems(path) == said(
+        "Arrays/A1/Static friction is 0.52; the tests give 0.5 (wet); give 0.5 or less"
+    )
 
 
-def test_rounding_to_two_decimals_is_allowed(tmp_path):
+def test_one_run_is_compared_and_rounding_is_allowed(tmp_path):
     path = make(tmp_path, arrays=arrays(mu=0.4651), friction_runs=runs())
     assert len(problems(path)) == 1
     assert read_workbook(type_into(path, {MU.format("A1"): 0.4649})).input
+    path = make(tmp_path, friction_runs=runs(dry=(), wet=(0.44,)))
+    assert tuple(line.split(";")[0] for line in problems(path)) == said(
+        *(f"{MU.format(array)} is 0.45" for array in ("A1", "A2"))
+    )
 
 
 def test_a_run_number_counts_at_each_velocity_anew(tmp_path):
@@ -91,13 +99,6 @@ def test_a_run_number_counts_at_each_velocity_anew(tmp_path):
     assert len(read_workbook(path).input.friction_runs) == 6
     assert problems(type_into(path, {f"{SHEET}/4/Velocity": 1.0})) == said(
         f"{SHEET}/4/Run is 1, dry, already given at <{SHEET}/1/Run>; give another number"
-    )
-
-
-def test_one_run_in_one_condition_is_compared_too(tmp_path):
-    path = make(tmp_path, friction_runs=runs(dry=(), wet=(0.44,)))
-    assert tuple(line.split(";")[0] for line in problems(path)) == said(
-        *(f"{MU.format(array)} is 0.45" for array in ("A1", "A2"))
     )
 
 
@@ -126,10 +127,3 @@ def test_a_law_is_compared_at_the_tested_velocities(tmp_path):
             f"<{MU.format('A1')}>: friction coefficient averages 0.6 at the tested velocities; the"
             f" tests give 0.41 (dry, mean of 3 from <{SHEET}/1/Kinetic coefficient>); reduce it"
         )
-
-
-def test_static_friction_above_the_tested_mean_is_reported(tmp_path):
-    path = make(tmp_path, arrays=arrays(mu_static=0.52), friction_runs=runs())
-    assert problems(path) == said(
-        "Arrays/A1/Static friction is 0.52; the tests give 0.5 (wet); give 0.5 or less"
-    )

@@ -20,13 +20,10 @@ WRONG = f"{IS_WET}; {NUMBER}"
 OTHER = "weight is 0; give a number of more than 0 [lb]"
 
 
-def test_1500_equal_errors_are_one_line_with_their_count():
+def test_equal_errors_are_one_line_and_others_stay_apart():
     (line,) = grouped(Problem(IS_WET, NUMBER, f"Arrays!E{row}") for row in range(8, 1508))
     assert line.line == f"Arrays!E8, Arrays!E9, Arrays!E10 and 1,497 more: {WRONG}"
     assert line.cells[-1] == "E1507"
-
-
-def test_errors_that_differ_stay_apart_in_their_order():
     first, second, elsewhere = (
         Problem(IS_WET, NUMBER, cell) for cell in ("Arrays!E8", "Arrays!E9", "Objects!E8")
     )
@@ -59,13 +56,10 @@ def refused(path):
     return caught.value
 
 
-def test_the_page_shows_what_was_typed_whole_with_a_semicolon_in_it(tmp_path):
+def test_typed_semicolons_and_problems_without_a_cell_are_shown_on_the_page(tmp_path):
     path = type_into(make(tmp_path), {MU.format("A1"): "wet; dry"})
     (found,) = problems(path, refused(path))
     assert (found["found"], found["remedy"]) == ("friction coefficient is 'wet; dry'", NUMBER)
-
-
-def test_a_problem_without_a_cell_names_its_sheet_on_the_page_and_in_a_line(tmp_path):
     error = InputError([Problem("one row is given", "give two", "Spectrum"), "no file; give one"])
     found = problems(tmp_path / "none.xlsx", error)
     shown = [(each["found"], each["remedy"]) for each in found]

@@ -89,12 +89,9 @@ def test_a_workbook_from_before_some_cells_is_read_as_it_is(tmp_path, fields):
     assert same(book.project, project())
 
 
-def test_a_workbook_that_lost_one_of_the_cells_that_came_together_is_refused(tmp_path):
+def test_lost_cells_are_refused_and_an_earlier_provision_overrides_the_present_one(tmp_path):
     (problem,) = read(edit(make(tmp_path), without("site", "hazard_date"))).problems
     assert "date of hazard is missing" in problem[1].found
-
-
-def test_an_earlier_provision_key_overrides_the_present_one(tmp_path):
     path = type_into(make(tmp_path), {"Options/1/Provision": "max_storeys"})
     (override,) = read(path).project.overrides
     assert override.provision == "max_stories"

@@ -40,17 +40,13 @@ def test_a_row_is_read_in_the_units_of_the_sheet(tmp_path):
 
 
 @pytest.mark.quick
-def test_the_blocks_share_the_weight_and_the_damping_is_that_of_one_block_on_one_link():
+def test_the_row_of_blocks_and_its_coefficients_are_those_typed():
     row = Links(**links(damping_ratio=0.02)).row(42000 * LB)
     mass, k = 42000 * LB / G / 3, 5000 * LB / INCH
     assert row.mus == (0.4, 0.45, 0.5)
     assert row.weights == (1 / 3,) * 3
     assert row.stiffness_per_s2 == pytest.approx(k / mass)
     assert row.damping_per_s == pytest.approx(2 * 0.02 * math.sqrt(k * mass) / mass)
-
-
-@pytest.mark.quick
-def test_coefficients_are_separated_by_commas():
     assert coefficients("0.40, 0.45") == (0.4, 0.45)
     assert coefficients(" .4 ,0.45,1.5") == (0.4, 0.45, 1.5)
     assert coefficients(", ".join(["0.0"] * 20)) == (0.0,) * 20

@@ -53,11 +53,14 @@ def test_outlines_are_read_back_as_written(tmp_path, units):
     assert list(data.roof.placed.points) == in_meters(ROOF_FT)
 
 
-def test_a_closed_or_clockwise_outline_is_the_same_shape(tmp_path):
+def test_outlines_are_read_in_either_direction_and_refused_in_two_places(tmp_path):
     backwards = (*L_FT[::-1], L_FT[-1])
     data = read_workbook(make(tmp_path, **outlined(backwards))).input
     first, *rest = L_FT[::-1]
     assert list(data.arrays[0].shape.points) == in_meters([first, *rest[::-1]])
+    here, before = "<Outlines/5/Outline of>", "<Outlines/3/Outline of>"
+    line = f"outline of 'A1' goes on here after {before}; put all of its rows together"
+    assert at(f"{here}: {line}") in changed(tmp_path, {"4/Outline of": "A2"})
 
 
 @pytest.mark.quick
@@ -107,12 +110,6 @@ def test_what_is_no_outline_is_told_by_its_cell(tmp_path, typed, begin, end):
     assert line.endswith(end)
 
 
-def test_an_outline_in_two_places_is_refused(tmp_path):
-    here, before = "<Outlines/5/Outline of>", "<Outlines/3/Outline of>"
-    line = f"outline of 'A1' goes on here after {before}; put all of its rows together"
-    assert at(f"{here}: {line}") in changed(tmp_path, {"4/Outline of": "A2"})
-
-
 ROOF_AS_ID = project().objects[0].model_dump() | {"id": "Roof"}
 NOTCHED = ((0, 0), (300, 0), (300, 60), (80, 60), (80, 100), (0, 100))
 
@@ -152,15 +149,11 @@ def test_a_clearance_is_compared_with_the_gap_to_the_outline(tmp_path):
 
 
 @pytest.mark.quick
-def test_an_object_may_have_an_outline():
+def test_an_object_may_have_an_outline_and_an_array_needs_a_place():
     item = project().objects[1].model_dump()
     data = project(objects=[item], clearances=[], outlines=vertices("old", L_FT))
     assert isinstance(data.objects[0].placed, Polygon)
     assert {row.name for row in data.outlines} == {"OLD"}
-
-
-@pytest.mark.quick
-def test_an_array_without_a_place_is_no_input():
     changes = outlined() | {"outlines": []}
     with pytest.raises(ValueError, match="no rectangle and no outline of A1"):
         project(**changes)

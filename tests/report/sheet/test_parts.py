@@ -124,16 +124,13 @@ def test_a_cell_that_is_not_there_is_added_in_order(book, row, column):
         assert columns == sorted(set(columns))
 
 
-def test_a_cell_is_added_before_one_that_is_changed(book):
+def test_cells_and_rows_are_added_where_there_are_none(book):
     path, name = book
     files = parts(path)
     files[name] = re.sub(whole(WEIGHT), b"", files[name])
     data = after(pack(path, files), {place(WEIGHT): 41000, place(HEIGHT): 12.5})
     assert [cell(opened(data), key).value for key in (WEIGHT, HEIGHT)] == [41000, 12.5]
     assert len(re.findall(rb'<c r="%b"' % named(HEIGHT), parts(io.BytesIO(data))[name])) == 1
-
-
-def test_rows_are_added_to_a_sheet_without_any(book):
     path, _ = book
     edit(path, lambda opened: opened.create_sheet("Blank"))
     places = itertools.product((2, 5), (3, 1))
@@ -142,13 +139,19 @@ def test_rows_are_added_to_a_sheet_without_any(book):
     assert {at: found.cell(at.row, at.column).value for at in cells} == cells
 
 
-def test_any_number_is_written_as_one_and_a_cleared_cell_keeps_its_format(book):
+def test_numbers_are_written_and_a_folded_column_shown_where_it_is_filled(book):
     values = {HEIGHT: 3, "Arrays/A2/CG height": 2.5, "Arrays/A1/x to": np.float64(0.1),
               "Arrays/A2/x to": 1e-12, WEIGHT: None}  # fmt: skip
     now = opened(after(book[0], {place(name): value for name, value in values.items()}))
     for name, value in values.items():
         it = cell(now, name)
         assert (it.value, it.fill.fgColor.rgb) == (value, style.INPUT_FILL.fgColor.rgb)
+    path, _ = book
+    first, *others = folded(load_workbook(path))
+    row = place("Clearances/1/Array").row
+    at_column = CellPosition("Clearances", row, first.start)
+    assert folded(opened(after(path, {at_column: 1.0}))) == others
+    assert first in folded(opened(after(path, {at_column: None})))
 
 
 def test_a_table_grows_to_the_rows_below_it(tmp_path):
@@ -162,7 +165,7 @@ def test_a_table_grows_to_the_rows_below_it(tmp_path):
 
 
 @pytest.mark.quick
-def test_a_shared_formula_is_refused(book):
+def test_a_shared_formula_and_a_sheet_that_is_not_there_are_refused(book):
     path, name = book
     files = parts(path)
     first, below = named(WEIGHT), named(BELOW)
@@ -172,6 +175,8 @@ def test_a_shared_formula_is_refused(book):
     files[name] = re.sub(whole(BELOW), again, files[name])
     with pytest.raises(InputError, match=at(f"<{WEIGHT}>: shares its formula")):
         after(pack(path, files), {place(WEIGHT): 1.0})
+    with pytest.raises(InputError, match="Nowhere: the sheet is missing"):
+        after(book[0], {CellPosition("Nowhere", 1, 1): 1.0})
 
 
 @pytest.mark.parametrize("entity", ['"ha"', 'SYSTEM "file:///etc/passwd"'])
@@ -183,21 +188,6 @@ def test_a_part_with_a_document_type_is_refused(book, entity):
     files[name] = head + doctype + b"<worksheet" + body.replace(b"Tray", b"&a;", 1)
     with pytest.raises(InputError, match="Arrays: has a document type"):
         after(pack(path, files), {place(WEIGHT): 1.0})
-
-
-@pytest.mark.quick
-def test_a_sheet_that_is_not_there_is_refused(book):
-    with pytest.raises(InputError, match="Nowhere: the sheet is missing"):
-        after(book[0], {CellPosition("Nowhere", 1, 1): 1.0})
-
-
-def test_a_folded_column_that_is_filled_is_shown_and_the_others_stay_folded(book):
-    path, _ = book
-    first, *others = folded(load_workbook(path))
-    row = place("Clearances/1/Array").row
-    at_column = CellPosition("Clearances", row, first.start)
-    assert folded(opened(after(path, {at_column: 1.0}))) == others
-    assert first in folded(opened(after(path, {at_column: None})))
 
 
 def folded(book):

@@ -71,9 +71,15 @@ def test_clearances_in_one_wrong_unit_are_one_warning(ratio, words):
     )
 
 
-def test_two_clearances_in_feet_keep_their_own_warnings():
+def test_usual_weights_and_gaps_give_no_warning_but_two_in_feet_their_own():
     found = warnings(clearances_divided(12.0, 12.0))
     assert list(found) == ["clearance A1 to A2 across", "clearance A1 to S down"]
+    for psf in (1.01, 29.9):
+        assert warnings(row_changed("arrays", 0, weight_n=psf * 4800 * LB)) == {}
+    assert warnings(row_changed("clearances", 0, provided_m=119.1 * INCH)) == {}
+    assert "clearance A1 to A2 across" in warnings(
+        row_changed("clearances", 0, provided_m=119 * INCH)
+    )
 
 
 @pytest.mark.parametrize(("section", "index", "change", "name", "text"), CASES)
@@ -102,12 +108,21 @@ def test_a_source_later_than_the_package_gives_a_warning(section, field):
     }
 
 
-def test_a_revision_without_its_row_gives_a_warning():
+def test_revisions_without_a_row_and_overrides_beyond_their_range_give_warnings():
     assert warnings(row_changed("project", None, revision="C")) == {
         "revision C": "revision is 'C', which is not in the revision block; add its row, or"
         " correct it"
     }
     assert "revision 1" in warnings(project(revisions=()))
+    found = warnings(overridden(4.01, 29.0))
+    assert list(found) == ["override separation_edge", "override prescriptive_factor_in"]
+    assert found["override separation_edge"] == (
+        "value is 4.01 for the separation to an edge without qualifying parapet / design"
+        " displacement; 0.75 to 4 is usual: correct the value or its unit"
+    )
+    assert "value is 29 for the " in found["override prescriptive_factor_in"]
+    assert " 30 to 120 is usual" in found["override prescriptive_factor_in"]
+    assert warnings(overridden(0.75, 30.0)) == warnings(overridden(4.0, 120.0)) == {}
 
 
 SITE = {"rule_set": "ASCE 7-16", "site_class": "C", "s_s_g": 1.5, "s_1_g": 0.6, "s_ds_g": None}
@@ -154,27 +169,6 @@ def overridden(edge, factor_in):
     values = {"separation_edge": edge, "prescriptive_factor_in": factor_in}
     rows = [{"provision": key, "value": value, "reason": "agreed"} for key, value in values.items()]
     return project(overrides=rows)
-
-
-def test_an_override_beyond_the_usual_range_gives_a_warning_of_its_key():
-    found = warnings(overridden(4.01, 29.0))
-    assert list(found) == ["override separation_edge", "override prescriptive_factor_in"]
-    assert found["override separation_edge"] == (
-        "value is 4.01 for the separation to an edge without qualifying parapet / design"
-        " displacement; 0.75 to 4 is usual: correct the value or its unit"
-    )
-    assert "value is 29 for the " in found["override prescriptive_factor_in"]
-    assert " 30 to 120 is usual" in found["override prescriptive_factor_in"]
-    assert warnings(overridden(0.75, 30.0)) == warnings(overridden(4.0, 120.0)) == {}
-
-
-def test_a_weight_in_the_usual_range_and_a_gap_within_tolerance_give_none():
-    for psf in (1.01, 29.9):
-        assert warnings(row_changed("arrays", 0, weight_n=psf * 4800 * LB)) == {}
-    assert warnings(row_changed("clearances", 0, provided_m=119.1 * INCH)) == {}
-    assert "clearance A1 to A2 across" in warnings(
-        row_changed("clearances", 0, provided_m=119 * INCH)
-    )
 
 
 def test_an_object_at_a_corner_lies_in_both_directions():
@@ -281,21 +275,15 @@ def test_a_number_outside_its_usual_range_gives_a_warning(section, index, change
     assert text in finding.text
 
 
-def test_the_range_is_in_the_units_that_come_first():
+def test_ranges_are_in_the_units_that_come_first_and_include_their_limits():
     metric = project().project.model_dump() | {"units_first": "SI"}
     (finding,) = unusual(project(project=metric, arrays=arrays(cg_height_m=0.05)))
     assert finding.text.startswith("CG height is 50 mm; 101.6 to 914.4 mm is usual")
-
-
-def test_the_limits_of_a_range_and_the_height_0_of_an_edge_without_parapet_are_usual():
     for inches in (4, 36):
         assert list(unusual(row_changed("arrays", 0, cg_height_m=inches * INCH))) == []
     for kind, count in ((ObjectKind.EDGE_WITHOUT_PARAPET, 0), (ObjectKind.EDGE_WITH_PARAPET, 1)):
         data = row_changed("objects", 0, kind=kind, height_m=0.0)
         assert len(list(unusual(data))) == count
-
-
-def test_every_example_is_usual():
     for section in SECTIONS:
         for entry in entries(section.model):
             if entry.cell.usual is not None:

@@ -26,12 +26,20 @@ def path(request, tmp_path):
     return make(tmp_path, request.param)
 
 
-def test_a_project_is_read_as_it_was_written(path):
+def test_a_project_is_read_as_written_and_every_cell_echoed(path):
     before = path.read_bytes()
     book = read_workbook(path.parent)  # a folder is read as its input workbook
     assert same(book.input, project())
     assert (book.path, book.sha256) == (path, hashlib.sha256(before).hexdigest())
     assert path.read_bytes() == before
+    book = read_workbook(path)
+    rows = echo(book)
+    assert len(rows) == len(book.echo)
+    weight = rows[at("Arrays/A1/Weight")]
+    assert (weight.label, weight.value) == ("Weight", "186825 N")
+    assert (weight.typed, weight.unit) in [("42000", "lb"), ("186.825307841", "kN")]
+    names = ("Site/S_1", "Objects/OLD/Height", "Options/Peer review")
+    assert [rows[at(name)].value for name in names] == ["0.7 g", "—", "Yes"]
 
 
 letters = st.characters(exclude_categories=["Cc", "Cf", "Cs", "Cn", "Zs", "Zl", "Zp"])
@@ -184,13 +192,10 @@ SPELLINGS = {
 }
 
 
-def test_spelling_and_notes_do_not_matter(tmp_path):
+def test_spelling_and_notes_do_not_matter_and_units_are_followed(tmp_path):
     """All in one workbook: each is in a cell that no other depends on."""
     path = type_into(make(tmp_path), dict(SPELLINGS.values()))
     assert same(read_workbook(path).input, project())
-
-
-def test_units_of_headings_and_cells_are_followed(tmp_path):
     cells = of("Arrays/heading", {"CG height": "CG height [mm]", "Weight": "Weight [kg]"})
     cells |= of("Arrays/A1", {"CG height": 250, "Weight": 1000}) | {"Arrays/A2/CG height": 1}
     cells |= {"Site/Structure height h": 12, "Site/Structure height h/Unit": "m"}
@@ -201,7 +206,7 @@ def test_units_of_headings_and_cells_are_followed(tmp_path):
     assert data.site.roof_height_m == pytest.approx(36 * FT)
 
 
-def test_a_blank_choice_takes_its_default(tmp_path):
+def test_what_is_blank_or_absent_takes_its_default(tmp_path):
     statistic = "Options/Design value statistic"
     blank = (statistic, "Options/Peer review", "Motions/M2/Polarity")
     book = read_workbook(type_into(make(tmp_path), dict.fromkeys(blank)))
@@ -209,6 +214,13 @@ def test_a_blank_choice_takes_its_default(tmp_path):
     assert book.input.motions[1].polarity is Polarity.BOTH
     row = echo(book)[at(statistic)]
     assert (row.typed, row.value) == ("", "rule set (default)")
+
+    # `test_earlier` and `test_legacy_labels` have the cells that earlier workbooks lack.
+    def change(book):
+        for title in ("Spectrum", "Links", "Friction tests", "Outlines"):
+            book.remove(book[title])
+
+    assert same(read_workbook(edit(make(tmp_path), change)).input, project())
 
 
 def test_an_unknown_heading_is_listed_in_the_echo(tmp_path):
@@ -226,17 +238,6 @@ def test_an_unknown_heading_is_listed_in_the_echo(tmp_path):
 def echo(book):
     """The echoed rows by the addresses of their cells."""
     return {f"{row.sheet}!{row.cell}": row for row in book.echo}
-
-
-def test_every_cell_is_echoed_as_typed_and_as_used(path):
-    book = read_workbook(path)
-    rows = echo(book)
-    assert len(rows) == len(book.echo)
-    weight = rows[at("Arrays/A1/Weight")]
-    assert (weight.label, weight.value) == ("Weight", "186825 N")
-    assert (weight.typed, weight.unit) in [("42000", "lb"), ("186.825307841", "kN")]
-    names = ("Site/S_1", "Objects/OLD/Height", "Options/Peer review")
-    assert [rows[at(name)].value for name in names] == ["0.7 g", "—", "Yes"]
 
 
 # openpyxl saves no values of formulas, so LibreOffice saved these.
@@ -264,13 +265,3 @@ def test_an_array_formula_without_a_value_is_reported_like_any_other(tmp_path):
     assert problems(edit(make(tmp_path), change))[0].startswith(
         f"{at(name)}: friction coefficient is a formula with no saved value (=SUM(C8:C9*0));"
     )
-
-
-def test_a_workbook_without_sheets_that_may_be_absent_is_read(tmp_path):
-    """`test_earlier` and `test_legacy_labels` have the cells that earlier workbooks lack."""
-
-    def change(book):
-        for title in ("Spectrum", "Links", "Friction tests", "Outlines"):
-            book.remove(book[title])
-
-    assert same(read_workbook(edit(make(tmp_path), change)).input, project())

@@ -16,7 +16,7 @@ def shaken(tmp_path_factory):
     return read_workbook(type_into(path, {"Motions/M1/Transverse record": "records\\y.csv"}))
 
 
-def test_motions_are_scaled_and_signed_as_requested(shaken):
+def test_motions_are_scaled_signed_and_run_beside_their_transverse_records(shaken):
     m1, m2, m3 = shaken.motions
     assert [m.id for m in shaken.motions] == ["M1", "M2", "M3"]
     assert (m1.scale, m1.signs, m1.has_vertical, m1.source) == (1.0, (1, -1), True, "made")
@@ -24,9 +24,6 @@ def test_motions_are_scaled_and_signed_as_requested(shaken):
     assert m3.signs == (1,)
     assert m3.scale * np.abs(m3.ax_mps2).max() == pytest.approx(1.5 * 9.80665, rel=1e-12)
     assert (m1.dt_s, m3.dt_s) == (0.01, 0.02)
-
-
-def test_a_transverse_record_is_run_beside_the_horizontal_one_and_all_are_read_only(shaken):
     m1, m2, _ = shaken.motions
     assert np.allclose(m1.ay_mps2, 0.980665)
     names = [[one.name for one in motion.orientations] for motion in (m1, m2)]
@@ -181,7 +178,7 @@ def test_what_does_not_suit_a_record_is_reported_at_its_cell(tmp_path, cells, wa
         assert words in line
 
 
-def test_components_of_different_length_are_trimmed(tmp_path):
+def test_components_are_trimmed_and_one_of_zeros_is_read_if_the_other_shakes(tmp_path):
     path = recorded(make(tmp_path), x="0.1\n-0.2\n" * 100, z="0.1\n-0.2\n" * 98)
     book = read_workbook(path)
     assert len(book.motions[0].ax_mps2) == len(book.motions[0].az_mps2) == 196
@@ -192,6 +189,11 @@ def test_components_of_different_length_are_trimmed(tmp_path):
     book = read_workbook(type_into(path, {"Motions/M1/End time": 1.5}))
     assert len(book.motions[0].ax_mps2) == len(book.motions[0].az_mps2) == 151
     assert [record.npts_trimmed for record in book.records[:2]] == [0, 0]
+    path = recorded(make(tmp_path), still="0\n" * 200)
+    cells = STILL | {"Motions/M2/Transverse record": "records/x2.csv"}
+    motion = read_workbook(type_into(path, cells)).motions[1]
+    assert not motion.ax_mps2.any()
+    assert motion.ay_mps2.any()
 
 
 @pytest.mark.parametrize("names", [("East", "north", " UP "), ("1", "2", "3")])
@@ -204,11 +206,3 @@ def test_channels_of_one_file_are_components(tmp_path, names):
         assert a == pytest.approx(slope * 9.80665 * np.arange(101))
     assert book.records[1].name == f"records/all.csv | {names[1]}".strip()
     assert book.records[1].format == "text"
-
-
-def test_one_horizontal_record_of_zeros_is_read_if_the_other_shakes(tmp_path):
-    path = recorded(make(tmp_path), still="0\n" * 200)
-    cells = STILL | {"Motions/M2/Transverse record": "records/x2.csv"}
-    motion = read_workbook(type_into(path, cells)).motions[1]
-    assert not motion.ax_mps2.any()
-    assert motion.ay_mps2.any()

@@ -28,20 +28,14 @@ def entry(model, name):
     return next(item for item in entries(model) if item.name == name)
 
 
-def test_every_section_is_a_part_of_the_project_input_and_each_of_its_fields_a_cell():
+def test_sections_are_parts_of_the_input_with_labels_and_messages_that_fit():
     assert [section.key for section in SECTIONS] == list(ProjectInput.model_fields)
     for section in SECTIONS:
         assert [item.name for item in entries(section.model)] == list(section.model.model_fields)
-
-
-def test_labels_within_a_section_differ_so_that_headings_find_their_field():
     for section in SECTIONS:
         labels = [item.cell.label.casefold() for item in entries(section.model)]
         assert len(labels) == len(set(labels))
         assert not any(set("[]*!") & set(label) for label in labels)
-
-
-def test_input_messages_fit_into_excel():
     for section in SECTIONS:
         for item in entries(section.model):
             assert len(item.help) <= 200
@@ -49,7 +43,7 @@ def test_input_messages_fit_into_excel():
             assert not any("," in choice for choice in item.choices)
 
 
-def test_a_field_has_its_type_requirement_and_range():
+def test_a_field_has_its_type_range_and_legal_unit():
     mu = entry(Array, "mu")
     assert (mu.kind, mu.is_required, mu.bounds.words()) == (float, True, "0 to 1.5")
     assert entry(MotionInput, "units").choices == ("from file", *UNIT_CHOICES)
@@ -63,6 +57,11 @@ def test_a_field_has_its_type_requirement_and_range():
     assert entry(Array, "weight_n").quantity is Quantity.WEIGHT
     assert entry(Project, "date").kind is dt.date
     assert entry(Options, "peer_reviewed").choices == tuple(YesNo)
+    assert [bounds.words() for bounds in RANGES] == [*RANGES.values()]
+    assert Bounds(low=0, high=10 * INCH).words(INCH) == "0 to 10"
+    assert LENGTHS == {"in": 0.0254, "ft": 0.3048, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
+    assert WEIGHTS["lb"] == pytest.approx(0.45359237 * 9.80665, rel=1e-15)
+    assert WEIGHTS["kip"] == pytest.approx(1000 * WEIGHTS["lb"])
 
 
 RANGES = {
@@ -77,44 +76,27 @@ RANGES = {
 }
 
 
-def test_ranges_are_written_in_words_and_in_the_unit_of_the_sheet():
-    assert [bounds.words() for bounds in RANGES] == [*RANGES.values()]
-    assert Bounds(low=0, high=10 * INCH).words(INCH) == "0 to 10"
-
-
-def test_slopes_become_angles():
+def test_slopes_become_angles_and_s_ds_is_unrounded():
     for value, unit, degrees in (
         (3.0, SlopeUnit.DEGREES, 3.0), (5.0, SlopeUnit.PERCENT, 2.8624052261117479),
         (0.25, SlopeUnit.IN_PER_12, 1.1934894239820351), (0.0, SlopeUnit.PERCENT, 0.0),
     ):  # fmt: skip
         assert math.degrees(slope_rad(value, unit)) == pytest.approx(degrees, rel=1e-12)
-
-
-def test_s_ds_is_as_given_or_else_two_thirds_of_f_a_s_s_unrounded():
     assert Site(**SITE, s_s_g=1.313, f_a=1.2).s_ds == pytest.approx(1.0504, abs=1e-12)
     assert Site(**SITE, s_s_g=1.313, f_a=1.2, s_ds_g=1.05).s_ds == 1.05
     with pytest.raises(ValidationError, match="give S_DS, S_MS, or S_S and F_a"):
         Site(**SITE, s_s_g=1.313)
 
 
-def test_input_models_are_frozen_and_accept_no_other_fields():
+def test_models_are_frozen_with_rectangles_of_arrays_and_objects():
     site = Site(**SITE, s_ds_g=1.0)
     with pytest.raises(ValidationError):
         site.i_e = 1.5
     for wrong in ({"s_ds_g": 1.0, "color": "red"}, {"s_ds_g": math.nan}):
         with pytest.raises(ValidationError):
             Site(**SITE, **wrong)
-
-
-def test_rectangles_come_with_arrays_and_with_objects_that_have_all_sides():
     data = project()
     assert data.arrays[0].shape.x_to_m == pytest.approx(30.48)
     assert data.objects[1].placed is None
     assert data.objects[0].placed.y_from_m == pytest.approx(24.384)
     assert data.site.rule_set is RuleSetName.PV1
-
-
-def test_input_units_have_their_legal_definitions():
-    assert LENGTHS == {"in": 0.0254, "ft": 0.3048, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
-    assert WEIGHTS["lb"] == pytest.approx(0.45359237 * 9.80665, rel=1e-15)
-    assert WEIGHTS["kip"] == pytest.approx(1000 * WEIGHTS["lb"])

@@ -35,7 +35,7 @@ def test_the_gap_to_an_l_shape_by_hand(other, gap):
     assert gap_m(L_SHAPE, other) == pytest.approx(gap_m(L_SHAPE, Polygon(other.points)), abs=1e-12)
 
 
-def test_closest_points_an_area_and_its_bounds_by_hand():
+def test_closest_points_overlaps_and_rings_by_hand():
     # Midway along facing sides.
     assert closest(L_SHAPE, Rectangle(7, 9, 6, 8)) == ((8.0, 4.0), (8.0, 6.0))
     assert closest(L_SHAPE, Rectangle(13, 14, 8, 9)) == ((10.0, 4.0), (13.0, 8.0))
@@ -44,6 +44,12 @@ def test_closest_points_an_area_and_its_bounds_by_hand():
     assert shapes.around([L_SHAPE, Rectangle(-1.0, 2.0, 3.0, 12.0)]) == Rectangle(
         -1.0, 10.0, 0.0, 12.0
     )
+    a, b = Rectangle(0, 4, 0, 7), Rectangle(-2, 6, 0, 6)  # 4 m by 6 m in common
+    for one, other in itertools.product((a, Polygon(a.points)), (b, Polygon(b.points))):
+        assert gap_m(one, other) == gap_m(other, one) == -4.0
+    clockwise = [(0.0, 0.0), (0.0, 1.0), (1.0, 1.0), (1.0, 0.0), (0.0, 0.0)]
+    assert ring(clockwise) == ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
+    assert ring(L_SHAPE.points) == L_SHAPE.points
 
 
 boxes = st.tuples(*[st.floats(-20.0, 20.0), st.floats(0.1, 20.0)] * 2).map(
@@ -56,12 +62,6 @@ def test_polygons_of_four_right_angles_are_as_far_apart_as_rectangles(a, b):
     gap = gap_m(a, b)
     assume(not 0.0 < abs(gap) < 1e-6)
     assert gap_m(Polygon(a.points), Polygon(b.points)) == pytest.approx(gap, abs=1e-9)
-
-
-def test_the_depth_of_an_overlap_is_the_same_however_a_shape_is_entered():
-    a, b = Rectangle(0, 4, 0, 7), Rectangle(-2, 6, 0, 6)  # 4 m by 6 m in common
-    for one, other in itertools.product((a, Polygon(a.points)), (b, Polygon(b.points))):
-        assert gap_m(one, other) == gap_m(other, one) == -4.0
 
 
 @st.composite
@@ -118,22 +118,22 @@ def test_closest_points_lie_on_the_shapes_at_the_gap(a, b):
         assert shapely.Polygon(shape.points).distance(shapely.Point(point)) <= 1e-6
 
 
-def test_a_ring_is_counterclockwise_and_not_closed():
-    clockwise = [(0.0, 0.0), (0.0, 1.0), (1.0, 1.0), (1.0, 0.0), (0.0, 0.0)]
-    assert ring(clockwise) == ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
-    assert ring(L_SHAPE.points) == L_SHAPE.points
-
-
 @pytest.mark.quick
-def test_a_ring_that_crosses_itself_is_found():
+def test_rings_that_cross_themselves_and_areas_between_shapes():
     bow_tie = ((0, 0), (1, 1), (1, 0), (0, 1))
     vertex_on_a_side = ((0, 0), (4, 0), (4, 4), (2, 0), (0, 4))
     assert crossing(bow_tie) == (0.5, 0.5)
     assert crossing(vertex_on_a_side) == (2.0, 0.0)
     assert crossing(((0, 0), (2, 0), (2, 2), (0, 2))) is None
+    notch = shapes.between(L_SHAPE, Rectangle(7.0, 9.0, 6.0, 8.0))
+    assert notch.bounds == Rectangle(7.0, 9.0, 4.0, 6.0)
+    assert shapes.between(L_SHAPE, Rectangle(10.0, 12.0, 0.0, 1.0)) is None
+    assert shapes.between(L_SHAPE, Rectangle(13, 14, 8, 9)) is None
+    common = shapes.between(L_SHAPE, Rectangle(3.0, 6.0, 6.0, 8.0))
+    assert common.area_m2 == 2.0
 
 
-def test_what_is_outside_of_an_l_shaped_roof():
+def test_parts_of_roofs_and_merged_rings_by_hand():
     assert outside(Rectangle(1, 9, 1, 3), L_SHAPE) is None
     assert outside(Rectangle(0, 4, 0, 10), L_SHAPE) is None  # along its sides
     # All corners of this strip are inside; its middle crosses the notch.
@@ -141,24 +141,15 @@ def test_what_is_outside_of_an_l_shaped_roof():
     x, y = outside(bridge, L_SHAPE)
     assert x > 4.0
     assert y > 4.0
-
-
-def test_the_parts_of_a_strip_near_an_oblique_side():
     strip = Polygon(((0.0, 0.1), (0.1, 0.0), (3.1, 3.0), (3.0, 3.1)))
     (part,) = shapes.spans_near(strip, (0.0, 0.0), (10.0, 10.0), 0.3)
     along = [(x + y) / math.sqrt(2.0) for x, y in part]
     assert min(along) == pytest.approx(0.1 / math.sqrt(2.0))
     assert max(along) == pytest.approx(6.1 / math.sqrt(2.0))
     assert shapes.spans_near(strip, (0.0, 5.0), (5.0, 10.0), 0.3) == []
-
-
-def test_merged_rings_have_no_holes():
     sides = [((0, 0), (5, 0), (5, 1), (0, 1)), ((4, 0), (5, 0), (5, 5), (4, 5)),
              ((0, 4), (5, 4), (5, 5), (0, 5)), ((0, 0), (1, 0), (1, 5), (0, 5))]  # fmt: skip
     assert Polygon(shapes.merged(sides)).area_m2 == 25.0
-
-
-def test_the_room_of_an_l_shape_is_its_larger_leg():
     long_leg = Polygon(((0, 0), (20, 0), (20, 4), (4, 4), (4, 10), (0, 10)))
     assert shapes.room(long_leg) == Rectangle(0, 20, 0, 4)
     assert shapes.room(Rectangle(0, 1, 0, 2)) == Rectangle(0, 1, 0, 2)
@@ -170,13 +161,3 @@ def test_the_room_is_within(shape):
     box = shapes.room(shape)
     assert box.area_m2 > 0.0
     assert outside(box, shape) is None
-
-
-@pytest.mark.quick
-def test_the_area_between_shapes():
-    notch = shapes.between(L_SHAPE, Rectangle(7.0, 9.0, 6.0, 8.0))
-    assert notch.bounds == Rectangle(7.0, 9.0, 4.0, 6.0)
-    assert shapes.between(L_SHAPE, Rectangle(10.0, 12.0, 0.0, 1.0)) is None
-    assert shapes.between(L_SHAPE, Rectangle(13, 14, 8, 9)) is None
-    common = shapes.between(L_SHAPE, Rectangle(3.0, 6.0, 6.0, 8.0))
-    assert common.area_m2 == 2.0

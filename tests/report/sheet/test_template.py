@@ -45,18 +45,12 @@ def validation(book, name):
     return next(rule for rule in validations(book[sheet]) if place in rule.sqref)
 
 
-def test_sheets_are_in_working_order(blank):
+def test_sheets_names_and_tables_are_complete(blank):
     assert blank.sheetnames == [*SHEETS, "Provisions", "Tables"]
-
-
-def test_every_single_field_has_a_defined_name(blank):
     names, blocks = blank.defined_names, [part for part in SECTIONS if not part.is_table]
     for section, entry in ((part, entry) for part in blocks for entry in entries(part.model)):
         assert section.cell_name(entry.name) in names
         assert (section.unit_name(entry.name) in names) == (entry.quantity is not None)
-
-
-def test_every_table_has_its_name_and_blank_rows(blank):
     names = tables(blank)
     for section in SECTIONS:
         if section.is_table:
@@ -65,68 +59,17 @@ def test_every_table_has_its_name_and_blank_rows(blank):
             assert bottom - top == (20 if top == 7 else 6)
             cells = [c for row in sheet.iter_rows(top + 1, bottom, left, right) for c in row]
             assert all(c.value is None or c.data_type == "f" for c in cells)
-
-
-def test_headings_state_the_units_of_the_system(blank, is_us):
-    sheet, table = tables(blank)["arrays_table"]
-    headings = [head.value for head in sheet[table.ref][0]]
-    weight, size, plan = ("lb", "in", "ft") if is_us else ("kN", "mm", "m")
-    assert {f"Weight [{weight}]", f"CG height [{size}]", f"x from [{plan}]"} <= {*headings}
-
-
-def test_table_columns_are_named_as_their_headings(blank):
     for sheet, table in tables(blank).values():
         headings = [head.value for head in sheet[table.ref][0]]
         assert headings == [column.name for column in table.tableColumns]
         assert table.autoFilter is None
 
 
-def test_inputs_are_yellow_and_formulas_are_blue(blank):
-    for name, color in (("Site/Rule set", "00FFF6CC"), ("Site/S_DS/Computed", "00E3EDF5")):
-        assert cell(blank, name).fill.start_color.rgb == color
-    formulas = formula_cells(blank)
-    others = [c for c in formulas if c.fill.start_color.rgb != "00E3EDF5"]
-    # The clauses of the panel.
-    assert {(c.parent.title, c.column_letter) for c in others} == {("Start", "F")}
-    assert len(others) < len(formulas) / 10
-
-
-def test_an_input_loses_its_color_once_it_is_filled(blank):
-    for name in ("Site/Rule set", "Site/Fire lane width/Unit", "Arrays/1/ID", "Arrays/20/Slope"):
-        at = cell(blank, name)
-        areas = [a for a in at.parent.conditional_formatting if at.coordinate in a.sqref]
-        ((first, rule),) = [(str(a.sqref).split(":")[0], a.rules[0]) for a in areas]
-        assert rule.formula == [f"NOT(ISBLANK({first}))"]
-        assert rule.dxf.fill.start_color.rgb == "00FFFFFF"
-
-
-def test_the_hazard_cells_are_in_the_order_of_a_hazard_tool_the_edition_first(blank):
-    first = cell(blank, "Site/Edition of ASCE 7").row
-    labels = [str(blank["Site"].cell(row, 1).value) for row in range(first, first + 13)]
-    assert [label.removesuffix(" *") for label in labels] == [
-        "Edition of ASCE 7", "Risk category", "Site class", "S_S", "S_1", "F_a", "F_v", "S_MS",
-        "S_M1", "S_DS", "S_D1", "Long-period transition T_L", "Importance factor I_e",
-    ]  # fmt: skip
-
-
-def test_choices_are_dropdowns_and_numbers_have_a_range_with_a_message_and_an_alert(blank):
-    rule = validation(blank, "Arrays/1/Slope unit")
-    assert rule.formula1 == '"degrees,percent,in/12"'
-    assert rule.prompt
-    assert (rule.showInputMessage, rule.showErrorMessage) == (True, True)
-    rule = validation(blank, "Arrays/1/Friction coefficient")
-    assert (rule.type, rule.operator) == ("decimal", "between")
-    assert (rule.formula1, rule.formula2) == ("0", "1.5")
-    assert "0 to 1.5" in rule.prompt
-
-
-def test_clearances_offer_the_arrays_and_objects_but_accept_other_text(blank):
-    of_object = validation(blank, "Clearances/1/Object")
-    assert validation(blank, "Clearances/1/Array").formula1 == "live_array_names"
-    assert (of_object.formula1, of_object.showErrorMessage) == ("live_names", False)
-
-
-def test_rows_of_linked_blocks_offer_the_arrays_and_have_their_units(blank, is_us):
+def test_headings_defaults_and_paper_are_those_of_the_system(blank, is_us):
+    sheet, table = tables(blank)["arrays_table"]
+    headings = [head.value for head in sheet[table.ref][0]]
+    weight, size, plan = ("lb", "in", "ft") if is_us else ("kN", "mm", "m")
+    assert {f"Weight [{weight}]", f"CG height [{size}]", f"x from [{plan}]"} <= {*headings}
     sheet, table = tables(blank)["links_table"]
     unit, example = ("lb/in", "5000") if is_us else ("kN/m", "876")
     heads = sheet[table.ref][0]
@@ -135,68 +78,43 @@ def test_rows_of_linked_blocks_offer_the_arrays_and_have_their_units(blank, is_u
     wanted |= {f"Link stiffness [{unit}]": example, "Link damping": "0.02"}
     assert list(examples.items()) == list(wanted.items())
     assert validation(blank, "Links/1/Array").formula1 == "live_array_names"
-
-
-def test_overrides_offer_the_provisions(blank):
-    assert validation(blank, "Options/1/Provision").formula1 == "rule_names"
-    cells = blank.defined_names["rule_names"].attr_text.partition("!")[2].replace("$", "")
-    names = [row[0].value for row in blank["Provisions"][cells]]
-    assert names == [provision_name(key) for key in OVERRIDABLE]
-
-
-def test_no_cell_has_two_validations(blank):
-    for sheet in blank.worksheets:
-        areas = [area for rule in validations(sheet) for area in rule.sqref.ranges]
-        for i, area in enumerate(areas):
-            assert all(area.isdisjoint(other) for other in areas[i + 1 :])
-
-
-def test_messages_and_formulas_satisfy_the_limits_of_excel(blank):
-    for sheet in blank.worksheets:
-        for rule in validations(sheet):
-            assert len(rule.promptTitle) <= 32
-            assert len(rule.prompt) <= 255
-            assert len(rule.errorTitle) < len(rule.error) <= 225
-            assert rule.error != rule.prompt
-            assert all(len(text or "") <= 255 for text in (rule.formula1, rule.formula2))
-    texts = [str(c.value) for c in formula_cells(blank)]
-    texts += [name.attr_text for name in blank.defined_names.values()]
-    assert max(map(len, texts)) <= 8192
-
-
-def test_headings_are_frozen_and_every_sheet_prints_at_one_zoom(blank):
-    assert all(blank[name].freeze_panes for name in SHEETS[1:])
-    setups = [sheet.page_setup for sheet in blank.worksheets]
-    assert {(setup.orientation, setup.scale) for setup in setups} == {("landscape", 55)}
-    # Another zoom would follow from these.
-    assert {fit for setup in setups for fit in (setup.fitToWidth, setup.fitToHeight)} == {None}
-
-
-def test_sheets_that_are_rarely_needed_are_hidden_while_they_are_empty(blank, tmp_path):
-    hidden = {sheet.title for sheet in blank.worksheets if sheet.sheet_state == "hidden"}
-    assert hidden == RARE | {"Tables"}
-    rows = [{"period_s": t, "horizontal_g": 1.0} for t in (0.1, 1.0)]
-    path = make(tmp_path, spectrum=rows)
-    assert load_workbook(path)["Spectrum"].sheet_state == "visible"
-
-
-def test_a_hidden_sheet_is_shown_where_it_is_filled(tmp_path):
-    path = type_into(make(tmp_path), {"Layers/1/Layer": "PV", "Layers/1/Drawn on it": "array"})
-    states = {sheet.title: sheet.sheet_state for sheet in load_workbook(path).worksheets}
-    assert (states["Layers"], states["Outlines"]) == ("visible", "hidden")
-    assert read(path).unseen == ()
-
-
-def test_defaults_are_filled_and_the_rest_is_blank(blank, is_us):
     assert cell(blank, "Project/Primary units").value == ("US" if is_us else "SI")
     assert cell(blank, "Options/Design value statistic").value == "rule set"
     assert cell(blank, "Options/Peer review").value == "No"
     labels = ("Rule set", "Seismic design category")
     first, last = (cell(blank, f"Site/{label}").row for label in labels)
     assert all(blank["Site"].cell(row, 2).value is None for row in range(first, last + 1))
+    wide, tall = (279.4, 215.9) if is_us else (297.0, 210.0)  # mm, landscape
+    for sheet in blank.worksheets:
+        margins = sheet.page_margins
+        assert sheet.page_setup.paperSize == (1 if is_us else 9)
+        assert wide - 25.4 * (margins.left + margins.right) == pytest.approx(259.0, abs=0.3)
+        assert tall - 25.4 * (margins.top + margins.bottom) == pytest.approx(190.6, abs=0.3)
 
 
-def test_start_has_the_six_steps_a_picture_and_the_colors(blank):
+def test_inputs_are_yellow_until_filled_and_formulas_blue(blank):
+    for name, color in (("Site/Rule set", "00FFF6CC"), ("Site/S_DS/Computed", "00E3EDF5")):
+        assert cell(blank, name).fill.start_color.rgb == color
+    formulas = formula_cells(blank)
+    others = [c for c in formulas if c.fill.start_color.rgb != "00E3EDF5"]
+    # The clauses of the panel.
+    assert {(c.parent.title, c.column_letter) for c in others} == {("Start", "F")}
+    assert len(others) < len(formulas) / 10
+    for name in ("Site/Rule set", "Site/Fire lane width/Unit", "Arrays/1/ID", "Arrays/20/Slope"):
+        at = cell(blank, name)
+        areas = [a for a in at.parent.conditional_formatting if at.coordinate in a.sqref]
+        ((first, rule),) = [(str(a.sqref).split(":")[0], a.rules[0]) for a in areas]
+        assert rule.formula == [f"NOT(ISBLANK({first}))"]
+        assert rule.dxf.fill.start_color.rgb == "00FFFFFF"
+
+
+def test_start_and_the_hazard_cells_are_in_the_order_of_work(blank):
+    first = cell(blank, "Site/Edition of ASCE 7").row
+    labels = [str(blank["Site"].cell(row, 1).value) for row in range(first, first + 13)]
+    assert [label.removesuffix(" *") for label in labels] == [
+        "Edition of ASCE 7", "Risk category", "Site class", "S_S", "S_1", "F_a", "F_v", "S_MS",
+        "S_M1", "S_DS", "S_D1", "Long-period transition T_L", "Importance factor I_e",
+    ]  # fmt: skip
     sheet = blank["Start"]
     text = "\n".join(str(value) for row in sheet.values for value in row if value is not None)
     for part in ("roofslip check FOLDER", "roofslip report FOLDER", "records", "Colors"):
@@ -212,6 +130,68 @@ def test_start_has_the_six_steps_a_picture_and_the_colors(blank):
     assert picture._data()[:4] == b"\x89PNG"
 
 
+def test_validations_offer_choices_and_ranges(blank):
+    rule = validation(blank, "Arrays/1/Slope unit")
+    assert rule.formula1 == '"degrees,percent,in/12"'
+    assert rule.prompt
+    assert (rule.showInputMessage, rule.showErrorMessage) == (True, True)
+    rule = validation(blank, "Arrays/1/Friction coefficient")
+    assert (rule.type, rule.operator) == ("decimal", "between")
+    assert (rule.formula1, rule.formula2) == ("0", "1.5")
+    assert "0 to 1.5" in rule.prompt
+    of_object = validation(blank, "Clearances/1/Object")
+    assert validation(blank, "Clearances/1/Array").formula1 == "live_array_names"
+    assert (of_object.formula1, of_object.showErrorMessage) == ("live_names", False)
+    assert validation(blank, "Options/1/Provision").formula1 == "rule_names"
+    cells = blank.defined_names["rule_names"].attr_text.partition("!")[2].replace("$", "")
+    names = [row[0].value for row in blank["Provisions"][cells]]
+    assert names == [provision_name(key) for key in OVERRIDABLE]
+
+
+def test_no_cell_has_two_validations_and_all_fits_excel(blank):
+    for sheet in blank.worksheets:
+        areas = [area for rule in validations(sheet) for area in rule.sqref.ranges]
+        for i, area in enumerate(areas):
+            assert all(area.isdisjoint(other) for other in areas[i + 1 :])
+    for sheet in blank.worksheets:
+        for rule in validations(sheet):
+            assert len(rule.promptTitle) <= 32
+            assert len(rule.prompt) <= 255
+            assert len(rule.errorTitle) < len(rule.error) <= 225
+            assert rule.error != rule.prompt
+            assert all(len(text or "") <= 255 for text in (rule.formula1, rule.formula2))
+    texts = [str(c.value) for c in formula_cells(blank)]
+    texts += [name.attr_text for name in blank.defined_names.values()]
+    assert max(map(len, texts)) <= 8192
+
+
+def test_headings_are_frozen_and_rare_sheets_hidden(blank, tmp_path):
+    assert all(blank[name].freeze_panes for name in SHEETS[1:])
+    setups = [sheet.page_setup for sheet in blank.worksheets]
+    assert {(setup.orientation, setup.scale) for setup in setups} == {("landscape", 55)}
+    # Another zoom would follow from these.
+    assert {fit for setup in setups for fit in (setup.fitToWidth, setup.fitToHeight)} == {None}
+    hidden = {sheet.title for sheet in blank.worksheets if sheet.sheet_state == "hidden"}
+    assert hidden == RARE | {"Tables"}
+    rows = [{"period_s": t, "horizontal_g": 1.0} for t in (0.1, 1.0)]
+    path = make(tmp_path, spectrum=rows)
+    assert load_workbook(path)["Spectrum"].sheet_state == "visible"
+
+
+def test_a_filled_workbook_shows_hidden_sheets_grows_tables_and_keeps_texts(tmp_path):
+    path = type_into(make(tmp_path), {"Layers/1/Layer": "PV", "Layers/1/Drawn on it": "array"})
+    states = {sheet.title: sheet.sheet_state for sheet in load_workbook(path).worksheets}
+    assert (states["Layers"], states["Outlines"]) == ("visible", "hidden")
+    assert read(path).unseen == ()
+    rows = [arrays(id=f"A{i}")[0] for i in range(40)]
+    book = load_workbook(make(tmp_path, arrays=rows, clearances=[]))
+    _, first, _, last = range_boundaries(book["Arrays"].tables["arrays_table"].ref)
+    assert last - first == 45
+    data = project().project.model_dump() | {"name": "=1+1", "client": "#N/A"}
+    name = cell(load_workbook(make(tmp_path, project=data)), "Project/Project name")
+    assert (name.value, name.data_type) == ("=1+1", "s")
+
+
 @pytest.mark.quick
 def test_values_are_written_in_the_units_of_the_sheets_without_rounding_error(tmp_path):
     us, si = (load_workbook(make(tmp_path / str(units), units)) for units in UnitsFirst)
@@ -220,25 +200,3 @@ def test_values_are_written_in_the_units_of_the_sheets_without_rounding_error(tm
         name = f"Arrays/A1/{heading}"
         assert (cell(us, name).value, cell(si, name).value) == (in_us, in_si)
     assert cell(us, "Arrays/A1/Weight").value == 42000
-
-
-def test_a_project_with_many_arrays_gets_a_larger_table(tmp_path):
-    rows = [arrays(id=f"A{i}")[0] for i in range(40)]
-    book = load_workbook(make(tmp_path, arrays=rows, clearances=[]))
-    _, first, _, last = range_boundaries(book["Arrays"].tables["arrays_table"].ref)
-    assert last - first == 45
-
-
-def test_a_text_that_looks_like_a_formula_is_written_as_text(tmp_path):
-    data = project().project.model_dump() | {"name": "=1+1", "client": "#N/A"}
-    name = cell(load_workbook(make(tmp_path, project=data)), "Project/Project name")
-    assert (name.value, name.data_type) == ("=1+1", "s")
-
-
-def test_a_page_of_a4_has_the_room_of_a_page_of_letter(blank, is_us):
-    wide, tall = (279.4, 215.9) if is_us else (297.0, 210.0)  # mm, landscape
-    for sheet in blank.worksheets:
-        margins = sheet.page_margins
-        assert sheet.page_setup.paperSize == (1 if is_us else 9)
-        assert wide - 25.4 * (margins.left + margins.right) == pytest.approx(259.0, abs=0.3)
-        assert tall - 25.4 * (margins.top + margins.bottom) == pytest.approx(190.6, abs=0.3)

@@ -38,12 +38,9 @@ def test_what_a_workbook_may_not_have_is_refused(tmp_path, changes, said):
         sheet.with_(arrays=[first.model_copy(update=changes), *others])
 
 
-def test_an_input_that_there_is_not_is_refused_with_those_that_there_are(tmp_path):
+def test_inputs_that_are_not_there_or_at_fault_are_refused(tmp_path):
     with pytest.raises(InputError, match="no input array; give some of project"):
         read(make(tmp_path)).with_(array=[])
-
-
-def test_a_workbook_with_errors_has_no_other_inputs(tmp_path):
     sheet = read(type_into(make(tmp_path), {"Arrays/A1/Weight": "heavy"}))
     with pytest.raises(InputError, match="weight is 'heavy'"):
         sheet.with_(arrays=[])

@@ -44,22 +44,16 @@ ARRAYS = ["NORTHWEST ROOF 2", "A1", "NORTHWEST ROOF 10", "NORTHWEST ROOF 1"]
 NAMES = Names.of(ARRAYS, ["Kitchen & make-up air", "RTU-1"])
 
 
-def test_a_name_over_twelve_characters_has_a_key_and_others_are_printed():
+def test_long_names_have_keys_where_they_stand_by_themselves():
     assert Names.of(["twelve chars", "thirteen char"]).keys == {"thirteen char": "[1]"}
     roofs = {f"NORTHWEST ROOF {k}": f"[{n}]" for n, k in enumerate((1, 2, 10), start=1)}
     assert NAMES.keys == roofs | {"Kitchen & make-up air": "[4]"}
     # A key is no name of the project.
     assert Names.of(["[1]", "a long name of an array"]).keys == {"a long name of an array": "[2]"}
-
-
-def test_a_name_within_another_name_or_a_path_is_not_that_name():
     assert NAMES("NORTHWEST ROOF 10 to A1") == "[3] to A1"
     assert NAMES("NORTHWEST ROOF 1: NG, NORTHWEST ROOF 2.") == "[1]: NG, [2]."
     for other in ("NORTHWEST ROOF 11", "records/NORTHWEST ROOF 1", "NORTHWEST ROOF 1.csv"):
         assert NAMES(other) == other
-
-
-def test_a_name_that_begins_a_sentence_has_its_key():
     names = Names.of(["north penthouse", "Roof of the kitchen", "roof of the kitchen"])
     assert names.keys["Roof of the kitchen"] == "[1]"
     assert names("North penthouse: NG. Roof of the kitchen: OK") == "[2]: NG. [1]: OK"
@@ -99,14 +93,11 @@ def test_a_document_has_keys_in_its_texts_alone():
 WIDTHLESS = "\u00ad\u200b\u200c\u200d\u200e\u200f\u2060\u2061\u2062\u2063\u2064\ufeff"
 
 
-def test_blanks_and_letters_of_no_width_are_trimmed_and_no_others():
+def test_blanks_and_letters_of_no_width_are_trimmed_at_the_ends():
     for code in range(sys.maxunicode + 1):
         letter = chr(code)
         expected = "" if letter.isspace() or letter in WIDTHLESS else letter
         assert trimmed(letter) == expected, hex(code)
-
-
-def test_only_the_ends_are_trimmed():
     assert trimmed(" \u200ba \u200b b\ufeff\n ") == "a \u200b b"
 
 

@@ -30,7 +30,7 @@ def test_a_required_value_is_rounded_up_and_a_provided_one_shows_the_order(requi
             assert printed == pytest.approx(value_m / unit.si, abs=1.001 * 10.0**-unit.decimals)
 
 
-def test_a_provided_value_prints_as_elsewhere_unless_that_shows_another_order():
+def test_provided_values_and_rounding_up_keep_what_is_exact():
     _, mm = Quantity.SIZE.value
     for required_m, shown in ((0.5486, "305"), (0.2, "305"), (0.3049, "304"), (math.nan, "305")):
         assert beside(required_m, 12.0 * 0.0254)(12.0 * 0.0254, mm) == shown
@@ -38,9 +38,6 @@ def test_a_provided_value_prints_as_elsewhere_unless_that_shows_another_order():
         "305 mm (12.0 in)",
         "305 mm (12.0 in)",
     )
-
-
-def test_rounding_up_leaves_a_value_that_is_exact_in_its_unit():
     inch, mm = Quantity.SIZE.value
     assert no_less(1.00001, mm) == "1001"
     assert no_less(40.8001 * 0.0254, inch) == "40.9"
@@ -60,11 +57,8 @@ def test_significant_digits_enclose_a_value(value, digits):
     assert high - low <= 1.001 * last
 
 
-def test_no_digits_are_asked_of_zero():
+def test_zero_no_value_and_infinity_have_their_signs():
     assert digits_up(0.0, 2) == digits_down(0.0, 2) == "0"
-
-
-def test_no_value_and_an_infinite_one_have_their_signs():
     for show in (measured, no_less):
         assert show(math.nan, Quantity.SIZE.si) == "—"
         assert show(math.inf, Quantity.SIZE.si) == "∞"
