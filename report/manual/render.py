@@ -17,7 +17,6 @@ import os
 import platform
 from collections.abc import Callable, Mapping, Sequence
 from importlib import metadata
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -33,6 +32,7 @@ from report.manual.measured import building, models, shake_table
 from report.manual.precision import conditioning, convergence, curves, floor, links, stability, work
 from report.pages.parts import verdict
 from report.pages.symbols import with_symbols
+from report.provenance.files import installed, processor
 from report.text.counts import grouped_by, lettered
 from report.text.formats import (
     csv_text,
@@ -93,7 +93,6 @@ def _used(rows: Sequence[Check]) -> str:
 
 
 _LIBRARIES = ("numpy", "numba", "llvmlite", "scipy", "pandas", "matplotlib", "jinja2", "weasyprint")
-_CPU_INFO = Path("/proc/cpuinfo")
 
 
 def this_machine() -> dict[str, str]:
@@ -106,24 +105,6 @@ def this_machine() -> dict[str, str]:
         "Cores": str(os.cpu_count() or 1),
         "System": f"{platform.system()} {platform.release()}, {platform.machine()}",
     }
-
-
-def installed(library: str) -> str:
-    """Return the version of a library, or that it is not installed."""
-    try:
-        return metadata.version(library)
-    except metadata.PackageNotFoundError:
-        return "not installed"
-
-
-def processor() -> str:
-    """Return the processor's model name, if the system reports it."""
-    try:
-        lines = _CPU_INFO.read_text(encoding="utf-8").splitlines()
-    except OSError:
-        lines = []
-    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
-    return names[0] if names else platform.processor() or platform.machine()
 
 
 _CHECK_COLUMNS = (

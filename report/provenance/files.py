@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 from importlib import metadata
 from importlib.metadata import version
+from pathlib import Path
 from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, StringConstraints
@@ -58,6 +59,24 @@ def environment() -> Mapping[str, str]:
     # The mathematical functions of the C library round by version and processor.
     system = f"{platform.system()} {platform.machine()} {' '.join(platform.libc_ver())}"
     return {**versions(), "system": system.strip()}
+
+
+def installed(library: str) -> str:
+    """Return the version of a library, or that it is not installed."""
+    try:
+        return metadata.version(library)
+    except metadata.PackageNotFoundError:
+        return "not installed"
+
+
+def processor() -> str:
+    """Return the processor's model name, if the system reports it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        lines = []
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.processor() or platform.machine()
 
 
 MANIFEST, RESULTS, FORMER = "roofslip.json", "results.json", "since/results.json"

@@ -27,7 +27,7 @@ import numpy as np
 from pydantic_core import from_json
 
 import solver
-from report.manual.render import installed, processor
+from report.provenance.files import installed, processor
 from report.text.units import G_MPS2
 from solver.model import InputError, Motion
 from solver.sliding.least_model import DEFAULT

@@ -19,10 +19,7 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
-from scipy.special import erfcx, log_ndtr, ndtr
-from scipy.stats import chi2
-from scipy.stats import t as student
+from scipy.special import erfcx, gammaincinv, log_ndtr, ndtr, stdtrit
 
 from solver.model import Floats
 from solver.studies.capacity import Capacities
@@ -158,9 +155,12 @@ def fragility(
         theta_range, beta_range = _drawn_ranges(capacities, fitted, seed)
     elif fitted.is_known:
         free = capacities.intensity.size - 1
-        far = float(student.ppf(TAILS[1], free)) * fitted.beta / math.sqrt(free + 1)
+        far = float(stdtrit(free, TAILS[1])) * fitted.beta / math.sqrt(free + 1)
         theta_range = fitted.theta * math.exp(-far), fitted.theta * math.exp(far)
-        low, high = (fitted.beta * math.sqrt(free / chi2.ppf(1.0 - t, free)) for t in TAILS)
+        # Chi-squared is twice a gamma variable of half the degrees of freedom.
+        low, high = (
+            fitted.beta * math.sqrt(free / (2.0 * gammaincinv(0.5 * free, 1.0 - t))) for t in TAILS
+        )
         beta_range = low, high
     p_value, motions = math.nan, capacities.intensity.size
     if fitted.is_known and motions >= 4 and not capacities.is_censored.any():
@@ -184,6 +184,8 @@ TAILS = (0.5 * (1.0 - CONFIDENCE), 0.5 * (1.0 + CONFIDENCE))
 
 def _drawn_ranges(capacities: Capacities, fitted: Lognormal, seed: int) -> tuple[Range, Range]:
     """Return the intervals of theta and beta, and the number of samples without a lognormal."""
+    from scipy.optimize import brentq  # slow to load, and studies mostly do without
+
     y, flags = np.log(capacities.intensity)[None], capacities.is_censored[None]
     mean = math.log(fitted.theta)
     drawn = mean + fitted.beta * np.random.default_rng(seed).standard_normal((REPEATS, y.size))

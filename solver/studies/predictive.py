@@ -10,8 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.stats import f_oneway
-from scipy.stats import t as student
+from scipy.special import fdtrc, stdtrit
 
 from solver.friction_tests import Series
 from solver.model import InputError
@@ -46,7 +45,7 @@ class Predictive:
 
     def quantile(self, chance: float) -> float:
         """Return the coefficient that is not exceeded with a probability between 0 and 1."""
-        return self.mean + self.scale * float(student.ppf(chance, self.freedom))
+        return self.mean + self.scale * float(stdtrit(self.freedom, chance))
 
     @property
     def quantiles(self) -> tuple[float, ...]:
@@ -86,7 +85,9 @@ def predictive(surfaces: Sequence[Series]) -> Predictive:
         size = (total - float((sizes**2).sum()) / total) / (count - 1)
         excess = among / (count - 1) - squares / freedom
         between = math.sqrt(max(0.0, excess / size))
-        p_value = float(f_oneway(*groups).pvalue) if squares > 0.0 else math.nan
+        if squares > 0.0:
+            ratio = among / (count - 1) / (squares / freedom)
+            p_value = float(fdtrc(count - 1, freedom, ratio))
     least = min(groups, key=lambda group: float(group.mean()))
     distribution = Predictive(
         mean=float(least.mean()),

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.stats import f_oneway
 
 from solver.friction_tests import FrictionRun, Surface, series
 from solver.model import InputError
@@ -39,7 +40,8 @@ def test_wet_and_dry_share_their_scatter_and_the_least_mean_governs():
     assert found.within == pytest.approx(math.sqrt((2 * 0.02**2 + 2 * 0.01**2) / 4), rel=1e-12)
     # Means 0.1 apart: mean square 3 * 2 * 0.05^2, less that of the runs, by 3 runs each.
     assert found.between == pytest.approx(math.sqrt((0.015 - found.within**2) / 3), rel=1e-9)
-    assert found.p_value < 0.01
+    by_scipy = f_oneway([0.58, 0.60, 0.62], [0.49, 0.50, 0.51]).pvalue
+    assert found.p_value == pytest.approx(float(by_scipy), rel=1e-12)
 
 
 def test_ninety_of_a_hundred_new_runs_exceed_the_lowest_quantile():
