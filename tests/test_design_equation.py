@@ -1,5 +1,7 @@
 """The design equation: exact where the runs follow it, and published values of the others."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -61,14 +63,7 @@ def test_what_hardly_slides_or_has_no_value_is_not_fitted():
 
 
 def test_runs_on_one_slope_do_not_determine_it():
-    made = runs()
-    flat = RoofRuns(
-        ppa_mps2=made.ppa_mps2,
-        ppv_mps=made.ppv_mps,
-        slope_rad=np.zeros(400),
-        mu=made.mu,
-        prd_m=np.ones(400),
-    )
+    flat = replace(runs(), slope_rad=np.zeros(400), prd_m=np.ones(400))
     with pytest.raises(InputError, match="more slopes"):
         fit_equation([flat])
 

@@ -28,6 +28,7 @@ from solver.verification.evidence import DesignCurves, LinkComparison, Verificat
 def floor(verification: Verification) -> float:
     """Return the largest relative error of the exact method against 50-digit arithmetic."""
     errors = [row.error for row in verification.checks if row.section.endswith("digits")]
+    # A chart in logarithms has no place for 0.
     return max([1e-16, *errors])
 
 
@@ -71,6 +72,7 @@ def _shown(runs: pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
     """Yield the runs of each setting that is shown, the first with the name of its method."""
     for name, own in runs.groupby("method", sort=False):
         groups = [group for _, group in own.groupby("setting", sort=False, dropna=False)]
+        # Every other setting of a long sweep keeps the table short.
         for count, group in enumerate(groups[::2] if len(groups) > 5 else groups):
             yield "" if count else lettered(METHODS[str(name)].title), group
 

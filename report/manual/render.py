@@ -250,5 +250,6 @@ def verification_csv(verification: Verification) -> bytes:
     parts += [("run in two axes", evidence.work[_OF_TWO_AXES]) for evidence in verification.models]
     kinds, frames = zip(*parts, strict=True)
     table = pd.concat(frames, keys=kinds, names=["kind", None]).reset_index("kind")
+    # None is an empty cell; NaN would be a word.
     cells = table.astype(object).where(table.notna(), None)
     return csv_text([table.columns, *cells.itertuples(index=False)]).encode()

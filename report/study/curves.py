@@ -301,6 +301,7 @@ def _margins(ratio: Floats, levels: Sequence[float]) -> tuple[str, str, str]:
         reach = f"{levels[-1]:.12g}, all"
     else:
         reach = "none" if unsafe[0] == 0 else f"{levels[unsafe[0] - 1]:.12g}"
+    # No value is the worst: it may be of any size.
     worst = int(np.argmax(np.where(np.isnan(ratio), np.inf, ratio)))
     if np.isnan(ratio[worst]):
         return reach, "none", f"{levels[worst]:g}"

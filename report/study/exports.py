@@ -136,6 +136,8 @@ def _cells(results: StudyResults, result: ArrayStudyResult, state: LimitState) -
     f = exported(results, result, state)
     if not f.is_known:
         return ["", "", "", "", f"{_sentence(state.words)} {_sentence(NOT_DETERMINED)}"]
+    # A reader takes the digits as they are: a lower median and a larger dispersion err on the safe
+    # side.
     about = f"{_sentence(state.words)}{_warned(results)}"
     return ["lognormal", digits_down(f.theta, 6), digits_up(f.beta, 6), "", about]
 

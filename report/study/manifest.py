@@ -116,6 +116,7 @@ def _motion(motion: Motion) -> dict[str, Any]:
 
 
 def _cases_sha256(campaign: Campaign) -> str:
+    # Little-endian whatever the machine: a cluster of several agrees on the identity.
     digest, cases = hashlib.sha256(), campaign.cases
     digest.update(cases.building.astype("<i8").tobytes())
     for values in (cases.slope_rad, cases.mu, cases.intensity):

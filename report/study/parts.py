@@ -197,6 +197,7 @@ def _opened(content: bytes, key: bytes) -> Done:
 
     Raises `ValueError` if it is not whole.
     """
+    # The last one: a name in the rows may spell the same letters.
     end = content.rindex(_SHA256) + len(_UNSIGNED)
     tag, wanted = slice(end - 64, end), signed(content, key)
     if content[: tag.start] != wanted[: tag.start]:

@@ -213,6 +213,7 @@ def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
         blocks += parts
         start += sum(map(len, parts))
     campaign = Campaign(motions=motions.motions, cases=joined(blocks))
+    # Again: the reader knows the grid, but neither the samples nor the orientations.
     sheet.refuse(_too_many(campaign))
     hidden = [cell for file in motions.files for cell in file.unseen]
     notes = (*warnings([*sheet.unseen, *hidden]), *sheet.warnings)
@@ -232,6 +233,7 @@ def _predicted(sheet: StudySheet) -> Mapping[str, Predictive]:
     """Return the predictive distributions of the mats with tests."""
     study_input, by_mat = sheet.project, {}
     has_use = bool(
+        # Tested values alone do not ask for it: three may scatter too much for a prediction.
         study_input.friction_runs or study_input.hazard.file or study_input.hazard_points
     )
     for row, mat in enumerate(study_input.mats if has_use else ()):

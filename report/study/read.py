@@ -97,6 +97,7 @@ def _at(field: str, found: str, remedy: str = "") -> Finding:
 def _about_study(study: DraftRow, draft: Draft) -> Iterator[Finding]:
     """Yield too many cases, and what the intensity and the dispersion lack."""
     slopes, levels, mus = (len(values(study.get(field) or "")) for field in _AXES)
+    # Before anything is made of it: the grid is in memory whole.
     of_grid = max(slopes, 1) * max(levels, 1) * (mus + len(draft["mats"]))
     cases = of_grid * max(len(draft["buildings"]), 1)
     if cases > MOST_CASES:

@@ -159,6 +159,7 @@ def results_of(
     whole = {name: np.concatenate([getattr(one, name) for one in on_curves]) for name in names}
     curves = Statistics(**{name: values.reshape(plan.shape) for name, values in whole.items()})
     prd, slip = np.concatenate(kept), np.concatenate(slips)
+    # Motions are scaled to an intensity of 1, whatever its measure: the formula needs their peaks.
     ppa = np.array(
         [
             np.mean([np.abs(m.scaled(m.ax_mps2)).max() / G_MPS2 for m in motions])

@@ -146,6 +146,8 @@ def run_study(
         tell(part)
 
     if scheduler:
+        # The manifest is written once the cluster has answered: a wrong address leaves a former
+        # one.
         with connected(scheduler, manifest) as client:
             begin(folder, manifest, former)
             run_on_cluster(client, folder, campaign, identity, names, missing, key, on_done)

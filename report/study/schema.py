@@ -354,6 +354,7 @@ class StudyInput(Frozen):
         tests = tested(mat.tested)
         if not tests:
             return Spread(center=float(mat.mu or 0.0))
+        # Six digits, as pages and files print it: a coefficient is then named alike everywhere.
         spread = spread_of_tests(tests)
         return Spread(center=mat.mu or float(f"{spread.center:.6g}"), beta=spread.beta)
 
@@ -368,6 +369,7 @@ class StudyInput(Frozen):
         runs = [run for run in self.friction_runs if run.mat.casefold() == mat_id.casefold()]
         if runs:
             return series(run.run(mat.report) for run in runs)
+        # Tested values have no velocity and no breakaway coefficient.
         nan = math.nan
         return series(
             FrictionRun(report=mat.report, surface=Surface.DRY, velocity_mps=nan, mu=mu,

@@ -195,6 +195,7 @@ def _intensity(study_input: StudyInput, recorded: Record, at_roof: Record) -> fl
         case Intensity.PGA:
             return float(np.abs(recorded.a_mps2).max() / G_MPS2)
         case Intensity.SA1:
+            # Of the ground where the motions are carried to the roof: the hazard is of the ground.
             spectrum = response_spectrum(recorded.a_mps2, recorded.dt_s, [1.0])
             return float(spectrum[0] / G_MPS2)
         case Intensity.S_DS:
@@ -264,6 +265,7 @@ def points_of(lines: Sequence[str], *, is_spectral: bool) -> list[tuple[float, f
         return fits[0]
     columns = [_numbers(row) for row in rows]
     first = next((k for k, values in enumerate(columns) if values), len(rows))
+    # What is above the first row of numbers is a heading; below it nothing else may be.
     wrong = [k for k, values in enumerate(columns) if k >= first and len(values) != 2]
     if wrong or first == len(rows):
         shown = mark.join(rows[wrong[0]] if wrong else lines)[:60].strip()

@@ -109,6 +109,7 @@ def study_xlsx(results: StudyResults, more: Iterable[tuple[str, Row, Iterable[Ro
         sheet.write_row(0, 0, head, head_format)
         for number, row in enumerate(rows, start=1):
             for column, value in enumerate(row):
+                # A cell of Excel holds neither NaN nor infinity.
                 is_none = isinstance(value, float) and not math.isfinite(value)
                 sheet.write(number, column, "none" if is_none else value)
         if results.years:

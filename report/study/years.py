@@ -111,11 +111,14 @@ def years_of(plan: StudyPlan, curve: HazardCurve, array: ArrayPlan, runner: Runn
     predicted = (of_mat,) if of_mat else ()
     mus = predicted[0].quantiles if predicted else (array.mu,)
     slope_deg, motions = array.array.slope_deg, len(runner.campaign.motions[0])
+    # The first coefficient is the least: below the intensity at which it slips nothing moves.
     slip = min(one.first_slip() for one in curves_of(runner, array, mus[0], slope_deg))
     tracks = runner.tracks[array.building]
     lifted = [uplift_intensity(track, math.radians(slope_deg)) for track in tracks]
+    # A run beyond uplift has no value: such events count as beyond every limit.
     ends = np.minimum(curve.top, BELOW_UPLIFT * np.array(lifted))
     top = float(ends.max())
+    # Where the array hardly slips the levels still need a range to be spaced over.
     low = min(max(slip, float(curve.intensity[0])), 0.5 * top)
     draws = draw(
         np.random.default_rng(array.seed), curve, low=low, top=top, runs=len(tracks),
@@ -129,6 +132,7 @@ def years_of(plan: StudyPlan, curve: HazardCurve, array: ArrayPlan, runner: Runn
     )
     limits_m, by_run = _by_run(curve, array, responses)
     rates, years = by_run.mean(axis=(1, 2)), np.array(RECURRENCES)
+    # The orientations of a motion are no motions of their own: the band draws motions alone.
     by_motion = by_run.reshape(*by_run.shape[:2], motions, -1).mean(axis=-1)
     drawn = realizations(by_motion, seed=array.seed)
     by_mu = displacements_at(limits_m, by_run.mean(axis=-1), years).T
@@ -162,6 +166,7 @@ def _by_run(curve: HazardCurve, array: ArrayPlan, responses: Responses) -> tuple
     clearance_m = array.array.clearance_m
     top = max(float(np.nanmax(responses.prd_m, initial=0.0)), 2.0 * clearance_m)
     limits_m = np.concatenate([[0.0], np.geomspace(_LEAST_LIMIT_M, top, _LIMITS)])
+    # With the clearance itself: its rate is then computed, not interpolated.
     limits_m = np.union1d(limits_m, clearance_m)
     return limits_m, exceedance_rates(curve, responses.levels, responses.prd_m, limits_m)
 

@@ -188,6 +188,7 @@ def read_seeds(names: Sequence[str], *, units: str = "", dt_s: float = math.nan)
     groups: list[tuple[Record, ...]] = []
     by_path: dict[str, MotionFile] = {}
     problems: list[str] = []
+    # A file may be named for several motions: it is read once.
     read = cache(read_motion_file)
     for name in names:
         paths = [Path(name)] if Path(name).exists() else [Path(part) for part in name.split(",")]
@@ -217,6 +218,7 @@ def _group(name: str, files: Iterable[MotionFile]) -> tuple[Record, ...]:
         )
     names = [Path(f.name).stem if r.name == f.name else r.name for f, r in channels]
     verticals = [k for k, name in enumerate(names) if VERTICAL.search(name)]
+    # The generator takes x, y and z in this order.
     if len(group) == 3 and len(verticals) == 1:
         group.append(group.pop(verticals[0]))
     return tuple(group)

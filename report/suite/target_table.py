@@ -89,6 +89,7 @@ def read_target(named: str) -> TargetTable:
 
 def _split(named: str) -> tuple[Path, str]:
     whole = re.fullmatch(r"(.*?\.xlsx)!(.*)", named, re.IGNORECASE | re.DOTALL)
+    # A file may have an exclamation mark in its own name.
     if whole is None or Path(named).is_file():
         return Path(named), ""
     return Path(whole[1]), whole[2].strip().strip("'")

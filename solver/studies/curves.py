@@ -40,6 +40,7 @@ def statistics(prd_m: Floats) -> Statistics:
     """
     lost = np.isnan(prd_m)
     with np.errstate(invalid="ignore"):
+        # As inf, not NaN: the percentile of the others is known while enough of them have a value.
         p84_m = np.percentile(np.where(lost, np.inf, prd_m), PERCENTILE, axis=-1)
     return Statistics(
         mean_m=prd_m.mean(axis=-1),
@@ -114,6 +115,7 @@ class Fit:
 
 
 def _terms(slope: Floats, mu: Floats, x: Floats, r: Floats) -> Floats:
+    # ln PRD = b0 + b1 ln(1 - r) + b2 ln r + b3 ln x + b4 slope / mu
     return np.stack([np.ones_like(r), np.log1p(-r), np.log(r), np.log(x), slope / mu], axis=-1)
 
 
@@ -131,6 +133,7 @@ def fit_prd(
     of the motions per unit of intensity [g]. Raises `InputError` if fewer than ten cases are left,
     or they do not determine the coefficients.
     """
+    # Rounded before the fit: r is then that of whoever computes with the printed formula.
     ppa_g = _to_digits(ppa_g)
     with np.errstate(divide="ignore"):
         r = np.tan(np.arctan(mu) - slope_rad) / (ppa_g * intensity)

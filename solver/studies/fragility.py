@@ -155,9 +155,11 @@ def fragility(
         theta_range, beta_range = _drawn_ranges(capacities, fitted, seed)
     elif fitted.is_known:
         free = capacities.intensity.size - 1
+        # The mean of n normal values over its standard error is Student's t with n - 1 degrees.
         far = float(stdtrit(free, TAILS[1])) * fitted.beta / math.sqrt(free + 1)
         theta_range = fitted.theta * math.exp(-far), fitted.theta * math.exp(far)
-        # Chi-squared is twice a gamma variable of half the degrees of freedom.
+        # The sum of squares over the variance is chi-squared with as many: twice a gamma variable
+        # of half the degrees of freedom.
         low, high = (
             fitted.beta * math.sqrt(free / (2.0 * gammaincinv(0.5 * free, 1.0 - t))) for t in TAILS
         )
@@ -228,6 +230,7 @@ def lilliefors(values: Floats) -> Floats:
 def lilliefors_p(distance: float, motions: int) -> float:
     """Return the fraction of normal samples whose distance is as great, by simulation."""
     below = int(np.searchsorted(_drawn_distances(motions), distance))
+    # The given sample is one more of them: no p-value is 0 (Davison and Hinkley 1997, 4.2).
     return (1 + LILLIEFORS_REPEATS - below) / (1 + LILLIEFORS_REPEATS)
 
 

@@ -64,6 +64,7 @@ def run_levels(
 
     def run(case: tuple[float, tuple[Track, Floats]]) -> Floats:
         mu, (track, of_track) = case
+        # Beyond its last level a track repeats it: each is run once.
         once, at = np.unique(of_track, return_inverse=True)
         rows = np.full((once.size, len(RESPONSES)), math.nan)
         for row, x in zip(rows, once, strict=True):
@@ -100,9 +101,11 @@ def settled_responses(
     while True:
         levels = spaced(2 * levels.shape[1] - 1)
         values = np.empty((len(coarse.values), *levels.shape, len(RESPONSES)))
+        # Every other level was run before.
         values[:, :, ::2], values[:, :, 1::2] = coarse.values, run(levels[:, 1::2])
         fine = Responses(levels=levels, values=values)
         after = measured(fine)
+        # inf less inf is NaN: none before and none after has not moved.
         with np.errstate(invalid="ignore"):
             moved = np.abs(after - before) > SETTLED_M
         change = np.abs(before[moved] / after[moved] - 1.0).max(initial=0.0)
@@ -142,6 +145,8 @@ def draw(
     counts = rng.poisson(rate * years, lives)
     first = np.concatenate([[0], np.cumsum(counts)])
     events = int(first[-1])
+    # The rate at which an event is exceeded is uniform from 0 to that of the least: its intensity
+    # is the inverse of the curve.
     rates = rate * (1.0 - rng.random(events))
     is_beyond = rates <= float(curve.at(np.array([top]))[0])
     return Draws(
@@ -160,6 +165,7 @@ def distances(draws: Draws, responses: Responses, recenter_m: float) -> Floats:
     axes the largest is an upper bound (`solver.kernels.lives`); inf for a life with an event
     without a final value.
     """
+    # Level -1 is beyond what is run: the kernel gives that life no distance.
     level, weight = np.full(draws.run.size, -1), np.zeros(draws.run.size)
     for run, levels in enumerate(responses.levels):
         of = np.flatnonzero((draws.run == run) & (draws.intensity <= levels[-1]))

@@ -82,12 +82,15 @@ def predictive(surfaces: Sequence[Series]) -> Predictive:
     if count > 1:
         every = np.concatenate(groups)
         among = float(((every - every.mean()) ** 2).sum()) - squares
+        # Random effects of a one-way layout of unequal sizes by the method of moments (Searle,
+        # Casella and McCulloch 1992, Variance Components, chapter 3).
         size = (total - float((sizes**2).sum()) / total) / (count - 1)
         excess = among / (count - 1) - squares / freedom
         between = math.sqrt(max(0.0, excess / size))
         if squares > 0.0:
             ratio = among / (count - 1) / (squares / freedom)
             p_value = float(fdtrc(count - 1, freedom, ratio))
+    # The surface of the least mean: nobody knows which of them a roof is like.
     least = min(groups, key=lambda group: float(group.mean()))
     distribution = Predictive(
         mean=float(least.mean()),

@@ -44,18 +44,22 @@ class HazardCurve:
         """The factor in Gauss-Hermite nodes, with their probabilities."""
         if not self.beta:
             return np.ones(1), np.ones(1)
+        # The logarithm of the factor is normal: Gauss-Hermite nodes, weights that sum to 1.
         z, weights = np.polynomial.hermite_e.hermegauss(_NODES)
         return np.exp(self.beta * z), weights / weights.sum()
 
     def at(self, intensity: Floats) -> Floats:
         """Return the rate at which the intensity times its factor is exceeded."""
         factors, weights = self.factors
+        # A factor f lifts x to f x: what is exceeded at the site is x / f. A power law between
+        # points is straight in logarithms.
         at_site = np.log(np.divide.outer(intensity, factors))
         plain = np.exp(np.interp(at_site, np.log(self.intensity), np.log(self.rate)))
         return np.asarray(plain @ weights)
 
     @cached_property
     def _grid(self) -> tuple[Floats, Floats]:
+        # The factor spreads the curve beyond both of its ends.
         ends = self.intensity[[0, -1]] * np.exp(_FAR * self.beta * np.array([-1.0, 1.0]))
         intensity = np.geomspace(ends[0], ends[1], _GRID)
         return intensity, self.at(intensity)
@@ -91,6 +95,7 @@ def contributions(
     levels, rate = np.broadcast_to(levels, prd_m.shape), np.broadcast_to(rate, prd_m.shape)
     prd = np.where(np.isnan(prd_m), np.inf, prd_m)
     low, high, below, above = prd[..., :-1], prd[..., 1:], rate[..., :-1], rate[..., 1:]
+    # An interval exceeds the limit as a whole, from its crossing on, or up to it.
     rises, falls = (low <= limit_m) & (high > limit_m), (low > limit_m) & (high <= limit_m)
     crosses = rises | falls
     share = np.ones(low.shape)
@@ -118,6 +123,7 @@ def deaggregated(
     sum is 1; zeros where the limit is never exceeded.
     """
     shares = np.zeros(edges.size - 1)
+    # Geometric, as the levels are spaced in ln.
     middles = np.append(np.sqrt(levels[..., :-1] * levels[..., 1:]), levels[..., -1:], axis=-1)
     for factor, weight in zip(*curve.factors, strict=True):
         shifted = HazardCurve(intensity=factor * curve.intensity, rate=curve.rate)
@@ -155,6 +161,7 @@ def realizations(rates: Floats, *, seed: int) -> Floats:
     rng = np.random.default_rng(seed)
     friction = rng.integers(frictions, size=REPEATS)
     drawn: NDArray[np.int64] = rng.integers(motions, size=(REPEATS, motions))
+    # How often a motion is drawn, over their number, is its weight in the sample of a bootstrap.
     counts = np.array([np.bincount(row, minlength=motions) for row in drawn]) / motions
     return np.asarray(np.einsum("lrm,rm->lr", rates[:, friction], counts))
 

@@ -46,6 +46,7 @@ class Spread:
     @property
     def deviation(self) -> float:
         """Standard deviation, of the logarithm of a lognormal."""
+        # A uniform variable of half width h has the variance h^2 / 3.
         return self.beta or self.half / math.sqrt(3.0)
 
     def quantile(self, chance: float) -> float:
@@ -98,6 +99,7 @@ def exceedance(prd_m: Floats, limit_m: float, *, seed: int) -> Exceedance:
 
     `prd_m`: shape (samples, motions); NaN for a run without a value, which counts as an exceedance.
     """
+    # Motions are drawn again, not samples: those under one motion are not independent.
     by_motion = (~(prd_m <= limit_m)).mean(axis=0)
     rng = np.random.default_rng(seed)
     drawn = rng.integers(by_motion.size, size=(CHANCE_REPEATS, by_motion.size))

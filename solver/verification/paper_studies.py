@@ -90,6 +90,7 @@ def link_comparison(record: Record, slope_deg: float) -> LinkComparison:
         runs_m[f"RRD, {name}"] = [abs(result.residual_m) for result in results]
     off = percent_off(runs_m["RRD, exact"].to_numpy(), runs_m["RRD, link"].to_numpy())
     followed = off[np.isfinite(off)]
+    # A run that diverged has no difference: it is never the worst.
     worst = int(np.nan_to_num(off, nan=-1.0).argmax())
     exact = history(record, cases[worst], "exact")
     linked = history(record, cases[worst], "penalty-explicit", **link)
@@ -127,5 +128,6 @@ def design_curves(record: Record) -> DesignCurves:
         slopes_deg=SLOPES_DEG,
         mus=MUS,
         ppas_g=PPAS_G,
+        # The negative slopes in the order of their size.
         prd_m=np.fmax(prd_m[flat:], prd_m[flat::-1]),
     )

@@ -165,6 +165,7 @@ def _held_down(
     else:
         az = np.maximum(az, (floor - ax * sn) / cs - G)
         az[rng.integers(az.size)] = (floor - ax * sn).max() / cs - G
+    # Rounding may leave a sample some bits below zero: raised until none is.
     for _ in range(60):
         short = (G + az) * cs + ax * sn < 0.0
         az = np.where(short, az + 4e-15 * G, az)

@@ -328,6 +328,7 @@ def minimum_seconds(work: Callable[[], object], enough_s: float = ENOUGH_S) -> f
     total, least = 0.0, math.inf
     for _ in range(REPEATS):
         _, seconds = clocked(work)
+        # The least, not the mean: whatever else runs on the machine only adds time.
         total, least = total + seconds, min(least, seconds)
         if total > enough_s:
             break

@@ -90,10 +90,7 @@ def test_a_cluster_without_workers_is_an_error():
 
 @pytest.mark.parametrize(
     ("address", "wanted"),
-    [
-        ("tcp://127.0.0.1:9", "no Dask scheduler answers"),
-        ("nowhere://x", "--scheduler nowhere://x"),
-    ],
+    [("tcp://127.0.0.1:9", "no Dask scheduler answers"), ("nowhere://x", "nowhere://x")],
 )
 @pytest.mark.nightly
 def test_a_cluster_that_cannot_be_reached_is_an_error_before_anything_runs(

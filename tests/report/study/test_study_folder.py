@@ -10,9 +10,7 @@ import pytest
 import printed
 import stranger
 from report.cli.study import make
-from report.study.exports import (
-    export_files,
-)
+from report.study.exports import export_files
 from report.study.run import planned, run_study
 from report.study.wording import headline
 from solver.files import LOCK, locked

@@ -1,6 +1,5 @@
 """User-defined target spectra: sheets and CSV files, and their input errors."""
 
-import math
 from pathlib import Path
 
 import numpy as np
@@ -176,11 +175,3 @@ def test_a_file_that_is_not_a_table_is_reported(tmp_path, name, content, expecte
         (tmp_path / name).write_bytes(content)
     named = f"{tmp_path / name}{'!Target' if name.endswith('xlsx') else ''}"
     assert expected in problems(named)[0]
-
-
-def test_a_target_is_interpolated_on_log_log_axes(tmp_path):
-    from solver.rules.hazard import target_sa_g
-
-    target = read_target(text(tmp_path, "frequency,sa\n0.1,0.1\n100,10\n"))
-    between = target_sa_g((target.freq_hz, target.horizontal_g), np.array([math.sqrt(10.0)]))
-    assert between == pytest.approx([1.0], rel=1e-12)

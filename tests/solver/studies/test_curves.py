@@ -12,27 +12,20 @@ pytestmark = pytest.mark.quick
 NONE = math.nan
 
 
-def test_mean_percentile_and_largest_of_known_values():
-    found = statistics(np.arange(101.0)[None, ::-1])
-    assert (found.mean_m[0], found.largest_m[0], found.without_value[0]) == (50.0, 100.0, 0)
-    assert found.p84_m[0] == pytest.approx(84.0, rel=1e-14)
-
-
-def test_the_percentile_is_that_of_numpy():
-    values = np.random.default_rng(3).lognormal(size=(5, 7))
-    assert statistics(values).p84_m == pytest.approx(np.percentile(values, 84, axis=-1), rel=1e-14)
-
-
-def test_a_motion_without_a_value_is_larger_than_all_others():
-    found = statistics(np.array([[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, NONE]]))
-    # The place 0.84 x 6 = 5.04 lies between the sixth value and the one that is missing.
-    assert np.isnan([found.mean_m[0], found.largest_m[0], found.p84_m[0]]).all()
-    assert found.without_value[0] == 1
-
-
-def test_the_percentile_does_not_depend_on_a_missing_value_above_it():
-    values = np.array([*range(1, 20), NONE], dtype=float)[None, :]
-    assert statistics(values).p84_m[0] == pytest.approx(1 + 0.84 * 19, rel=1e-14)
+@pytest.mark.parametrize(
+    ("values", "mean", "p84", "largest"),
+    [
+        (np.arange(101.0)[::-1], 50.0, 84.0, 100.0),
+        # The place 0.84 x 6 = 5.04 lies between the sixth value and the one that is missing.
+        ([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, NONE], NONE, NONE, NONE),
+        ([*map(float, range(1, 20)), NONE], NONE, 1 + 0.84 * 19, NONE),
+    ],
+)
+def test_a_motion_without_a_value_is_larger_than_all_others(values, mean, p84, largest):
+    found = statistics(np.array([values, values]))
+    for each, wanted in ((found.mean_m, mean), (found.p84_m, p84), (found.largest_m, largest)):
+        assert each == pytest.approx([wanted] * 2, rel=1e-14, nan_ok=True)
+    assert found.without_value.tolist() == [int(math.isnan(mean))] * 2
 
 
 @pytest.mark.parametrize(
