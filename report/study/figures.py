@@ -210,10 +210,7 @@ def fragilities(states: Sequence[LimitState], along: str) -> str:
 
 
 def goodness(states: Sequence[LimitState], along: str) -> str:
-    """Return the ranks of capacities with their lognormal, a panel for each state.
-
-    `states`: at least one, each with a p-value.
-    """
+    """Return the ranks of capacities with their lognormal, a panel for each state; each has a p."""
     with style():
         margins = {"left": 0.085, "right": 0.985, "above": 0.216, "below": 0.816}
         figure, grid = panels(1, len(states), 2.4, **margins, wspace=0.08, sharey=True)

@@ -83,10 +83,7 @@ def mixed(numbers: Sequence[int]) -> list[int]:
 
 
 def made_part(runner: Runner, number: int, identity: str, names: Sequence[str]) -> bytes:
-    """Run a part and return it as Parquet, not yet signed, in any process.
-
-    `names`: of the buildings.
-    """
+    """Run a part and return it as Parquet, not yet signed, in any process."""
     pa, started = extra(ARROW), time.thread_time()
     part = runner.campaign.parts[number]
     rows = run_part(runner, part)
@@ -156,12 +153,8 @@ def signed(content: bytes, key: bytes) -> bytes:
 def peaks(content: bytes, campaign: Campaign) -> tuple[Floats, Flags]:
     """Return what the statistics need of a part, each of shape (cases, motions).
 
-    Returns
-    -------
-    prd_m : array
-        Largest PRD of the orientations [m]; NaN if one of them has no final value.
-    slips : array of bool
-        Whether the friction demand exceeds the coefficient at any orientation.
+    The largest PRD of the orientations [m], NaN if one of them has no final value; and whether the
+    friction demand exceeds the coefficient at any of them.
     """
     pa = extra(ARROW)
     columns = ["prd_m", "status", "model"]
@@ -253,10 +246,7 @@ def begin(folder: Path, manifest: Mapping[str, Any], former: int) -> None:
 
 
 def check_places(out: Path, folder: Path) -> None:
-    """Refuse what is no plain file in the places of the manifest and the parts.
-
-    Raises `InputError`.
-    """
+    """Refuse what is no plain file in the places of the manifest and the parts."""
     check_plain(out / NAME, out)
     check_plain(folder, out, is_folder=True)
     for path in folder.glob(_PARTS):

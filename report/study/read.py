@@ -211,10 +211,7 @@ _NEEDLESS = {
 
 
 def write_study(path: Path, *, units: UnitsFirst, example: StudyInput | None = None) -> None:
-    """Write or replace a study workbook, with the values of a study or blank but for defaults.
-
-    `units`: system of units of the sheets.
-    """
+    """Write or replace a study workbook, with the values of a study or blank but for defaults."""
     sections = sections_of(StudyInput)
     book, _ = book_of(sections, sections[0].sheet, units, example)
     write_whole(path, saved(book, units))

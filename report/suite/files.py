@@ -224,13 +224,7 @@ def suite_files(
 ) -> dict[str, bytes]:
     """Return every file of a suite by name: the records, suite.json and suite.png.
 
-    Parameters
-    ----------
-    suite : sequence of SuiteMotion
-    targets : SuiteTargets
-    seed : int
-    records : mapping of str to str
-        The seed files, with their SHA-256.
+    `records` are the seed files with their SHA-256.
     """
     parts = components(suite, targets)
     # In memory first: the hashes in suite.json are those of what is written.

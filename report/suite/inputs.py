@@ -69,19 +69,10 @@ class SuiteTargets:
 def ac156_targets(
     code: str, *, s_ds_g: float, z_over_h: float, tail: Tail, edition: str = ""
 ) -> SuiteTargets:
-    """Return the AC156 spectra of a code at a height.
+    """Return the AC156 spectra of a code, a key of `CODES`, at a height.
 
-    Parameters
-    ----------
-    code : str
-        A key of `CODES`.
-    edition : str
-        Edition of ASCE 7; empty for that of the code.
-
-    Raises
-    ------
-    InputError
-        If a number is out of range.
+    The edition of ASCE 7 is empty for that of the code. Raises `InputError` if a number is out of
+    range.
     """
     problems = _s_ds_problems(s_ds_g)
     if not 0.0 <= z_over_h <= 1.0:

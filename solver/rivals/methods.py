@@ -119,10 +119,7 @@ class Method:
 
 
 def link_frequency(stiffness_per_m: float, g_mps2: float) -> float:
-    """Return omega = sqrt(g k) [rad/s] of a block on a link of stiffness k times its weight [1/m].
-
-    The explicit method is unstable for sub-steps above 2 / omega.
-    """
+    """Return omega = sqrt(g k) [rad/s] of a block on a link, k its stiffness over the weight."""
     return math.sqrt(g_mps2 * stiffness_per_m)
 
 

@@ -73,14 +73,8 @@ def identify(
 ) -> Identified:
     """Return the beam with the least sum of squares: grid search, then shrinking steps.
 
-    Parameters
-    ----------
-    ground_mps2, floors_mps2 : array, shape (n,) and (n, m)
-        Recorded in the same direction, over the same time.
-    heights : tuple of float, m of them
-        Of the floors, relative to the height of the building.
-    periods_s : pair of float
-        Least and greatest first period of the grid [s].
+    The ground, shape (n,), and the floors, (n, m), are recorded in one direction over the same
+    time; the m heights are relative to that of the building, and the periods the ends of the grid.
     """
 
     def misfit(point: _Point) -> float:

@@ -128,15 +128,7 @@ class FeatureStatus:
 
 
 def statuses(checks: Sequence[Check], tables: Sequence[ShakeTable]) -> tuple[FeatureStatus, ...]:
-    """Return the status of every feature.
-
-    Parameters
-    ----------
-    checks : sequence of Check
-        Those that ran.
-    tables : sequence of ShakeTable
-        Empty if no tests were given.
-    """
+    """Return the status of every feature, of the checks that ran and the tests that were given."""
     return tuple(_status(feature, checks, tables) for feature in FEATURES)
 
 

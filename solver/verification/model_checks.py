@@ -118,7 +118,7 @@ def _turn(pair: Floats, degrees: float) -> Floats:
 
 
 def _circle() -> Iterator[Check]:
-    """In the rotating frame v is constant: A^2 = (mu g)^2 + (w v)^2."""
+    # In the rotating frame v is constant: A^2 = (mu g)^2 + (w v)^2.
     a, omega, mu, count, turns = 6.0, 2.0 * math.pi, 0.3, 2000, 12
     dt = 1.0 / count
     t = np.arange(turns * count + 1) * dt
@@ -187,7 +187,7 @@ def _friction_by_speed(triple: Motion) -> Iterator[Check]:
 
 
 def _static_friction(triple: Motion) -> Iterator[Check]:
-    """A delay of the onset of slip changes the velocity by its square."""
+    # A delay of the onset of slip changes the velocity by its square.
     case = MODEL_CASES[1]
     both = scene_of(triple, case, coulomb(case.mu))
     alone = scene_of(triple, case, coulomb(case.mu), second=False)
@@ -206,7 +206,7 @@ def _static_friction(triple: Motion) -> Iterator[Check]:
 
 
 def _one_block(triple: Motion) -> Iterator[Check]:
-    """Rows that move as one block: one block, and three identical ones with unloaded links."""
+    # Rows that move as one block: one block, and three identical ones with unloaded links.
     source = "Exact method, one axis with vertical: the links carry no force"
     row = partial(Check, "TA-9", source, "PRD, largest of the blocks", "m")
     case = MODEL_CASES[1]
@@ -219,7 +219,7 @@ def _one_block(triple: Motion) -> Iterator[Check]:
 
 
 def _left_out(triple: Motion, *, quick: bool) -> Check:
-    """Count scenes in which the neglected component matters more than the stated estimate."""
+    # Counts scenes in which the neglected component matters more than the stated estimate.
     over = count = 0
     for share in (0.3, 0.1, 0.03, 0.01, 0.003):
         for case in MODEL_CASES[:2] if quick else MODEL_CASES:

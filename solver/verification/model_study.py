@@ -146,15 +146,13 @@ def _axes(quick: bool) -> tuple[tuple[float, ...], ...]:
 def _changes(
     scenes: Sequence[Scene], plane_m: Floats, headings: tuple[int, int]
 ) -> Iterator[ModelChange]:
-    """Compare the models; the simpler ones use the low-velocity friction, as `least_model` does.
-
-    `higher_m` uses at every velocity the coefficient that others have at high velocity or at rest.
-    """
+    """Compare the models; the simpler ones use the low-velocity friction, as `least_model` does."""
     alone_m = _axis_prds([replace(scene, az_mps2=NO_RECORD) for scene in scenes])
     vertical_m = _axis_prds(scenes)
     at_rest = partial(held, ratio=1.0 / SLOW_SHARE)
     by_speed_m, held_m = plane_prds(scenes, by_speed), plane_prds(scenes, at_rest)
     held_alone_m = plane_prds([faded(scene, 0.0) for scene in scenes], at_rest)
+    # At every velocity the coefficient that others have at high velocity or at rest.
     higher_m = plane_prds(scenes, lambda mu: coulomb(mu / SLOW_SHARE))
     yield _change(VERTICAL, alone_m, vertical_m)
     yield _change(SECOND, vertical_m, plane_m)
@@ -178,6 +176,7 @@ def _worst_heading(prd_m: Floats, headings: tuple[int, int]) -> Floats:
 
 def _change(name: str, lesser_m: Floats, fuller_m: Floats) -> ModelChange:
     """Compare the runs that both models answer."""
+    # Without the vertical component no block lifts: one model alone may have no displacement.
     answered = ~np.isnan(lesser_m + fuller_m)
     lesser, fuller = lesser_m[answered], fuller_m[answered]
     counted = np.minimum(lesser, fuller) >= LEAST_M

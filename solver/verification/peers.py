@@ -134,6 +134,7 @@ def _opensees(scene: Scene) -> float:
     if ops.analyze(1) != 0:
         return math.nan
     ops.loadConst("-time", 0.0)
+    # On a slope the dead load shears the elastic bearing: displacements count from there.
     rest = ops.nodeDisp(2, 1)
     down, off = cosine * level - sine * vertical, sine * level + cosine * vertical
     for axis, values in ((1, down), (2, off)):
@@ -201,6 +202,7 @@ def _mujoco(contact: str, scene: Scene) -> float:
     down, across, cap = (np.interp(at, np.arange(len(rows)), row) for row in rows.T)
     peak = 0.0
     for pull in zip(down.tolist(), across.tolist(), (-cap / mu).tolist(), strict=True):
+        # In the frame of the roof its acceleration is a gravity that changes.
         model.opt.gravity[:] = pull
         mujoco.mj_step(model, data)
         peak = max(peak, math.hypot(data.qpos[0] * cosine, data.qpos[1]))

@@ -150,10 +150,7 @@ def _horizontal(rng: Random, n: int, peak: float) -> tuple[Floats, Floats]:
 def _held_down(
     rng: Random, ax: Floats, az: Floats, slope_rad: float, least: float | None
 ) -> Floats:
-    """Return a vertical record whose least normal force is `least` [g]; None: 0.05 g or more.
-
-    The record is shifted as a whole or clipped.
-    """
+    """Return a vertical record whose least normal force is `least` [g]; None: 0.05 g or more."""
     sn, cs = math.sin(slope_rad), math.cos(slope_rad)
     lowest = ((G + (az if az.size else 0.0)) * cs + ax * sn).min()
     if least is None and lowest >= 0.05 * G:

@@ -159,20 +159,16 @@ def pulse_travel(drive_mps2: float, resist_mps2: float, plateau_s: float, ramp_s
 def slope_pulse(
     slope_rad: float, mu: float, horizontal_g: float, vertical_g: float, g_mps2: float
 ) -> tuple[float, float]:
-    """Return (drive, resist) [m/s2] for a pulse that accelerates the roof upslope.
-
-    Downslope s'' = (g + a_v)(sin - mu cos) + a (cos + mu sin), a the upslope acceleration.
-    """
+    """Return (drive, resist) [m/s2] for a pulse that accelerates the roof upslope."""
+    # Downslope s'' = (g + a_v)(sin - mu cos) + a (cos + mu sin), a the upslope acceleration.
     weight = math.sin(slope_rad) - mu * math.cos(slope_rad)
     push = math.cos(slope_rad) + mu * math.sin(slope_rad)
     return (horizontal_g * push + vertical_g * weight) * g_mps2, -weight * g_mps2
 
 
 def half_sine_travel(amplitude_g: float, mu: float, freq_hz: float, g_mps2: float) -> float:
-    """Return the travel [m] on a flat roof under half a period of A sin(2 pi f t).
-
-    Slip begins at sin(omega t) = mu / A and outlasts the pulse.
-    """
+    """Return the travel [m] on a flat roof under half a period of A sin(2 pi f t)."""
+    # Slip begins at sin(omega t) = mu / A and outlasts the pulse.
     omega = 2 * math.pi * freq_hz
     peak, friction = amplitude_g * g_mps2, mu * g_mps2
     start, end = math.asin(mu / amplitude_g) / omega, math.pi / omega
@@ -185,10 +181,8 @@ def half_sine_travel(amplitude_g: float, mu: float, freq_hz: float, g_mps2: floa
 
 
 def harmonic_travel(amplitude_g: float, mu: float, freq_hz: float, g_mps2: float) -> float:
-    """Return the travel [m] per half cycle on a flat roof, steady-state harmonic without sticking.
-
-    (2 A / omega^2) sqrt(1 - (pi eta / 2)^2), eta = mu g / A < 2 / sqrt(4 + pi^2).
-    """
+    """Return the travel [m] per half cycle on a flat roof in steady state without sticking."""
+    # (2 A / omega^2) sqrt(1 - (pi eta / 2)^2), eta = mu g / A < 2 / sqrt(4 + pi^2).
     omega = 2 * math.pi * freq_hz
     eta = mu / amplitude_g
     root = math.sqrt(1 - (math.pi * eta / 2) ** 2)
@@ -201,11 +195,9 @@ def free_slide_travel(slope_rad: float, mu: float, time_s: float, g_mps2: float)
 
 
 def yield_accelerations(slope_rad: float, mu: float, g_mps2: float) -> tuple[float, float]:
-    """Return the horizontal accelerations [m/s2] at which slip begins: downslope, upslope.
-
-    -g tan(phi - theta) and g tan(phi + theta) with phi = atan(mu), no vertical shaking; the second
-    is infinite where mu sin(theta) >= cos(theta) (self-locking).
-    """
+    """Return the horizontal accelerations [m/s2] at which slip begins: downslope, upslope."""
+    # -g tan(phi - theta) and g tan(phi + theta) with phi = atan(mu), no vertical shaking; the
+    # second is infinite where mu sin(theta) >= cos(theta) (self-locking).
     phi = math.atan(mu)
     locked = mu * math.sin(slope_rad) >= math.cos(slope_rad)
     up = math.inf if locked else g_mps2 * math.tan(phi + slope_rad)

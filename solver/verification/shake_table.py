@@ -314,6 +314,7 @@ class ShakeTable:
     def share_within(self) -> float:
         """Share of the ratios in `RATIOS`; a run without a result is not within."""
         low, high = RATIOS
+        # NaN is neither: a run without a result is not within.
         within = (self.ratios >= low) & (self.ratios <= high)
         return float(within.mean()) if within.size else 0.0
 

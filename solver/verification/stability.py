@@ -48,6 +48,7 @@ def maps(record: Record, *, quick: bool) -> Iterator[StabilityMap]:
 def link_map(record: Record, name: str, *, quick: bool) -> StabilityMap:
     """Map sub-step against link stiffness, with the stability limit 2 / omega of the explicit."""
     stiffness = np.geomspace(1e2, 1e8, 13 if quick else 25)
+    # Whole numbers: of the rounded ones the first would be there twice.
     substeps = np.unique(np.geomspace(1, 512, 10 if quick else 24).round().astype(int))[::-1]
     cases = CASES[:2] if quick else CASES[:3]
     cells = [

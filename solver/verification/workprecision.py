@@ -84,6 +84,7 @@ def _measured(
     record: Record, case: Case, method: Method, parameters: Mapping[str, float], exact: SlideResult
 ) -> dict[str, Any]:
     result, seconds = run(record, case, method.name, **parameters), math.nan
+    # A run that gave up has taken a time that says nothing.
     if result.status not in (Status.DIVERGED, Status.UPLIFT):
         seconds = timed(method, prepared(record, case), parameters)
     return {
