@@ -300,6 +300,8 @@ def _sections(code: str) -> tuple[_Section, ...]:
 _COMPUTED = re.compile(r":|\b(?:INDIRECT|OFFSET|TABLE)\b", re.IGNORECASE)
 
 
+# The rows of a table have the same formula.
+@lru_cache(maxsize=1024)
 def references(formula: str) -> Sequence[str]:
     """Return the cells and names that a formula refers to; one is empty where it computes some."""
     try:
