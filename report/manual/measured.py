@@ -103,6 +103,7 @@ def _properties(roof: RoofComparison) -> Table:
             (plain("Unexplained", 1, "%", 1.1), lambda rows: 100.0 * rows.unexplained),
         ),
     )
+    # The first row is what the others are compared with: it has a peak, and no properties.
     peak = number(float(np.abs(roof.roof_mps2).max()) / G_MPS2, 3)
     return compared_with(rows, (_reference(roof), *["—"] * 5, peak, "—"))
 

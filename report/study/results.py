@@ -158,6 +158,7 @@ def results_of(
     names = [field.name for field in fields(Statistics)]
     whole = {name: np.concatenate([getattr(one, name) for one in on_curves]) for name in names}
     curves = Statistics(**{name: values.reshape(plan.shape) for name, values in whole.items()})
+    # Of the arrays alone: the grid of a large study, motion by motion, would fill the memory.
     prd, slip = np.concatenate(kept), np.concatenate(slips)
     # Motions are scaled to an intensity of 1, whatever its measure: the formula needs their peaks.
     ppa = np.array(

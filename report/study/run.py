@@ -158,6 +158,7 @@ def run_study(
     full["taken_over"] = taken_over
     full["design_displacement"] = plan.design_rule.about
     results = results_of(plan, folder, done, full, allow_matched=allow_matched, progress=progress)
+    # Known only now: the capacities are searched after the runs of the cases.
     full["capacity_runs"] = results.capacity_runs
     write_all({NAME: json.dumps(full, indent=1).encode() + b"\n"}, out)
     return results

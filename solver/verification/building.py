@@ -207,6 +207,7 @@ def _market_street(folder: Path) -> FloorRecords:
 def compare(records: FloorRecords) -> RoofComparison:
     """Predict the roof motion from the ground motion and compare it with the record."""
     ground, dt, roof = records.ground_mps2, records.dt_s, records.floors_mps2[:, -1]
+    # One scale for all, by the recorded roof: a prediction with a lower peak is not raised to it.
     scale = PPA_G * STANDARD_GRAVITY_MPS2 / float(np.abs(roof).max())
     comparison = RoofComparison(
         title=records.title,

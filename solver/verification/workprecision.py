@@ -146,6 +146,7 @@ def _runs_in_plane(scene: Scene, of_events: Sequence[float]) -> Iterator[tuple[s
     """Yield the name of a method and its setting with what runs it."""
     for tolerance in TOLERANCES:
         yield OURS, f"tol. {tolerance:g}", partial(_series, scene, tolerance)
+    # Prepared before the clock starts, as the scene of our own method is.
     rows, dt, cosine = samples_of(scene), scene.dt_s, math.cos(scene.slope_rad)
     for method, holds in ((HOLDING, True), (CHATTERING, False)):
         for count in SUBSTEPS:
