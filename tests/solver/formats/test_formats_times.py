@@ -32,25 +32,19 @@ class TestEvenTimes:
         record = motion_file.channel()
         assert (record.dt_s, len(record.a_mps2)) == (dt_s, n)
 
-    def test_times_of_single_precision_are_even_enough(self, file):
+    def test_times_of_single_precision_or_from_anywhere_are_even_enough(self, file):
         times = np.float32(0.01) * np.arange(3000, dtype=np.float32)
         text = "".join(f"{float(t)!r} 0.1\n" for t in times)
         assert read_record(file(text), units="g").dt_s == pytest.approx(0.01, rel=1e-6)
-
-    def test_times_may_start_anywhere(self, file):
         assert read_record(file("-0.5,1\n-0.25,2\n0,3\n"), units="g").dt_s == 0.25
-
-    def test_a_given_step_that_agrees_is_kept(self, file):
         text = "".join(f"{i / 120:.3f},0.1\n" for i in range(50))
         assert read_record(file(text), units="g", dt_s=1 / 120).dt_s == 1 / 120
-
-    def test_times_that_fall_are_not_even(self):
         assert is_even(np.array([0.0, 0.5, 1.0]))
         assert not is_even(np.array([1.0, 0.5, 0.0]))
 
 
 class TestUnevenTimes:
-    def test_times_on_a_coarser_grid_lose_nothing(self):
+    def test_coarser_grids_and_zeros_lose_nothing(self):
         t = np.array([0.0, 0.02, 0.03, 0.07, 0.08, 0.09])
         a = np.array([[0.0, 1.0, -2.0, 0.5, 3.0, 0.0]])
         resampled = sampled(SOURCE, t, a, int)
@@ -61,6 +55,9 @@ class TestUnevenTimes:
             "times are uneven, steps of 0.01 to 0.04 s: resampled at 0.01 s by linear"
             " interpolation, which changes no sample",
         )
+        resampled = sampled(SOURCE, np.array([0.0, 0.1, 0.15]), np.zeros((1, 3)), int)
+        assert resampled.dt_s == 0.05
+        assert resampled.columns.tolist() == [[0.0] * 4]
 
     @given(
         st.lists(st.tuples(st.floats(0.002, 0.05), st.floats(-1.0, 1.0)), min_size=20, max_size=60)
@@ -79,23 +76,16 @@ class TestUnevenTimes:
         assert said <= LOSS or finest
         assert abs(even[-1] - t[-1]) < resampled.dt_s * (1.0 + 1e-6)
 
-    def test_a_peak_between_the_samples_of_the_usual_step_is_kept(self):
+    def test_peaks_between_samples_are_kept_or_their_loss_told(self):
         t = np.r_[np.arange(0, 100) * 0.01, 1.0037, 1.0081 + np.arange(0, 100) * 0.01]
         a = 5.0 * (np.arange(201)[None, :] == 100)
         resampled = sampled(SOURCE, t, a, int)
         assert np.abs(resampled.columns).max() >= 5.0 * (1.0 - LOSS)
         assert resampled.dt_s < 0.01
-
-    def test_the_loss_is_told_where_the_finest_step_is_too_coarse(self):
         t = np.r_[np.arange(0, 100) * 0.01, 0.9900101, 1.0 + np.arange(0, 100) * 0.01]
         a = 5.0 * (np.arange(201)[None, :] == 100)
         (note,) = sampled(SOURCE, t, a, int).notes
         assert 0.5 < share_said(note) <= 1.0
-
-    def test_a_column_of_zeros_moves_nothing(self):
-        resampled = sampled(SOURCE, np.array([0.0, 0.1, 0.15]), np.zeros((1, 3)), int)
-        assert resampled.dt_s == 0.05
-        assert resampled.columns.tolist() == [[0.0] * 4]
 
     @pytest.mark.parametrize("gap", [1, 500, 998])
     def test_a_lost_sample_is_a_straight_line(self, file, gap):
@@ -115,26 +105,22 @@ class TestUnevenTimes:
         assert len(motion_file.notes) == 5
         assert motion_file.notes[-1] == "... and 2 more gaps"
 
-    def test_a_step_that_drifts_is_resampled(self, file):
+    def test_drifting_steps_and_all_columns_are_resampled(self, file):
         text = "".join(f"{0.01 * i + 1e-6 * i * i:.7f},{i}\n" for i in range(200))
         record = read_record(file(text), units="m/s2")
         t = record.dt_s * np.arange(len(record.a_mps2))
         i = (-0.01 + np.sqrt(1e-4 + 4e-6 * t)) / 2e-6
         assert record.a_mps2[:-1] == pytest.approx(i[:-1], abs=1e-4 * 200)
-
-    def test_all_columns_are_put_on_one_step(self, file):
         motion_file = read_motion_file(file("t_s,x_g,y_g\n0,0,1\n1,1,0\n3,3,2\n"))
         assert [len(record.a_mps2) for record in motion_file.channels] == [4, 4]
         assert motion_file.channel("y").a_mps2.tolist() == pytest.approx(
             [9.80665, 0, 9.80665, 19.6133]
         )
 
-    def test_a_given_step_does_not_agree_with_uneven_times(self, file):
+    def test_uneven_times_agree_with_no_step_and_grow_to_a_limit(self, file):
         assert refused(read_record, file("0 1\n1 2\n3 4\n"), units="g", dt_s=1.0) == (
             "roof.csv: found uneven times but dt is 1 s; omit dt, and the record is resampled",
         )
-
-    def test_a_record_that_would_grow_without_end_is_refused(self, file):
         path = file("0 1\n1e-6 2\n2e-6 3\n3e-6 4\n1e9 5\n")
         (problem,) = refused(read_record, path, units="g")
         assert problem.endswith("give a record of at most 2,000,000 steps")

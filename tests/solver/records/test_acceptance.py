@@ -108,7 +108,7 @@ class TestSpectrum:
         assert only(found, "Neighboring").ok
         assert only(found, ", 1.3 to 8.3 Hz").found == 1.0
 
-    def test_points_a_sixth_of_an_octave_apart_count_wherever_the_first_lies(
+    def test_points_count_a_sixth_of_an_octave_apart_wherever_the_first_lies(
         self, alone, spectrum_g
     ):
         # Two octaves above 1.3 Hz, and 1/6 octave farther: between the points of 1/6 octave.
@@ -117,13 +117,11 @@ class TestSpectrum:
             found = accepted(alone, target=target)
             assert only(found, "Neighboring").found == 2.0
             assert only(found, ", 1.3 to 8.3 Hz").found == 3.0
-
-    def test_a_narrow_dip_is_one_point_of_a_sixth_of_an_octave(self, alone, spectrum_g):
         target = below(spectrum_g, dict.fromkeys((120, 121, 122, 123), 0.95))
         found = accepted(alone, target=target)
         assert only(found, "Neighboring").found == only(found, ", 1.3 to 8.3 Hz").found == 1.0
 
-    def test_one_motion_may_be_low_where_the_mean_is_not(self):
+    def test_one_motion_may_be_low_and_the_vertical_has_its_own_target(self, spectrum_g):
         one, other = (motion(f"M{k}", k, **NO_Y, **NO_Z) for k in (1, 2))
         # The other motion is scaled up, so that the mean at the point is (0.95 + r) / 2 or more.
         target = below(modal_g(one.ax_mps2), {40: 0.95})
@@ -137,8 +135,6 @@ class TestSpectrum:
         assert mean.found == pytest.approx(each[:93].min(), rel=1e-4)
         assert mean.ok
         assert mean.worst.startswith("mean of x")
-
-    def test_the_vertical_has_a_target_of_its_own(self, spectrum_g):
         made = motion(az_mps2=motion().ax_mps2, **NO_Y)
         found = accepted(made, target=below(spectrum_g, {}), upward=below(spectrum_g, {121: 0.5}))
         assert only(found, "1.3 to 33.3 Hz, each").worst == f"M1 z, {POINTS_HZ[121]:.3g} Hz"
@@ -174,15 +170,13 @@ class TestSpectrum:
 
 
 class TestMotions:
-    def test_three_motions_are_enough_and_two_are_not(self):
+    def test_three_motions_of_all_components_are_enough(self):
         several = [motion(f"M{k}", k) for k in (1, 2, 3)]
         for count, ok in ((2, False), (3, True)):
             found = accepted(*several[:count])
             row = only(found, "Number of motions")
             assert (row.found, row.limit, row.ok) == (count, 3.0, ok)
             assert row.consequence is Consequence.NG
-
-    def test_a_motion_that_lacks_components_is_named_with_them(self):
         full = motion("M1")
         for changes, words, count in (
             ({}, "", 3),
@@ -238,12 +232,10 @@ class TestCorrelation:
         assert row.found == pytest.approx(abs(share), rel=1e-12)
         assert (row.worst, row.ok, row.consequence) == ("M1 x-z", ok, Consequence.NG)
 
-    def test_correlations_of_records_are_measured_but_not_limited(self):
+    def test_correlations_of_records_are_not_limited_and_zeros_have_none(self):
         found = accepted(motion(ay_mps2=motion().ax_mps2))
         assert found.motions[0].correlations["x-y"] == pytest.approx(1.0, rel=1e-12)
         assert not any("Correlation" in row.title for row in found.rows)
-
-    def test_a_component_of_zeros_correlates_with_nothing(self):
         found = accepted(motion(ay_mps2=np.zeros(N)), holds_s=[20.0])
         assert found.motions[0].correlations["x-y"] == 0.0
 

@@ -132,11 +132,12 @@ class TestResampling:
         assert other.prd_m == pytest.approx(result.prd_m, rel=1e-11)
         assert other.residual_m == pytest.approx(result.residual_m, rel=1e-10)
 
-    def test_any_finer_step_lies_on_the_straight_lines(self, noise):
+    def test_any_finer_step_lies_on_straight_lines_and_the_same_changes_nothing(self, noise):
         finer = process(record(noise), Processing(dt_s=0.0073))
         t = 0.0073 * np.arange(len(finer.a_mps2))
         assert t[-1] <= 0.01 * (len(noise) - 1) < t[-1] + 0.0073
         assert finer.a_mps2 == pytest.approx(np.interp(t, 0.01 * np.arange(len(noise)), noise))
+        assert np.array_equal(process(record(noise), Processing(dt_s=0.01)).a_mps2, noise)
 
     @pytest.mark.parametrize("new_s", [0.02, 0.03, 0.05, 0.025, 0.0137])
     def test_a_coarser_step_keeps_what_it_can_hold(self, new_s):
@@ -155,9 +156,6 @@ class TestResampling:
         assert np.abs(a[:: round(new_s / 0.01)]).max() > 0.9
         assert np.abs(process(record(a), Processing(dt_s=new_s)).a_mps2).max() < 1e-6
 
-    def test_the_same_step_changes_nothing(self, noise):
-        assert np.array_equal(process(record(noise), Processing(dt_s=0.01)).a_mps2, noise)
-
 
 def test_zeros_are_added_and_all_problems_said_at_once():
     processed = process(record(np.ones(11), dt_s=0.1), Processing(pad_s=1.05))
@@ -168,15 +166,13 @@ def test_zeros_are_added_and_all_problems_said_at_once():
 
 
 class TestTogether:
-    def test_components_keep_one_length(self, noise):
+    def test_components_keep_one_length_and_others_are_named(self, noise):
         settings = Processing(from_s=0.5, baseline=2, highpass_hz=0.13, dt_s=0.007, pad_s=1.0)
         parts = [record(noise * k, name=f"r{k}") for k in (1, 2, 3)]
         processed = process_together(parts, settings)
         assert {len(part.a_mps2) for part in processed} == {len(processed[0].a_mps2)}
         assert [part.name for part in processed] == ["r1", "r2", "r3"]
         assert np.array_equal(processed[0].a_mps2, process(parts[0], settings).a_mps2)
-
-    def test_components_of_other_lengths_or_steps_are_named(self, noise):
         parts = [record(noise, name="x"), record(noise[1:], name="y"), record(noise, 0.02, "z")]
         like_x = "but x has 2000 of 0.01 s; give components of one length and step"
         assert refused(process_together, parts, Processing()) == (

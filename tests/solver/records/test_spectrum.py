@@ -35,26 +35,20 @@ class TestFactor:
         factor = factor_to_target([record(noise / scale)], own_spectrum(noise), (0.1, 3.0))
         assert factor == pytest.approx(scale, rel=1e-12)
 
-    def test_two_components_count_by_their_geometric_mean(self, noise):
+    def test_components_count_by_their_mean_logarithm_on_target(self, noise):
         pair = [record(noise / 2.0), record(noise / 8.0)]
         factor = factor_to_target(pair, own_spectrum(noise), (0.1, 3.0))
         assert factor == pytest.approx(4.0, rel=1e-12)
-
-    def test_after_scaling_the_mean_logarithm_is_on_target(self, noise):
         target = ac156_vertical(s_ds_g=1.2).at
         factor = factor_to_target([record(noise)], target, (0.2, 2.0))
         periods = np.geomspace(0.2, 2.0, 101)
         off = np.log(factor * response_spectrum(noise, 0.01, periods) / G / target(1.0 / periods))
         assert off.mean() == pytest.approx(0.0, abs=1e-12)
-
-    def test_the_mean_is_over_the_logarithm_of_the_period(self, noise):
         # The target e times too high over a third of the octaves raises the factor by e^(1/3).
         plain = own_spectrum(noise)
         raised = lambda freq: plain(freq) * np.where(1.0 / freq < 0.2, math.e, 1.0)  # noqa: E731
         factor = factor_to_target([record(noise)], raised, (0.1, 0.8))
         assert math.log(factor) == pytest.approx(1.0 / 3.0, abs=0.01)
-
-    def test_a_record_of_zeros_is_refused(self, noise):
         with pytest.raises(InputError, match="quiet: is zero throughout; it cannot be scaled"):
             factor_to_target([record(noise), record(np.zeros(9), name="quiet")], LEVEL, (0.2, 2.0))
 
@@ -84,13 +78,11 @@ class TestDesignSpectrum:
         freq = np.array([1.0 / period_s if period_s else math.inf])
         assert target(freq) == pytest.approx([sa_g], rel=1e-13)
 
-    def test_it_is_continuous(self):
+    def test_a_design_spectrum_is_continuous_and_what_cannot_be_named(self):
         target = design_spectrum(s_ds_g=1.566, s_d1_g=0.83, t_l_s=6.0)
         for period in (0.2 * 0.83 / 1.566, 0.83 / 1.566, 6.0):
             below, above = target(1.0 / (period * np.array([1 - 1e-9, 1 + 1e-9])))
             assert below == pytest.approx(above, rel=1e-8)
-
-    def test_what_cannot_be_is_named_all_at_once(self):
         problems = refused(design_spectrum, s_ds_g=0.0, s_d1_g=-1.0, t_l_s=math.nan)
         assert problems == (
             "S_DS is 0 g; give a number above 0",

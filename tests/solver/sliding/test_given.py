@@ -63,25 +63,19 @@ def test_what_a_record_or_a_motion_contradicts_is_refused(components):
 
 
 class TestMotion:
-    def test_it_has_the_name_of_its_record_and_both_polarities(self, components):
+    def test_a_motion_has_its_names_polarities_and_checked_lengths(self, components):
         motion = solver.motion(components[0])
         assert (motion.id, motion.signs, motion.scale) == ("x", (1, -1), 1.0)
         assert not motion.has_transverse
         assert [each.name for each in motion.orientations] == ["record +", "record −"]
-
-    def test_a_motion_is_scaled_and_named_anew(self, components):
         first = solver.motion(*components, id="A", source="made", scale=2.0)
         again = solver.motion(first, scale=1.5)
         assert isinstance(again, Motion)
         assert (again.id, again.source, again.scale) == ("A", "made", 3.0)
         assert solver.motion(first, id="B").id == "B"
-
-    def test_a_motion_keeps_its_polarities_unless_others_are_given(self, components):
         one_way = solver.motion(components[0], signs=(1,))
         assert solver.motion(one_way, scale=0.5).signs == (1,)
         assert solver.motion(one_way, signs=(1, -1)).signs == (1, -1)
-
-    def test_lengths_and_signs_are_checked(self, components):
         x, y, _ = components
         with pytest.raises(InputError, match="give the shape of ax_mps2"):
             solver.motion(x, replace(y, a_mps2=y.a_mps2[:-1]))
@@ -91,7 +85,7 @@ class TestMotion:
 
 
 class TestWords:
-    def test_a_result_is_one_line(self, components):
+    def test_results_are_one_line_and_solutions_three(self, components):
         x, y, z = components
         result = solver.slide(x, **SCENE)
         assert repr(result) == (
@@ -103,8 +97,6 @@ class TestWords:
         assert repr(solver.slide(x, slope_rad=0.0, mu=9.0)) == "SlideResult: no slip"
         lifted = solver.slide([0.0] * 4, 0.1, az_mps2=[0.0, 0.0, 0.0, -20.0], **SCENE)
         assert repr(lifted) == f"SlideResult: {Status.UPLIFT.sentence}"
-
-    def test_a_solution_is_three_lines(self, components):
         scene = solver.scene(components[0], az_mps2=components[2], **SCENE)
         for settings in (Settings(), Settings(forced=Model.ONE_AXIS)):
             solution = solver.solve(scene, settings)
@@ -113,8 +105,6 @@ class TestWords:
             assert result == repr(solution.result)
             assert f"coefficient {solution.friction_demand:.3f}; " in beyond
         assert f"more than {1e3 * solution.next_effect_m:.2g} mm" in beyond
-
-    def test_a_history_and_a_motion_are_one_line(self, components):
         motion = solver.motion(*components, id="A", scale=2.0)
         assert repr(motion) == "Motion: A, x and y and z, 2000 samples of 0.01 s, scale 2"
         history = solver.slide_history(components[0], **SCENE)
@@ -123,7 +113,7 @@ class TestWords:
 
 
 class TestOwnMethod:
-    def test_it_is_run_beside_the_eight(self, components):
+    def test_an_own_method_is_run_beside_the_eight_without_an_error(self, components):
         def follow(scene, parameters, samples):
             u_m = scene.mu * scene.dt * parameters["factor"]
             return Outcome(True, u_m, 0.0, u_m, 0.0, 1.0, 3)
@@ -136,8 +126,6 @@ class TestOwnMethod:
         assert half.prd_m == 0.5 * result.prd_m
         with pytest.raises(InputError, match="factor is 'x'; give a finite number"):
             solver.slide(components[0], slope_rad=0.0, mu=0.3, method=mine, factor="x")
-
-    def test_one_that_is_called_exact_states_no_error(self, components):
         mine = replace(METHODS["frozen-normal"], name="exact")
         history = solver.slide_history(components[0], **SCENE, method=mine)
         assert math.isnan(history.result.error_m)

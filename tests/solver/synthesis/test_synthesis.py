@@ -62,13 +62,21 @@ def components(suites):
 
 @pytest.mark.nightly
 class TestSuite:
-    def test_every_component_keeps_to_its_target(self, components):
+    def test_components_keep_to_targets_peaks_and_durations(self, components):
         # The fit itself is held against another way in `TestFit`.
         for record, wanted in components:
             fit = spectrum_fit(record, wanted)
             assert fit.minimum >= 1.0
             assert fit.maximum <= 1.30
             assert 1.0 <= fit.mean <= 1.07
+        for record, (_, sa_g) in components:
+            assert np.abs(record.a_mps2).max() / G == pytest.approx(sa_g[-1], rel=0.3)
+        for record, _ in components:
+            assert (record.dt_s, len(record.a_mps2)) == (0.005, 6001)
+            energy = np.cumsum(record.a_mps2**2)
+            strong = np.searchsorted(energy, [0.05 * energy[-1], 0.95 * energy[-1]])
+            assert 19.99 < 0.005 * (strong[1] - strong[0]) < 24.0
+            assert energy[400] < 0.02 * energy[-1] > energy[-1] - energy[-401]
 
     @pytest.mark.parametrize("count", [2, 6])
     def test_no_point_of_a_sixth_of_an_octave_is_below_the_target_wherever_the_first_lies(
@@ -107,7 +115,7 @@ class TestSuite:
             other = acceptance(motions[part], [math.nan] * len(motions[part]), across, upward)
             assert other.missed == ()
 
-    def test_velocity_and_displacement_end_at_zero_exactly(self, components):
+    def test_the_ground_ends_at_zero_and_does_not_wander(self, components):
         # Straight lines between samples that begin and end at zero: velocity is proportional to
         # the sum of the samples, displacement to the sum of their moments about the end.
         for record, _ in components:
@@ -115,42 +123,24 @@ class TestSuite:
             assert whole[0] == whole[-1] == 0
             assert sum(whole) == 0
             assert sum(n * k for n, k in enumerate(whole)) == 0
-
-    def test_the_ground_does_not_wander_beyond_the_longest_period_asked_for(self, components):
         for record, (freq_hz, sa_g) in components:
             velocity = np.cumsum(record.a_mps2) * record.dt_s
             displacement = np.cumsum(velocity) * record.dt_s
             longest = sa_g[0] * G / (2.0 * np.pi * freq_hz[0]) ** 2
             assert np.abs(displacement).max() < longest
 
-    def test_the_peak_acceleration_is_the_rigid_one(self, components):
-        for record, (_, sa_g) in components:
-            assert np.abs(record.a_mps2).max() / G == pytest.approx(sa_g[-1], rel=0.3)
-
-    def test_components_of_a_motion_are_independent(self, suites):
+    def test_motions_are_independent_and_those_of_their_seed(self, suites):
         for motion in suites:
             together = np.corrcoef([record.a_mps2 for record in motion.components])
             xy, xz, yz = together[0, 1], together[0, 2], together[1, 2]
             assert motion.correlations == pytest.approx((xy, xz, yz), rel=1e-9)
             assert max(map(abs, motion.correlations)) <= 0.3
-
-    def test_motions_last_thirty_seconds_and_are_strong_for_twenty(self, components):
-        for record, _ in components:
-            assert (record.dt_s, len(record.a_mps2)) == (0.005, 6001)
-            energy = np.cumsum(record.a_mps2**2)
-            strong = np.searchsorted(energy, [0.05 * energy[-1], 0.95 * energy[-1]])
-            assert 19.99 < 0.005 * (strong[1] - strong[0]) < 24.0
-            assert energy[400] < 0.02 * energy[-1] > energy[-1] - energy[-401]
-
-    def test_motion_k_of_a_seed_is_the_same_whatever_the_count(self, suites):
         again = make_suite(HORIZONTAL, VERTICAL, count=2, seed=1)
         for component, other in zip(again[0].components, suites[1].components, strict=True):
             assert np.array_equal(component.a_mps2, other.a_mps2)
         names = [record.name for record in again[1].components]
         assert names == ["motion-02-x", "motion-02-y", "motion-02-z"]
         assert not np.array_equal(again[1].x.a_mps2, again[0].x.a_mps2)
-
-    def test_other_seeds_give_other_motions(self, suites):
         first, second = suites[:2]
         assert abs(np.corrcoef(first.x.a_mps2, second.x.a_mps2)[0, 1]) < 0.3
 
@@ -216,13 +206,10 @@ class TestSynthesis:
         assert 0.9 <= ratio.min() <= ratio.max() <= 1.3
 
     @pytest.mark.nightly
-    def test_a_target_that_begins_above_the_band_is_flat_below(self):
+    def test_low_periods_are_flat_and_a_motion_like_another_drawn_again(self):
         flat = np.array([2.0, 20.0]), np.array([1.0, 1.0])
         record, _ = synthesize(make_frame(flat, 0.01, 20.0), NOISE, rng(1), "flat")
         assert psa_over(record, flat, BAND[:24]) == pytest.approx(1.0, abs=0.1)
-
-    @pytest.mark.nightly
-    def test_a_motion_like_another_is_drawn_again(self):
         frame = make_frame(HORIZONTAL, 0.01, 12.0)
         first, again = (synthesize(frame, NOISE, rng(1), "x")[0] for _ in range(2))
         assert np.array_equal(again.a_mps2, first.a_mps2)
