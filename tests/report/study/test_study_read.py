@@ -11,14 +11,7 @@ from projects.study.make import study
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import UnitsFirst
 from report.study.read import read_study, write_study
-from report.study.schema import (
-    Intensity,
-    Mat,
-    Sampling,
-    StudyBuilding,
-    StudyMotion,
-    values,
-)
+from report.study.schema import Intensity, Mat, Sampling, StudyBuilding, StudyMotion, values
 from sheets import edit, type_into
 from solver.model import InputError
 from study_books import at, command, given, plan, problems, usual, write
@@ -93,13 +86,6 @@ def test_all_combinations_take_every_tested_value(tmp_path):
     cases = found.campaign.cases[found.arrays[0].samples]
     assert sorted(set(cases.mu)) == [0.38, 0.40, 0.42]
     assert len(cases) == 9
-
-
-def test_a_latin_hypercube_is_the_same_for_the_same_seed(tmp_path):
-    folder = write(tmp_path, given(site_intensity=1.0, samples=20))
-    one, two = plan(folder), plan(folder)
-    assert one.campaign.cases.mu.tolist() == two.campaign.cases.mu.tolist()
-    assert len(one.campaign.cases[one.arrays[0].samples]) == 20
 
 
 @pytest.mark.quick

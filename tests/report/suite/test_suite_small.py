@@ -32,4 +32,7 @@ def test_the_files_of_a_suite_say_what_its_samples_are():
     assert document["envelope_s"] == pytest.approx([1.0, 2.0, 1.0])
     assert any(not row["satisfied"] for row in document["acceptance"])
     assert files["suite.png"].startswith(b"\x89PNG")
-    assert any(line.startswith("0 of 3 components") for line in suite_table(suite, targets))
+    assert any(
+        line.startswith("0 of 3 components have spectra of 0.90 to 1.30")
+        for line in suite_table(suite, targets)
+    )

@@ -202,8 +202,7 @@ def test_linear_acceleration_follows_a_lasting_slip_to_rounding():
 
 
 @pytest.mark.parametrize(
-    ("name", "ceilings"),
-    [("paper", (0.13, 0.03, 0.008)), ("linear", (0.012, 0.003, 0.0008))],
+    ("name", "ceilings"), [("paper", (0.13, 0.03, 0.008)), ("linear", (0.012, 0.003, 0.0008))]
 )
 def test_errors_in_stick_and_slip_fall_at_first_order_below_a_ceiling(noise, name, ceilings):
     largest = []

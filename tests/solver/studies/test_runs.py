@@ -47,8 +47,7 @@ def assert_rows_agree(c):
 
 
 @pytest.mark.parametrize(
-    ("letters", "models"),
-    [("x", {0, 1}), ("xz", {0, 1, 2}), ("xyz", {0, 1, 2, 3})],
+    ("letters", "models"), [("x", {0, 1}), ("xz", {0, 1, 2}), ("xyz", {0, 1, 2, 3})]
 )
 def test_rows_are_solutions_to_the_bit(letters, models):
     parts = list(assert_rows_agree(campaign(letters, 1, buildings=2, mus=(0.0, 0.3, 0.7))))

@@ -76,12 +76,5 @@ def test_the_least_time_is_that_of_the_fastest_repeat(monkeypatch):
     assert study.minimum_seconds(lambda: None, enough_s=60.0) == 1.0
 
 
-def test_nothing_unexplained_is_zero_and_no_motion_at_all_is_one():
-    recorded = np.array([[1.0, -2.0], [0.5, 3.0]])
-    assert study.unexplained(recorded, recorded) == 0.0
-    assert study.unexplained(0.0 * recorded, recorded) == 1.0
-    assert study.unexplained(1.1 * recorded, recorded) == pytest.approx(0.01)
-
-
 def test_the_best_point_is_the_first_of_the_least():
     assert study.best_of(lambda x: (x - 1) ** 2, [3, 2, 0, 5]) == (1, 2)
