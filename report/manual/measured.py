@@ -94,6 +94,7 @@ def _properties(roof: RoofComparison) -> Table:
             (plain("First period", 2, "s"), lambda rows: rows.period_s),
             (plain("Damping", 1, "%", 0.9), lambda rows: 100.0 * rows.damping),
             (plain("Stiffness ratio", 1), lambda rows: rows.alpha0),
+            # The ground applied at the roof has no building, and no modes.
             (text("Modes included", share=0.9), lambda rows: rows.n_modes or "—"),
             (
                 text("Neglected", "%"),

@@ -142,6 +142,7 @@ def convergence(verification: Verification) -> Section:
         paper_percent=paper.PAPER_P64_PERCENT,
         errors=orders,
         charts={
+            # Three rows to a chart, which stays on one page.
             f"convergence-{at // 3 + 1}": paper.convergence(orders[at : at + 3])
             for at in range(0, len(orders), 3)
         },

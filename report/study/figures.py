@@ -179,6 +179,7 @@ def fragilities(states: Sequence[LimitState], along: str) -> str:
     with style():
         figure, axes = boxed(2.9, (0.085, 0.345, 0.89, 0.635))
         levels = states[0].fragility.levels
+        # From above 0, which has no logarithm.
         fine = np.linspace(levels[-1] / 300.0, levels[-1], 300)
         for count, state in enumerate(states):
             f = state.fragility

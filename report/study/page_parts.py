@@ -49,6 +49,7 @@ LOW_G = 0.8
 
 def some(values: Sequence[float], maximum: int) -> list[int]:
     """Return indices of at most `maximum` values, evenly spaced, the last one included."""
+    # Counted from the end: the last value, often the one that governs, is always among them.
     step = max(1, math.ceil(len(values) / maximum))
     return list(range((len(values) - 1) % step, len(values), step))
 
@@ -139,6 +140,8 @@ def _content(results: StudyResults, building: int, fit: Fit) -> Mapping[str, Any
         "b": [_digits(value).replace("-", "−") for value in fit.coefficients],
         "ppa_g": _digits(fit.ppa_g),
         "sigma": number(round_up(fit.sigma_ln, 2), 2),
+        # Outward: every ratio is within what is printed; the domain below inward: all of it is
+        # covered.
         "least": number(round_down(fit.minimum_ratio, 2), 2),
         "greatest": number(round_up(fit.maximum_ratio, 2), 2),
         "slopes": _inward(low_deg, high_deg, "°"),

@@ -265,6 +265,7 @@ def _array(
 ) -> tuple[ArrayPlan, list[Cases]]:
     study, friction = study_input.study, study_input.friction(array.mat)
     slope = math.radians(array.slope_deg)
+    # In this order they are the columns of the samples and the cases of the tornado chart.
     spreads = {
         FRICTION: friction,
         SLOPE: Spread(center=array.slope_deg, half=study.slope_tolerance_deg),

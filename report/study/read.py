@@ -67,6 +67,7 @@ _AXES: Mapping[str, tuple[str, Callable[[float], bool], str]] = {
 
 def _faults(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield errors of the workbook that the cells alone do not show."""
+    # A cell at fault has no key in the draft: it is told already, and nothing more is said of it.
     study = draft["study"][0] if draft["study"] else {}
     for field, (name, fits, allowed) in _AXES.items():
         if text := study.get(field):

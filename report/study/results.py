@@ -128,6 +128,7 @@ class StudyResults:
             found = first_allowed(values, prd_m, allowed_m)
             return found if found in values else rounded(found)
 
+        # Slopes are looked at from the steepest on: their displacements are turned as they are.
         prd_m = self.displacements[name][building]
         return np.apply_along_axis(answer, axis, prd_m if axis else prd_m[::-1])
 

@@ -89,6 +89,7 @@ def study_motions(sheet: StudySheet) -> StudyMotions:
 def _rows(sheet: StudySheet) -> list[dict[str, Any]]:
     study = sheet.project.study
     defaults = {e.name: e.default for e in entries(MotionInput) if not e.is_required}
+    # What the sheet Study says of all motions: a row of the sheet Motions has no columns for it.
     common = {**defaults, "units": study.units, "dt_s": study.dt_s, "polarity": study.polarity}
     listed: Sequence[Mapping[str, Any]] = [row.model_dump() for row in sheet.project.motions]
     return [{**common, **row} for row in listed or _of_files(sheet)]
@@ -109,6 +110,7 @@ def _of_files(sheet: StudySheet) -> list[dict[str, str]]:
             continue
         part = _COMPONENT.fullmatch(path.stem)
         motion, field = (part[1], _FIELDS[part[2].lower()]) if part else (path.stem, "record")
+        # 40 letters, as an ID of the sheet has at most.
         row = groups.setdefault(motion, {"id": motion[:40], "source": f"{name}/{path.name}"})
         row[field] = f"{name}/{path.name}"
     lost = [motion for motion, row in groups.items() if "record" not in row]

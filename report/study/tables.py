@@ -47,6 +47,7 @@ def curves_csv(results: StudyResults) -> bytes:
     ]  # fmt: skip
     for case, at in _cases(results):
         values = [float(lengths[at]) for lengths in results.displacements.values()]
+        # All digits: somebody computes with them.
         shown = ["" if math.isnan(v) else repr(v) for v in values]
         rows.append((*case, *shown, int(lost[at])))
     return csv_text(rows).encode()

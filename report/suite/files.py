@@ -150,6 +150,7 @@ def without_noise(measured: Mapping[str, Any]) -> dict[str, Any]:
 LEAST, GREATEST, MEAN_OFF = 0.90, 1.30, 0.07
 """Limits on every component's ratios to its target, at 1/12 octave."""
 
+# Of three components and their three pairs, one each stands in a row of the table.
 _PAIRS = ("x-y", "x-z", "y-z")
 _DRAWN_HZ: Floats = np.geomspace(0.1, 50.0, 180)
 
@@ -317,6 +318,7 @@ def _spectra(suite: Sequence[SuiteMotion], targets: SuiteTargets, name: str) -> 
     records = [motion.components["xyz".index(name)] for motion in suite]
     return Spectra(
         ids=tuple(record.name for record in records),
+        # Periods increase as frequencies fall.
         periods_s=1.0 / _DRAWN_HZ[::-1],
         sa_g=np.array([spectrum_fit(r, target, _DRAWN_HZ[::-1]).achieved_g for r in records]),
         target=TargetSpectrum(

@@ -126,6 +126,7 @@ def _text_rows(path: Path) -> _Rows:
     if not path.is_file():
         wanted = f"give BOOK.xlsx!Sheet or a CSV file with {_WANTED}"
         raise InputError(f"{path}: no such file; {meant(path) or wanted}")
+    # Neither units nor a step: they are those of a record.
     lines = open_source(path, units="", dt_s=math.nan).lines
     try:
         mark = separator(lines)
