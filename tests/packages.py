@@ -89,34 +89,6 @@ def _script(top: Path, project: str) -> tuple[str, str]:
     return done.stdout, done.stderr
 
 
-_OTHER_VERSIONS = """
-import sys
-from importlib.metadata import Distribution
-others = dict(pair.split("=") for pair in sys.argv.pop().split())
-true = Distribution.metadata.fget
-def about(one):
-    found = true(one)
-    if found["Name"] in others:
-        found.replace_header("Version", others[found["Name"]])
-    return found
-Distribution.metadata = property(about)
-from report.cli.main import main
-main()
-"""
-
-
-def of_other_versions(factory: pytest.TempPathFactory, name: str, versions: str) -> bytes:
-    """Return the package of a project as other versions write it that draw alike: `numpy=1.0`."""
-
-    def fill(folder: Path) -> None:
-        project = str(ROOT / "projects" / name)
-        words = ["report", project, "--out", str(folder), "--quiet", versions]
-        command = [sys.executable, "-c", _OTHER_VERSIONS, *words]
-        subprocess.run(command, check=True, cwd=ROOT, timeout=240)
-
-    return (once(factory, f"{name}-{versions}", fill) / "calc-package.pdf").read_bytes()
-
-
 FILES = (
     Attached(name="input.xlsx", content=b"workbook", mime="application/vnd.ms-excel",
              relationship="Source", description="Input workbook"),

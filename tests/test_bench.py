@@ -24,22 +24,23 @@ def test_the_docs_quote_what_the_benchmarks_printed(text):
     assert run.with_figures(text, run.read()) == text
 
 
-def test_another_digit_in_the_docs_is_noticed():
+def test_a_figure_is_quoted_as_printed_or_not_at_all():
     row = dict(zip(run.COLUMNS, ("speed", "a run", "1.3", "ns", "2 cores", "today"), strict=True))
     table = "| `speed` | today; 2 cores |\n|---|---|\n| a run | 1.3 ns |"
     text = f"<!-- figures of speed -->\n\n{table}\n\n<!-- end -->\n1.3<!-- speed: a run --> ns.\n"
     assert run.with_figures(text, [row]) == text
     assert run.with_figures(text.replace("1.3", "1.2"), [row]) == text
-
-
-def test_a_figure_that_no_benchmark_printed_cannot_be_quoted():
     assert run.with_figures("2<!-- speed: a run -->", []) == "?<!-- speed: a run -->"
     assert "?<!--" not in SAID
 
 
-def test_every_benchmark_has_its_figures_in_the_docs():
+def test_every_benchmark_exists_and_has_its_figures_in_the_docs():
     assert {row["script"] for row in run.read()} == set(run.NAMES)
     assert set(re.findall(r"<!-- (?:figures of )?(\w+)(?:: .+?)? -->", SAID)) >= set(run.NAMES)
+    texts = [SAID, *(path.read_text() for path in ROOT.glob("[sr]*/**/*.py"))]
+    named = {name for text in texts for name in re.findall(r"tests/bench/(\w+\.\w+)", text)}
+    assert named
+    assert [name for name in sorted(named) if not (BENCH / name).is_file()] == []
 
 
 MEASURED = re.compile(
@@ -65,13 +66,6 @@ def test_a_page_states_no_time_beside_the_figures(name):
         prose = re.sub(apart, "", prose, flags=re.DOTALL)
     if name not in ("commands.md", "workbook-fields.md", "workbook-fields-motions.md"):
         assert sorted(set(MEASURED.findall(prose))) == sorted(LIMITS.get(name, ()))
-
-
-def test_every_benchmark_that_is_named_exists():
-    texts = [SAID, *(path.read_text() for path in ROOT.glob("[sr]*/**/*.py"))]
-    named = {name for text in texts for name in re.findall(r"tests/bench/(\w+\.\w+)", text)}
-    assert named
-    assert [name for name in sorted(named) if not (BENCH / name).is_file()] == []
 
 
 @pytest.mark.nightly

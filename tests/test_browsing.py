@@ -35,13 +35,12 @@ def test_the_launcher_looks_after_every_library_that_a_bare_debian_lacks(librari
     assert not [name for name in libraries - IN_MINBASE if f"{name}=" not in launcher]
 
 
-def test_without_chromium_tests_are_skipped_with_what_to_install(monkeypatch, tmp_path):
+def test_missing_libraries_and_browsers_are_told_with_what_to_install(
+    monkeypatch, tmp_path, libraries
+):
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(pytest.skip.Exception, match="apt-get install chromium"), chromium():
         pass
-
-
-def test_without_libatomic_tests_are_skipped_with_what_to_install(libraries, monkeypatch, tmp_path):
     if "libatomic.so.1" not in libraries:
         pytest.skip("the node of Playwright does without libatomic here")
     (tmp_path / "chromium").touch(0o755)  # is not started

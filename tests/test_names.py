@@ -27,14 +27,11 @@ def test_a_name_of_two_classes_is_found_unless_it_is_private():
     assert doubled({"one.py": one, "other.py": other}) == {"Surface": ["one.py:1", "other.py:2"]}
 
 
-def test_no_two_classes_have_one_name():
+def test_no_two_classes_and_no_two_files_of_tests_have_one_name():
     files = [path for folder in ("solver", "report") for path in Path(ROOT, folder).rglob("*.py")]
     assert len(files) > 100
     assert doubled({path.relative_to(ROOT): path.read_text() for path in files}) == {}
-
-
-def test_no_two_files_of_tests_have_one_name():
-    """Pytest stops at the second one."""
+    # Pytest stops at the second one.
     names = Counter(path.name for path in TESTS.rglob("test_*.py"))
     assert len(names) > 100
     assert [name for name, count in names.items() if count > 1] == []

@@ -38,10 +38,11 @@ def tracked():
 
 
 @pytest.mark.quick
-def test_no_benchmark_hides_a_module_of_the_tests():
+def test_benchmarks_and_continuous_integration_are_as_planned():
     """A script finds what is beside it first."""
     tests, bench = ({file.name for file in TESTS.glob(glob)} for glob in ("*.py", "bench/*.py"))
     assert tests.isdisjoint(bench)
+    assert "./roofslip test" in (ROOT / ".ci" / "run").read_text()
 
 
 @pytest.fixture(scope="module")
@@ -53,7 +54,7 @@ def built(tmp_path_factory):
     return folder
 
 
-def test_the_wheel_holds_the_packages_their_templates_the_page_and_its_example(built):
+def test_wheel_and_sdist_hold_what_is_theirs_and_no_projects(built):
     with zipfile.ZipFile(next(built.glob("*.whl"))) as wheel:
         names = set(wheel.namelist())
     tops = {name.split("/")[0] for name in names}
@@ -64,9 +65,6 @@ def test_the_wheel_holds_the_packages_their_templates_the_page_and_its_example(b
     assert any(re.fullmatch(r"report/templates/fonts/.*OFL.*", name) for name in names)
     web = ("static/index.html", "static/app.js", "example/input.xlsx", "example/records/RM7-z.csv")
     assert {f"report/web/{name}" for name in web} <= names
-
-
-def test_the_sdist_holds_no_projects_but_the_example(built):
     with tarfile.open(next(built.glob("*.tar.gz"))) as sdist:
         names = sdist.getnames()
     assert not [name for name in names if "/projects/" in name and "/projects/example/" not in name]
@@ -74,8 +72,14 @@ def test_the_sdist_holds_no_projects_but_the_example(built):
     assert any(name.endswith("solver/kernels/one_axis.py") for name in names)
 
 
-def test_the_top_level_is_as_planned(tracked):
+def test_the_top_level_is_as_planned_and_every_dependency_imported(tracked):
     assert {path.relative_to(ROOT).parts[0] for path in tracked} <= TOP_LEVEL
+    sources = [p.read_text() for p in tracked if p.suffix == ".py" and TESTS not in p.parents]
+    lines = {
+        line for text in sources for line in re.findall(r"^ *(?:from|import) (\w+)", text, re.M)
+    }
+    names = map(name_of, PROJECT["project"]["dependencies"])
+    assert {name.replace("-", "_") for name in names} <= lines
 
 
 def name_of(requirement):
@@ -93,15 +97,6 @@ def test_every_dependency_is_locked_with_hashes_and_without_addresses():
     for entry in re.split(r"^(?=[\w.-]+==)", lock, flags=re.MULTILINE)[1:]:
         assert "--hash=sha256:" in entry, entry.splitlines()[0]
     assert "://" not in lock
-
-
-def test_every_dependency_is_imported(tracked):
-    sources = [p.read_text() for p in tracked if p.suffix == ".py" and TESTS not in p.parents]
-    lines = {
-        line for text in sources for line in re.findall(r"^ *(?:from|import) (\w+)", text, re.M)
-    }
-    names = map(name_of, PROJECT["project"]["dependencies"])
-    assert {name.replace("-", "_") for name in names} <= lines
 
 
 def test_no_tracked_file_names_a_registry_or_a_path_of_one_machine(tracked):
@@ -202,8 +197,3 @@ def test_every_command_that_makes_a_pdf_has_its_libraries_looked_after():
     names = ("report", "watch", "serve", "study", "verify", "verify-package")
     assert set(names) <= set(main.commands)
     assert f"{' | '.join(names)}) native_libraries" in launcher
-
-
-@pytest.mark.quick
-def test_the_continuous_integration_calls_the_one_command():
-    assert "./roofslip test" in (ROOT / ".ci" / "run").read_text()

@@ -41,15 +41,12 @@ def test_results_come_back_in_order_from_another_process(worker):
     assert asked[1].result(timeout=60) != os.getpid()
 
 
-def test_an_exception_is_the_same_and_says_where_it_was_raised(worker):
+def test_an_exception_says_where_it_was_raised_and_the_worker_works_on(worker):
     with pytest.raises(InputError) as caught:
         worker.submit(refuse, "Arrays!B7").result(timeout=60)
     assert caught.value.problems == ("Arrays!B7: not a number",)
     assert "in the worker" in caught.value.__notes__[0]
     assert "refuse" in caught.value.__notes__[0]
-
-
-def test_it_works_on_after_an_exception(worker):
     with pytest.raises(ZeroDivisionError):
         worker.submit(truediv, 1, 0).result(timeout=60)
     assert worker.submit(truediv, 1, 2).result(timeout=60) == 0.5

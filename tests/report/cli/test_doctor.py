@@ -23,16 +23,13 @@ def test_with_everything_installed_it_says_so():
     assert lines[-1] == "Everything that a package needs is here."
 
 
-def test_a_native_library_that_is_missing_is_named_with_its_package(monkeypatch):
+def test_missing_packages_and_libraries_are_named(monkeypatch):
     monkeypatch.setitem(main.NATIVE, "no-such-library", "libnone0")
     done = run("doctor")
     assert done.exit_code == 1
     assert done.stderr == "Error: no-such-library: install it: sudo apt-get install libnone0\n"
     assert re.search(r"no-such-library +missing", done.stdout)
     assert "Everything" not in done.stdout
-
-
-def test_a_package_that_is_missing_is_named(monkeypatch):
     needed = ["numpy", "no-such-package", "other-package; extra == 'sign'"]
     monkeypatch.setattr("importlib.metadata.requires", lambda _: needed)
     done = run("doctor")
@@ -41,7 +38,7 @@ def test_a_package_that_is_missing_is_named(monkeypatch):
     assert "other-package" not in done.output
 
 
-def test_a_renderer_that_fails_is_a_finding_not_a_traceback(monkeypatch):
+def test_a_broken_renderer_or_solver_is_a_finding(monkeypatch):
     def broken(_):
         raise OSError("cannot load library 'libpango-1.0-0'")
 
@@ -51,9 +48,6 @@ def test_a_renderer_that_fails_is_a_finding_not_a_traceback(monkeypatch):
     assert done.stderr == (
         "Error: test page: install what is missing above, or the program again\n"
     )
-
-
-def test_a_solver_that_is_wrong_is_found(monkeypatch):
     monkeypatch.setattr("solver.slide", lambda *_, **__: SimpleNamespace(prd_m=0.1))
     done = run("doctor")
     assert done.exit_code == 1

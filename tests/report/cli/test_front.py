@@ -37,10 +37,16 @@ def on_a_terminal(*words, env=None):
     return CliRunner(env=env).invoke(main, [str(word) for word in words], color=True).stdout
 
 
-def test_levels_are_colored_on_a_terminal_and_nowhere_else(tmp_path):
+def test_levels_and_verdicts_are_colored_on_a_terminal_alone(tmp_path):
     book = make(tmp_path)
     assert "\x1b[33mwarning\x1b[0m: " in on_a_terminal("check", book)
     assert "\x1b" not in printed("check", book)
+    from report.cli.terminal import colored
+
+    assert colored("A1  0.8 in  NG: slope") == f"A1  0.8 in  {VERDICT}: slope"
+    assert click.unstyle(colored("verdict: OK with conditions")) == "verdict: OK with conditions"
+    assert colored("verdict: OK with conditions").count("\x1b[33m") == 1
+    assert colored("a warning: TONG, BOOK, NORTH") == "a warning: TONG, BOOK, NORTH"
 
 
 @pytest.mark.parametrize(("name", "value"), [("NO_COLOR", "1"), ("TERM", "dumb")])
@@ -52,15 +58,6 @@ def test_a_reader_may_want_no_color(tmp_path, monkeypatch, name, value):
     assert color_choice() is None
     monkeypatch.setenv(name, value)
     assert color_choice() is False
-
-
-def test_verdicts_are_colored_as_words_of_their_own():
-    from report.cli.terminal import colored
-
-    assert colored("A1  0.8 in  NG: slope") == f"A1  0.8 in  {VERDICT}: slope"
-    assert click.unstyle(colored("verdict: OK with conditions")) == "verdict: OK with conditions"
-    assert colored("verdict: OK with conditions").count("\x1b[33m") == 1
-    assert colored("a warning: TONG, BOOK, NORTH") == "a warning: TONG, BOOK, NORTH"
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])

@@ -105,17 +105,17 @@ def test_a_zip_in_a_zip_is_unpacked_and_two_components_are_taken_where_asked(tmp
     assert "note: M: without a vertical record. Motions for analysis have two horizontal" in told
 
 
-def test_info_prints_a_table_for_people(column):
+def test_info_prints_a_table_for_people_and_never_over_a_record(column):
     lines = printed("info", column, *READING).splitlines()
     heading = re.split(r"  +", lines[1].strip())
     row = dict(zip(heading, re.split(r"  +", lines[2].strip())[1:], strict=True))
     assert (row["dt [s]"], row["samples"], row["PGA [g]"]) == ("0.02", "4", "0.25")
     # Trapezia of 0.125 and -0.25 g; the velocity ends at -0.0025 g s.
     assert row["final v [cm/s]"] == f"{-0.0025 * G * 100:.4g}"
-
-
-def test_a_drift_of_rounding_prints_as_zero():
     assert printed("info", RECORD).splitlines()[2].split()[-2:] == ["0", "0"]
+    told = refused("info", column, *READING, "--plot", column)
+    assert "use the extension .svg or .png" in told
+    assert column.read_text() == COLUMN
 
 
 def test_notes_of_the_reading_are_shown(tmp_path):
@@ -146,12 +146,6 @@ def test_a_picture_of_too_many_channels_is_refused(tmp_path):
     assert not (tmp_path / "a.svg").exists()
 
 
-def test_info_never_draws_over_a_record(column):
-    told = refused("info", column, *READING, "--plot", column)
-    assert "use the extension .svg or .png" in told
-    assert column.read_text() == COLUMN
-
-
 def test_convert_writes_time_and_g(column, tmp_path):
     out = tmp_path / "out.csv"
     assert str(out) in printed("convert", column, out, *READING)
@@ -174,16 +168,12 @@ def test_convert_loses_nothing_of_a_small_record(tmp_path, scale):
     assert np.abs(back - values * 0.01).max() <= 1.001e-9 * np.abs(values * 0.01).max()
 
 
-def test_convert_asks_which_of_several_channels(three, tmp_path):
+def test_convert_asks_for_one_channel_and_never_overwrites(three, tmp_path, column):
     out = tmp_path / "out.csv"
     assert "1 HN1; 2 HN2; 3 HNZ" in refused("convert", three, out)
     assert not out.exists()
     printed("convert", three, out, "--channel", "HN2")
     assert np.abs(read_record(out).a_mps2).max() == pytest.approx(0.2 * G)
-
-
-def test_convert_never_overwrites_a_file(column, tmp_path):
-    out = tmp_path / "out.csv"
     out.write_text("mine")
     assert "already exists; give another name" in refused("convert", column, out, *READING)
     assert out.read_text() == "mine"

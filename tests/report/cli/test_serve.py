@@ -28,8 +28,13 @@ WAIT_S = 120.0
 TOKEN = "a-token-of-twenty-letters"
 
 
-def test_a_host_needs_a_token_file():
+def test_a_host_needs_a_token_and_a_port_that_is_taken_is_named():
     assert "--host needs --token-file" in refused("serve", "--host", "127.0.0.1")
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        told = refused("serve", "--no-browser", "--port", port)
+    assert f"Port {port} of 127.0.0.1 is in use: end what uses it, or give another --port." in told
+    assert "Address already in use" not in told
 
 
 @pytest.mark.parametrize("token", ["", "short", "a token with spaces in it", "x" * 19])
@@ -38,14 +43,6 @@ def test_a_token_that_can_be_guessed_or_is_no_part_of_an_address_is_refused(toke
     path.write_text(token)
     told = refused("serve", "--host", "127.0.0.1", "--token-file", path)
     assert "20 or more letters" in told
-
-
-def test_a_port_that_is_taken_is_named():
-    with socket.create_server(("127.0.0.1", 0)) as taken:
-        port = taken.getsockname()[1]
-        told = refused("serve", "--no-browser", "--port", port)
-    assert f"Port {port} of 127.0.0.1 is in use: end what uses it, or give another --port." in told
-    assert "Address already in use" not in told
 
 
 @pytest.mark.parametrize(

@@ -22,7 +22,7 @@ PLACE = ("--slope-deg", 2, "--mu", 0.5)
 found, refused = (partial(command, "slide") for command in (commands.as_json, commands.refused))
 
 
-def test_slide_gives_what_the_solver_gives():
+def test_slide_gives_what_the_solver_gives_at_its_scale():
     record = read_record(RECORD, units="g")
     expected = slide(record.a_mps2, record.dt_s, slope_rad=math.radians(2), mu=0.5)
     values = found(RECORD, *PLACE)
@@ -31,9 +31,6 @@ def test_slide_gives_what_the_solver_gives():
     assert values["t_uplift_s"] is None
     assert values["dt_s"] == 0.005
     assert f"prd_m  {expected.prd_m:.6g}" in commands.printed("slide", RECORD, *PLACE)
-
-
-def test_slide_scales_to_a_ppa_and_by_a_factor():
     peak = np.abs(read_record(RECORD, units="g").a_mps2).max() / 9.80665
     scaled, doubled = (
         found(RECORD, *PLACE, *words) for words in (("--ppa-g", 2 * peak), ("--factor", 2))
@@ -41,7 +38,7 @@ def test_slide_scales_to_a_ppa_and_by_a_factor():
     assert scaled["prd_m"] == pytest.approx(doubled["prd_m"])
 
 
-def test_slide_takes_three_components_and_names_the_model():
+def test_slide_takes_components_from_files_or_channels():
     two = found(RECORD, *PLACE, "--transverse", ACROSS, "--vertical", UP)
     x, y, z = (read_record(name, units="g").a_mps2 for name in (RECORD, ACROSS, UP))
     expected = slide(x, 0.005, slope_rad=math.radians(2), mu=0.5, ay_mps2=y, az_mps2=z)
@@ -50,6 +47,9 @@ def test_slide_takes_three_components_and_names_the_model():
     assert two["model"] == "3, two axes with vertical"
     assert two["error_m"] <= 1e-6 * two["prd_m"]
     assert two["next_effect_m"] is None
+    channels = (f"{THREE} | 1", *PLACE, "--transverse", f"{THREE}|2", "--vertical", f"{THREE}|3")
+    assert found(*channels)["dt_s"] > 0.0
+    assert "found several channels" in refused(THREE, *PLACE)
 
 
 @pytest.mark.parametrize(
@@ -64,12 +64,6 @@ def test_slide_takes_three_components_and_names_the_model():
 )
 def test_the_model_is_the_simplest_adequate_one_or_the_requested_one(words, model):
     assert found(RECORD, *PLACE, *words)["model"] == model
-
-
-def test_a_file_of_several_channels_gives_each_component():
-    channels = (f"{THREE} | 1", *PLACE, "--transverse", f"{THREE}|2", "--vertical", f"{THREE}|3")
-    assert found(*channels)["dt_s"] > 0.0
-    assert "found several channels" in refused(THREE, *PLACE)
 
 
 @pytest.mark.parametrize(

@@ -34,18 +34,15 @@ def test_a_name_that_is_too_long_is_an_input_error(arguments, tmp_path, monkeypa
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_name_that_is_too_long_is_a_problem_of_its_project_among_several(tmp_path):
+def test_names_that_are_too_long_are_refused_before_the_run(tmp_path):
     (problem,) = map(str, package(tmp_path / LONG).problems)
     assert f"the system refuses it ({TOO_LONG})" in problem
-
-
-def test_an_output_folder_with_too_long_a_name_is_refused_before_the_run(tmp_path):
     told = refused("report", make(tmp_path), "--out", tmp_path / LONG)
     assert TOO_LONG in told
     assert "running" not in told
 
 
-def test_a_terminal_is_shown_no_control_characters_and_no_endless_line(tmp_path):
+def test_odd_letters_and_long_values_are_shown_short(tmp_path):
     assert plain("a\x1b[31m\u202eb\u2066c\u2028d\x9be") == "a?[31m?b?c?d?e"
     assert plain("μ is 0.5 — 屋上") == "μ is 0.5 — 屋上"
     assert len(plain("9" * 10_000)) < 2010
@@ -53,9 +50,6 @@ def test_a_terminal_is_shown_no_control_characters_and_no_endless_line(tmp_path)
     named.write_text("abc\n")
     for command in (["motion", "info"], ["check"], ["report"]):
         assert not set("\u202e\x1b") & set(refused(*command, named))
-
-
-def test_a_value_of_four_hundred_digits_is_refused_and_not_echoed_whole(tmp_path):
     told = refused("check", type_into(make(tmp_path), {"Arrays/A1/CG height": 10**400}))
     line = f"<Arrays/A1/CG height>: CG height is 1{'0' * 58}…; give a number of more than 0"
     assert at(line) in told

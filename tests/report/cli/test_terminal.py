@@ -62,7 +62,7 @@ def shown_at(seconds, monkeypatch, capsys, progress):
     return capsys.readouterr().err.split("\r\x1b[2K")[1:]
 
 
-def test_the_time_left_follows_from_what_is_done(terminal, monkeypatch, capsys):
+def test_the_time_left_follows_from_what_is_done_by_shares_of_steps(terminal, monkeypatch, capsys):
     terminal()
     times = (0.0, 1.0, 3.0, 320.0)
     lines = shown_at(times, monkeypatch, capsys, lambda: Progress(4))
@@ -71,15 +71,9 @@ def test_the_time_left_follows_from_what_is_done(terminal, monkeypatch, capsys):
         " 3.0 s, 9 s left  step 1",
         "320.0 s, 5 min left  step 2",
     ]
-
-
-def test_steps_of_unequal_length_count_by_their_shares(terminal, monkeypatch, capsys):
     terminal()
     lines = shown_at((0.0, 0.0, 9.0), monkeypatch, capsys, lambda: Progress((3, 1)))
     assert lines[1] == "[" + "#" * 15 + "." * 5 + "]  9.0 s, 3 s left  step 1"
-
-
-def test_a_line_is_no_wider_than_the_terminal(terminal, monkeypatch, capsys):
     terminal()
     monkeypatch.setenv("COLUMNS", "30")
     lines = shown_at((0.0, 0.0), monkeypatch, capsys, lambda: Progress(4))
@@ -98,13 +92,17 @@ def test_the_line_is_written_again_while_a_step_lasts(terminal, capsys):
     assert cleared == ""
 
 
-def test_without_a_number_of_steps_there_is_no_bar(terminal, capsys):
+def test_there_is_no_bar_without_a_number_of_steps_or_where_quiet(terminal, capsys):
     terminal()
     with Progress() as progress:
         progress("reading")
     shown = capsys.readouterr().err
     assert "reading" in shown
     assert "[" not in shown.replace("\x1b[", "")
+    terminal()
+    with Progress(2, quiet=True) as progress:
+        progress("reading")
+    assert capsys.readouterr().err == ""
 
 
 @pytest.mark.parametrize(
@@ -122,23 +120,13 @@ def test_the_bar_of_a_command_is_full_when_it_ends(tmp_path, bars, command, step
     ]
 
 
-def test_elsewhere_plain_lines_start_after_a_second(monkeypatch, capsys):
+def test_elsewhere_plain_lines_start_after_a_second_and_a_warning_is_one(monkeypatch, capsys):
     now = iter((0.0, 0.9, 1.5))
     monkeypatch.setattr("report.cli.terminal.time.monotonic", lambda: next(now))
     progress = Progress(2)
     progress("reading")
     progress("running")
     assert capsys.readouterr().err == "[ 1.5 s] running\n"
-
-
-def test_quiet_progress_prints_nothing(terminal, capsys):
-    terminal()
-    with Progress(2, quiet=True) as progress:
-        progress("reading")
-    assert capsys.readouterr().err == ""
-
-
-def test_a_warning_to_the_user_is_one_line(monkeypatch, capsys):
     monkeypatch.setattr(warnings, "showwarning", lambda *_, **__: print("to developers"))
     show_warnings()
     warnings.showwarning(UserWarning("cannot be\x1bkept"), UserWarning, "cache.py", 49)

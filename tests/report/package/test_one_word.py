@@ -48,7 +48,7 @@ def plain(text):
     return re.sub(r"[_\s†]", "", text)
 
 
-def test_the_verdicts_of_arrays_and_what_governs(made):
+def test_verdicts_of_arrays_clearances_and_neighbors_are_one_word(made):
     package, document, book = made
     table = printed(package, "summary").table("Arrays: displacement").rows
     arrays = document["arrays"]
@@ -60,10 +60,6 @@ def test_the_verdicts_of_arrays_and_what_governs(made):
     cells = rows_of(book["Design"], 4)
     assert [row["Verdict"] for row in cells] == [row["verdict"] for row in arrays]
     assert book["Design"]["C3"].value == document["verdict"]
-
-
-def test_the_verdicts_and_kinds_of_clearances(made):
-    package, document, book = made
     gaps = document["clearances"]
     table = printed(package, "plan").table("Schedule of clearances").rows
     kinds = [f"{row['neighbor']}, {row['direction']}" for row in gaps]
@@ -74,6 +70,10 @@ def test_the_verdicts_and_kinds_of_clearances(made):
     cells = rows_of(book["Clearances"], 4)
     assert [row["Verdict"] for row in cells] == [row["verdict"] for row in gaps]
     assert [f"{row['Kind']}, {row['Direction']}" for row in cells] == kinds
+    _, document, book = made
+    expected = {(row["array"], row["other"]): row["what"] for row in document["neighbors"]}
+    cells = {(row["Array"], row["Neighbor"]): row["Kind"] for row in rows_of(book["Neighbors"], 1)}
+    assert cells == expected
 
 
 def test_the_verdicts_of_requirements(made):
@@ -97,10 +97,3 @@ def test_the_verdicts_of_requirements(made):
     shown = {(plain(r["Requirement"]), plain(r["Found"])): bare(r["Verdict"]) for r in table}
     assert shown
     assert shown.items() <= said.items()
-
-
-def test_the_kinds_of_neighbors(made):
-    _, document, book = made
-    expected = {(row["array"], row["other"]): row["what"] for row in document["neighbors"]}
-    cells = {(row["Array"], row["Neighbor"]): row["Kind"] for row in rows_of(book["Neighbors"], 1)}
-    assert cells == expected

@@ -41,19 +41,16 @@ def done():
     return scenes.package(**changes).assessment
 
 
-def test_the_floor_of_a_lowered_prescriptive_value_and_a_lowered_factor_are_marked(done):
+def test_lowered_values_are_marked_where_they_are_and_govern(done):
     assert {item.governs for item in done.arrays} == {"floor"}
     assert {item.design_mark for item in done.arrays} == {"‡"}
     assert done.verdict is not Verdict.OK
-
-
-def test_the_prescriptive_displacement_that_the_override_lowers_is_marked(done):
     assert printed(done, "summary").table("Arrays").row("A1")["Prescriptive [in]"].endswith("‡")
     row = printed(done, "comparison").table("Displacement by analysis").row("A1")
     assert all(row[f"{name} [in]"].endswith("‡") for name in ("Prescriptive", "Floor", "Design"))
 
 
-def test_the_plan_and_its_tables_mark_it(done):
+def test_plan_dxf_and_results_json_mark_it(done):
     with style():
         figure = painted(plan_on_paper(done, LETTER).paper)
     said = " ".join(text.get_text() for text in figure.findobj(lambda a: hasattr(a, "get_text")))
@@ -62,16 +59,10 @@ def test_the_plan_and_its_tables_mark_it(done):
     for row in arrays.rows:
         assert all(re.fullmatch(r"[\d.]+‡", row[f"{name} [in]"]) for name in ("Δ", "Keep clear"))
     assert all(re.fullmatch(r"[\d.]+‡", row["Req’d [in]"]) for row in schedule.rows)
-
-
-def test_the_plan_as_dxf_says_it_in_words(done):
     said = " ".join(text.words for text in plan_drawing(done).texts)
     assert re.search(rf"design displacement {LENGTH} \(overridden\)", said)
     assert re.search(r"keep clear \d+ in \(overridden\); no conduit", said)
     assert "‡" not in said
-
-
-def test_results_json_marks_it(done):
     found = json.loads(results_json(done, support(done)))
     assert all(item["design_is_overridden"] for item in found["arrays"])
     assert all(item["required_is_overridden"] for item in found["clearances"])

@@ -39,16 +39,13 @@ def with_arrays(**changes):
     return assess(given.sheet, given.shaking, project=changed(given.project, arrays=arrays))
 
 
-def test_every_array_takes_the_prescriptive_displacement_and_has_no_value_from_analysis():
+def test_arrays_and_clearances_take_the_prescriptive_displacement():
     for item in scenes.without_motions().arrays:
         assert item.route is Route.PRESCRIPTIVE
         assert item.is_permitted
         assert item.design_m == pytest.approx(PRESCRIPTIVE_M, rel=1e-4)
         assert not item.runs
         assert math.isnan(item.analysis.value_m)
-
-
-def test_a_clearance_is_compared_with_the_prescriptive_displacement():
     given = scenes.without_motions()
     verdicts = {gap.between: gap.verdict for gap in given.clearances}
     assert verdicts["A1", "A2"] is Verdict.OK  # 96 in, for 81.6
@@ -56,7 +53,7 @@ def test_a_clearance_is_compared_with_the_prescriptive_displacement():
     assert given.verdict is Verdict.NG
 
 
-def test_a_route_that_is_not_permitted_is_ng_with_what_would_do():
+def test_routes_that_are_not_permitted_are_ng_or_not_offered():
     given = with_arrays(mu=0.35)
     first = given.arrays[0]
     assert given.array_verdict(first) is Verdict.NG
@@ -65,27 +62,25 @@ def test_a_route_that_is_not_permitted_is_ng_with_what_would_do():
     said = next(reasons(given))
     assert said.startswith("array A1, friction coefficient, prescriptive route: 0.350; at least 0.")
     assert said.endswith("; or give motions on the sheet Motions, for an analysis")
-
-
-def test_where_no_analysis_would_be_permitted_either_it_is_not_offered():
     found = [said for said in reasons(with_arrays(slope_value=8.0)) if said.startswith("array A1")]
     assert found
     assert not any("give motions" in said for said in found)
 
 
-def test_tipping_is_checked_with_the_most_that_friction_transmits():
+def test_pages_and_plan_are_those_that_need_no_run():
     array = with_arrays(mu=0.5, cg_height_m=1.0, support_spacing_m=0.8).arrays[0]
     assert array.tipping.ratio == pytest.approx(0.5 / (0.8 / 2.0))
     assert not array.tipping.is_ok
-
-
-def test_the_package_has_the_pages_that_need_no_run():
     package = package_data(scenes.without_motions(), edition=PackageEdition.COMPLETE)
     ids = [page.id for page in PAGES]
     assert set(ids) >= OF_MOTIONS
     assert [page.id for page in pages_in(package)] == [id for id in ids if id not in OF_MOTIONS]
     usual = package_data(scenes.usual(), edition=PackageEdition.COMPLETE)
     assert [page.id for page in pages_in(usual)] == ids
+    drawn = write_dxf(plan_drawing(scenes.without_motions())).decode()
+    layers = [after.strip() for at, after in pairwise(drawn.splitlines()) if at.strip() == "8"]
+    assert Layer.DESIGN.title in layers
+    assert Layer.RUNS.title not in layers
 
 
 CLAIMED = re.compile(
@@ -106,16 +101,13 @@ def test_no_page_states_anything_of_runs(id):
     assert "nan" not in text.split()
 
 
-def test_the_summary_says_what_an_analysis_could_save():
+def test_summary_and_screen_say_what_an_analysis_could_save():
     page = printed.printed(scenes.without_motions(), "summary")
     assert page.facts["Analysis"] == "none: no motions are given"
     said = page.line(
         "By analysis, the design displacement of all arrays could be as low as 40.8 in"
     )
     assert said.endswith("all of the four clearances that are not satisfied would be.")
-
-
-def test_the_screen_says_it_too_and_shows_no_computed_displacement():
     said = list(summary(scenes.without_motions()))
     assert said[0].split()[:3] == ["array", "prescriptive", "design"]
     (note,) = [line for line in said if line.startswith("note: no motions are given")]
@@ -145,13 +137,6 @@ def test_results_json_has_null_for_what_needs_runs_and_is_read_as_a_former_revis
     assert array["runs"] == []
     former = former_from(content, "former")
     assert former.arrays[0].design_m == given.arrays[0].design_m
-
-
-def test_the_plan_is_drawn_without_the_envelope_of_runs():
-    drawn = write_dxf(plan_drawing(scenes.without_motions())).decode()
-    layers = [after.strip() for at, after in pairwise(drawn.splitlines()) if at.strip() == "8"]
-    assert Layer.DESIGN.title in layers
-    assert Layer.RUNS.title not in layers
 
 
 def _book(tmp_path):
