@@ -15,11 +15,11 @@ from dataclasses import replace
 from functools import cache, partial
 from typing import Any
 
+from report.assessment.array_rows import array_rows
 from report.assessment.arrays import ArrayAssessment, assess_array, by_id
 from report.assessment.causes import outcome
 from report.assessment.clearances import check_clearance, largest_separation_m, minimum_gap
 from report.assessment.conditions import (
-    array_rows,
     less_friction_rows,
     motion_rows,
     noted,

@@ -1,14 +1,13 @@
 """Requirements other than the numeric limits: what is not on file, not stated or close to a limit.
 
-Each row says what its lack leads to. Read `project_rows` and `array_rows`.
+Each row says what its lack leads to; `array_rows` has those of one array. Read `project_rows`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -18,10 +17,10 @@ from report.assessment.friction import SHIFT
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.requirement_rows import fire_lane_rows, friction_rows, hazard_rows
 from report.assessment.verdict import (
+    NO_DESIGN,
     NOT_GIVEN,
     PLAN_ROW,
     STAYS,
-    STRENGTH_ROW,
     VELOCITY_ROW,
     Requirement,
     Verdict,
@@ -32,16 +31,14 @@ from report.assessment.verdict import (
 from report.motions.history import PreparedMotion, targets
 from report.sheet.checking.motion_checks import FIELDS
 from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import ClearanceSource, DistanceBasis
 from report.sheet.schema.fields import Place
-from report.sheet.schema.scene import SIDES, Array
+from report.sheet.schema.scene import SIDES
 from report.text.counts import capitalized, lowered
 from report.text.units import (
     G_MPS2,
     Quantity,
     compared_pairs,
     digits_up,
-    measured,
     no_less,
     number,
     pair,
@@ -56,7 +53,7 @@ DRIFT_M = 0.010
 LONG_PERIOD_S, MOST_LONG_RATIO = 1.0, 2.0
 """Periods from which on the mean of the ground motions / their target is compared, and the ratio
 above which a peer reviewer must accept the motions: in no code."""
-_NOISE = 1e-9  # a weight or a width in other units is no more than itself
+_NOISE = 1e-9  # a width in other units is no more than itself
 
 MOTIONS_ID = "motions"
 """Of the rows on limits that the motions miss."""
@@ -64,8 +61,6 @@ MOTIONS_ID = "motions"
 # Who takes the prescriptive displacement need not meet them.
 _OF_ANALYSIS = (MOTIONS_ID, "drift", "ground_motions", "peer_review", VELOCITY_ROW)
 _NO_EFFECT = "The design displacement is prescriptive and does not follow from an analysis."
-
-NO_DESIGN = "unknown without a permitted design displacement"
 
 
 def project_rows(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> tuple[Requirement, ...]:
@@ -351,133 +346,6 @@ def _found_and_required(neighbor: PlanNeighbor, us_first: bool) -> tuple[str, st
 def drifts(prepared: PreparedMotion) -> bool:
     """Whether any component of a motion ends away from where it began."""
     return any(abs(m.final_displacement_m) > DRIFT_M for m in prepared.measures.values())
-
-
-def array_rows(data: ProjectInput, assessed: ArrayAssessment) -> tuple[Requirement, ...]:
-    """Return the requirements on an array."""
-    known = rows_before_runs(data, assessed.array, assessed.interconnection_n)
-    return *known, _slack(data, assessed)
-
-
-def rows_before_runs(
-    data: ProjectInput, array: Array, required_n: float
-) -> tuple[Requirement, ...]:
-    """Return the requirements on an array that no run is needed for, with the strength [N]."""
-    # PV1-2012 section 6: the larger of 0.133 S_DS W1 and 0.1 W1, W1 the lighter side.
-    strength = _interconnection(data, array, required_n)
-    return strength, *_weight(data, array), *_drawing_distances(data, array)
-
-
-def _drawing_distances(data: ProjectInput, array: Array) -> Iterator[Requirement]:
-    """Yield the distances beside an array that are from the drawing, which no check compares."""
-    drawn = [
-        index
-        for index, row in enumerate(data.clearances)
-        if row.source is ClearanceSource.DRAWING and array.id in (row.array, row.object)
-    ]
-    if drawn:  # their numbers are below the table of clearances: so arrays share a condition
-        by, date = data.project.drawing_confirmed_by, data.project.drawing_confirmed_date
-        is_confirmed = data.basis_of(data.clearances[drawn[0]]) is DistanceBasis.CONFIRMED
-        state = f"confirmed by {by}, {date}" if is_confirmed else "not confirmed"
-        yield condition(
-            id="drawing_distances",
-            title="Clear distances from the drawing",
-            subject=array.id,
-            found=state,
-            limit="measured, or confirmed by name and date",
-            basis="roof plan",
-            is_satisfied=is_confirmed,
-            remedy="State measured on the sheet Clearances, or on the sheet Project who confirmed "
-            "them and when.",
-            places=tuple(Place("clearances", index, "source") for index in drawn),
-        )
-
-
-def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
-    """Yield the weight per plan area beside what the engineers of roof and wind state."""
-    here_pa, capacity_pa, wind_pa = array.weight_pa, array.roof_capacity_pa, array.wind_weight_pa
-    units = Quantity.PRESSURE, data.us_first
-    unit = Quantity.PRESSURE.us if data.us_first else Quantity.PRESSURE.si
-    printed = measured(here_pa, unit)
-    if capacity_pa is not None:
-        is_over = here_pa > capacity_pa * (1.0 + _NOISE)
-        # As elsewhere, and rounded up only where that would not show that it is too much.
-        is_hidden = is_over and printed == measured(capacity_pa, unit)
-        weight, most = compared_pairs(here_pa, capacity_pa, *units, up=is_hidden)
-        yield Requirement(
-            id="roof_capacity",
-            title="Weight per plan area",
-            cause="weight over the roof capacity",
-            subject=array.id,
-            found=weight,
-            limit=f"≤ {most}",
-            basis="roof capacity",
-            is_satisfied=not is_over,
-            consequence=Consequence.NG,
-            remedy="Reduce the weight, or have the roof's engineer state a larger capacity.",
-            places=_places(data, array, "weight_n", "roof_capacity_pa"),
-        )
-    if wind_pa is not None:
-        weight, here = (pair(value, *units) for value in (wind_pa, here_pa))
-        yield condition(
-            id="wind_weight",
-            title="Weight in wind design",
-            cause="weight differs from the wind design",
-            subject=array.id,
-            found=weight,
-            limit=f"= {here}",
-            basis="wind, by others",
-            is_satisfied=printed == measured(wind_pa, unit),  # to the digits that are printed
-            remedy="Use one weight with ballast in both: correct it, or the wind design.",
-            places=_places(data, array, "weight_n", "wind_weight_pa"),
-        )
-
-
-def _interconnection(data: ProjectInput, array: Array, required_n: float) -> Requirement:
-    state = NOT_GIVEN if array.interconnection_n is None else "too low"
-    return Requirement(
-        id=STRENGTH_ROW,
-        title="Interconnection strength provided",
-        cause=f"interconnection strength {state}",
-        subject=array.id,
-        **_provided(array.interconnection_n, required_n, Quantity.WEIGHT, data.us_first),
-        basis=data.site.rule_set,
-        remedy="Show that the racking provides the required strength between its parts.",
-        places=_places(data, array, "interconnection_n"),
-    )
-
-
-def _places(data: ProjectInput, array: Array, *fields: str) -> tuple[Place, ...]:
-    index = [each.id for each in data.arrays].index(array.id)
-    return tuple(Place("arrays", index, field) for field in fields)
-
-
-def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Requirement:
-    array = assessed.array
-    return Requirement(
-        id="electrical_slack",
-        title="Electrical slack provided",
-        cause=f"electrical slack {NOT_GIVEN if array.slack_m is None else 'too short'}",
-        subject=array.id,
-        **_provided(array.slack_m, assessed.permitted_m, Quantity.SIZE, data.us_first),
-        basis="design displacement",
-        remedy="Provide wiring slack of at least the design displacement.",
-        places=_places(data, array, "slack_m"),
-    )
-
-
-def _provided(
-    value: float | None, required: float, quantity: Quantity, us_first: bool
-) -> Mapping[str, Any]:
-    """Return what is found and required of a value that a workbook may give, and what follows."""
-    provided = math.nan if value is None else value
-    least, had = compared_pairs(required, provided, quantity, us_first)
-    return {
-        "found": NOT_GIVEN if value is None else had,
-        "limit": NO_DESIGN if math.isnan(required) else f"≥ {least}",
-        "is_satisfied": provided >= required,
-        "consequence": Consequence.CONDITION if value is None else Consequence.NG,
-    }
 
 
 def pathway_rows(

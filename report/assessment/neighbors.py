@@ -248,12 +248,8 @@ def plan_pairs(
 
     An object without a place in plan is in none of them.
 
-    Parameters
-    ----------
-    reaches : sequence of (Array, float)
-        Each array with its reach [m].
-    required : callable
-        Returns the required separation of a pair [m], and its mark.
+    `reaches` has each array with its reach [m]; `required` returns the required separation of a
+    pair [m], and its mark.
     """
     pairs = [(each, *required(each)) for each in _pairs(data, reaches, addresses)]
     return tuple(

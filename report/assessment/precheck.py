@@ -9,8 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
+from report.assessment.array_rows import rows_before_runs
 from report.assessment.arrays import Route, interconnection_n, limits_of, statistic_basis
-from report.assessment.conditions import motion_rows, noted, project_rows, rows_before_runs
+from report.assessment.conditions import motion_rows, noted, project_rows
 from report.assessment.neighbors import REACH_FACTOR, NearbyKind
 from report.assessment.plan_clearances import design_before_runs_m, pairs_before_runs
 from report.assessment.verdict import Requirement, Verdict, rule_set_of

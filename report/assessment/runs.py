@@ -116,12 +116,8 @@ def run_motion(
 ) -> MotionRun:
     """Run one array under one motion in all of its runs.
 
-    Parameters
-    ----------
-    model : ModelChoice, optional
-        Replaces the model of the array.
-    names : collection of str, optional
-        Of orientations: those of them that the motion has are run alone, which is not for design.
+    `model` replaces that of the array. Of the orientations those in `names` are run alone, if the
+    motion has them, which is not for design.
     """
     wanted = [each for each in motion.orientations if each.name in names] or motion.orientations
     return motion_run(motion, [run_oriented(array, motion, each, model) for each in wanted])

@@ -60,11 +60,6 @@ def search(satisfies: Callable[[int], bool], start: int, end: int) -> tuple[int,
 
     Each pass goes on from the last value of the one before, in smaller steps: no value tried
     between the start and the last one returned fails. Empty if the start fails.
-
-    Parameters
-    ----------
-    satisfies : callable
-        Whether a value satisfies; called once for each value tried.
     """
     if not satisfies(start):
         return ()

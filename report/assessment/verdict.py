@@ -149,6 +149,7 @@ def worst(verdicts: Iterable[Verdict]) -> Verdict:
 
 
 NOT_GIVEN = "not given"
+NO_DESIGN = "unknown without a permitted design displacement"
 VELOCITY_ROW = "friction_velocity"
 """Id of the requirement on friction beyond the velocities tested."""
 PLAN_ROW = "neighbors"

@@ -246,12 +246,8 @@ def plan_as_rows(
 ) -> tuple[RoofPlan, MatchedPlan, dict[str, LayerKind]]:
     """Return the plan of a drawing, as rows of a workbook, and what is said of its layers.
 
-    Parameters
-    ----------
-    layers : mapping of str to LayerKind
-        In addition to the sheet Layers; a layer that nobody says anything of is not read.
-    joined_m : float
-        Largest gap between modules of one array [m].
+    `layers` add to the sheet Layers; a layer that nobody says anything of is not read. `joined_m`
+    is the largest gap between modules of one array.
 
     Raises `InputError` if there is nothing to fill in, or its size is not that of a roof.
     """

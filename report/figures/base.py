@@ -150,16 +150,8 @@ def panels(
 ) -> Any:
     """Return a figure and its grid of panels.
 
-    Parameters
-    ----------
-    left, right : float
-        Sides of the grid, as shares of the width.
-    above, below : float
-        Margins [in].
-    wspace, hspace : float
-        Between the panels, in shares of a panel.
-    shared
-        Axes that panels share, as in `Figure.subplots`.
+    `left` and `right` are shares of the width, `above` and `below` inches, `wspace` and `hspace`
+    shares of a panel.
     """
     figure = Figure(figsize=(WIDTH_IN, height))
     top, bottom = 1.0 - above / height, below / height

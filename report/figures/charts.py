@@ -45,12 +45,8 @@ def comparison(
 ) -> str:
     """Return prescriptive value, floor, PRDs, mean and design value by group of like arrays.
 
-    Parameters
-    ----------
-    others_m : mapping of str to float, optional
-        The design displacement [m] of an array with another input.
-    printed : callable, optional
-        Gives the names as they are printed.
+    `others_m` is the design displacement [m] of an array with another input; `printed` gives the
+    names as they are printed.
     """
     first, second = UnitFormat(us_first).units()
     with style():
@@ -159,14 +155,8 @@ def friction_by_velocity(
 ) -> str:
     """Return the runs that report a velocity, the laws of the arrays, and fitted laws.
 
-    Parameters
-    ----------
-    runs : sequence of FrictionRun
-        At least one with a velocity.
-    fits : mapping of Surface to FittedLaw
-        Drawn as colored lines.
-    printed : callable, optional
-        Gives the names as they are printed.
+    At least one of `runs` has a velocity; `fits` are drawn as colored lines; `printed` gives the
+    names as they are printed.
     """
     unit = UnitFormat(us_first).units(Quantity.VELOCITY)[0]
     shown = [run for run in runs if not math.isnan(run.velocity_mps)]

@@ -55,12 +55,7 @@ def records_picture(
 ) -> T:
     """Return the picture of up to `MOST` records.
 
-    Parameters
-    ----------
-    periods_s : array, shape (m,)
-        Periods of the spectra [s], increasing.
-    sa_g : array, shape (n, m)
-        Their ordinates [g], one row per record.
+    `sa_g` has one row of ordinates for each record, at `periods_s`.
     """
     with style():
         mpl.rcParams["svg.fonttype"] = "path"

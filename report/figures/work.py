@@ -47,14 +47,8 @@ def overview(
 ) -> T:
     """Return the medians of every method: one panel for PRD and one for the residual.
 
-    Parameters
-    ----------
-    floor : float
-        Error of the exact method [%], from its checks.
-    peers : iterable of PeerPoint
-        Other programs on the same runs, which know the PRD alone.
-    painted : callable
-        Makes the picture of the figure.
+    `floor` is the error of the exact method [%], from its checks; `peers` are other programs on the
+    same runs, which know the PRD alone.
     """
     with style():
         margins = {"left": 0.085, "right": 0.99, "above": 0.221, "below": 1.9, "wspace": 0.08}

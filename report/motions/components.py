@@ -39,10 +39,6 @@ def spikes(a: Floats) -> tuple[tuple[int, ...], float]:
 
     Spikes are at most `MOST` samples, and at most one in `LEAST_SAMPLES_FOR_EACH`, each of which
     is more than `FACTOR` times any sample that is none.
-
-    Parameters
-    ----------
-    a : array, shape (n,)
     """
     size = np.abs(a)
     most = min(MOST, len(a) // LEAST_SAMPLES_FOR_EACH)
@@ -99,14 +95,8 @@ def read_components(
 ) -> Components | list[Finding]:
     """Read and process the records of a motion, or return their faults.
 
-    Parameters
-    ----------
-    book : OpenBook
-    index : int
-        Row in its table.
-    row : mapping
-        Fields of `report.sheet.schema.MotionInput`; one that could not be read is absent. Without
-        units or time step, records are located but not read.
+    A field of the row (`report.sheet.schema.MotionInput`) that could not be read is absent; without
+    units or time step, records are located but not read.
     """
     faults: list[Finding] = []
     components: dict[str, Component] = {}

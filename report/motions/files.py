@@ -210,12 +210,7 @@ def read_component(
 ) -> Component:
     """Return the record that a workbook names as file, file | channel, or Sheet!Header.
 
-    Parameters
-    ----------
-    units : str
-        Empty if the file must state them.
-    dt_s : float or None
-        None if the file must state it.
+    Without `units` and `dt_s` the file must state them.
 
     Raises `InputError` with every problem of the record.
     """

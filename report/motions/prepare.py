@@ -52,13 +52,8 @@ def repeated(
 ) -> Iterator[Finding]:
     """Yield each motion with a horizontal record of a motion above it.
 
-    Parameters
-    ----------
-    rows : sequence of DraftRow
-    by_motion : mapping of int to Components
-        By row; without those that could not be read.
-    where : callable
-        Returns the address of a place.
+    `by_motion` is by row, without the motions that could not be read; `where` returns the address
+    of a place.
     """
     seen: dict[tuple[int, int], list[_Horizontal]] = {}
     for index, components in by_motion.items():

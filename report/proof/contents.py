@@ -42,10 +42,7 @@ _READ_ALOUD = {"/Alt", "/ActualText", "/E", "/Contents", "/Title", "/TU"}
 def pages(pdf: PdfReader) -> Sequence[PageObject]:
     """Return the sheets.
 
-    Raises
-    ------
-    InputError
-        If the tree of sheets names one twice, or has more than any package.
+    Raises `InputError` if the tree of sheets names one twice, or has more than any package.
     """
     # Without recursion: a node may be its own kid, or a tree as deep as the file is long.
     pending, seen, count = [pdf.root_object.raw_get("/Pages")], set[int](), 0
@@ -65,10 +62,7 @@ def pages(pdf: PdfReader) -> Sequence[PageObject]:
 def refused(pdf: PdfReader) -> Iterator[str]:
     """Yield where a PDF has what no package has, whichever software wrote it.
 
-    Raises
-    ------
-    InputError
-        If it has more sheets or objects than any package.
+    Raises `InputError` if it has more sheets or objects than any package.
     """
     fields = 0
     for count, page in enumerate(pages(pdf), start=1):
@@ -141,10 +135,7 @@ def _dictionaries(pdf: PdfReader) -> Iterator[tuple[str, DictionaryObject]]:
 def words(pdf: PdfReader) -> Iterator[tuple[str, str]]:
     """Yield the place and the words of each sheet, then those that are read aloud or listed.
 
-    Raises
-    ------
-    InputError
-        If that takes longer than with any package.
+    Raises `InputError` if that takes longer than with any package.
     """
     end = time.monotonic() + MOST_SECONDS
 
@@ -177,10 +168,8 @@ _LONGEST, _DIGITS = 60, 20
 def parsed(content: bytes, name: str) -> Any:
     """Return JSON as data.
 
-    Raises
-    ------
-    InputError
-        If it is none, is nested too deep, names a key twice, or has a number beyond any of ours.
+    Raises `InputError` if it is none, is nested too deep, names a key twice, or has a number beyond
+    any of ours.
     """
     try:
         from_json(content, allow_inf_nan=False)  # it counts how deep, `json` ends in a traceback
@@ -220,12 +209,7 @@ def differences(
 ) -> Iterator[str]:
     """Yield where two documents of JSON, as claimed and as computed, differ.
 
-    Parameters
-    ----------
-    place : str
-        Where they are in larger ones.
-    shared : bool
-        Compare only the numbers that both have.
+    `place` is where they are in larger ones; `shared` compares only the numbers that both have.
     """
     if isinstance(claimed, dict) and isinstance(computed, dict):
         for key in dict.fromkeys((*claimed, *computed)):
@@ -290,9 +274,7 @@ def _word(words: Sequence[str], letter: int) -> str:
 def guarded(read: Callable[[], _T]) -> _T:
     """Run what reads a PDF; a damaged one makes the libraries raise almost anything.
 
-    Raises
-    ------
-    InputError
+    Raises `InputError`.
     """
     try:
         return read()

@@ -65,10 +65,7 @@ class OpenedPackage:
 def read_package(path: Path) -> bytes:
     """Return the bytes of a package.
 
-    Raises
-    ------
-    InputError
-        If there is no such file, or it is larger than any package.
+    Raises `InputError` if there is no such file, or it is larger than any package.
     """
     if not path.is_file():
         raise InputError(f"no such file; {meant(path) or 'give a calc-package.pdf'}")
@@ -81,10 +78,8 @@ def read_package(path: Path) -> bytes:
 def opened(data: bytes) -> OpenedPackage:
     """Return a package with the files that it holds.
 
-    Raises
-    ------
-    InputError
-        If it is damaged, unpacks to too much, or is no package with its input inside.
+    Raises `InputError` if it is damaged, unpacks to too much, or is no package with its input
+    inside.
     """
     if not data.startswith(b"%PDF-"):
         raise InputError("is no PDF; get the file again from where it was issued")
@@ -165,15 +160,10 @@ def take_out(
 ) -> tuple[Path, list[Path]]:
     """Write the input of a package to a folder of its own; return workbook and former results.
 
-    Parameters
-    ----------
-    records : Path, optional
-        Where the record files lie that the package only lists.
+    `records` is where the record files lie that the package only lists.
 
-    Raises
-    ------
-    InputError
-        If a name leads outside of the folder or is given twice, or a record is not that listed.
+    Raises `InputError` if a name leads outside of the folder or is given twice, or a record is not
+    that listed.
     """
     written: dict[str, list[Path]] = {}
     for file in package.manifest.files:
@@ -281,10 +271,7 @@ _UNCHECKED = (
 def compared(package: OpenedPackage, made: OpenedPackage) -> Proof:
     """Compare a package with the one made again from its input.
 
-    Raises
-    ------
-    InputError
-        If the package is damaged or larger than any package.
+    Raises `InputError` if the package is damaged or larger than any package.
     """
     if package.data == made.data:
         return Proof(answer=Agreement.SAME)

@@ -53,15 +53,9 @@ class Appended:
 def appended(data: bytes, made: bytes = b"") -> Appended:
     """Return what was appended to a package.
 
-    Parameters
-    ----------
-    made : bytes
-        What it was appended to; without it only signatures are judged.
+    `made` is what it was appended to; without it only signatures are judged.
 
-    Raises
-    ------
-    InputError
-        If the file is damaged.
+    Raises `InputError` if the file is damaged.
     """
     try:
         import pyhanko.sign.validation  # noqa: F401
@@ -181,20 +175,11 @@ _EXTRA = "signing needs the extra 'sign'; ./roofslip sign installs it"
 def signed(data: bytes, p12: bytes, password: str, time_url: str = "") -> bytes:
     """Return a package with a signature appended.
 
-    Parameters
-    ----------
-    data : bytes
-    p12 : bytes
-        PKCS#12: private key, certificate, and those of its issuers.
-    password : str
-        Of the PKCS#12 file.
-    time_url : str
-        Of a time-stamp authority (RFC 3161); without it nothing is sent anywhere.
+    `p12` is a PKCS#12 file: private key, certificate, and those of its issuers. Without `time_url`,
+    a time-stamp authority (RFC 3161), nothing is sent anywhere.
 
-    Raises
-    ------
-    InputError
-        If the file has no empty field, the password is wrong, or no time stamp comes.
+    Raises `InputError` if the file has no empty field, the password is wrong, or no time stamp
+    comes.
     """
     try:
         from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter

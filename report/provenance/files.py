@@ -151,17 +151,11 @@ class SourceFile:
         )
 
 
-def fingerprint(sheet: Sheet, shaking: Shaking, program: str = "") -> str:
-    """Return the hash of workbook, records, documents and version at the foot of every sheet.
-
-    Parameters
-    ----------
-    program : str, optional
-        Another version than the one here.
-    """
+def fingerprint(sheet: Sheet, shaking: Shaking) -> str:
+    """Return the hash of workbook, records, documents and version at the foot of every sheet."""
     # Order counts: records that are exchanged give other runs, with the same hashes.
     lines = [
-        program or version("roofslip"),
+        version("roofslip"),
         sheet.sha256,
         *shaking.hashes,
         *(f"{document.label} {document.sha256}" for document in sheet.documents),
@@ -189,10 +183,8 @@ def sources(sheet: Sheet, shaking: Shaking, former: bytes = b"") -> tuple[Source
 
     Each as it was read, whatever lies in its place by now.
 
-    Raises
-    ------
-    InputError
-        If a file was read for several motions or cells, and was not the same each time.
+    Raises `InputError` if a file was read for several motions or cells, and was not the same each
+    time.
     """
     kept, rows = sheet.book.files | sheet.book.records, record_paths(shaking.records)
     used = [(_path(row), row.sha256) for row in shaking.records if row.is_file]
@@ -237,13 +229,7 @@ def _unlike(files: Sequence[SourceFile]) -> Iterator[SourceFile]:
 def attachments(files: Sequence[SourceFile], results: bytes, short: str) -> tuple[Attached, ...]:
     """Return the attachments of a package.
 
-    Parameters
-    ----------
-    files : sequence of SourceFile
-    results : bytes
-        results.json.
-    short : str
-        What `fingerprint` returns.
+    `short` is what `fingerprint` returns.
     """
     has_records = not any(source.record for source in files)
     own = SourceFile(path=RESULTS, name=RESULTS, content=results, kind="results")

@@ -108,13 +108,7 @@ _KEPT = r"""<(\w+)[^>]*\stranslate="no"[^>]*>.*?</\1>|<[^>]*>"""
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Names:
-    """Prints the names of a project: a long one by its key, such as `[3]`.
-
-    Attributes
-    ----------
-    keys : mapping of str to str
-        By name, in the order of the keys.
-    """
+    """Prints the names of a project: a long one by its key, such as `[3]`."""
 
     keys: Mapping[str, str]
 

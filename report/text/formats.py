@@ -85,10 +85,7 @@ def shortened(text: str, most: int) -> str:
 def aligned(rows: Sequence[Sequence[str]], sides: Sequence[str] = ()) -> Iterator[str]:
     """Yield rows of text as lines, each column as wide as its longest text.
 
-    Parameters
-    ----------
-    sides : sequence of str, optional
-        Alignment of each column: `<` or `>`; all are aligned to the left otherwise.
+    `sides` are `<` or `>` for each column; without them all are aligned to the left.
     """
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:

@@ -74,10 +74,8 @@ def _is_on_machine(letter: str) -> bool:
 def check_letters(sheet: Sheet) -> None:
     """Refuse the letters of a workbook that would be empty boxes in the package.
 
-    Raises
-    ------
-    InputError
-        With the cell of every text that has such letters, and for the name of the workbook.
+    Raises `InputError` with the cell of every text that has such letters, and for the name of the
+    workbook.
     """
     problems = []
     if missing := undrawable(sheet.path.name):

@@ -124,12 +124,8 @@ def stated_unit(entry: Entry, row: Mapping[str, Any], cells: Mapping[str, Found]
 def read_cell(cell: Found, entry: Entry, unit: str, si: float, shown: str = "") -> Any:
     """Return a field's value in SI from a cell that is not blank.
 
-    Parameters
-    ----------
-    unit, si : str, float
-        Unit of the number in the cell, for messages, and its size in SI.
-    shown : str
-        What another cell says of the unit of a number that has none of its own.
+    `unit` is the unit of the number in the cell, for messages, `si` its size, and `shown` what
+    another cell says of the unit of a number that has none of its own.
 
     Raises `CellError`.
     """

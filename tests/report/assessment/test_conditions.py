@@ -9,7 +9,8 @@ import pytest
 import inputs
 import scenes
 import stand_in
-from report.assessment.conditions import project_rows, rows_before_runs
+from report.assessment.array_rows import rows_before_runs
+from report.assessment.conditions import project_rows
 from report.assessment.requirement_rows import hazard_rows
 from report.assessment.verdict import STAYS, Verdict, worst
 from report.text.units import PRESSURES, WEIGHTS
