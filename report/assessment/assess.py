@@ -126,8 +126,8 @@ def _beside(other: Assessment, assessment: Assessment) -> Assessment:
     own, by_code = ((each.project.overrides, each.project.options) for each in (assessment, other))
     how = "the same motions and S_DS" if assessment.has_motions else "the same S_DS"
     how += "" if own == by_code else ", without overrides and departures"
-    words = outcome(replace(other, linked=linked)).words(assessment.project.us_first)
-    text = f"By {other.rules.name} 13.6.12 with {how}: {words}."
+    result = outcome(replace(other, linked=linked)).words(assessment.project.us_first)
+    text = f"By {other.rules.name} 13.6.12 with {how}: {result}."
     ids = "rule_set", "edition_name"
     rows = [
         row.model_copy(update={"outcome": text}) if row.id in ids else row

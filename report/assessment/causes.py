@@ -100,8 +100,8 @@ def _limit(check: Limit) -> str:
 
 
 def _gap(item: ArrayAssessment, gap: ClearanceCheck) -> str:
-    words = f"clearance to {gap.across_from(item.id)}"
-    return words if gap.is_permitted else f"{words}, no verdict"
+    clearance = f"clearance to {gap.across_from(item.id)}"
+    return clearance if gap.is_permitted else f"{clearance}, no verdict"
 
 
 def reasons(assessment: Assessment) -> Iterator[str]:

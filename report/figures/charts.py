@@ -127,8 +127,8 @@ def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit) -> None:
     else:
         axes.text(0.0, row - _ABOVE, "no design displacement", **_NOTE, ha="left")
     if not all(check.ok for check in array.prescriptive_checks):
-        words = f"prescriptive displacement {NOT_PERMITTED}"
-        axes.text(prescriptive, row - _ABOVE, words, **_NOTE, ha="right")
+        refusal = f"prescriptive displacement {NOT_PERMITTED}"
+        axes.text(prescriptive, row - _ABOVE, refusal, **_NOTE, ha="right")
 
 
 _TYPE: Any = dict.fromkeys(

@@ -35,8 +35,8 @@ def medians(runs: pd.DataFrame, error: str, floor: float) -> pd.DataFrame:
     """
     seconds = "time per run [s]"
     answered = runs.dropna(subset=[seconds, error])
-    found = answered.groupby(["method", "setting"], sort=False, dropna=False)[[seconds, error]]
-    return found.median().assign(**{error: lambda each: each[error].clip(floor)})
+    settings = answered.groupby(["method", "setting"], sort=False, dropna=False)[[seconds, error]]
+    return settings.median().assign(**{error: lambda each: each[error].clip(floor)})
 
 
 def overview(
@@ -54,9 +54,9 @@ def overview(
         margins = {"left": 0.085, "right": 0.99, "above": 0.221, "below": 1.9, "wspace": 0.08}
         figure, grid = panels(1, 2, 4.3, **margins, sharey=True)
         for axes, measure in zip(grid.flat, MEASURES, strict=True):
-            found = medians(runs, f"{measure} error [%]", floor)
-            for name in found.index.unique("method"):
-                own = found.loc[name]
+            points = medians(runs, f"{measure} error [%]", floor)
+            for name in points.index.unique("method"):
+                own = points.loc[name]
                 size = {"markersize": 10} if name == "exact" else {}
                 axes.plot(*own.to_numpy().T, **LOOKS[name] | size)
                 if name == "exact":

@@ -39,7 +39,7 @@ VERTICAL = re.compile(
 )
 """A word for the vertical anywhere in a name."""
 
-_NAMED = {word: meant for meant, words in _SPELLED.items() for word in words.split()}
+_NAMED = {word: component for component, words in _SPELLED.items() for word in words.split()}
 # Of SEED, after band and instrument; of KiK-net, before the number of the sensor.
 _WITHIN = re.compile(r"([befhs][gln])([enz12])|(ns|ew|ud)(\d)")
 _BEARING = re.compile(r"([ns])(\d{1,2})([ew])")
@@ -209,10 +209,10 @@ def _channels(file: str, motion_file: MotionFile) -> Sequence[Candidate]:
         if is_alone:
             stem, of_name = _by_name(stem)
         of_heading = _by_heading(said)
-        meant = of_heading or of_name
-        if meant is None:
+        component = of_heading or of_name
+        if component is None:
             raise InputError(f"neither its heading ({said or 'none'}) nor its name has a component")
-        family, degrees, rest = meant
+        family, degrees, rest = component
         if of_heading and of_name and _differ(of_heading, of_name):
             raise InputError(f"its heading ({said}) and its name have different components")
         if not of_name:

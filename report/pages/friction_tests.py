@@ -80,7 +80,7 @@ def _runs(package: PackageData) -> Sequence[tuple[str, Table]]:
     """Return the runs of each series below its name, the mean last."""
     data = package.data
     all_series = tested(data)
-    has_reports = len({one.report for one in all_series}) > 1
+    has_reports = len({series.report for series in all_series}) > 1
     columns = by_place(
         text("Run", share=0.7),
         Shown(head="Velocity", quantity=Quantity.VELOCITY),
@@ -89,18 +89,18 @@ def _runs(package: PackageData) -> Sequence[tuple[str, Table]]:
     )
     return [
         (
-            f"{one.report or 'Report without a number'}, {one.surface}"
+            f"{series.report or 'Report without a number'}, {series.surface}"
             if has_reports
-            else f"Friction tests, {one.surface}",
+            else f"Friction tests, {series.surface}",
             listed(
-                _run_rows(data, one),
+                _run_rows(data, series),
                 columns,
                 package.fmt,
                 kind="compact",
                 style=lambda row: "total" if isinstance(row[0], Wide) else "",
             ),
         )
-        for one in all_series
+        for series in all_series
     ]
 
 
@@ -179,12 +179,12 @@ def _compared(package: PackageData, series: Sequence[Series]) -> Mapping[_Compar
     """Return how the friction of the arrays compares with the tests, alike arrays together."""
 
     def compared(array: Array) -> _Compared:
-        one = governing(series, array.mu_report)
+        test_series = governing(series, array.mu_report)
         return _Compared(
             is_by_velocity=array.friction.is_by_velocity,
-            used=round(one.mean_of(array.friction), 3),
-            tested=round(one.mean, 3),
-            surface=one.surface,
+            used=round(test_series.mean_of(array.friction), 3),
+            tested=round(test_series.mean, 3),
+            surface=test_series.surface,
             basis=package.friction_basis(array),
         )
 
@@ -194,13 +194,13 @@ def _compared(package: PackageData, series: Sequence[Series]) -> Mapping[_Compar
 def _fits(package: PackageData) -> Iterator[tuple[Series, FittedLaw]]:
     """Yield the laws fitted to the runs of the governing report, by condition."""
     all_series = tested(package.data)
-    reports = dict.fromkeys(one.report for one in all_series)
+    reports = dict.fromkeys(series.report for series in all_series)
     if len(reports) != 1:
         return
-    for one in all_series:
-        fit = fit_law([run.velocity_mps for run in one.runs], [run.mu for run in one.runs])
+    for series in all_series:
+        fit = fit_law([run.velocity_mps for run in series.runs], [run.mu for run in series.runs])
         if fit is not None:
-            yield one, fit
+            yield series, fit
 
 
 def _scatter(series: Series) -> tuple[int, float]:

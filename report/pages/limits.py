@@ -156,15 +156,15 @@ _APART = {Cover.SHORT, Cover.SUFFICIENT, Cover.DIFFERS}
 
 def plan(package: PackageData) -> Mapping[str, object]:
     """Return what the part needs beside its drawings."""
-    given = package.assessment
-    near = list(map(NeighborResult.of, given.neighbors))
-    beyond = [pair for pair in given.pairs if not pair.is_listed]
-    fmt = replace(unit_format(given), systems=1, none="none")
+    assessment = package.assessment
+    near = list(map(NeighborResult.of, assessment.neighbors))
+    beyond = [pair for pair in assessment.pairs if not pair.is_listed]
+    fmt = replace(unit_format(assessment), systems=1, none="none")
     return {
         "fmt": fmt,
-        "arrays": alike_arrays(given, fmt),
+        "arrays": alike_arrays(assessment, fmt),
         "friction": mus_words(package.data.arrays),
-        "drawn": list(plan_gaps(given)),
+        "drawn": list(plan_gaps(assessment)),
         "neighbors": [pair for pair in near if pair.cover in _APART],
         "as_drawn": [
             row.clearance for pair in near if pair.cover not in _APART for row in pair.given
@@ -176,7 +176,7 @@ def plan(package: PackageData) -> Mapping[str, object]:
         "parapets": _parapets(package),
         "places": _places(package),
         "outlined": _outlined((*package.data.arrays, *package.data.objects)),
-        "is_least": any(gap.is_minimum_value for gap in given.clearances),
+        "is_least": any(gap.is_minimum_value for gap in assessment.clearances),
     }
 
 

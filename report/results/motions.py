@@ -84,10 +84,10 @@ def suite_rows(book: OpenBook, folder: Path, count: int, source: str) -> list[Ro
     Raises `InputError` if the folder is outside that of the workbook, or a motion of the suite is
     in it already.
     """
-    beside = name_beside(book, folder)
+    prefix = name_beside(book, folder)
     rows: list[Row] = []
     for motion in (f"motion-{k:02d}" for k in range(1, count + 1)):
-        cells = (motion, *(f"{beside}/{motion}-{axis}.csv" for axis in "xyz"), source)
+        cells = (motion, *(f"{prefix}/{motion}-{axis}.csv" for axis in "xyz"), source)
         rows.append(dict(zip(("id", *LABELS, "source"), cells, strict=True)))
     row_cells(book, rows)
     return rows
@@ -102,10 +102,10 @@ def add_suite(
     written.
     """
     with changing(workbook) as change:
-        beside = name_beside(change.book, folder)
+        prefix = name_beside(change.book, folder)
         change.fill(row_cells(change.book, rows))
         stamped = {**files, STAMP: stamp(files)}
-        change.files |= {f"{beside}/{name}": data for name, data in stamped.items()}
+        change.files |= {f"{prefix}/{name}": data for name, data in stamped.items()}
     return change
 
 

@@ -146,8 +146,8 @@ def _site_coefficients(site: Site) -> Iterator[Finding]:
 def _slope(index: int, array: Array) -> Iterator[Finding]:
     """A slope of 2 % pasted as a number is 0.02."""
     if array.slope_unit is SlopeUnit.PERCENT and 0.0 < array.slope_value < MOST_FRACTION:
-        value, meant = array.slope_value, 100.0 * array.slope_value
-        text = f"slope is {value:g} percent; {meant:g} %? Correct the slope, or acknowledge it"
+        value, percent = array.slope_value, 100.0 * array.slope_value
+        text = f"slope is {value:g} percent; {percent:g} %? Correct the slope, or acknowledge it"
         yield warning(f"slope {array.id}", Place("arrays", index, "slope_value"), text)
 
 

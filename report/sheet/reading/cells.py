@@ -265,11 +265,11 @@ def _date(cell: Found, wanted: str) -> date:
         # SheetJS writes dates without their format.
         day = (cell.day_zero + timedelta(days=int(value))).date()
     else:
-        meant = typed_text.dates_in(value.strip()) if isinstance(value, str) else []
-        if len(meant) != 1:
-            either = f"write {' or '.join(map(str, meant))}" if meant else wanted
+        days = typed_text.dates_in(value.strip()) if isinstance(value, str) else []
+        if len(days) != 1:
+            either = f"write {' or '.join(map(str, days))}" if days else wanted
             raise CellError(f"is {_quoted(value)}", either)
-        (day,) = meant
+        (day,) = days
     # A spreadsheet shows a small number, such as 3.5, as a day of 1900.
     if day < EARLIEST:
         raise CellError(f"is {day}, before {EARLIEST}", wanted)
