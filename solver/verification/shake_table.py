@@ -26,6 +26,7 @@ from solver.sliding.least_model import Model
 NAME = "tests.csv"
 """File of a folder of tests, one row for each test."""
 
+MOST_BYTES, MOST_TESTS, MOST_LETTERS = 1_000_000, 1000, 200
 MOST_SLIP_M = 100.0
 BAR = "|"
 """Separates a file from its channel, as in the workbook."""
@@ -35,9 +36,10 @@ _SLOPE, _FRICTION, _STATIC = "Slope [deg]", "Friction", "Static friction"
 _KEYS = ("Test", "Data", "Source", "x", "y", "z", _SLOPE, _FRICTION, _STATIC)
 _LENGTHS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}
 _HEADINGS = {key: (key, 1.0) for key in _KEYS} | {
-    f"{key} [{unit}]": (key, factor)
+    f"{key}{gap}[{unit}]": (key, factor)
     for key in (_PRD, _RESIDUAL)
     for unit, factor in _LENGTHS.items()
+    for gap in (" ", "")
 }
 """Key and unit of each accepted heading."""
 
@@ -80,8 +82,10 @@ def table_tests(folder: Path) -> tuple[TableTest, ...]:
     Residual [mm], or with cm, m or in, the second optional. The records have any format of
     `solver.formats` and state their units.
 
-    Raises `InputError` with every problem, as ``tests.csv, row 3, column PRD [mm]: found what; what
-    is accepted``.
+    Raises
+    ------
+    InputError
+        With every problem, as ``tests.csv, row 3, column PRD [mm]: found what; what is accepted``.
     """
     tests: list[TableTest] = []
     problems: list[str] = []
@@ -115,23 +119,14 @@ class _Row:
 
 def _rows(folder: Path) -> list[_Row]:
     """Return the rows of `NAME`: its headings are known, and every row has as many cells."""
-    path = folder / NAME
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-        rows = enumerate(csv.reader(text.splitlines(), strict=True), start=1)
-        # A spreadsheet leaves blank lines; the numbers are those that it shows.
-        lines = [(number, cells) for number, cells in rows if any(map(str.strip, cells))]
-    except OSError as error:
-        raise InputError(
-            f"{path}: cannot be read ({error.strerror}); give a folder with {NAME}"
-        ) from error
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise InputError(f"{path}: not CSV UTF-8, separated by commas; save it so") from error
+    lines = _lines(folder / NAME)
     headings = [" ".join(cell.split()) for cell in lines[0][1]] if lines else []
     problems = list(_heading_problems(headings))
-    if not problems and len(lines) < 2:
-        problems = [f"{NAME}: has no tests; give one row for each below the headings"]
-    problems = problems or [
+    if problems:
+        raise InputError(problems)
+    if len(lines) < 2:
+        raise InputError(f"{NAME}: has no tests; give one row for each below the headings")
+    problems = [
         f"{NAME}, row {number}: has {len(cells)} cells; the headings are {len(headings)}. A text"
         " with a comma needs quotation marks"
         for number, cells in lines[1:]
@@ -144,6 +139,28 @@ def _rows(folder: Path) -> list[_Row]:
         _Row(number, dict(zip(named, map(str.strip, cells), strict=True)), named)
         for number, cells in lines[1:]
     ]
+
+
+def _lines(path: Path) -> list[tuple[int, list[str]]]:
+    """Return the rows of a file that are not blank, with their numbers."""
+    try:
+        if path.stat().st_size > MOST_BYTES:
+            raise InputError(f"{path}: larger than {MOST_BYTES // 10**6} MB; give fewer tests")
+        text = path.read_text(encoding="utf-8-sig")
+        rows = [
+            (number, cells)
+            for number, cells in enumerate(csv.reader(text.splitlines(), strict=True), start=1)
+            if any(cell.strip() for cell in cells)
+        ]
+    except OSError as error:
+        raise InputError(
+            f"{path}: cannot be read ({error.strerror}); give a folder with {NAME}"
+        ) from error
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise InputError(f"{path}: not CSV UTF-8, separated by commas; save it so") from error
+    if len(rows) > MOST_TESTS + 1:
+        raise InputError(f"{path}: has more than {MOST_TESTS} tests")
+    return rows
 
 
 def _heading_problems(headings: list[str]) -> Iterator[str]:
@@ -195,8 +212,8 @@ def _word(row: _Row, key: str, problems: list[str]) -> str:
     text = row.cells[key]
     if not text:
         problems.append(f"{row.at(key)}: is empty; give {_EMPTY[key]}")
-    elif not text.isprintable():
-        problems.append(f"{row.at(key)}: give printable characters")
+    elif not text.isprintable() or len(text) > MOST_LETTERS:
+        problems.append(f"{row.at(key)}: give at most {MOST_LETTERS} printable characters")
     return text
 
 
@@ -205,12 +222,13 @@ _EMPTY = {"Test": "a name", "Source": "laboratory, report and date, or what comp
 
 
 def _data(row: _Row, problems: list[str]) -> Data:
-    typed = row.cells["Data"]
-    try:
-        return Data(typed.casefold())
-    except ValueError:
-        problems.append(f"{row.at('Data')}: found {shown(typed)}; give {' or '.join(Data)}")
+    text = row.cells["Data"].casefold()
+    if text not in list(Data):
+        problems.append(
+            f"{row.at('Data')}: found {shown(row.cells['Data'])}; give {' or '.join(Data)}"
+        )
         return Data.COMPUTED
+    return Data(text)
 
 
 def _number(row: _Row, key: str, problems: list[str]) -> float:
@@ -240,8 +258,13 @@ def _records(folder: Path, row: _Row, problems: list[str]) -> Iterator[tuple[str
         if not name:
             continue
         file, _, channel = name.partition(BAR)
+        path = folder / file.strip()
         try:
-            yield key, read_record(folder / file.strip(), channel=channel.strip())
+            if not path.resolve().is_relative_to(folder.resolve()):
+                raise InputError(
+                    f"{shown(file.strip())} lies outside of the folder; copy the record into it"
+                )
+            yield key, read_record(path, channel=channel.strip())
         except InputError as error:
             problems += [f"{row.at(key)}: {text}" for text in error.problems]
 
@@ -265,8 +288,8 @@ MEDIAN = (0.9, 1.1)
 RATIOS, SHARE = (0.75, 1.33), 0.8
 """Range in which at least this share of the ratios lies."""
 
-# Ratios below which nothing is accepted: of fewer, no share but all of them is 80 %.
 LEAST_TESTS = 5
+"""Ratios below which nothing is accepted: of fewer, no share but all of them is 80 %."""
 
 LEAST_M = 1e-3
 """A test with less measured PRD has no ratio [m]."""
@@ -314,7 +337,6 @@ class ShakeTable:
     def share_within(self) -> float:
         """Share of the ratios in `RATIOS`; a run without a result is not within."""
         low, high = RATIOS
-        # NaN is neither: a run without a result is not within.
         within = (self.ratios >= low) & (self.ratios <= high)
         return float(within.mean()) if within.size else 0.0
 

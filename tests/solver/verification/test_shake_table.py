@@ -13,7 +13,7 @@ from growth import grows_faster
 from solver.model import InputError
 from solver.sliding.least_model import Model
 from solver.verification.checks import G, trapezoid
-from solver.verification.shake_table import Data, compare, table_tests
+from solver.verification.shake_table import MOST_TESTS, Data, compare, table_tests
 
 pytestmark = pytest.mark.quick
 
@@ -119,9 +119,10 @@ def test_three_axes_channels_static_friction_and_units_are_read(tmp_path):
         (0, "", "tests.csv, row 2, column Test: is empty; give a name"),
         (1, "guessed", "row 2, column Data: found 'guessed'; give measured or computed"),
         (2, "", "column Source: is empty; give laboratory"),
-        (2, "a\u202eb", "column Source: give printable characters"),
+        (2, "a\u202eb", "column Source: give at most 200 printable characters"),
         (3, "", "column x: is empty; give the file of the table acceleration along the slope"),
         (3, "none.csv", "row 2, column x: none.csv"),
+        (3, "../x.csv", "column x: '../x.csv' lies outside of the folder"),
         (3, "x.csv | AX", "found no channel 'AX'"),
         (4, "short.csv", "column y: has 50 samples, x 133; trim them"),
         (5, "slow.csv", "column z: its time step is 0.02 s, that of x 0.01 s"),
@@ -170,6 +171,8 @@ HEAD = ",".join(tables.HEADINGS) + "\n"
         (HEAD, "has no tests"),
         (HEAD + "a,b\n", "row 2: has 2 cells; the headings are 10"),
         ("Test,\x00\n", "tests.csv"),
+        (HEAD + "a\n" * (MOST_TESTS + 1), "more than 1000 tests"),
+        ("x" * 1_000_001, "larger than 1 MB"),
     ],
 )
 def test_a_file_that_is_no_table_of_tests_is_refused(folder, text, said):
