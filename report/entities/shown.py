@@ -285,6 +285,7 @@ class Entity(BaseModel):
         if not shown.quantity:
             return shown.cells(value, fmt.none, shown.units(fmt), mark)[0]
         text = said(value, shown.quantity, self.rounds.get(name, shown.show))
+        # No value, no provision that it rests on: a mark would have nothing to mark.
         return text if math.isnan(value) else text + mark
 
 

@@ -66,6 +66,7 @@ def svg_text(figure: Figure) -> str:
     out = io.StringIO()
     figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
     text = out.getvalue()
+    # From <svg> on: the XML declaration and the DOCTYPE before it are errors within HTML.
     return _DIGITS.sub(r"\1", text[text.index("<svg") :])
 
 

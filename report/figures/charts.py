@@ -60,6 +60,7 @@ def comparison(
                 axes.plot(others, [row] * len(others), **_OTHER, label=_LEGEND[-1])
         axes.set_yticks(range(len(groups)), names)
         axes.set_ylim(len(groups) - 0.45, -0.92)  # the first row has room for a note
+        # From zero: bars are compared by their lengths.
         axes.set_xlim(0, None)
         axes.set_xlabel(f"Horizontal displacement [{first.symbol}]")
         _second_scale(axes, first, second)

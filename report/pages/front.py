@@ -99,6 +99,7 @@ def _ratios(package: PackageData) -> Iterator[_Ratio]:
         array = item.array
         if item.runs:
             yield _Ratio(item.tipping.ratio, "tipping", item.id, "model")
+        # What is not given has a condition of its own, and no ratio.
         if array.interconnection_n:
             strength = item.interconnection_n / array.interconnection_n
             yield _Ratio(strength, "interconnection strength", item.id, "limits")
@@ -119,6 +120,7 @@ def _what_if(package: PackageData, evidence: Evidence) -> Iterator[str]:
 
 def _worst(clearances: Sequence[ClearanceResult]) -> Sequence[ClearanceResult]:
     """Return the clearances with the largest D/C: three, or all that are not OK."""
+    # A ratio that is not known, beside an array without a design displacement, comes first.
     ordered = sorted(clearances, key=lambda gap: -nan_is_worst(gap.demand_capacity))
     return ordered[: max(N_WORST, sum(gap.verdict != Verdict.OK for gap in clearances))]
 
