@@ -16,7 +16,7 @@ from places import ROOT
 
 STATIC = ROOT / "report" / "web" / "static"
 FONTS = ROOT / "templates" / "fonts"
-DESK = {"width": 1280, "height": 720}
+DESKTOP = {"width": 1280, "height": 720}
 TABLET = {"width": 800, "height": 1100}
 PHONE = {"width": 390, "height": 844}
 ALONE = "http://scripts.test"
@@ -49,7 +49,7 @@ def chromium():
 @contextmanager
 def quiet_page(browser, **options):
     """Yield a tab of its own; what its console says or its policy refuses fails."""
-    context = browser.new_context(viewport=DESK, **options)
+    context = browser.new_context(viewport=DESKTOP, **options)
     context.set_default_timeout(15_000)
     page = context.new_page()
     said = []

@@ -212,13 +212,9 @@ def _bars(
         ],
         "rows": [
             {"motion": run.motion.id, "prd_m": finite(prd_m), "text": fmt.short(prd_m)}
-            for run, prd_m in zip(motions, _prds_m(motions), strict=True)
+            for run, prd_m in ((run, run.governing.prd_m) for run in motions)
         ],
     }
-
-
-def _prds_m(motions: Sequence[MotionRun]) -> list[float]:
-    return [run.governing.prd_m for run in motions]
 
 
 def _whole(assessment: Assessment) -> str:

@@ -6,6 +6,7 @@ Computes nothing (`workers`) and admits nobody (`access`). Read `made`.
 from __future__ import annotations
 
 import mimetypes
+import shutil
 from collections.abc import AsyncIterator, Awaitable, Callable, Collection, Mapping, Sequence
 from contextlib import asynccontextmanager
 from functools import partial
@@ -22,15 +23,15 @@ from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
 from report.web.access import ENTRY, TOKEN_HEADER, Access, Keys
-from report.web.files import is_alone, package_routes, receive_json, received, remove, workbook
+from report.web.files import is_alone, package_routes, receive_json, received, workbook
 from report.web.session import (
     EXAMPLE,
-    Desk,
     LostError,
     OtherProjectError,
     RefusedError,
+    Session,
     StaleError,
-    desk_of,
+    session_of,
 )
 from report.web.worker import FULL, copied, is_full
 from solver.model import InputError
@@ -58,14 +59,14 @@ def made(keys: Keys, folder: Path, hosts: Collection[str]) -> Starlette:
     hosts
         As `Access` has them.
     """
-    desk = Desk(folder)
+    session = Session(folder)
 
     @asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
-        app.state.desk, app.state.keys = desk, keys
-        desk.start()
+        app.state.session, app.state.keys = session, keys
+        session.start()
         yield
-        await desk.stop()
+        await session.stop()
 
     return Starlette(
         routes=[
@@ -136,12 +137,12 @@ async def _token(request: Request) -> Response:
 
 
 async def _state(request: Request) -> Response:
-    return JSONResponse(await _whole_state(request, desk_of(request).workbook))
+    return JSONResponse(await _whole_state(request, session_of(request).workbook))
 
 
 async def _example(request: Request) -> Response:
-    desk_of(request).open(EXAMPLE)
-    desk_of(request).prepare(EXAMPLE)
+    session_of(request).open(EXAMPLE)
+    session_of(request).prepare(EXAMPLE)
     return JSONResponse(await _whole_state(request, EXAMPLE))
 
 
@@ -152,21 +153,23 @@ async def _clearances(request: Request) -> Response:
 
 
 async def _with_clearances(request: Request, folder: Path) -> Path:
-    desk = desk_of(request)
-    current = desk.workbook
+    session = session_of(request)
+    current = session.workbook
     workbook = folder / "project" / current.name
     await run_in_threadpool(copied, current, workbook.parent)
-    await desk.ask({"do": "add_clearances", "workbook": str(current), "to": str(workbook)})
+    await session.ask({"do": "add_clearances", "workbook": str(current), "to": str(workbook)})
     return workbook
 
 
 async def _with_plan(request: Request, folder: Path) -> Path:
     """Store a workbook whose plan is filled in from the drawing that is sent with it."""
-    desk, workbook = desk_of(request), await received(request, folder)
-    desk.filled = desk.folder / f"filled-{folder.name}" / workbook.name
-    desk.filled.parent.mkdir()
+    session, workbook = session_of(request), await received(request, folder)
+    session.filled = session.folder / f"filled-{folder.name}" / workbook.name
+    session.filled.parent.mkdir()
     fields = {name: request.state.fields.get(name, "") for name in ("layers", "unit")}
-    await desk.ask({"do": "read_plan", "workbook": str(workbook), "to": str(desk.filled), **fields})
+    await session.ask(
+        {"do": "read_plan", "workbook": str(workbook), "to": str(session.filled), **fields}
+    )
     return workbook
 
 
@@ -174,30 +177,30 @@ async def _open_new(
     request: Request, store: Callable[[Request, Path], Awaitable[Path]]
 ) -> Response:
     """Open a workbook stored in a new folder, unless it has errors or another was opened."""
-    desk = desk_of(request)
-    folder = desk.new_folder()
+    session = session_of(request)
+    folder = session.new_folder()
     try:
         workbook = await store(request, folder)
-        desk.prepare(workbook)
+        session.prepare(workbook)
         state = await _whole_state(request, workbook)
-        if not desk.is_newest(folder):
+        if not session.is_newest(folder):
             raise InputError("Another project was opened meanwhile; open this one again.")
     except BaseException:
-        await run_in_threadpool(remove, folder)
+        await run_in_threadpool(shutil.rmtree, folder, ignore_errors=True)
         raise
     if state["problems"]:
         state["is_alone"] = await run_in_threadpool(is_alone, workbook, folder)
-        await run_in_threadpool(remove, folder)
+        await run_in_threadpool(shutil.rmtree, folder, ignore_errors=True)
     else:
-        desk.open(workbook)
-    return JSONResponse(state | {"opened": desk.opened, "package": None})
+        session.open(workbook)
+    return JSONResponse(state | {"opened": session.opened, "package": None})
 
 
 async def _whole_state(request: Request, workbook: Path) -> dict[str, Any]:
-    desk = desk_of(request)
-    package = desk.packages.last(desk.opened)
-    about = {"opened": desk.opened, "package": package.about if package else None}
-    state = {**about, **await desk.ask({"do": "state", "workbook": str(workbook)})}
+    session = session_of(request)
+    package = session.packages.last(session.opened)
+    about = {"opened": session.opened, "package": package.about if package else None}
+    state = {**about, **await session.ask({"do": "state", "workbook": str(workbook)})}
     if state["project"]:
         state["project"] |= {"file": workbook.name, "is_example": workbook == EXAMPLE}
     return state
@@ -209,7 +212,7 @@ async def _job(request: Request) -> Response:
     if missing := [name for name in _JOBS[kind] if getattr(asked, name) is None]:
         raise InputError(f"the request lacks {' and '.join(missing)}; name what is to be shown")
     job = {"do": kind, **asked.model_dump()}
-    return JSONResponse(await desk_of(request).ask(job, asked))
+    return JSONResponse(await session_of(request).ask(job, asked))
 
 
 async def _refused(_: Request, error: Exception) -> Response:

@@ -1,8 +1,6 @@
-"""The sliders and choices of a workbook, and what each of their values means, as finished text.
+"""A workbook with its records, read once, its sliders and choices, and what their values mean.
 
-Only those are offered that the cells of the workbook can express. Read `controls`.
-
-A workbook with its records, read once: what every answer starts from.
+Only those are offered that the cells of the workbook can express. Read `opened`, then `controls`.
 """
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ import zipfile
 import zlib
 from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
-from typing import IO, Any
+from typing import IO
 
 from pydantic import ValidationError
 from starlette.concurrency import run_in_threadpool
@@ -26,7 +26,7 @@ from starlette.routing import Route
 
 from report.making import OUTPUTS
 from report.sheet.writing.filled import BEFORE
-from report.web.session import Asked, OtherProjectError, RefusedError, desk_of
+from report.web.session import Asked, OtherProjectError, RefusedError, session_of
 from report.web.worker import PROJECT, TYPES, Package, State, copied, motions_made
 from solver.model import InputError
 
@@ -209,11 +209,6 @@ def is_alone(workbook: Path, folder: Path) -> bool:
     return all(path == workbook or path.is_dir() for path in folder.rglob("*"))
 
 
-def remove(folder: Path) -> None:
-    """Remove a folder with all that was stored in it."""
-    shutil.rmtree(folder, ignore_errors=True)
-
-
 MOST_JSON = 100_000
 _MOST_FIELDS = 10
 
@@ -232,7 +227,7 @@ async def receive_json(request: Request) -> Asked:
         asked = Asked.model_validate_json(await request.body())
     except ValidationError as error:
         raise InputError("the request is not one of the page; load the page again") from error
-    if asked.opened not in (None, desk_of(request).opened):
+    if asked.opened not in (None, session_of(request).opened):
         raise OtherProjectError
     return asked
 
@@ -261,7 +256,7 @@ async def received(request: Request, folder: Path) -> Path:
         finally:
             await form.close()
     except BaseException:
-        await run_in_threadpool(remove, folder)
+        await run_in_threadpool(shutil.rmtree, folder, ignore_errors=True)
         raise
 
 
@@ -301,11 +296,11 @@ def package_routes() -> list[Route]:
 
 async def workbook(request: Request) -> Response:
     """Return the workbook with the values written into its cells."""
-    desk, values = desk_of(request), (await receive_json(request)).values
-    name = desk.workbook.name
-    path = desk.folder / f"written-{secrets.token_hex(8)}.xlsx"
+    session, values = session_of(request), (await receive_json(request)).values
+    name = session.workbook.name
+    path = session.folder / f"written-{secrets.token_hex(8)}.xlsx"
     try:
-        await desk.ask(_writing(values, str(path)))
+        await session.ask({"do": "write", "values": values, "to": str(path)})
         data = await run_in_threadpool(path.read_bytes)
     finally:
         await run_in_threadpool(path.unlink, missing_ok=True)
@@ -313,38 +308,35 @@ async def workbook(request: Request) -> Response:
 
 
 async def _filled(request: Request) -> Response:
-    path = desk_of(request).filled
+    path = session_of(request).filled
     return _attached(FileResponse(path, media_type=TYPES[".xlsx"]), path.name)
 
 
 async def _begin(request: Request) -> Response:
-    desk, values = desk_of(request), (await receive_json(request)).values
-    opened, workbook = desk.opened, desk.workbook
-    path = desk.folder / f"package-{secrets.token_hex(8)}" / workbook.name
+    session, values = session_of(request), (await receive_json(request)).values
+    opened, workbook = session.opened, session.workbook
+    path = session.folder / f"package-{secrets.token_hex(8)}" / workbook.name
     try:
         await run_in_threadpool(copied, workbook, path.parent)
-        await desk.ask(_writing(values, str(path)) | {"workbook": str(workbook)})
+        job = {"do": "write", "workbook": str(workbook), "values": values, "to": str(path)}
+        await session.ask(job)
     except (OSError, RefusedError):
-        await run_in_threadpool(remove, path.parent)
-        if desk.workbook == workbook:
+        await run_in_threadpool(shutil.rmtree, path.parent, ignore_errors=True)
+        if session.workbook == workbook:
             raise
-    if desk.workbook != workbook:
+    if session.workbook != workbook:
         raise InputError("Another workbook was opened meanwhile; make the package again.")
-    return JSONResponse(desk.packages.begin(opened, path, values).about)
+    return JSONResponse(session.packages.begin(opened, path, values).about)
 
 
 async def _motions(request: Request) -> Response:
     """Begin a suite of motions for a workbook without any, which is sent again for it."""
-    desk = desk_of(request)
-    folder = desk.folder / f"package-{secrets.token_hex(8)}"
+    session = session_of(request)
+    folder = session.folder / f"package-{secrets.token_hex(8)}"
     folder.mkdir()
     workbook = await received(request, folder)
-    desk.packages.cancel(motions_made)
-    return JSONResponse(desk.packages.begin(desk.opened, workbook, {}, motions_made).about)
-
-
-def _writing(values: Any, to: str) -> dict[str, Any]:
-    return {"do": "write", "values": values, "to": to}
+    session.packages.cancel(motions_made)
+    return JSONResponse(session.packages.begin(session.opened, workbook, {}, motions_made).about)
 
 
 async def _about(request: Request) -> Response:
@@ -373,7 +365,7 @@ def _attached(response: Response, name: str) -> Response:
 
 
 def _package(request: Request) -> Package:
-    package = desk_of(request).packages.find(request.path_params["id"])
+    package = session_of(request).packages.find(request.path_params["id"])
     if package is None:
         raise HTTPException(404, "There is no such package")
     return package

@@ -1,8 +1,6 @@
 """What is computed for the page: each job from a workbook and values to data for JSON.
 
-Knows no request. Read `perform`, then `answer_at`.
-
-Input errors as data: cell, what was found, what would do, and the row of the sheet around it.
+Knows no request. Read `perform`, then `answer_at`; `problems` has input errors as data.
 """
 
 from __future__ import annotations
@@ -45,7 +43,7 @@ from report.web.plan import USUAL_PX, stamp
 from report.web.values import Values, typed
 from solver.model import InputError
 
-_MOST_COLUMNS = 40
+_MOST_COLUMNS, _BESIDE = 40, 2  # of a sheet that are read, and of those the ones around a cell
 
 
 def problems(path: Path, error: InputError) -> list[Mapping[str, Any]]:
@@ -84,6 +82,8 @@ def _row(book: OpenBook, title: str, cell: str) -> Mapping[str, Any] | None:
     ]
     if column not in shown:
         shown = sorted([*shown, column])
+    at = shown.index(column)
+    shown = [one for k, one in enumerate(shown) if k == 0 or abs(k - at) <= _BESIDE]
     return {
         "number": row,
         "heads": [_text(book, title, header, number) if header else "" for number in shown],
@@ -145,21 +145,15 @@ def state(workbook: Path, job: Json) -> Json:
         opened = _open(workbook)
     except InputError as error:
         reply = {"project": None, "problems": problems(workbook, error), "answer": None}
-        return {
-            **reply,
-            "lacks_motions": _lacks_motions(workbook),
-            "drawing": _drawing(workbook),
-        }
+        return {**reply, "lacks": _lacks(workbook), "drawing": _drawing(workbook)}
+    near = [pair for pair in _as_typed(workbook).pairs if pair.kind is not NearbyKind.BARE_EDGE]
     answered = answer_at(workbook, {"values": {}, "moving": False, "room": USUAL_PX})
     return {
         "project": {
             "name": opened.sheet.project.project.name,
             "sha256": opened.sheet.sha256,
-            "lacks_clearances": any(
-                near.is_missing and near.kind is not NearbyKind.BARE_EDGE
-                for near in _as_typed(workbook).pairs
-            ),
         },
+        "lacks": ["clearances"] if any(pair.is_missing for pair in near) else [],
         "problems": [],
         "drawing": _drawing(workbook),
         "warnings": [line["text"] for line in answered["reasons"] if line["level"] == "warning"],
@@ -172,13 +166,14 @@ def state(workbook: Path, job: Json) -> Json:
     }
 
 
-def _lacks_motions(workbook: Path) -> bool:
-    """Whether a workbook can be read, and has the sheet Motions but no motion on it."""
+def _lacks(workbook: Path) -> list[str]:
+    """Return which sheets a workbook has without a row; none where it cannot be read."""
     try:
         sheet = read(workbook)
     except InputError:
-        return False
-    return "motions" not in sheet.unfound and not sheet.draft["motions"]
+        return []
+    steps = ("arrays", "motions")
+    return [name for name in steps if name not in sheet.unfound and not sheet.draft[name]]
 
 
 def answer_at(workbook: Path, job: Json) -> Json:

@@ -1,9 +1,8 @@
 """The roof plan for the page: what `report.drawing.on_paper` places, as elements of SVG.
 
 Placed on the widest sheet that the page has room for; the page places nothing. Reads finished
-numbers; the package paints the same in `report.figures.plan`.
-
-An entity as rows of a table of the page: short texts, with both systems of units as titles.
+numbers; the package paints the same in `report.figures.plan`. `cells` is an entity as a row of a
+table of the page: short texts, with both systems of units as titles.
 """
 
 from __future__ import annotations
@@ -59,7 +58,7 @@ def _cell(row: Entity, name: str, fmt: UnitFormat) -> Cell:
 _TYPE_PX = 13.0  # of the page
 _PX = _TYPE_PX / (TYPE_PT / 72.0)  # in an inch
 _LEAST_PX, _STEP_PX, _KEY_PX = 340, 40, 52.0
-_TALLER = 0.72  # than wide; the least and the most fit the first screen of a phone and of a desk
+_TALLER = 0.72  # than wide; the least and the most fit the first screen of a phone and of a monitor
 _TALL_PX = (380.0, 540.0)
 USUAL_PX = 740
 """Width of the plan on a page that has not said how wide it is."""

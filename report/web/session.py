@@ -1,7 +1,7 @@
-"""The desk of one engineer: what is open, and the two processes that answer about it.
+"""The session of one engineer: what is open, and the two processes that answer about it.
 
 One process answers sliders that move, the other all else, and moves where it alone is free; one
-that ends or takes too long is replaced. Knows no route and no physics. Read `Desk.ask`.
+that ends or takes too long is replaced. Knows no route and no physics. Read `Session.ask`.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from starlette.requests import Request
 
 from report.sheet.writing import template
 from report.web.plan import USUAL_PX
-from report.web.worker import Packages, answered, computing
+from report.web.worker import Packages, answered, begun
 
 EXAMPLE = template.EXAMPLE / "input.xlsx"
 
@@ -74,7 +74,7 @@ class Asked(BaseModel):
     run: str | None = None
 
 
-class Desk:
+class Session:
     """What is open, the processes that compute, and the packages.
 
     Attributes
@@ -241,7 +241,7 @@ class Desk:
         for _ in range(_TRIES):
             try:
                 if is_quick not in self._processes:
-                    self._processes[is_quick] = computing(self.folder)
+                    self._processes[is_quick] = begun(self.folder)
                 # Not `wait_for`: it drops a cancellation that comes with the answer.
                 async with asyncio.timeout(longest_s):
                     asking = self._processes[is_quick].submit(answered, job)
@@ -260,7 +260,7 @@ class Desk:
             process.shutdown()
 
 
-def desk_of(request: Request) -> Desk:
-    """Return the desk of the server."""
-    desk: Desk = request.app.state.desk
-    return desk
+def session_of(request: Request) -> Session:
+    """Return the session of the server."""
+    session: Session = request.app.state.session
+    return session

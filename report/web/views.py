@@ -48,34 +48,10 @@ _TITLES = {
     "normal": "Normal force",
     "friction": "Friction F / N",
 }
-_DOWNSLOPE = "downslope"
-# What the page says at a pointer or a time: it puts its numbers in place of the names in braces.
-_IN_MOTION = {
-    "read": "t = {time}",
-    "time": "Time [s]",
-    "in_time": "{title} in time",
-    "from_ground": "From the ground",
-    "on_roof": "On the roof",
-    "in_motion": "Plan in motion. {title}",
-    "to_scale": "{title}, motion to scale",
-    "enlarged": "{title}, motion × {factor}",
-    "downslope": _DOWNSLOPE,
-}
-_AT_POINT = {
-    "lost": "μ {mu}, slope {slope}: no value; a run gives no displacement",
-    "computed": "μ {mu}, slope {slope}: mean PRD {prd}, computed",
-    "between": "μ {mu}, slope {slope}: mean PRD {prd}, interpolated",
-    "least": "μ {mu}, slope {slope}: mean PRD at most {prd}, interpolated",
-}
-_ON_PATH = "{name} at {time}: {far} from the start, downslope {down}, cross-slope {across}"
 _ACCELERATION = (Unit("g", G_MPS2, 2),)
 _VELOCITY = (Unit("in/s", INCH_M, 1), Unit("mm/s", 1e-3, 0))  # what fits above a panel
 _NORMAL = (Unit("W", 1.0, 2),)
 _RATIO = (Unit("", 1.0, 2),)
-_MU = (Unit("", 1.0, 3),)
-_SLOPE = (Unit("deg", 1.0, 2),)
-_TIME = (Unit("s", 1.0, 2),)
-_SAMPLE = (Unit("s", 1.0, 3),)
 
 
 def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None = None) -> Json:
@@ -118,13 +94,8 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
         **_panels(chosen, history, roof, slips, fmt),
         "prd_m": finite(history.result.prd_m),
         "t_prd_s": finite(history.result.t_prd_s),
-        "units": {"time": _units(_TIME), "sample": _units(_SAMPLE)},
         "texts": {
             "title": f"Array {array_id}, motion {motion_id}, run {chosen.orientation.name}",
-            "relative": "Displacement",
-            "clock": f"{{time}} of {number(motion.seconds, 2)} s",
-            "at_rest": f"At rest, after {{past}} of {len(slips)} slips",
-            **_IN_MOTION,
             **_slide_texts(chosen, history, roof, fmt),
         },
     }
@@ -171,11 +142,7 @@ def contour(assessment: Assessment, array_id: str) -> Json:
             for (mu, slope), ids in dots(contours, assessment.arrays).items()
         ],
         "least_m": LEAST_M,
-        "units": {
-            "mu": _units(_MU),
-            "slope": _units(_SLOPE),
-            "displacement": _units(fmt.units()),
-        },
+        "units": _units(fmt.units()),
         "texts": _contour_texts(contours, here_m, fmt),
     }
 
@@ -210,11 +177,9 @@ def paths(assessment: Assessment, array_id: str) -> Json:
     item, fmt = _array(assessment, array_id), unit_format(assessment)
     return {
         "paths": [_path(motion, fmt) for motion in item.motions],
-        "units": {"time": _units(_TIME), "displacement": _units(fmt.units())},
+        "units": _units(fmt.units()),
         "texts": {
             "title": f"Paths of array {array_id} in plan, all at one scale",
-            "read": _ON_PATH,
-            "downslope": _DOWNSLOPE,
             "notes": [
                 "Governing run of each motion, relative to the roof. A cross marks the start, a "
                 "dot the peak relative displacement (PRD)."
@@ -363,9 +328,6 @@ def _contour_texts(contours: ResponseSurface, here_m: float, fmt: UnitFormat) ->
         f"array {array.id}",
         "here": f"{array.id}: {'' if math.isnan(here_m) else 'mean PRD '}{fmt.both(here_m)}",
         "notes": notes,
-        "read": _AT_POINT,
-        "x": "Friction coefficient μ at low velocity",
-        "y": "Slope [deg]",
     }
 
 

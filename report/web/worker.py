@@ -1,9 +1,7 @@
 """What the processes of the page do: jobs about what is open, and packages.
 
-They read untrusted files: what they return is JSON, and is never unpickled. Read `answered`,
-then `made`.
-
-The packages and suites that the page has made, each by a process of its own.
+They read untrusted files: what they return is JSON, and is never unpickled. Read `answered`, then
+`made` and `Packages`.
 """
 
 from __future__ import annotations
@@ -38,13 +36,8 @@ PROJECT = "project.zip"
 """The workbook with its motions and all files beside it."""
 
 
-def computing(folder: Path) -> WorkerProcess:
-    """Start a process that computes."""
-    return WorkerProcess(_prepare, is_trusted=False, within=folder)
-
-
-def making(folder: Path, told: Callable[[str], object]) -> WorkerProcess:
-    """Start a process that makes a package, with what it leaves behind in a folder."""
+def begun(folder: Path, told: Callable[[str], object] = lambda _: None) -> WorkerProcess:
+    """Start a process, with what it leaves behind in a folder."""
     return WorkerProcess(_prepare, is_trusted=False, told=told, within=folder)
 
 
@@ -215,7 +208,7 @@ class Package:
     async def _problem(self) -> str:
         """Have a process make it; return why there is none, empty if there is."""
         try:
-            with making(self.workbook.parent, self.begin_step) as self.worker:
+            with begun(self.workbook.parent, self.begin_step) as self.worker:
                 asked = self.worker.submit(self.task, self.workbook, self.out)
                 async with asyncio.timeout(LONGEST_S):
                     return await asyncio.wrap_future(asked)

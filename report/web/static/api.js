@@ -5,8 +5,9 @@
 export class ApiError extends Error {
   constructor(message, status, problems = []) {
     super(message);
-    this.status = status;
-    this.problems = problems;
+    // Another address opens this tab; nothing but loading the page again helps; no server answered.
+    const remedy = { lacksKey: status === NO_KEY, needsReload: status === OTHER_PROJECT, isUnreached: status === UNREACHED };
+    Object.assign(this, { status, problems }, remedy);
   }
 }
 
@@ -15,21 +16,6 @@ const NOT_GOOD = 403; // a token
 const OTHER_PROJECT = 412; // is open
 const UNREACHED = 0;
 const KEY = "roofslip-key";
-
-/** Whether this tab has no key of the server: another address opens it. */
-export function lacksKey({ status }) {
-  return status === NO_KEY;
-}
-
-/** Whether nothing but loading the page again helps. */
-export function needsReload({ status }) {
-  return status === OTHER_PROJECT;
-}
-
-/** Whether no server answered. */
-export function isUnreached({ status }) {
-  return status === UNREACHED;
-}
 
 /** Load the page again, without the values in its address: they belong to the project that was open. */
 export function reload() {

@@ -1,20 +1,17 @@
 // Starts the page and joins its parts. Read session.js for what happens when a slider moves.
 
-import { createApi, isUnreached, lacksKey, needsReload, reload } from "./api.js";
-import { showBars } from "./bars.js";
-import { changes } from "./changes.js";
-import { fromFragment, toFragment } from "./link.js";
+import { createApi, reload } from "./api.js";
+import { changes, fromFragment, toFragment } from "./changes.js";
 import { button, html, replace } from "./make.js";
-import { mountDrawing } from "./drawing.js";
-import { mountMotions } from "./motions.js";
+import { mountDrawing, mountMotions } from "./offers.js";
+import { mountTakeaway } from "./package.js";
 import { mountPlan } from "./plan.js";
 import { showProblems } from "./problems.js";
-import { mountCauses, showNoVerdict, showProvisional, showTable, showVerdict } from "./results.js";
+import { mountCauses, showBars, showNoVerdict, showProvisional, showTable, showVerdict } from "./results.js";
 import { saveDrawing } from "./saving.js";
 import { createSession } from "./session.js";
 import { mountSliders } from "./sliders.js";
 import { mountTabs } from "./tabs.js";
-import { mountTakeaway } from "./takeaway.js";
 import { createTurns } from "./turns.js";
 import { mountUpload } from "./upload.js";
 import { createViews } from "./views.js";
@@ -24,6 +21,7 @@ const ALONE =
 const CORRECT =
   "Correct these cells in the workbook and save it. Then open its folder, or a zip of it: records are found by their path from the workbook.";
 const NEXT = {
+  arrays: "Next: plan. List the arrays on the sheet Arrays, or drop a drawing (DXF) beside the workbook: they are read from it.",
   motions: "Next: motions. List your own on the sheet Motions, or let the page make them for this site.",
   clearances: "Next: clearances. Pairs within reach have none; add them at their distances in plan, then confirm these.",
 };
@@ -67,7 +65,7 @@ let onPlan = null; // the key of what is picked: an array, an object, or # and t
 mountCauses(part("verdict"));
 mountTabs(part("tabs"), (panel) => views.open(panel));
 mountUpload({ zone: part("drop"), files: part("files"), folder: part("folder") }, { begin: showBusy, take, fail });
-part("back").addEventListener("click", showDesk);
+part("back").addEventListener("click", showProject);
 part("example").addEventListener("click", () => {
   showBusy("Opening the example …");
   opening(api.example);
@@ -136,7 +134,7 @@ async function opening(fetched, isRestored = false) {
 }
 
 function open(next, isRestored) {
-  motions.offer(next.lacks_motions ? dropped : null);
+  motions.offer(next.lacks[0] === "motions" ? dropped : null);
   offerDrawing(dropped, dropped && next.drawing);
   showSteps(next);
   if (next.problems.length > 0) {
@@ -144,7 +142,7 @@ function open(next, isRestored) {
     return;
   }
   state = next;
-  showDesk();
+  showProject();
   replace(part("warnings"), warnings(state.warnings));
   fillSelects();
   history.replaceState({ depth: 0, opened: state.opened }, "", isRestored ? location.href : location.pathname);
@@ -155,9 +153,7 @@ function open(next, isRestored) {
 }
 
 // What a workbook lacks before it has a verdict, in the order in which the page can give it.
-function showSteps({ lacks_motions: lacksMotions, project }) {
-  const clearances = project?.lacks_clearances ? "clearances" : null;
-  const step = lacksMotions ? "motions" : clearances;
+function showSteps({ lacks: [step] }) {
   part("steps").hidden = !step;
   part("next-step").textContent = NEXT[step] ?? "";
   part("add-clearances").hidden = step !== "clearances";
@@ -165,21 +161,21 @@ function showSteps({ lacks_motions: lacksMotions, project }) {
 }
 
 // A workbook with errors is not opened: what was open stays so.
-function showErrors({ problems, is_alone: isAlone, lacks_motions: lacksMotions }) {
-  const isLost = isAlone && !lacksMotions && problems.some(({ cell }) => cell); // a workbook, but no records
+function showErrors({ problems, is_alone: isAlone, lacks }) {
+  const isLost = isAlone && !lacks.includes("motions") && problems.some(({ cell }) => cell); // a workbook, but no records
   showProblems(part("problems"), problems, isLost ? "The records were not sent" : "Errors in the workbook", isLost ? ALONE : CORRECT);
   part("back").hidden = !state;
   if (state) part("back").textContent = `Back to ${state.project.name}`;
-  part("desk").hidden = true;
+  part("workspace").hidden = true;
   part("welcome").hidden = true;
   named("This workbook has errors");
 }
 
-function showDesk() {
+function showProject() {
   onPlan = null;
   const { name, file, sha256, is_example: isExample } = state.project;
   part("problems").hidden = true;
-  part("desk").hidden = false;
+  part("workspace").hidden = false;
   part("welcome").hidden = !isExample;
   named(name, file, html("span", { class: "screen-only", title: sha256 }, `, SHA-256 ${sha256.slice(0, 12)}`), html("span", { class: "print-only" }, `, SHA-256 ${sha256}`));
 }
@@ -301,7 +297,7 @@ function failAnswer(error, moving) {
   const isRefused = reasons.length > 0;
   if (moving && !isRefused) return; // the full model is asked next, and tells
   Object.assign(document.body.dataset, { phase: "failed", values: "former" });
-  const unanswered = isUnreached(error) ? "the server does not answer" : "the server gave no answer";
+  const unanswered = error.isUnreached ? "the server does not answer" : "the server gave no answer";
   showNoVerdict(part("verdict"), isRefused ? "these values have no answer" : unanswered, reasons);
   if (isRefused) announce(`No verdict. ${error.message}`);
   // While another project is opened here, its answer replaces what was asked of the last one.
@@ -309,18 +305,18 @@ function failAnswer(error, moving) {
 }
 
 function fail(error, what = "Close", act = hideError) {
-  if (lacksKey(error)) {
+  if (error.lacksKey) {
     askForAddress();
     return;
   }
-  const [label, action] = needsReload(error) ? ["Reload", reload] : [what, act];
+  const [label, action] = error.needsReload ? ["Reload", reload] : [what, act];
   replace(part("error"), html("p", {}, error.message), button(label, action));
   part("error").hidden = false;
 }
 
 // Nothing is answered without a key: all that the page can do is say how to get one.
 function askForAddress() {
-  for (const id of ["desk", "welcome", "problems", "no-motions", "steps", "drawing"]) part(id).hidden = true;
+  for (const id of ["workspace", "welcome", "problems", "no-motions", "steps", "drawing"]) part(id).hidden = true;
   part("no-key").hidden = false;
   named("This tab needs a new address");
 }

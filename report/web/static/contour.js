@@ -1,10 +1,9 @@
 // Contours of the mean PRD over friction and slope, with the arrays, and the value at a point.
 
 import { html, note, points, replace, set, svg } from "./make.js";
-import { filled, measured, reading } from "./reading.js";
-import { scale, ticks, within } from "./view-axes.js";
+import { number, reading } from "./reading.js";
 import { onKeys } from "./view-frame.js";
-import { cross, frame, linesAcross, linesUp, onPointer, setSize, textsAcross, textsUp } from "./view-parts.js";
+import { cross, frame, linesAcross, linesUp, onPointer, scale, setSize, textsAcross, textsUp, ticks, within } from "./view-parts.js";
 
 const HEIGHT = 370;
 const MARGIN = { left: 46, right: 16, top: 10, bottom: 42 };
@@ -62,11 +61,12 @@ export function build(element, data) {
   return { resize };
 }
 
-function words({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, units, texts }, { mu, slope }) {
+function words({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, units }, { mu, slope }) {
   const { value, isComputed } = surfaceAt(mus, slopes, prd, mu, slope, least);
-  const between = value <= least ? "least" : "between";
-  const text = texts.read[value === null ? "lost" : isComputed ? "computed" : between];
-  return filled(text, { mu: measured(mu, units.mu[0]), slope: measured(slope, units.slope[0]), prd: reading(value, units.displacement) });
+  const where = `μ ${number(mu, 3)}, slope ${number(slope, 2)} deg`;
+  if (value === null) return `${where}: no value; a run gives no displacement`;
+  const isLeast = value <= least && !isComputed;
+  return `${where}: mean PRD ${isLeast ? "at most " : ""}${reading(value, units)}, ${isComputed ? "computed" : "interpolated"}`;
 }
 
 /**
@@ -108,7 +108,7 @@ function roomy(axis) {
   return [axis[0] - room, axis.at(-1) + room];
 }
 
-function axes({ mus, slopes_deg: slopes, texts }, x, y) {
+function axes({ mus, slopes_deg: slopes }, x, y) {
   const [[left, right], [foot, top]] = [x.ends, y.ends];
   const across = ticks(...roomy(mus), (right + MARGIN.right) / 90);
   const up = ticks(...roomy(slopes), 6);
@@ -120,8 +120,8 @@ function axes({ mus, slopes_deg: slopes, texts }, x, y) {
     textsAcross(across, x, foot + 17),
     linesUp(up, [left - TICK, left], y),
     textsUp(up, left - 7, y),
-    svg("text", { class: "label middle-of", x: (left + right) / 2, y: HEIGHT - 6 }, texts.x),
-    svg("text", { class: "label middle-of", transform: `translate(13 ${(top + foot) / 2}) rotate(-90)` }, texts.y),
+    svg("text", { class: "label middle-of", x: (left + right) / 2, y: HEIGHT - 6 }, "Friction coefficient μ at low velocity"),
+    svg("text", { class: "label middle-of", transform: `translate(13 ${(top + foot) / 2}) rotate(-90)` }, "Slope [deg]"),
   );
 }
 

@@ -1,12 +1,10 @@
 // Histories of one run: roof acceleration and velocity, relative displacement, normal force.
 
 import { button, html, note, replace } from "./make.js";
-import { filled, measured } from "./reading.js";
-import { within } from "./view-axes.js";
+import { number } from "./reading.js";
 import { onKeys, runSelect } from "./view-frame.js";
-import { createPanels } from "./view-panels.js";
-import { pointerIn } from "./view-parts.js";
-import { panelOf } from "./view-series.js";
+import { createPanels, panelOf } from "./view-panels.js";
+import { pointerIn, within } from "./view-parts.js";
 
 const PANELS = ["acceleration", "velocity", "relative", "normal"];
 const HEIGHT = 430;
@@ -34,7 +32,7 @@ export function build(element, data, { again, announce }) {
     if (span !== drawn) panels.show(span);
     [drawn, now] = [span, time];
     panels.at(time);
-    where.textContent = filled(texts.read, { time: measured(time, data.units.sample[0]) });
+    where.textContent = `t = ${number(time, 3)} s`;
     buttons.follow(span, seconds);
   }
 

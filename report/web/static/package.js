@@ -1,4 +1,4 @@
-// Follows the making of a package: progress, cancel, and its files.
+// What the user takes away: a link, the workbook, and the package, from progress to its files.
 
 import { isSame } from "./changes.js";
 import { button, html, note, replace } from "./make.js";
@@ -6,12 +6,18 @@ import { save } from "./saving.js";
 
 const POLL_MS = 500;
 const WHAT = "The package and the workbook get the values of the page.";
+const COPIED = "The link is copied. It opens these values once, in another tab, as long as roofslip serve runs.";
 
 /**
- * Make packages at the click of `make`; returns what to call when values change (`compare`) and when a
- * project is open, with its package where there is one (`open`).
+ * Make the buttons work: `values` gives those of the sliders, `words` says what values change, `fail`
+ * gets an error and `forget` drops the last one. Returns what to call when values change (`compare`)
+ * and when a project is open, with its package where there is one (`open`).
  */
-export function mountPackage({ make, status }, api, { values, words, guarded }) {
+export function mountTakeaway({ make, workbook, copy, status }, api, { values, words, fail, forget }) {
+  const guarded = (action) => () => {
+    forget();
+    return action().catch(fail);
+  };
   let turn = 0; // of the package that is shown; another one, or another project, takes the next
   let shown = null; // what the server told of it last
 
@@ -57,6 +63,8 @@ export function mountPackage({ make, status }, api, { values, words, guarded }) 
     replace(status, note(WHAT));
   }
 
+  workbook.addEventListener("click", guarded(() => saveWorkbook(status, api, values())));
+  copy.addEventListener("click", guarded(() => copyLink(status, api)));
   make.addEventListener("click", guarded(() => track(() => api.startPackage(values()))));
   return {
     compare,
@@ -139,4 +147,27 @@ function madeWith() {
 // Whether what had the focus is disabled or gone.
 function hasLostFocus() {
   return document.activeElement === document.body || document.activeElement.disabled;
+}
+
+async function saveWorkbook(status, api, values) {
+  const { name, blob } = await api.workbook(values);
+  save(blob, name);
+  say(status, api, `${name} is saved with the values of the page.`);
+}
+
+async function copyLink(status, api) {
+  const { token } = await api.newToken();
+  const link = `${location.origin}/?token=${token}${location.hash}`;
+  try {
+    await navigator.clipboard.writeText(link);
+    say(status, api, COPIED);
+  } catch {
+    showLink(status, link); // no clipboard: not a secure context, or not allowed
+  }
+}
+
+function showLink(status, link) {
+  const field = html("input", { type: "text", readonly: true, value: link, "aria-label": "Link that opens these values" });
+  replace(status, field, note("Copy this link; it is good once."));
+  field.select();
 }

@@ -1,10 +1,9 @@
 // Hodographs: the path of an array in plan under every motion, all at one scale.
 
 import { html, note, points, replace, set, svg } from "./make.js";
-import { filled, measured, reading } from "./reading.js";
-import { boxAround, within } from "./view-axes.js";
+import { measured, reading, seconds } from "./reading.js";
 import { onKeys } from "./view-frame.js";
-import { arrow, cross, onPointer, setSize, scaleBar } from "./view-parts.js";
+import { arrow, boxAround, cross, onPointer, scaleBar, setSize, within } from "./view-parts.js";
 
 const LEAST_WIDE = 128; // of a panel
 const ROOM = 10; // around the paths
@@ -27,7 +26,7 @@ export function build(element, data) {
     const { columns, scale } = arrange(extent, panels.length, wide);
     grid.style.setProperty("--columns", columns);
     for (const panel of panels) panel.draw(extent, scale, wide / columns);
-    drawFoot(bar, scale, data);
+    drawFoot(bar, scale, data.units);
   }
 
   replace(
@@ -52,8 +51,8 @@ function arrange(extent, count, wide) {
   return best;
 }
 
-function createPanel(path, { units, texts }, write) {
-  const [first] = units.displacement;
+function createPanel(path, { units }, write) {
+  const [first] = units;
   const dot = svg("circle", { class: "reading-dot", r: 4, visibility: "hidden" });
   const drawing = svg("svg", { tabindex: path.x_m.length ? 0 : null, role: path.x_m.length ? "application" : "img", "aria-label": path.title });
   let pixels = [];
@@ -64,8 +63,8 @@ function createPanel(path, { units, texts }, write) {
     set(dot, { cx: pixels[k][0], cy: pixels[k][1], visibility: "visible" });
     // Downslope is down the page, and cross-slope to the right of it.
     const [across, down] = [path.x_m[k], -path.y_m[k]];
-    const far = reading(Math.hypot(across, down), units.displacement);
-    write(filled(texts.read, { name: path.name, time: measured(k * path.dt_s, units.time[0]), far, down: measured(down, first), across: measured(across, first) }));
+    const far = reading(Math.hypot(across, down), units);
+    write(`${path.name} at ${seconds(k * path.dt_s)}: ${far} from the start, downslope ${measured(down, first)}, cross-slope ${measured(across, first)}`);
   }
 
   if (path.x_m.length) {
@@ -112,7 +111,7 @@ function nearest(pixels, [x, y]) {
   return best;
 }
 
-function drawFoot(foot, scale, { units, texts }) {
+function drawFoot(foot, scale, [unit]) {
   setSize(foot, 250, 34);
-  replace(foot, arrow([8, 16], [0, 1], 12), svg("text", { class: "label", x: 18, y: 21 }, texts.downslope), scaleBar([100, 18.5], units.displacement[0], scale, BAR));
+  replace(foot, arrow([8, 16], [0, 1], 12), svg("text", { class: "label", x: 18, y: 21 }, "downslope"), scaleBar([100, 18.5], unit, scale, BAR));
 }

@@ -1,7 +1,7 @@
 // The roof plan, as the server places it on a sheet that fits; a gap that is NG says so. What the
 // pointer or a key is on is told in one line; the wheel, keys and buttons zoom.
 
-import { within } from "./view-axes.js";
+import { within } from "./view-parts.js";
 import { svg, update } from "./make.js";
 
 const MOST = 8;

@@ -2,8 +2,6 @@
 
 import { headings, html, replace, words } from "./make.js";
 
-const BESIDE = 2; // columns drawn on either side of the cell
-
 /** Show the errors of a workbook, and go there. */
 export function showProblems(element, problems, title, advice) {
   const [heading, paragraph, body] = ["h2", "p", "tbody"].map((name) => element.querySelector(name));
@@ -12,12 +10,6 @@ export function showProblems(element, problems, title, advice) {
   replace(body, problems.map(line));
   element.hidden = false;
   heading.focus();
-}
-
-/** Return the columns of a row that are drawn: the first, and those around the cell. */
-export function drawn(row) {
-  const all = row.heads.keys();
-  return [...all].filter((k) => k === 0 || row.at === null || Math.abs(k - row.at) <= BESIDE);
 }
 
 function line(problem, k) {
@@ -34,16 +26,15 @@ function line(problem, k) {
 }
 
 function picture(row) {
-  const columns = drawn(row);
-  const cell = (k) => {
+  const cell = (text, k) => {
     const isFaulty = k === row.at;
-    return html("td", { class: isFaulty ? "is-faulty" : null }, row.cells[k] ?? "", isFaulty ? hidden(" (this cell)") : null);
+    return html("td", { class: isFaulty ? "is-faulty" : null }, text, isFaulty ? hidden(" (this cell)") : null);
   };
   return html(
     "table",
     { class: "row-picture" },
-    headings([hidden("Row"), ...columns.map((k) => row.heads[k])]),
-    html("tbody", {}, html("tr", {}, html("th", { scope: "row" }, String(row.number)), columns.map(cell))),
+    headings([hidden("Row"), ...row.heads]),
+    html("tbody", {}, html("tr", {}, html("th", { scope: "row" }, String(row.number)), row.cells.map(cell))),
   );
 }
 

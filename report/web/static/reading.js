@@ -23,9 +23,9 @@ export function reading(value, [first, ...others]) {
   return `${measured(value, first)} (${others.map((unit) => measured(value, unit)).join(", ")})`;
 }
 
-/** Return a text of the server with values in place of their names in braces. */
-export function filled(text, values) {
-  return text.replace(/\{(\w+)\}/g, (_, name) => values[name]);
+/** Return a time of a run in seconds. */
+export function seconds(time) {
+  return `${number(time, 2)} s`;
 }
 
 /** Return a round number beside a tick, with the decimals that its step needs. */

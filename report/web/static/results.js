@@ -1,6 +1,8 @@
-// The verdict, the arrays and the clearances, as the server words them.
+// The verdict, the arrays, their bars and the clearances, as the server words them.
 
-import { button, headings, html, note, replace, update, words } from "./make.js";
+import { button, headings, html, note, replace, svg, update, words } from "./make.js";
+
+const WIDE = 100; // units of the drawing; it stretches with its cell
 
 /** Return the tag of a verdict, with the look that it has in the package; a dash while there is none. */
 function tag(verdict) {
@@ -86,4 +88,30 @@ function value(cell) {
 
 function pickButton(said, key, isPicked, pick) {
   return button(said, () => pick(key), { class: "pick", "data-name": key, "aria-pressed": String(isPicked) });
+}
+
+/** Show the PRD of one array under each motion, as a table with drawn cells at the scale of the answer. */
+export function showBars(element, { heads, arrays }, id) {
+  const lengths = Object.values(arrays).flatMap((one) => [...one.lines.map(({ length_m: length }) => length), ...one.rows.map(({ prd_m: prd }) => prd)]);
+  const scale = Math.max(...lengths);
+  const { caption, lines, rows } = arrays[id];
+  const at = (meters) => (WIDE * meters) / scale;
+  const marked = lines.filter(({ length_m: length }) => length !== null);
+  const drawn = () => marked.map(({ look, length_m: length }) => svg("line", { class: look, x1: at(length), x2: at(length), y1: 0, y2: 10 }));
+  const row = ({ motion, prd_m: prd, text }) => {
+    const bar = prd === null ? null : svg("rect", { class: "prd", x: 0, y: 2, width: at(prd), height: 6 });
+    const drawing = svg("svg", { viewBox: `0 0 ${WIDE} 10`, preserveAspectRatio: "none" }, bar, drawn());
+    return html("tr", {}, html("th", { scope: "row" }, motion), html("td", { class: "bar", "aria-hidden": "true" }, drawing), html("td", { class: "numbers" }, text));
+  };
+  update(
+    element,
+    html("caption", {}, caption),
+    headings(heads, { class: "visually-hidden" }),
+    html("tbody", {}, rows.map(row)),
+    html("tfoot", {}, html("tr", {}, html("td", { colspan: heads.length }, lines.map(({ look, text }) => [sampleOf(look), html("span", {}, text)])))),
+  );
+}
+
+function sampleOf(look) {
+  return svg("svg", { class: "sample", viewBox: "0 0 18 10", "aria-hidden": "true" }, svg("line", { class: look, x1: 0, x2: 18, y1: 5, y2: 5 }));
 }

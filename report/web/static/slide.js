@@ -1,15 +1,16 @@
 // Watch it slide: one run in time, with what plays it and what tells of its slips.
 
 import { button, html, note, replace } from "./make.js";
-import { filled, measured } from "./reading.js";
-import { within } from "./view-axes.js";
+import { seconds as said } from "./reading.js";
+import { within } from "./view-parts.js";
 import { onKeys, runSelect } from "./view-frame.js";
-import { createPlayer } from "./view-player.js";
-import { lastUpTo } from "./view-series.js";
+import { lastUpTo } from "./view-panels.js";
 import { createStage } from "./view-stage.js";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 const STEP_S = 0.01;
+const REST_MS = 700; // at each event, where motion is to be reduced
+const MOST_MS = 100; // between two frames: after a longer pause, playing goes on where it was
 const KEYS = "Space plays and pauses, N and P go to the next slip and the one before, arrows step, < and > change the speed. Shaded: slips.";
 
 /** Draw the run in motion in an element. */
@@ -21,7 +22,7 @@ export function build(element, data, { again, announce, kept }) {
   const stage = createStage(data, player.seek);
   const caption = html("p", { class: "numbers slip-text" });
   const speeds = speedSelect(kept);
-  const parts = controls(player, { data, before: () => go(slips.before(player.time)), after: () => go(slips.after(player.time)) });
+  const parts = controls(player, { seconds, before: () => go(slips.before(player.time)), after: () => go(slips.after(player.time)) });
 
   function show(time) {
     const k = slips.at(time);
@@ -82,12 +83,11 @@ function createSlips({ slips, texts }) {
     before: (time) => firstToEnd(time) - 1,
     after: past,
     text: (k) => slips[k].text,
-    rest: (time) => (slips.length === 0 ? texts.no_slip : filled(texts.at_rest, { past: past(time) })),
+    rest: (time) => (slips.length === 0 ? texts.no_slip : `At rest, after ${past(time)} of ${slips.length} slips`),
   };
 }
 
-function controls(player, { data: { seconds, units, texts }, before, after }) {
-  const said = (time) => measured(time, units.time[0]);
+function controls(player, { seconds, before, after }) {
   const play = button("Play", player.toggle, { title: "Play or pause (Space)", class: "button primary play" });
   const back = button("‹ Slip", before, { title: "Slip before (P)", "aria-label": "Slip before" });
   const next = button("Slip ›", after, { title: "Next slip (N)", "aria-label": "Next slip" });
@@ -102,7 +102,7 @@ function controls(player, { data: { seconds, units, texts }, before, after }) {
     show(time, { isFirst, isLast }) {
       scrub.value = time;
       scrub.setAttribute("aria-valuetext", said(time));
-      clock.textContent = filled(texts.clock, { time: said(time) });
+      clock.textContent = `${said(time)} of ${said(seconds)}`;
       play.textContent = player.isPlaying ? "Pause" : "Play";
       back.disabled = isFirst;
       next.disabled = isLast;
@@ -127,4 +127,67 @@ function speedSelect(kept) {
       choose();
     },
   };
+}
+
+// Runs the time of a run of some seconds, at the `speed` of what is kept; `show` is called with each time.
+// Where the user wants motion reduced, it goes from one of the events to the next and rests there.
+function createPlayer(seconds, events, kept, show) {
+  const isReduced = matchMedia("(prefers-reduced-motion: reduce)");
+  const player = { time: 0, isPlaying: false, seek, pause, toggle, rewind };
+  let isAtStart = false;
+  let stop = null;
+
+  function seek(to) {
+    isAtStart = false;
+    move(to);
+  }
+
+  function move(to) {
+    player.time = within(to, 0, seconds);
+    if (player.time === seconds) player.pause();
+    show(player.time);
+  }
+
+  function pause() {
+    if (!player.isPlaying) return;
+    player.isPlaying = false;
+    stop();
+    show(player.time);
+  }
+
+  function toggle() {
+    if (player.isPlaying) {
+      pause();
+      return;
+    }
+    if (isAtStart || player.time === seconds) player.time = 0;
+    isAtStart = false;
+    player.isPlaying = true;
+    stop = isReduced.matches ? stepwise(() => move(events.find((event) => event > player.time) ?? seconds)) : running((elapsed) => move(player.time + elapsed * kept.speed));
+    show(player.time);
+  }
+
+  // Have the next play start from the beginning.
+  function rewind() {
+    isAtStart = true;
+  }
+
+  return player;
+}
+
+function stepwise(advance) {
+  const timer = setInterval(advance, REST_MS);
+  return () => clearInterval(timer);
+}
+
+function running(advance) {
+  let last = performance.now();
+  let frame = 0;
+  const tick = (now) => {
+    frame = requestAnimationFrame(tick);
+    advance(Math.min(now - last, MOST_MS) / 1000);
+    last = now;
+  };
+  frame = requestAnimationFrame(tick);
+  return () => cancelAnimationFrame(frame);
 }

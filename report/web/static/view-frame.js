@@ -1,6 +1,6 @@
 // What all views share: ask, draw, draw again in another size, and say what went wrong.
 
-import { needsReload, reload } from "./api.js";
+import { reload } from "./api.js";
 import { button, html, note, replace } from "./make.js";
 
 /**
@@ -48,7 +48,7 @@ export function createView(element, scene, fetch, build, announce) {
       shown = key;
     } catch (error) {
       drawing = null;
-      const remedy = needsReload(error) ? button("Reload", reload, { title: "Load the page again" }) : null;
+      const remedy = error.needsReload ? button("Reload", reload, { title: "Load the page again" }) : null;
       replace(element, html("p", { role: "alert" }, error.message), remedy);
     }
     element.classList.toggle("is-stale", isMoving);

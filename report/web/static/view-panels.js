@@ -1,10 +1,9 @@
-// Histories one above the other over one axis of time, with the value at a time in their headings.
+// Histories one above the other over one axis of time, with the value at a time in their headings. The server
+// sends values at the samples, or at the numbers of samples beside them, null where there is none.
 
 import { html, replace, set, svg } from "./make.js";
-import { filled, measured } from "./reading.js";
-import { scale, ticks, within } from "./view-axes.js";
-import { frame, linesAcross, linesUp, pointerIn, setSize, textsAcross, textsUp } from "./view-parts.js";
-import { curve, rangeIn, valueAt } from "./view-series.js";
+import { measured } from "./reading.js";
+import { frame, linesAcross, linesUp, pointerIn, scale, setSize, textsAcross, textsUp, ticks, within } from "./view-parts.js";
 
 const LEFT = 46;
 const RIGHT = 8;
@@ -12,14 +11,15 @@ const HEADS = [20, 38]; // heights of a heading of one line and of two, as in vi
 const AXIS = 22;
 const ROOM = 0.06; // of the range of the values, above and below
 let made = 0;
+const LOOKS = { cross: "is-across", vertical: "is-third", demand: "is-third" };
 
 /**
  * Return panels of a run: `panels` are `{ title, units, series, least, most, over }`, where `series` have `name`,
  * `t`, `v` and `look`, `least` and `most` bound the axis, and `over` is the span of time whose values
  * set it, the one shown if not given. Values read in the first unit.
  */
-export function createPanels(panels, { seconds, slips, texts }) {
-  const drawn = panels.map((panel) => createPanel(panel, texts));
+export function createPanels(panels, { seconds, slips }) {
+  const drawn = panels.map((panel) => createPanel(panel));
   const axis = svg("svg", { class: "panel-axis", "aria-hidden": true });
   const element = html("div", { class: "panels" }, drawn.map((panel) => panel.element), axis);
   let size = { width: 0, height: 0, head: HEADS[0] };
@@ -35,7 +35,7 @@ export function createPanels(panels, { seconds, slips, texts }) {
     const tall = Math.floor((height - AXIS) / drawn.length) - head;
     const times = ticks(...span, width / 90);
     for (const panel of drawn) panel.draw({ width, tall, span, x, times, slips });
-    drawAxis(axis, width, x, times, texts.time);
+    drawAxis(axis, width, x, times);
     mark();
   }
 
@@ -69,7 +69,7 @@ export function createPanels(panels, { seconds, slips, texts }) {
   };
 }
 
-function createPanel({ title, units, series, least, most, over }, texts) {
+function createPanel({ title, units, series, least, most, over }) {
   made += 1;
   const clip = `panel-${made}`;
   const values = series.map(() => html("span", { class: "value numbers" }));
@@ -83,7 +83,7 @@ function createPanel({ title, units, series, least, most, over }, texts) {
   const window = svg("rect", { x: LEFT, y: 0 });
   const plot = svg(
     "svg",
-    { role: "img", "aria-label": filled(texts.in_time, { title }) },
+    { role: "img", "aria-label": `${title} in time` },
     svg("clipPath", { id: clip }, window),
     svg("g", { "clip-path": `url(#${clip})` }, bands, band, grid, lines.toReversed(), cursor),
     labels,
@@ -124,11 +124,11 @@ function createPanel({ title, units, series, least, most, over }, texts) {
   };
 }
 
-function drawAxis(axis, width, x, { values, step }, title) {
+function drawAxis(axis, width, x, { values, step }) {
   setSize(axis, width, AXIS);
   const room = width - RIGHT - 68; // the title and half of a number
   const shown = { step, values: values.filter((time) => x(time) < room) };
-  replace(axis, textsAcross(shown, x, 15), svg("text", { class: "tick end-at", x: width - RIGHT, y: 15 }, title));
+  replace(axis, textsAcross(shown, x, 15), svg("text", { class: "tick end-at", x: width - RIGHT, y: 15 }, "Time [s]"));
 }
 
 // The range of what is drawn in a span of time, with some room.
@@ -146,4 +146,83 @@ function limits(series, span, least, most, unit) {
 
 function sample(look) {
   return svg("svg", { class: "sample", "aria-hidden": true, viewBox: "0 0 20 10" }, svg("path", { class: `curve ${look}`, d: "M0 5H20" }));
+}
+
+/** Return the panel of a kind, such as `velocity`: a title and units, and histories with times and look. */
+export function panelOf(data, kind, title = "title") {
+  const series = data[kind].series.map(({ name, i, v }) => ({
+    name,
+    look: LOOKS[name] ?? "is-first",
+    t: Float64Array.from(i ?? v.keys(), (k) => k * data.dt_s),
+    v,
+  }));
+  return { title: data[kind][title], units: data[kind].units, series };
+}
+
+/** Return the number of the last of ascending values that is not above one; -1 if all are. */
+export function lastUpTo(ascending, value) {
+  let low = 0;
+  let high = ascending.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (ascending[middle] <= value) low = middle + 1;
+    else high = middle;
+  }
+  return low - 1;
+}
+
+/** Return the value at a time, linear between the samples drawn; null where there is none. */
+export function valueAt({ t, v }, time) {
+  const k = within(lastUpTo(t, time), 0, t.length - 1);
+  if (k === t.length - 1 || time <= t[k]) return v[k];
+  if (v[k] === null || v[k + 1] === null) return null;
+  return v[k] + ((v[k + 1] - v[k]) * (time - t[k])) / (t[k + 1] - t[k]);
+}
+
+/** Return the smallest and largest value in a span of time, as `[low, high]`; null if there is none. */
+export function rangeIn({ t, v }, [from, to]) {
+  let low = Infinity;
+  let high = -Infinity;
+  const end = Math.min(lastUpTo(t, to) + 1, t.length - 1);
+  for (let k = Math.max(lastUpTo(t, from), 0); k <= end; k += 1) {
+    if (v[k] === null) continue;
+    low = Math.min(low, v[k]);
+    high = Math.max(high, v[k]);
+  }
+  return low <= high ? [low, high] : null;
+}
+
+/** Return the path of a history in a span of time: at most four points in each column of pixels. */
+export function curve({ t, v }, span, x, y) {
+  let drawn = "";
+  let pen = "M";
+  let column = null;
+  const draw = (k) => {
+    drawn += `${pen}${x(t[k]).toFixed(2)} ${y(v[k]).toFixed(2)}`;
+    pen = "L";
+  };
+  const flush = () => {
+    if (column) [...new Set(column)].toSorted((a, b) => a - b).forEach(draw);
+    column = null;
+  };
+  const end = Math.min(lastUpTo(t, span[1]) + 1, t.length - 1);
+  let pixel = NaN;
+  for (let k = Math.max(lastUpTo(t, span[0]), 0); k <= end; k += 1) {
+    if (v[k] === null) {
+      flush();
+      pen = "M";
+      continue;
+    }
+    const here = Math.floor(x(t[k]));
+    if (here !== pixel || !column) {
+      flush();
+      pixel = here;
+      column = [k, k, k, k]; // first, lowest, highest, last
+    }
+    if (v[k] < v[column[1]]) column[1] = k;
+    if (v[k] > v[column[2]]) column[2] = k;
+    column[3] = k;
+  }
+  flush();
+  return drawn;
 }

@@ -6,7 +6,7 @@ from starlette.testclient import TestClient
 from browsing import opened, quiet_page, served
 from report.web.access import KEY_HEADER, Keys
 from report.web.app import made
-from report.web.session import Desk
+from report.web.session import Session
 
 HOST = "127.0.0.1:8765"
 
@@ -21,8 +21,8 @@ def serving(keys, tmp_path_factory):
     """The server, ended with the tests."""
     app = made(keys, tmp_path_factory.mktemp("served"), [HOST])
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Desk, "start", lambda _: None)  # one process less
-        patch.setattr(Desk, "prepare", lambda *_: None)
+        patch.setattr(Session, "start", lambda _: None)  # one process less
+        patch.setattr(Session, "prepare", lambda *_: None)
         with TestClient(app, base_url=f"http://{HOST}", follow_redirects=False) as client:
             yield client
 
@@ -43,8 +43,8 @@ def client(visitor, keys):
 
 
 @pytest.fixture
-def desk(serving):
-    return serving.app.state.desk
+def session(serving):
+    return serving.app.state.session
 
 
 @pytest.fixture(scope="module")

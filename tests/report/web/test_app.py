@@ -51,9 +51,9 @@ def begun(client, **values):
     return client.post("/api/package", json={"values": values}).json()
 
 
-def uploads(desk):
+def uploads(session):
     """The folders of uploads."""
-    return [each.name for each in desk.folder.glob("upload-*")]
+    return [each.name for each in session.folder.glob("upload-*")]
 
 
 @pytest.mark.quick
@@ -193,14 +193,14 @@ def test_of_two_uploads_the_last_is_open_whichever_arrives_first(client, monkeyp
 
 
 @pytest.mark.nightly
-def test_an_upload_that_cannot_be_read_leaves_open_what_was_open(client, desk):
+def test_an_upload_that_cannot_be_read_leaves_open_what_was_open(client, session):
     before = sent(client, folder_of(EXAMPLE)).json()["opened"]
     assert len(sent(client, [("input.xlsx", b"no workbook")]).json()["problems"]) == 1
     assert sent(client, [("records/x.csv", b"0")]).status_code == 422
     state = state_of(client)
     assert state["opened"] == before
     assert state["answer"]["verdict"]["text"] == "OK with conditions"
-    assert uploads(desk) == [before]
+    assert uploads(session) == [before]
 
 
 def test_more_files_than_a_project_has_are_refused_in_the_words_of_the_page(client):
@@ -226,26 +226,26 @@ IS_FULL = "The disk is full"
     ],
     ids=["upload", "package"],
 )
-def test_a_full_disk_is_said(client, desk, monkeypatch, fails, ask):
-    left = set(desk.folder.iterdir())
+def test_a_full_disk_is_said(client, session, monkeypatch, fails, ask):
+    left = set(session.folder.iterdir())
     with monkeypatch.context() as patch:
         for name in fails:
             patch.setattr(name, full)
         assert error_of(ask(client), 507).startswith(IS_FULL)
     assert state_of(client)["project"]
-    assert set(desk.folder.iterdir()) == left
+    assert set(session.folder.iterdir()) == left
 
 
-def test_a_full_disk_is_said_where_another_process_writes(client, desk, monkeypatch):
+def test_a_full_disk_is_said_where_another_process_writes(client, session, monkeypatch):
     async def ask(_, job, *__):
         Path(job["to"]).write_bytes(b"half")
         return answered(job)
 
     monkeypatch.setattr("report.web.jobs.perform", full)
-    monkeypatch.setattr("report.web.session.Desk._answer", ask)
+    monkeypatch.setattr("report.web.session.Session._answer", ask)
     answer = client.post("/api/workbook", json={"values": {}})
     assert error_of(answer, 507).startswith(IS_FULL)
-    assert not list(desk.folder.glob("written-*"))
+    assert not list(session.folder.glob("written-*"))
 
 
 def test_every_error_of_a_workbook_is_shown_at_once_with_its_row(client, tmp_path):
@@ -306,7 +306,7 @@ def test_a_package_is_begun_and_canceled(client):
 
 def test_a_file_of_a_package_is_given_to_who_has_the_key(client):
     made = begun(client)["id"]
-    package = client.app.state.desk.packages.find(made)
+    package = client.app.state.session.packages.find(made)
     package.cancel()
     package.out.mkdir()
     (package.out / "results.json").write_text("{}")
@@ -335,13 +335,13 @@ def over(client, made):
 
 
 @pytest.mark.nightly
-def test_a_package_is_made_from_the_workbook_that_is_open_and_no_other(client, desk):
+def test_a_package_is_made_from_the_workbook_that_is_open_and_no_other(client, session):
     files = dict(folder_of(EXAMPLE))
     content = files.pop("example/input.xlsx")
     others = [(f"example/{name}.xlsx", b"not a workbook") for name in ("a", "input 2", "z")]
     sent(client, [*others, ("example/Input.XLSX", content), *files.items()])
     # Without one of its records the package fails early, in words that name its workbook.
-    next((desk.folder / desk.opened).rglob("records/*")).unlink()
+    next((session.folder / session.opened).rglob("records/*")).unlink()
     about = over(client, begun(client)["id"])
     assert about["state"] == "failed"
     assert about["words"].startswith("Motions!")
@@ -370,14 +370,14 @@ def test_a_process_that_is_killed_is_replaced(client):
 
 @pytest.mark.nightly
 def test_clearances_that_a_plan_lacks_are_added_to_a_copy_that_is_open_then(client, tmp_path):
-    assert not state_of(client)["project"]["lacks_clearances"]
+    assert not state_of(client)["lacks"]
     folder = tmp_path / "roof"
     confirmed = {"drawing_confirmed_by": "RG", "drawing_confirmed_date": "2025-11-18"}
     make(folder, clearances=[], objects=SECTIONS["objects"][:1], project=HEAD | confirmed)
     before = sent(client, folder_of(folder)).json()
-    assert before["project"]["lacks_clearances"]
+    assert before["lacks"] == ["clearances"]
     after = client.post("/api/clearances", json={"opened": before["opened"]}).json()
-    assert not after["project"]["lacks_clearances"]
+    assert not after["lacks"]
     assert after["opened"] != before["opened"]
     assert state_of(client)["project"] == after["project"]
     content = client.post("/api/workbook", json={"values": {}}).content

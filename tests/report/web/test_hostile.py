@@ -36,7 +36,7 @@ def test_a_body_that_is_too_long_is_not_read_to_its_end(client, monkeypatch):
     assert client.post("/api/upload", content=body(), headers=headers).status_code == 413
 
 
-def test_a_tab_that_is_closed_while_files_arrive_is_no_internal_error(client, desk):
+def test_a_tab_that_is_closed_while_files_arrive_is_no_internal_error(client, session):
     headers = {
         "host": client.base_url.netloc.decode(),
         KEY_HEADER.lower(): client.headers[KEY_HEADER],
@@ -51,7 +51,7 @@ def test_a_tab_that_is_closed_while_files_arrive_is_no_internal_error(client, de
         "query_string": b"",
         "headers": [(name.encode(), value.encode()) for name, value in headers.items()],
     }
-    left = set(desk.folder.iterdir())
+    left = set(session.folder.iterdir())
     messages = [{"type": "http.request", "body": b"--x", "more_body": True}]
     answers = []
 
@@ -63,7 +63,7 @@ def test_a_tab_that_is_closed_while_files_arrive_is_no_internal_error(client, de
 
     client.portal.call(client.app, scope, receive, send)
     assert answers[0]["status"] == 400
-    assert set(desk.folder.iterdir()) == left
+    assert set(session.folder.iterdir()) == left
 
 
 def test_a_request_that_is_too_long_is_refused(client):

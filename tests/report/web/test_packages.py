@@ -31,7 +31,7 @@ class Making(SameProcess):
 
 def test_a_package_that_is_canceled_while_it_is_made_leaves_no_process(monkeypatch):
     process = Making()
-    monkeypatch.setattr("report.web.worker.making", lambda *_: process)
+    monkeypatch.setattr("report.web.worker.begun", lambda *_: process)
 
     async def run():
         packages = Packages()
@@ -56,7 +56,7 @@ def test_a_package_is_the_last_of_what_is_open_alone(monkeypatch):
         def submit(self, fn, *args):
             return super().submit(str)
 
-    monkeypatch.setattr("report.web.worker.making", lambda *_: AtOnce())
+    monkeypatch.setattr("report.web.worker.begun", lambda *_: AtOnce())
 
     async def run():
         packages = Packages()

@@ -13,7 +13,7 @@ import pytest
 from pypdf import PdfReader
 
 import cells
-from browsing import DESK, PHONE, TABLET, at_rest, moved, numbers, opened, quiet_page, saved
+from browsing import DESKTOP, PHONE, TABLET, at_rest, moved, numbers, opened, quiet_page, saved
 from inputs import FT
 from places import ROOT
 from report.sheet.reading.read import read
@@ -48,7 +48,7 @@ def test_errors_are_listed_by_cell_beside_a_picture_of_the_row(page, tmp_path):
     where = page.locator("#problems tbody th").first.inner_text()
     assert where.startswith(cells.address(book, name))
     assert page.locator("#problems .is-faulty").first.inner_text().startswith("low")
-    assert page.locator("#desk").is_hidden()
+    assert page.locator("#workspace").is_hidden()
     assert page.evaluate("document.activeElement.textContent") == "Errors in the workbook"
     page.click("text=Back to Distribution Warehouse")
     page.wait_for_selector("#problems", state="hidden")
@@ -93,7 +93,7 @@ def test_names_of_40_characters_are_cut_with_the_whole_as_a_tooltip(page, tmp_pa
     page.wait_for_selector(f"#arrays th[title='{long['A1']}']")
     at_rest(page)
     assert page.locator("#clearances th[title]").first.get_attribute("title").count(" ") > 8
-    for size in (DESK, TABLET, PHONE):
+    for size in (DESKTOP, TABLET, PHONE):
         page.set_viewport_size(size)
         assert page.evaluate("document.body.scrollWidth <= innerWidth"), size
         name = page.locator("#arrays tbody .cut").first
@@ -156,11 +156,14 @@ def test_the_plan_is_read_from_a_drawing_beside_the_workbook(page, tmp_path):
     sketch.saved(folder)
     page.set_input_files("#folder", folder)
     page.wait_for_selector("#drawing .layers")
+    assert page.inner_text("#steps [aria-current]") == "Plan"
+    assert page.locator("#no-motions").is_hidden()
     kinds = page.locator("#drawing td select")
     assert [each.input_value() for each in kinds.all()] == ["array", "not read"]
     kinds.last.select_option("roof")
     page.click("text=Fill in the plan")
     page.wait_for_selector("text=The plan is filled in from")
+    assert page.inner_text("#steps [aria-current]") == "Motions"
     name, content = saved(page, lambda: page.click("text=Save filled workbook"))
     assert name == "input.xlsx"
     (tmp_path / name).write_bytes(content)
@@ -299,6 +302,6 @@ def test_an_address_is_good_once_and_the_page_gives_another_one(page, browser, a
             third.wait_for_selector("#no-key:visible")
             assert "press Enter in the terminal" in third.inner_text("#no-key")
             assert third.inner_text("h1") == "This tab needs a new address"
-            assert third.locator("#desk, .open").evaluate_all(
+            assert third.locator("#workspace, .open").evaluate_all(
                 "(all) => all.every((one) => !one.checkVisibility())"
             )

@@ -29,15 +29,15 @@ RESTORED = "return g.fragments.map((one) => m.fromFragment(one, g.sliders, g.cho
 def test_a_link_holds_what_was_changed_and_restores_it(page):
     values = {"friction": 0.95, "slope": 0.0, "polarity": "+"}
     body = "return m.toFragment(g.values, [...g.sliders, ...g.choices]);"
-    fragment = called(page, "link", body, LINK | {"values": values})
+    fragment = called(page, "changes", body, LINK | {"values": values})
     assert fragment == "friction=0.95&polarity=%2B"
-    restored = called(page, "link", RESTORED, LINK | {"fragments": [f"#{fragment}"]})
+    restored = called(page, "changes", RESTORED, LINK | {"fragments": [f"#{fragment}"]})
     assert restored == [{"friction": 0.95, "polarity": "+"}]
 
 
 def test_a_link_that_names_no_value_changes_nothing(page):
     none = ["", "#friction=", "#friction=NaN", "#polarity=sideways", "#constructor=1"]
-    assert called(page, "link", RESTORED, LINK | {"fragments": none}) == [{}] * 5
+    assert called(page, "changes", RESTORED, LINK | {"fragments": none}) == [{}] * 5
 
 
 SESSION = """
@@ -316,7 +316,7 @@ TAKEAWAY = """
 
 
 def takeaway(page, steps):
-    return called(page, "takeaway", TAKEAWAY + steps)
+    return called(page, "package", TAKEAWAY + steps)
 
 
 def test_a_package_names_what_it_is_made_with_wherever_the_page_has_other_values(page):
@@ -450,13 +450,6 @@ def test_what_was_opened_last_is_shown_and_asked_about_whichever_answer_comes_fi
     assert opened == "upload-2"
 
 
-def test_the_picture_of_a_row_shows_its_first_cell_and_those_around_the_fault(page):
-    row = {"heads": [""] * 12, "cells": [""] * 12}
-    body = "return g.map((row) => m.drawn(row));"
-    shown = called(page, "problems", body, [row | {"at": 7}, row | {"at": 0}, row | {"at": None}])
-    assert shown == [[0, 5, 6, 7, 8, 9], [0, 1, 2], list(range(12))]
-
-
 @pytest.mark.nightly
 def test_arrow_keys_go_around_the_tabs(page):
     keys = [["ArrowRight", 4], ["ArrowLeft", 0], ["Home", 3], ["End", 1], ["a", 1]]
@@ -542,7 +535,7 @@ def test_motions_that_are_made_are_opened_and_can_be_saved(page):
         motions.offer(null); isHidden.push(element.hidden);
         return [isHidden, sent, opened, save.textContent, failed];"""
     zipped = [{"file": "#t/project.zip", "path": "project.zip"}]
-    assert called(page, "motions", MOTIONS + steps) == [
+    assert called(page, "offers", MOTIONS + steps) == [
         [True, False, True], [["a"]], [zipped], "Save workbook and records (zip)", [],
     ]  # fmt: skip
 
@@ -552,7 +545,7 @@ def test_motions_that_are_canceled_are_offered_again(page):
         element.querySelector("button").click();
         for (let k = 0; k < 150 && element.querySelector("progress"); k += 1) await pause();
         return [element.textContent, opened];"""
-    text, opened = called(page, "motions", MOTIONS + steps)
+    text, opened = called(page, "offers", MOTIONS + steps)
     assert text.startswith("No motions? Make seven for this site")
     assert text.endswith("Canceled.")
     assert opened == []

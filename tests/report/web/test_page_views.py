@@ -121,7 +121,7 @@ def test_a_reading_is_written_as_in_the_package(page):
     [(0.0, 30.0, 6), (-0.013, 0.0042, 4), (0.31, 0.75, 7), (-900.0, 3.0, 3)],
 )
 def test_ticks_are_round_within_their_range_and_not_too_many(page, low, high, wanted):
-    found = called(page, "view-axes", "m.ticks(...g.range)", range=[low, high, wanted])
+    found = called(page, "view-parts", "m.ticks(...g.range)", range=[low, high, wanted])
     values, step = found["values"], found["step"]
     assert float(f"{step:e}"[0]) in (1.0, 2.0, 5.0)
     assert low - 1e-9 <= values[0] < values[-1] <= high + 1e-9
@@ -130,7 +130,7 @@ def test_ticks_are_round_within_their_range_and_not_too_many(page, low, high, wa
 
 def test_a_number_is_rounded_down_to_one_two_or_five(page):
     values = [1.0, 1.99, 2.0, 4.9, 73.0, 0.034]
-    below = called(page, "view-axes", "g.values.map(m.roundBelow)", values=values)
+    below = called(page, "view-parts", "g.values.map(m.roundBelow)", values=values)
     assert below == pytest.approx([1.0, 1.0, 2.0, 2.0, 50.0, 0.02])
 
 
@@ -138,7 +138,7 @@ def test_a_value_between_samples_is_on_the_line_and_a_gap_has_none(page):
     series = {"t": [0.0, 0.1, 0.4, 0.5, 0.6], "v": [1.0, 3.0, -3.0, None, 2.0]}
     times = [0.0, 0.05, 0.1, 0.25, 0.4, 0.45, 0.5, 0.6, 0.7]
     body = "g.times.map((t) => m.valueAt(g.series, t))"
-    found = called(page, "view-series", body, series=series, times=times)
+    found = called(page, "view-panels", body, series=series, times=times)
     assert found == pytest.approx([1.0, 2.0, 3.0, 0.0, -3.0, None, None, 2.0, 2.0], abs=1e-12)
 
 
@@ -146,7 +146,7 @@ def test_a_curve_of_many_samples_keeps_the_extremes_of_every_column_of_pixels(pa
     t = np.linspace(0.0, 100.0, 5001)
     v = np.random.default_rng(1).normal(size=t.size)
     body = "m.curve(g, [0, 100], (t) => t, (v) => 1000 * v)"
-    drawn = called(page, "view-series", body, t=t.tolist(), v=v.tolist())
+    drawn = called(page, "view-panels", body, t=t.tolist(), v=v.tolist())
     xy = np.array([pair.split() for pair in re.split("[ML]", drawn)[1:]], float)
     assert drawn.count("M") == 1
     assert len(xy) <= 4 * 101

@@ -33,15 +33,15 @@ def without_motions(folder, **cells):
 @pytest.mark.parametrize("cells", [{}, {"S_DS": None, "S_MS": None, "S_S": None}])
 def test_a_workbook_without_motions_is_offered_some(tmp_path, cells):
     answer = perform({"do": "state", "workbook": str(without_motions(tmp_path, **cells))})["answer"]
-    assert answer["lacks_motions"]
+    assert answer["lacks"] == ["motions"]
     assert any("no motion is given" in each["text"] for each in answer["problems"])
 
 
 def test_a_workbook_with_motions_or_none_at_all_is_not(tmp_path):
     path = type_into(make(tmp_path), {"Motions/M1/Horizontal record": "records/none.csv"})
-    assert not perform({"do": "state", "workbook": str(path)})["answer"]["lacks_motions"]
+    assert not perform({"do": "state", "workbook": str(path)})["answer"]["lacks"]
     path.write_bytes(b"none")
-    assert not perform({"do": "state", "workbook": str(path)})["answer"]["lacks_motions"]
+    assert not perform({"do": "state", "workbook": str(path)})["answer"]["lacks"]
 
 
 @pytest.mark.nightly

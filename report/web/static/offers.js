@@ -1,8 +1,11 @@
-// Offers to read the plan from a DXF beside the workbook: what is drawn on each layer, then the plan.
+// Offers what a workbook lacks: to read its plan from a DXF beside it, and to make motions for its site.
 
-import { button, headings, html, note, replace } from "./make.js";
-import { say } from "./package.js";
+import { button, headings, html, note, replace, words } from "./make.js";
+import { follow, saveFile, say, showProgress } from "./package.js";
 import { save } from "./saving.js";
+
+const PROJECT = "project.zip";
+const BASIS = "Their target is AC156 with S_DS, z/h and the rule set of the sheet Site.";
 
 /**
  * Offer drawings in an element; `open` opens what a promise gives, `filled` gets the workbook that was
@@ -50,4 +53,45 @@ export function mountDrawing(element, api, { open, filled, fail }) {
 
 function select(options, chosen, label) {
   return html("select", { "aria-label": label }, options.map((value) => html("option", { value, selected: value === chosen }, value || "choose")));
+}
+
+/** Offer motions in an element; `open` opens what a promise gives, `fail` gets an error. */
+export function mountMotions(element, api, { open, fail }) {
+  let turn = 0; // of what is shown; another project takes the next
+
+  async function make(files) {
+    turn += 1;
+    const mine = turn;
+    const begun = await api.startMotions(files);
+    const cancel = () => api.cancelPackage(begun.id).catch(fail);
+    const show = (told) => told.is_over || showProgress(element, api, told, cancel);
+    const isWanted = () => mine === turn;
+    const made = await follow(api, begun, { isWanted, show }).catch((error) => ({ words: error.message }));
+    if (!isWanted()) return;
+    if (made.state === "done") await goOn(begun.id);
+    else {
+      offer(files);
+      element.append(note(made.words));
+      api.announce(made.words);
+    }
+  }
+
+  async function goOn(id) {
+    const { blob } = await api.file(id, PROJECT);
+    await open(() => api.upload([{ file: blob, path: PROJECT }]));
+    say(element, api, "The motions are made and listed in the workbook.");
+    element.append(button("Save workbook and records (zip)", () => saveFile(api, id, PROJECT).catch(fail)));
+    element.hidden = false;
+  }
+
+  /** Offer motions for the files of a project; none where there is nothing to offer. */
+  function offer(files) {
+    turn += 1;
+    element.hidden = !files;
+    if (!files) return;
+    const label = "No motions? Make seven for this site";
+    replace(element, button(label, () => make(files).catch(fail)), html("p", { class: "note" }, words(BASIS)));
+  }
+
+  return { offer };
 }
