@@ -209,7 +209,7 @@ def test_the_python_of_the_readme_runs(folder, monkeypatch):
     assert (folder / "prd.png").is_file()
 
 
-def test_every_picture_and_file_that_is_named_exists():
+def test_every_page_picture_and_file_is_found_and_none_is_long():
     named = [
         path.parent / name
         for path, text in (FRONT | DOCS).items()
@@ -217,32 +217,22 @@ def test_every_picture_and_file_that_is_named_exists():
     ]
     assert len(named) > 40
     assert [path for path in named if not path.exists()] == []
-
-
-def test_every_page_is_in_the_contents_and_none_is_long():
     assert set(NAV) == {path.name for path in DOCS}
     written = [path for path in DOCS if path not in make_docs.pages()]
     assert [path.name for path in written if len(DOCS[path].splitlines()) >= 250] == []
     assert len(README.splitlines()) <= 150
     assert len(README.split()) <= 1500
-
-
-def test_every_page_is_found_from_the_home_page():
     home = DOCS[ROOT / "docs" / "index.md"]
     assert set(re.findall(r"\]\(([\w-]+\.md)", home)) == set(NAV) - {"index.md"}
 
 
 @pytest.mark.quick
-def test_the_readme_says_what_each_dependency_is_for():
+def test_dependencies_blocks_and_architecture_are_those_there():
     said = README.partition("Dependencies: ")[2].partition("\n\n")[0]
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     needed = [*project["dependencies"], *chain(*project["optional-dependencies"].values())]
     names = {re.match(r"[\w-]+", each)[0] for each in needed}
     assert names <= set(re.findall(r"[\w-]+", said))
-
-
-@pytest.mark.quick
-def test_the_architecture_names_files_and_what_is_in_them():
     page = DOCS[ROOT / "docs" / "architecture.md"]
     rows = re.findall(r"^\| [^|]+ \| `([\w/.]+)` \| (.+) \|$", page, re.MULTILINE)
     assert len(rows) == 10
@@ -251,6 +241,12 @@ def test_the_architecture_names_files_and_what_is_in_them():
         assert [name for name in re.findall(r"`(\w+)`", names) if name not in text] == [], path
     paths = re.findall(r"`((?:solver|report|templates|tests)/[\w/.]+)`", page)
     assert [path for path in paths if not (ROOT / path).exists()] == []
+    kinds = {
+        (path.name, kind)
+        for path, text in (FRONT | DOCS).items()
+        for kind in re.findall(r"^```(\w*)\n.*?^```$", text, re.DOTALL | re.MULTILINE)
+    }
+    assert {kind for _, kind in kinds} == {"sh", "python", "text"}
 
 
 def integrated(a_mps2, dt_s, mu, parts=200):
@@ -354,16 +350,6 @@ def test_every_key_of_results_json_has_a_meaning_that_is_more_than_its_name():
 def test_pages_that_the_program_makes_are_as_it_would_make_them():
     for path, text in make_docs.pages().items():
         assert DOCS[path] == text, f"python docs/make.py writes {path.name} anew"
-
-
-@pytest.mark.quick
-def test_a_code_block_is_run_or_marked_as_text():
-    kinds = {
-        (path.name, kind)
-        for path, text in (FRONT | DOCS).items()
-        for kind in re.findall(r"^```(\w*)\n.*?^```$", text, re.DOTALL | re.MULTILINE)
-    }
-    assert {kind for _, kind in kinds} == {"sh", "python", "text"}
 
 
 @pytest.mark.nightly

@@ -22,7 +22,7 @@ def with_text(text, lines):
     return line
 
 
-def test_check_prints_each_warning_with_its_cell_its_name_and_the_reason(tmp_path):
+def test_check_prints_each_warning_with_its_reason_and_nothing_where_quiet(tmp_path):
     first, *lines = printed("check", make(tmp_path, **ANSWERED)).splitlines()
     assert "input.xlsx: no errors, " in first
     weight = with_text("[weight A1]", lines)
@@ -30,6 +30,9 @@ def test_check_prints_each_warning_with_its_cell_its_name_and_the_reason(tmp_pat
     assert weight.endswith("[weight A1] Acknowledged: Frames alone, ballast by others")
     components = at("note: <Motions/heading/ID>: number of components of each motion")
     assert any(line.startswith(components) for line in lines)
+    done = run("check", "--quiet", make(tmp_path))
+    assert (done.exit_code, done.output) == (0, "")
+    assert "no such file" in refused("check", "--quiet", tmp_path / "nothing")
 
 
 @pytest.mark.quick
@@ -57,12 +60,6 @@ def test_check_alone_says_that_a_package_is_dated_in_the_future(tmp_path):
     sheet = read_workbook(folder)
     assert not any("after today" in f.text for f in findings(sheet, prepare(sheet)))
     assert "after today" not in printed("check", make(tmp_path / "past"))
-
-
-def test_quiet_prints_nothing_but_errors(tmp_path):
-    done = run("check", "--quiet", make(tmp_path))
-    assert (done.exit_code, done.output) == (0, "")
-    assert "no such file" in refused("check", "--quiet", tmp_path / "nothing")
 
 
 @pytest.fixture(scope="module")
@@ -93,10 +90,17 @@ def lines(reported):
 
 
 @pytest.mark.nightly
-def test_report_exits_with_3_only_where_that_is_asked_for(steep, reported):
+def test_a_steep_roof_is_ng_in_terminal_package_and_exit_code(steep, reported):
     assert reported.exit_code == 3
     quiet = run("report", steep, "--quiet", "--out", steep.parent / "other")
     assert (quiet.exit_code, quiet.output) == (0, "")
+    out = steep.parent / "out"
+    text = packages.words((out / "calc-package.pdf").read_text(encoding="utf-8"))
+    assert "Warnings on the input" in text
+    assert "Frames alone, ballast by others" in text
+    results = json.loads((out / "results.json").read_text())
+    (finding,) = (f for f in results["findings"] if f["id"] == "weight A1")
+    assert (finding["cell"], finding["reason"]) == (at("Arrays/A1/Weight"), REASON["reason"])
 
 
 @pytest.mark.nightly
@@ -112,17 +116,6 @@ def test_each_line_names_array_value_and_limit(lines):
     assert all("; provide " in line or "no design displacement" in line for line in short)
     assert any("[weight A1] Acknowledged: Frames alone" in line for line in lines)
     assert lines[lines.index("") - 1] == "verdict: NG"
-
-
-@pytest.mark.nightly
-def test_the_package_lists_a_warning_with_its_reason(steep, reported):
-    out = steep.parent / "out"
-    text = packages.words((out / "calc-package.pdf").read_text(encoding="utf-8"))
-    assert "Warnings on the input" in text
-    assert "Frames alone, ballast by others" in text
-    results = json.loads((out / "results.json").read_text())
-    (finding,) = (f for f in results["findings"] if f["id"] == "weight A1")
-    assert (finding["cell"], finding["reason"]) == (at("Arrays/A1/Weight"), REASON["reason"])
 
 
 def test_report_as_json_has_arrays_causes_and_files(steep):

@@ -34,16 +34,12 @@ def loaded_by(code):
 
 
 @pytest.mark.quick
-def test_help_names_the_commands_and_imports_nothing_heavy():
+def test_help_and_errors_wait_for_nothing_heavy(tmp_path):
     code = "from report.cli.main import main; main(['--help'], standalone_mode=False)"
     told, loaded = loaded_by(code)
     assert not loaded
     for command in ("new", "check", "motion", "report", "slide", "verify"):
         assert f"\n  {command} " in told
-
-
-@pytest.mark.quick
-def test_an_error_in_the_workbook_waits_for_no_compiler(tmp_path):
     code = f"from report.cli.main import main; main(['check', {str(tmp_path)!r}])"
     code = f"import contextlib\nwith contextlib.suppress(SystemExit): {code}\nprint()"
     _, loaded = loaded_by(code)
@@ -92,22 +88,24 @@ def test_new_example_writes_the_example_of_the_projects(tmp_path):
     assert "no errors, 3 warnings. 3 arrays, 6 clearances, 7 motions, S_DS 1.566 g" in told
 
 
-def test_check_of_a_blank_workbook_names_every_cell(tmp_path):
+def test_a_blank_workbook_or_a_damaged_former_revision_is_an_input_error(tmp_path):
     printed("new", tmp_path)
     told = refused("check", tmp_path)
     assert at("<Project/Project name>: project name is missing") in told
     assert at("<Arrays/heading/ID>: no array is given") in told
+    former = tmp_path / "issued.json"
+    former.write_bytes(b'{"schema_version": 2, "arr')
+    told = refused("report", tmp_path / "no-such-project", "--since", former)
+    assert "issued.json: is no results.json or is damaged" in told
+    assert not (tmp_path / "out").exists()
 
 
-def test_an_internal_error_exits_1_with_the_traceback(tmp_path, monkeypatch):
+def test_failed_runs_and_internal_errors_leave_the_older_package(tmp_path, monkeypatch):
     monkeypatch.setattr(report.package.html, "pages", lambda *_: 1 / 0)
     done = run("report", make(tmp_path))
     assert done.exit_code == 1
     assert isinstance(done.exception, ZeroDivisionError)
     assert not (tmp_path / "out").exists()
-
-
-def test_a_failed_run_leaves_the_older_package(tmp_path):
     book, out = make(tmp_path), tmp_path / "out"
     out.mkdir()
     (out / "calc-package.pdf").write_bytes(b"older")
@@ -163,11 +161,3 @@ def test_since_a_former_revision_the_terminal_counts_and_the_package_lists(tmp_p
     assert "Friction coefficient" in words
     assert "of another project" not in told
     assert "--since is of another project: 99-1, Elsewhere; check that it is" in of_another
-
-
-def test_a_damaged_former_revision_is_an_input_error_before_anything_runs(tmp_path):
-    former = tmp_path / "issued.json"
-    former.write_bytes(b'{"schema_version": 2, "arr')
-    told = refused("report", tmp_path / "no-such-project", "--since", former)
-    assert "issued.json: is no results.json or is damaged" in told
-    assert not (tmp_path / "out").exists()

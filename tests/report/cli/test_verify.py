@@ -131,7 +131,7 @@ def words_of_broken(failed):
     return said((failed[1] / "verification.pdf").read_text())
 
 
-def test_the_manual_has_a_cover_contents_and_a_summary_of_one_page(texts, verification):
+def test_the_manual_has_its_cover_contents_and_heads_of_pages(texts, verification):
     assert 15 <= len(texts) <= 40
     passed = f"PASS {len(verification.checks)} of {len(verification.checks)} checks passed."
     for words in (passed, "Verification manual", "2026-03-05"):
@@ -139,15 +139,9 @@ def test_the_manual_has_a_cover_contents_and_a_summary_of_one_page(texts, verifi
     for sheet, start in enumerate(("Contents", "1 Summary", "2 Scope and terms"), start=1):
         assert texts[sheet].startswith(start)
     assert passed in texts[2]
-
-
-def test_every_page_carries_program_sheet_date_and_extent(texts):
     for count, text in enumerate(texts, start=1):
         for piece in ("Roofslip", f"Sheet {count} of {len(texts)}", "Date 2026-03-05", "quick"):
             assert piece in text
-
-
-def test_contents_name_the_sheet_of_each_section(texts):
     for title in ("3 Checks", "6 Stability", "9 Design curves (Figs. 10 to 12)"):
         number, words = title.split(" ", 1)
         sheet = re.search(rf"\b{number} {re.escape(words)} (\d+)", texts[1])
@@ -155,7 +149,7 @@ def test_contents_name_the_sheet_of_each_section(texts):
         assert texts[int(sheet[1]) - 1].startswith(title)
 
 
-def test_every_check_is_printed_with_source_values_error_tolerance_and_verdict(verification, words):
+def test_every_check_and_the_papers_figures_are_printed(verification, words):
     for row in verification.checks:
         assert f"{row.id}. Source: {lettered(row.source)}" in words
         line = (
@@ -165,9 +159,6 @@ def test_every_check_is_printed_with_source_values_error_tolerance_and_verdict(v
             + f"{formats.scientific(row.error)} {formats.scientific(row.tolerance)} PASS"
         )
         assert line in words, line
-
-
-def test_the_papers_own_figures_stand_beside_those_found(words, verification):
     for percent in ("6.78 %", "1.69 %", "0.48 %"):
         assert percent in words
     assert "1000 mm at θ = 4°, μ = 0.5; μ ≥ 0.55 at θ = 2° for 500 mm" in words
@@ -177,18 +168,21 @@ def test_the_papers_own_figures_stand_beside_those_found(words, verification):
     assert f"{verification.curves[0].minimum_mu(2.0, 1.5, 0.5):.3f}" in words
 
 
-def test_every_method_is_in_the_table_with_when_it_is_not_valid(words):
+def test_methods_libraries_and_machine_are_named(words, whole, verification):
     for method in METHODS.values():
         for text in (method.title, method.invalid_when, method.source):
             assert lettered(text) in words
-
-
-def test_libraries_and_machine_are_named_without_host_or_path_or_raw_numbers(whole):
     for name in ("numpy", "numba", "weasyprint", "Processor", "Cores"):
         assert name in whole
     for path in ("/home", "/root"):
         assert path not in whole
     assert not re.search(r"\b(nan|inf|None)\b", whole)
+    found = verification.work
+    runs = found[(found["method"] == "linear") & (found["setting"] == 16)]
+    curve = curve_of("linear", found)
+    assert curve.index.tolist() == [1, 4, 16, 64, 256]
+    for measured in ("PRD error [%]", "time per run [s]"):
+        assert curve.loc[16, measured] == np.median(runs[measured])
 
 
 def test_all_and_only_the_checks_and_runs_are_in_the_table(made, verification):
@@ -208,7 +202,7 @@ def test_all_and_only_the_checks_and_runs_are_in_the_table(made, verification):
         assert column in table
 
 
-def test_each_chart_is_a_file_too_with_text_in_the_shipped_font_only(made):
+def test_charts_have_the_floor_the_medians_and_the_shipped_font(made, verification):
     charts = {name: data for name, data in made.items() if name.startswith("charts/")}
     assert len(charts) >= 11
     for kind in ("work", "stability", "convergence", "links", "curves", "contours"):
@@ -218,6 +212,8 @@ def test_each_chart_is_a_file_too_with_text_in_the_shipped_font_only(made):
         assert text.startswith("<svg")
         assert "mathdefault" not in text
         assert set(re.findall(r"font: [^;]*?'([^']+)'", text)) <= {"Source Sans 3"}
+    assert ">exact: rounding error<" in made["charts/work-percent.svg"].decode()
+    assert curve_of("exact", verification.work, 1e-12)["PRD error [%]"].tolist() == [1e-12]
 
 
 def curve_of(method, points, floor=0.0):
@@ -225,28 +221,13 @@ def curve_of(method, points, floor=0.0):
     return work.medians(points, "PRD error [%]", floor).loc[method]
 
 
-def test_the_exact_method_is_drawn_at_its_floor_and_said_to_be(made, verification):
-    assert ">exact: rounding error<" in made["charts/work-percent.svg"].decode()
-    assert curve_of("exact", verification.work, 1e-12)["PRD error [%]"].tolist() == [1e-12]
-
-
-def test_curves_are_medians_over_the_scenes(verification):
-    found = verification.work
-    runs = found[(found["method"] == "linear") & (found["setting"] == 16)]
-    curve = curve_of("linear", found)
-    assert curve.index.tolist() == [1, 4, 16, 64, 256]
-    for measured in ("PRD error [%]", "time per run [s]"):
-        assert curve.loc[16, measured] == np.median(runs[measured])
-
-
-def test_failed_runs_are_counted_in_the_caption_and_not_drawn(broken, words_of_broken):
+def test_failed_cells_and_runs_are_counted_and_not_drawn(
+    broken, words_of_broken, made, verification, words
+):
     lost = broken.work["time per run [s]"].isna().sum()
     assert f"{lost} of {len(broken.work)} runs failed and are not drawn" in words_of_broken
     assert f"(penalty-explicit: {lost})" in words_of_broken
     assert np.isfinite(curve_of("penalty-explicit", broken.work)).all(axis=None)
-
-
-def test_failed_cells_are_hatched_and_counted(made, verification, words):
     failed = verification.maps[0].failed
     count = int(failed.sum())
     assert count > 0
@@ -257,15 +238,14 @@ def test_failed_cells_are_hatched_and_counted(made, verification, words):
         assert f">{text}<" in svg
 
 
-def test_a_failed_check_is_said_on_cover_summary_and_in_its_table(verification, words_of_broken):
+def test_failed_runs_and_checks_are_said_where_they_are_missing(
+    verification, words_of_broken, words
+):
     count = len(verification.checks)
     assert words_of_broken.count(f"FAIL {count - 1} of {count} checks passed.") == 2
     row = verification.checks[1]
     assert f"FAIL: {row.section}, {row.problem}, {row.quantity}" in words_of_broken
     assert re.search(r" 1\.5 2\.5 × 10⁻¹ [^A-Z]* FAIL", words_of_broken)
-
-
-def test_other_programs_have_a_section_only_where_there_are_any(words, words_of_broken):
     assert "16 Other programs" in words_of_broken
     assert "Other 1.2: one axis; as its example motion-01-x flat 500 ms 1.25 %" in words_of_broken
     assert "Other 1.2: one axis; did not converge motion-01-x flat — failed" in words_of_broken

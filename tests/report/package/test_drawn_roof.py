@@ -71,16 +71,13 @@ def reported(tmp_path_factory):
     return job
 
 
-def test_the_gap_around_the_unit_is_that_of_the_outline(reported):
+def test_the_gap_is_that_of_the_outline_and_the_package_says_so(reported):
     document = json.loads((reported / "out" / "results.json").read_text())
     gaps = {(row["array"], row["other"]): row["gap_m"] for row in document["neighbors"]}
     # The unit is 6 ft above the lower leg and 10 ft from the upper one.
     assert gaps["A1", "RTU-1"] == pytest.approx(6 * FT, abs=1e-6)
     assert gaps["A1", "A2"] == pytest.approx(8 * FT, abs=1e-6)
     assert not any(row["contradictions"] for row in document["neighbors"])
-
-
-def test_the_package_says_which_array_is_an_outline(reported):
     html = (reported / "out" / "calc-package.pdf").read_text(encoding="utf-8")
     said = "By an outline, of which the rectangle around it is given: A1 (6 vertices)."
     assert said in packages.words(html)

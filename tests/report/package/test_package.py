@@ -41,12 +41,8 @@ def texts(pdf):
 
 
 @pytest.mark.nightly
-def test_the_complete_edition_with_a_letter_has_fifteen_to_thirty_pages(texts):
+def test_every_page_says_what_it_is_of_fifteen_to_thirty(texts):
     assert 15 <= len(texts) <= 30
-
-
-@pytest.mark.nightly
-def test_every_page_carries_project_sheet_date_by_checked_revision_and_edition(texts):
     for count, text in enumerate(texts, start=1):
         for piece in (
             "24-117 Alameda Warehouse", f"Sheet {count} of {len(texts)}", "Date 2026-03-05",
@@ -57,53 +53,13 @@ def test_every_page_carries_project_sheet_date_by_checked_revision_and_edition(t
 
 
 @pytest.mark.nightly
-def test_the_layout_drops_no_word_of_a_page(html, texts):
+def test_contents_and_layout_drop_nothing(html, texts):
     """Some cells touch in the text of the PDF, and an equation there has no alternative text."""
     words = apart(re.sub(r"(?m)^\[.*\]$", " ", read(html)))
     laid = apart(" ".join(texts))
     missing = Counter(words) - Counter(laid)
     assert len(words) > 5000
     assert [word for word in missing if word not in "".join(laid)] == []
-
-
-def apart(text):
-    """Return the words of a text, without what stands for layout in the words of a page."""
-    return re.sub(r"\(#[^)]*\)|[][|#^/();]", " ", text).split()
-
-
-@pytest.mark.nightly
-def test_the_document_says_what_it_is(pdf):
-    reader = PdfReader(io.BytesIO(pdf))
-    assert "24-117 Alameda Warehouse" in reader.metadata.title
-    assert reader.metadata.author == "Engineer of record"
-    assert reader.metadata.creation_date.date() == dt.date(2026, 3, 5)
-    assert reader.trailer["/Root"]["/Lang"] == "en-US"
-    titles = [item.title for item in reader.outline if not isinstance(item, list)]
-    assert "1 Summary" in titles
-    assert "A Records, software and references" in titles
-
-
-@pytest.mark.parametrize("name", ["package.css", "verification.css"])
-@pytest.mark.quick
-def test_no_type_is_smaller_than_eight_and_a_half_points(name):
-    style = (TEMPLATES / name).read_text(encoding="utf-8")
-    sizes = [float(size) for size in re.findall(r"font(?:-size)?: ([\d.]+)pt", style)]
-    assert sizes
-    assert min(sizes) >= 8.5
-
-
-@pytest.mark.nightly
-def test_only_shipped_fonts_are_used(pdf):
-    names = set(re.findall(rb"/BaseFont /[A-Z]{6}\+([\w-]+)", pdf))
-    for page in PdfReader(io.BytesIO(pdf)).pages:
-        for font in page["/Resources"]["/Font"].values():
-            names.add(font.get_object()["/BaseFont"].split("+")[1].encode())
-    assert names
-    assert all(name.startswith(b"Source-") for name in names)
-
-
-@pytest.mark.nightly
-def test_contents_name_the_sheet_of_each_part(texts):
     for title in (
         "1 Summary",
         "2 Comparison with the prescriptive displacement",
@@ -114,6 +70,38 @@ def test_contents_name_the_sheet_of_each_part(texts):
         match = re.search(rf"{number}\s*{re.escape(words)}:\s*(\d+)", contents)
         assert match, title
         assert title in flat(texts[int(match[1]) - 1])
+
+
+def apart(text):
+    """Return the words of a text, without what stands for layout in the words of a page."""
+    return re.sub(r"\(#[^)]*\)|[][|#^/();]", " ", text).split()
+
+
+@pytest.mark.nightly
+def test_the_document_says_what_it_is_in_shipped_fonts(pdf):
+    reader = PdfReader(io.BytesIO(pdf))
+    assert "24-117 Alameda Warehouse" in reader.metadata.title
+    assert reader.metadata.author == "Engineer of record"
+    assert reader.metadata.creation_date.date() == dt.date(2026, 3, 5)
+    assert reader.trailer["/Root"]["/Lang"] == "en-US"
+    titles = [item.title for item in reader.outline if not isinstance(item, list)]
+    assert "1 Summary" in titles
+    assert "A Records, software and references" in titles
+    names = set(re.findall(rb"/BaseFont /[A-Z]{6}\+([\w-]+)", pdf))
+    for page in PdfReader(io.BytesIO(pdf)).pages:
+        for font in page["/Resources"]["/Font"].values():
+            names.add(font.get_object()["/BaseFont"].split("+")[1].encode())
+    assert names
+    assert all(name.startswith(b"Source-") for name in names)
+
+
+@pytest.mark.parametrize("name", ["package.css", "verification.css"])
+@pytest.mark.quick
+def test_no_type_is_smaller_than_eight_and_a_half_points(name):
+    style = (TEMPLATES / name).read_text(encoding="utf-8")
+    sizes = [float(size) for size in re.findall(r"font(?:-size)?: ([\d.]+)pt", style)]
+    assert sizes
+    assert min(sizes) >= 8.5
 
 
 @pytest.fixture(scope="module")
@@ -150,7 +138,7 @@ def test_twelve_arrays_have_room(crowded):
     assert sum(flat(text).count("PRD of each run") for text in crowded) >= 12
 
 
-def test_too_few_motions_give_no_value_and_no_verdict_on_clearances():
+def test_few_and_thirty_motions_are_told():
     arrays = [stand_in.array(f"A{k}", 4.0, x=100 * k) for k in (1, 2, 3)]
     package = scenes.package(scenes.motions(2), arrays=arrays)
     summary = printed(package, "summary")
@@ -160,6 +148,11 @@ def test_too_few_motions_give_no_value_and_no_verdict_on_clearances():
         assert (row["Governs"], row["D/C"]) == ("none", "none")
         assert row["Verdict"].startswith("NG")
     assert "without a verdict: 5 of 5 clearances" in summary
+    arrays = [stand_in.array("A1", 2.0)]
+    shaking = scenes.motions(30, seconds=3.0)
+    package = scenes.package(shaking, arrays=arrays, objects=[], clearances=[])
+    listed = printed(package, "results").tables[0].column("Motion")
+    assert listed[:30] == [f"M{k}" for k in range(1, 31)]
 
 
 @pytest.mark.nightly
@@ -187,14 +180,6 @@ def test_an_analysis_above_the_prescriptive_value_is_said_and_governs():
     assert float(match[1]) == pytest.approx(ratio, abs=0.005)
     assert ratio > 1.0
     assert "(3 of 3 PRDs exceed it) and governs" in text
-
-
-def test_thirty_motions_are_listed():
-    arrays = [stand_in.array("A1", 2.0)]
-    shaking = scenes.motions(30, seconds=3.0)
-    package = scenes.package(shaking, arrays=arrays, objects=[], clearances=[])
-    listed = printed(package, "results").tables[0].column("Motion")
-    assert listed[:30] == [f"M{k}" for k in range(1, 31)]
 
 
 @pytest.mark.parametrize("edition", ["ASCE 7-16", "ASCE 7-22"])

@@ -94,11 +94,8 @@ def example(tmp_path_factory):
     return made(packages.reported(tmp_path_factory, "example", by_script=True))
 
 
-def test_the_example_has_at_most_15_sheets(example):
+def test_the_example_has_at_most_15_sheets_and_the_conditions_of_its_inputs(example):
     assert len(example.pdf.pages) <= 15
-
-
-def test_the_example_has_the_conditions_that_its_code_and_friction_tests_leave(example):
     conditions = {
         (row["subject"], row["title"])
         for row in example.results["requirements"]
