@@ -45,13 +45,7 @@ _LESS = "What less friction would change is being computed."
 def answer(
     assessment: Assessment, *, is_provisional: bool, room_px: int = USUAL_PX
 ) -> dict[str, Any]:
-    """Return what the page shows; values that are provisional have no verdict.
-
-    Parameters
-    ----------
-    room_px : int
-        Width that the page has for the plan.
-    """
+    """Return what the page shows, with room for its plan; provisional values have no verdict."""
     marked = Marked(assessment=assessment, has_daggers=False)
     fmt = unit_format(assessment)
     arrays = list(array_results(marked, has_runs=False))

@@ -52,13 +52,7 @@ mimetypes.add_type("image/svg+xml", ".svg")
 
 
 def made(keys: Keys, folder: Path, hosts: Collection[str]) -> Starlette:
-    """Return the application, with what is uploaded and made in a folder.
-
-    Parameters
-    ----------
-    hosts
-        As `Access` has them.
-    """
+    """Return the application, with what is uploaded and made in a folder; hosts as of `Access`."""
     session = Session(folder)
 
     @asynccontextmanager

@@ -31,15 +31,7 @@ from solver.model import InputError, Motion
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Opened:
-    """A workbook, its records as read, and its motions as run.
-
-    Attributes
-    ----------
-    sheet : Sheet
-    by_motion : tuple of Components
-        Of each motion; the same whatever the sliders say.
-    shaking : Shaking
-    """
+    """A workbook, the records of each motion as read, whatever the sliders say, and as run."""
 
     sheet: Sheet
     by_motion: Sequence[Components]
@@ -58,13 +50,7 @@ _NOTHING_TO_RUN = (
 
 
 def opened(path: Path) -> Opened:
-    """Read a workbook and its records.
-
-    Raises
-    ------
-    InputError
-        With every problem.
-    """
+    """Read a workbook and its records, or raise an input error with every problem."""
     sheet = read(path)
     check_letters(sheet)
     if not sheet.draft["motions"]:
@@ -76,13 +62,7 @@ def opened(path: Path) -> Opened:
 
 
 def with_values(opened: Opened, values: Values) -> Opened:
-    """Return a workbook as if the values had been typed into it.
-
-    Raises
-    ------
-    InputError
-        Where the workbook could not have them.
-    """
+    """Return a workbook as if values had been typed into it; refuse those it could not have."""
     changed = typed(opened.sheet, opened.scales, values)
     if not changed:
         return opened
@@ -131,13 +111,7 @@ def shown(opened: Opened) -> Mapping[str, str]:
 
 
 def check(opened: Opened, values: Values) -> None:
-    """Refuse values that no slider or choice of the workbook has.
-
-    Raises
-    ------
-    InputError
-        With every such value.
-    """
+    """Refuse values that no slider or choice of the workbook has, all in one input error."""
     known = controls(opened)
     sliders = {item["id"]: item for item in known["sliders"]}
     choices = {item["id"]: item for item in known["choices"]}

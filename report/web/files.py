@@ -48,15 +48,8 @@ File = tuple[str, IO[bytes]]
 def store(files: Sequence[File], folder: Path) -> Path:
     """Store what was sent in an empty folder, and return the workbook among it.
 
-    Parameters
-    ----------
-    files : sequence of (str, binary file)
-        Each with its relative path; one of them may be a zip, which is then the only one.
-
-    Raises
-    ------
-    InputError
-        With what is refused; the folder may then hold a part of the files.
+    Each file has its relative path; a zip is the only one. What is refused is an input error, and
+    the folder may then hold a part of the files.
     """
     if not files:
         raise InputError("no file was sent; drop the workbook together with its records")
@@ -73,13 +66,7 @@ def store(files: Sequence[File], folder: Path) -> Path:
 
 
 def unpack(zipped: Path, folder: Path) -> None:
-    """Store the files of a zip in an empty folder.
-
-    Raises
-    ------
-    InputError
-        With what is refused; the folder may then hold a part of the files.
-    """
+    """Store the files of a zip in an empty folder, which may hold a part where one is refused."""
     if zipped.stat().st_size > MOST_SENT:
         raise InputError(f"more than {MOST_SENT / MB:g} MB; give fewer records")
     with zipped.open("rb") as content, _opened(content) as archive:
@@ -127,12 +114,7 @@ class _Room:
 
 
 def checked(name: str) -> PurePosixPath:
-    """Return a relative path that stays within its folder on every system.
-
-    Raises
-    ------
-    InputError
-    """
+    """Return a relative path that stays within its folder on every system; refuse others."""
     parts = name.replace("\\", "/").split("/")
     if wrong := _wrong(name, parts):
         raise InputError(f"'{_FORBIDDEN.sub('?', name)[:60]}' {wrong}")
@@ -214,12 +196,7 @@ _MOST_FIELDS = 10
 
 
 async def receive_json(request: Request) -> Asked:
-    """Return a request of the page about what is open.
-
-    Raises
-    ------
-    InputError, HTTPException, OtherProjectError
-    """
+    """Return a request of the page about what is open; refuse any other."""
     _check_length(request, MOST_JSON)
     if request.headers.get("content-type", "").partition(";")[0] != "application/json":
         raise HTTPException(415, "Send JSON")
@@ -233,12 +210,7 @@ async def receive_json(request: Request) -> Asked:
 
 
 async def received(request: Request, folder: Path) -> Path:
-    """Store the files of a request in a folder and return the workbook among them.
-
-    Raises
-    ------
-    InputError, HTTPException
-        The folder is then removed.
+    """Store the files of a request in a folder, or remove it; return the workbook among them.
 
     What the form says beside its files is `request.state.fields` then.
     """

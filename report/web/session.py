@@ -165,16 +165,8 @@ class Session:
     async def ask(self, job: Mapping[str, Any], asked: Asked | None = None) -> Mapping[str, Any]:
         """Return the answer to a job, about what is open if it names no workbook.
 
-        Parameters
-        ----------
-        asked : Asked, optional
-            Request of a page; none for what no newer request replaces.
-
-        Raises
-        ------
-        RefusedError, StaleError, LostError
-        OSError
-            If the disk is full.
+        It is asked by a request of a page, which a newer one replaces, or by none. Without an
+        answer it is refused, stale or lost, or the disk is full.
         """
         job = {"workbook": str(self.workbook), **job}
         if asked:

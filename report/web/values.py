@@ -34,10 +34,7 @@ _MU_DIGITS, _SLOPE_DIGITS, _PLAN_DIGITS = 4, 4, 6
 def typed(sheet: Sheet, scales: Mapping[str, float], values: Values) -> dict[Place, Typed]:
     """Return what the values of sliders and choices put into the cells of a workbook.
 
-    Parameters
-    ----------
-    scales : mapping of str to float
-        Factor on the records of each motion, as the workbook has it.
+    `scales` is the factor on the records of each motion, as the workbook has it.
     """
     factors = {name: float(values.get(name, 1.0)) for name in ("friction", "intensity", "s_ds")}
     if values.get("together", "yes") == "yes":

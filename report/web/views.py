@@ -55,18 +55,7 @@ _RATIO = (Unit("", 1.0, 2),)
 
 
 def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None = None) -> Json:
-    """Return one run in time, as drawn.
-
-    Parameters
-    ----------
-    run : str, optional
-        Name of the orientation; the governing one if not given.
-
-    Raises
-    ------
-    InputError
-        For an array, motion or run that the project does not have.
-    """
+    """Return one run in time, as drawn: that of an orientation by name, else the governing one."""
     item, fmt = _array(assessment, array_id), unit_format(assessment)
     motion = _named("motion", item.motions, motion_id, lambda one: one.motion.id)
     chosen = motion.governing
@@ -102,13 +91,7 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
 
 
 def contour(assessment: Assessment, array_id: str) -> Json:
-    """Return the mean PRD of an array over friction and slope.
-
-    Raises
-    ------
-    InputError
-        For an array that the project does not have.
-    """
+    """Return the mean PRD of an array over friction and slope."""
     item, fmt = _array(assessment, array_id), unit_format(assessment)
     contours = surface(assessment, item)
     row = int(np.argmin(np.abs(contours.slopes_rad - item.array.slope_rad)))
@@ -167,13 +150,7 @@ def _divided(axis: Floats) -> Floats:
 
 
 def paths(assessment: Assessment, array_id: str) -> Json:
-    """Return the path in plan of the governing run of each motion; downslope is down the page.
-
-    Raises
-    ------
-    InputError
-        For an array that the project does not have.
-    """
+    """Return the path in plan of the governing run of each motion; downslope is down the page."""
     item, fmt = _array(assessment, array_id), unit_format(assessment)
     return {
         "paths": [_path(motion, fmt) for motion in item.motions],
@@ -193,6 +170,7 @@ def _array(assessment: Assessment, wanted: str) -> ArrayAssessment:
 
 
 def _named(kind: str, items: Sequence[_T], wanted: str, name: Callable[[_T], str]) -> _T:
+    """Return the item of a name; where the project does not have it, say which it has."""
     for item in items:
         if name(item) == wanted:
             return item
