@@ -18,18 +18,18 @@ from numpy.typing import NDArray
 
 from solver.model import Friction
 
+# Largest friction coefficient that an array may have.
 MOST_MU = 1.5
-"""Largest friction coefficient that an array may have."""
 
+# Largest rate for which the error bounds in two axes were tested (see
+# `solver.verification.random_pairs`).
 MOST_RATE_S_PER_M = 1000.0
-"""Largest rate for which the error bounds in two axes were tested (see
-`solver.verification.random_pairs`)."""
 
+# Distinct velocities to which a law with three parameters is fitted: one more than parameters.
 LEAST_VELOCITIES = 4
-"""Distinct velocities to which a law with three parameters is fitted: one more than parameters."""
 
+# Largest difference between the velocities of repeats, as a share of the smallest of them.
 SAME_VELOCITY = 0.05
-"""Largest difference between the velocities of repeats, as a share of the smallest of them."""
 
 # At the lowest rate searched, the exponent changes by a tenth over the tested velocities: the law
 # is then a straight line within 0.1 % of its change, and no lower rate can be told from it.
@@ -50,24 +50,13 @@ class Surface(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FrictionRun:
-    """One run of a friction test.
+    """One run of a friction test: what is not reported of it is NaN."""
 
-    Attributes
-    ----------
-    report : str
-        Report that contains the run.
-    surface : Surface
-    velocity_mps : float
-        Sliding velocity [m/s]; NaN where it is not reported.
-    mu, mu_static : float
-        Kinetic and breakaway coefficient; the latter NaN where it is not reported.
-    """
-
-    report: str
+    report: str  # that contains the run
     surface: Surface
-    velocity_mps: float
-    mu: float
-    mu_static: float
+    velocity_mps: float  # of sliding
+    mu: float  # kinetic
+    mu_static: float  # at breakaway
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -139,15 +128,9 @@ def series(runs: Iterable[FrictionRun]) -> tuple[Series, ...]:
 
 
 def governing(choices: Sequence[Series], text: str) -> Series:
-    """Return the series with the smallest kinetic mean.
+    """Return the series with the smallest kinetic mean, of one or more.
 
-    Parameters
-    ----------
-    choices : sequence of Series
-        At least one.
-    text : str
-        The test report of an array, as entered. If it names reports of the series, the others are
-        not considered.
+    If the text, the test report of an array as entered, names reports, only these are considered.
     """
     named = [choice for choice in choices if choice.report and _is_named(choice.report, text)]
     return min(named or choices, key=lambda choice: choice.mean)
@@ -161,19 +144,12 @@ def _is_named(report: str, text: str) -> bool:
 class FittedLaw:
     """A friction law fitted to runs by least squares.
 
-    Attributes
-    ----------
-    law : Friction
-        Static friction equal to the low-velocity coefficient.
-    rms : float
-        Root mean square of the residuals.
-    is_determined : bool
-        Whether the rate lies within the range that was searched, and both coefficients differ and
-        lie between 0 and `MOST_MU`. If not, the runs do not determine a law.
+    The runs determine it if the rate lies within the range that was searched, and both coefficients
+    differ and lie between 0 and `MOST_MU`.
     """
 
-    law: Friction
-    rms: float
+    law: Friction  # static friction equal to the low-velocity coefficient
+    rms: float  # of the residuals
     is_determined: bool
 
 
@@ -184,17 +160,8 @@ def fit_law(velocities_mps: Sequence[float], mus: Sequence[float]) -> FittedLaw 
     Golub and Pereyra, SIAM J. Numer. Anal. 10 (1973) 413-432). The rate is the least of a grid in
     log(rate) up to `MOST_RATE_S_PER_M`, refined by golden section.
 
-    Parameters
-    ----------
-    velocities_mps : sequence, shape (n,)
-        Sliding velocities [m/s], >= 0; runs with NaN are not used.
-    mus : sequence, shape (n,)
-        Kinetic coefficients.
-
-    Returns
-    -------
-    FittedLaw or None
-        None for fewer than `LEAST_VELOCITIES` distinct velocities.
+    Velocities are >= 0 [m/s]; runs with NaN are not used. None for fewer than `LEAST_VELOCITIES`
+    distinct velocities.
     """
     pairs = zip(velocities_mps, mus, strict=True)
     return _fitted(tuple((v, mu) for v, mu in pairs if not math.isnan(v)))

@@ -25,19 +25,11 @@ STANDARD_GRAVITY_MPS2 = 9.80665
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """An error that the user can fix.
-
-    Attributes
-    ----------
-    found, remedy : str
-        What was found, and what would do; the latter is empty where the former says it.
-    where : str
-        Address of the cell, or its sheet; empty where `found` begins with the location.
-    """
+    """An error that the user can fix."""
 
     found: str
-    remedy: str = ""
-    where: str = ""
+    remedy: str = ""  # what would do; empty where `found` says it
+    where: str = ""  # cell or sheet; empty where `found` begins with the location
 
     @classmethod
     def of(cls, line: str) -> Problem:
@@ -322,21 +314,15 @@ def coulomb(mu: float) -> Friction:
 class Accelerations:
     """The acceleration of a roof, evenly sampled, with a factor on all its components.
 
-    Attributes
-    ----------
-    dt_s : float
-        Sampling interval [s].
-    ax_mps2, ay_mps2, az_mps2 : array, shape (n,)
-        Horizontal acceleration, that across it and vertical (positive up), unscaled [m/s2],
-        read-only; ay or az has shape (0,) if there is none.
-    scale : float
-        What `scaled` applies. Kernels take it beside the arrays: scenes of any scale share them.
+    Horizontal, across that, and vertical (positive up), unscaled, shape (n,), read-only; ay or az
+    has shape (0,) if there is none.
     """
 
     dt_s: float
     ax_mps2: Floats
     ay_mps2: Floats
     az_mps2: Floats
+    # What `scaled` applies. Kernels take it beside the arrays: scenes of any scale share them.
     scale: float
 
     @property
@@ -388,17 +374,10 @@ class Orientation:
 
     The other component is applied cross-slope as recorded: reversing it mirrors the motion of the
     block and changes no displacement.
-
-    Attributes
-    ----------
-    component : HorizontalComponent
-        The one along the slope.
-    polarity : int
-        +1 as recorded, -1 reversed.
     """
 
-    component: HorizontalComponent
-    polarity: int
+    component: HorizontalComponent  # the one along the slope
+    polarity: int  # +1 as recorded, -1 reversed
 
     @property
     def is_transverse(self) -> bool:

@@ -20,45 +20,27 @@ from solver.model import Floats, Motion
 from solver.records.record import raise_any, read_only
 from solver.records.spectrum import refined
 
+# All neglected modes together may change the roof acceleration by this fraction of its peak.
 SHARE = 0.05
-"""All neglected modes together may change the roof acceleration by this fraction of its peak."""
 
+# A roof motion ends when its free vibration stays below this fraction of its peak.
 RESTING_SHARE = 0.01
-"""A roof motion ends when its free vibration stays below this fraction of its peak."""
 
+# Samples per period of the highest mode included (linear interpolation between them misses up to
+# 1.2 % of its peaks), and the maximum number of steps per interval of the ground record.
 FINENESS, MOST_STEPS = 20, 16
-"""Samples per period of the highest mode included (linear interpolation between them misses up to
-1.2 % of its peaks), and the maximum number of steps per interval of the ground record.
-"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RoofMotion:
-    """The absolute acceleration of a roof, and the modes included.
-
-    Attributes
-    ----------
-    dt_s : float
-    a_mps2 : array, shape (n,)
-        Absolute acceleration [m/s2], read-only; longer than the ground record by `pad_s`.
-    pad_s : float
-        Duration of free vibration after the end of the ground record [s].
-    n_modes : int
-        Number of modes included, those of longest period.
-    shares : array, shape (m,)
-        Largest contribution of each mode of the building / peak of the roof with all modes.
-    left_out_share : float
-        Largest contribution of all neglected modes together / that peak.
-    ground_peak_mps2, roof_peak_mps2 : float
-    building : Building
-    """
+    """The absolute acceleration of a roof, and the modes included."""
 
     dt_s: float
-    a_mps2: Floats
-    pad_s: float
-    n_modes: int
-    shares: Floats
-    left_out_share: float
+    a_mps2: Floats  # absolute, read-only, shape (n,); longer than the ground record by `pad_s`
+    pad_s: float  # duration of free vibration after the end of the ground record
+    n_modes: int  # included, those of longest period
+    shares: Floats  # largest contribution of each mode / peak of the roof with all modes
+    left_out_share: float  # largest contribution of all neglected modes together / that peak
     ground_peak_mps2: float
     roof_peak_mps2: float
     building: Building
@@ -71,19 +53,11 @@ class RoofMotion:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RoofShaking:
-    """All components of a roof's motion, with one step and one length.
-
-    Attributes
-    ----------
-    dt_s : float
-    horizontal : tuple of RoofMotion
-    vertical_mps2 : array, shape (n,) or (0,)
-        Vertical acceleration, equal to that of the ground [m/s2], read-only; empty for none.
-    """
+    """All components of a roof's motion, with one step and one length."""
 
     dt_s: float
     horizontal: tuple[RoofMotion, ...]
-    vertical_mps2: Floats
+    vertical_mps2: Floats  # equal to that of the ground, read-only; shape (0,) for none
 
 
 def to_roof(
@@ -106,20 +80,7 @@ def to_roof(
 
     The motion continues after the end of the ground record until the free vibration stays below
     `RESTING_SHARE` of the peak, because a block may still slide. The step is refined if the highest
-    mode needs it, see `FINENESS`.
-
-    Parameters
-    ----------
-    ground_mps2 : array_like, shape (n,)
-        Horizontal acceleration of the ground [m/s2], n >= 2.
-    dt_s : float
-        Sampling interval [s], > 0.
-    share : float
-        In [0, 1); 0 includes every mode.
-
-    Raises
-    ------
-    InputError
+    mode needs it, see `FINENESS`. A share of 0 includes every mode.
     """
     ground = _checked(ground_mps2, dt_s, share)
     cut = _cut(ground, dt_s, building, share)
@@ -144,18 +105,8 @@ def shaking_to_roof(
 ) -> RoofShaking:
     """Return all components at the roof, with the smallest step and the greatest length of any.
 
-    Parameters
-    ----------
-    horizontal_mps2 : sequence of array_like
-        Horizontal components of the ground motion [m/s2].
-    vertical_mps2 : array_like
-        Vertical component [m/s2], unchanged at the roof except for step and length; empty for none.
-    buildings : sequence of Building
-        One for each horizontal component; one building may be given several times.
-
-    Raises
-    ------
-    InputError
+    There is a building for each horizontal component. The vertical one, empty for none, is
+    unchanged but for its step and length.
     """
     # Modes are chosen for each component by itself; step and length are then those of the neediest.
     grounds = [_checked(a, dt_s, share) for a in horizontal_mps2]

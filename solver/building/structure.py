@@ -17,8 +17,8 @@ from numpy.typing import ArrayLike
 from solver.model import Floats, InputError
 from solver.records.record import raise_any, read_only
 
+# Largest finite lateral stiffness ratio; infinity is the shear beam.
 MOST_ALPHA0 = 1000.0
-"""Largest finite lateral stiffness ratio; infinity is the shear beam."""
 
 MOST_STORIES = 100
 
@@ -27,18 +27,11 @@ _HALVINGS = 60
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Modes:
-    """Dimensionless modes, the longest period first.
+    """Dimensionless modes, the longest period first."""
 
-    Attributes
-    ----------
-    period_ratios : array, shape (n,)
-        Period of each mode / period of the first.
-    factors : array, shape (n, m)
-        Participation factor times mode shape, Gamma phi, of each mode at each of m heights. The sum
-        over all modes is 1 above the base.
-    """
-
-    period_ratios: Floats
+    period_ratios: Floats  # period of each mode / period of the first, shape (n,)
+    # Participation factor times mode shape, Gamma phi, at each of m heights, shape (n, m). The sum
+    # over all modes is 1 above the base.
     factors: Floats
 
 
@@ -51,22 +44,10 @@ def beam_modes(alpha0: float, count: int, heights: ArrayLike = (1.0,)) -> Modes:
 
         2 g^2 b^2 + (2 g^2 b^2 + alpha0^4) cos g cosh b + alpha0^2 g b sin g sinh b = 0,
 
-    one in each of ((n - 1) pi, n pi).
-
-    Parameters
-    ----------
-    alpha0 : float
-        Lateral stiffness ratio: 0 for bending only, infinity for shear only. Common values: walls
-        0 to 2, walls with frames 2 to 6, moment frames 5 to 20 (Miranda and Reyes, J. Struct. Eng.
-        128 (2002) 238-246).
-    count : int
-        Number of modes, >= 1.
-    heights : array_like, shape (m,)
-        Heights / height of the building, in [0, 1].
-
-    Raises
-    ------
-    InputError
+    one in each of ((n - 1) pi, n pi). alpha0 is the lateral stiffness ratio: 0 for bending only,
+    infinity for shear only. Common values: walls 0 to 2, walls with frames 2 to 6, moment frames 5
+    to 20 (Miranda and Reyes, J. Struct. Eng. 128 (2002) 238-246). Heights are relative to that of
+    the building.
     """
     _check_alpha0(alpha0)
     x = np.asarray(heights, dtype=np.float64)
@@ -94,17 +75,6 @@ def story_modes(alpha0: float, stories: int) -> Modes:
     The floors are tied to a flexural and a shear beam, which are massless between floors. One
     story is a single-degree-of-freedom oscillator; with many stories the modes approach those of
     `beam_modes`.
-
-    Parameters
-    ----------
-    alpha0 : float
-        As in `beam_modes`.
-    stories : int
-        From 1 to 100.
-
-    Raises
-    ------
-    InputError
     """
     _check_alpha0(alpha0)
     if not 1 <= stories <= MOST_STORIES:
@@ -195,8 +165,8 @@ def _squared(gamma: Floats, beta: Floats, eta: Floats, low: Floats, high: Floats
     return np.asarray(waves + ends + 2.0 * crossed)
 
 
+# Number of modes of a continuous beam; the roof factors of higher modes are below 0.04.
 BEAM_MODES = 40
-"""Number of modes of a continuous beam; the roof factors of higher modes are below 0.04."""
 
 LEAST_DAMPING, MOST_DAMPING = 0.01, 0.5
 MOST_PERIOD_S = 10.0
@@ -283,17 +253,7 @@ def building_of_periods(
 def building_of_modes(
     periods_s: Sequence[float], damping: Sequence[float], roof_factors: Sequence[float]
 ) -> Building:
-    """Return a building from modes given by the user's own analysis.
-
-    Parameters
-    ----------
-    periods_s, damping, roof_factors : sequence of float, of equal length
-        As in `Building`; Gamma phi at the roof in the direction of the motion.
-
-    Raises
-    ------
-    InputError
-    """
+    """Return a building from modes given by the user's own analysis, as `Building` has them."""
     _check_periods(periods_s, damping)
     counts = {len(periods_s), len(damping), len(roof_factors)}
     if len(counts) > 1 or not np.isfinite(roof_factors).all():
@@ -340,6 +300,7 @@ def _check_periods(periods_s: Sequence[float], damping: Sequence[float]) -> None
     raise_any(problems)
 
 
+# C_t and x of T_a = C_t h_n^x, h_n in feet: ASCE 7-16 and 7-22, 12.8.2.1, Table 12.8-2.
 APPROXIMATE_PERIODS = MappingProxyType(
     {
         "steel moment frame": (0.028, 0.8),
@@ -348,7 +309,6 @@ APPROXIMATE_PERIODS = MappingProxyType(
         "other": (0.02, 0.75),
     }
 )
-"""C_t and x of T_a = C_t h_n^x, h_n in feet: ASCE 7-16 and 7-22, 12.8.2.1, Table 12.8-2."""
 
 FOOT_M = 0.3048
 
@@ -357,18 +317,7 @@ def approximate_period_s(system: str, height_m: float) -> float:
     """Return T_a = C_t h_n^x of ASCE 7, 12.8.2.1 (Eq. 12.8-7).
 
     T_a is intentionally short, which is conservative for design forces but not necessarily for the
-    motion of a roof.
-
-    Parameters
-    ----------
-    system : str
-        A key of `APPROXIMATE_PERIODS`.
-    height_m : float
-        Structural height h_n [m], > 0.
-
-    Raises
-    ------
-    InputError
+    motion of a roof. The system is a key of `APPROXIMATE_PERIODS`.
     """
     problems = []
     if system not in APPROXIMATE_PERIODS:

@@ -37,8 +37,8 @@ _PEAKS = re.compile(r"(?:RAW )?PGA VALUES\s*\((.*)\)")
 _NAMED_PEAK = re.compile(r"\(([NSEWUDVZ-]{1,3})\)\s*([+-]?[\d.]+)", re.ASCII)
 _NAME = re.compile(r"[A-Z]-?[A-Z]?", re.IGNORECASE)
 
+# Text and index of each line of a heading, by what stands before its colon, in capitals.
 _Heading = Mapping[str, tuple[str, int]]
-"""Text and index of each line of a heading, by what stands before its colon, in capitals."""
 
 
 def recognizes(lines: Sequence[str]) -> bool:

@@ -246,8 +246,8 @@ _BLANK_BETWEEN = re.compile(r"[^,\s]\s+[^,\s]")
 
 ACROSS = "put one on each line, or give the values per line (--values-per-line {})"
 
+# Index of a line, and its content.
 Row = tuple[int, str]
-"""Index of a line, and its content."""
 
 
 def plain_lines(lines: Sequence[str]) -> list[str]:
@@ -395,12 +395,7 @@ def check_shape(source: Source, start: int, separator: str | None) -> None:
 
 
 def across(source: Source, start: int, separator: str | None, due: int) -> Floats:
-    """Return values that follow each other across the lines, as many in each but the last.
-
-    Returns
-    -------
-    array, shape (n, 1)
-    """
+    """Return values across the lines, as many in each but the last, as one column, shape (n, 1)."""
     rows = [(i, row.rstrip(",;").split(separator)) for i, row in rows_of(source.lines, start)]
     raise_any(
         f"{source.at(index)}: found {len(fields)} values; give {due} as in every line but the last"

@@ -16,8 +16,8 @@ from solver.formats.source import Source
 from solver.model import Floats, InputError
 from solver.records.record import fits, raise_any
 
+# Largest total number of samples in the columns of a file after resampling.
 MAX_SAMPLES = 2_000_000
-"""Largest total number of samples in the columns of a file after resampling."""
 
 # Target for the largest change of a sample by resampling / peak.
 LOSS = 0.005

@@ -27,25 +27,21 @@ NOT_KEPT = (
     "the environment variable NUMBA_CACHE_DIR to a folder that can be written"
 )
 
+# Bytes that must be free: the kernels of a report take 3 MB.
 ROOM = 8_000_000
-"""Bytes that must be free: the kernels of a report take 3 MB."""
 
+# Versions of numba that are known to have the options.
 TRIED = ("0.68.1",)
-"""Versions of numba that are known to have the options."""
 
+# For functions that borrow their arrays: counts no references to them, which takes a lock.
+# `roofslip report projects/example` takes 1.05 times as long without it: medians of five pairs.
 UNCOUNTED = {"_nrt": False} if version("numba") in TRIED else {}
-"""For functions that borrow their arrays: counts no references to them, which takes a lock.
 
-`roofslip report projects/example` takes 1.05 times as long without it: medians of five pairs.
-"""
-
+# For functions that kernels alone call: no entry from Python, where a call would crash.
+# Two axes compile in 0.85 of the time: the entries are compiled again with each caller.
 INNER = UNCOUNTED | (
     {"no_cpython_wrapper": True, "no_cfunc_wrapper": True} if version("numba") in TRIED else {}
 )
-"""For functions that kernels alone call: no entry from Python, where a call would crash.
-
-Two axes compile in 0.85 of the time: the entries are compiled again with each caller.
-"""
 
 
 def _is_damaged(path: Path) -> bool:
@@ -94,8 +90,8 @@ def is_compiled(kernel: Any) -> bool:
     return folder is not None and any(Path(folder).glob(f"*.{kernel.__name__}-*.nbi"))
 
 
+# Whether kernels are kept on disk.
 KEPT = _is_kept()
-"""Whether kernels are kept on disk."""
 
+# Cores that many runs are distributed over; the environment variable of that name limits them.
 THREADS: int = vars(config)["NUMBA_NUM_THREADS"]
-"""Cores that many runs are distributed over; the environment variable of that name limits them."""

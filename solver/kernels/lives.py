@@ -21,22 +21,12 @@ def live(first, friction, run, level, weight, side, responses, recenter, out):
     rectangle of its excursions: the smaller distance counts. In one axis and from the installed
     place that is the exact one; otherwise an upper bound.
 
-    Parameters
-    ----------
-    first, friction, run, side : array
-        As `solver.studies.lives.Draws` has them.
-    level : array of int, shape (events,)
-        The level below the intensity; -1 has no response.
-    weight : array, shape (events,)
-        Place of the intensity between that level and the next, 0 to 1.
-    responses : array, shape (frictions, runs, levels, 6)
-        PRD, excursions downslope, upslope and cross-slope, residuals downslope and cross-slope
-        [m]; NaN for none.
-    recenter : float
-        Distance above which the array is put back after an event [m]; inf: never.
-    out : array, shape (2, lives)
-        Filled with the largest and the last distance [m]; inf where an event has no response.
+    `out`, shape (2, lives), is filled with both distances [m]; inf where an event has no response.
     """
+    # first, friction, run, side: as `solver.studies.lives.Draws` has them. level, weight: the level
+    # below the intensity, -1 without a response, and the place between it and the next, 0 to 1.
+    # responses: NaN for none, shape (frictions, runs, levels, 6) [m]. recenter: the distance above
+    # which the array is put back after an event [m]; inf: never.
     at = np.empty(6)
     for life in range(friction.size):
         x = y = largest = 0.0

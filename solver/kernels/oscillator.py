@@ -35,8 +35,8 @@ def _step(p, zeta):
     return h, 1.0 - once - 2.0 * zeta * h, once, twice
 
 
+# Oscillators that are advanced together, on the vector units of the processor.
 _LANES = 16
-"""Oscillators that are advanced together, on the vector units of the processor."""
 
 
 @njit(cache=KEPT, error_model="numpy")

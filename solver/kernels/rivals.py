@@ -34,11 +34,11 @@ from solver.kernels.compiler import KEPT
 FOLLOWED = 0
 DIVERGED = 1
 
+# Largest energy dissipated by a link while its cap exceeds the load / energy available.
 ENERGY = 6.0
-"""Largest energy dissipated by a link while its cap exceeds the load / energy available."""
 
+# Newton iterations in a sub-step before the run is abandoned.
 ITERATIONS = 25
-"""Newton iterations in a sub-step before the run is abandoned."""
 
 
 @njit(cache=KEPT, inline="always")

@@ -33,18 +33,18 @@ from solver.kernels.compiler import KEPT, UNCOUNTED
 # Functions that borrow arrays count no references: locked counters took a quarter of the time.
 jit = partial(njit, cache=KEPT, **UNCOUNTED)
 
+# Degree of the series. Steps are so short that term j is below 1 / j! of the motion.
 ORDER = 22
-"""Degree of the series. Steps are so short that term j is below 1 / j! of the motion."""
 
 EPS = 2.220446049250313e-16
+# Rounding errors by which the push must exceed friction to make a block slip.
 TIE = 64.0
-"""Rounding errors by which the push must exceed friction to make a block slip."""
 
+# Rounding errors within which a value counts as zero; well below TIE.
 ZERO = 4.0
-"""Rounding errors within which a value counts as zero; well below TIE."""
 
+# Rounding errors of a step, in units of EPS times the magnitude of the terms summed.
 STEP = 8.0
-"""Rounding errors of a step, in units of EPS times the magnitude of the terms summed."""
 
 NEVER = 2.0
 NEWTON = 200

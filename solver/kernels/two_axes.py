@@ -73,46 +73,46 @@ ONE, MOST = np.int64(1), np.int64(ORDER)
 # Samples in a block of `kernels.bounds`.
 SHIFT = 4
 
+# Tolerance of a step below which rounding error dominates.
 LEAST_TOLERANCE = 1e-14
-"""Tolerance of a step below which rounding error dominates."""
 
 EPS = 2.0**-52
 
+# Rounding error of drive and friction / sum of the absolute values of their terms.
 ROUNDING = 4.0 * EPS
-"""Rounding error of drive and friction / sum of the absolute values of their terms."""
 
+# Net push on a block at rest that rounding error alone may produce / the same sum.
 DEAD = 8.0 * EPS
-"""Net push on a block at rest that rounding error alone may produce / the same sum."""
 
+# One micrometer [m]: the tolerance is relative to the largest distance, or to this if larger.
 SMALL = 1e-6
-"""One micrometer [m]: the tolerance is relative to the largest distance, or to this if larger."""
 
+# Error in position accepted from a closed-form stop (`_close`) / (tolerance x distance).
 CLOSE = 3.0
-"""Error in position accepted from a closed-form stop (`_close`) / (tolerance x distance)."""
 
+# Error in velocity / tolerance of a step above which the step is shortened.
 SLACK = 16.0
-"""Error in velocity / tolerance of a step above which the step is shortened."""
 
+# Largest number of iterations in `_creeping`.
 SWEEPS = 12
-"""Largest number of iterations in `_creeping`."""
 
+# Number of points of a series at which its sign is checked.
 SCAN = 8
-"""Number of points of a series at which its sign is checked."""
 
+# Largest change of a friction law's exponent in a step: from that degree on its terms decrease.
 SWELL = 5.0
-"""Largest change of a friction law's exponent in a step: from that degree on its terms decrease."""
 
+# Largest creeping step with a friction law, in time constants of the speed, 1 / (dq/dw).
 SETTLES = 2.0
-"""Largest creeping step with a friction law, in time constants of the speed, 1 / (dq/dw)."""
 
+# Exponent beyond which a friction law equals its fast coefficient within rounding error.
 FADED = 40.0
-"""Exponent beyond which a friction law equals its fast coefficient within rounding error."""
 
+# Less than 1 by more than the relative rounding error of the square of a ratio of forces.
 NEARLY = 1.0 - 1e-12
-"""Less than 1 by more than the relative rounding error of the square of a ratio of forces."""
 
+# Step / time in which the direction settles, above which `_creeping` is tried.
 STIFF = 300.0
-"""Step / time in which the direction settles, above which `_creeping` is tried."""
 
 
 @jit()

@@ -21,8 +21,8 @@ from solver.records.spectrum import response_spectrum
 from solver.rules.limit import MOTIONS, PROGRAM, Consequence, Limit, Measure
 from solver.rules.rulesets import Provision
 
+# Names of the components of a motion: two horizontal ones and the vertical.
 COMPONENTS = ("x", "y", "z")
-"""Names of the components of a motion: two horizontal ones and the vertical."""
 
 LEAST_RATIO = 0.90
 FULL_RATIO = 1.00
@@ -38,10 +38,10 @@ N_SETS = 4
 N_SLIDING, N_AC156 = 93, 117
 
 # The knee is a point of both bands, once.
+# Frequencies at which spectra are compared [Hz]: 93 from 0.1 to 1.3 Hz, 117 from there to 33.3.
 POINTS_HZ: Floats = np.concatenate(
     [np.geomspace(_LOW, _KNEE, N_SLIDING), np.geomspace(_KNEE, _HIGH, N_AC156)[1:]]
 )
-"""Frequencies at which spectra are compared [Hz]: 93 from 0.1 to 1.3 Hz, 117 from there to 33.3."""
 
 _PLACE = np.arange(len(POINTS_HZ))
 _IS_SLIDING, _IS_AC156 = _PLACE < N_SLIDING, _PLACE >= N_SLIDING - 1
@@ -50,8 +50,8 @@ _IS_FAST = POINTS_HZ > _PLATEAU
 
 _KEPT = 128  # spectra; up to five of each motion
 
+# Target acceleration [g] at frequencies [Hz], 5 % damping; NaN where there is no target.
 SpectrumAt = Callable[[Floats], Floats]
-"""Target acceleration [g] at frequencies [Hz], 5 % damping; NaN where there is no target."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -257,19 +257,8 @@ def acceptance(
     A generated motion is one that states the hold of its envelope: the hold must be 20 s or more,
     and its components must not correlate. Of other motions the significant duration is a condition.
 
-    Parameters
-    ----------
-    motions : sequence of Motion
-        One or more.
-    holds_s : sequence of float
-        Hold of the envelope of each [s]; NaN for a record.
-    horizontal, vertical : callable
-        Target of x and y, and of z. Points without a target are not compared.
-
-    Returns
-    -------
-    Acceptance
-        Rows that do not apply are absent: spectra without a target, correlations of records.
+    Holds are in [s], NaN for a record; the targets are those of x and y, and of z. Rows that do not
+    apply are absent: spectra without a target, correlations of records.
     """
     strengths = tuple(motion_strength(*pair) for pair in zip(motions, holds_s, strict=True))
     rows = (

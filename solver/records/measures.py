@@ -15,8 +15,8 @@ from solver.model import Floats
 from solver.records.record import UNITS, Record
 
 G_MPS2 = UNITS["g"]
+# Fractions of the Arias intensity that bound the significant duration.
 SIGNIFICANT = (0.05, 0.95)
-"""Fractions of the Arias intensity that bound the significant duration."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -114,12 +114,7 @@ def measures(record: Record) -> Measures:
 
 
 def velocity_displacement(record: Record) -> tuple[Floats, Floats]:
-    """Return velocity [m/s] and displacement [m] at the samples, exact, both starting at zero.
-
-    Returns
-    -------
-    tuple of array, shape (n,)
-    """
+    """Return velocity [m/s] and displacement [m] at the samples, exact, both starting at zero."""
     a, dt = record.a_mps2, record.dt_s
     # v' = a and d' = v, with a linear: v is exact by trapezia, d by dt v0 + dt^2 (2 a0 + a1) / 6.
     v = _summed(0.5 * dt * (a[:-1] + a[1:]))

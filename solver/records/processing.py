@@ -19,8 +19,8 @@ MAX_DEGREE = 8
 MAX_ORDER = 12
 MAX_SAMPLES = 4_000_000
 
+# Description of a record without processing.
 AS_RECORDED = "as recorded"
-"""Description of a record without processing."""
 
 # Start of the transition band of the anti-alias filter / new Nyquist frequency.
 _PASSED = 0.8
@@ -134,13 +134,7 @@ def process(record: Record, processing: Processing) -> Record:
 
 
 def process_together(records: Sequence[Record], processing: Processing) -> tuple[Record, ...]:
-    """Process all components of one motion in the same way, with equal steps and lengths.
-
-    Raises
-    ------
-    InputError
-        If their steps or lengths differ, or as in `process`.
-    """
+    """Process all components of one motion in the same way, with equal steps and lengths."""
     first = records[0]
     problems = [
         f"{other.name}: {len(other.a_mps2)} samples of {other.dt_s:g} s, but {first.name} has "

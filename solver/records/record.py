@@ -24,17 +24,17 @@ _CODES = re.compile(r"-?(?:999+(?:\.9+)?|999\.25|99\.9+|9\.99+|12345|3276[78])")
 _SHORT_CODES = {"99", "-99"}  # where no shaking is as large
 _NO_SHAKING_G = 9.0
 
+# Acceleration units and their value in m/s2.
 UNITS = {"g": STANDARD_GRAVITY_MPS2, "m/s2": 1.0, "cm/s2": 0.01, "mm/s2": 0.001}
-"""Acceleration units and their value in m/s2."""
 
 # Decimals that `write_record` prints, about 1e-5 g in every unit.
 DECIMALS = {"g": 5, "m/s2": 4, "cm/s2": 2, "mm/s2": 1}
 
+# Words of the comment that states the hold of the envelope of a generated record.
 HOLD = "generated; hold of the envelope"
-"""Words of the comment that states the hold of the envelope of a generated record."""
 
+# Number of problems of one file or column that a message lists; the others are counted.
 MAX_PROBLEMS = 10
-"""Number of problems of one file or column that a message lists; the others are counted."""
 
 MAX_COUNTED = 10_000
 

@@ -22,12 +22,12 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
+# Least steps per period of an oscillator; most steps per interval of the record.
 PEAK_FINENESS, PEAK_STEPS = 16, 16
-"""Least steps per period of an oscillator; most steps per interval of the record."""
 
 
+# Periods [s] of `spectrum`, where none are given.
 PERIODS_S = read_only(np.geomspace(0.02, 10.0, 200))
-"""Periods [s] of `spectrum`, where none are given."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -125,27 +125,7 @@ def response_spectrum(
     peak acceleration where a record of a few steps leaves the spectrum far below it. Below dt the
     steps are `PEAK_STEPS` per interval: within 0.05 % to dt/2, and at samples of the steps alone
     below dt/2.5. Free vibration after the end of the record is not included: pad the record with
-    zeros to include it.
-
-    Parameters
-    ----------
-    a_mps2 : array_like, shape (n,)
-        Acceleration [m/s2].
-    dt_s : float
-        Sampling interval [s], > 0.
-    periods_s : array_like, shape (m,)
-        Natural periods [s], >= 0; 0 gives the peak acceleration of the record.
-    damping : float
-        Fraction of critical damping, in [0, 1).
-
-    Returns
-    -------
-    array, shape (m,)
-        Pseudo-spectral acceleration [m/s2].
-
-    Raises
-    ------
-    InputError
+    zeros to include it. Arguments and errors are those of `spectrum`.
     """
     a, periods = read_only(a_mps2), np.asarray(periods_s, dtype=np.float64)
     _check_spectrum(a, dt_s, periods, damping)
@@ -187,8 +167,8 @@ def _check_spectrum(a: Floats, dt_s: float, periods: Floats, damping: float) -> 
     raise_any(problems)
 
 
+# Spectral acceleration [g] at frequencies [Hz], 5 % damping.
 Target = Callable[[Floats], Floats]
-"""Spectral acceleration [g] at frequencies [Hz], 5 % damping."""
 
 DAMPING = 0.05
 PER_DECADE = 100

@@ -25,8 +25,8 @@ BEGINNING = 2e-5
 # Part of a step after which the end of a slip is sought that begins with the step.
 LATER = 1e-9
 
+# Steps in a sampling interval after which a regularized run counts as stalled.
 STEPS = 20_000
-"""Steps in a sampling interval after which a regularized run counts as stalled."""
 
 
 def is_installed() -> bool:

@@ -61,8 +61,8 @@ class Outcome(NamedTuple):
 
 
 Parameters = Mapping[str, float]
+# Runs a scene. An array of shape (2, n) is filled with s and s' at the samples; (2, 0) is not.
 Follow = Callable[[AxisScene, Parameters, Floats], Outcome]
-"""Runs a scene. An array of shape (2, n) is filled with s and s' at the samples; (2, 0) is not."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -241,16 +241,16 @@ _POWERS_OF_TWO = (1, 2, 4, 8, 16, 32, 64, 128, 256)
 _WHOLE = "a whole number of 1 or more"
 _POSITIVE = "a finite number above 0"
 _TOLERANCE = "a number from 1e-13 to 0.1"
+# What each parameter accepts, in words and as a test.
 WANTED: Mapping[str, tuple[str, Callable[[float], bool]]] = {
     "substeps": (_WHOLE, lambda v: v >= 1.0 and v.is_integer()),
     "stiffness_per_m": (_POSITIVE, lambda v: 0.0 < v < math.inf),
     "velocity_mps": (_POSITIVE, lambda v: 0.0 < v < math.inf),
     "tolerance": (_TOLERANCE, lambda v: 1e-13 <= v <= 0.1),
 }
-"""What each parameter accepts, in words and as a test."""
 
+# What a parameter of a method of your own accepts.
 ANY_NUMBER = ("a finite number", math.isfinite)
-"""What a parameter of a method of your own accepts."""
 
 # What methods have in common: those without a setting, by sub-steps, and with a link.
 _without_setting = partial(

@@ -37,25 +37,13 @@ class Amplification:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Edition:
-    """An edition of ASCE 7, as far as the seismic design parameters of a site depend on it.
-
-    Attributes
-    ----------
-    has_site_coefficients : bool
-        Whether S_MS and S_M1 come from F_a and F_v; otherwise they are read from a hazard tool.
-    amplification : Amplification
-        From ground to roof, in AC156 and in F_p.
-    force_factors : tuple of str
-        Symbols of the factor on F_p and of its divisor.
-    clauses : mapping
-        Clause of each parameter, by the names used here.
-    """
+    """An edition of ASCE 7, as far as the seismic design parameters of a site depend on it."""
 
     name: str
-    has_site_coefficients: bool
-    amplification: Amplification
-    force_factors: tuple[str, str]
-    clauses: Mapping[str, str]
+    has_site_coefficients: bool  # S_MS, S_M1 from F_a, F_v; otherwise from a hazard tool
+    amplification: Amplification  # from ground to roof, in AC156 and in F_p
+    force_factors: tuple[str, str]  # symbols of the factor on F_p and of its divisor
+    clauses: Mapping[str, str]  # of each parameter, by the names used here
 
     def clause(self, topic: str) -> str:
         """Return edition and clause, as in `ASCE 7-16 11.4.4`."""
@@ -107,11 +95,11 @@ EDITIONS: Mapping[str, Edition] = {
 }
 """Every edition of ASCE 7 by its name."""
 
+# Edition of ASCE 7 by building code, as commonly known of its chapter 35; each has 13.6.12.
 REFERENCED: Mapping[str, str] = {
     **dict.fromkeys(("2018 IBC", "2021 IBC", "2019 CBC", "2022 CBC"), "ASCE 7-16"),
     **dict.fromkeys(("2024 IBC", "2025 CBC"), "ASCE 7-22"),
 }
-"""Edition of ASCE 7 by building code, as commonly known of its chapter 35; each has 13.6.12."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -193,8 +181,8 @@ def design_categories(
     return by(s_ds_g, LIMITS_SHORT_G), by(s_d1_g, LIMITS_1S_G), by_s_1
 
 
+# Importance factor I_e by risk category (ASCE 7, Table 1.5-2).
 LEAST_I_E: Mapping[str, float] = {"I": 1.0, "II": 1.0, "III": 1.25, "IV": 1.5}
-"""Importance factor I_e by risk category (ASCE 7, Table 1.5-2)."""
 
 
 class HazardBasis(StrEnum):
@@ -205,8 +193,8 @@ class HazardBasis(StrEnum):
     EXCEPTION = "exception of 11.4.8"
 
 
+# Least F_a where site class D is assumed by default (ASCE 7-16 11.4.4).
 LEAST_F_A_BY_DEFAULT = 1.2
-"""Least F_a where site class D is assumed by default (ASCE 7-16 11.4.4)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -237,14 +225,8 @@ def component_force(
 
     ASCE 7-16 Eqs. 13.3-1 to 13.3-3: 0.4 a_p S_DS (1 + 2 z/h) / (R_p / I_p); ASCE 7-22:
     0.4 S_DS I_p (H_f / R_mu) (C_AR / R_po), with H_f = 1 + 2.5 z/h where the period of the building
-    is unknown and R_mu = 1.3 above grade. At most 1.6 S_DS I_p, at least 0.3 S_DS I_p.
-
-    Parameters
-    ----------
-    factor, divisor : float
-        a_p and R_p, or C_AR and R_po.
-    period_s : float, optional
-        T_a of the building; the factor of ASCE 7-16 does not depend on it.
+    is unknown and R_mu = 1.3 above grade. At most 1.6 S_DS I_p, at least 0.3 S_DS I_p. The factor
+    and its divisor are a_p and R_p, or C_AR and R_po; the period is T_a of the building.
     """
     amplified = edition.amplification.at(z_over_h)
     # H_f of the known period takes the place of the one that `amplification` has in it.
@@ -265,8 +247,8 @@ def period_height_factor(z_over_h: float, period_s: float) -> float:
     return 1.0 + a1 * z_over_h + a2 * z_over_h**10
 
 
+# Corner points of a target spectrum: increasing frequencies [Hz], and accelerations [g].
 Target = tuple[Floats, Floats]
-"""Corner points of a target spectrum: increasing frequencies [Hz], and accelerations [g]."""
 
 
 def target_sa_g(target: Target, freq_hz: Floats) -> Floats:

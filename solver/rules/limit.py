@@ -11,15 +11,15 @@ from enum import StrEnum
 
 from solver.rules.rulesets import Confidence, Provision
 
+# Relative difference of a value from its limit that is rounding: 1 in 20 is typed as 5 percent.
 _EQUAL = 1e-9
-"""Relative difference of a value from its limit that is rounding: 1 in 20 is typed as 5 percent."""
 
 
+# Of the limits on motions that AC156 and practice give, which no rule set states.
 MOTIONS = Provision(value=math.nan, clause="motions for analysis", confidence=Confidence.KNOWN)
-"""Of the limits on motions that AC156 and practice give, which no rule set states."""
 
+# Of the limits that stand in no code: there is nothing to verify there.
 PROGRAM = Provision(value=math.nan, clause="limit of this program", confidence=Confidence.CONFIRMED)
-"""Of the limits that stand in no code: there is nothing to verify there."""
 
 
 class Consequence(StrEnum):
@@ -47,40 +47,19 @@ class Measure(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Limit:
-    """A value compared with what is required; NaN is never satisfied.
-
-    Attributes
-    ----------
-    title : str
-    found, limit : float
-        In the unit of `measure`.
-    is_at_least : bool
-        Whether the limit is the smallest value accepted; otherwise it is the largest.
-    consequence : Consequence
-        If it is not satisfied.
-    provision : Provision
-        Of the rule set that states it; `MOTIONS` or `PROGRAM` where none does.
-    key : str
-        Of the provision in the rule set.
-    may_exceed : bool
-        Whether the rule set permits this project to exceed the limit.
-    worst : str
-        Motion, component and frequency of the value found; empty if it is that of all.
-    is_ratio_to_target : bool
-        Whether the value found is a spectrum over its target.
-    """
+    """A value compared with what is required; NaN is never satisfied."""
 
     title: str
-    found: float
+    found: float  # as the limit, in the unit of `measure`
     limit: float
-    is_at_least: bool
+    is_at_least: bool  # the limit is the smallest value accepted; otherwise the largest
     measure: Measure = Measure.PLAIN
     consequence: Consequence = Consequence.NG
-    provision: Provision = MOTIONS
-    key: str = ""
-    may_exceed: bool = False
-    worst: str = ""
-    is_ratio_to_target: bool = False
+    provision: Provision = MOTIONS  # of the rule set; `MOTIONS` or `PROGRAM` where none states it
+    key: str = ""  # of the provision in the rule set
+    may_exceed: bool = False  # as the rule set permits this project
+    worst: str = ""  # motion, component and frequency of the value found; empty if of all
+    is_ratio_to_target: bool = False  # found is a spectrum over its target
 
     @property
     def ok(self) -> bool:

@@ -243,15 +243,9 @@ def building_checks(rules: RuleSet, *, risk_category: int, stories: int) -> tupl
 def array_checks(
     rules: RuleSet, *, cg_height_m: float, support_spacing_m: float, base_m: float, slope_rad: float
 ) -> tuple[Limit, ...]:
-    """Return the checks of an array that apply to both routes: low profile, and slope by the IBC.
-
-    Parameters
-    ----------
-    support_spacing_m, base_m : float
-        Least spacing of the supports, and least plan dimension of the supporting base: PV1-2012
-        limits the height of the center of gravity by half the base, ASCE 7 by half the spacing.
-    """
-    # Half of the least plan dimension of the base (PV1-2012) or of the spacing (ASCE 7).
+    """Return the checks of an array for both routes: low profile, and slope by the IBC."""
+    # Half of the least plan dimension of the supporting base (PV1-2012), or of the least spacing of
+    # the supports (ASCE 7).
     takes_base = rules.low_profile_length is LowProfileLength.BASE
     length = rules["low_profile_ratio"] * (base_m if takes_base else support_spacing_m)
     return (

@@ -72,21 +72,12 @@ OVERRIDABLE: Mapping[str, str] = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Allowed:
-    """Range of a value that may replace a number of a rule set.
-
-    Attributes
-    ----------
-    low, high : float
-    is_whole : bool
-    is_maximum : bool
-        Whether the number limits a project from above: a larger one then requires less of it. Of
-        all others a smaller one does.
-    """
+    """Range of a value that may replace a number of a rule set."""
 
     low: float
     high: float
     is_whole: bool = False
-    is_maximum: bool = False
+    is_maximum: bool = False  # limits a project from above: a larger number requires less of it
 
     def lowers(self, value: float, adopted: float) -> bool:
         """Whether a value requires less of a project than the number of the rule set."""
@@ -170,10 +161,7 @@ class RuleSet:
     def overridden(self, changes: Mapping[str, tuple[float, str]]) -> RuleSet:
         """Return the rule set with some numbers replaced: key -> (value, reason).
 
-        Raises
-        ------
-        InputError
-            For every key that the rule set does not have, and every value outside of `ALLOWED`.
+        Raises `InputError` for every key that it does not have, and every value not `ALLOWED`.
         """
         unknown = [key for key in changes if key not in self.values]
         if unknown:

@@ -14,28 +14,19 @@ from dataclasses import dataclass
 from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, Edition
 from solver.rules.rulesets import Confidence
 
+# Site class D where the soil was not investigated.
 BY_DEFAULT = "D (default)"
-"""Site class D where the soil was not investigated."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CoefficientTable:
-    """A table of site coefficients.
-
-    Attributes
-    ----------
-    symbol, edition, clause : str
-    mapped_g : tuple of float
-        Mapped accelerations of the columns [g]; the first and the last one hold beyond them.
-    rows : mapping of site class to tuple of float
-        NaN where the edition asks for a site-specific hazard.
-    """
+    """A table of site coefficients."""
 
     symbol: str
     edition: str
     clause: str
-    mapped_g: tuple[float, ...]
-    rows: Mapping[str, tuple[float, ...]]
+    mapped_g: tuple[float, ...]  # of the columns; the first and the last one hold beyond them
+    rows: Mapping[str, tuple[float, ...]]  # by site class; NaN: it asks for a site-specific hazard
     confidence: Confidence
 
 
@@ -78,13 +69,7 @@ F_V = CoefficientTable(
 
 
 def site_coefficient(table: CoefficientTable, site_class: str, mapped_g: float) -> float:
-    """Return a site coefficient, interpolated along a row; NaN where it is site-specific.
-
-    Raises
-    ------
-    KeyError
-        If the edition has no such site class.
-    """
+    """Return a site coefficient, interpolated along a row; NaN where it is site-specific."""
     row, heads = table.rows[site_class], table.mapped_g
     # The first and last columns are "at most" and "at least" in the tables.
     at = min(max(mapped_g, heads[0]), heads[-1])
@@ -96,8 +81,8 @@ def site_coefficient(table: CoefficientTable, site_class: str, mapped_g: float) 
     return row[left] + share * (row[left + 1] - row[left])
 
 
+# S_1 [g] from which site class D needs a site-specific hazard analysis (ASCE 7-16 11.4.8).
 LEAST_S_1_OF_D_G = 0.2
-"""S_1 [g] from which site class D needs a site-specific hazard analysis (ASCE 7-16 11.4.8)."""
 
 
 def site_specific_reason(

@@ -22,13 +22,13 @@ from solver.records.record import unit_size as records_unit
 from solver.rivals.methods import ANY_NUMBER, METHODS, NO_RECORD, WANTED, Method, Parameters
 from solver.sliding import two_axes
 
+# Shaking as it is: a row of accelerations with a step beside it, a record, or a whole motion.
 Given = ArrayLike | Record | Motion
-"""Shaking as it is: a row of accelerations with a step beside it, a record, or a whole motion."""
 
 _WEAK = 0.05  # of what slips a block: weaker shaking is more probably in another unit
 
+# Largest accelerations [m/s2] and distances [m] accepted: their squares are finite.
 _LARGEST = 1e120
-"""Largest accelerations [m/s2] and distances [m] accepted: their squares are finite."""
 
 
 def checked_scene(
@@ -161,10 +161,7 @@ def unpacked(
 ) -> tuple[dict[str, ArrayLike | None], float | None, float]:
     """Return components as arrays, their step and their factor, from records or a motion.
 
-    Parameters
-    ----------
-    values : mapping
-        By the names of the arguments, that along the slope first, which alone may be a motion.
+    By the names of the arguments, that along the slope first, which alone may be a motion.
     """
     along, *others = values.values()
     steps = {each.dt_s for each in values.values() if isinstance(each, Record | Motion)}

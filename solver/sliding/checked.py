@@ -377,11 +377,11 @@ def friction_law() -> None:
     response_spectrum(_SHAKING, _DT_S, [0.5, 1.0])
 
 
+# About equal in time, so that two processes finish together.
 PARTS: Mapping[str, Callable[[], None]] = {
     "constant": constant_friction,
     "law": friction_law,
 }
-"""About equal in time, so that two processes finish together."""
 
 
 if __name__ == "__main__":

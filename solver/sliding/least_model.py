@@ -121,7 +121,7 @@ class Solution:
 
 
 def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
-    """Solve a scene with the simplest adequate model.
+    """Solve a scene with the simplest adequate model; see `solver.sliding.checked.solve`.
 
     If the friction demand never exceeds the coefficient at rest, the block does not slip and no
     models are compared. Otherwise the simplest model is used whose PRD, excursions and residuals
@@ -129,12 +129,8 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
     more complete models are run for this comparison: the effect of cross-slope shaking accumulates
     along the whole path, so no estimate from one axis alone bounds it. Velocity-dependent friction
     is modeled whenever the scene has it. If the normal force falls below zero no model gives a
-    displacement, not even a forced one.
-
-    Raises
-    ------
-    InputError
-        If a model is forced that the scene does not allow.
+    displacement, not even a forced one. Raises `InputError` for a forced model that the scene does
+    not allow.
     """
     demand = friction_demand(scene)
     # N of just zero has no demand either, and yet a motion: only N below zero is uplift.

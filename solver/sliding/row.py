@@ -18,33 +18,22 @@ from solver.model import Floats, Scene, SlideResult, Status, coulomb
 from solver.records.record import raise_any
 from solver.sliding import one_axis
 
+# Limit on time steps, above which links are too stiff: about one minute for a row of five.
 MOST_STEPS = 10_000_000
-"""Limit on time steps, above which links are too stiff: about one minute for a row of five."""
 
 _MOST_EVENTS = 20_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BlockRow:
-    """Blocks in a row, numbered from the upslope end, with a link between neighbors.
+    """Blocks in a row, numbered from the upslope end, with a link between neighbors."""
 
-    Attributes
-    ----------
-    mus : tuple of float
-        Friction coefficient of each block, static and kinetic, >= 0.
-    stiffness_per_s2 : float
-        Stiffness of each link / mean mass of a block, k / m [1/s2], >= 0. It is g / d for a link
-        that stretches by d under the weight of one mean block.
-    damping_per_s : float
-        Damping of each link / mean mass of a block, c / m [1/s], >= 0.
-    shares : tuple of float
-        Weight of each block / weight of the row, with a sum of 1. Empty for equal blocks.
-    """
-
-    mus: tuple[float, ...]
+    mus: tuple[float, ...]  # of each block, static and kinetic, >= 0
+    # Of each link / mean mass of a block, k / m and c / m, >= 0: k / m is g / d for a link that
+    # stretches by d under the weight of one mean block.
     stiffness_per_s2: float
     damping_per_s: float = 0.0
-    shares: tuple[float, ...] = ()
+    shares: tuple[float, ...] = ()  # of the weight of the row, with a sum of 1; () of equal blocks
 
     @property
     def weights(self) -> tuple[float, ...]:
@@ -61,26 +50,11 @@ class BlockRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowResult:
-    """A row under one motion. Displacements are horizontal, relative to the roof.
+    """A row under one motion: displacements of each block as in `SlideResult`.
 
-    With `Status.UPLIFT` or `Status.DIVERGED` every float is NaN.
-
-    Attributes
-    ----------
-    status : Status
-    prd_m, residual_m, down_m, up_m : tuple of float
-        Values for each block, as in `SlideResult` [m].
-    stretch_m : float
-        Largest lengthening or shortening of a link, along the slope [m]. At most one extreme per
-        step is located; a step is at most one sixth of the shortest period of the links.
-    link_force : float
-        Largest force in a link / mean weight of a block.
-    error_m : float
-        Bound of the difference of any block's position from the exact motion under the
-        interpolated record [m], from energy (`solver.kernels.row`), rounding error included.
-    n_stops : int
-    rigid : SlideResult
-        Result for the row as one rigid array with `BlockRow.mean_mu`.
+    With `Status.UPLIFT` or `Status.DIVERGED` every float is NaN. The error is a bound of the
+    difference of any block's position from the exact motion under the interpolated record, from
+    energy (`solver.kernels.row`), rounding error included.
     """
 
     status: Status
@@ -88,11 +62,13 @@ class RowResult:
     residual_m: tuple[float, ...]
     down_m: tuple[float, ...]
     up_m: tuple[float, ...]
+    # Largest lengthening or shortening of a link, along the slope. At most one extreme per step is
+    # located; a step is at most one sixth of the shortest period of the links.
     stretch_m: float
-    link_force: float
+    link_force: float  # largest / mean weight of a block
     error_m: float
     n_stops: int
-    rigid: SlideResult
+    rigid: SlideResult  # of the row as one rigid array with `BlockRow.mean_mu`
 
 
 def slide_row(scene: Scene, row: BlockRow) -> RowResult:
@@ -102,11 +78,8 @@ def slide_row(scene: Scene, row: BlockRow) -> RowResult:
     motion. Cross-slope shaking and the friction of the scene are ignored: each block has its own
     coefficient. Links carry no force normal to the roof, so N is that of an unlinked block.
 
-    Raises
-    ------
-    InputError
-        With every error in the row, or if its links are so stiff that the run would take more
-        than `MOST_STEPS` steps.
+    Raises `InputError` with every error in the row, or if its links are so stiff that the run would
+    take more than `MOST_STEPS` steps.
     """
     return _run(scene, row, None)
 

@@ -40,10 +40,10 @@ from solver.sliding.arguments import (
 if TYPE_CHECKING:
     import pandas as pd
 
+# Meaning of the numbers in `Sweep.status`.
 STATUSES = (
     Status.OK, Status.SLIDING_AT_END, Status.UPLIFT, Status.STEP_LIMIT, Status.DIVERGED
 )  # fmt: skip
-"""Meaning of the numbers in `Sweep.status`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -265,12 +265,7 @@ def order_alike(scenes: Floats) -> NDArray[np.intp]:
 
     The processor predicts branches from previous runs, so this order is 10 to 20 % faster. With
     phi = atan(mu), a block slips first downslope, at a horizontal acceleration of
-    g tan(phi - |theta|).
-
-    Parameters
-    ----------
-    scenes : array, shape (m, 3)
-        Slope [rad], friction coefficient and scale of each.
+    g tan(phi - |theta|). Scenes have a row of slope [rad], friction coefficient and scale each.
     """
     slope, mu, scale = scenes.T
     yields_at = np.arctan2(np.tan(np.arctan(mu) - np.abs(slope)), np.abs(scale))

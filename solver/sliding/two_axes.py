@@ -27,8 +27,8 @@ from solver.rivals.methods import minimum_normal
 from solver.sliding.one_axis import prepared, sample_times, without_displacement
 
 DEFAULT_TOLERANCE = 1e-6
+# Smallest and largest tolerance that `follow` accepts.
 TOLERANCES = (1e-10, 1e-2)
-"""Smallest and largest tolerance that `follow` accepts."""
 
 # Tolerance of a step / tolerance of the run. With this ratio the error bound is below the tolerance
 # of the run at the first attempt except for long slips.
@@ -58,43 +58,27 @@ _SAFE = 16.0  # error / difference of two runs: of 300,000 random scenes the wor
 class TwoAxesOutcome:
     """The motion of a block in plan, relative to the roof: x downslope, y cross-slope.
 
-    Attributes
-    ----------
-    status : Status
-        `Status.OK`, or the reason why there is no result; the other numbers are then meaningless.
-    prd_m, t_prd_s : float
-        Largest distance from the start [m] and its time [s].
-    down_m, up_m, left_m, right_m : float
-        Largest excursion toward +x, -x, +y and -y [m], all >= 0.
-    end_m, end_mps : tuple of float
-        Displacement and velocity at the end of the record, x and y [m], [m/s].
-    peak_mps : float
-        Largest speed, along the surface of the roof [m/s].
-    error_m : float
-        Largest difference of any position from the exact motion under the interpolated record [m]:
-        a bound if friction is monotone (`Friction.is_monotone`), otherwise an estimate: 16 times
-        the difference between runs at two tolerances, at least rounding error. No estimate sees a
-        stop that both runs take and an exact block would not.
-    n_stops, n_events, n_steps : int
-    step_tolerance : float
-        Step tolerance of the last attempt.
+    Unless the status is `Status.OK` the numbers are meaningless.
     """
 
     status: Status
-    prd_m: float
+    prd_m: float  # largest distance from the start
     t_prd_s: float
-    down_m: float
+    down_m: float  # largest excursion toward +x, then -x, +y and -y, all >= 0
     up_m: float
     left_m: float
     right_m: float
-    end_m: tuple[float, float]
+    end_m: tuple[float, float]  # at the end of the record, x and y
     end_mps: tuple[float, float]
-    peak_mps: float
+    peak_mps: float  # along the surface of the roof
+    # Of any position from the exact motion under the interpolated record: a bound if friction is
+    # monotone, otherwise an estimate, `_SAFE` times the difference between runs at two tolerances,
+    # at least rounding error. None sees a stop that both runs take and an exact block would not.
     error_m: float
     n_stops: int
     n_events: int
     n_steps: int
-    step_tolerance: float
+    step_tolerance: float  # of the last attempt
 
     @property
     def places(self) -> tuple[float, ...]:
@@ -157,17 +141,14 @@ def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> TwoAxesOutcome
     """Compute the motion of a block to a tolerance relative to its PRD.
 
     Assumes that the normal force never falls below zero (`solver.kernels.one_axis.minimum_normal`).
-
-    Parameters
-    ----------
-    tolerance : float
-        Within `TOLERANCES`, relative to the PRD or to one micrometer, whichever is larger. The run
-        is repeated with finer steps until `error_m` is below it or rounding error prevents that.
-        Friction that is not monotone takes the default where a larger one is given: a block that
-        nearly stops may go on, and two rough runs may agree on the wrong one.
+    The tolerance, within `TOLERANCES`, is relative to the PRD or to one micrometer, whichever is
+    larger: the run is repeated with finer steps until `error_m` is below it or rounding error
+    prevents that.
     """
     if scene.friction.is_monotone:
         return _bounded(scene, tolerance)
+    # Not above the default: a block that nearly stops may go on, and two rough runs may agree on
+    # the wrong one.
     motion = _bounded(scene, min(tolerance, DEFAULT_TOLERANCE))
     if motion.status is not Status.OK:
         return motion
@@ -194,10 +175,7 @@ def _rounding_m(scene: Scene, outcome: TwoAxesOutcome) -> float:
 def follow_history(scene: Scene, outcome: TwoAxesOutcome) -> tuple[Floats, tuple[Event, ...]]:
     """Return x, y and their rates at the samples, shape (4, n) [m], [m/s], and the events.
 
-    Parameters
-    ----------
-    outcome : TwoAxesOutcome
-        Result of `follow` for the same scene.
+    The outcome is that of `follow` for the same scene.
     """
     events, samples = np.empty((outcome.n_events, 4)), np.empty((4, len(scene.ax_mps2)))
     _run(scene, outcome.step_tolerance, events, samples)

@@ -17,24 +17,12 @@ from solver.records.record import raise_any
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Uplift:
-    """The normal force N of a block over a record.
+    """The normal force N of a block over a record."""
 
-    Attributes
-    ----------
-    n_min_g : float
-        Minimum of N / (m g); negative with uplift.
-    t_first_s : float
-        Time when N first falls below zero [s]; NaN if it never does.
-    duration_s : float
-        Total time with N below zero [s].
-    times : int
-        Number of times that N falls below zero, including a record that begins there.
-    """
-
-    n_min_g: float
-    t_first_s: float
-    duration_s: float
-    times: int
+    n_min_g: float  # minimum of N / (m g); negative with uplift
+    t_first_s: float  # when N first falls below zero; NaN if it never does
+    duration_s: float  # in total, with N below zero
+    times: int  # that N falls below zero, including a record that begins there
 
     @property
     def lifts(self) -> bool:
@@ -76,19 +64,10 @@ def _starts(normal: Floats) -> Floats:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Supports:
-    """Position of the center of gravity of a block relative to its supports.
+    """Position of the center of gravity of a block, midway between its supports; both > 0."""
 
-    Attributes
-    ----------
-    height_m : float
-        Height of the center of gravity above the plane of the supports [m], > 0. It is assumed to
-        lie midway between the supports.
-    spacing_m : float
-        Spacing of the supports in the direction in which it is smallest [m], > 0.
-    """
-
-    height_m: float
-    spacing_m: float
+    height_m: float  # of the center of gravity above the plane of the supports
+    spacing_m: float  # in the direction in which it is smallest
 
     @property
     def capacity(self) -> float:
@@ -100,21 +79,12 @@ class Supports:
 class Tipping:
     """Shear transmitted by the supports compared with the shear at which the block begins to tip.
 
-    Attributes
-    ----------
-    demand : float
-        Largest shear over normal force with no slip; inf if the block lifts off.
-    capacity : float
-        `Supports.capacity`.
-    at_rest_ratio : float
-        With the block at rest, up to slip: the lesser of the demand and the static friction
-        coefficient, over the capacity.
-    sliding_ratio : float
-        While the block slides: kinetic friction coefficient over the capacity; 0 with no slip.
+    Up to slip that is the lesser of the demand and the static friction coefficient, over the
+    capacity; while the block slides, the kinetic one over the capacity, and 0 with no slip.
     """
 
-    demand: float
-    capacity: float
+    demand: float  # largest shear over normal force with no slip; inf if the block lifts off
+    capacity: float  # `Supports.capacity`
     at_rest_ratio: float
     sliding_ratio: float
 
@@ -152,17 +122,15 @@ def tipping(scene: Scene, supports: Supports) -> Tipping:
 
     A ratio above 1 means that rocking begins, not that the block overturns. With two horizontal
     components the resultant is compared with the smallest support spacing, which is conservative.
-
-    Raises
-    ------
-    InputError
-        With every length that is not above 0.
     """
     return tipping_at(friction_demand(scene), scene.friction, supports)
 
 
 def tipping_at(demand: float, friction: Friction, supports: Supports) -> Tipping:
-    """Return the same, or its error, from the largest shear over normal force with no slip."""
+    """Return the same from the largest shear over normal force with no slip.
+
+    Raises `InputError` with every length that is not above 0.
+    """
     lengths = {"height_m": supports.height_m, "spacing_m": supports.spacing_m}
     raise_any(
         f"{name} is {value!r}; give a length in meters above 0"

@@ -21,32 +21,25 @@ from solver.records.spectrum import response_spectrum
 from solver.rules.hazard import Target, target_sa_g
 
 DAMPING = 0.05
+# Band over which a target must be given.
 BAND_HZ = (0.3, 33.3)
-"""Band over which a target must be given."""
 
+# Lowest frequency of the comparison with a target that is given to there.
 LONGEST_HZ = 0.1
-"""Lowest frequency of the comparison with a target that is given to there."""
 
+# Grids of 1/6 octave, shifted against each other, on all of which a component is accepted.
 GRIDS = 100
-"""Grids of 1/6 octave, shifted against each other, on all of which a component is accepted."""
 
 _KNEE_HZ = 1.3
 
+# Accepted ratios to the target on `shifted_grids` over the matched band: smallest, largest, and
+# largest difference of the mean from 1.
 LEAST, GREATEST, MEAN_OFF = 1.00, 1.30, 0.07
-"""Accepted ratios to the target on `shifted_grids` over the matched band: smallest, largest, and
-largest difference of the mean from 1.
-"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SpectrumFit:
-    """How closely a motion matches its target.
-
-    Attributes
-    ----------
-    freq_hz, target_g, achieved_g : array, shape (m,)
-        Frequencies [Hz], target and pseudo-spectral acceleration of the motion [g].
-    """
+    """How closely the pseudo-spectral acceleration of a motion matches its target."""
 
     freq_hz: Floats
     target_g: Floats
@@ -149,44 +142,22 @@ _QUANTUM_G = 10.0 ** -DECIMALS["g"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MatchingFrame:
-    """Data common to all motions of one target, sampling interval and duration.
-
-    Attributes
-    ----------
-    target : tuple of array
-        Its corner points.
-    dt_s : float
-    envelope : array, shape (n,)
-    quiet : array, shape (q, n)
-        Shapes that a motion must not contain: those that would leave a residual velocity or
-        displacement, and periods much longer than the longest of the target.
-    freq_hz : array, shape (m,)
-        Frequencies of the oscillators to match; the last one is rigid, for the peak acceleration.
-    """
+    """Data common to all motions of one target, sampling interval and duration."""
 
     target: Target
     dt_s: float
-    envelope: Floats
+    envelope: Floats  # shape (n,)
+    # Shapes that a motion must not contain: those that would leave a residual velocity or
+    # displacement, and periods much longer than the longest of the target; shape (q, n).
     quiet: Floats
-    freq_hz: Floats
+    freq_hz: Floats  # of the oscillators to match; the last one is rigid, for the peak acceleration
 
 
 def make_frame(target: Target, dt_s: float, duration_s: float) -> MatchingFrame:
     """Return the frame of a target.
 
     The lowest frequency is that of the target or three cycles in the duration, whichever is higher.
-
-    Parameters
-    ----------
-    target : tuple of array
-        Corner points: frequencies [Hz], rising, and pseudo-spectral accelerations [g].
-    dt_s, duration_s : float
-        Sampling interval, 0.001 to 0.01 s, and time of the last sample, 10 s or more.
-
-    Raises
-    ------
-    InputError
-        If an argument is invalid.
+    The duration is the time of the last sample.
     """
     _check(target, dt_s, duration_s)
     low_hz = max(min(target[0][0], BAND_HZ[0]), 3.0 / duration_s)

@@ -43,22 +43,11 @@ _TURN_RAD = math.pi / 5.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Seed:
-    """Seed of one component.
-
-    Attributes
-    ----------
-    name : str
-        Name of the record; empty for noise.
-    a : array, shape (n,)
-        The part of the record that is used, at the step of the motion, dimensionless; shape (0,)
-        for noise.
-    own_phases : bool
-        Whether the phases of the record are preserved. Otherwise they are random, and only the
-        distribution of energy over time and frequency is preserved.
-    """
+    """Seed of one component: a record, or noise, which has no name and no values."""
 
     name: str
-    a: Floats
+    a: Floats  # the part of the record that is used, at the step of the motion, dimensionless
+    # Otherwise they are random, and only the distribution of energy over time and frequency stays.
     own_phases: bool
 
     def turn_rad(self, draw: int) -> float:
@@ -167,8 +156,8 @@ def _leveled(a: Floats, rng: np.random.Generator) -> Floats:
 
 DRAWS = 20
 
+# Hold of the envelope / duration, and least D5-95 / duration; the envelope alone has 0.70.
 HOLD_SHARE = 4.0 / 6.0
-"""Hold of the envelope / duration, and least D5-95 / duration; the envelope alone has 0.70."""
 
 # Ratio to the target to which the lowest point is scaled: above 1 by more than rounding changes it,
 # and by more than a spectrum falls between the points.
@@ -326,23 +315,8 @@ def synthesize(
     samples. The record is rounded as `solver.records.record.write_record` prints it in g before it
     is checked.
 
-    Parameters
-    ----------
-    rng : Generator
-        Source of the phases; the same state gives the same motion.
-    unlike : sequence of Record
-        Components of equal step and length with which this one must not correlate
-        (`MOST_CORRELATION`).
-
-    Returns
-    -------
-    tuple of Record and str
-        The component, and the description of its seed.
-
-    Raises
-    ------
-    InputError
-        If `DRAWS` motions all miss the target.
+    Returns the component, which must not correlate with those that it is to be unlike, and the
+    description of its seed. Raises `InputError` if `DRAWS` motions all miss the target.
     """
     duration_s = frame.dt_s * (len(frame.envelope) - 1)
     nearest = math.inf, ""
