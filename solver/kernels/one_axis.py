@@ -269,22 +269,12 @@ def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
     between events, and each event is the root of a linear or quadratic polynomial. At rest, blocks
     of samples that cannot cause slip are skipped.
 
-    Parameters
-    ----------
-    az : array, shape (n,), or None
-        None for no vertical shaking; another version is compiled for it.
-    x, z : array
-        `bounds` of ax and of az (z None if az is None).
-    events : array, shape (m, 3), or None
-        Filled with time, kind and s of the events. m must be at least their number: two for each
-        stop, and one for a slip without a stop.
-
-    Returns
-    -------
-    tuple
-        s at its largest, s at its least, s at the end, s' at the end, time of the largest |s|,
-        number of stops, largest |s'|, number of events.
+    Returns s at its largest, s at its least, s at the end, s' at the end, time of the largest |s|,
+    number of stops, largest |s'|, number of events. `events`, shape (m, 3), or None, is filled with
+    their time, kind and s: m must be at least their number, two for each stop, and one for a slip
+    without a stop.
     """
+    # az and z are None for no vertical shaking: another version is compiled for it.
     # Eqs. 12-18 along the slope: s'' = G - mu N sign(s') while sliding, with
     #     N = (g + az) cos(theta) + ax sin(theta),   G = (g + az) sin(theta) - ax cos(theta).
     # In the direction of motion, sigma = +1 down and -1 up, that is sigma s'' = sigma G - mu N:
@@ -351,15 +341,7 @@ def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
 
 @njit(cache=KEPT)
 def fill_history(ax, az, dt, sn, cs, mu, g, scale, events, history):
-    """Evaluate the motion found by `slide_exact` at the samples: s and s' from slip to stop.
-
-    Parameters
-    ----------
-    events : array, shape (m, 3)
-        All events of the run.
-    history : array, shape (2, n)
-        Filled with s and s' at the samples.
-    """
+    """Fill `history`, shape (2, n), with s and s' at the samples, from all events of the run."""
     history[:] = 0.0
     for k in range(0, events.shape[0], 2):
         t, sigma, s = events[k, 0], events[k, 1], events[k, 2]
@@ -390,12 +372,8 @@ def fill_history(ax, az, dt, sn, cs, mu, g, scale, events, history):
 def sweep_exact(ax, az, x, z, dt, g, scenes, out):
     """Run many scenes under one record on one core; other threads go on.
 
-    Parameters
-    ----------
-    scenes : array, shape (m, 3)
-        Slope [rad], friction coefficient and scale of each.
-    out : array, shape (m, 4)
-        Filled with the largest s, the least s, s and s' at the end; NaN if N falls below zero.
+    Scenes have slope [rad], friction coefficient and scale, shape (m, 3). `out`, shape (m, 4), is
+    filled with the largest s, the least s, s and s' at the end; NaN if N falls below zero.
     """
     for k in range(scenes.shape[0]):
         slope, mu, scale = scenes[k]

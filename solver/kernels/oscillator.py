@@ -91,15 +91,8 @@ def peaks(a, dt, omega, zeta, peak, at):
     quantity is an acceleration. Peaks between two samples are those of the cubic with the values y
     and the slopes z of both. Of steps longer than one radian only the ends are looked at.
 
-    Parameters
-    ----------
-    omega : array, shape (m,)
-        Circular frequencies [rad/s], finite.
-    zeta : float
-        Fraction of critical damping, in [0, 1).
-    peak, at : array, shape (m,)
-        Filled with the signed omega^2 u at the largest |u| [m/s2], and with the sample where it is,
-        at the end of its step.
+    omega [rad/s] is finite, shape (m,), zeta in [0, 1). `peak` and `at` are filled with the signed
+    omega^2 u at the largest |u| [m/s2], and with the sample where it is, at the end of its step.
     """
     w = np.empty(13 * _LANES)
     parts = w.reshape(13, _LANES)
@@ -134,17 +127,9 @@ def peaks(a, dt, omega, zeta, peak, at):
 
 @njit(cache=KEPT, error_model="numpy", nogil=True)
 def crests(a, dt, omega, zeta, above):
-    """Crests of the responses of `peaks` at samples, where they are above a limit.
+    """Crests of the responses of `peaks` at samples, where they are above a limit of each [m/s2].
 
-    Parameters
-    ----------
-    above : array, shape (m,)
-        Limit of each oscillator [m/s2].
-
-    Returns
-    -------
-    tuple of array, shape (q,)
-        Oscillators, samples, and signed pseudo-accelerations [m/s2].
+    Returns oscillators, samples, and signed pseudo-accelerations [m/s2], shape (q,) each.
     """
     which, where, values = [0][:0], [0][:0], [0.0][:0]
     for k in range(omega.size):
@@ -171,19 +156,9 @@ def reversed_pulses(radians, zeta, at, least, out):
     The triangle is the second difference of a ramp, whose response has a closed form; from the
     second sample on it is a decaying exponential, which the response to a pulse is too.
 
-    Parameters
-    ----------
-    radians, at : array, shape (m,)
-        omega dt, and the sample of each oscillator.
-    least : float
-        Decay at which a response ends.
-    out : array, shape (m, n)
-        Zeros; filled with pseudo-accelerations in units of the pulse.
-
-    Returns
-    -------
-    array, shape (m,)
-        First sample that is filled.
+    Of omega dt and the sample of each oscillator, shape (m,), and the decay at which a response
+    ends. Fills the zeros of `out`, shape (m, n), with pseudo-accelerations in units of the pulse,
+    and returns the first samples that are filled, shape (m,).
     """
     kappa = math.sqrt(1.0 - zeta * zeta)
     begin = np.empty_like(at)
@@ -209,14 +184,8 @@ def reversed_pulses(radians, zeta, at, least, out):
 def histories(a, dt, omega, zeta, out):
     """Absolute acceleration of damped oscillators under the linearly interpolated record.
 
-    The recursion of `peaks`, from rest; u'' + a = -(y + 2 zeta z) at every sample.
-
-    Parameters
-    ----------
-    omega, zeta : array, shape (m,)
-        Circular frequencies [rad/s], finite, and fractions of critical damping, in [0, 1).
-    out : array, shape (n, m)
-        Filled with absolute accelerations [m/s2], one row per sample.
+    The recursion of `peaks`, from rest; u'' + a = -(y + 2 zeta z) at every sample, which fills
+    `out`, shape (n, m) [m/s2]. omega [rad/s], finite, and zeta, in [0, 1), have the shape (m,).
     """
     m = omega.size
     c = np.empty((7, m))

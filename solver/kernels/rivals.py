@@ -324,10 +324,7 @@ def slide_fixed(g, dt, cs, substeps, holds):
     by 90 deg or more in a step while mu N >= |G|, and stays at rest until |G| > mu N at the
     beginning of a step, as the paper does in one axis.
 
-    Returns
-    -------
-    tuple
-        PRD at the ends of steps, position in plan at the end (x, y), speed at the end.
+    Returns PRD at the ends of steps, position in plan at the end (x, y), speed at the end.
     """
     h = dt / substeps
     sx = sy = vx = vy = prd = 0.0

@@ -236,23 +236,10 @@ def slide_row(drive, normal, dt, mus, m, k, c, maximum_events, peaks, links, sam
     the series, rounding error, a velocity set to zero at a stop, pushes within the allowance TIE.
     The integral of this sum over time is the bound of the error in position.
 
-    Parameters
-    ----------
-    drive, normal : array, shape (n,)
-    mus, m : array, shape (blocks,)
-    maximum_events : int
-        Number of events in one interval above which the run is abandoned.
-    peaks : array, shape (blocks, 4)
-        Filled with the largest s, the least s, s and w at the end.
-    links : array, shape (blocks - 1, 2)
-        Filled with the largest |e| [m] and |F| [m/s2] of each link.
-    samples : array, shape (blocks, n), or None
-        Filled with s at the samples.
-
-    Returns
-    -------
-    tuple
-        Whether the end was reached, bound of the error in position [m], number of stops.
+    Returns whether the end was reached, with no more than `maximum_events` in any interval, that
+    bound [m] and the number of stops. Fills `peaks`, shape (blocks, 4), with the largest s, the
+    least s, s and w at the end; `links`, shape (blocks - 1, 2), with the largest |e| [m] and |F|
+    [m/s2] of each link; and `samples`, shape (blocks, n), or None, with s at the samples.
     """
     n = mus.size
     b = np.zeros((4, n, ORDER + 1))

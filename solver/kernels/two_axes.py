@@ -879,36 +879,15 @@ def slide_plane(
     error of the drive counts as an additional acceleration; rounding error of positions is added
     directly. If friction decreases with velocity or at breakaway, none of this is a bound.
 
-    Parameters
-    ----------
-    ax, ay, az : array, shape (n,)
-        Zeros for no shaking in that direction: another version would take 20 s to compile.
-    x, y, z : array
-        `one_axis.bounds` of ax, ay and az.
-    mu : float
-        Friction coefficient; 1 with a law.
-    tolerance : float
-        Of a step, relative to the largest speed so far; of a slip, to the largest distance.
-    maximum_degree, maximum_steps : int
-        Largest degree of a series, from 4 to `ORDER`, and largest number of steps.
-    law : tuple of float, or None
-        mu(w) = law[0] - law[1] exp(-law[2] w) while sliding; law[3] >= mu(0) at rest.
-    events : array, shape (m, 4)
-        Filled with time, kind, sx and sy of the first m events.
-    history : array, shape (4, n) or (4, 0)
-        Filled with sx, sy, vx and vy at the samples; a shape of (4, 0) is not filled.
-    top : array, shape (7,)
-        Filled: the largest distance in plan, its time, largest and least sx, largest and least sy,
-        and the largest speed.
-    end : array, shape (4,)
-        Filled with sx, sy, vx and vy at the end.
-
-    Returns
-    -------
-    tuple
-        FOLLOWED, TOO_MANY_STEPS or NOT_FINITE; the bound of the error in position [m]; numbers of
-        stops, of events and of steps.
+    Returns FOLLOWED, TOO_MANY_STEPS or NOT_FINITE; the bound of the error in position [m]; numbers
+    of stops, of events and of steps. Fills `events`, shape (m, 4), with time, kind, sx and sy of
+    the first m; `history`, shape (4, n) or (4, 0), with sx, sy, vx and vy at the samples; `top` and
+    `end`, the same four at the end.
     """
+    # ax, ay, az are zeros for no shaking: for None another version would take 20 s to compile.
+    # mu is 1 with a law: mu(w) = law[0] - law[1] exp(-law[2] w) while sliding, and law[3] >= mu(0)
+    # at rest. The tolerance of a step is relative to the largest speed so far, that of a slip to
+    # the largest distance; the degree of a series is from 4 to ORDER.
     # G = ((g + az) sin(theta) - ax cos(theta), -ay): coefficients of 1, az, -ax and ay.
     p = (sn * g, sn * scale, cs * scale, -scale)
     # c = mu N = mu ((g + az) cos(theta) + ax sin(theta)): coefficients of 1, az and ax.
