@@ -3,9 +3,6 @@
 Two runs give the same bytes, independent of the machine's fonts and settings.
 Read `report.figures` next.
 
-Logarithmic scales with plain-text tick labels; the charts use no math text.
-
-Line style of each method, the same in the package and in the verification manual.
 """
 
 from __future__ import annotations
@@ -33,7 +30,8 @@ from solver.rivals.methods import METHODS
 
 WIDTH_IN = 7.0
 INK, GRAY, PALE, ACCENT = "#1a1a1a", "#707070", "#d9d9d9", "#1f4e79"
-ACROSS = "#c8651b"  # distinct from ACCENT with color blindness and in gray
+# Distinct from ACCENT with color blindness and in gray.
+ACROSS = "#c8651b"
 DASHED, DOTTED, DASHDOT = (0, (4, 1.6)), (0, (1, 1.4)), (0, (5, 1.4, 1, 1.4))
 LINES: tuple[Any, ...] = ("-", DASHED, DASHDOT, DOTTED)
 MARKERS = "os^DvXP*"
@@ -49,6 +47,7 @@ _STYLE = Path(__file__).with_name("package.mplstyle")
 @cache
 def load_fonts() -> None:
     """Register the shipped fonts with the charts, once in a process."""
+    # The fonts of the pages: a machine need not have them, and charts are lettered as the text is.
     for path in sorted((TEMPLATES / "fonts").glob("SourceSans3-*.ttf")):
         font_manager.fontManager.addfont(str(path))
 
@@ -64,6 +63,7 @@ def style() -> Iterator[None]:
 def svg_text(figure: Figure) -> str:
     """Return a figure as the text of an SVG, without date or creator."""
     out = io.StringIO()
+    # Without date and creator two runs give the same bytes.
     figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
     text = out.getvalue()
     # From <svg> on: the XML declaration and the DOCTYPE before it are errors within HTML.
@@ -73,6 +73,7 @@ def svg_text(figure: Figure) -> str:
 def png_bytes(figure: Figure) -> bytes:
     """Return a figure as a PNG that names no software."""
     out = io.BytesIO()
+    # The name of matplotlib has its version, by which the bytes would differ.
     figure.savefig(out, format="png", dpi=200, metadata={"Software": None})
     return out.getvalue()
 
@@ -169,6 +170,7 @@ class Broken:
 
     def add(self, x: Iterable[float], y: Iterable[float]) -> None:
         """Append a segment."""
+        # matplotlib lifts its pen at NaN.
         self.x += [*x, math.nan]
         self.y += [*y, math.nan]
 
@@ -192,6 +194,7 @@ def plain(value: float) -> str:
 def decades(axis: Axis, maximum: int = 9) -> None:
     """Label powers of ten on a logarithmic axis, at most `maximum` of them."""
     axis.set_major_locator(LogLocator(numticks=maximum))
+    # Plain text: the labels of matplotlib are math text, which the style does not parse.
     axis.set_major_formatter(FuncFormatter(lambda value, _: power_of_ten(value)))
     axis.set_minor_locator(NullLocator())
 
@@ -220,6 +223,7 @@ def ticks(axis: Axis, values: Sequence[float]) -> None:
 
 
 _LONG = (0, (9, 2))
+# Marker, line style, color, and color within the marker, in the order of the methods.
 _STYLES = (
     ("*", "none", INK, INK),
     ("o", "-", ACCENT, "white"),
@@ -232,9 +236,9 @@ _STYLES = (
     ("X", DASHED, GRAY, GRAY),
     ("P", "none", GRAY, GRAY),
 )
-"""Marker, line style, color, and color within the marker."""
 
 
+# Keywords for a line with markers, by the name of the method: the same in package and manual.
 LOOKS: Mapping[str, dict[str, Any]] = {
     method.name: {
         "label": method.label,
@@ -246,5 +250,3 @@ LOOKS: Mapping[str, dict[str, Any]] = {
     }
     for method, style in zip(METHODS.values(), _STYLES, strict=True)
 }
-"""Keywords for a line with markers, by the name of the method; styles in the order of the methods.
-"""

@@ -3,7 +3,7 @@
 Computes only the layout; legible in black and white (line style, marker and hatching carry the
 meaning). Fonts and style are in `base`.
 
-Friction as tested: runs and means by velocity, with the laws of the arrays.
+Friction as tested: runs by velocity, with the laws of the arrays.
 """
 
 from __future__ import annotations
@@ -50,23 +50,25 @@ def comparison(
     """
     first, second = UnitFormat(us_first).units()
     with style():
-        height = 1.18 + _row_in(len(groups)) * len(groups)
+        height = 1.18 + 0.31 * len(groups)
         names = [cut(printed(ranged(array.id for array in group)), 32) for group in groups]
-        figure, axes = framed(height, _label_in(names), 0.1, 0.48, 0.75)
+        # 0.06 in for each letter of the longest name.
+        figure, axes = framed(height, 0.2 + 0.06 * max(map(len, names)), 0.1, 0.48, 0.75)
         for row, group in enumerate(groups):
             _compare(axes, row, group[0], first)
             others = [others_m[array.id] / first.si for array in group if array.id in others_m]
             if others:
                 axes.plot(others, [row] * len(others), **_OTHER, label=_LEGEND[-1])
         axes.set_yticks(range(len(groups)), names)
-        axes.set_ylim(len(groups) - 0.45, -0.92)  # the first row has room for a note
+        # Downward, as the arrays are listed; above the first row is room for a note.
+        axes.set_ylim(len(groups) - 0.45, -0.92)
         # From zero: bars are compared by their lengths.
         axes.set_xlim(0, None)
         axes.set_xlabel(f"Horizontal displacement [{first.symbol}]")
         _second_scale(axes, first, second)
         marks, labels = axes.get_legend_handles_labels()
-        drawn = dict(zip(labels, marks, strict=True))  # of all rows
-        # In the order of a row: matplotlib lists bars last.
+        # Each label once, in the order of a row: matplotlib lists bars last.
+        drawn = dict(zip(labels, marks, strict=True))
         shown = {name: drawn[name] for name in _LEGEND if name in drawn}
         figure.legend(shown.values(), shown, loc="lower center", ncols=6, handlelength=2.0)
         return svg_text(figure)
@@ -82,16 +84,6 @@ _LEGEND = (
 )
 
 
-def _label_in(names: Sequence[str]) -> float:
-    """Return the width of the tick labels [in]."""
-    return 0.2 + 0.06 * max(map(len, names))
-
-
-def _row_in(count: int) -> float:
-    """Return the height of a row of a chart with `count` rows [in]."""
-    return min(0.31, 5.4 / count)
-
-
 def _second_scale(axes: Any, first: Unit, second: Unit) -> None:
     """Add the second unit at the top; the grid is that of the first."""
     ratio = first.si / second.si
@@ -105,7 +97,8 @@ def _second_scale(axes: Any, first: Unit, second: Unit) -> None:
 _BAR: Any = {"facecolor": "white", "edgecolor": INK, "linewidth": 0.8}
 _FLOOR: Any = {"color": INK, "linestyle": (0, (3, 2)), "linewidth": 1.2}
 _OTHER: Any = {"marker": "D", "markersize": 6, "color": INK, "fillstyle": "none", "linestyle": ""}
-_ABOVE = 0.33  # of a row: clear of its bar, whose middle has the marks
+# Of a row: clear of its bar, whose middle has the marks.
+_ABOVE = 0.33
 _NOTE: Any = {"va": "bottom", "fontsize": 6}
 _PEAK: Any = {"color": ACCENT, "markersize": 4, "fillstyle": "none", "markeredgewidth": 0.8}
 
@@ -161,6 +154,7 @@ def friction_by_velocity(
     """
     unit = UnitFormat(us_first).units(Quantity.VELOCITY)[0]
     shown = [run for run in runs if not math.isnan(run.velocity_mps)]
+    # Runs at rest alone leave no range.
     most = 1.08 * max(run.velocity_mps for run in shown) or unit.si
     v = np.linspace(0.0, most, _POINTS)
     with style(), mpl.rc_context(_TYPE):
@@ -188,7 +182,8 @@ def friction_by_velocity(
             axes.plot(v / unit.si, curve, color=INK, linewidth=1.6, linestyle=line, label=name)
         axes.set_xlim(0.0, most / unit.si)
         mus = [*(run.mu for run in shown), *(law.at(s) for law in laws for s in (0.0, most))]
-        pad = max(0.12 * (max(mus) - min(mus)), 0.02)  # the scatter, not the origin
+        # The scatter is to be seen, so not from the origin.
+        pad = max(0.12 * (max(mus) - min(mus)), 0.02)
         axes.set_ylim(max(min(mus) - pad, 0.0), max(mus) + pad)
         labeled(axes, f"Sliding velocity [{unit.symbol}]", "Kinetic μ")
         axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), handlelength=3.0)

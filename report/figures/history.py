@@ -33,9 +33,11 @@ from report.text.counts import cut
 from report.text.units import Unit, number, round_below
 from solver.model import Floats, SlideHistory
 
-MAX_POINTS = 150  # in a history; a panel is 150 pt wide
+# In a history: a panel is 150 pt wide.
+MAX_POINTS = 150
 ROW_IN = 0.76
-TRACE = 0.88  # of the width of a panel: the times of two panels stand apart
+# Of the width of a panel: the times of two panels stand apart.
+TRACE = 0.88
 MOST_LEVELS = 4
 DASHES = (0, (3.0, 1.2))
 
@@ -54,8 +56,8 @@ def histories(
     """Return the relative displacement in the governing run of each panel, PRD marked.
 
     `printed` gives the names as they are printed.
-    All panels share one pair of axes, with offsets: one pair for each would take ten times as long.
     """
+    # All panels share one pair of axes, with offsets: one for each would take ten times as long.
     grid = _Grid(panels, UnitFormat(us_first).units()[0])
     with style():
         # Room for the labels of the levels at the left, and of the times below the last row.
@@ -76,6 +78,7 @@ class _Grid:
             None if math.isnan(panel.history.result.prd_m) else panel.history for panel in panels
         ]
         self.unit = unit
+        # Rows are filled: four panels are two by two.
         self.columns = 2 if len(panels) in (1, 2, 4) else 3
         self.rows = math.ceil(len(panels) / self.columns)
         self.last = len(panels) - self.columns  # panels from here on are in the bottom row
@@ -99,6 +102,7 @@ class _Grid:
 
 def _levels(low: float, high: float) -> list[float]:
     """Return round levels around a range, few enough for their labels."""
+    # tick_values may go beyond the range: how many levels it gives is seen only afterward.
     for count in (4, 3, 2, 1):
         levels = [float(t) for t in MaxNLocator(count).tick_values(low, high)]
         if len(levels) <= MOST_LEVELS:
@@ -118,6 +122,7 @@ def _rules(axes: Axes, grid: _Grid, count: int) -> None:
                 label = number(value, 0 if abs(grid.ticks[1] - grid.ticks[0]) >= 1 else 1)
                 label += f" {grid.unit.symbol}" if value == grid.high else ""
                 axes.text(left - 0.012, level, label, ha="right", va="center")
+        # The last row need not be full: the panel above the gap has the times.
         if index >= grid.last:
             _times(axes, grid, index, ticks)
     for line, color in ((levels, PALE), (zeros, GRAY), (ticks, INK)):
@@ -163,11 +168,13 @@ def _titles(
     printed: Callable[[str], str],
 ) -> None:
     top, run = grid.y(index, grid.high) + 0.045, panel.motion
-    way = run.governing.orientation.name  # with its component if there are two
+    # With its component where the motion has two.
+    way = run.governing.orientation.name
     name = f"{printed(run.motion.id)} {way if run.motion.has_transverse else way[-1]}"
     prd = UnitFormat(us_first).both(run.governing.prd_m)
     if panel.array:
         name, arrays = f": {name}", printed(panel.array)
+        # The names of the arrays give way: motion, orientation and PRD are printed in full.
         room_in = 0.92 * WIDTH_IN / (1.1 * grid.columns) - width_in(name, is_bold=True)
         fits = (n for n in range(len(arrays), 3, -1)
                 if width_in(cut(arrays, n), is_bold=True) < room_in - width_in(prd))  # fmt: skip
@@ -178,6 +185,7 @@ def _titles(
 
 def envelope(t: Floats, u: Floats, maximum: int = MAX_POINTS) -> tuple[Floats, Floats]:
     """Return at most `maximum` points: minimum and maximum of each segment, in order."""
+    # Every n-th point would miss peaks, PRD among them.
     if len(u) <= maximum:
         return t, u
     edges = np.linspace(0, len(u), maximum // 2, dtype=int)[:-1]
@@ -192,9 +200,11 @@ def envelope(t: Floats, u: Floats, maximum: int = MAX_POINTS) -> tuple[Floats, F
 
 
 COLUMNS = 7
-TALL_IN = 0.9  # of the paths of a row, at most
+# Of the paths of a row, at most.
+TALL_IN = 0.9
 PANEL_TITLE_IN, FOOT_IN, APART_IN = 0.2, 0.3, 0.1
-STEP_IN = 0.008  # between points of a path: what print resolves
+# Between points of a path: what print resolves.
+STEP_IN = 0.008
 
 
 def hodographs(
@@ -234,6 +244,7 @@ class Path(NamedTuple):
 
 def path_of(history: SlideHistory) -> Path:
     """Return the path of a run; in one axis a straight line."""
+    # A run without a final value is not drawn to where it broke off.
     if math.isnan(history.result.prd_m):
         return Path(np.zeros(0), np.zeros(0))
     # Cross-slope displacement is positive to the left when facing downslope, which is down here.
@@ -256,6 +267,8 @@ class PanelScale(NamedTuple):
         y = np.concatenate([[0.0], *(path.y_m for path in paths)])
         wide_in = WIDTH_IN / min(COLUMNS, len(paths))
         room = min(wide_in, 2.0 * TALL_IN) - APART_IN
+        # One scale for x and y, and for all panels; at least 1 mm to the inch, for paths without
+        # slip.
         m_per_in = max(float(np.ptp(x)) / room, float(np.ptp(y)) / (TALL_IN - APART_IN), 1e-3)
         start = APART_IN / 2 - float(x.min()) / m_per_in, -APART_IN / 2 - float(y.max()) / m_per_in
         return cls(wide_in, float(np.ptp(y)) / m_per_in + APART_IN, m_per_in, start)
@@ -268,6 +281,7 @@ def _draw(axes: Axes, panel: PanelScale, path: Path, corner: tuple[float, float]
         return
     look: Any = {"color": INK, "clip_on": False}
     x, y = path.x_m / panel.m_per_in, path.y_m / panel.m_per_in
+    # From all points: the thinned path need not have the peak.
     peak = int(np.argmax(np.hypot(path.x_m, path.y_m)))
     x_few, y_few = thinned(x, y)
     axes.plot(x0 + x_few, y0 + y_few, linewidth=0.6, **look)

@@ -35,7 +35,8 @@ from solver.model import Floats
 from solver.verification.evidence import RoofComparison, RoofPrediction, StabilityMap
 from solver.verification.study import strongest
 
-MOST = 4  # maps per figure, so that it fits on a page
+# Maps per figure, so that it fits on a page.
+MOST = 4
 _BANDS = (
     (0.0, 0.1, "#ffffff", "less than 0.1 %"),
     (0.1, 1.0, "#dfe6ee", "0.1 to 1 %"),
@@ -69,6 +70,7 @@ def _map(axes: Axes, sweep: StabilityMap, count: int) -> None:
     x, y = _edges(sweep.x, log=sweep.x_log), _edges(sweep.y)
     bands = ListedColormap([band[2] for band in _BANDS])
     norm = BoundaryNorm([0.0, 0.1, 1.0, 10.0, 1e300], bands.N)
+    # A failed cell has no color of its error, which would look like a result; its hatching follows.
     shown = np.ma.masked_where(sweep.failed, sweep.error_percent)
     axes.pcolormesh(x, y, shown, cmap=bands, norm=norm, linewidth=0.4, edgecolors="face")
     for row, column in np.argwhere(sweep.failed):
@@ -98,6 +100,7 @@ def _edges(centers: Floats, *, log: bool = True) -> Floats:
     """Return the edges of cells around their centers."""
     values = np.log(centers) if log else centers
     middle = (values[:-1] + values[1:]) / 2.0
+    # Halfway between centers; the outer cells as wide as toward their neighbors.
     edges = np.concatenate([[2.0 * values[0] - middle[0]], middle, [2.0 * values[-1] - middle[-1]]])
     return np.asarray(np.exp(edges) if log else edges)
 
@@ -113,8 +116,8 @@ def _key(maps: Sequence[StabilityMap]) -> list[Any]:
     return handles
 
 
+# Duration of the histories shown, around the strongest shaking [s].
 SHOWN_S = 16.0
-"""Duration of the histories shown, around the strongest shaking [s]."""
 
 _DASHES: tuple[Any, ...] = ((0, (5, 1.5)), (0, (1, 1.2)), (0, (6, 1.5, 1, 1.5)))
 _SPECTRUM_IN, _HISTORY_IN, _ABOVE_IN, _BELOW_IN = 2.2, 1.05, 0.22, 0.42
@@ -137,7 +140,8 @@ def comparison(roof: RoofComparison) -> str:
 
 
 def computed(roof: RoofComparison) -> tuple[RoofPrediction, ...]:
-    """Return the predictions by a building model: all except the ground motion itself."""
+    """Return the predictions by a building model."""
+    # Without modes a prediction is the ground motion itself.
     return tuple(prediction for prediction in roof.predictions if prediction.n_modes > 0)
 
 

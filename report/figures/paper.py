@@ -30,12 +30,12 @@ from report.figures.history import envelope
 from solver.model import Floats
 from solver.verification.evidence import DesignCurves, LinkComparison
 
+# The paper's largest error with 64 sub-steps.
 PAPER_P64_PERCENT = 0.48
-"""The paper's largest error with 64 sub-steps."""
 
 FIG_10_SLOPE_DEG, FIG_11_MU, FIG_12_PPA_G = 1.0, 0.5, 1.5
+# The paper's example on Fig. 12: slope [deg] and limit on PRD [m].
 READ_OFF = (2.0, 0.5)
-"""The paper's example on Fig. 12: slope [deg] and limit on PRD [m]."""
 
 
 def convergence(studies: Sequence[tuple[str, pd.DataFrame]]) -> str:
@@ -63,7 +63,8 @@ def _errors(axes: Axes, study: pd.DataFrame) -> None:
     axes.plot(study.index, exact, "o-", color=INK, markersize=4, label="against exact")
     axes.plot(
         study.index,
-        finest.where(finest > 0.0),  # no 0 on a logarithmic scale
+        # The finest against itself is 0, which a logarithmic scale does not have.
+        finest.where(finest > 0.0),
         marker="s",
         markerfacecolor="white",
         linestyle=DASHED,
@@ -77,7 +78,8 @@ def _errors(axes: Axes, study: pd.DataFrame) -> None:
     )  # fmt: skip
     axes.set_yscale("log")
     low, high = axes.get_ylim()
-    axes.set_ylim(low, 8.0 * high)  # room for the legend
+    # Room for the legend.
+    axes.set_ylim(low, 8.0 * high)
     decades(axes.yaxis, maximum=7)
     axes.legend(loc="upper right", handlelength=2.8)
 
@@ -129,6 +131,7 @@ def _over_mu(axes: Axes, comparison: LinkComparison) -> None:
             linewidth=0.9,
             label=label,
         )
+    # From 0, where nothing slides, to meters: linear below 1 mm, logarithmic above.
     axes.set_yscale("symlog", linthresh=1.0)
     axes.set_ylim(0.0, None)
     ticks(axes.yaxis, (0.0, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5))
@@ -146,6 +149,7 @@ def curves(study: DesignCurves) -> str:
     over_slope = [
         (f"{ppa:.2g} g", study.prd_m[:, mu, k])
         for k, ppa in _every(study.ppas_g)
+        # A line along zero would hide the axis.
         if study.prd_m[:, mu, k].max() > 0.0
     ]
     with style():

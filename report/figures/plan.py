@@ -89,6 +89,7 @@ def painted(paper: Paper) -> Figure:
     """Paint what is placed on a paper."""
     figure, axes = canvas(paper.tall, (0.0, paper.wide), (0.0, paper.tall), paper.wide)
     for order, item in enumerate(paper.items):
+        # In the order of the list: matplotlib would draw all lines above all patches.
         axes.add_artist(_artist(item)).set_zorder(order)
     return figure
 
@@ -99,6 +100,7 @@ def _artist(item: Item) -> Artist:
     if isinstance(item, Circle):
         return Round(item.center, item.radius, **_LOOKS[item.look])
     if isinstance(item, Lines):
+        # One artist for many lines: each costs more than its points.
         path = Broken()
         for points in item.lines:
             path.add(*zip(*points, strict=True))
@@ -248,7 +250,8 @@ def _arrow(axes: Axes, start: Point, tip: Point, **look: Any) -> None:
 
 
 def _label(axes: Axes, at: Point, text: str, subscript: str) -> None:
-    """Write a symbol with its subscript; the font has no subscript letters."""
+    """Write a symbol with its subscript."""
+    # The font has no subscript letters.
     main = axes.text(*at, text, va="bottom", fontsize=10.0)
     axes.annotate(
         subscript, (1.0, 0.0), (0.5, -3.0), xycoords=main, textcoords="offset points", va="bottom"

@@ -1,7 +1,6 @@
 """Records as read: acceleration over time, one panel per channel, and their spectra.
 
-Computes only the layout. The picture is a stand-alone file, so its text is drawn as outlines and
-needs no font. Read `report.figures.base` first.
+Computes only the layout. Read `report.figures.base` first.
 
 Accelerations of the motions as run: a row per motion, a column per component, one scale.
 """
@@ -35,9 +34,8 @@ from report.text.units import G_MPS2, round_below
 from solver.model import Floats, Motion
 from solver.records.record import Record
 
+# Maximum number of channels in one picture.
 MOST = 12
-"""Maximum number of channels in one picture."""
-
 _POINTS = 3000
 _PANEL_IN, _TITLE_IN, _SPECTRUM_IN = 0.72, 0.24, 2.5
 _BOTTOM_IN, _GAP_IN, _LEGEND_IN = 0.42, 0.72, 0.19
@@ -58,6 +56,7 @@ def records_picture(
     `sa_g` has one row of ordinates for each record, at `periods_s`.
     """
     with style():
+        # The picture is a file by itself: where it is opened, the font of the pages is missing.
         mpl.rcParams["svg.fonttype"] = "path"
         return painted(_figure(records, periods_s, sa_g))
 
@@ -131,9 +130,12 @@ def _spectra(axes: Axes, records: Sequence[Record], periods_s: Floats, sa_g: Flo
 
 
 _ROW_IN, _TOP_IN, _FOOT_IN = 0.21, 0.22, 0.3
-_ROW_POINTS = 360  # in a history; with fewer the peaks stand apart as if the motion were slow
-_LABELS = 0.14  # width of the labels of the rows, in columns
-_BAR = 0.8  # a bar at most, of the largest peak and of the longest motion; at least 0.32 of them
+# In a history; with fewer the peaks stand apart as if the motion were slow.
+_ROW_POINTS = 360
+# Width of the labels of the rows, in columns.
+_LABELS = 0.14
+# A bar at most, of the largest peak and of the longest motion; at least 0.32 of them.
+_BAR = 0.8
 _COLUMNS = ("Record", "Transverse", "Vertical")
 
 
@@ -141,9 +143,8 @@ def accelerations(motions: Sequence[Motion], printed: Callable[[str], str] = str
     """Return the scaled accelerations of the motions over time, all at one scale.
 
     `printed` gives the names as they are printed.
-
-    All panels share one pair of axes, with offsets: one pair for each would take ten times as long.
     """
+    # All panels share one pair of axes, with offsets: one for each would take ten times as long.
     scaled = [[m.scaled(a) / G_MPS2 for a in (m.ax_mps2, m.ay_mps2, m.az_mps2)] for m in motions]
     reach = max(float(np.abs(a_g).max()) for row in scaled for a_g in row if a_g.size) or 1.0
     seconds = max(m.dt_s * (len(m.ax_mps2) - 1) for m in motions)

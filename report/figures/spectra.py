@@ -32,15 +32,17 @@ _ROW_IN, _TITLE_IN, _FOOT_IN, _TOP_IN = 0.6, 0.26, 0.5, 0.24
 _LEFT_IN, _FIRST_IN, _APART_IN, _RIGHT_IN = 0.46, 1.6, 0.52, 0.1
 _FEW_S, _MANY_S = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0), (0.03, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
 _LEVELS = tuple(step * 10.0**power for power in range(-4, 2) for step in (1, 2, 5))
-_FACTOR = 3.0  # a ratio beyond it is drawn on a logarithmic axis
+# A ratio beyond it is drawn on a logarithmic axis.
+_FACTOR = 3.0
+# Ordinate below which nothing is drawn [g].
 LEAST_G = 1e-4
-"""Ordinate below which nothing is drawn [g]."""
 
+# Longest period that the acceptance of AC156 covers.
 _CORNER_S = 1 / 1.3
-"""Longest period that the acceptance of AC156 covers."""
 
 _DASHES = (0, (5, 1.5))
-_THIN = 2  # the narrow panel shows every second period: the wide one has all of them
+# The narrow panel shows every second period: the wide one has all of them.
+_THIN = 2
 
 
 def spectra(
@@ -49,8 +51,7 @@ def spectra(
 ) -> T:
     """Return a row per component: spectra over period, and their ratio to the target.
 
-    The motions are a band from the smallest to the largest: lines as close as these cannot be told
-    apart. The mean is thick, the target dashed. A component without a target has no ratio.
+    The mean is thick, the target dashed. A component without a target has no ratio.
     """
     height = _TOP_IN + (_ROW_IN + _TITLE_IN) * len(parts) + _FOOT_IN
     ratio_in = WIDTH_IN - _LEFT_IN - _FIRST_IN - _APART_IN - _RIGHT_IN
@@ -70,6 +71,7 @@ def spectra(
                 axes = panel(_LEFT_IN + _FIRST_IN + _APART_IN, ratio_in, row)
                 _ratios(axes, part)
                 _finish(axes, part, _MANY_S, is_last=row == len(parts) - 1)
+        # One legend: all panels have the same lines.
         lines = figure.axes[0].get_legend_handles_labels()
         figure.legend(*lines, loc="upper right", ncols=3, borderaxespad=0.1)
         return painted(figure)
@@ -80,6 +82,7 @@ def _ordinates(axes: Axes, part: Spectra) -> None:
     seen = seen[np.isfinite(seen) & (seen > LEAST_G)]
     low, high = (0.85 * seen.min(), 1.3 * seen.max()) if seen.size else (0.1, 1.0)
     axes.set_ylim(low, high)
+    # Ordinates may be 0 at long periods, which the logarithm does not have.
     axes.set_yscale("log", nonpositive="mask")
     _band(axes, part.periods_s[::_THIN], part.sa_g[:, ::_THIN])
     axes.plot(
@@ -117,6 +120,7 @@ def _ratios(axes: Axes, part: Spectra) -> None:
 
 def _band(axes: Axes, periods_s: Floats, rows: Floats) -> None:
     """Draw the extent of the motions, and their mean."""
+    # A band from the smallest to the largest: lines as close as these cannot be told apart.
     ends = rows.min(axis=0), rows.max(axis=0)
     look: Any = {"facecolor": PALE, "edgecolor": GRAY, "linewidth": 0.5}
     axes.fill_between(periods_s, *ends, **look, label="smallest to largest motion")

@@ -29,13 +29,11 @@ MEASURES = ("PRD", "residual")
 
 
 def medians(runs: pd.DataFrame, error: str, floor: float) -> pd.DataFrame:
-    """Return the median time and error of each method and setting that gave a result.
-
-    Errors below the floor are set to it: rounding error limits them, and a log scale has no 0.
-    """
+    """Return the median time and error of each method and setting that gave a result."""
     seconds = "time per run [s]"
     answered = runs.dropna(subset=[seconds, error])
     settings = answered.groupby(["method", "setting"], sort=False, dropna=False)[[seconds, error]]
+    # Errors below the floor are set to it: rounding error limits them, and a log scale has no 0.
     return settings.median().assign(**{error: lambda each: each[error].clip(floor)})
 
 
@@ -57,6 +55,7 @@ def overview(
             points = medians(runs, f"{measure} error [%]", floor)
             for name in points.index.unique("method"):
                 own = points.loc[name]
+                # The exact method has one setting: one point among lines.
                 size = {"markersize": 10} if name == "exact" else {}
                 axes.plot(*own.to_numpy().T, **LOOKS[name] | size)
                 if name == "exact":
@@ -69,8 +68,10 @@ def overview(
                     )
             labeled(axes, "Time per run [s]", title=f"Error in {measure}")
             logarithmic(axes, 9, 12)
+        # In the panel of the PRD alone, all that the other programs return.
         _peers(grid[0, 0], peers, floor)
         grid[0, 0].set_ylabel("Median error over analysis cases [%]")
+        # Of the left panel, which has the other programs as well.
         lines = grid[0, 0].get_legend_handles_labels()
         title = "Compiled, except where interpreted; by steps: a call from Python at each step"
         figure.legend(*lines, title=title, loc="lower center", ncols=3, handlelength=2.6)

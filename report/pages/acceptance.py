@@ -48,7 +48,8 @@ def _limit(row: Limit) -> str:
 
 
 def _found(row: Limit) -> str:
-    """Return the value found, with decimals enough that a miss never rounds onto its limit."""
+    """Return the value found."""
+    # With decimals enough that a miss never rounds onto its limit.
     least = _PLACES[row.measure]
     apart = (k for k in range(least, 9) if round(row.found, k) != round(row.limit, k))
     shown = number(row.found, least if row.ok else next(apart, 9))
@@ -64,6 +65,7 @@ def lowest_between(
     """
     at_points = [row.found for row in acceptance.rows if row.is_ratio_to_target]
     shown = [(*part.lowest, part.title) for part in spectra if not part.is_ground]
+    # Points of the limits are a grid: between them a spectrum may fall lower, and is said to.
     least = min(shown, default=(math.inf, "", 0.0, ""))
     return least if least[0] < min([*at_points, LEAST_MEAN]) else None
 
@@ -99,6 +101,7 @@ def events(motions: Sequence[MotionInput]) -> Iterator[Sequence[str]]:
     for row in motions:
         numbers = (row.magnitude, row.distance_km, row.v_s30_mps)
         texts = [row.event, *("" if value is None else f"{value:g}" for value in numbers)]
+        # What is generated has no event; a table of dashes would say nothing.
         if any(texts):
             yield row.id, *(text or "not given" for text in texts)
 

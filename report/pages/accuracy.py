@@ -40,6 +40,7 @@ def margins(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
 
 def _smallest(margins: Sequence[Margin]) -> Mapping[str, object]:
     """Return the smallest margin of a satisfied clearance, and the clearances without one."""
+    # Margins of satisfied clearances only: one that is NG has none to lose.
     have = [margin for margin in margins if margin.gap.ok and not math.isnan(margin.minimum_mu)]
     without = {margin.number for margin in margins} - {margin.number for margin in have}
     unknown = {margin.number for margin in margins if not margin.gap.is_permitted}
@@ -57,6 +58,7 @@ def _smallest(margins: Sequence[Margin]) -> Mapping[str, object]:
 
 def _share(margin: Margin) -> float:
     mu = margin.array.array.mu
+    # Without friction nothing is left to reduce.
     return margin.minimum_mu / mu if mu > 0.0 else 1.0
 
 
@@ -91,7 +93,8 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
 
 def _sum_table(package: PackageData, sums: Sequence[Cumulative]) -> Table:
     """Return mean and largest sum of each array over the design event and smaller ones."""
-    factor = package.governing.analysis.factor  # that of every array
+    # Of every array: it follows from the number of motions, which they share.
+    factor = package.governing.analysis.factor
     times = f"{number(factor, 2)} × "
     columns = (
         (words("Array"), lambda item: item.array.id),
@@ -115,6 +118,8 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "no_slip": Model.NO_SLIP,
         "two_axes": Model.TWO_AXES,
         "friction": _friction_table(package, accuracy),
+        # Less friction can leave runs that slide at the end of the record: their peaks are no
+        # peaks.
         "n_more_unfinished": _unfinished(accuracy.at_reduced_friction)
         - _unfinished(accuracy.entered),
     }

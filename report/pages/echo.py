@@ -15,11 +15,11 @@ from report.entities.shown import words
 from report.pages.parts import BAR, PackageData
 from report.sheet.reading.read import IGNORED, EchoRow
 
+# Width of a table of the workbook, in letters: wide enough that a column holds its numbers.
 WIDEST = 112.0
-"""Width of a table of the workbook, in letters: wide enough that a column holds its numbers."""
 
+# Width of a column at most, in letters: a longer entry has several lines.
 MOST_LETTERS = 24
-"""Width of a column at most, in letters: a longer entry has several lines."""
 
 
 def page(package: PackageData) -> Mapping[str, object]:
@@ -36,10 +36,9 @@ def echo(
 ) -> tuple[tuple[str, tuple[_Echoed, ...]], ...]:
     """Return the name of each sheet, and its cells as tables: entered values once.
 
-    Single cells stand in two columns of the page. A table of the workbook stands as it is there;
-    a column with one entry in all rows is in a note. Cells left blank share a note with the
-    defaults that they stand for. Cells at the addresses that changed are bold, and their rows have
-    a bar in the margin.
+    A table of the workbook stands as it is there; a column with one entry in all rows is in a note.
+    Cells left blank share a note with the defaults that they stand for. Cells at the addresses that
+    changed are bold, and their rows have a bar in the margin.
     """
     return tuple(
         (sheet, tuple(_tables(tuple(group), changed)))
@@ -60,6 +59,7 @@ def _bar(cells: Iterable[EchoRow | None], changed: Set[str]) -> str:
 
 
 def _tables(rows: Sequence[EchoRow], changed: Set[str]) -> Iterator[_Echoed]:
+    # A row of a table has several cells, a single field one: no sheet says which it is.
     in_row = Counter(_row_number(row) for row in rows)
     for is_table, group in groupby(rows, key=lambda row: in_row[_row_number(row)] > 1):
         cells = tuple(group)
@@ -68,6 +68,7 @@ def _tables(rows: Sequence[EchoRow], changed: Set[str]) -> Iterator[_Echoed]:
 
 def _single_cells(rows: Sequence[EchoRow], changed: Set[str]) -> _Echoed:
     filled = [row for row in rows if not _is_in_note(row, changed)]
+    # In two columns of the page, read down and not across, as on the sheet.
     half = (len(filled) + 1) // 2
     pairs = zip_longest(filled[:half], filled[half:])
     columns = (*_single(0, changed), *_single(1, changed))
@@ -114,6 +115,7 @@ def _is_equal(cells: Sequence[EchoRow], rows: int, changed: Set[str]) -> bool:
     """Whether several rows have one entry in a column, so that it is printed once."""
     entered = {_as_entered(row, row.unit) for row in cells}
     return (
+        # A blank cell among them is not alike; of one row nothing is.
         1 < rows == len(cells)
         and len(entered) == 1
         and not any(_is_changed(row, changed) for row in cells)
@@ -124,6 +126,7 @@ def _chunks(columns: Sequence[Sequence[EchoRow]]) -> Iterator[Sequence[Sequence[
     """Yield columns that fit side by side, the first one repeated."""
     chunk: list[Sequence[EchoRow]] = []
     for cells in columns:
+        # The id, which is first, is repeated: a row must be found in each part.
         if sum(map(_width, [*chunk, cells])) > WIDEST:
             yield chunk
             chunk = [columns[0]]
@@ -135,6 +138,7 @@ def _chunks(columns: Sequence[Sequence[EchoRow]]) -> Iterator[Sequence[Sequence[
 def _width(cells: Sequence[EchoRow]) -> float:
     """Return the width of a column in letters: of its entries, and of the words above."""
     entries = max(min(len(_as_entered(row, "")), MOST_LETTERS) for row in cells)
+    # Headings break between words, so the longest word counts; 3 letters are the padding.
     return 3.0 + max(entries, *map(len, (*cells[0].label.split(), cells[0].unit)))
 
 
@@ -168,10 +172,11 @@ def _entered(row: EchoRow, unit: str, changed: Set[str]) -> str:
 
 
 def _as_entered(row: EchoRow, unit: str) -> str:
-    """Return what was entered; for a formula its result, for a blank cell its default."""
+    """Return what was entered; for a blank cell its default."""
     if _is_blank(row):
         return "" if row.value == "—" else row.value
     text = f"{row.typed} {unit}".rstrip()
+    # A formula, and what nothing reads, print with what became of them.
     if row.typed.startswith("=") or row.value == IGNORED:
         text = f"{text}: {row.value}"
     return f"{text} ({row.unseen})" if row.unseen else text

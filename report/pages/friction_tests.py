@@ -109,9 +109,11 @@ def _run_rows(data: ProjectInput, series: Series) -> Iterator[tuple[object, ...]
     numbers = [
         row.number
         for row in data.friction_runs
+        # A run without a report number is of the report that the sheet names.
         if (row.report or data.friction_tests.report, row.surface)
         == (series.report, series.surface)
     ]
+    # By the row of the workbook, so that a run is found there.
     for count, run in zip(numbers, series.runs, strict=True):
         velocity = "—" if math.isnan(run.velocity_mps) else run.velocity_mps
         yield count, velocity, number(run.mu, 3), number(run.mu_static, 3)
@@ -182,6 +184,7 @@ def _compared(package: PackageData, series: Sequence[Series]) -> Mapping[_Compar
         test_series = governing(series, array.mu_report)
         return _Compared(
             is_by_velocity=array.friction.is_by_velocity,
+            # As printed: a difference that the page does not show is none.
             used=round(test_series.mean_of(array.friction), 3),
             tested=round(test_series.mean, 3),
             surface=test_series.surface,

@@ -33,8 +33,8 @@ from report.sheet.schema.project import Revision
 from report.text.formats import explained
 from solver.verification.shake_table import SHIPPED
 
+# Clearances of the summary, where all are OK: the complete schedule stands in their part.
 N_WORST = 3
-"""Clearances of the summary, where all are OK; the complete schedule stands in their part."""
 
 
 def _review(package: PackageData) -> Mapping[str, object]:
@@ -53,6 +53,7 @@ def _review(package: PackageData) -> Mapping[str, object]:
 def letter(package: PackageData) -> Mapping[str, object]:
     """Return what requires less than the rule set, and what peer review permits."""
     return {
+        # What asks for less than the rule set stands in the letter, too.
         "lowered": [row for row in package.assessment.rows if row.id in LOWERING],
         "review": _review(package),
     }
@@ -62,6 +63,8 @@ def summary(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return what the summary page needs beside the package."""
     missed = departures(evidence.spectra)
     last = {departure.is_short: departure for departure in missed}.values()
+    # Without a permitted design displacement, the ratio of the slack of an array is not known.
+    ratios = [item for item in _ratios(package) if not math.isnan(item.ratio)]
     return {
         "statistic": statistic(package.governing.analysis.basis),
         "worst": _worst(package.clearances),
@@ -69,7 +72,7 @@ def summary(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "review": _review(package),
         # What follows from a missed target is said once, with the last.
         "missed": [(departure, departure in last) for departure in missed],
-        "other": _worst_other(package),
+        "other": max(ratios, key=lambda item: item.ratio, default=None),
         "what_if": list(_what_if(package, evidence)),
         "troubles": troubles(package),
         "answers": answers(package, evidence.remedies),
@@ -85,18 +88,10 @@ class _Ratio(NamedTuple):
     part: str  # id of the page that has it
 
 
-def _worst_other(package: PackageData) -> _Ratio | None:
-    """Return the largest ratio of the checks of the arrays beside their clearances, if any.
-
-    Of an array without a permitted design displacement, that of its slack is not known.
-    """
-    known = (item for item in _ratios(package) if not math.isnan(item.ratio))
-    return max(known, key=lambda item: item.ratio, default=None)
-
-
 def _ratios(package: PackageData) -> Iterator[_Ratio]:
     for item in package.assessment.arrays:
         array = item.array
+        # Without runs, tipping is by the most that friction transmits: no ratio of a run.
         if item.runs:
             yield _Ratio(item.tipping.ratio, "tipping", item.id, "model")
         # What is not given has a condition of its own, and no ratio.
@@ -115,6 +110,7 @@ def _what_if(package: PackageData, evidence: Evidence) -> Iterator[str]:
     assessment, us_first = package.assessment, package.fmt.us_first
     of_rows = [row.outcome for row in assessment.conditions if row.outcome]
     of_cases = [case.words(us_first) for case in evidence.cases]
+    # A case of the comparison may repeat the outcome of a condition: the same words stand once.
     yield from dict.fromkeys((*of_rows, *of_cases))
 
 
@@ -151,6 +147,7 @@ def _revisions(package: PackageData) -> Iterator[Sequence[object]]:
         description="First issue",
         by=project.prepared_by,
     )
+    # A title block has a first line even where the sheet Revisions is empty.
     for row in package.data.revisions or [first]:
         yield row.revision, row.date, row.description, row.by or "—"
 
@@ -190,6 +187,7 @@ def _years(package: PackageData) -> Iterator[Mapping[str, object]]:
     """Yield the study of years with its file, and the arrays of both; nothing without one."""
     sheet = package.assessment.sheet
     label = SECTION["options"].entry("study_years").cell.label
+    # Ids are the same in any case, as in the workbook.
     by_id = {array.id.casefold(): array for array in package.assessment.arrays}
     for document in sheet.documents:
         if document.label != label:
@@ -204,12 +202,15 @@ def _years(package: PackageData) -> Iterator[Mapping[str, object]]:
             "study": study,
             "document": document,
             "arrays": shared,
+            # The study may be of a former revision: its years are shown, and the arrays that differ
+            # named.
             "unlike": [array.id for array, array_years in shared if _is_unlike(array, array_years)],
         }
 
 
 def _is_unlike(array: ArrayAssessment, array_years: YearsOfArray) -> bool:
-    """Whether an array has another friction coefficient or slope in the study, as printed."""
+    """Whether an array has another friction coefficient or slope in the study."""
+    # As printed, with three decimals and two.
     slope_deg = math.degrees(array.array.slope_rad)
     return (
         abs(array.array.mu - array_years.mu) >= 5e-4

@@ -39,6 +39,7 @@ def site(package: PackageData) -> Mapping[str, object]:
         is_essential=site.risk_category is RiskCategory.IV,
     )
     return {
+        # Smallest and largest, once where they are the same.
         "i_p": tuple(dict.fromkeys((factors[0], factors[-1]))),
         "period_s": approximate_period_s(building.structure or "other", site.structure_height_m),
         "force": site_force(package.data),
@@ -62,6 +63,7 @@ def attachment(assessment: Assessment) -> str:
             f"Positive attachment of {names}, by others: give {factors} on the sheet Site for F_p."
         )
     weight = partial(pair, quantity=Quantity.WEIGHT, us_first=data.us_first, show=no_less)
+    # By the printed force: arrays whose forces read the same share a clause.
     alike = grouped_by(arrays, lambda array: weight(force.value * array.weight_n))
     forces = (f"{ranged(array.id for array in same)} {each}" for each, same in alike.items())
     return (
@@ -79,6 +81,7 @@ def site_force(data: ProjectInput) -> ComponentForce | None:
     if site.force_factor is None or site.force_divisor is None:
         return None
     period_s = building.period_s
+    # ASCE 7-22 13.3.1.1: H_f takes T_a where the period is not known.
     if period_s is None and building.structure is not None:
         period_s = approximate_period_s(building.structure, site.structure_height_m)
     return component_force(
@@ -86,6 +89,7 @@ def site_force(data: ProjectInput) -> ComponentForce | None:
         s_ds_g=site.s_ds,
         factor=site.force_factor,
         divisor=site.force_divisor,
+        # One force for all: the largest is on the safe side for the others.
         i_p=max(array.i_p for array in data.arrays),
         z_over_h=site.z_over_h,
         period_s=period_s,
@@ -95,6 +99,7 @@ def site_force(data: ProjectInput) -> ComponentForce | None:
 def unused_s_ds(site: Site) -> Mapping[str, object]:
     """Return the symbols from which S_DS follows, and its value from them if another is given."""
     origin, s_ms = _origin(site), site.parameters.s_ms
+    # A value of S_DS that is given goes before what F_a and S_S give: the page shows both.
     is_unused = site.s_ds_g is not None and s_ms is not None and origin
     return {"origin": origin, "value_g": 2.0 / 3.0 * s_ms if is_unused and s_ms else None}
 
@@ -103,6 +108,7 @@ def _origin(site: Site) -> tuple[str, ...]:
     """Return the symbols of the given values from which S_DS follows; none if there are none."""
     if site.s_ms_g is not None:
         return ("S_MS",)
+    # From ASCE 7-22 on S_MS is read off for a site class, so that S_S and F_a give nothing.
     if site.edition.has_site_coefficients and site.s_s_g is not None and site.f_a is not None:
         return ("S_S", "F_a")
     return ()

@@ -71,6 +71,7 @@ def troubles(package: PackageData) -> Mapping[str, Sequence[object]]:
         "links": tuple(link_troubles(package)),
         "limits": [(place, check) for place, check in package.checks if not check.ok],
     }
+    # The template heads this list only where there is any.
     return by_kind if any(by_kind.values()) else {}
 
 
@@ -82,6 +83,7 @@ def _requirements(package: PackageData) -> Table:
     others = (
         row
         for row in package.assessment.rows
+        # The strength has a table of its own in this part.
         if row.id != STRENGTH_ROW and (row.is_satisfied or row.verdict is Verdict.NOTE)
     )
     alike = grouped_by(others, lambda row: (*row.asked, row.basis, row.verdict))
@@ -112,6 +114,7 @@ def check_table(
         (words("Item", 0.9), lambda row: row[0]),
         (words("Quantity", 3.9), lambda row: row[1].title),
         (text("Value", share=1.45), lambda row: package.of_check(row[1].found, row[1])),
+        # A value beyond its limit that the rule set permits: the sign of the limit would be false.
         (centered("", 0.3), lambda row: ">" if row[1].passes_by_exception else row[1].sign),
         (text("Limit", share=1.6), lambda row: limit(row[1])),
         (words("Clause", 2.1), lambda row: row[1].provision.clause + dagger(row[1].provision)),
@@ -130,6 +133,7 @@ def limits(package: PackageData) -> Mapping[str, object]:
     excepted = [check for _, check in package.checks if check.passes_by_exception]
     return {
         "checks": check_table(package, package.checks),
+        # One note explains the exception, however many arrays take it.
         "excepted": excepted[:1],
         "routes": package.routes,
         "arrays": tuple(array_results(package)),
@@ -150,8 +154,8 @@ def _warnings(package: PackageData) -> Iterator[Sequence[str]]:
         yield line.cells, f"{line.finding.text}.", line.finding.reason or "not acknowledged"
 
 
+# Of pairs whose clearance is not given, or not as in the plan: the others need no table.
 _APART = {Cover.SHORT, Cover.SUFFICIENT, Cover.DIFFERS}
-"""Of pairs whose clearance is not given, or not as in the plan."""
 
 
 def plan(package: PackageData) -> Mapping[str, object]:
@@ -159,7 +163,9 @@ def plan(package: PackageData) -> Mapping[str, object]:
     assessment = package.assessment
     near = list(map(NeighborResult.of, assessment.neighbors))
     beyond = [pair for pair in assessment.pairs if not pair.is_listed]
+    # In one unit, as the drawings: the tables and the plan are read side by side.
     fmt = replace(unit_format(assessment), systems=1, none="none")
+    placed: Sequence[Array | RoofObject] = (*package.data.arrays, *package.data.objects)
     return {
         "fmt": fmt,
         "arrays": alike_arrays(assessment, fmt),
@@ -175,7 +181,10 @@ def plan(package: PackageData) -> Mapping[str, object]:
         "clauses": dict.fromkeys(row.clause for row in package.clearances),
         "parapets": _parapets(package),
         "places": _places(package),
-        "outlined": _outlined((*package.data.arrays, *package.data.objects)),
+        # By id, with the number of vertices: the table of places has only the rectangle around.
+        "outlined": [
+            (row.id, len(row.placed.points)) for row in placed if isinstance(row.placed, Polygon)
+        ],
         "is_least": any(gap.is_minimum_value for gap in assessment.clearances),
     }
 
@@ -249,21 +258,18 @@ def _in_plan(head: str) -> Shown:
     return Shown(head=head, quantity=Quantity.PLAN)
 
 
-def _outlined(rows: Sequence[Array | RoofObject]) -> Sequence[tuple[str, int]]:
-    """Return which rows are drawn by an outline, with the number of its vertices."""
-    return [(row.id, len(row.placed.points)) for row in rows if isinstance(row.placed, Polygon)]
-
-
 def provisions(package: PackageData) -> Mapping[str, object]:
     """Return every number of the rule set in two columns, and the overrides."""
     rules = package.assessment.rules
     named = [(_sentence_case(OVERRIDABLE[key]), value) for key, value in rules.values.items()]
+    # The heading names the rule set: its name before each clause would need a second line.
     own = rules.name.removeprefix("SEAOC ") + " "  # before its clauses
     columns = (
         (words("Provision", 5.4), lambda row: row[0]),
         (text("Value", share=0.8), lambda row: f"{row[1].value:.4g}" + dagger(row[1])),
         (words("Clause", 1.6), lambda row: row[1].clause.removeprefix(own)),
     )
+    # Two columns of the page; the left one has the odd row.
     middle = (len(named) + 1) // 2
     halves = named[:middle], named[middle:]
     return {
@@ -279,5 +285,6 @@ def provisions(package: PackageData) -> Mapping[str, object]:
 
 def _sentence_case(name: str) -> Markup:
     """Return the name of a provision in sentence case with typeset symbols."""
+    # Names of provisions are those of the sheet Overrides, which can be typed: hyphen, ^2, S_DS.
     plain = escape(name[0].upper() + name[1:]).replace(" - ", " − ").replace("^2", "²")
     return plain.replace("S_DS", symbol("S_DS")).replace("W1", symbol("W_1"))

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import groupby
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.links import LinkedArray
@@ -20,7 +19,7 @@ from report.entities.evidence import linked_result
 from report.entities.shown import NO_VALUE, centered, length, plain, text, words
 from report.pages.parts import PackageData, statistic, verdict
 from report.sheet.schema.choices import Direction
-from report.text.counts import below_mm
+from report.text.counts import below_mm, grouped_by
 from report.text.units import number, ratio
 from solver.model import INCH_M, Status
 from solver.sliding.least_model import DEFAULT, Model, Solution
@@ -33,7 +32,8 @@ class LinkTrouble:
     linked: LinkedArray
     status: Status = Status.OK  # an outcome without a final displacement
     runs: tuple[str, ...] = ()  # those that have it
-    is_too_far: bool = False  # if not, and without runs, there is nothing to compare with
+    # If not, and without runs, there is nothing to compare with.
+    is_too_far: bool = False
 
 
 def part(package: PackageData) -> Mapping[str, object]:
@@ -94,6 +94,7 @@ def model_troubles(package: PackageData) -> Iterator[tuple[ArrayAssessment, Dire
     """Yield the arrays whose requested model is not adequate, and the worst direction."""
     for array in package.assessment.arrays:
         if not array.is_model_enough:
+            # A displacement toward one side may be short where that in any direction is not.
             lack = {d: array.chosen_toward_m(d) - array.design_toward_m(d) for d in Direction}
             yield array, max(Direction, key=lack.__getitem__)
 
@@ -104,6 +105,7 @@ def _limited(demand: float) -> str:
 
 def _stability_table(package: PackageData) -> Table:
     has_vertical = any(motion.has_vertical for motion in package.assessment.shaking.motions)
+    # Without a vertical component N cannot fall: that no uplift is found then says nothing.
     none = "none" if has_vertical else "not checked"
     columns = (
         (words("Array", 0.8), lambda item: item.id),
@@ -159,13 +161,8 @@ class _Group:
         worst = max((run.result.error_m for run in self.runs), key=nan_is_worst)
         if math.isnan(worst):
             return NO_VALUE
+        # As a power of ten: the digits of a bound depend on the machine.
         return below_mm(worst) if worst == 0.0 else f"below {below_mm(worst)}"
-
-
-def _groups(array: ArrayAssessment) -> Iterator[_Group]:
-    ordered = sorted(array.runs, key=lambda run: run.solution.model)
-    for _, runs in groupby(ordered, key=lambda run: run.solution.model):
-        yield _Group(array, list(runs))
 
 
 def _table(package: PackageData) -> Table:
@@ -178,7 +175,12 @@ def _table(package: PackageData) -> Table:
         (words("Reason", 4.7), lambda group: group.reason),
         (words("Error of PRD", 1.9), lambda group: group.error),
     )
-    groups = [group for array in package.assessment.arrays for group in _groups(array)]
+    groups = [
+        _Group(array, runs)
+        for array in package.assessment.arrays
+        # From the simplest model on, as the ladder of models is listed above the table.
+        for _, runs in sorted(grouped_by(array.runs, lambda run: run.solution.model).items())
+    ]
     return listed(groups, columns, package.fmt, kind="compact")
 
 
@@ -228,9 +230,11 @@ def _effect(array: ArrayAssessment, model: Model, group: Sequence[Solution]) -> 
     basis = (
         "both models run; error included" if model is Model.TWO_AXES else "exact: both models run"
     )
+    # The more complete model may lift off or diverge: its effect is then not known, not zero.
     if not math.isfinite(effect):
         no_result = "no result with the more complete model"
         return array.id, _NEGLECTED[model], *_NOT_KNOWN, no_result
+    # Upper bound: all motions take the largest effect, so that mean and largest rise by it alike.
     raised = max(array.analysis.value_m + array.analysis.factor * effect, array.floor_m)
     return array.id, _NEGLECTED[model], effect, raised - array.design_m, basis
 
@@ -238,15 +242,18 @@ def _effect(array: ArrayAssessment, model: Model, group: Sequence[Solution]) -> 
 def _requested(array: ArrayAssessment) -> _Neglected:
     """Return the change that the adequate models make to the requested one."""
     other = array.chosen[Direction.ANY]
+    # The adequate models differ from run to run: the most complete one names the effects.
     model = max(run.solution.model for motion in array.needed for run in motion.runs)
     name = f"Effects of {model.title}" if model > REQUESTED_MODELS[array.array.model] else "None"
     if math.isnan(array.design_m) or math.isnan(other.value_m):
         return array.id, name, Wide(NO_VALUE, 4), "", "no value from analysis"
     effect = max(
         abs(more.governing.prd_m - run.governing.prd_m)
+        # Motion by motion: the governing run of the requested model need not be that of the other.
         for run, more in zip(array.motions, array.needed, strict=True)
     )
     change = abs(array.chosen_toward_m(Direction.ANY) - array.design_m)
+    # Then no change of the runs reaches the design displacement.
     floor = array.floor_m >= max(other.value_m, array.analysis.value_m)
     basis = "exact: both models run" + ("; the floor governs both" if floor else "")
     return array.id, name, effect, change, basis

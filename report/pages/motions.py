@@ -79,6 +79,7 @@ def _modes(package: PackageData, components: Sequence[_Transferred]) -> Table:
         (name, of[0].roof.building, mode, mode < included)
         for name, of in grouped_by(components, lambda item: item.name).items()
         for included in (max(item.roof.n_modes for item in of),)
+        # One more than included: a reader sees what the first omitted mode would add.
         for mode in range(min(max(SHOWN_MODES, included + 1), of[0].roof.building.periods_s.size))
     ]
     columns = (
@@ -100,16 +101,27 @@ def _peaks(package: PackageData, components: Sequence[_Transferred]) -> Table:
         (
             "Roof / ground",
             2,
+            # A component may be all zeros.
             lambda item: item.roof.roof_peak_mps2 / (item.roof.ground_peak_mps2 or math.nan),
         ),
         ("Modes included", 0, lambda item: item.roof.n_modes),
         ("Next mode, % of roof peak", 1, lambda item: 100.0 * item.roof.next_share),
         ("All omitted, % of roof peak", 1, lambda item: 100.0 * item.roof.left_out_share),
     )
+
+    def of_component(
+        components: Sequence[_Transferred], name: str, value: Callable[[_Transferred], float]
+    ) -> float:
+        # A motion need not have each component that another one has.
+        return next((value(item) for item in components if item.name == name), math.nan)
+
     columns: Sequence[Column] = (
         (words("Motion", 1.2), lambda of: of[0].motion),
         *(
-            (plain(head, decimals, SHORT[name], 0.9), partial(_of, name, value))
+            (
+                plain(head, decimals, SHORT[name], 0.9),
+                partial(of_component, name=name, value=value),
+            )
             for head, decimals, value in quantities
             for name in dict.fromkeys(component.name for component in components)
         ),
@@ -117,13 +129,6 @@ def _peaks(package: PackageData, components: Sequence[_Transferred]) -> Table:
     )
     by_motion = grouped_by(components, lambda item: item.motion)
     return listed(by_motion.values(), columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
-
-
-def _of(
-    name: str, value: Callable[[_Transferred], float], components: Sequence[_Transferred]
-) -> float:
-    """Return a value of one component of a motion; NaN if the motion does not have it."""
-    return next((value(item) for item in components if item.name == name), math.nan)
 
 
 def _variations(
@@ -143,10 +148,6 @@ def _variations(
     return listed(variations, columns, package.fmt, kind="compact", whole_rows=len(variations))
 
 
-_HASH = 8
-"""Digits of a hash in the table of motions."""
-
-
 def below(package: PackageData) -> tuple[tuple[str, str], ...]:
     """Return the parts below, in order."""
     ground = (("motions-building", "From ground to roof"),) if package.has_ground else ()
@@ -162,6 +163,7 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
 def _sources(motions: Sequence[Motion]) -> Mapping[str, Sequence[str]]:
     """Return the motions of each source; nothing where every motion has a source of its own."""
     by_source = grouped_by(motions, lambda motion: motion.source or "not given")
+    # Then the table has a column for it, and a list by source would repeat the table.
     if len(by_source) == len(motions) > 1:
         return {}
     return {source: [motion.id for motion in of] for source, of in by_source.items()}
@@ -187,6 +189,7 @@ def _motion_table(package: PackageData, *, has_sources: bool) -> tuple[Table, Ma
     alike = {
         shown.head: f"{said.pop()} {shown.unit}".rstrip()
         for shown, cell, *_ in maybe_alike
+        # Compared as printed: what reads the same in every row is in a note.
         if len(said := {str(cell(row)) for row in rows}) == 1
     }
     columns = (
@@ -197,9 +200,10 @@ def _motion_table(package: PackageData, *, has_sources: bool) -> tuple[Table, Ma
         (plain("Peak [g]", 3, "transv."), lambda row: _peak_g(row[0], row[0].ay_mps2)),
         (plain("Peak [g]", 3, "vertical", 1.1), lambda row: _peak_g(row[0], row[0].az_mps2)),
         *(column for column in maybe_alike if column[0].head not in alike),
+        # Eight digits tell files apart; those of the appendix are complete.
         (
             words("SHA-256 of the files", 3.4),
-            lambda row: " ".join(file.sha256[:_HASH] for file in files[row[0].id]),
+            lambda row: " ".join(file.sha256[:8] for file in files[row[0].id]),
         ),
     )
     table = listed(rows, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
@@ -249,6 +253,7 @@ def _final(prepared: PreparedMotion, name: str, end: str, si: float) -> float:
 
 def _largest_ends(preparations: Sequence[PreparedMotion]) -> tuple[float, float] | None:
     """Return the largest final velocity and displacement; None if any is processed or drifts."""
+    # A sentence does for records that are run as they are and end at rest; else each has a row.
     if any(drifts(prepared) or prepared.done != AS_RECORDED for prepared in preparations):
         return None
     measures = [m for prepared in preparations for m in prepared.measures.values()]
@@ -283,6 +288,7 @@ def _spectrum_rows(part: Spectra) -> Iterator[Sequence[str | Wide]]:
     """Yield name, ordinates and style of each row; a component stays on one sheet."""
     at = [int(np.argmin(np.abs(part.periods_s - period))) for period in PRINTED_S]
     target, sa = part.target_g[at], part.sa_g[:, at]
+    # With how many, since a component may be missing in some motions.
     mean = f"Mean of {numbered(len(part.ids), 'motion')} [g]", *_numbers(sa.mean(axis=0), 3)
     yield Wide(Markup("<b>{}</b>").format(part.title), 1 + len(PRINTED_S)), "total group"
     if not part.target.name:
@@ -315,7 +321,10 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "alike": alike,
         "sources": sources,
         "notes": dict.fromkeys(
-            (row.motion_id, note.rstrip(".")) for row in shaking.records for note in row.notes
+            # The components of a motion often say the same.
+            (row.motion_id, note.rstrip("."))
+            for row in shaking.records
+            for note in row.notes
         ),
         "unit": unit,
         "ends": _largest_ends(shaking.prepared),

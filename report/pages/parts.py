@@ -32,8 +32,8 @@ from solver.rules.provisions import Basis
 BAR = "changed"
 """Style of what changed since a former revision: a bar in the margin."""
 OK, NG = "OK", "NG"
+# Up to as many rows, eleven pairs of components, a table of motions stays on one sheet.
 MOTION_ROWS = 22
-"""A table of motions with as many rows stays on one sheet: eleven pairs of components."""
 
 
 def statistic(basis: Basis) -> str:
@@ -69,6 +69,7 @@ class PackageData(Marked):
     @cached_property
     def clearances(self) -> tuple[ClearanceResult, ...]:
         """The clearances, numbered, with a bar beside those that changed."""
+        # By their number in the workbook, which the plan and the schedule print as well.
         rows = clearance_results(self, dict(enumerate(self.assessment.clearances, start=1)))
         changed = self.changes.clearances
         return tuple(row.styled(self.bar(row.count in changed)) for row in rows)
@@ -100,6 +101,7 @@ class PackageData(Marked):
     @property
     def mu_share(self) -> float:
         """Width of a column of friction coefficients: wide where one depends on velocity."""
+        # A law by velocity prints two coefficients and a rate in one cell.
         return 2.4 if any(array.friction.is_by_velocity for array in self.data.arrays) else 0.9
 
     @property
@@ -115,6 +117,7 @@ class PackageData(Marked):
             "array": [item.verdict.is_permitted for item in self.arrays],
             "clearance": [
                 *(gap.verdict.is_permitted for gap in assessment.clearances),
+                # A pair in plan that has no clearance counts as one that is not satisfied.
                 *(False for _ in assessment.missing_gaps),
             ],
             "limit": [check.ok for _, check in self.checks],

@@ -89,15 +89,15 @@ PAGES = (
     _complete("symbols", "Symbols", _alone(symbols.page)),
 )
 
+# Pages that need runs: a package without motions does not have them.
 OF_MOTIONS = frozenset(
     {"motions", "results", "comparison", "model", "accuracy", "hashes", "spectra", "histories"}
 )
-"""Pages that need runs: a package without motions does not have them."""
 
 LETTER = Part(id="letter", number="", title="Letter of results")  # before the first page
 
+# After the summary, without a number: the other parts have the same in every revision.
 CHANGES = Page("changes", "Changes", _alone(front.page))
-"""After the summary, without a number: the other parts have the same in every revision."""
 
 
 def pages_of(
@@ -125,10 +125,7 @@ def package_data(
 ) -> PackageData:
     """Return an assessment with the part numbers, and what changed since a former revision.
 
-    Parameters
-    ----------
-    edition : PackageEdition, optional
-        By the sheet Options if not given.
+    Without an edition, that of the sheet Options.
     """
     edition = edition or assessment.project.options.package_edition
     numbers = _numbers(pages_of(edition, since, has_motions=assessment.has_motions))
@@ -159,7 +156,8 @@ def parts(package: PackageData) -> tuple[Part, ...]:
     )
 
 
-PANELS, CHART_ROWS, ACCELERATION_ROWS = 12, 16, 16  # maximum in one figure: it must fit on a page
+# Maximum in one figure: a picture cannot break, so it must fit on a page.
+PANELS, CHART_ROWS, ACCELERATION_ROWS = 12, 16, 16
 Drawings = Mapping[str, Sequence[Any]]
 """SVG by the id of its place; of an array, pairs of histories and paths; of the roof plan, what
 is printed, the plan and its legend."""
@@ -172,6 +170,7 @@ def _in_parts(items: Sequence[Any], most: int) -> Iterator[Sequence[Any]]:
 
 def draw_assessment(package: PackageData) -> Drawings:
     """Return the drawings that need no evidence."""
+    # Here and below: what draws nothing loads no matplotlib.
     from report.figures import plan, records
     from report.figures.plan import array_section
 
@@ -213,6 +212,7 @@ def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
         "motions-spectra": [spectra(parts) for parts in ((roof, ground) if ground else (roof,))],
         "results": list(_governing(runs, us_first, names)),
     }
+    # Only the complete edition has this part: the other draws the governing runs alone.
     if "histories" in package.numbers:
         drawings["histories"] = [
             list(_histories(group[0], followed, us_first, names)) for group, followed in runs
@@ -232,6 +232,7 @@ def _governing(
         RunPanel(ranged([item.id for item in group]), motion, history)
         for group, followed in runs
         for motion, history in zip(group[0].motions, followed, strict=True)
+        # One panel for each group: the run that its largest PRD is from.
         if motion is group[0].worst
     ]
     for some in _in_parts(panels, PANELS):

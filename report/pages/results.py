@@ -16,7 +16,7 @@ from markupsafe import Markup
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.evidence import Evidence
 from report.assessment.project import run_warnings
-from report.assessment.runs import MotionRun, OrientedRun, nan_is_worst
+from report.assessment.runs import MotionRun, nan_is_worst
 from report.document.tables import Column, Table, TableRow, Wide, listed, table_of
 from report.drawing.items import drawn_slope_deg
 from report.entities.shown import Shown, UnitFormat, length, text, words
@@ -64,6 +64,8 @@ def histories(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
                 "straight": [
                     run.motion.id
                     for run, path in zip(group[0].motions, paths, strict=True)
+                    # In one axis a path is a line along the slope: it is drawn, and the caption
+                    # says why.
                     if not path.across_m.size and path.result.prd_m > 0.0
                 ],
             }
@@ -74,9 +76,13 @@ def histories(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
 
 def _results(package: PackageData, group: _Alike) -> Mapping[str, object]:
     array, runs = group[0], group[0].runs
-    orientations = _orientations(runs)
+    # Every one that any motion is run in: motions may differ in their components and polarities.
+    orientations = sorted(
+        {run.orientation for run in runs}, key=lambda way: (way.is_transverse, -way.polarity)
+    )
     return {
         "array": array,
+        # Arrays share their runs by what a run takes; of what they are built the runs know nothing.
         "constructions": dict.fromkeys(item.array.construction for item in group),
         "slope_percent": 100.0 * math.tan(array.array.slope_rad),
         "table": _peaks(package, group, orientations),
@@ -121,12 +127,6 @@ def _peaks(package: PackageData, group: _Alike, orientations: Sequence[Orientati
     return replace(table, rows=(*table.rows, *_statistics(package, group, len(orientations))))
 
 
-def _orientations(runs: Sequence[OrientedRun]) -> Sequence[Orientation]:
-    """Return every orientation that any motion is run in, in order."""
-    seen = dict.fromkeys(run.orientation for run in runs)
-    return sorted(seen, key=lambda orientation: (orientation.is_transverse, -orientation.polarity))
-
-
 def _short(orientation: Orientation) -> str:
     return f"{'tr.' if orientation.is_transverse else 'rec.'} {orientation.name[-1]}"
 
@@ -157,12 +157,14 @@ def _statistics(package: PackageData, group: _Alike, runs: int) -> Iterator[Tabl
     ):
         field = name.replace("floor", "floor_m")
         is_changed = any((item.id, field) in package.changes.values for item in group)
+        # What is measured is rounded to the nearest; what a requirement follows from, up.
         show = measured if name.endswith("_prd_m") else no_less
         pairs = zip(excursions, after, strict=True)
         toward_cells = (fmt.first(m, mark=mark, show=show) for m, mark in pairs)
         yield TableRow(
             cells=(
                 Wide(label, 1 + runs),
+                # The same field as in the table of arrays, with its marks: both print one text.
                 *table_of([row], name, fmt).rows[0].cells,
                 *toward_cells,
                 Wide(about, 5),
@@ -190,6 +192,7 @@ def equations_below(package: PackageData) -> tuple[tuple[str, str], ...]:
 
 def equations(package: PackageData) -> Mapping[str, object]:
     """Return what the equations need beside the package."""
+    # Several arrays may have it: the text then says that the equations are of one of them.
     largest_m = package.governing.design_m
     return {
         "is_shared": sum(item.design_m == largest_m for item in package.assessment.arrays) > 1,
@@ -205,14 +208,17 @@ def _motion(package: PackageData) -> Mapping[str, object]:
     array = package.governing.array
     theta, law, drawn_deg = array.slope_rad, array.friction, drawn_slope_deg(array)
     phi = math.atan(law.mu_static)
+    # At 0.1 m/s, an example: mu(v) = mu_fast - (mu_fast - mu_slow) exp(-r v).
     decay = math.exp(-0.1 * law.rate_s_per_m) if law.is_by_velocity else 1.0
     return {
+        # A slope that could not be seen is drawn steeper, and the caption says so.
         "drawn_deg": None if math.isclose(math.degrees(theta), drawn_deg) else drawn_deg,
         "phi_rad": phi,
         "cos": math.cos(theta),
         "sin": math.sin(theta),
         "holding": law.mu_static * math.cos(theta),
         "rests": math.tan(theta) <= law.mu_static,
+        # a_down = -g tan(phi - theta), a_up = g tan(phi + theta): there the shear is mu N.
         "down_g": -math.tan(phi - theta),
         "up_g": math.tan(phi + theta),
         "mu_at_tenth": law.mu_fast - (law.mu_fast - law.mu_slow) * decay,
@@ -249,6 +255,8 @@ def _separations(package: PackageData) -> Mapping[str, object]:
     return {
         "separation_clauses": sorted(clauses),
         "separations": [
+            # Of each condition the largest, as an example of its equation; one that is not known
+            # comes first.
             (max(some, key=lambda gap: nan_is_worst(gap.required_m)), SEPARATION_KEYS[kind])
             for kind, some in alike.items()
             if some

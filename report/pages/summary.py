@@ -88,6 +88,7 @@ def _answer(assessment: Assessment, remedy: Remedy) -> PrintedRemedy:
     entered, value, us_first = remedy.given, remedy.value, assessment.project.us_first
     if remedy.kind is RemedyKind.FRICTION:
         array = next(array for array in assessment.project.arrays if array.id == remedy.array)
+        # Where no coefficient does there is no value to print.
         mus = (entered, value) if remedy.exists else (entered, entered)
         texts = [mu_words(with_mu(array, mu).friction) for mu in mus]
     else:
@@ -113,6 +114,8 @@ def _group(package: PackageData, group: Sequence[PrintedRemedy]) -> Mapping[str,
         "gap": package.assessment.clearances[first.clearance - 1] if first.clearance else None,
         "array": first.array,
         "is_review": first.kind is RemedyKind.REVIEW,
+        # The arrays beside a clearance that each need more friction satisfy it only together: they
+        # are one way, and none where one of them has no value.
         "ways": [
             way for way in (frictions, *others) if way and all(answer.outcome for answer in way)
         ],
@@ -139,9 +142,11 @@ class Concern:
 
 def summary(assessment: Assessment) -> Iterator[str]:
     """Yield the table of the arrays, what needs attention, and the verdict."""
+    # A terminal has no note at its foot that would say what a dagger means.
     marked = Marked(assessment=assessment, has_daggers=False)
     rows = [_COLUMNS, *(_row(marked.fmt, item) for item in array_results(marked))]
-    if not assessment.has_motions:  # nothing is computed
+    # Without motions nothing is computed: a column of nones would look like a failure.
+    if not assessment.has_motions:
         rows = [(id, *others) for id, _, *others in rows]
     yield from aligned(rows)
     if assessment.is_overridden:
@@ -170,6 +175,7 @@ def _array(assessment: Assessment, item: ArrayAssessment) -> dict[str, Any]:
     gap = assessment.governing_gap(item.id)
     return {
         "id": item.id,
+        # JSON has no NaN.
         "computed_m": finite(item.analysis.value_m),
         "prescriptive_m": item.prescriptive.value_m,
         "design_m": finite(item.design_m),
@@ -203,12 +209,14 @@ def attention(assessment: Assessment, *, may_run: bool = True) -> Iterator[Conce
     if is_whole and (best := best_words(assessment, may_run=may_run)):
         yield Concern("remedy", best)
     for row, ids in assessment.alike_conditions:
+        # The others are among the reasons above.
         if row.verdict.is_permitted:
             yield Concern(row.consequence.value, row_words(row, ids))
     if not assessment.has_motions:
         yield Concern(Consequence.NOTE.value, without_motions(assessment))
     for row in assessment.notes:
         yield Concern(row.consequence.value, row_words(row, [row.subject]))
+    # On the file, not on the project: a workbook of a former version lacks newer cells.
     for finding in what_is_new(assessment.sheet.book):
         yield Concern(finding.level.value, finding.text)
     listed = findings(assessment.sheet, assessment.shaking)
