@@ -19,11 +19,13 @@ from report.text.counts import grouped_by, joined, name_order, ranged
 from report.text.units import Unit
 from solver.model import DefectError
 
+# The format of a table without quantities in two systems of units.
 PLAIN = UnitFormat(us_first=True, none="—")
-"""The format of a table without quantities in two systems of units."""
 
-MOST_SHARE = 1.9  # of a column of names
-WHOLE_ROWS = 6  # longer tables may break across pages, with the heading repeated
+# Of a column of names.
+MOST_SHARE = 1.9
+# Longer tables may break across pages, with the heading repeated.
+WHOLE_ROWS = 6
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,6 +77,7 @@ class Table:
     @property
     def hold(self) -> str:
         """Style that keeps a short table on one page and lets a long one break."""
+        # A long one would leave most of a sheet empty above it.
         return "whole" if len(self.rows) <= self.whole_rows else "split"
 
 
@@ -197,6 +200,7 @@ def _listed_cells(
             continue
         value = value_of(item)
         if isinstance(value, Wide):
+            # Its own column counts with each of its units.
             covered = value.span - len(of_column)
             cells.append(value)
         else:
@@ -237,6 +241,7 @@ def merged(table: Table, *fields: str, once: bool = False) -> Table:
         cells = list(alike[0].cells)
         # Those of one name beside each other: of a clearance both arrays.
         one_by_one = grouped_by(alike, lambda row: str(row.cells[names[0]]))
+        # A9 before A10.
         firsts = sorted(one_by_one, key=name_order)
         for k in names if len(alike) > 1 else ():
             of_each = [joined([str(row.cells[k]) for row in one_by_one[name]]) for name in firsts]

@@ -32,16 +32,16 @@ if TYPE_CHECKING:
 
 _HERE = Path(__file__).resolve().parents[2]
 
+# Functions that are filters by their names.
 _SHARED = {
     counts: "below_mm capitalized counted joined lettered lowered named numbered ranged spelled",
     equations: "data_uri formula symbol",
     formats: "general percent scientific seconds shortened",
     units: "digits_down digits_up number ratio",
 }
-"""Functions that are filters by their names."""
 
+# Filters that are methods of the data of a package.
 OF_PACKAGE = ("both", "both_up", "clause", "friction_basis", "mark", "of_check", "rule_length")
-"""Filters that are methods of the data of a package."""
 
 
 def rendered(folder: Path, name: str, context: Mapping[str, Any]) -> str:
@@ -52,6 +52,7 @@ def rendered(folder: Path, name: str, context: Mapping[str, Any]) -> str:
 def sentence(folder: Path, name: str, *about: object) -> str:
     """Return a sentence that pages and the screen share, from `sentences.html`, as plain text."""
     macros = _environment(folder).get_template("sentences.html").module
+    # Line breaks of the template are none of the sentence.
     return " ".join(Markup(getattr(macros, name)(*about)).unescape().split())
 
 
@@ -69,6 +70,7 @@ def _environment(folder: Path) -> Environment:
     environment = Environment(
         loader=FileSystemLoader(folder),
         bytecode_cache=_kept(folder / "__pycache__"),
+        # A name that is missing is an error: an empty place would go unseen under a seal.
         undefined=StrictUndefined,
         autoescape=True,
         trim_blocks=True,
@@ -116,13 +118,14 @@ def state_of(*folders: Path) -> str:
     return str([(name, stat.st_size, stat.st_mtime_ns) for name, stat in modules])
 
 
+# Length of numbers that fit beside an equation.
 SHORT_LETTERS = 64
-"""Length of numbers that fit beside an equation."""
 
 
 def _needs_a_line(numbers: Markup) -> bool:
     """Return whether the numbers of an equation are too long to stand beside it; notes wrap."""
     rows = (row for row in numbers.split("</div>") if 'class="small"' not in row)
+    # Tags take no room.
     return any(len(row.striptags()) > SHORT_LETTERS for row in rows)
 
 
@@ -179,6 +182,7 @@ def filled(
         part = Part(id=section.id, number=str(count), title=section.title)
         below: list[Part] = []
 
+        # As defaults: called later, it would number below the last section of the loop.
         def sub(title: str, part: Part = part, below: list[Part] = below) -> Part:
             last = f"{len(below) + 1}"
             below.append(Part(id=f"{part.id}-{last}", number=f"{part.number}.{last}", title=title))

@@ -41,8 +41,8 @@ from report.text.units import Quantity, Show, beside, measured, no_less, ratio
 from solver.model import Friction
 from solver.rules.provisions import Basis, PrescriptiveBasis
 
+# Whether the design displacement follows from the largest peak, in the formulas of a sheet.
 TAKES_LARGEST = f'{{design.statistic}}="{Basis.LARGEST_FACTORED.value}"'
-"""Whether the design displacement follows from the largest peak, in the formulas of a sheet."""
 
 _COMPUTED = (
     f'=IF({{statistic}}="{Basis.TOO_FEW.value}","none",{{analysis_factor}}'
@@ -316,6 +316,7 @@ def array_result(
     # Rounded so that the smaller of two numbers never prints as the larger one.
     rounds = {"provided_n": beside(item.interconnection_n, strength)}
     gap = assessment.governing_gap(item.id)
+    # Without a clearance the defaults hold: none given, and a dash for D/C.
     near: dict[str, object] = {}
     distance = keep_clear(keep_clear_m(assessment, item), assessment.project.us_first)
     marks["permitted_m"] = marks.get("design_m", "")

@@ -36,11 +36,13 @@ from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
 _REQUIRED = '=IF(ISTEXT({design_m}),"none",MAX({design_m}*{factor},{minimum_m}))'
 _REQUIRED_MM = '=IF(ISTEXT({required_m}),"none",{required_m}*25.4)'
-_UP = "MAX(0,ROUNDUP({required_m}/{provided_m}-0.000000001,2))"  # as `ratio`
+# Rounded up as `ratio` does, so that 1.00 never hides a failure.
+_UP = "MAX(0,ROUNDUP({required_m}/{provided_m}-0.000000001,2))"
 _RATIO = f'=IF(ISTEXT({{required_m}}),"none",IF({{provided_m}}>0,{_UP},"none"))'
 _OK = '=IF(ISTEXT({required_m}),"{unknown}",IF({required_m}<={provided_m},"OK","NG"))'
 
 
+# The value beside the formula is rounded as the formula is, and as the page.
 def _as_printed(value: float) -> float:
     return float(ratio(value)) if math.isfinite(value) else math.nan
 
@@ -72,6 +74,7 @@ class ClearanceResult(Entity):
         required("Required", 0.8),
         Column("[in]", 2, _REQUIRED, is_always=True),
         Column("[mm]", 1, _REQUIRED_MM, is_always=True),
+        # Of a new clearance the verdict is told, which says as much.
         Told(
             ChangeKind.CLEARANCE, "{row.array} to {row.object}{row.toward}, required", of_new=False
         ),
@@ -135,6 +138,7 @@ def clearance_results(
     """Yield clearances, by their number in the workbook, with their marks."""
     for count, gap in gaps.items():
         key = SEPARATION_KEYS[gap.neighbor]
+        # Where the minimum governs, the number that is marked is the minimum.
         least = marked.mark("separation_edge_min_in") if gap.is_minimum_value else ""
         yield ClearanceResult.of(
             gap,

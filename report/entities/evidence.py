@@ -45,6 +45,7 @@ from solver.rules.provisions import AnalysisValue
 
 
 def _cells(rows: Any) -> tuple[str, ...]:
+    # Read back from results.json they are cells already.
     return tuple(getattr(row, "cell", row) for row in rows)
 
 
@@ -223,6 +224,7 @@ def variation_result(building: BuildingInput, value: AnalysisValue) -> Variation
 def remedy_result(item: Remedy, us_first: bool) -> RemedyResult:
     """Return a remedy."""
     names = ("given", "value", "resolution", "verified")
+    # Of the keys that differ in their unit one is written.
     unit = "" if item.kind is RemedyKind.FRICTION else "_m"
     return RemedyResult(
         quantity=item.kind,
@@ -272,11 +274,14 @@ def ratio_up(value: float) -> str:
     """Return a ratio, rounded up."""
     if math.isnan(value):
         return NO_VALUE
+    # The design displacement is multiplied by it: rounded down it would print too small. Less a
+    # millionth of the last digit, which is rounding error.
     return number(math.ceil(value * 1e3 - 1e-6) / 1e3 if math.isfinite(value) else value, 3)
 
 
 _RIGID = f"={{factor}}*IF({TAKES_LARGEST},{{rigid_largest_m}},{{rigid_mean_m}})"
 _ROW = f"={{factor}}*IF({TAKES_LARGEST},{{row_largest_m}},{{row_mean_m}})"
+# Links never lower a design displacement: a ratio below 1 counts as 1.
 _DESIGN = "=MAX(MAX(1,{ratio})*{computed_m},{floor_m})"
 
 
@@ -349,5 +354,6 @@ def linked_result(item: LinkedArray) -> LinkedResult:
         for motion in item.motions
         for run in motion.runs
     )
+    # A row without a final value has no farthest block.
     block = math.nan if math.isnan(item.farthest.prd_m) else item.farthest.block
     return LinkedResult.of(item, runs=runs, block=block)

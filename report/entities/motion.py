@@ -79,10 +79,6 @@ def motion_result(motion: Motion, prepared: PreparedMotion) -> MotionResult:
     )
 
 
-def _polarity_words(polarity: int) -> str:
-    return "as recorded" if polarity > 0 else "reversed"
-
-
 def _model_words(rung: int) -> str:
     return f"{rung}, {Model(rung).title}"
 
@@ -102,7 +98,11 @@ class OrientedResult(Entity):
 
     motion: Annotated[str, Column("Motion")]
     along: Annotated[str, at("orientation.component"), Column("Component along slope")]
-    polarity: Annotated[int, at("orientation.polarity"), Column("Polarity", value=_polarity_words)]
+    polarity: Annotated[
+        int,
+        at("orientation.polarity"),
+        Column("Polarity", value=lambda sign: "as recorded" if sign > 0 else "reversed"),
+    ]
     """1 as recorded, -1 reversed."""
 
 
@@ -152,6 +152,7 @@ class RunResult(OrientedResult):
 
 def peak_result(motion: MotionRun) -> PeakResult:
     """Return the peaks of a motion."""
+    # No attribute has them: they are of all runs, by direction.
     peaks = {f"{direction.value}_m": motion.peak_m(direction) for direction in Direction}
     return PeakResult.model_validate({"motion": motion.motion.id} | peaks)
 

@@ -88,6 +88,7 @@ class _FoundAndLimit(Entity):
     @model_validator(mode="before")
     @classmethod
     def _with_units(cls, row: Any) -> Any:
+        # Read back from results.json it is a mapping with these keys already.
         if not isinstance(row, Limit):
             return row
         unit = f"_{row.measure.unit}".rstrip("_")
@@ -151,6 +152,7 @@ def dagger(provision: Provision) -> str:
 
 def joined(marks: str, more: str) -> str:
     """Return marks, each once."""
+    # A displacement and what follows from it may rest on one override.
     return marks if more in marks else marks + more
 
 
@@ -159,7 +161,7 @@ class Marked:
     """An assessment with the marks of its numbers and its system of units."""
 
     assessment: Assessment
-    # whether numbers that were not compared with the adopted document are marked
+    # Whether numbers that were not compared with the adopted document are marked.
     has_daggers: bool = True
 
     @property
@@ -209,6 +211,7 @@ class Marked:
             return ""
         if array.governs is DesignBasis.PRESCRIPTIVE:
             return joined(self.mark(self.prescriptive_key(array)), array.design_mark)
+        # A number is marked by the provision that it comes from, not by all that were compared.
         key = "analysis_floor" if array.governs is DesignBasis.FLOOR else "analysis_factor"
         return joined(self.mark(key), array.design_mark)
 

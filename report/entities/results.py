@@ -40,8 +40,8 @@ from report.entities.requirement import (
 from report.entities.shown import Entity, WrittenSchema, at
 from report.sheet.schema import ProjectInput
 
+# Raised where a key of results.json changes its name or meaning; 0.1 wrote none.
 SCHEMA_VERSION = 2
-"""Raised where a key of results.json changes its name or meaning; 0.1 wrote none."""
 
 
 class WorkbookResult(Entity):
@@ -67,6 +67,7 @@ class DocumentResult(Entity):
 
 
 def _in_order(gaps: Any) -> tuple[Any, ...]:
+    # The assessment has them by number, a file of results as a list.
     return tuple(gaps.values() if isinstance(gaps, Mapping) else gaps)
 
 
@@ -105,6 +106,7 @@ class Compared(Entity):
 class Results(Compared):
     """An assessment and its evidence."""
 
+    # Else the fields of `Compared` would be first: what a reader looks for stands at the top.
     first: ClassVar[tuple[str, ...]] = (
         "schema_version", "roofslip_version", "workbook", "records", "documents", "motions",
         "input", "s_ds_g", "sdc_is_confirmed", "rule_set", "verdict", "warnings", "findings",

@@ -58,7 +58,8 @@ class UnitFormat:
 
     us_first: bool
     none: str = NO_VALUE
-    systems: int = 2  # in which a table has a quantity: a narrow one has the first alone
+    # In which a table has a quantity: a narrow one has the first alone.
+    systems: int = 2
 
     def both(
         self, value_si: float, quantity: Quantity = Quantity.DISPLACEMENT, show: Show = measured
@@ -89,13 +90,13 @@ class UnitFormat:
         return (quantity.us, quantity.si) if self.us_first else (quantity.si, quantity.us)
 
 
+# What a value in SI is in the units of a sheet; a value in another unit stays as it is.
 _FROM_SI: Mapping[str, Callable[[Any], Any]] = {
     "in": lambda value_m: value_m / INCH_M,
     "mm": lambda value_m: value_m * 1e3,
     "lb": lambda value_n: value_n / NEWTONS_PER_POUND,
     "in/s": lambda value_mps: value_mps / INCH_M,
 }
-"""What a value in SI is in the units of a sheet; a value in another unit stays as it is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,6 +119,7 @@ class Column:
 
     def held(self, value: Any) -> Any:
         """Return what a cell holds of the value of the field."""
+        # By the unit in the heading, so that heading and number cannot differ.
         convert = self.value or _FROM_SI.get(self.head.partition("[")[2].rstrip("]"))
         return convert(value) if convert else value
 
@@ -233,6 +235,7 @@ def unwritten(shown: Shown) -> Callable[[Callable[[Any], Any]], Any]:
     """Make a method a property that is shown, and not written to results.json."""
 
     def decorate(method: Callable[[Any], Any]) -> Any:
+        # A property has no attributes of its own; its function does.
         method.shown = shown  # type: ignore[attr-defined]
         return property(method)
 
@@ -268,6 +271,7 @@ class Entity(BaseModel):
 
     @model_serializer(mode="wrap")
     def _in_order(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        # pydantic writes the fields of a base class first.
         written = write(self)
         return {name: written[name] for name in (*self.first, *written)}
 
@@ -308,6 +312,7 @@ class WrittenSchema(GenerateJsonSchema):
         for name in written["properties"]:
             if title := next(filter(None, map(_title, model.model_fields[name].metadata)), ""):
                 written["properties"][name]["title"] = title
+        # From the model to its bases: the docstring nearest to it holds.
         for base in model.__mro__[: model.__mro__.index(BaseModel)]:
             said = docstrings(base)
             for name in said.keys() & written["properties"].keys():
@@ -319,8 +324,8 @@ class WrittenSchema(GenerateJsonSchema):
         return not field.get("serialization_exclude")
 
 
+# Hides an attribute of an item: its field keeps the default.
 LEFT_OUT = object()
-"""Hides an attribute of an item: its field keeps the default."""
 
 
 class Beside:
@@ -331,6 +336,7 @@ class Beside:
 
     def __getattr__(self, name: str) -> Any:
         value = self._more[name] if name in self._more else getattr(self._item, name)
+        # An attribute that is missing is what pydantic takes a default for.
         if value is LEFT_OUT:
             raise AttributeError(name)
         return value
@@ -340,6 +346,7 @@ class Beside:
 def shown_by(model: type[Entity], name: str) -> Shown:
     """Return how a field of a model is shown."""
     fields = dict(marks_of(model, Shown))
+    # What is not a field is a property of `unwritten`.
     shown: Shown = fields[name] if name in fields else getattr(model, name).fget.shown
     return shown
 
@@ -347,6 +354,7 @@ def shown_by(model: type[Entity], name: str) -> Shown:
 @cache
 def marks_of(model: type[Entity], kind: type[_Mark]) -> tuple[tuple[str, _Mark], ...]:
     """Return the fields of a model with what they say of one kind: `Shown`, `Column`, `Told`."""
+    # In the order of the sheet; a name keeps its first place.
     names = dict.fromkeys((*model.across.split(), *model.model_fields))
     return tuple(
         (name, item)

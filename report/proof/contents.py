@@ -22,17 +22,17 @@ from solver.model import InputError
 
 _T = TypeVar("_T")
 
-# What a stranger sends may double at each level: counts and time end it, not the depth.
+# What a stranger sends may double at each level: counts and time, beyond any package, end it, and
+# not the depth.
 MOST_SHEETS, MOST_OBJECTS, MOST_SECONDS = 5_000, 5_000_000, 300.0
-"""Beyond any package."""
 
+# Keys of a PDF that no package has, and what they stand for.
 _FORBIDDEN = {
     **dict.fromkeys(("/AA", "/OpenAction", "/URI", "/PA"), "an action"),
     **dict.fromkeys(("/JS", "/JavaScript", "/XFA"), "a script"),
     **dict.fromkeys(("/OC", "/OCGs", "/OCProperties"), "a layer"),
     **dict.fromkeys(("/Collection", "/RF"), "an attachment that is not ours"),
 }
-"""Keys of a PDF that no package has, and what they stand for."""
 
 # References back to what lies above: followed last, or all would belong to the first sheet.
 _UPWARD = {"/Parent", "/P", "/Dest", "/Obj", "/Pg"}
@@ -159,8 +159,8 @@ def words(pdf: PdfReader) -> Iterator[tuple[str, str]]:
             yield f"document ({key})", str(value)
 
 
+# Differences of two numbers that other processors explain.
 RELATIVE, ABSOLUTE = 1e-9, 1e-14
-"""Differences of two numbers that other processors explain."""
 
 _LONGEST, _DIGITS = 60, 20
 
@@ -172,7 +172,8 @@ def parsed(content: bytes, name: str) -> Any:
     any of ours.
     """
     try:
-        from_json(content, allow_inf_nan=False)  # it counts how deep, `json` ends in a traceback
+        # It counts how deep it goes; `json` ends in a traceback.
+        from_json(content, allow_inf_nan=False)
     except ValueError as error:
         raise InputError(f"{name} is damaged: no JSON") from error
     try:
@@ -182,7 +183,8 @@ def parsed(content: bytes, name: str) -> Any:
 
 
 def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Return an object of JSON; of a key given twice one program reads the first, one the last."""
+    """Return an object of JSON."""
+    # Of a key given twice one program reads the first, another the last.
     members = dict(pairs)
     if len(members) < len(pairs):
         twice = next(key for key, count in Counter(key for key, _ in pairs).items() if count > 1)
@@ -238,8 +240,8 @@ def _is_number(value: Any) -> bool:
 
 
 def _allowed(claimed: float, computed: float, place: str) -> float:
-    """Return how far two numbers may be apart; an estimated error, by its own size."""
-    # An estimate of an error is itself mostly rounding.
+    """Return how far two numbers may be apart."""
+    # An estimate of an error is itself mostly rounding: it may differ by its own size.
     if place.rpartition(".")[2] == "error_m":
         return max(abs(computed), ABSOLUTE)
     return max(RELATIVE * max(abs(claimed), abs(computed)), ABSOLUTE)
@@ -272,13 +274,11 @@ def _word(words: Sequence[str], letter: int) -> str:
 
 
 def guarded(read: Callable[[], _T]) -> _T:
-    """Run what reads a PDF; a damaged one makes the libraries raise almost anything.
-
-    Raises `InputError`.
-    """
+    """Run what reads a PDF; raises `InputError` where it is damaged."""
     try:
         return read()
     except InputError:
         raise
+    # A damaged file makes the libraries raise almost anything.
     except Exception as error:
         raise InputError("is damaged; get the file again from where it was issued") from error

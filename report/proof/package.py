@@ -42,24 +42,14 @@ _PART = re.compile(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OpenedPackage:
-    """A package as a reader of PDF shows it, whatever was appended to it.
+    """A package as a reader of PDF shows it, whatever was appended to it."""
 
-    Attributes
-    ----------
-    data : bytes
-        The whole file.
-    files : mapping of str to bytes
-        Its attachments by name.
-    listing, results : object
-        The manifest and the attached results.json, as JSON.
-    """
-
-    data: bytes
+    data: bytes  # the whole file
     pdf: PdfReader
-    files: Mapping[str, bytes]
+    files: Mapping[str, bytes]  # its attachments by name
     manifest: Manifest
-    listing: Any
-    results: Any
+    listing: Any  # the manifest as JSON
+    results: Any  # the attached results.json, as JSON
 
 
 def read_package(path: Path) -> bytes:
@@ -83,7 +73,8 @@ def opened(data: bytes) -> OpenedPackage:
     """
     if not data.startswith(b"%PDF-"):
         raise InputError("is no PDF; get the file again from where it was issued")
-    logging.getLogger("pypdf").addHandler(logging.NullHandler())  # it prints what it mends
+    # It prints what it mends.
+    logging.getLogger("pypdf").addHandler(logging.NullHandler())
     pdf = guarded(lambda: PdfReader(io.BytesIO(data), strict=True))
     files = guarded(lambda: _attachments(pdf))
     if MANIFEST not in files:
@@ -220,8 +211,10 @@ def signed_fields(pdf: PdfReader) -> list[str]:
 
 def warn_of_other_input(new: Path, others: Sequence[Path]) -> None:
     """Warn of packages that were written from another input than a new one, such as signed ones."""
+    # Each is opened and read: a folder may have hundreds.
     for path in others[:_MOST_OTHERS]:
-        with suppress(InputError, OSError, KeyError, TypeError):  # no package, or a damaged one
+        # A drawing or a letter beside the package is none, and no reason for a message.
+        with suppress(InputError, OSError, KeyError, TypeError):
             package = opened(read_package(path))
             if _inputs(package) != _inputs(opened(read_package(new))):
                 revision = package.results["input"]["project"]["revision"]
@@ -244,22 +237,12 @@ class Agreement(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Proof:
-    """The outcome of a comparison.
-
-    Attributes
-    ----------
-    reasons : sequence of str
-        What differs, or what was not compared.
-    signed : sequence of Signature
-        Put on after the package was written.
-    is_to_be_read : bool
-        Whether the package made again shows what was not compared.
-    """
+    """The outcome of a comparison."""
 
     answer: Agreement
-    reasons: Sequence[str] = ()
-    signed: Sequence[Signature] = ()
-    is_to_be_read: bool = False
+    reasons: Sequence[str] = ()  # what differs, or what was not compared
+    signed: Sequence[Signature] = ()  # put on after the package was written
+    is_to_be_read: bool = False  # whether the package made again shows what was not compared
 
 
 _UNCHECKED = (

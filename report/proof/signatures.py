@@ -1,8 +1,7 @@
 """What was appended to a package: what pyHanko says of its signatures, and whether it is no more.
 
-Needs the optional extra `sign`. pyHanko's own comparison of revisions takes minutes for thousands
-of tags in one object stream: here only changed objects are looked at. Not whether a certificate is
-trusted: a PDF reader knows whom its user trusts. Read `appended`.
+Needs the optional extra `sign`. Not whether a certificate is trusted: a PDF reader knows whom its
+user trusts. Read `appended`.
 
 Signs a package in the field over its seal box: PAdES baseline B-B, or B-T with a time stamp.
 """
@@ -34,20 +33,11 @@ class Signature:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Appended:
-    """What was appended to a package.
-
-    Attributes
-    ----------
-    signed : sequence of Signature
-    problems : sequence of str
-        Where it is more than signatures that fit.
-    is_checked : bool
-        Whether pyHanko is installed.
-    """
+    """What was appended to a package."""
 
     signed: Sequence[Signature] = ()
-    problems: Sequence[str] = ()
-    is_checked: bool = True
+    problems: Sequence[str] = ()  # where it is more than signatures that fit
+    is_checked: bool = True  # whether pyHanko is installed
 
 
 def appended(data: bytes, made: bytes = b"") -> Appended:
@@ -74,6 +64,8 @@ def _judged(data: bytes, made: bytes) -> Appended:
     file = PdfFileReader(io.BytesIO(data))
     # One that is unclear, so that a file without signatures has a largest level, too.
     signed, levels = [], [Level.UNCLEAR]
+    # pyHanko's own comparison of revisions takes minutes for thousands of tags in one object
+    # stream: only changed objects are looked at.
     problems = list(_others(data, made)) if made else []
     for signature in file.embedded_signatures:
         status = _validated(signature)
@@ -102,21 +94,19 @@ def _validated(signature: Any) -> Any:
     return validate(signature, offline, skip_diff=True)
 
 
+# What signing may change in a field; and in the catalog, the form, a sheet and the information.
 _SIGNED = {"/V", "/AP", "/F", "/Lock"}
-"""What signing may change in a field, the catalog, the form, a sheet and the information."""
-
 _CHANGING = {"/AcroForm", "/Metadata", "/Extensions", "/DSS", "/SigFlags", "/Fields", "/Annots"}
 _CHANGING |= {"/ModDate", "/Producer"}
 
 
 def _others(data: bytes, made: bytes) -> Iterator[str]:
-    """Yield what was changed in a package that signing does not change.
-
-    Objects whose place in the file is the same have the same bytes.
-    """
+    """Yield what was changed in a package that signing does not change."""
     old, new = (PdfReader(io.BytesIO(file), strict=True) for file in (made, data))
     before, after = _places(old), _places(new)
     for number in sorted(before):
+        # Objects whose place in the file is the same have the same bytes: what was made is its
+        # beginning.
         if before[number] != after.get(number) and not _is_signing(
             old.get_object(number), new.get_object(number)
         ):
@@ -222,7 +212,9 @@ def _look() -> Any:
     content = (TEMPLATES / "fonts" / "SourceSans3-Regular.ttf").read_bytes()
 
     class Font(FontEngineFactory):
-        """The font of the package; that of pyHanko leaves its file open."""
+        """The font of the package."""
+
+        # That of pyHanko leaves its file open.
 
         def create_font_engine(self, writer: Any, obj_stream: Any = None) -> GlyphAccumulator:
             """Return the font for one PDF."""

@@ -79,14 +79,14 @@ def processor() -> str:
     return names[0] if names else platform.processor() or platform.machine()
 
 
+# Attachments beside the input: what is attached and by which software, and the results.
 MANIFEST, RESULTS, FORMER = "roofslip.json", "results.json", "since/results.json"
-"""Attachments beside the input: what is attached and by which software, and the results."""
 
+# Of the manifest; raised where a key changes its name or meaning.
 SCHEMA_VERSION = 1
-"""Of the manifest; raised where a key changes its name or meaning."""
 
+# Characters of a hash where there is no room for all 64.
 SHORT = 12
-"""Characters of a hash where there is no room for all 64."""
 
 _MIMES = {
     ".xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
@@ -169,7 +169,8 @@ def record_paths(records: Sequence[RecordFile]) -> Mapping[str, RecordFile]:
 
 
 def record_bytes(records: Sequence[RecordFile]) -> int:
-    """Return the size of the record files; a file with several channels counts once."""
+    """Return the size of the record files."""
+    # A file with several channels counts once.
     return sum(row.size for row in record_paths(records).values())
 
 
@@ -227,10 +228,7 @@ def _unlike(files: Sequence[SourceFile]) -> Iterator[SourceFile]:
 
 
 def attachments(files: Sequence[SourceFile], results: bytes, short: str) -> tuple[Attached, ...]:
-    """Return the attachments of a package.
-
-    `short` is what `fingerprint` returns.
-    """
+    """Return the attachments of a package; `short` is what `fingerprint` returns."""
     has_records = not any(source.record for source in files)
     own = SourceFile(path=RESULTS, name=RESULTS, content=results, kind="results")
     document = Manifest(

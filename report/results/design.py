@@ -25,8 +25,8 @@ from report.sheet.schema.fields import YesNo
 from solver.model import INCH_M
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, Basis, PrescriptiveBasis
 
+# Cells of the peaks of an array in a direction, one for each motion.
 PeakRanges = Mapping[tuple[str, Direction], str]
-"""Cells of the peaks of an array in a direction, one for each motion."""
 
 
 class PeakRow(SheetRow, PeakResult):
@@ -117,8 +117,8 @@ def _direction_row(
     )
 
 
+# Cell of each input, by its key.
 InputCells = Mapping[str, str]
-"""Cell of each input, by its key."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,8 +196,8 @@ def _inputs(assessment: Assessment) -> Iterator[_Input]:
     yield provision("interconnection_min", "Interconnection / W1, minimum", strength)
 
 
+# Ids of the requirements that follow here by formula.
 _LIVE_ROWS = ("electrical_slack", "interconnection")
-"""Ids of the requirements that follow here by formula."""
 
 _MEAN, _LARGEST, _PLAIN, _FEW = (
     f'"{basis.value}"'
@@ -242,11 +242,11 @@ class DesignRow(SheetRow, ArrayResult):
     slack_m: Annotated[float | None, Column("Electrical slack [in]", 1, is_input=True)]
 
 
+# What the sheet follows from, with motions and without.
 _FROM = {
     True: "From the sheets Peaks, any direction, and Inputs.",
     False: "From the sheet Inputs; no motions are given, and the displacement is prescriptive.",
 }
-"""What the sheet follows from, with motions and without."""
 
 
 def write_design(

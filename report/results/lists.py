@@ -224,8 +224,8 @@ class LinkRow(SheetRow, LinkedResult):
     difference: Annotated[float, Column("Difference [in]", 4, _DIFFERENCE)] = 0.0
 
 
+# What the row of an array has whose blocks do not come to rest.
 _WITHOUT_VALUE = {"array", "estimated_m", "result"}
-"""What the row of an array has whose blocks do not come to rest."""
 
 
 def link_run_rows(assessment: Assessment) -> Iterator[LinkRunRow]:
@@ -252,7 +252,8 @@ def link_cells(assessment: Assessment, array_id: str) -> Sequence[str]:
 
 def write_links(pages: Pages, assessment: Assessment, designs: Mapping[str, Cells]) -> None:
     """Write the effect of links on the design displacement of each array, from sheet LinkRuns."""
-    top = TOP + len(assessment.linked) + 2  # of the peaks of the motions, below the arrays
+    # Of the peaks of the motions, below the arrays.
+    top = TOP + len(assessment.linked) + 2
     rows: list[LinkRow] = []
     peaks: list[LinkPeakRow] = []
     first_run = 2

@@ -73,6 +73,7 @@ def name_beside(book: OpenBook, path: Path) -> str:
     if not path.resolve().is_relative_to(home):
         raise InputError(f"{path}: is outside the workbook's folder; give one within {home}")
     name = path.resolve().relative_to(home).as_posix()
+    # A cell has the sheet of a workbook after "!", and a channel after the bar.
     if any(mark in name for mark in ("!", BAR)):
         raise InputError(f"{path}: has '!' or '{BAR}' in its name; rename it")
     return name
@@ -138,7 +139,8 @@ def set_rows(
     rows: list[Row] = []
     for name, group in sets.items():
         cells = [names[each.file] + each.name.removeprefix(each.file) for each in group]
-        records = dict(zip(LABELS, cells, strict=False))  # two without a vertical
+        # Two where there is no vertical record, which is the last of the labels.
+        records = dict(zip(LABELS, cells, strict=False))
         rows.append({"id": name, **records, "source": f"{name}, {group[0].format}", **about})
     return rows, files
 
@@ -163,6 +165,7 @@ def other_sources(sheet: Sheet) -> Iterator[Finding]:
 def said_near(folder: Path) -> Iterator[str]:
     """Yield in words the sources of `other_sources` in the workbooks of a folder and above it."""
     whole = folder.resolve()
+    # A suite is made in records/ or in a folder of it: the workbook is at most two above.
     for path in sorted(book for up in (whole, *whole.parents[:2]) for book in up.glob("*.xlsx")):
         with suppress(InputError):
             sheet = read(path)

@@ -28,7 +28,8 @@ Files that do not agree with it are of two sets, or were changed since.
 
 # Of `sha256sum`; names longer than any of a package belong to something else.
 _LINE = re.compile(r"([0-9a-f]{64})  (.{1,200})")
-_MOST_BYTES = 100_000_000  # a larger file is of no set
+# A larger file is of no set.
+_MOST_BYTES = 100_000_000
 
 
 def publish(files: Mapping[str, bytes], folder: Path) -> None:

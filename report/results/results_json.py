@@ -43,11 +43,11 @@ def results_json(assessment: Assessment, evidence: Evidence) -> bytes:
 GIVE = "give the results.json of a former revision"
 AGAIN = "write it again with `report` of this version, from the workbook of that revision"
 
+# Largest file that is read [B], and most objects of one that is compared.
 MOST_BYTES, MOST_OBJECTS = 25_000_000, 100_000
-"""Largest file that is read [B], and most objects of one that is compared."""
 
+# Most changes that the package lists, and most letters of them all.
 MOST_CHANGES, MOST_LETTERS = 2_000, 400_000
-"""Most changes that the package lists, and most letters of them all."""
 
 
 def read_former(path: Path) -> tuple[Compared, bytes]:
@@ -146,8 +146,8 @@ def _first(error: ValidationError) -> str:
     return f"{place or 'the whole'} is not as `report` writes it{more}"
 
 
+# Relative difference up to which two results count as the same: rounding on another machine.
 ALIKE = 1e-6
-"""Relative difference up to which two results count as the same: rounding on another machine."""
 
 NOT_THERE = "—"
 
@@ -220,7 +220,8 @@ def _given(former: Compared, now: Compared, assessment: Assessment) -> Iterator[
     yield from _inputs(former, assessment, assessment.project.us_first)
     records = former.records, now.records, "{row.motion} {row.component}"
     yield from _rows(ChangeKind.RECORD, *records, "{row.name}, SHA-256 {row.sha256}")
-    if "documents" in former.model_fields_set:  # earlier versions did not write theirs
+    # Earlier versions did not write theirs.
+    if "documents" in former.model_fields_set:
         documents = former.documents, now.documents, "{row.label}"
         yield from _rows(ChangeKind.DOCUMENT, *documents, "{row.path}, SHA-256 {row.sha256}")
 
@@ -285,11 +286,12 @@ def _cells(section: SheetSection, index: int, assessment: Assessment) -> Mapping
 
 
 def _row_key(row: Any) -> tuple[str, ...]:
-    """Return what identifies a row of a table; rows of other tables count from the first."""
+    """Return what identifies a row of a table."""
     if hasattr(row, "id"):
         return (row.id,)
     if hasattr(row, "object"):
         return _gap_key(row)
+    # Rows of tables without any of them count from the first.
     names = (getattr(row, name, "") for name in ("array", "provision", "warning"))
     return (next(filter(None, names), ""),)
 
@@ -315,7 +317,7 @@ def _fields(
 
 
 def _same(before: object, now: object) -> bool:
-    """Whether two inputs are equal; a length in another unit may differ by rounding."""
+    """Whether two inputs are equal."""
     if isinstance(before, float) and isinstance(now, float):
         # Feet and meters of one length differ in the last bit.
         return math.isclose(before, now, rel_tol=1e-12)

@@ -21,21 +21,26 @@ from xlsxwriter.worksheet import Worksheet
 from report.assessment.verdict import OVERRIDDEN
 from report.entities.shown import NO_VALUE, Column, Entity, columns_of
 
+# First row below the headings of a sheet with a title.
 TOP = 5
-"""First row below the headings of a sheet with a title."""
 
+# Height of a line of text.
 LINE_PT = 15
-"""Height of a line of text."""
 
+# Format of a cell that may be changed: yellow, as in the workbook.
 _INPUT = {"bg_color": "#FFF7CC", "border": 4}
-"""Format of a cell that may be changed."""
 
 _WRAPPED = {"text_wrap": True, "valign": "top", "align": "left"}
-_TEXT = _WRAPPED | {"indent": 1}  # off the number in the column before
+# Off the number in the column before.
+_TEXT = _WRAPPED | {"indent": 1}
+# By the numbers of Excel.
 _LETTER, _A4 = 1, 9
-_WIDEST = 30  # of a column whose texts wrap, in letters; of long texts, twice that
-_MOST_LINES = 27  # a row of Excel is at most 409 points tall
-_PAGE_PX, _LEAST_SCALE = 970, 60  # width of a landscape page, and the least scale on it [%]
+# Of a column whose texts wrap, in letters; of long texts, twice that.
+_WIDEST = 30
+# A row of Excel is at most 409 points tall.
+_MOST_LINES = 27
+# Width of a landscape page, and the least scale on it [%].
+_PAGE_PX, _LEAST_SCALE = 970, 60
 
 
 class SheetRow(Entity):
@@ -80,7 +85,8 @@ def _letters(model: type[SheetRow]) -> Mapping[str, str]:
 
 
 def typed(value: float) -> float:
-    """Return a number as it was typed: without the rounding error of a conversion of units."""
+    """Return a number as it was typed."""
+    # Without the rounding error of a conversion of units.
     return float(f"{value:.12g}")
 
 
@@ -173,6 +179,7 @@ def lay_out(
 
 def _is_wide(widths: Sequence[int]) -> bool:
     """Whether columns are wider than a page at the least scale."""
+    # Excel gives a letter 7 pixels, and a column 5 beside its letters.
     return sum(7 * width + 5 for width in widths) * _LEAST_SCALE > 100 * _PAGE_PX
 
 
@@ -233,6 +240,7 @@ def _write(
     if isinstance(value, str) and column.decimals is None:
         shown = pages.typed_text if is_input else pages.text
     if formula and (column.is_always or value != NO_VALUE):
+        # With its value: a program that computes nothing shows it, too.
         sheet.write_formula(*place, formula, shown, value)
     elif isinstance(value, str):
         sheet.write_string(*place, value, shown)

@@ -147,15 +147,14 @@ def _displacement(assessment: Assessment, row: int, toward: Direction) -> str:
     return fixed(DirectionRow, "design_m", TOP + len(ways) * (row - TOP) + ways.index(toward))
 
 
+# The sheets in the order of the package.
 _ORDER = (
     "Design", "Clearances", "Neighbors", "Requirements", "Inputs", "Motions", "Records", "Spectra",
     "Directions", "Peaks", "Runs", "Links", "LinkRuns",
 )  # fmt: skip
-"""The sheets in the order of the package."""
 
-
+# The sheets that a workbook without motions has not.
 OF_MOTIONS = {"Motions", "Records", "Spectra", "Directions", "Peaks", "Runs"}
-"""The sheets that a workbook without motions has not."""
 
 
 def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
@@ -167,6 +166,8 @@ def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
     with text_workbook(buffer, assessment.project.project.date) as workbook:
         pages = Pages(workbook, is_a4=not assessment.project.us_first)
         for name in _ORDER:
+            # All before any is written: xlsxwriter keeps them in the order in which they were
+            # added.
             if name not in absent:
                 workbook.add_worksheet(name)
         write_lists(pages, assessment, spectra)

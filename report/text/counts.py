@@ -89,6 +89,7 @@ def ranged(names: Iterable[str]) -> str:
 def name_order(name: str) -> tuple[str, int, str]:
     """Return what is before the number at the end of a name, the number, and the name."""
     stem = name.rstrip("0123456789")
+    # Without a number -2, not -1: A and A0 do not count on.
     return stem, int(name[len(stem) :] or -2), name
 
 
@@ -114,15 +115,16 @@ class Names:
 
     @classmethod
     def of(cls, *kinds: Iterable[str]) -> Names:
-        """Return the keys of names of several kinds.
-
-        Names that count on have keys that count on, so that a range of names is one of keys: of
-        names with one stem all have a key, or none.
-        """
+        """Return the keys of names of several kinds."""
+        # Names that count on have keys that count on, so that a range of names is one of keys: of
+        # names with one stem all have a key, or none.
         rows = [sorted(map(name_order, dict.fromkeys(names))) for names in kinds]
-        long = {(at, row[0]) for at, kind in enumerate(rows) for row in kind if _is_long(row[2])}
+        long = {
+            (at, row[0]) for at, kind in enumerate(rows) for row in kind if len(row[2]) > LONGEST
+        }
         keyed = [row[2] for at, kind in enumerate(rows) for row in kind if (at, row[0]) in long]
         keys = {row[2] for row in chain(*rows)}
+        # An array may be called [1].
         free = (key for number in count(1) if (key := f"[{number}]") not in keys)
         return cls(keys=dict(zip(dict.fromkeys(keyed), free, strict=False)))
 
@@ -163,12 +165,9 @@ def _keyed(names: str, one: str, keys: Mapping[str, str]) -> str:
     return text if len(numbers) < 3 else re.sub(r"\d+", r"[\g<0>]", ranged(numbers))
 
 
-def _is_long(name: str) -> bool:
-    return len(name) > LONGEST
-
-
 def _any_of(names: Iterable[str]) -> str:
     """Return a pattern for the longest of some names."""
+    # A name may begin with another one.
     longest_first = sorted(names, key=len, reverse=True)
     return f"{_BEFORE}(?:{'|'.join(map(re.escape, longest_first))}){_AFTER}"
 
@@ -204,6 +203,7 @@ _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 def cut(text: str, maximum: int = SHOWN) -> str:
     """Return a text on one line, shortened."""
+    # A cell may hold what would move the cursor or turn the direction of the line.
     text = UNPRINTABLE.sub("?", text).replace("\n", " ")
     return text if len(text) <= maximum else f"{text[: maximum - 1]}…"
 
@@ -229,7 +229,8 @@ def power_of_ten(exponent: int) -> str:
 
 
 def power_above(value: float) -> str:
-    """Return a power of ten above a value: its digits depend on the machine."""
+    """Return a power of ten above a value."""
+    # The digits of a rounding error depend on the machine, and golden texts on none.
     return power_of_ten(math.floor(math.log10(value)) + 1)
 
 
@@ -243,6 +244,7 @@ def lettered(text: str) -> str:
     named = _NAMES.sub(lambda match: _LETTERS[match[1]], text)
     for plain, set_well in _SIGNS.items():
         named = named.replace(plain, set_well)
+    # A hyphen within a word or an option, such as --json, stays one.
     return re.sub(r"(?<![\w-])-(?=[\w.])", "−", named)
 
 
@@ -254,7 +256,8 @@ def trimmed(text: str) -> str:
 # The name in lower case before a word is a command; the product is Roofslip.
 _COMMAND = re.compile(r"(?<![\w./-])roofslip(?= [a-z])")
 
-_PLAIN = re.compile(r"[\w.:\\/+-]+")  # no shell of Windows takes it apart
+# No shell of Windows takes it apart.
+_PLAIN = re.compile(r"[\w.:\\/+-]+")
 
 
 def called() -> str:

@@ -94,7 +94,8 @@ def aligned(rows: Sequence[Sequence[str]], sides: Sequence[str] = ()) -> Iterato
 
 
 def finite(value: Any) -> Any:
-    """Return data for JSON: null for every NaN or infinity, which it does not have."""
+    """Return data for JSON: null for every NaN or infinity."""
+    # JSON has neither; Python would write NaN, which other readers refuse.
     if isinstance(value, float):
         return value if math.isfinite(value) else None
     if isinstance(value, Mapping):

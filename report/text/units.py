@@ -53,13 +53,15 @@ class Unit:
 
 
 Show = Callable[[float, Unit], str]
-_NOISE = 1e-6  # of the last digit printed: 36 in from meters is not 36.1 in
+# Of the last digit printed: 36 in from meters is not 36.1 in.
+_NOISE = 1e-6
 
 
 class Quantity(Enum):
     """A physical quantity: (US unit, SI unit)."""
 
     DISPLACEMENT = (Unit("in", INCH_M, 1), Unit("mm", 1e-3, 0))
+    # An alias: the same units, and the name says what is meant.
     SIZE = DISPLACEMENT
     PLAN = (Unit("ft", 0.3048, 2), Unit("m", 1.0, 2))
     WEIGHT = (Unit("lb", NEWTONS_PER_POUND, 0), Unit("kN", 1e3, 2))
@@ -94,6 +96,7 @@ def number(value: float, decimals: int) -> str:
     if value != value:
         return "—"
     text = f"{value:.{decimals}f}"
+    # What rounds to zero has no sign.
     if float(text) == 0.0:
         text = text.lstrip("-")
     return text.replace("-", "−").replace("inf", "∞")
@@ -157,6 +160,7 @@ def beside(required_si: float, provided_si: float, *, up: bool = True) -> Show:
     def show(value_si: float, unit: Unit) -> str:
         value, decimals = value_si / unit.si, unit.decimals
         required, provided = required_si / unit.si, round(value, decimals)
+        # Compared as printed, in each unit by itself: inches and millimeters round differently.
         required = round_up(required, decimals) if up else round(required, decimals)
         if required_si > provided_si and provided >= required:
             value = round_down(value, decimals)
@@ -181,10 +185,12 @@ def ratio(value: float) -> str:
     """Return a demand/capacity ratio, rounded up so that 1.00 never hides a failure."""
     if math.isnan(value):
         return "none"
+    # Less 1e-7, or a ratio of 1 could print as 1.01 by rounding error.
     return "∞" if math.isinf(value) else number(math.ceil(value * 100.0 - 1e-7) / 100.0, 2)
 
 
 def round_below(value: float) -> float:
     """Return the largest of 1, 2, 5 times a power of ten that is not above a value."""
     power = 10.0 ** math.floor(math.log10(value))
+    # A power of ten is not exact: a value of 0.2 is to give 0.2.
     return max(digit * power for digit in (1.0, 2.0, 5.0) if digit * power <= value * (1 + 1e-9))

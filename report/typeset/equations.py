@@ -15,7 +15,8 @@ from markupsafe import Markup, escape
 from solver.model import DefectError
 
 SIZE_PT = 11.0
-WIDE_PT = 175.0  # of a page 482 pt wide
+# Of a page 482 pt wide: a wider formula leaves no room for its numbers beside it.
+WIDE_PT = 175.0
 _SIZE = re.compile(r'<svg [^>]*?width="([\d.]+)" height="([\d.]+)" viewBox="([-\d. ]+)"')
 _PATH = re.compile(r'<path d="([^"]+)"')
 _DECIMALS = re.compile(r"(\.\d\d)\d+")
@@ -29,7 +30,6 @@ class FormulaPicture(TypedDict):
     width_pt: float
     height_pt: float
     is_wide: bool
-    """Whether it leaves no room for its numbers beside it."""
     latex: str
 
 
@@ -39,11 +39,9 @@ def data_uri(svg: str) -> str:
 
 
 def formula(latex: str) -> FormulaPicture:
-    """Return a LaTeX formula as a picture.
-
-    As a filter of a constant it is typeset when its template is compiled, which keeps only plain
-    types: hence a dictionary.
-    """
+    """Return a LaTeX formula as a picture."""
+    # As a filter of a constant it is typeset when its template is compiled, which keeps only plain
+    # types: hence a dictionary.
     # The renderer spends time on decimals that print cannot show.
     svg = _DECIMALS.sub(r"\1", _typeset(latex))
     size = _SIZE.match(svg)
@@ -69,7 +67,8 @@ def _typeset(latex: str) -> str:
         warnings.simplefilter("ignore", DeprecationWarning)
         from ziamath.config import config
         from ziamath.zmath import Latex
-    config.svg2 = False  # inline outlines: reused symbols cost the page much more
+    # Inline outlines: reused symbols cost the page much more.
+    config.svg2 = False
     return str(Latex(latex, size=SIZE_PT).svg())
 
 

@@ -24,13 +24,11 @@ _SURE = re.compile(r"[\n\t\x20-\x7e\xa0-\xff]*")
 
 
 def undrawable(text: str, *, is_in_figures: bool = False) -> str:
-    """Return the letters of a text that no font of a package or of this machine has.
-
-    The figures use the fonts of a package alone.
-    """
+    """Return the letters of a text that no font of a package or of this machine has."""
     if _SURE.fullmatch(text):
         return ""
     letters = dict.fromkeys(_SURE.sub("", text))
+    # The figures use the fonts of a package alone.
     has_font = _is_shipped if is_in_figures else _has_font
     return "".join(letter for letter in letters if not has_font(letter))
 
@@ -51,6 +49,7 @@ def _shipped() -> frozenset[int]:
     from report.typeset.pdf import TEMPLATES
 
     paths = sorted((TEMPLATES / "fonts").glob("*.ttf"))
+    # Each of them: a heading is set in another file than its text.
     return frozenset.intersection(*(frozenset(TTFont(path).getBestCmap()) for path in paths))
 
 

@@ -26,16 +26,18 @@ from report.text.units import Quantity
 from report.typeset.finish import Attached, finish
 from solver.model import DefectError
 
+# Characters of a name that is kept whole: a longer one may need a second line in its column.
 LONGEST = 8
-"""Characters of a name that is kept whole: a longer one may need a second line in its column."""
 
 _UNITS = {unit.symbol for quantity in Quantity for unit in quantity.value}
 _MORE = ("g", "s", "Hz", "%", "s/m", "m g", "kB", "MB")
+# The longest symbol first, or m would be found where m g is meant.
 _QUANTITY = "[−]?\\d[\\d.,]* (?:{})(?![\\w/])".format(
     "|".join(map(re.escape, sorted({*_UNITS, *_MORE}, key=len, reverse=True)))
 )
 _DATE = r"\d{4}-\d\d-\d\d"
 _NAME = rf"(?=[\w-]{{3,{LONGEST}}}(?![\w-]))[A-Z0-9]\w*(?:-\w+)+"
+# Tags before all else: what is in their attributes stays as it is.
 _PATTERN = re.compile(rf"<[^<>]*>|(?<![\w./-])(?P<whole>{_QUANTITY}|(?:{_DATE}|{_NAME})(?![\w-]))")
 
 
@@ -58,22 +60,19 @@ TEMPLATES = next(
 )
 VARIANT = "pdf/a-3a"
 _NO_DATE = dt.datetime(1980, 1, 1)
+# Of addresses of the files of the template folder.
 _SCHEME = "shipped:"
-"""Of addresses of the files of the template folder."""
 
 
 def lay_out(html: str, attached: Sequence[Attached] = ()) -> bytes:
     """Return the PDF of an HTML document; `shipped:/NAME` addresses a file of the templates.
 
-    Raises
-    ------
-    DefectError
-        If the renderer logs a line of warning level or above; with these lines.
-    ParseError
-        If the markup is not well-formed as XML.
+    Raises `DefectError` with what the renderer logs as a warning or worse, and `ParseError` where
+    the markup is not well-formed as XML.
     """
     load_renderer()
-    ElementTree.fromstring(html)  # the renderer mends broken markup without a word
+    # The renderer mends broken markup without a word.
+    ElementTree.fromstring(html)
     files = sorted(attached, key=lambda file: file.name)
     with _clean_log(), warnings.catch_warnings(), _no_fonts_left():
         # The renderer leaves the file of its color profile to the garbage collector.
@@ -114,7 +113,8 @@ def _fetcher() -> Any:
 
 
 def _attachment(file: Attached, date: dt.datetime) -> Any:
-    """Return an attachment for the renderer, without the time of day at which it is written."""
+    """Return an attachment for the renderer."""
+    # Its own date would be the time of writing: two runs are to give the same bytes.
     from weasyprint import Attachment
 
     return Attachment(
@@ -129,7 +129,8 @@ def _attachment(file: Attached, date: dt.datetime) -> Any:
 
 @contextmanager
 def _no_fonts_left() -> Iterator[None]:
-    """Have the files of fonts removed, which the renderer leaves to the garbage collector."""
+    """Have the files of fonts removed."""
+    # The renderer leaves them to the garbage collector: they go with a folder of their own.
     usual = tempfile.tempdir
     is_windows = sys.platform == "win32"
     with tempfile.TemporaryDirectory("", "roofslip-", ignore_cleanup_errors=is_windows) as folder:
@@ -139,7 +140,8 @@ def _no_fonts_left() -> Iterator[None]:
         finally:
             tempfile.tempdir = usual
             if is_windows:
-                gc.collect()  # which closes them: there, no open file is removed
+                # It closes them: on Windows no open file is removed.
+                gc.collect()
 
 
 @contextmanager
@@ -152,6 +154,7 @@ def _clean_log() -> Iterator[None]:
     finally:
         logger.removeHandler(lines)
     if lines.messages:
+        # It logs what it does not draw as meant: nobody would see it in a sealed document.
         raise DefectError(
             "the PDF renderer logged warnings:\n" + "\n".join(dict.fromkeys(lines.messages))
         )
