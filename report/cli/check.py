@@ -30,9 +30,6 @@ if TYPE_CHECKING:
     from report.sheet.reading.read import Sheet
     from report.sheet.schema.fields import Finding
 
-STEPS = 3
-"""Steps that a check reports."""
-
 
 @click.command()
 @click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
@@ -48,7 +45,7 @@ def check(source: Path, quiet: bool, as_json: bool) -> None:
     """
     with (
         input_errors(source, as_json=as_json),
-        Progress(STEPS, quiet=quiet or as_json) as progress,
+        Progress(3, quiet=quiet or as_json) as progress,
         no_collections(),
     ):
         sheet, shaking, findings = checked(source, progress)
@@ -92,6 +89,7 @@ def checked(
         *findings(sheet, shaking),
         *_without_motions(sheet, shaking),
         *_computed(sheet),
+        # Only here the clock is read: a package of the same input is to be the same on any day.
         *_in_future(sheet, dt.date.today()),
     ]
     return sheet, shaking, in_order(told)
@@ -106,6 +104,7 @@ def _without_motions(sheet: Sheet, shaking: Shaking) -> Iterator[Finding]:
     from report.sheet.checking.findings import note
     from report.sheet.schema.fields import Place
 
+    # Without motions nothing is run, so that the assessment is at hand before the report.
     yield note(Place("motions"), without_motions(assess(sheet, shaking)))
 
 
@@ -125,7 +124,7 @@ def _computed(sheet: Sheet) -> Iterator[Finding]:
 
 
 def _in_future(sheet: Sheet, today: dt.date) -> Iterator[Finding]:
-    """Yield that a package is dated after today; a package itself does not read the clock."""
+    """Yield that a package is dated after today."""
     from report.sheet.checking.findings import note
     from report.sheet.schema.fields import Place
 

@@ -40,8 +40,8 @@ from report.cli.verify import sign, verify, verify_package
 from report.libraries import stay_apart
 from report.text.counts import called
 
+# Set by the script in which the shell asks for completions.
 VARIABLE = "_ROOFSLIP_COMPLETE"
-"""Set by the script in which the shell asks for completions."""
 
 
 @click.command()
@@ -69,9 +69,9 @@ def schema() -> None:
     click.echo(json.dumps(results.schema(), indent=1))
 
 
+# Native libraries of the PDF renderer, each with the Debian package that has it.
 NATIVE = {"pango-1.0": "libpango-1.0-0", "pangoft2-1.0": "libpangoft2-1.0-0",
           "harfbuzz-subset": "libharfbuzz-subset0", "fontconfig": "libfontconfig1"}  # fmt: skip
-"""Native libraries of the PDF renderer, each with the Debian package that has it."""
 
 
 @click.command()
@@ -102,6 +102,7 @@ def _checks() -> Iterator[tuple[str, Callable[[str], str | None], str]]:
     yield "cores", lambda _: str(os.cpu_count()), ""
     launcher = os.path.join(".", "roofslip")
     locked = f"install it: {launcher} does so from requirements.lock"
+    # Extras have a marker after a semicolon: a package needs none of them.
     for name in ("roofslip", *(each for each in requires("roofslip") or () if ";" not in each)):
         yield name, version, locked
     for name, package in NATIVE.items():

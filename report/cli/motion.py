@@ -176,6 +176,7 @@ def suite(
         from report.suite.files import generate, suite_table
         from report.suite.inputs import check_folder, read_seeds
 
+        # Before minutes of work: a folder that cannot be written is told at once.
         check_folder(folder, count)
         output_folder(folder, folder, "")
         sheet = read(into) if into else None
@@ -185,6 +186,7 @@ def suite(
         rows = suite_rows(sheet.book, folder, count, targets.source(seed)) if sheet else []
         seeds = read_seeds((*records, *more), units=units or "", dt_s=dt_s)
         motions, files = generate(targets, count, seed, seeds, progress)
+        # With a workbook both or neither are written: rows without their records would be errors.
         if into:
             change = add_suite(into, folder, rows, files)
         else:
@@ -239,6 +241,7 @@ def rows(
         from report.web.files import unpack
         from solver.model import InputError
 
+        # A default would be wrong in silence: ground motions go through the building.
         if project and not at:
             raise InputError(
                 "--at is missing; give --at roof or --at ground, where the motions were recorded"
@@ -310,6 +313,8 @@ def _targets(
     from solver.model import InputError
     from solver.rules.hazard import Tail
 
+    # Any of the options makes a target of its own; half of a site and half of options would be
+    # nobody's.
     if sheet and not options and not target:
         return site_targets(sheet)
     whole: dict[str, Any] = {"s_ds_g": math.nan, "z_over_h": 1.0} | options

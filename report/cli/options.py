@@ -38,7 +38,7 @@ class Number(click.ParamType[float]):
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> float:
-        """Return the number; a default is taken as it is."""
+        """Return the number."""
         # A default is the program's own, and may be NaN for none.
         if not isinstance(value, str):
             return float(value)
@@ -99,7 +99,8 @@ class SectionedGroup(click.Group):
         """Write each section."""
         sections: dict[str, list[tuple[str, str]]] = {}
         names = self.list_commands(ctx)
-        width = max(map(len, names))  # the same in every section
+        # The same in every section.
+        width = max(map(len, names))
         for name in names:
             rows = sections.setdefault(self._titles.get(name, "Commands"), [])
             rows.append((name.ljust(width), _first_sentence(self.commands[name])))

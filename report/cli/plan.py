@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from report.sheet.writing.filled import WorkbookChange
 
 
+# A drawing may have thousands of layers, with names of any length.
 _MOST_ROWS, _MOST_LETTERS = 100, 60
 
 
@@ -38,6 +39,7 @@ def given_kinds(
 
     kinds = {}
     for text in value:
+        # From the right: a layer may have the sign in its name, a kind has not.
         name, _sign, word = text.rpartition("=")
         if not name or word.lower() not in list(LayerKind):
             choices = ", ".join(LayerKind)
@@ -171,6 +173,7 @@ def read(
         change.fill(changes(change.book, told, layers, replace=replace))
         try:
             more = _add_clearances(change)
+        # The plan is filled in all the same: it is what the next errors are corrected on.
         except InputError as error:
             more = [
                 f"Clearances are not added yet: {error.problems[0]}.",
@@ -223,7 +226,8 @@ def _add_clearances(change: WorkbookChange) -> Sequence[str]:
 
     sheet = read_book(change.book) if change.written else change.sheet_before
     not_run: list[str] = []
-    without_motions(sheet)  # an error in it does not wait for the compiler, which these load
+    # An error in it does not wait for the compiler, which the imports below load.
+    without_motions(sheet)
     from report.assessment.assess import assess
     from report.assessment.plan_clearances import missing_rows, without_clearances
     from report.motions.prepare import prepare
@@ -236,6 +240,7 @@ def _add_clearances(change: WorkbookChange) -> Sequence[str]:
             progress("running the motions")
             arrays = assess(to_run, shaking).arrays
         except InputError as error:
+            # Rows within twice the prescriptive displacement are known without a run.
             not_run = [f"the motions are not run: {error.problems[0]}"]
     cells, lines = missing_rows(sheet, arrays)
     change.fill(cells)
@@ -261,6 +266,7 @@ def _turned(drawn: RoofDrawing, rotate: float) -> tuple[RoofDrawing, list[str]]:
     """Return the drawing as turned, and lines on that and its north; NaN turns its north to +y."""
     from solver.model import InputError
 
+    # North is given from +x, counterclockwise.
     degrees = 90.0 - drawn.north_deg if math.isnan(rotate) else rotate
     if math.isnan(degrees):
         raise InputError("states no north (GEODATA); give --rotate in degrees")
@@ -329,6 +335,7 @@ def ballast(
         arrays = {row["id"]: row for row in sheet.draft["arrays"] if row.get("id") in shapes}
         blocks, outside = loads(rows, {name: shapes[name] for name in arrays})
         if not blocks:
+            # Most likely other units, or another origin than that of the plan.
             raise InputError("no block of the map is within an array of the plan")
         weights = {name: load.blocks * block_n for name, load in blocks.items()}
         # What is not on the map any more goes only where that is asked for.

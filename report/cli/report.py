@@ -70,7 +70,8 @@ def _new_project(folder: Path, units: str, *, is_example: bool, is_study: bool) 
     from solver.model import InputError
 
     path = folder / "input.xlsx"
-    if os.path.lexists(path):  # a dangling link as well
+    # A dangling link as well, which `exists` does not see.
+    if os.path.lexists(path):
         raise InputError(f"{path}: already exists; choose another folder, or move the file")
     records = folder / "records"
     check_plain(records, folder, is_folder=True)
@@ -84,6 +85,7 @@ def _new_project(folder: Path, units: str, *, is_example: bool, is_study: bool) 
             else:
                 write = write_study if is_study else write_template
                 write(path, units=UnitsFirst(units))
+            # All is written: only now nothing is taken back.
             undo.pop_all()
     except OSError as error:
         raise InputError(
@@ -187,6 +189,7 @@ def _print_changes(assessment: Assessment, changed: Changes) -> None:
     from report.pages.front import counted
 
     before = {item.title: plain(item.before) for item in changed.items if item.cell}
+    # Both changed: one alone may be a correction.
     if {"Project name", "Project number"} <= before.keys():
         click.echo(
             f"--since is of another project: {before['Project number']},"
@@ -217,7 +220,8 @@ def watch(source: Path, out: Path | None) -> None:
         workbook, results = located(source), b""
     while True:
         seen = settled(workbook)
-        with suppress(SystemExit):  # after an error the next save is waited for as well
+        # After an error the next save is waited for as well.
+        with suppress(SystemExit):
             results = report_again(workbook, out, results)
         collect()
         click.echo(f"watching {workbook.parent}; end with Ctrl+C")

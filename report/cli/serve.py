@@ -35,6 +35,7 @@ LOOPBACK, PORT = "127.0.0.1", 8765
 HTTP_PORT = 80
 SHORTEST_TOKEN = 20
 
+# What stands in an address without being escaped (RFC 3986, 2.3).
 _TOKEN = re.compile(r"[A-Za-z0-9_~.-]+")
 _NEEDED = {"starlette": "starlette", "uvicorn": "uvicorn", "python_multipart": "python-multipart"}
 _NOT_ENCRYPTED = (
@@ -88,6 +89,7 @@ def serve(
             click.echo(_NOT_ENCRYPTED, err=True)
         if not once and not lasting and sys.stdin is not None and sys.stdin.isatty():
             click.echo(_MORE, err=True)
+            # A daemon: it reads until the process ends.
             threading.Thread(target=_print_more, args=(page, keys), daemon=True).start()
         server = _server(folder, keys, hosts)
         visit = _Visit(server, address)
@@ -129,8 +131,10 @@ def names_of(host: str | None, port: int) -> tuple[str, Sequence[str]]:
         return LOOPBACK, [f"{name}{end}" for name in (LOOPBACK, "localhost")]
     with suppress(ValueError):
         address = ipaddress.ip_address(host)
+        # 0.0.0.0 stands for every address of the machine: any name may lead to it.
         if address.is_unspecified:
             return socket.gethostname(), ()
+        # In an address the colons of IPv6 are in brackets (RFC 3986, 3.2.2).
         host = f"[{host}]" if address.version == 6 else host
     return host, [f"{host}{end}"]
 
@@ -171,11 +175,13 @@ def _server(folder: Path, keys: Keys, hosts: Sequence[str]) -> uvicorn.Server:
     return uvicorn.Server(
         uvicorn.Config(
             made(keys, folder, hosts),
-            http="h11",  # holds a body to its Content-Length
+            # It holds a body to its Content-Length.
+            http="h11",
             ws="none",
             proxy_headers=False,
             log_level="warning",
-            access_log=False,  # the first address has the token
+            # The first address has the token.
+            access_log=False,
             server_header=False,
             timeout_graceful_shutdown=_STOPPED_S,
         )
@@ -216,5 +222,6 @@ class _Visit(threading.Thread):
             self.is_answered = True
         except (OSError, ValueError):
             pass
+        # Also where the page did not answer: the command is to end.
         finally:
             self._server.should_exit = True

@@ -68,6 +68,7 @@ class ReportOutcome:
     @property
     def largest(self) -> tuple[float, ...]:
         """The largest D/C alone, of which NaN is the worst; nothing without clearances."""
+        # NaN compares with nothing: it is sorted by being one.
         return tuple(sorted(self.ratios, key=lambda r: (r != r, r))[-1:])
 
 
@@ -132,6 +133,7 @@ def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[ReportOutcome]:
     # A link stays one: the package lies beside it.
     places = [book.parent.resolve() / book.name for book in books]
     distinct = dict(zip(places, sources, strict=True))
+    # Packages of one folder would overwrite each other in its out/.
     homes = Counter(workbook.parent for workbook in distinct if os.path.isfile(workbook))
     shared = {source for workbook, source in distinct.items() if homes[workbook.parent] > 1}
     count = min(len(distinct), os.cpu_count() or 1)
@@ -199,6 +201,7 @@ def package(source: Path, is_shared: bool = False) -> ReportOutcome:
         done = ReportOutcome(source=source, problems=error.parts)
     except OSError as error:
         done = ReportOutcome(source=source, problems=(system_problem(error),))
+    # One project that fails in the program stops no other.
     except Exception:
         done = ReportOutcome(source=source, internal=traceback.format_exc())
     # Without a package the files that are there are of an earlier run.

@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from solver.model import Scene
     from solver.records.record import Record
 
+# Of `solver.sliding.least_model`, simplest first: the index is the number of the model. This
+# command has no velocity-dependent friction.
 MODELS = ("no-slip", "one-axis", "one-axis-vertical", "two-axes")
-"""Models of `solver.sliding.least_model` that can be requested, simplest first; this command has no
-velocity-dependent friction."""
 
 
 @click.command()
@@ -86,7 +86,7 @@ def slide(
 
 
 def _read(names: tuple[str | None, ...], units: str, dt_s: float) -> list[Record | None]:
-    """Read the horizontal, transverse and vertical records; report the errors of all at once."""
+    """Read the horizontal, transverse and vertical records."""
     from solver.formats import read_record
     from solver.model import InputError
     from solver.records.record import has_gravity
@@ -103,6 +103,7 @@ def _read(names: tuple[str | None, ...], units: str, dt_s: float) -> list[Record
             path = Path(file.strip())
             records[-1] = read_record(path, units=units, dt_s=dt_s, channel=channel.strip())
         except InputError as error:
+            # The errors of all files at once, not one at each attempt.
             problems += error.problems
     components = [record for record in records if record is not None]
     problems += [

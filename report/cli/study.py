@@ -111,12 +111,14 @@ def make(
     runs = folder / RUNS
     check_plain(runs, folder, is_folder=True)
     with ExitStack() as undo:
-        add_folder(runs, undo)  # where nothing ran, as with no cluster, nothing new stays
+        # Where nothing ran, as with no cluster, nothing new stays.
+        add_folder(runs, undo)
         with locked(runs):
             results = run_study(plan, folder, progress=progress, **options)
             progress("writing the report")
             files = study_files(results)
             publish(files, folder)
+            # A former study may have had them: left there, they would pass for results of this one.
             for name in (*EXPORTS, YEARS):
                 if name not in files:
                     (folder / name).unlink(missing_ok=True)

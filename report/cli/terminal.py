@@ -59,10 +59,8 @@ def colored(line: str) -> str:
 
 
 def color_choice() -> bool | None:
-    """Return whether to color: not where NO_COLOR is set or the terminal has none; else by click.
-
-    NO_COLOR counts if it is not empty (no-color.org).
-    """
+    """Return whether to color: not with NO_COLOR or where the terminal has none; else by click."""
+    # NO_COLOR counts if it is not empty (no-color.org).
     return False if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb" else None
 
 
@@ -95,9 +93,9 @@ def say(line: str) -> None:
 # Raised where a key that `--json` prints changes its name or meaning.
 SCHEMA_VERSION = 1
 
+# Exit codes: an error of the program; a package differs; an error in the input; not OK where that
+# is asked for; not all could be compared; cut off by Ctrl+C, which shells write as 128 + signal 2.
 INTERNAL_ERROR, DIFFERS, INPUT_ERROR, NOT_OK, NOT_COMPARED, INTERRUPTED = 1, 1, 2, 3, 4, 130
-"""Exit codes: an error of the program; a package differs; an error in the input; not OK where that
-is asked for; not all could be compared; cut off by Ctrl+C."""
 
 QUIET = click.option("--quiet", is_flag=True, help="Print errors only.")
 AS_JSON = click.option(
@@ -110,16 +108,14 @@ FAIL_ON_NG = click.option(
 
 @contextmanager
 def interrupts() -> Iterator[list[int]]:
-    """Give a list that grows with each Ctrl+C, which is still raised as KeyboardInterrupt.
-
-    Where the signal is ignored, or taken by another handler, it is left as it is.
-    """
+    """Give a list that grows with each Ctrl+C, which is still raised as KeyboardInterrupt."""
     received: list[int] = []
 
     def note(number: int, frame: FrameType | None) -> None:
         received.append(number)
         signal.default_int_handler(number, frame)
 
+    # As under nohup, or within a program that calls this one.
     if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
         yield received
         return
@@ -141,6 +137,7 @@ def input_errors(
     """
     try:
         yield
+    # Nobody reads any more: no error of the input, and nothing to print it to.
     except BrokenPipeError:
         raise
     except OSError as error:
@@ -181,7 +178,8 @@ def outputs_of(source: Path, out: Path | None) -> tuple[Path, ...]:
 def warn_of_others(new: Path) -> None:
     """Warn of packages beside a new one that are of another input."""
     if others := sorted(path for path in new.parent.glob("*.pdf") if path.name != new.name):
-        from report.proof.package import warn_of_other_input  # takes most of a second
+        # It takes most of a second to import.
+        from report.proof.package import warn_of_other_input
 
         warn_of_other_input(new, others)
 
@@ -318,14 +316,13 @@ def show_warnings() -> None:
 
 @contextmanager
 def no_collections() -> Iterator[None]:
-    """Suspend the cyclic garbage collector: it searches all that is alive, and finds little.
-
-    What is left is exempt from later collections, that at the exit of the process included.
-    """
+    """Suspend the cyclic garbage collector."""
+    # It searches all that is alive, and finds little.
     gc.disable()
     try:
         yield
     finally:
+        # What is left is exempt from later collections, that at the exit of the process included.
         gc.freeze()
         gc.enable()
 
@@ -374,6 +371,7 @@ class Progress:
             self._expected_s = seconds / part if part else 0.0
             self._doing = str(doing)
             self._show(seconds)
+        # A quick command prints none.
         elif seconds > QUIET_SECONDS:
             click.echo(f"[{seconds:4.1f} s] {doing}", err=True)
         self._done += 1
@@ -384,7 +382,8 @@ class Progress:
         return before[min(self._done, len(before) - 1)] if before else 0.0
 
     def _show(self, seconds: float) -> None:
-        filled = int(_BAR * self._part() + 1e-9)  # 7 of 10 may be 0.6999
+        # 7 of 10 may be 0.6999.
+        filled = int(_BAR * self._part() + 1e-9)
         bar = f"[{'#' * filled}{'.' * (_BAR - filled)}] " if self._shares_before else ""
         left = _left(self._expected_s - seconds) if seconds > TIMED_SECONDS else ""
         line = f"{bar}{seconds:4.1f} s{left}  {self._doing}"

@@ -42,8 +42,8 @@ if TYPE_CHECKING:
     from solver.verification.evidence import Verification
 
 
+# Usual shares of the time of the steps that a verification reports, as with --quick.
 VERIFY_STEPS = (18, 2, 3, 9, 11, 5, 0.1, 5, 0.1, 0.5, 0.1, 7, 33, 2)
-"""Usual shares of the time of the steps that a verification reports, as with --quick."""
 
 _FOLDER = Existing(file_okay=False)
 _USUAL = "out"
@@ -89,6 +89,7 @@ def verify(out: Path | None, quick: bool, records: Path | None, table: Path | No
     for name in files:
         click.echo(out / name)
     is_refuted = not all(tests.is_accepted for tests in verification.tables)
+    # Without any check nothing passed either.
     if failed or is_refuted or not verification.checks:
         sys.exit(1)
 
@@ -148,7 +149,8 @@ def verify_package(
     again = out or file.with_name(f"{file.stem}-again.pdf")
     with input_errors(file, as_json=as_json), _ended_by_signals():
         data = read_package(file)
-        if os.path.lexists(again):  # a dangling link as well
+        # Before the work, and a dangling link as well.
+        if os.path.lexists(again):
             raise InputError(f"{again}: already exists; give another --out, or move the file")
         with Progress((*STEPS, COMPARING), quiet=quiet) as progress, no_collections():
             proof, made = _proof(file, data, records, progress)
@@ -198,9 +200,11 @@ def _proof(
             try:
                 made = made_again(workbook, Path(folder, "out"), former, progress)
             except InputError as error:
+                # Its own input is refused: the package was not made from it, or by another version.
                 return failed(package, error.problems), b""
         progress("comparing")
         return compared(package, opened(made)), made
+    # No verdict on the package: it can be given once the records are there.
     except RecordsMissingError:
         raise
     except InputError as error:
