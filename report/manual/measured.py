@@ -47,6 +47,7 @@ _PUSHED = (
 
 def models(verification: Verification) -> Section:
     """Return the comparison of the models."""
+    # One or none: a study is a tuple so that it can be left out.
     evidence = verification.models[0]
     return section(
         "manual/models",
@@ -154,6 +155,7 @@ _TEST = (
     (plain("PRD, stated", 1, "mm"), lambda run: 1e3 * run.test.prd_m),
     (
         text("PRD, computed", "mm", 1.1),
+        # A run without a result says why in its place.
         lambda run: run.status.value if math.isnan(run.prd_m) else number(1e3 * run.prd_m, 1),
     ),
     (plain("Ratio", 3, share=0.7), lambda run: run.ratio),
@@ -171,6 +173,7 @@ def shake_table(verification: Verification) -> Section:
     return section(
         "manual/shake-table",
         "Comparison with a shake table",
+        # As with no tests: what the section says where there are none.
         explained=explained(()),
         tables=[
             (

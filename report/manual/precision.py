@@ -89,6 +89,7 @@ def _errors(head: str, error: str) -> tuple[Column, Column]:
     """Return the columns of the median and of the largest error."""
 
     def found(runs: pd.DataFrame, of: str) -> str:
+        # It is what the others are compared with; its own error is against 50 digits.
         is_exact = runs["method"].iloc[0] == "exact"
         return "reference" if is_exact else percent(runs[error].agg(of))
 
@@ -100,6 +101,7 @@ def _errors(head: str, error: str) -> tuple[Column, Column]:
 
 def stability(verification: Verification) -> Section:
     """Return the stability maps with their notes."""
+    # Numbered through all charts: the notes name a map by its number.
     counted = list(enumerate(verification.maps, start=1))
     by_chart = {
         f"stability-{at // manual.MOST + 1}": counted[at : at + manual.MOST]
@@ -166,6 +168,7 @@ def links(verification: Verification) -> Section:
 
 def worst_mm(link: LinkComparison) -> float:
     """Return the difference in RRD [mm] in the case where it is largest in percent."""
+    # Largest in percent, which need not be the largest in mm.
     off_m = link.runs_m["RRD, exact"] - link.runs_m["RRD, link"]
     return 1e3 * float(abs(off_m[link.history_mu]))
 

@@ -1,12 +1,6 @@
-"""Output files of a verification: PDF, CSV and charts.
+"""Output files of a verification: PDF, CSV and charts, and the sections that need no more.
 
-Read `sections` and `report.manual.render` next.
-
-The summary of the manual: verdict, key results, checks by section.
-
-Machine and software versions of a verification.
-
-Sections that consist of tables: checks, other programs.
+The summary, the tables of checks and of other programs, machine and software. Read `sections`.
 """
 
 from __future__ import annotations
@@ -97,7 +91,8 @@ _LIBRARIES = ("numpy", "numba", "llvmlite", "scipy", "pandas", "matplotlib", "ji
 
 
 def this_machine() -> dict[str, str]:
-    """Return labels with versions or descriptions, without names of persons, hosts or paths."""
+    """Return labels with versions or descriptions."""
+    # Without names of persons, hosts or paths: the manual is handed on.
     return {
         "Roofslip": metadata.version("roofslip"),
         "Python": platform.python_version(),
@@ -158,29 +153,26 @@ def _error(value_percent: float) -> str:
     return "failed" if math.isnan(value_percent) else percent(value_percent)
 
 
+# Modules whose constants the templates print.
 _CONSTANTS = {
     "building_rules": solver.building.roof,
     "model_evidence": evidence,
     "model_study": model_study,
     "shake_table": accepted,
 }
-"""Modules whose constants the templates print."""
 
+# Columns of the table: of a check, and of a run in two axes.
 _CHECK = (
     "id", "section", "problem", "source", "quantity", "unit", "expected", "computed", "error",
     "tolerance",
 )  # fmt: skip
 _OF_TWO_AXES = ["method", "parameters", "case", "time per run [s]", "residual error [%]"]
-"""Columns of the table: of a check, and of a run in two axes."""
 
 
 def files(
     verification: Verification, date: dt.date, on_stage: Callable[[str], None]
 ) -> Mapping[str, bytes]:
-    """Return the manual, its table and its charts by file name.
-
-    Raises `DefectError` where the renderer complains.
-    """
+    """Return the manual, its table and its charts by file name."""
     machine = this_machine()
     on_stage("Drawing the charts")
     parts = sections(verification)
@@ -203,6 +195,7 @@ def manual_html(
         "v": verification,
         "judged": judged,
         "with_symbols": with_symbols,
+        # Without checks none failed, which is no pass.
         "verdict": judged(verification.passed and len(verification.checks) > 0),
         "n_passed": sum(row.passed for row in verification.checks),
         "features": statuses(verification.checks, verification.tables),

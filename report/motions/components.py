@@ -35,11 +35,9 @@ LEAST_SAMPLES_FOR_EACH = 100
 
 
 def spikes(a: Floats) -> tuple[tuple[int, ...], float]:
-    """Return the indexes of the spikes of a record, and the largest magnitude of the others.
-
-    Spikes are at most `MOST` samples, and at most one in `LEAST_SAMPLES_FOR_EACH`, each of which
-    is more than `FACTOR` times any sample that is none.
-    """
+    """Return the indexes of the spikes of a record, and the largest magnitude of the others."""
+    # At most `MOST` samples, and at most one in `LEAST_SAMPLES_FOR_EACH`, each of which is more
+    # than `FACTOR` times any sample that is none.
     size = np.abs(a)
     most = min(MOST, len(a) // LEAST_SAMPLES_FOR_EACH)
     # Stable: of equal samples the first is named, on every machine.
@@ -64,8 +62,8 @@ class RecordFile:
     peak_g: float
     npts_trimmed: int  # samples at the end that the shortest component of the motion does not have
     notes: tuple[str, ...]  # remarks on how the file was read
-    # hold of the envelope [s], if the file says that it was generated and is run from its first to
-    # its last sample; otherwise NaN
+    # Hold of the envelope [s], if the file says that it was generated and is run from its first to
+    # its last sample; otherwise NaN.
     hold_s: float
     size: int  # of the file [bytes]; 0 for a pasted column
     spikes: tuple[int, ...]  # indexes of samples far above all others
@@ -100,6 +98,7 @@ def read_components(
     """
     faults: list[Finding] = []
     components: dict[str, Component] = {}
+    # A file with three channels is read once for its motion.
     read = cache(read_motion_file)
     for field in LABELS:
         if row.get(field):
@@ -145,6 +144,7 @@ def _mismatches(index: int, records: Mapping[str, Record]) -> Iterator[Finding]:
     horizontal = records["record"]
     for field, record in records.items():
         label, dt_s = f"{LABELS[field]} record", horizontal.dt_s
+        # Steps that differ by the rounding of a division are one.
         if abs(record.dt_s - dt_s) > 1e-9 * dt_s:
             text = (
                 f"{label} has a time step of {record.dt_s:g} s, but the horizontal record has "
@@ -153,9 +153,10 @@ def _mismatches(index: int, records: Mapping[str, Record]) -> Iterator[Finding]:
             yield Finding.error(Place("motions", index, field), text, "make them equal")
 
 
+# Fields of a motion that name its horizontal components.
 HORIZONTAL = ("record", "transverse")
-"""Fields of a motion that name its horizontal components."""
 
+# A PPA is of the record alone, a target of the horizontal pair.
 _TO_A_LEVEL = {Scaling.PPA: ("record",), Scaling.TARGET: ("record", "transverse")}
 
 
@@ -207,9 +208,11 @@ def _processed(
     ]
     processing = processing_of(row)
     if processing.problems():
-        return []  # reported at their cells by `motion_checks`
+        # Reported at their cells by `motion_checks`.
+        return []
     try:
         done = process_together(raw, processing)
+        # For the table that says how much of the slip the filter removes.
         bare = process_together(raw, replace(processing, highpass_hz=0.0))
     except InputError as error:
         return _faults(index, "record", error)

@@ -123,7 +123,8 @@ def _check_times(book: OpenBook, heading: CellPosition, count: int, dt_s: float)
     cells = cells_below(book, at)[:count]
     t_s = unit_s * np.array(_numbers(cells, _said(book, at).unit or "s"))
     source = _Times(name=at.address, lines=[], units="", dt_s=math.nan, heading=at)
-    none = np.zeros((1, count))  # samples, of which there is no need
+    # Samples, of which there is no need.
+    none = np.zeros((1, count))
     even = sampled(source, t_s, none, lambda index: index, unit_s)
     if even.notes:
         steps = np.diff(t_s)
@@ -148,6 +149,7 @@ def _heading_of_times(book: OpenBook, heading: CellPosition) -> CellPosition | N
     """Return the nearest heading of times to the left of another; None without one."""
     places = (
         CellPosition(heading.sheet, heading.row, column)
+        # To the left alone: a sheet may have a column of times before each record.
         for column in range(heading.column - 1, 0, -1)
     )
     return next((place for place in places if _said(book, place).kind is Kind.TIME), None)
@@ -188,8 +190,8 @@ MOST_RECORDS = 20_000_000
 # Separates a file from its channel; not allowed in Windows file names.
 BAR = "|"
 
+# `solver.formats.read_motion_file`, or a cached version of it.
 Reader = Callable[..., MotionFile]
-"""`solver.formats.read_motion_file`, or a cached version of it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -243,6 +245,7 @@ def find_file(book: OpenBook, name: str) -> tuple[Path, str]:
     file, _, channel = name.partition(BAR)
     sheets = (sheet.values for sheet in book.book.worksheets if sheet.title == "Motions")
     cells = (str(cell) for rows in sheets for row in rows for cell in row if cell)
+    # Files that the sheet names are not proposed for one that is missing.
     taken = (cell.partition(BAR)[0].strip() for cell in cells)
     path = path_beside(book.path.parent, file.strip(), MAX_BYTES, "records/m1-x.csv", taken)
     return path, channel.strip()

@@ -43,8 +43,8 @@ class TargetSpectrum:
     """A target spectrum, 5 % damping."""
 
     name: str  # empty if there is no target; the ordinates are then NaN
-    # spectral acceleration [g] at frequencies [Hz]; a target given by points is constant beyond
-    # them. Not a closure, so that it can be pickled
+    # Spectral acceleration [g] at frequencies [Hz]; a target given by points is constant beyond
+    # them. Not a closure, so that it can be pickled.
     at: Target
     # range of periods for which it is given [s]
     from_s: float
@@ -69,6 +69,7 @@ class Targets:
         return self.ground if at is RecordedAt.GROUND else self.roof
 
 
+# A function of the module, so that workers can pickle it.
 def _nowhere(freq_hz: Floats) -> Floats:
     return np.full(freq_hz.shape, math.nan)
 
@@ -219,6 +220,7 @@ def through_building(data: ProjectInput, row: MotionInput, prepared: PreparedMot
     """Return a prepared motion, already scaled, at the roof of the building of an input."""
     named = prepared.scaled
     records = {field: named[label] for field, label in LABELS.items() if label in named}
+    # The records are scaled already.
     return _motion(data, row, records, 1.0)[0]
 
 

@@ -20,7 +20,6 @@ from report.sheet.checking.motion_checks import FIELDS, LABELS
 from report.sheet.reading.read import Sheet
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import DraftRow, Finding, Place, Where
-from report.sheet.schema.motions import Links
 from report.text.units import G_MPS2, Quantity
 from solver.model import Floats, Motion
 from solver.sliding.row import MOST_STEPS, BlockRow, minimum_steps
@@ -38,10 +37,8 @@ class _Horizontal:
     shape: Floats
 
     def repeats(self, other: _Horizontal) -> bool:
-        """Whether it is another one again, at any scale and of either sign.
-
-        Times that two motions take of their records may be apart: a file may hold two.
-        """
+        """Whether it is another one again, at any scale and of either sign."""
+        # Times that two motions take of their records may be apart: a file may hold two.
         (start, end), (other_start, other_end) = map(_times, (self.row, other.row))
         overlaps = start < other_end and other_start < end
         return overlaps and bool(np.abs(self.shape - other.shape).max() <= ALIKE)
@@ -76,10 +73,8 @@ def repeated(
 def _horizontal_records(
     index: int, row: DraftRow, components: Components
 ) -> Iterator[tuple[tuple[int, int], _Horizontal]]:
-    """Yield the horizontal records of a motion that are not all zeros, each with a key.
-
-    Records that are the same have the same key: few others are then to be compared.
-    """
+    """Yield the horizontal records of a motion that are not all zeros, each with a key."""
+    # Records that are the same have the same key: few others are then to be compared.
     for field in HORIZONTAL:
         if field in components.whole:
             a = components.whole[field].a_mps2
@@ -100,7 +95,11 @@ def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Findi
     )
     weights = {array.id: array.weight_n for array in data.arrays}
     for index, links in enumerate(data.links):
-        most = _stiffest(links, weights[links.array], seconds)
+        # Steps grow with the square root of the stiffness, per mass of a block.
+        damping_per_s = 2.0 * links.damping_ratio
+        soft = BlockRow(mus=links.mus, stiffness_per_s2=1.0, damping_per_s=damping_per_s)
+        per_s2 = (MOST_STEPS / minimum_steps(soft, seconds)) ** 2
+        most = per_s2 * weights[links.array] / (len(links.mus) * G_MPS2)
         if links.stiffness_n_per_m > most:
             yield Finding.error(
                 Place("links", index, "stiffness_n_per_m"),
@@ -109,13 +108,6 @@ def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Findi
                 f"give {_said(0.9 * most)} or less (a stiffer row moves as one rigid "
                 "block with the mean coefficient)",
             )
-
-
-def _stiffest(links: Links, weight_n: float, seconds: float) -> float:
-    """Return the stiffness [N/m] that needs `MOST_STEPS`; steps grow with its square root."""
-    soft = BlockRow(mus=links.mus, stiffness_per_s2=1.0, damping_per_s=2.0 * links.damping_ratio)
-    per_s2 = (MOST_STEPS / minimum_steps(soft, seconds)) ** 2
-    return per_s2 * weight_n / (len(links.mus) * G_MPS2)
 
 
 def _said(stiffness: float) -> str:
@@ -203,8 +195,8 @@ MOST_STEP_S = 0.02
 # Duration [s] above which a time step is more probably wrong than right.
 MOST_DURATION_S = 300.0
 
+# Share of the longest component that may be trimmed from it without a warning.
 MOST_UNEQUAL = 0.05
-"""Share of the longest component that may be trimmed from it without a warning."""
 
 
 def record_findings(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:

@@ -20,7 +20,8 @@ from solver.formats import MotionFile, read_motion_file
 from solver.model import InputError
 
 MOST_FILES = 500
-MOST_NAME = 40  # of an ID
+# Of an ID.
+MOST_NAME = 40
 # Part by which components may differ in length: those of one recording often end apart.
 LENGTHS_WITHIN = 0.05
 # Largest difference of the start times of components: some headings print whole seconds.
@@ -34,10 +35,10 @@ _SPELLED = {
     ("en", 0): "e ew e-w we", ("en", 90): "n ns n-s", ("en", 180): "w", ("en", 270): "s",
     ("lt", 0): "l long longitudinal", ("lt", 90): "t tran transverse",
 }  # fmt: skip
+# A word for the vertical anywhere in a name.
 VERTICAL = re.compile(
     rf"(?<![a-z])({'|'.join(_SPELLED[_UP, 0].split())})(?![a-z]|\.[a-z])", re.IGNORECASE
 )
-"""A word for the vertical anywhere in a name."""
 
 _NAMED = {word: component for component, words in _SPELLED.items() for word in words.split()}
 # Of SEED, after band and instrument; of KiK-net, before the number of the sensor.
@@ -87,11 +88,11 @@ class Candidate:
         return self.family not in (_UP, _DOWN)
 
 
+# The channels of x, y and z by the name of the motion.
 Sets = dict[str, Sequence[Candidate]]
-"""The channels of x, y and z by the name of the motion."""
 
+# What was not taken, and why.
 Left = tuple[str, str]
-"""What was not taken, and why."""
 
 _Clear = tuple[str, str, list[Candidate]]  # name, longer name, channels
 
@@ -120,7 +121,8 @@ def sets_of(
                 raise InputError(f"has more than {MAX_BYTES / 1e6:.0f} MB")
             for each in _channels(file, read_motion_file(path, units=units, dt_s=dt_s)):
                 suffix = path.suffix.casefold()
-                kind = "" if _by_word(suffix[1:]) else suffix  # that of K-NET is a component
+                # The suffix of K-NET is a component.
+                kind = "" if _by_word(suffix[1:]) else suffix
                 key = (str(PurePosixPath(file).parent), *each.motion, each.format, kind)
                 groups.setdefault(key, []).append(each)
         except InputError as error:

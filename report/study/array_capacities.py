@@ -29,8 +29,8 @@ from solver.studies.capacity import (
 from solver.studies.fragility import first_order_beta, fit_lognormal
 from solver.studies.runs import Runner
 
+# Limits on the PRD of a motion, as shares of the clearance; 0 is the beginning of slip.
 SHARES = (0.0, 0.5, 1.0)
-"""Limits on the PRD of a motion, as shares of the clearance; 0 is the beginning of slip."""
 
 
 def array_capacities(
@@ -47,6 +47,7 @@ def array_capacities(
     effects: list[dict[str, float]] = [{} for _ in SHARES]
     for name, shifts in array.shifts.items():
         around = [medians, medians]
+        # Without a median at the center none is dispersed: the runs would be in vain.
         if not np.isnan(medians).all():
             beside = [_shifted(plan, array, runner, at) for at in shifts]
             searches += beside
@@ -63,6 +64,8 @@ def maximum_runs(plan: StudyPlan, array: ArrayPlan) -> int:
     """Return how many runs the capacities of an array take at most."""
     levels = np.array(plan.input.intensities)
     searched = maximum_searches(SHARES, levels)
+    # One standard deviation below and above, and the highest intensity alone, as `_shifted` runs
+    # them.
     searched += 2 * len(array.shifts) * maximum_searches(SHARES, levels[-1:], COARSE_SCAN)
     return searched * len(plan.campaign.columns)
 
@@ -110,11 +113,12 @@ def _medians(found: Sequence[Capacities]) -> list[float]:
 
 def _yield(mu: float, slope_deg: float) -> float:
     """Return the acceleration / g at which a block begins to slide down a slope [deg]."""
+    # a_y / g = tan(phi - theta), phi = arctan mu: as `a_down` of the package.
     return math.tan(math.atan(mu) - math.radians(slope_deg))
 
 
+# About 14 of the frequencies at which spectra are compared with a target [Hz].
 FREQ_HZ = POINTS_HZ[:: len(POINTS_HZ) // 13]
-"""About 14 of the frequencies at which spectra are compared with a target [Hz]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -135,6 +139,8 @@ class SpectralSpread:
     @property
     def is_one_spectrum(self) -> bool:
         """Whether the motions differ by less than motions matched to one spectrum may."""
+        # Motions matched to one spectrum may be 10 % below it: a spread within that is no scatter
+        # of records.
         return self.median < 1.0 - LEAST_RATIO
 
 
@@ -157,5 +163,6 @@ def _deviations(motions: Sequence[Motion]) -> Floats:
             for parts in [motion.components.values()]
         ]
     )
+    # A component of zeros has no logarithm: the spread is then not known.
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.asarray(np.log(spectra).std(axis=0, ddof=1).ravel())

@@ -75,6 +75,7 @@ def _exported(
     if not by_state or not is_exportable(results):
         return {}
     by_name = list(zip(*by_state.values(), strict=True))
+    # A dispersion that no state has gets a sentence in place of a column.
     known = [k for k, parts in enumerate(by_name) if any(part.beta for part in parts)]
     below = result.plan.shifts[SLOPE][0][1] if SLOPE in result.plan.shifts else math.nan
     columns = (
@@ -122,6 +123,7 @@ def years(results: StudyResults, array_years: ArrayYears) -> Section:
     plan = array_years.plan
     name = f"{plan.array.id}{on_building(results, plan.building, ', building ')}"
     (curve,), unit = results.plan.hazard, length_unit(results)
+    # Each motion is run up to its own uplift.
     ends = array_years.responses.levels.max(axis=1)
     return section(
         "study/years",

@@ -46,6 +46,7 @@ def curves(results: StudyResults, building: int) -> Section:
     """Return the section on a building."""
     study_input = results.plan.input
     shown = some(study_input.mus, MOST_FRICTIONS)
+    # A single slope is no axis.
     sloped = shown if len(study_input.slopes_deg) > 1 else []
     sheets, beside = list(_sheets(results, building)), some(study_input.slopes_deg, MOST_LINES)
     values, mean = _drawn(results, building)
@@ -99,7 +100,8 @@ def _sheets(results: StudyResults, building: int) -> Iterator[tuple[str, str, bo
     allowed_m = study_input.study.allowed_m or math.nan
     for x, cut, along, name in _cuts(results):
         if len(x) < 2 or len(study_input.slopes_deg) < 2 or np.isnan(values[cut]).all():
-            continue  # one row or column has no contours
+            # One row or column has no contours.
+            continue
         svg = figures.contours(
             np.array(x),
             np.array(study_input.slopes_deg),
@@ -115,6 +117,7 @@ def _sheets(results: StudyResults, building: int) -> Iterator[tuple[str, str, bo
 def _cuts(results: StudyResults) -> Iterator[tuple[tuple[float, ...], Any, str, str]]:
     """Yield the axis of each sheet, its cases, the name of the axis, and that of the sheet."""
     study_input = results.plan.input
+    # Of many coefficients friction is an axis; of a few each has its own sheet over intensity.
     if len(study_input.mus) > MOST_FRICTIONS:
         for x in some(study_input.intensities, MOST_CUTS):
             name = level(results, study_input.intensities[x])
@@ -181,6 +184,7 @@ def allowed(results: StudyResults, building: int, allowed_m: float) -> Section:
 def _floor_alone(results: StudyResults, allowed_m: float) -> Iterator[float]:
     """Yield from which intensity on no friction and no slope is enough, because of the floor."""
     rule = results.plan.design_rule
+    # The floor grows with S_DS and knows neither friction nor slope.
     beyond = np.flatnonzero(rule.floor_m > allowed_m)
     if rule.has_value and beyond.size:
         yield results.plan.input.intensities[beyond[0]]
@@ -213,6 +217,7 @@ class Prescribed:
     @property
     def unsafe(self) -> NDArray[np.bool_]:
         """Where the prescriptive displacement is too small; no value counts as such."""
+        # Not > 1: NaN, a run without a value, is to count as too small.
         return np.asarray(~(self.ratio <= 1.0))
 
     @property

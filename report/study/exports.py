@@ -71,10 +71,7 @@ _COLUMNS = ("Family", "Theta_0", "Theta_1", "DamageStateWeights", "Description")
 
 
 def export_files(results: StudyResults) -> Mapping[str, bytes]:
-    """Return the files of `EXPORTS`.
-
-    None without an array, where a format has no measure, or where `is_refused` says so.
-    """
+    """Return the files of `EXPORTS`; none where no format has the measure, or all are refused."""
     if is_refused(results):
         return {}
     kind = results.plan.input.study.intensity
@@ -113,6 +110,7 @@ def component_id(results: StudyResults, result: ArrayStudyResult) -> str:
     building = results.plan.motions.buildings[result.plan.building]
     name = result.plan.array.id
     if len(results.plan.motions.buildings) > 1:
+        # An array on two buildings has two fragilities, and an ID is unique in a library.
         name = f"{name}.{building}"
     return "BSA." + re.sub(r"[^A-Za-z0-9.-]+", "-", name).strip("-")
 
@@ -126,6 +124,7 @@ def _library(results: StudyResults, known: list[ArrayStudyResult]) -> str:
     ]  # fmt: skip
     for result in known:
         cells = [cell for state in result.states for cell in _cells(results, result, state)]
+        # Every row has the columns of four states, blank beyond its own.
         cells += [""] * (len(states) - len(cells))
         rows.append((component_id(results, result), 0, demand, unit, 0, 0, *cells))
     return csv_text(rows)
@@ -212,6 +211,7 @@ def _nrml(results: StudyResults) -> bytes:
             f"{{{NRML}}}fragilityFunction",
             {"id": component_id(results, result), "format": "discrete"},
         )
+        # All states of an array have the same levels.
         levels = per_unit * result.states[0].fragility.levels
         limit = f"{NO_DAMAGE_SHARE * levels[0]:.9g}"
         imls = ET.SubElement(function, f"{{{NRML}}}imls", {"imt": imt, "noDamageLimit": limit})
@@ -250,14 +250,13 @@ def _said(results: StudyResults, name: str, of: tuple[str, str], **more: object)
 
 
 def probabilities_of(results: StudyResults, result: ArrayStudyResult) -> Floats:
-    """Return the probability of each limit state at each level, shape (states, levels).
-
-    That of the lognormal, or the fractions of the motions where there is none; the array must have
-    them (`has_probabilities`).
-    """
+    """Return the probability of each limit state at each level, shape (states, levels)."""
+    # That of the lognormal, or the fractions of the motions where there is none; the array must
+    # have them (`has_probabilities`).
     rows = [
         lognormal.at(state.fragility.levels)
         if (lognormal := exported(results, result, state)).is_known
+        # A motion may be below the limit again at a higher intensity: a fragility never falls.
         else np.maximum.accumulate(state.fragility.exceeded / state.fragility.counted)
         for state in result.states
     ]

@@ -63,7 +63,8 @@ def curves(
             # A member without any value is named, so that nobody looks for its line.
             draw_family(axes, x, named)
             for count, prd in enumerate(means):
-                label = "_" if count else "mean PRD"  # an underscore: not in the legend
+                # An underscore: not in the legend.
+                label = "_" if count else "mean PRD"
                 axes.plot(x, prd, color=GRAY, linewidth=0.6, label=label, zorder=1.5)
             for label, prd_m in limits:
                 axes.plot(x, prd_m / unit.si, color=GRAY, linewidth=2.0, label=label)
@@ -150,7 +151,8 @@ def _places(
     """Yield where the labels of contours are: three heights in turn, and none beyond the edge."""
     low, span = np.array([v[0] for v in grid]), np.array([np.ptp(v) for v in grid])
     for count, parts in enumerate(drawn.allsegs):
-        lines = [line for line in parts if len(line)]  # cases without a value may leave none
+        # Cases without a value may leave none.
+        lines = [line for line in parts if len(line)]
         if not lines:
             continue
         shares = (_dense(max(lines, key=len)) - low) / span
@@ -162,7 +164,8 @@ def _places(
 
 
 def _dense(line: Floats) -> Floats:
-    """Return a line with many points, shape (m, 2): its own may all be at the edges."""
+    """Return a line with many points, shape (m, 2)."""
+    # Its own may all be at the edges, where no label is.
     at = np.arange(len(line))
     fine = np.linspace(0.0, at[-1], 300)
     return np.stack([np.interp(fine, at, values) for values in line.T], axis=-1)
@@ -195,7 +198,8 @@ def fragilities(states: Sequence[LimitState], along: str) -> str:
                     fine, f.fitted.at(fine), linestyle=LINES[count], color=color, linewidth=1.2,
                     label=f"{state.name}: lognormal",
                 )  # fmt: skip
-                height = 0.55 - 0.05 * count  # where medians are close, their bars are apart
+                # Where medians are close, their bars are apart.
+                height = 0.55 - 0.05 * count
                 axes.plot(
                     f.theta_range,
                     (height, height),
@@ -227,6 +231,7 @@ def goodness(states: Sequence[LimitState], along: str) -> str:
 def _ranked(axes: Axes, state: LimitState) -> None:
     f = state.fragility
     x = np.sort(f.capacities.intensity)
+    # Three standard deviations, or as far as the farthest capacity.
     far = max(3.0, float(np.abs(np.log(x / f.fitted.theta)).max()) / f.fitted.beta + 0.3)
     fine = f.fitted.theta * np.exp(f.fitted.beta * np.linspace(-far, far, 200))
     exceeded = f.fitted.at(fine)
@@ -274,6 +279,7 @@ def tornado(bars: Sequence[Bar], center_m: float, unit: Unit) -> str:
         # A number left of the shortest end keeps clear of the names.
         low = min(0.0, float(np.nanmin([*reached, center_m])) / unit.si - 0.1 * top)
         axes.set_xlim(low, 1.12 * top)
+        # No displacement is negative: the room at the left is for a number.
         axes.set_xticks([tick for tick in axes.get_xticks() if 0.0 <= tick <= 1.12 * top])
         axes.set_xlabel(f"Mean PRD [{unit.symbol}]")
         bare(axes)
@@ -289,6 +295,7 @@ def rates(array_years: ArrayYears, curve: HazardCurve, unit: Unit, along: str) -
         left.plot(curve.intensity, curve.rate, color=INK, linewidth=1.2, marker="o", markersize=3.0)
         left.axvspan(low, top, color=PALE, linewidth=0.0, zorder=0)
         left.set_xlim(0.2 * low, 2.0 * top)
+        # The first limit is 0, which a logarithmic axis does not have.
         shown = array_years.limits_m > 0.0
         x = array_years.limits_m[shown] / unit.si
         right.fill_between(x, *array_years.rates_band[:, shown], color=PALE, linewidth=0.0)
@@ -319,8 +326,10 @@ def lives(array_years: ArrayYears, unit: Unit) -> str:
         figure, axes = boxed(2.9, (0.085, 0.345, 0.89, 0.635))
         clearance = array_years.plan.array.clearance_m / unit.si
         share = 1.0 - np.arange(LIVES) / LIVES
+        # 400 of 100,000 lives, evenly in the logarithm: rare ones are seen, too.
         shown = np.unique(np.geomspace(1, LIVES, 400).astype(int)) - 1
         for count, (name, distances) in enumerate(array_years.lives.items()):
+            # Put back after each event, an array has no last distance.
             for at, which in enumerate(("largest", "last")[: 1 + (name != ALWAYS)]):
                 ordered = np.sort(distances[at])[::-1][shown] / unit.si
                 axes.plot(

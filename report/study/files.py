@@ -21,10 +21,7 @@ TABLE = "study.xlsx"
 
 
 def study_files(results: StudyResults) -> Mapping[str, bytes]:
-    """Return the report, the tables and the exports of a study by file name.
-
-    Raises `DefectError` where the renderer complains.
-    """
+    """Return the report, the tables and the exports of a study by file name."""
     return {
         "study.pdf": lay_out(study_html(results)),
         "curves.csv": curves_csv(results),

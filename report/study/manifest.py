@@ -39,8 +39,8 @@ SCHEMA_VERSION = 1
 # Beside the folder of the parts: a reader of that folder takes every file in it for a part.
 NAME = "manifest.json"
 
+# On whose word runs are taken over from parts that are there.
 OWN_KEY, TRUST_PARTS = "the key of this user", "--trust-parts"
-"""On whose word runs are taken over from parts that are there."""
 
 _LIBRARIES = ("numpy", "numba", "llvmlite", "pyarrow")
 
@@ -51,6 +51,8 @@ def program() -> dict[str, str]:
         "roofslip": version("roofslip"),
         "python": platform.python_version(),
         **{name: installed(name) for name in _LIBRARIES},
+        # A checkout has one version through many changes: the source tells whether rows may
+        # differ.
         "solver_sha256": _source_sha256(),
     }
 
@@ -75,7 +77,8 @@ def _source_sha256() -> str:
 
 
 def machine() -> str:
-    """Return the processor model and the system, by which parts of several machines differ."""
+    """Return the processor model and the system."""
+    # Parts of several machines differ by them: mathematical functions round differently.
     return f"{processor()}, {platform.system()} {platform.machine()}, {sys.byteorder}-endian"
 
 
@@ -96,6 +99,7 @@ def manifest_of(campaign: Campaign, about: Mapping[str, Any]) -> dict[str, Any]:
         "rows": campaign.rows,
         "parts": [[part.start, part.stop] for part in campaign.parts],
     }  # fmt: skip
+    # Sorted: the identity is that of the content, in any order.
     text = json.dumps(content, sort_keys=True)
     return {**content, "identity": hashlib.sha256(text.encode()).hexdigest()}
 
@@ -103,6 +107,8 @@ def manifest_of(campaign: Campaign, about: Mapping[str, Any]) -> dict[str, Any]:
 def _motion(motion: Motion) -> dict[str, Any]:
     digest = hashlib.sha256()
     for record in (motion.ax_mps2, motion.ay_mps2, motion.az_mps2):
+        # A byte between the records: else two records could be cut at another place with the same
+        # hash.
         digest.update(np.ascontiguousarray(record, dtype="<f8").tobytes() + b"\0")
     return {
         "id": motion.id,
@@ -165,7 +171,8 @@ def user_key() -> bytes:
         if not path.exists():
             _make(path)
         key = path.read_bytes()
-    except (OSError, RuntimeError) as error:  # RuntimeError: the user has no home folder
+    # RuntimeError: the user has no home folder.
+    except (OSError, RuntimeError) as error:
         where = getattr(error, "filename", None) or "your state folder"
         raise InputError(
             f"{where}: the key that signs the parts of your studies cannot be kept there "
@@ -193,7 +200,7 @@ def state_folder() -> Path:
 
 
 def _make(path: Path) -> None:
-    """Make a key, whole and readable by its user alone; that of a quicker process stays."""
+    """Make a key, readable by its user alone."""
     path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     number, part = tempfile.mkstemp(dir=path.parent)
     try:
@@ -201,6 +208,7 @@ def _make(path: Path) -> None:
             file.write(secrets.token_bytes(KEY_BYTES))
             file.flush()
             os.fsync(file.fileno())
+        # A link appears whole or not at all; that of a quicker process stays.
         with suppress(FileExistsError):
             os.link(part, path)
     finally:

@@ -38,8 +38,8 @@ from solver.model import Floats
 from solver.studies.curves import DIGITS, Fit
 from solver.verification.shake_table import SHIPPED
 
+# Lines of a chart.
 MOST_LINES = 8
-"""Lines of a chart."""
 # Friction coefficients with pages of their own; a grid of more is drawn over friction.
 MOST_FRICTIONS = 4
 MOST_CUTS = 3
@@ -80,6 +80,7 @@ def by_intensity(results: StudyResults, values: Floats, m: int, **more: Any) -> 
         ],
         length_unit(results),
         along=axis(results),
+        # A velocity has no such limit.
         low=LOW_G if study_input.study.intensity.unit == "g" else -math.inf,
         **more,
     )
@@ -186,6 +187,7 @@ def _by_formula(results: StudyResults, fit: Fit, at: _At) -> tuple[str, str]:
     study_input, rule = results.plan.input, results.plan.design_rule
     _, s, m, x = at
     case = math.radians(study_input.slopes_deg[s]), study_input.mus[m], study_input.intensities[x]
+    # Beyond the domain of the fit its error is not known.
     if not fit.covers(*case):
         return "outside", "—"
     computed, fitted = float(results.analysis_m[at]), fit.prd_m(*case)

@@ -37,8 +37,8 @@ _PARTS = "part-?????.parquet"
 # Size of a row on disk, for `--dry-run`: five lengths, and keys that repeat.
 BYTES_A_ROW = 40.0
 
+# Keys of the metadata.
 _ABOUT, _SIGNATURE = b"roofslip_study", b"roofslip_signature"
-"""Keys of the metadata."""
 
 _SHA256, _HMAC = b"roofslip sha256=", b" hmac="
 _UNSIGNED = _SHA256 + b"0" * 64 + _HMAC + b"0" * 64
@@ -78,7 +78,8 @@ OnDone = Callable[[Done], None]
 
 
 def mixed(numbers: Sequence[int]) -> list[int]:
-    """Return parts in a mixed order, so that the rate so far is that of those to come."""
+    """Return parts in a mixed order."""
+    # The rate so far is then that of those to come, which the time left is told by.
     return random.Random(0).sample(numbers, len(numbers))
 
 
@@ -142,6 +143,7 @@ def _table(campaign: Campaign, part: slice, rows: Rows, names: Sequence[str]) ->
 
 def signed(content: bytes, key: bytes) -> bytes:
     """Return a part with the SHA-256 and the HMAC of all of its unsigned file in its metadata."""
+    # The placeholder of the same length: no offset of the Parquet file moves.
     at = content.rindex(_SHA256)
     before, after = content[:at], content[at + len(_UNSIGNED) :]
     digest = hashlib.sha256(before + _UNSIGNED + after)
@@ -166,7 +168,8 @@ def peaks(content: bytes, campaign: Campaign) -> tuple[Floats, Flags]:
     starts = np.flatnonzero(np.diff(numbers, prepend=-1))
     shape = (-1, len(numbers))
     return (
-        np.maximum.reduceat(prd.reshape(shape), starts, axis=1),  # NaN wins
+        # NaN wins: of a motion all orientations need a final value.
+        np.maximum.reduceat(prd.reshape(shape), starts, axis=1),
         np.logical_or.reduceat(slips.reshape(shape), starts, axis=1),
     )
 
@@ -186,10 +189,7 @@ def done_parts(folder: Path, campaign: Campaign, identity: str, key: bytes) -> d
 
 
 def _opened(content: bytes, key: bytes) -> Done:
-    """Return a part.
-
-    Raises `ValueError` if it is not whole.
-    """
+    """Return a part; raises `ValueError` if it is not whole."""
     # The last one: a name in the rows may spell the same letters.
     end = content.rindex(_SHA256) + len(_UNSIGNED)
     tag, wanted = slice(end - 64, end), signed(content, key)
@@ -206,10 +206,7 @@ def _opened(content: bytes, key: bytes) -> Done:
 
 
 def read_part(folder: Path, done: Done) -> bytes:
-    """Return the content of a part.
-
-    Raises `InputError` if it changed since it was checked.
-    """
+    """Return the content of a part; raises `InputError` if it changed since it was checked."""
     path = folder / part_name(done.about.number)
     content = path.read_bytes()
     if hashlib.sha256(content).hexdigest() != done.sha256:
@@ -226,15 +223,12 @@ def keep(folder: Path, content: bytes, key: bytes) -> Done:
 
 
 def begin(folder: Path, manifest: Mapping[str, Any], former: int) -> None:
-    """Write the manifest.
+    """Write the manifest; `former` is the number of parts of the study that was there before.
 
-    `former`: parts of the study that wrote to the folder before: theirs are replaced, damaged or
-    not.
-
-    Raises `InputError` if another file has the name of a part and no study wrote it: it would be
-    replaced.
+    Raises `InputError` if a file has the name of a part and no study wrote it.
     """
     folder.mkdir(parents=True, exist_ok=True)
+    # Parts of the former study are replaced, damaged or not; any other file would be lost.
     ours = {part_name(number) for number in range(former)}
     for path in sorted(folder.glob(_PARTS)):
         if path.name not in ours and _ABOUT not in path.read_bytes():
@@ -264,7 +258,8 @@ def run_missing(
 ) -> None:
     """Run parts on all cores of this machine, and keep each as it is done."""
     runner = Runner(campaign)
-    _ = runner.tracks  # once, before the threads
+    # Once, before the threads.
+    _ = runner.tracks
 
     def work(number: int) -> Done:
         return keep(folder, made_part(runner, number, identity, names), key)
@@ -275,6 +270,7 @@ def run_missing(
         try:
             for future in as_completed(running):
                 on_done(future.result())
+        # Ctrl+C as well: the parts that run are finished, those that wait are not begun.
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise

@@ -272,6 +272,7 @@ def _array(
         INTENSITY: Spread(center=study.site_intensity or 1.0, beta=study.intensity_beta),
     }
     levels = [(building, slope, friction.center, x) for x in study_input.intensities]
+    # Without an intensity at the site there is no probability, and nothing to vary.
     samples, bars = [], []
     if study.site_intensity:
         samples, bars = (

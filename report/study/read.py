@@ -36,8 +36,8 @@ HOW = (
 )
 
 
+# A study workbook as data.
 StudySheet = SheetOf[StudyInput]
-"""A study workbook as data."""
 
 
 def read_study(path: Path) -> StudySheet:
@@ -76,6 +76,7 @@ def _faults(draft: Draft, where: Where) -> Iterator[Finding]:
                 yield _at(field, f"{name} are '{text[:60]}'", HOW)
             elif wrong := [value for value in numbers if not fits(value)]:
                 yield _at(field, f"{name} have {wrong[0]:g}", f"give numbers {allowed}")
+    # Each mat has a coefficient, by which the curves can be drawn as well.
     if study.get("mus") == "" and not draft["mats"]:
         yield _at("mus", "friction coefficients are missing and there is no mat", "give either")
     yield from _about_study(study, draft)
@@ -107,6 +108,7 @@ def _about_study(study: DraftRow, draft: Draft) -> Iterator[Finding]:
     kind = study.get("intensity")
     if kind is Intensity.S_DS and "s_ds_g" in study and study["s_ds_g"] is None:
         yield _at("s_ds_g", "S_DS of the motions is missing", "the intensity measure needs it")
+    # A roof record has no peak of the ground.
     if kind is Intensity.PGA and study.get("recorded_at") is RecordedAt.ROOF:
         yield _at("intensity", "is PGA, but the motions are roof motions", "choose PPA or PPV")
     if study.keys() >= {"record_source", "record_beta"}:
@@ -155,6 +157,7 @@ def _about_arrays(study: DraftRow, draft: Draft) -> Iterator[Finding]:
     if study.get("site_intensity") and not draft["study_arrays"]:
         wanted = "fill in a row of the sheet Arrays"
         yield _at("site_intensity", "is given, but no array is", wanted)
+    # Combinations are of tested values, and an intensity has none.
     is_combined = study.get("sampling") is Sampling.ALL_COMBINATIONS
     if is_combined and study.get("site_intensity") and study.get("intensity_beta"):
         text = "all combinations take the median intensity"
@@ -183,6 +186,7 @@ def _about_hazard(study: DraftRow, draft: Draft) -> Iterator[Finding]:
         if field in hazard and hazard[field] in ("", None):
             yield at(field, "is missing", "a hazard curve needs it")
     is_ground = study.get("recorded_at") is RecordedAt.GROUND
+    # Of another Vs30 the curve needs a factor: none is assumed, since soils raise and lower.
     is_elsewhere = hazard.get("vs30_mps") != hazard.get("site_vs30_mps")
     for where, is_needed in (("site", is_elsewhere), ("roof", not is_ground)):
         factor, basis = f"{where}_factor", f"{where}_basis"

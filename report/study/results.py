@@ -31,8 +31,8 @@ from solver.studies.uncertainty import Bar, Exceedance, exceedance, tornado
 _T = TypeVar("_T")
 
 MEAN = "mean PRD"
+# Beside the design displacement.
 STATISTICS = (MEAN, "84th percentile of the PRD", "largest PRD")
-"""Beside the design displacement."""
 
 # Decimals of answers [deg for slopes]: rounded to the safe side.
 FRICTION_DECIMALS, SLOPE_DECIMALS = 2, 1
@@ -71,7 +71,7 @@ class StudyResults:
     analysis_m: Floats  # value from analysis
     design_m: Floats
     spread: SpectralSpread  # of the motions' spectra
-    # mean peak horizontal acceleration at the roof for an intensity of 1, by building
+    # Mean peak horizontal acceleration at the roof for an intensity of 1, by building.
     ppa_g: Floats
     fits: tuple[Fit | str, ...]  # by building; a text says why there is none
     arrays: tuple[ArrayStudyResult, ...]
@@ -126,6 +126,7 @@ class StudyResults:
     ) -> Floats:  # fmt: skip
         def answer(prd_m: Floats) -> float:
             found = first_allowed(values, prd_m, allowed_m)
+            # A value of the study was run as it is: rounded, it would be one that was not.
             return found if found in values else rounded(found)
 
         # Slopes are looked at from the steepest on: their displacements are turned as they are.
@@ -257,6 +258,7 @@ def _array(
     if array.samples.stop > array.samples.start:
         exceedances = (exceedance(prd[of(array.samples)], clearance, seed=array.seed),)
         means = prd[of(array.bars)].mean(axis=1)
+        # The first case of the chart has all variables at their centers.
         bars, center = tornado(array.spreads, means), float(means[0])
     return ArrayStudyResult(
         plan=array,

@@ -49,8 +49,8 @@ from solver.files import write_all
 from solver.model import InputError
 from solver.studies.runs import Campaign, Runner
 
+# Folder of the parts, in the folder of the outputs.
 RUNS = "runs"
-"""Folder of the parts, in the folder of the outputs."""
 
 
 class Estimate(NamedTuple):
@@ -66,15 +66,7 @@ class Estimate(NamedTuple):
 def planned(source: str | Path) -> tuple[StudyPlan, Path]:
     """Read a study workbook and its records; return the plan and the workbook's folder.
 
-    Parameters
-    ----------
-    source : str or Path
-        A study workbook, or a folder with `input.xlsx`.
-
-    Raises
-    ------
-    InputError
-        With every problem, by cell.
+    Raises `InputError` with every problem, by cell.
     """
     sheet = read_study(Path(source))
     return plan_study(sheet, study_motions(sheet)), sheet.book.path.parent
@@ -101,31 +93,15 @@ def run_study(
     trust_parts: bool = False,
     progress: Callable[[str], None] = lambda _: None,
 ) -> StudyResults:
-    """Run what is missing of a study and return its results.
+    """Run what is missing of a study and return its results; the parts are in `out` / `RUNS`.
 
-    Parameters
-    ----------
-    out : str or Path
-        Folder of the outputs; the parts are in its folder `RUNS`.
-    scheduler : str
-        Address of a Dask scheduler; empty for the cores of this machine.
-    allow_matched : bool
-        Export fragilities without a record-to-record dispersion, with a warning.
-    trust_parts : bool
-        Take over parts that are not signed with the user's key; the results say how many.
-    progress : callable
-        Of a line of text.
+    `scheduler` is the address of a Dask scheduler; without it all cores of this machine run. With
+    `allow_matched`, fragilities are exported without a record-to-record dispersion. With
+    `trust_parts`, parts that are not signed with the user's key are taken over; without, they are
+    computed again with a warning.
 
-    Raises
-    ------
-    InputError
-        If a package is missing, the folder has the parts of another version, the user's key cannot
-        be kept, or the cluster cannot be used.
-
-    Warns
-    -----
-    UserWarning
-        If parts are computed again because they are not signed with the user's key.
+    Raises `InputError` if a package is missing, the folder has the parts of another version, the
+    user's key cannot be kept, or the cluster cannot be used.
     """
     extra(ARROW)
     out = Path(out)
@@ -261,10 +237,7 @@ def run_on_cluster(
     key: bytes,
     on_done: OnDone,
 ) -> None:
-    """Run parts on a cluster; sign and keep each here as it comes back.
-
-    Raises `Exception` of a part that fails whenever it is tried.
-    """
+    """Run parts on a cluster; sign and keep each here as it comes back."""
     # The records are the result of a task, as the parts are: with a worker that dies both are lost,
     # and both are computed again by another one.
     with warnings.catch_warnings():
@@ -276,4 +249,5 @@ def run_on_cluster(
         ]
     for part in extra(DASK).as_completed(parts, loop=client.loop):
         on_done(keep(folder, part.result(), key))
+        # Kept here: the cluster may forget it.
         part.release()

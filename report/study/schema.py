@@ -33,12 +33,12 @@ from report.text.units import Quantity
 from solver.friction_tests import FrictionRun, Series, Surface, series
 from solver.studies.uncertainty import Spread, spread_of_tests
 
+# Most values of one axis of a grid.
 MOST_VALUES = 500
-"""Most values of one axis of a grid."""
 
+# Most runs and most cases of a study.
 MOST_RUNS = 2_000_000_000
 MOST_CASES = 2_000_000
-"""Most runs and most cases of a study."""
 
 # Most samples of all records, which are held in memory.
 MOST_SAMPLES = 30_000_000
@@ -90,8 +90,10 @@ def values(text: str) -> tuple[float, ...]:
         if steps := _STEPS.fullmatch(text.strip()):
             low, high, step = map(float, steps.groups())
             count = (high - low) / step if step > 0.0 else -1.0
+            # From 0 to 7 by 2 ends at no step.
             if not 0.0 <= count < MOST_VALUES or abs(count - round(count)) > 1e-6:
                 return ()
+            # As typed: 0.1 times 3 is to be 0.3, which names a row of the tables.
             return tuple(float(f"{low + step * k:.12g}") for k in range(round(count) + 1))
         # A comma needs a blank after it, so that a decimal comma never splits a number.
         numbers = [float(part) for part in re.split(r";\s*|,\s+", text.strip())]

@@ -35,15 +35,16 @@ from solver.records.record import Record, read_only
 from solver.records.spectrum import response_spectrum
 from solver.studies.rates import HazardCurve
 
+# Name of the only building where the motions are roof motions.
 ROOF = "roof"
-"""Name of the only building where the motions are roof motions."""
 
 _COMPONENT = re.compile(r"(.+)-([xyz])", re.IGNORECASE)
 _FIELDS = {"x": "record", "y": "transverse", "z": "vertical"}
 _FOLDER = Place("study", 0, "folder")
+# What lies beside records, such as what `motion suite` writes.
 _NO_RECORDS = {".json", ".png", ".svg", ".pdf", ".md", ".sha256"}
+# Neglected modes of a building may change the peak roof acceleration by this fraction.
 _TRUNCATION = 0.05
-"""Neglected modes of a building may change the peak roof acceleration by this fraction."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,7 +68,8 @@ def study_motions(sheet: StudySheet) -> StudyMotions:
             case Components() as components:
                 read.append((MotionInput(**row), components))
             case wrong:
-                if not sheet.project.motions:  # a file of the folder has no cell of its own
+                # A file of the folder has no cell of its own.
+                if not sheet.project.motions:
                     wrong = [
                         Finding.error(_FOLDER, problem.text, problem.remedy) for problem in wrong
                     ]
@@ -210,11 +212,11 @@ MAX_BYTES = 1_000_000
 # Most events a year: a greater number is no annual rate, and lives of as many fill the memory.
 MOST_RATE = 10.0
 
+# By which a file of several curves names PGA and Sa(1 s).
 _NAMES: Mapping[bool, re.Pattern[str]] = {
     False: re.compile(r"\bPGA\b|peak ground", re.IGNORECASE),
     True: re.compile(r"\bSA1P0\b|\b1(\.0{1,4})?[ -]?s(ec|econd)?\b", re.IGNORECASE),
 }
-"""By which a file of several curves names PGA and Sa(1 s)."""
 
 _TWO = "give intensity and annual rate in two columns, or the CSV of the USGS hazard tool"
 
@@ -302,6 +304,8 @@ def _checked(points: Sequence[tuple[float, float]]) -> tuple[Floats, Floats]:
             f"the curve has {numbered(known, 'point')} with a rate above 0; give two or more"
         )
     fits = (x > 0.0) & np.isfinite(x) & (rate <= MOST_RATE)
+    # Interpolated in logarithms, and the rates of displacements follow from its slope: both need
+    # one direction.
     fits[1:] &= np.diff(x) > 0.0
     fits[1:known] &= np.diff(rate[:known]) < 0.0
     fits[:known] &= rate[:known] > 0.0

@@ -73,10 +73,8 @@ def who(results: StudyResults, plan: ArrayPlan) -> tuple[str, str]:
 
 
 def study_xlsx(results: StudyResults, more: Iterable[tuple[str, Row, Iterable[Row]]] = ()) -> bytes:
-    """Return the summaries as a workbook: never a row for each run.
-
-    `more`: title, heading and rows of further sheets.
-    """
+    """Return the summaries as a workbook; `more` is title, heading and rows of further sheets."""
+    # Never a row for each run: a sheet of Excel has a million.
     buffer = io.BytesIO()
     unit, study_input = length_unit(results), results.plan.input
     book = text_workbook(buffer, study_input.study.date, study_input.study.title)
@@ -113,6 +111,7 @@ def study_xlsx(results: StudyResults, more: Iterable[tuple[str, Row, Iterable[Ro
                 # A cell of Excel holds neither NaN nor infinity.
                 is_none = isinstance(value, float) and not math.isfinite(value)
                 sheet.write(number, column, "none" if is_none else value)
+        # Below the table as well as in the header, which is seen in print alone.
         if results.years:
             sheet.write(sheet.dim_rowmax + 2, 0, SUPPORTING)
         sheet.set_column(0, len(head) - 1, 16)

@@ -47,6 +47,7 @@ def dispersions(
     """Return the dispersions of a limit state that has a lognormal; mass is none (`MASS`)."""
     study, plan = results.plan.input.study, result.plan
     record = "these motions", state.fragility.fitted.beta
+    # One that is entered goes before that of the motions, which may be matched to one spectrum.
     if study.record_beta is not None:
         record = study.record_source, study.record_beta
     mu, slope = plan.spreads[FRICTION], plan.spreads[SLOPE]
@@ -81,6 +82,7 @@ def exported(results: StudyResults, result: ArrayStudyResult, state: LimitState)
     fitted = state.fragility.fitted
     if not fitted.is_known:
         return fitted
+    # Independent of each other: beta^2 is the sum of the squares.
     total = math.hypot(*(part.beta for part in dispersions(results, result, state)))
     return Lognormal(theta=fitted.theta, beta=total)
 
@@ -204,4 +206,5 @@ def answer(value: float, end: float, mark: str, decimals: int) -> str:
 def shown(value: float, decimals: int) -> str:
     """Return an answer with its decimals; one of the study's own values with all of its digits."""
     text = f"{value:.{decimals}f}"
+    # 0.333 of the study is not 0.33.
     return text if float(text) == value else f"{value:.12g}"

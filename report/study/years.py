@@ -41,8 +41,8 @@ from solver.studies.rates import (
 )
 from solver.studies.runs import Runner
 
+# Mean recurrence intervals [years].
 RECURRENCES = (72.0, 475.0, 700.0, 975.0, 2475.0)
-"""Mean recurrence intervals [years]."""
 
 # Recurrence of the PRD that is compared with the clearance: as permit packages promise it.
 VERDICT_YEARS = 700.0
@@ -51,6 +51,7 @@ SPANS = (25.0, 50.0)
 LIFE_YEARS = 25.0
 LIVES = 100_000
 
+# Limits from 0.1 mm on, evenly in the logarithm.
 _LIMITS, _LEAST_LIMIT_M = 300, 1e-4
 _BINS = 8
 
@@ -175,6 +176,7 @@ def _measured(curve: HazardCurve, array: ArrayPlan, draws: Draws, responses: Res
     """Return what must settle: the PRDs of the recurrences, and the 95 % values of the lives."""
     limits_m, by_run = _by_run(curve, array, responses)
     prd_m = displacements_at(limits_m, by_run.mean(axis=(1, 2)), np.array(RECURRENCES))
+    # Never put back: the distances that most events add up to.
     lives = distances(draws, responses, math.inf)
     return np.append(prd_m, [life_statistics(life, 0.0).p95_m for life in lives])
 

@@ -140,15 +140,16 @@ def _row(channel: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def without_noise(measured: Mapping[str, Any]) -> dict[str, Any]:
-    """Return measures with 0 for what is rounding error beside its peak at the end of a record."""
+    """Return measures with 0 for what is rounding error at the end of a record."""
     peaks = {"final_velocity_mps": "pgv_mps", "final_displacement_m": "pgd_m"}
+    # Beside its peak: its digits differ by machine, and would look like a drift.
     lost = (end for end, peak in peaks.items() if abs(measured[end]) <= _NO_DRIFT * measured[peak])
     return {**measured, **dict.fromkeys(lost, 0.0)}
 
 
-# AC156 allows 90 % at 1/6-octave points; here at 1/12, with a largest ratio as well.
+# Limits on every component's ratios to its target, at 1/12 octave. AC156 allows 90 % at 1/6-octave
+# points; here at 1/12, with a largest ratio as well.
 LEAST, GREATEST, MEAN_OFF = 0.90, 1.30, 0.07
-"""Limits on every component's ratios to its target, at 1/12 octave."""
 
 # Of three components and their three pairs, one each stands in a row of the table.
 _PAIRS = ("x-y", "x-z", "y-z")
@@ -165,7 +166,7 @@ class SuiteComponent:
     record: Record
     fit: SpectrumFit
     measures: Measures
-    # of two components of its motion: their names, and the coefficient
+    # Of two components of its motion: their names, and the coefficient.
     pair: str
     correlation: float
 
@@ -274,7 +275,9 @@ def _document(
         },
         "acceptance": acceptance_facts(suite_acceptance(suite, targets).rows),
         "motions": [
-            _motion(motion, parts[3 * k : 3 * k + 3], files) for k, motion in enumerate(suite)
+            # Three components for each motion, in the order of `components`.
+            _motion(motion, parts[3 * k : 3 * k + 3], files)
+            for k, motion in enumerate(suite)
         ],
     }
 
@@ -329,6 +332,7 @@ def _spectra(suite: Sequence[SuiteMotion], targets: SuiteTargets, name: str) -> 
     )
 
 
+# Heading of a column, its side, and its text for a component.
 _Text = Callable[[SuiteComponent], str]
 _COLUMNS: tuple[tuple[str, str, _Text], ...] = (
     ("motion", "<", lambda part: part.motion if part.component == "x" else ""),
@@ -345,7 +349,6 @@ _COLUMNS: tuple[tuple[str, str, _Text], ...] = (
     ("correlation", "<", lambda part: f"{part.pair} {part.correlation:+.2f}"),
     ("seed", "<", lambda part: part.grew_from),
 )
-"""Heading of a column, its side, and its text for a component."""
 
 
 def suite_table(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> list[str]:

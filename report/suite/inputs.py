@@ -36,8 +36,8 @@ from solver.rules.hazard import (
 )
 from solver.rules.provisions import RULE_SETS
 
+# Rule sets by their names on the command line.
 CODES = {rules.code: rules.name for rules in RULE_SETS.values()}
-"""Rule sets by their names on the command line."""
 
 _MOST_S_DS_G = 5.0
 
@@ -165,7 +165,7 @@ def _plateaus(upward: RequiredSpectrum) -> str:
 class Seeds:
     """Records used as seeds of a suite."""
 
-    # one group for each motion; a vertical record among three is last
+    # One group for each motion; a vertical record among three is last.
     groups: tuple[tuple[Record, ...], ...]
     sha256: Mapping[str, str]  # of each file
     notes: tuple[str, ...]  # remarks on how the files were read
@@ -182,6 +182,7 @@ def read_seeds(names: Sequence[str], *, units: str = "", dt_s: float = math.nan)
     # A file may be named for several motions: it is read once.
     read = cache(read_motion_file)
     for name in names:
+        # A file may have a comma in its name.
         paths = [Path(name)] if Path(name).exists() else [Path(part) for part in name.split(",")]
         try:
             files = {str(path): read(path, units=units, dt_s=dt_s) for path in paths}
@@ -227,6 +228,7 @@ def check_folder(folder: Path, count: int) -> None:
     """
     names = sorted(path.name for path in folder.iterdir()) if folder.is_dir() else []
     new = {f"motion-{k:02d}-{axis}.csv" for k in range(1, count + 1) for axis in "xyz"}
+    # Fewer motions than before: the last ones would pass for motions of this suite.
     left = [name for name in names if _GENERATED.fullmatch(name) and name not in new]
     if left:
         raise InputError(
@@ -262,6 +264,7 @@ def site_targets(sheet: Sheet) -> tuple[SuiteTargets, list[str]]:
         cells = " and ".join(sheet.where(Place(key, 0, field)) for field in fields)
         if value is None:
             lacking.append(f"{cells}: {label} is missing or cannot be read; fill it in")
+        # An edition may be left blank: it is that of the rule set.
         elif value != "":
             shown = f"{value:.4g}" if isinstance(value, float) else value
             lines.append(f"{label} {shown}{' g' if label == 'S_DS' else ''} from {cells}")

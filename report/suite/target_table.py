@@ -29,13 +29,13 @@ HEADING_ROWS = 10
 MAX_TOLD = 10
 
 _FREQUENCY, _PERIOD, _HORIZONTAL, _VERTICAL = "frequency", "period", "horizontal", "vertical"
+# Of each kind of column: its names, its unit, and the range of its values.
 _KINDS = {
     _FREQUENCY: ("frequency freq f", "Hz", 1e-3, 1e3),
     _PERIOD: ("period t", "s", 1e-3, 1e3),
     _HORIZONTAL: ("horizontal sa", "g", 1e-6, 100.0),
     _VERTICAL: ("vertical", "g", 1e-6, 100.0),
 }
-"""Of each kind of column: its names, its unit, and the range of its values."""
 
 _NAMES = {name: kind for kind, (names, *_) in _KINDS.items() for name in names.split()}
 _HEADING = re.compile(r"([a-z]+)\s*(?:_|\[|\()?\s*([^\s\])]*)\s*[\])]?")
@@ -74,10 +74,8 @@ _Rows = Sequence[Sequence[Found]]
 def read_target(named: str) -> TargetTable:
     """Read a target spectrum: `BOOK.xlsx!Sheet`, `BOOK.xlsx` with one sheet, or a CSV file.
 
-    One of the first ten rows has the headings frequency [Hz] or period [s], horizontal [g] and,
-    optionally, vertical [g]; other columns are ignored. The rows below may be in any order; the
-    spectrum is interpolated on log-log axes. Raises `InputError` with every problem, each with its
-    cell or ``file:LINE``.
+    One of the first ten rows has the headings; other columns are ignored, and the rows below may be
+    in any order. Raises `InputError` with every problem, each with its cell or ``file:LINE``.
     """
     path, sheet = _split(named)
     if path.suffix.lower() == ".xlsx":
@@ -163,6 +161,7 @@ def _table(source: str, rows: _Rows) -> TargetTable:
 
 def _headings(source: str, rows: _Rows) -> tuple[int, Mapping[str, int]]:
     """Return the row of the headings and the column of each kind."""
+    # Lines above the headings may say where the spectrum is from.
     for top, row in enumerate(rows[:HEADING_ROWS]):
         headings = [_heading(cell) for cell in row]
         kinds = {kind for kind, _ in headings}
@@ -227,6 +226,7 @@ def _range_problems(source: str, freq_hz: Floats) -> Iterator[Problem]:
         count = "1 row" if len(freq_hz) else "no rows"
         yield Problem(f"has {count} of numbers", "give at least 2", source)
         return
+    # Two ordinates at one frequency: interpolated, the slope between them has no end.
     apart = np.diff(np.sort(freq_hz)) > 1e-9 * np.sort(freq_hz)[1:]
     if not apart.all():
         at = float(np.sort(freq_hz)[1:][~apart][0])
