@@ -65,12 +65,14 @@ def quiet_page(browser, **options):
 
 
 def serve_scripts(page):
-    """Answer a page from the static folder alone."""
+    """Answer a page from the static folder and the fonts alone."""
 
     def handle(route):
         name = route.request.url.removeprefix(ALONE).partition("?")[0].removeprefix("/static/")
         if name == "/":
             route.fulfill(body="<!doctype html><title>scripts</title>", content_type="text/html")
+        elif name.startswith("fonts/"):
+            route.fulfill(path=FONTS / name.removeprefix("fonts/"))
         elif (STATIC / name).is_file():
             kind = _KINDS[(STATIC / name).suffix]
             route.fulfill(path=STATIC / name, content_type=kind)
@@ -79,6 +81,17 @@ def serve_scripts(page):
 
     page.route(f"{ALONE}/**", handle)
     page.goto(f"{ALONE}/")
+
+
+def called(page, module, body, given=None):
+    """Return what a body of JavaScript returns with a script `m` and what is given `g`."""
+    script = f"async (g) => {{ const m = await import('/static/{module}.js'); {body} }}"
+    return page.evaluate(script, given)
+
+
+def cases(table):
+    """Parametrize a test by steps and what they give, each named by its sentence."""
+    return pytest.mark.parametrize(("steps", "expected"), table.values(), ids=list(table))
 
 
 @contextmanager

@@ -3,7 +3,7 @@
 import pytest
 from starlette.testclient import TestClient
 
-from browsing import opened, quiet_page, served
+from browsing import opened, quiet_page, serve_scripts, served
 from report.web.access import KEY_HEADER, Keys
 from report.web.app import made
 from report.web.session import Session
@@ -56,6 +56,14 @@ def server():
 @pytest.fixture(scope="module")
 def address(server):
     return server[0]
+
+
+@pytest.fixture(scope="module")
+def scripts(browser):
+    """A page that has the scripts, the styles and the fonts, and no server."""
+    with quiet_page(browser) as page:
+        serve_scripts(page)
+        yield page
 
 
 @pytest.fixture

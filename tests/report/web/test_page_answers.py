@@ -10,6 +10,7 @@ from report.assessment.verdict import Verdict
 from report.web import answers
 from report.web.answers import answer
 from report.web.controls import opened
+from report.web.plan import stamp
 
 
 @pytest.fixture(scope="module")
@@ -95,3 +96,26 @@ def test_the_plan_tells_of_arrays_objects_and_clearances(assessed):
     assert "D/C" in found["tips"]["A1"]
     keys = {item.get("data-key") for item in found["plan"]["items"]} - {None}
     assert keys <= found["tips"].keys()
+
+
+CLEARANCES = """async (cells) => {
+  document.body.innerHTML = '<link rel="stylesheet" href="/static/style.css">' +
+    '<table class="numbers" id="clearances"></table>';
+  await new Promise((done) => (document.querySelector('link').onload = done));
+  const table = document.querySelector('table');
+  table.style.width = '352px'; // beside the plan, on a screen of 1280 pixels
+  const { showTable } = await import('/static/results.js');
+  const heads = ["No.", "From, to", "Provided", "Required", "D/C", "Verdict"];
+  const how = { named: 1, key: () => null };
+  showTable(table, { caption: "Clearances", heads, rows: [cells] }, how);
+  await document.fonts.ready;
+  return table.getBoundingClientRect().width;
+}"""
+
+
+@pytest.mark.parametrize("verdict", [Verdict.NG, Verdict.CONDITION])
+def test_names_of_a_dozen_letters_leave_the_verdict_of_a_clearance_in_view(scripts, verdict):
+    cells = [{"text": text} for text in ("1", "ARRAY-NW-01 to PV existing 2014", "96.0 in")]
+    cells += [{"text": "107.5 in"}, {"text": "0.83"}, stamp(verdict)]
+    cells[1] |= {"from": "ARRAY-NW-01", "to": "PV existing 2014", "note": "across"}
+    assert scripts.evaluate(CLEARANCES, cells) <= 352

@@ -9,7 +9,7 @@ import pytest
 
 import report.suite.files
 import waves
-from browsing import opened, quiet_page, served
+from browsing import called, cases, opened, quiet_page, served
 from report.sheet.reading.read import read
 from report.web import worker
 from report.web.jobs import perform
@@ -104,17 +104,61 @@ def test_a_suite_that_is_being_made_ends_where_another_project_is_opened(client,
     assert client.get(f"/api/package/{made}").json()["state"] == "canceled"
 
 
-@pytest.mark.nightly
-def test_motions_are_offered_again_where_the_server_no_longer_tells_of_them(browser, tmp_path):
-    path = without_motions(tmp_path)
-    with served() as (address, _), quiet_page(browser) as page:
-        opened(page, address)
-        page.set_input_files("#files", [str(path)])
-        page.route("**/api/package/*", lambda route: route.fulfill(status=503))
-        page.click("#no-motions button")
-        page.wait_for_selector("#no-motions progress")
-        page.wait_for_selector("#no-motions progress", state="detached", timeout=20_000)
-        assert page.locator("#no-motions button").inner_text().startswith("No motions?")
+OFFER = """
+    document.body.innerHTML = "<div hidden></div>";
+    const [element] = document.body.children;
+    let state = { id: "t", state: "running", words: "Motion 1 of 7", part: 0.2 };
+    const canceled = { state: "canceled", is_over: true, words: "Canceled." };
+    const sent = [], failed = [], opened = [];
+    const api = {
+      announce() {},
+      startMotions: async (files) => (sent.push(files), state),
+      packageState: async () => state,
+      cancelPackage: async () => (state = { ...state, ...canceled }),
+      file: async (id, name) => ({ blob: `#${id}/${name}` }),
+      upload: async (files) => (opened.push(files), {}),
+    };
+    const open = async (fetched) => { await fetched(); motions.offer(null); };
+    const fail = (error) => failed.push(error.message);
+    const motions = m.mountMotions(element, api, { open, fail });
+    const pause = () => new Promise((done) => setTimeout(done, 20));
+    const until = async (selector) => {
+      for (let k = 0; k < 150 && !element.querySelector(selector); k += 1) await pause();
+      return element.querySelector(selector);
+    };
+    const isHidden = [element.hidden];
+    motions.offer(["a"]); isHidden.push(element.hidden);
+    element.querySelector("button").click();
+    await until("progress");
+"""
+
+
+OFFERS = {
+    "motions that are made are opened and can be saved": ("""
+        state = { ...state, state: "done", is_over: true };
+        const save = await until(".note + button");
+        motions.offer(null); isHidden.push(element.hidden);
+        return [isHidden, sent, opened, save.textContent, failed];""",
+        [[True, False, True], [["a"]], [[{"file": "#t/project.zip", "path": "project.zip"}]],
+         "Save workbook and records (zip)", []]),
+    "motions that are canceled are offered again": ("""
+        element.querySelector("button").click();
+        for (let k = 0; k < 150 && element.querySelector("progress"); k += 1) await pause();
+        const { textContent: text } = element;
+        return [text.split(" for")[0], text.split(".").at(-2), opened];""",
+        ["No motions? Make seven", "Canceled", []]),
+    "motions of which the server no longer tells are offered again": ("""
+        api.packageState = async () => { throw new Error("Busy."); };
+        for (let k = 0; k < 150 && element.querySelector("progress"); k += 1) await pause();
+        const { textContent: text } = element;
+        return [text.split(" for")[0], text.slice(-5), opened];""",
+        ["No motions? Make seven", "Busy.", []]),
+}  # fmt: skip
+
+
+@cases(OFFERS)
+def test_motions_are_offered_until_they_are_made(scripts, steps, expected):
+    assert called(scripts, "offers", OFFER + steps) == expected
 
 
 @pytest.mark.nightly
