@@ -9,6 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass, field
 from enum import StrEnum
+from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -133,8 +134,7 @@ class SlideResult:
         Largest difference of any displacement from the exact motion under the interpolated record
         [m]: the method's own bound in two axes; in one axis an allowance for rounding error by the
         method `exact`, and NaN for the other methods. If friction decreases with velocity or at
-        breakaway there is no bound: the value is then 16 times the difference between runs at two
-        tolerances.
+        breakaway there is no bound: it is 16 times the difference between runs at two tolerances.
     """
 
     status: Status
@@ -163,13 +163,12 @@ class SlideResult:
         if self.prd_m == 0.0:
             return "no slip"
         when = "" if math.isnan(self.t_prd_s) else f" at {self.t_prd_s:.2f} s"
+        # z: what rounds to zero has no minus sign.
         end = f"{1e3 * self.residual_m:+z.1f} mm"
         if self.residual_across_m:
             end += f" and {1e3 * self.residual_across_m:+z.1f} mm cross-slope"
-        return (
-            f"PRD {1e3 * self.prd_m:.1f} mm{when}, {end} at the end, {self.n_stops} "
-            f"{'stop' if self.n_stops == 1 else 'stops'}, {self.status}"
-        )
+        stops = f"{self.n_stops} {'stop' if self.n_stops == 1 else 'stops'}"
+        return f"PRD {1e3 * self.prd_m:.1f} mm{when}, {end} at the end, {stops}, {self.status}"
 
     def __eq__(self, other: object) -> bool:
         """Whether every value is equal; one that is NaN in both is, in every version of Python."""
@@ -180,6 +179,7 @@ class SlideResult:
 
     @property
     def _values(self) -> tuple[object, ...]:
+        # NaN differs from itself.
         return tuple(None if value != value else value for value in astuple(self))
 
 
@@ -191,11 +191,9 @@ class EventKind(StrEnum):
 
 
 class Event(NamedTuple):
-    """Slip begins or ends: time [s], kind, downslope and cross-slope displacement [m].
+    """Slip begins or ends: time [s], kind, downslope and cross-slope displacement [m]."""
 
-    A tuple for speed: a run has hundreds of them.
-    """
-
+    # A tuple for speed: a run has hundreds of them.
     t_s: float
     kind: EventKind
     u_m: float
@@ -266,6 +264,7 @@ class Friction:
 
     def at(self, speed_mps: float) -> float:
         """Return the coefficient at a sliding speed [m/s]."""
+        # Eq. 2.
         drop = self.mu_fast - self.mu_slow
         return self.mu_fast - drop * math.exp(-self.rate_s_per_m * speed_mps)
 
@@ -322,8 +321,7 @@ class Accelerations:
     ax_mps2: Floats
     ay_mps2: Floats
     az_mps2: Floats
-    # What `scaled` applies. Kernels take it beside the arrays: scenes of any scale share them.
-    scale: float
+    scale: float  # beside the arrays, as kernels take it: scenes of any scale share them
 
     @property
     def components(self) -> dict[str, Floats]:
@@ -434,11 +432,8 @@ class Motion(Accelerations):
     def orientations(self) -> tuple[Orientation, ...]:
         """The runs: each horizontal component along the slope, in each of its polarities."""
         components = tuple(HorizontalComponent)[: 1 + self.has_transverse]
-        return tuple(
-            Orientation(component=component, polarity=sign)
-            for component in components
-            for sign in self.signs
-        )
+        runs = product(components, self.signs)
+        return tuple(Orientation(component=component, polarity=sign) for component, sign in runs)
 
     def scene(self, orientation: Orientation, *, slope_rad: float, friction: Friction) -> Scene:
         """Return the scene of one run: this motion in an orientation, on a slope with friction."""

@@ -219,6 +219,7 @@ def _start(source: Source) -> dt.datetime | None:
 def _check_size(source: Source, channel: Channel) -> None:
     """Raise if a step or a value is none of an accelerogram: the units or the scale are wrong."""
     peak_g = float(np.abs(channel.a_mps2).max()) / UNITS["g"]
+    # Negated, so that NaN is refused.
     if not peak_g <= MOST_G:
         raise InputError(
             f"{source.name}: the values reach {peak_g:.3g} g; give a record of at most {MOST_G:g}"
@@ -272,6 +273,7 @@ def centered_peak_notes(
 def check_length(source: Source, stated: Stated, reached_s: float, dt_s: float) -> None:
     """Raise if a record is not as long as a heading states; NaN or 0 if it states no length."""
     within_s = _LENGTH_STEPS * dt_s + _LENGTH_WITHIN * stated.value
+    # No length is NaN, which is not above zero.
     if stated.value > 0.0 and abs(reached_s - stated.value) > within_s:
         raise InputError(
             f"{source.at(stated.index)}: the heading states {stated.value:g} s, the record lasts"
@@ -299,6 +301,21 @@ def check_only_blank(source: Source, first: int, stop: int, before: str) -> None
                 f"{source.at(index)}: found {shown(source.lines[index].strip())} after {before},"
                 " where a heading is due; give the whole file"
             )
+
+
+def end_of_values(
+    source: Source, lines: range, mark: re.Pattern[str], words: str, of: str
+) -> tuple[int, tuple[str, ...]]:
+    """Index of the line that ends the values of a series or a channel, with a note if none does.
+
+    Nothing but blank lines may follow it. The words are those of the mark and of its place.
+    """
+    for index in lines:
+        if mark.match(source.lines[index]):
+            check_only_blank(source, index + 1, lines.stop, f"the end of a {of}")
+            return index, ()
+    note = f"no end-of-data line{words} follows the values: the file may be truncated"
+    return lines.stop, (note,)
 
 
 def recorder_notes(source: Source, samples: int) -> tuple[str, ...]:

@@ -50,7 +50,7 @@ _BLOCKS = (
     (_REALS, 2, _REAL_NUMBERS),
     (_COMMENTS, 1, "comment"),
 )
-_END = re.compile(r"\s*END-OF-DATA", re.IGNORECASE)
+_END = re.compile(r"\s*END-OF-DATA", re.IGNORECASE), "", "series"
 # The line of the sensor, such as `Sta Chan 1: 360 deg (Rcrdr Chan 1) Location: Roof`.
 _NAME = re.compile(r"\s*STA\s+CHA", re.IGNORECASE)
 
@@ -148,7 +148,10 @@ def _channel(source: Source, part: _Part) -> channels.Channel:
     scale = _scale(source, part)
     reals = _reals(source, part)
     dt_s = source.step(_step(part, reals))
-    stop, notes = _stop(source, part)
+    lines = range(part.at + 1, part.stop)
+    stop, notes = channels.end_of_values(source, lines, *_END)
+    if part.stop < len(source.lines):
+        notes = ()  # another series follows at once
     block = Block(first=part.at + 1, stop=stop, count=int(line[1]), promised=part.at)
     values = fixed_values(source, block, layout) * scale
     stated_s, length_s = printed(line[3], part.at).value, len(values) * dt_s
@@ -215,14 +218,3 @@ def _step(part: _Part, reals: Sequence[Stated]) -> Stated:
             # 7.8125 ms are 0.0078125 s: without the binary digits that the product adds.
             return Stated(value=float(f"{value:.12g}"), rounding=rounding, index=number.index)
     return replace(_UNKNOWN, index=reals[0].index if reals else part.first)
-
-
-def _stop(source: Source, part: _Part) -> tuple[int, tuple[str, ...]]:
-    """Index of the line that ends a series, with a note if there is none."""
-    for index in range(part.at + 1, part.stop):
-        if _END.match(source.lines[index]):
-            channels.check_only_blank(source, index + 1, part.stop, "the end of a series")
-            return index, ()
-    if part.stop < len(source.lines):
-        return part.stop, ()
-    return part.stop, ("no end-of-data line follows the values: the file may be truncated",)

@@ -36,7 +36,7 @@ from solver.records.record import unit_size
 _VOLUME_1 = re.compile(r"^\s*UNCORRECTED ACCELEROGRAM DATA", re.IGNORECASE)
 _VOLUME_2 = re.compile(r"^\s*CORRECTED ACCELEROGRAM\b", re.IGNORECASE)
 _VOLUME_3 = re.compile(r"^\s*RESPONSE AND FOURIER AMPLITUDE SPECTRA", re.IGNORECASE)
-_END = re.compile(r"\s*/&")
+_END = re.compile(r"\s*/&"), " (/&)", "channel"
 
 # 16I5 on 7 lines below the text, then 8F10.3.
 _WHOLE = 7
@@ -141,7 +141,7 @@ def _pair_values(source: Source, part: range) -> tuple[float, Floats, tuple[str,
         )
     scale = source.scale(unit[1][1], unit[0])
     first = part.start + _ONE.heading
-    stop, ended = _stop(source, first, part.stop)
+    stop, ended = channels.end_of_values(source, range(first, part.stop), *_END)
     block = Block(first=first, stop=stop, count=2 * int(points[1][1]), promised=points[0])
     pairs = fixed_values(source, block, _PAIRS).reshape(-1, 2)
     if len(pairs) < 2:
@@ -167,7 +167,7 @@ def _even_values(
     if line[4] and not layout:
         raise InputError(f"{source.at(at)}: found format ({line[4]}); give one as (8f10.3)")
     dt_s = source.step(_step(source, part, volume, at, line))
-    stop, ended = _stop(source, at + 1, part.stop)
+    stop, ended = channels.end_of_values(source, range(at + 1, part.stop), *_END)
     # Velocities and displacements follow the accelerations of volume 2.
     others = (i for i in range(at + 1, stop) if _SERIES.match(source.lines[i]))
     block = Block(first=at + 1, stop=next(others, stop), count=int(line[1]), promised=at)
@@ -212,12 +212,3 @@ def _search(
         if match := pattern.search(source.lines[index]):
             return index, match
     return None
-
-
-def _stop(source: Source, first: int, stop: int) -> tuple[int, tuple[str, ...]]:
-    """Index of the line that ends a channel, with a note if there is none."""
-    for index in range(first, stop):
-        if _END.match(source.lines[index]):
-            channels.check_only_blank(source, index + 1, stop, "the end of a channel")
-            return index, ()
-    return stop, ("no end-of-data line (/&) follows the values: the file may be truncated",)

@@ -156,6 +156,7 @@ def remark(line: str, separator: str | None, width: int) -> list[Heading]:
     texts = words(line, separator)[:width]
     if len(texts) < width or width < 2 or parse(texts[0]).kind is not Kind.TIME:
         return []
+    # The last heading may run on as text: then its first word counts.
     last = parse(texts[-1])
     if last.kind is Kind.UNSAID and (first_word := _WORD.search(texts[-1])):
         last = parse(first_word[0])
@@ -196,6 +197,7 @@ def _split(text: str) -> tuple[str, str]:
         match = pattern.fullmatch(text)
         if match and (_is_unit(match[2], bracketed=True) or _is_time(match[1])):
             return match[1].strip(), match[2].strip()
+    # The first underscore with a unit behind it: a unit may have underscores, as m_s2.
     for place in (i for i, letter in enumerate(text) if letter == "_"):
         name, unit = text[:place], text[place + 1 :]
         if _is_unit(unit, bracketed=False) or (_is_time_unit(unit) and _is_time(name)):

@@ -20,6 +20,7 @@ from solver.formats.source import Source, Stated
 from solver.model import Floats, InputError
 from solver.records.record import BEYOND, is_finite_number, raise_any, shown
 
+# ASCII alone: float would take the digits of other scripts as well.
 NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)
 _GROUPED = re.compile(r"[+-]?\d{1,3}(?:,\d{3})+\.\d*", re.ASCII)
@@ -91,6 +92,7 @@ def fixed_values(source: Source, block: Block, layout: FieldFormat) -> Floats:
     # A line of text may follow the values where their count is stated too large.
     while numbers and all(map(_problem, _cut(numbers[-1], layout))):
         numbers.pop()
+    # Looked for only where something is wrong: a sound file is read at once.
     problems = partial(_fixed_problems, source, block, numbers, layout)
     values = _values(numbers, lambda row: _cut(row, layout), problems())
     if len(values) != block.count or any(layout.fields(r) != layout.per_line for r in numbers[:-1]):
@@ -128,6 +130,7 @@ def _check_halved(source: Source, rows: Sequence[tuple[int, str]]) -> None:
     """Refuse a line of one value that lost its end: it alone has fewer digits than all others."""
     digits = [_digits(row.strip().translate(_FORTRAN)) for _, row in rows]
     counts = Counter(digits)
+    # Programs that drop zeros at the end print all sorts of lengths: they say nothing.
     if len(counts) != 2 or min(counts.values()) > 1 or len(digits) < COMPARED // 3:
         return
     usual, odd = (step for step, _ in counts.most_common())
@@ -216,6 +219,7 @@ def printed(text: str, index: int) -> Stated:
         return Stated(value=math.nan, rounding=0.0, index=index)
     mantissa, _, exponent = text.strip().lower().partition("e")
     decimals = len(mantissa.partition(".")[2]) - int(exponent or 0)
+    # A whole number is taken as exact.
     rounding = 0.5 * 10.0**-decimals if "." in mantissa and abs(decimals) < 300 else 0.0
     return Stated(value=float(text), rounding=rounding, index=index)
 

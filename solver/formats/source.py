@@ -287,6 +287,7 @@ def _lines(name: str, data: bytes) -> list[str]:
 def _decode(name: str, data: bytes) -> str:
     """Text of the file; if not UTF-8, as some old headings, it is read as Latin-1."""
     try:
+        # As Excel saves "Unicode text".
         if data.startswith((b"\xff\xfe", b"\xfe\xff")):
             return data.decode("utf-16")
         plain = data.rstrip(b"\x00" + _END_OF_TEXT)

@@ -152,6 +152,7 @@ def _check_count(source: Source, table: _Table) -> None:
 
 def _check_last(source: Source, table: _Table) -> None:
     """Refuse a file without a line end whose last value has fewer digits than those before it."""
+    # A line end, a comment or a blank shows that the last value was written whole.
     if source.is_ended or not content_of(source.lines[-1]) or "#" in source.lines[-1]:
         return
     rows = list(rows_of(source.lines, max(table.start, len(source.lines) - COMPARED)))
@@ -317,6 +318,7 @@ def _table(source: Source) -> _Table:
 
 def _told_across(source: Source, start: int, separator: str | None, remarks: Sequence[Row]) -> int:
     """Values in the first line, if a remark states as many samples as there are in all lines."""
+    # As many lines as samples would be a column.
     stated = max((layout.count_in(line) for _, line in remarks), default=-1)
     widths = (
         [len(row.split(separator)) for _, row in rows_of(source.lines, start)] if stated > 0 else []

@@ -24,11 +24,13 @@ from solver.rules.rulesets import Provision
 # Names of the components of a motion: two horizontal ones and the vertical.
 COMPONENTS = ("x", "y", "z")
 
+# AC156 as a test laboratory reads it: see `spectrum_rows`.
 LEAST_RATIO = 0.90
 FULL_RATIO = 1.00
 MOST_IN_A_ROW = 1
 MOST_DIPS = 2
 
+# Corners of the spectrum of AC156 [Hz].
 _LOW, _KNEE, _PLATEAU, _HIGH = 0.1, 1.3, 8.3, 33.3
 
 # Sets of points 1/6 octave apart among those of AC156, each shifted by a quarter of that.
@@ -207,6 +209,7 @@ def _means(ratios: Sequence[SpectrumRatio]) -> Sequence[SpectrumRatio]:
     ]
 
 
+# PV1-2012: number of motions and length of the strong motion [s]. AC156: correlation.
 LEAST_MOTIONS = 3
 STRONG_S = 20.0
 MOST_CORRELATION = 0.3

@@ -133,8 +133,8 @@ def response_spectrum(
         omega = 2.0 * math.pi / periods
     rigid = ~np.isfinite(omega)
     spectrum = np.full(omega.shape, np.abs(a).max())
-    # Points per interval at which the peak of an oscillator is evaluated: powers of two.
-    # Powers of two: oscillators of many periods share one refined record.
+    # Points per interval at which the peak of an oscillator is evaluated: powers of two, so that
+    # oscillators of many periods share one refined record.
     needed = PEAK_FINENESS * float(dt_s) * np.where(rigid, 0.0, omega) / (2.0 * math.pi)
     steps = (2.0 ** np.ceil(np.log2(np.clip(needed, 1.0, PEAK_STEPS)))).astype(np.int64)
     for each in np.unique(steps[~rigid]).tolist():
@@ -272,6 +272,7 @@ def factor_to_target(
 
 
 def _log_spectrum(record: Record, periods_s: Floats) -> Floats:
+    # It has no logarithm.
     if not record.a_mps2.any():
         raise InputError(f"{record.name}: is zero throughout; it cannot be scaled to a target")
     spectrum = response_spectrum(record.a_mps2, record.dt_s, periods_s, DAMPING)

@@ -113,6 +113,7 @@ class Method:
         """Return all parameters for one value of the knob, with the sub-steps that a link needs."""
         parameters = dict(self.parameters) | {self.knob: value}
         if self.link_steps_per_radian:
+            # A sub-step is 1 / omega at most: beyond 2 / omega the explicit link is unstable.
             radians = link_frequency(parameters["stiffness_per_m"], g_mps2) * dt_s
             parameters["substeps"] = max(1, math.ceil(radians * self.link_steps_per_radian))
         return parameters
@@ -137,6 +138,7 @@ def exact_events(scene: AxisScene, n_stops: int) -> Floats:
 
     Shape (m, 3).
     """
+    # A slip before each stop, and one that may go on at the end.
     rows = np.empty((2 * n_stops + 1, 3))
     n_events = _run_exact(scene, rows)[-1]
     return rows[: int(n_events)]
@@ -164,6 +166,7 @@ def _exact(scene: AxisScene, _: Parameters, samples: Floats) -> Outcome:
         one_axis.fill_history(
             c.ax, _vertical(c)[0], c.dt, c.sn, c.cs, c.mu, c.g, c.scale, events, samples
         )
+        # As the run has them, so that history and result agree to the last bit.
         samples[:, -1] = outcome.s_end, outcome.w_end
     return outcome
 

@@ -213,6 +213,7 @@ def parapet_qualifies(rules: RuleSet, *, parapet_height_m: float, cg_height_m: f
 
     Its strength (0.2 S_DS W impact in ASCE 7) is not checked here.
     """
+    # A height typed in one unit equals the limit in another but for rounding.
     return at_least(parapet_height_m, rules.length_m("parapet_height_in")) and at_least(
         parapet_height_m - cg_height_m, rules.length_m("parapet_over_cg_in")
     )
@@ -220,6 +221,7 @@ def parapet_qualifies(rules: RuleSet, *, parapet_height_m: float, cg_height_m: f
 
 def interconnection_strength_n(rules: RuleSet, *, s_ds_g: float, w1_n: float) -> float:
     """Return the interconnection strength [N] for a part of weight w1_n on its lighter side."""
+    # 0.133 S_DS W1, and 0.1 W1 or more, in all rule sets.
     return max(rules["interconnection_sds"] * s_ds_g, rules["interconnection_min"]) * w1_n
 
 
@@ -228,6 +230,7 @@ def required_mu(rules: RuleSet, slope_rad: float) -> float:
 
     ASCE 7, 13.6.12: 0.4 up to a slope of 0.03, then 0.4 + 0.7 (slope - 0.03).
     """
+    # The code gives the slope as rise over run.
     rise = max(math.tan(abs(slope_rad)) - 0.03, 0.0) if rules.mu_rises_with_slope else 0.0
     return rules["prescriptive_min_mu"] + 0.7 * rise
 

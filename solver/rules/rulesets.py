@@ -41,35 +41,6 @@ class Provision:
         return self.confidence is Confidence.CONFIRMED and not self.reason
 
 
-# Provisions that a workbook may override, with the meaning and the unit of the value.
-OVERRIDABLE: Mapping[str, str] = {
-    "prescriptive_factor_in": "factor on (S_DS - 0.4)^2 in the prescriptive displacement [in]",
-    "prescriptive_minimum_in": "minimum prescriptive displacement [in]",
-    "prescriptive_low_sdc_in": "prescriptive displacement in SDC A, B, C [in]",
-    "prescriptive_max_slope_deg": "maximum slope for the prescriptive route [deg]",
-    "prescriptive_min_mu": "minimum friction coefficient for the prescriptive route",
-    "analysis_max_slope_deg": "maximum slope for the analysis route [deg]",
-    "ibc_max_slope_deg": "maximum slope of any ballasted system [deg]",
-    "max_stories": "maximum number of stories of the building",
-    "max_risk_category": "highest risk category (I = 1 ... IV = 4)",
-    "low_profile_in": "maximum height of the center of gravity [in]",
-    "low_profile_ratio": "maximum height of the center of gravity / least base or support spacing",
-    "analysis_min_motions": "minimum number of motions for the analysis route",
-    "analysis_mean_motions": "minimum number of motions for a value from the mean",
-    "analysis_factor": "factor on the mean or on the largest peak",
-    "analysis_floor": "minimum fraction of the prescriptive displacement without peer review",
-    "separation_like": "separation between like arrays / design displacement",
-    "separation_fixed": "separation to a fixed object or unlike array / design displacement",
-    "separation_parapet": "separation to an edge with a qualifying parapet / design displacement",
-    "separation_edge": "separation to an edge without qualifying parapet / design displacement",
-    "separation_edge_min_in": "minimum separation to an edge without a qualifying parapet [in]",
-    "parapet_height_in": "minimum height of a qualifying parapet above the roof [in]",
-    "parapet_over_cg_in": "minimum height of a qualifying parapet above the array's c.g. [in]",
-    "interconnection_sds": "interconnection strength / (S_DS W1)",
-    "interconnection_min": "minimum interconnection strength / W1",
-}
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Allowed:
     """Range of a value that may replace a number of a rule set."""
@@ -98,34 +69,46 @@ class Allowed:
         return f"{self.low:.3g} to {self.high:.3g}"
 
 
-# Outside of these, a number has another unit or no meaning. A factor below 1 on the peaks would
-# give less than was computed.
-ALLOWED: Mapping[str, Allowed] = {
-    "prescriptive_factor_in": Allowed(low=1, high=600),
-    "prescriptive_minimum_in": Allowed(low=0, high=240),
-    "prescriptive_low_sdc_in": Allowed(low=0, high=240),
-    "prescriptive_max_slope_deg": Allowed(low=0, high=30, is_maximum=True),
-    "prescriptive_min_mu": Allowed(low=0, high=1.5),
-    "analysis_max_slope_deg": Allowed(low=0, high=30, is_maximum=True),
-    "ibc_max_slope_deg": Allowed(low=0, high=30, is_maximum=True),
-    "max_stories": Allowed(low=1, high=200, is_whole=True, is_maximum=True),
-    "max_risk_category": Allowed(low=1, high=4, is_whole=True, is_maximum=True),
-    "low_profile_in": Allowed(low=1, high=120, is_maximum=True),
-    "low_profile_ratio": Allowed(low=0.01, high=5, is_maximum=True),
-    "analysis_min_motions": Allowed(low=1, high=100, is_whole=True),
-    "analysis_mean_motions": Allowed(low=1, high=100, is_whole=True),
-    "analysis_factor": Allowed(low=1, high=10),
-    "analysis_floor": Allowed(low=0, high=1),
-    "separation_like": Allowed(low=0, high=10),
-    "separation_fixed": Allowed(low=0.1, high=10),
-    "separation_parapet": Allowed(low=0, high=10),
-    "separation_edge": Allowed(low=0.1, high=10),
-    "separation_edge_min_in": Allowed(low=0, high=600),
-    "parapet_height_in": Allowed(low=0, high=240),
-    "parapet_over_cg_in": Allowed(low=0, high=240),
-    "interconnection_sds": Allowed(low=0, high=2),
-    "interconnection_min": Allowed(low=0, high=2),
-}
+# What a workbook may override: lowest and highest value, whether it is a whole number or a limit
+# from above ("max"), meaning and unit. Outside of these, a number has another unit or no meaning. A
+# factor below 1 on the peaks would give less than was computed.
+_OVERRIDABLE = """
+prescriptive_factor_in 1 600 - factor on (S_DS - 0.4)^2 in the prescriptive displacement [in]
+prescriptive_minimum_in 0 240 - minimum prescriptive displacement [in]
+prescriptive_low_sdc_in 0 240 - prescriptive displacement in SDC A, B, C [in]
+prescriptive_max_slope_deg 0 30 max maximum slope for the prescriptive route [deg]
+prescriptive_min_mu 0 1.5 - minimum friction coefficient for the prescriptive route
+analysis_max_slope_deg 0 30 max maximum slope for the analysis route [deg]
+ibc_max_slope_deg 0 30 max maximum slope of any ballasted system [deg]
+max_stories 1 200 whole,max maximum number of stories of the building
+max_risk_category 1 4 whole,max highest risk category (I = 1 ... IV = 4)
+low_profile_in 1 120 max maximum height of the center of gravity [in]
+low_profile_ratio 0.01 5 max maximum height of the center of gravity / least base or support spacing
+analysis_min_motions 1 100 whole minimum number of motions for the analysis route
+analysis_mean_motions 1 100 whole minimum number of motions for a value from the mean
+analysis_factor 1 10 - factor on the mean or on the largest peak
+analysis_floor 0 1 - minimum fraction of the prescriptive displacement without peer review
+separation_like 0 10 - separation between like arrays / design displacement
+separation_fixed 0.1 10 - separation to a fixed object or unlike array / design displacement
+separation_parapet 0 10 - separation to an edge with a qualifying parapet / design displacement
+separation_edge 0.1 10 - separation to an edge without qualifying parapet / design displacement
+separation_edge_min_in 0 600 - minimum separation to an edge without a qualifying parapet [in]
+parapet_height_in 0 240 - minimum height of a qualifying parapet above the roof [in]
+parapet_over_cg_in 0 240 - minimum height of a qualifying parapet above the array's c.g. [in]
+interconnection_sds 0 2 - interconnection strength / (S_DS W1)
+interconnection_min 0 2 - minimum interconnection strength / W1
+"""
+
+ALLOWED: dict[str, Allowed] = {}
+OVERRIDABLE: dict[str, str] = {}
+for _row in _OVERRIDABLE.strip().splitlines():
+    _key, _low, _high, _kind, OVERRIDABLE[_key] = _row.split(maxsplit=4)
+    ALLOWED[_key] = Allowed(
+        low=float(_low),
+        high=float(_high),
+        is_whole="whole" in _kind,
+        is_maximum="max" in _kind,
+    )
 
 
 class LowProfileLength(StrEnum):
@@ -156,6 +139,7 @@ class RuleSet:
 
     def length_m(self, key: str) -> float:
         """Return a length, stored in inches, in meters."""
+        # Tables have inches, as the codes print them, so that a reader can compare each number.
         return self.values[key].value * INCH_M
 
     def overridden(self, changes: Mapping[str, tuple[float, str]]) -> RuleSet:
@@ -181,23 +165,30 @@ class RuleSet:
 
     def confirmed(self) -> RuleSet:
         """Return the rule set as compared with its text: no number but an override has a mark."""
+        # An override keeps its reason, and by that its mark.
         values = {
             key: replace(row, confidence=Confidence.CONFIRMED) for key, row in self.values.items()
         }
         return replace(self, values=values)
 
 
-def _table(rows: str, document: str) -> dict[str, Provision]:
-    """Read rows of `key value confidence clause`; without a clause the document is cited."""
+def _table(
+    rows: str, document: str, notes: Mapping[str, str], *, is_compared: bool = True
+) -> dict[str, Provision]:
+    """Read rows of `key value confidence clause`; without a clause the document is cited.
+
+    An edition that was not compared inherits no confirmation.
+    """
     table = {}
     for row in rows.strip().splitlines():
         key, value, confidence, clause = row.split(maxsplit=3)
         table[key] = Provision(
             value=float(value),
             clause=document if clause == "-" else f"{document} {clause}",
-            confidence=Confidence(confidence),
+            confidence=Confidence(confidence) if is_compared else Confidence.LOW,
+            note=notes.get(key, ""),
         )
-    return table
+    return table | _IBC
 
 
 # Clause numbers of PV1 other than Sec. 4 to 6 are not known: "-" cites the document alone.
@@ -254,11 +245,6 @@ interconnection_min         0.1    K  13.6.12
 """
 
 
-def _unverified(table: dict[str, Provision]) -> dict[str, Provision]:
-    """Return a table for an edition that was not compared: it inherits no confirmation."""
-    return {key: replace(row, confidence=Confidence.LOW) for key, row in table.items()}
-
-
 # Limits every ballasted system, beside all rule sets: 1 in 12.
 _IBC = {
     "ibc_max_slope_deg": Provision(
@@ -273,17 +259,12 @@ _PV1_NOTES = {
 
 _ASCE_NOTES = {"analysis_max_slope_deg": "in SDC A, B, C it may be exceeded with peer review"}
 
-
-def _noted(table: dict[str, Provision], notes: Mapping[str, str]) -> dict[str, Provision]:
-    return {key: replace(row, note=notes.get(key, "")) for key, row in table.items()}
-
-
 _ASCE_7_16 = RuleSet(
     code="asce7-16",
     name="ASCE 7-16",
     title="ASCE/SEI 7-16, Minimum Design Loads and Associated Criteria for Buildings "
     "and Other Structures, 13.6.12",
-    values=_noted(_table(_ASCE, "ASCE 7-16"), _ASCE_NOTES) | _IBC,
+    values=_table(_ASCE, "ASCE 7-16", _ASCE_NOTES),
     importance_in_separation=False,
     low_sdc_is_flat=False,
     mu_rises_with_slope=True,
@@ -301,7 +282,7 @@ RULE_SETS: Mapping[str, RuleSet] = {
             name="SEAOC PV1-2012",
             title="SEAOC PV1-2012, Structural Seismic Requirements and Commentary for Rooftop "
             "Solar Photovoltaic Arrays",
-            values=_noted(_table(_PV1, "PV1-2012"), _PV1_NOTES) | _IBC,
+            values=_table(_PV1, "PV1-2012", _PV1_NOTES),
             importance_in_separation=True,
             low_sdc_is_flat=True,
             mu_rises_with_slope=False,
@@ -316,7 +297,7 @@ RULE_SETS: Mapping[str, RuleSet] = {
             code="asce7-22",
             name="ASCE 7-22",
             title=_ASCE_7_16.title.replace("7-16", "7-22"),
-            values=_noted(_unverified(_table(_ASCE, "ASCE 7-22")), _ASCE_NOTES) | _IBC,
+            values=_table(_ASCE, "ASCE 7-22", _ASCE_NOTES, is_compared=False),
             edition="ASCE 7-22",
         ),
     )
@@ -335,5 +316,6 @@ def usual(key: str, rule_sets: Mapping[str, RuleSet] = RULE_SETS) -> Allowed:
         return allowed
     low, high = max(0.5 * min(values), allowed.low), min(2.0 * max(values), allowed.high)
     if allowed.is_whole:
+        # Inward: only whole numbers are allowed.
         low, high = math.ceil(low), math.floor(high)
     return replace(allowed, low=low, high=high)

@@ -79,6 +79,7 @@ def checked_scene(
     numbers["scale"] *= factor
     run = Scene(ax_mps2=ax, ay_mps2=ay, az_mps2=az, friction=friction, **numbers)
     raise_any(overflow(run))
+    # It would count twice: g is added to az.
     if az.size and has_gravity(az):
         raise InputError(
             f"az_mps2 has a mean of {az.mean():.3g} m/s2: gravity is in it; subtract the mean"
@@ -103,6 +104,7 @@ def unit_size(values: Mapping[str, Given | None], units: str | None, problems: l
 
 def _size_of_series(values: Mapping[str, Given | None], problems: list[str]) -> float:
     """Return the size of the unit that the names of Series state; 1 without any Series."""
+    # pandas keeps no unit of a Series: its name says it, as in `acceleration_g`.
     sizes = {
         name: records_unit(parse(str(each.name)).unit)  # type: ignore[union-attr]
         for name, each in values.items()
@@ -128,6 +130,7 @@ def _step_of_series(name: str, series: Any, problems: list[str]) -> float | None
     times = np.asarray(series.index)
     if times.dtype.kind in "mM":
         times = (times - times[:1]) / np.timedelta64(1, "s")
+    # An index of whole numbers counts samples.
     if times.dtype.kind != "f" or len(times) < 2:
         return None
     steps = np.diff(times)
@@ -142,6 +145,7 @@ def _warn_if_in_g(run: Scene) -> None:
     peak = abs(run.scale) * max(
         float(np.abs(a).max()) for a in (run.ax_mps2, run.ay_mps2) if a.size
     )
+    # A block slips where |G| > mu N: by about g (mu cos(theta) - sin(theta)) on a slope.
     least = run.friction.mu_static * math.cos(run.slope_rad) - abs(math.sin(run.slope_rad))
     if 0.0 < peak < _WEAK * least * run.g_mps2:
         warnings.warn(
@@ -232,14 +236,14 @@ def checked_friction(name: str, mu: float | Friction, problems: list[str]) -> Fr
     """Return the friction law for a coefficient or a law, adding a problem for every error."""
     wanted = "a friction coefficient of 0 or more"
     if not isinstance(mu, Friction):
-        return coulomb(checked_number(name, mu, wanted, _is_coefficient, problems))
+        return coulomb(checked_number(name, mu, wanted, is_zero_or_more, problems))
     checked = Friction(
-        mu_slow=checked_number("mu_slow", mu.mu_slow, wanted, _is_coefficient, problems),
-        mu_fast=checked_number("mu_fast", mu.mu_fast, wanted, _is_coefficient, problems),
+        mu_slow=checked_number("mu_slow", mu.mu_slow, wanted, is_zero_or_more, problems),
+        mu_fast=checked_number("mu_fast", mu.mu_fast, wanted, is_zero_or_more, problems),
         rate_s_per_m=checked_number(
-            "rate_s_per_m", mu.rate_s_per_m, "a number of s/m, 0 or more", _is_coefficient, problems
+            "rate_s_per_m", mu.rate_s_per_m, "a number of s/m, 0 or more", is_zero_or_more, problems
         ),
-        mu_static=checked_number("mu_static", mu.mu_static, wanted, _is_coefficient, problems),
+        mu_static=checked_number("mu_static", mu.mu_static, wanted, is_zero_or_more, problems),
     )
     if checked.mu_static < checked.mu_slow:
         problems.append(
@@ -248,7 +252,8 @@ def checked_friction(name: str, mu: float | Friction, problems: list[str]) -> Fr
     return checked
 
 
-def _is_coefficient(value: float) -> bool:
+def is_zero_or_more(value: float) -> bool:
+    """Whether a number is finite and not below zero."""
     return 0.0 <= value < math.inf
 
 
@@ -278,6 +283,7 @@ def checked_records(
         if values is not None and checked[name].shape != shape
     ]
     values = list(checked.values())
+    # In m/s2 the array of the caller is run as it is, without a copy.
     return values if size == 1.0 else [read_only(each * size) for each in values]
 
 

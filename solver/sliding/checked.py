@@ -249,6 +249,7 @@ def motion(
     Motion: pulse, x and z, 4 samples of 0.1 s, scale 1.5
     """
     components = ax_mps2, ay_mps2, az_mps2
+    # A motion has no slope and no friction: zeros pass every check.
     checked = checked_scene(
         *components, dt_s, 0.0, 0.0, scale, STANDARD_GRAVITY_MPS2, "exact", units
     )
@@ -336,6 +337,8 @@ def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> S
 
 
 def _rechecked(scene: Scene) -> Scene:
+    # It may be made by hand, without `scene`. The unit is said, so that nothing warns again of weak
+    # shaking.
     ay, az = (a if np.size(a) else None for a in (scene.ay_mps2, scene.az_mps2))
     numbers = scene.dt_s, scene.slope_rad, scene.friction, scene.scale, scene.g_mps2
     return checked_scene(scene.ax_mps2, ay, az, *numbers, "exact", "m/s2")

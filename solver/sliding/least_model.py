@@ -259,6 +259,7 @@ def _in_plane(scene: Scene, settings: Settings, model: Model, why: str, demand: 
     solution = _without_next(model, why, result, demand)
     if scene.friction.is_constant or model is Model.SPEED_FRICTION:
         return solution
+    # Constant friction was asked for where the scene has a law: what that changes is told.
     effect = _left_out(result, two_axes.run(scene, settings.tolerance))
     return replace(solution, next_model=Model.SPEED_FRICTION, next_effect_m=effect)
 
@@ -269,6 +270,7 @@ def as_run(scene: Scene, model: Model) -> Scene:
     The cross-slope component is still there where a run in one axis ignores it.
     """
     if model is Model.NO_SLIP:
+        # It never leaves rest, where this coefficient holds.
         return replace(scene, friction=coulomb(scene.friction.mu_static))
     if model is Model.ONE_AXIS:
         return _level(scene)

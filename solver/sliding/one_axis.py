@@ -58,6 +58,7 @@ def rounding(scene: AxisScene) -> float:
     time t, and d t^2 / 2 in displacement. Here t is the whole record, and the result is doubled to
     cover rounding of the sums.
     """
+    # The last column of the bounds is that of the whole record: no pass over its samples.
     c, up = scene, abs(scene.scale) * float(max(-scene.z[0, -1], scene.z[1, -1], 0.0))
     along = abs(c.scale) * float(max(-c.x[0, -1], c.x[1, -1]))
     terms = (abs(c.sn) + c.mu * c.cs) * (c.g + up) + (c.cs + c.mu * abs(c.sn)) * along
@@ -67,6 +68,7 @@ def rounding(scene: AxisScene) -> float:
 
 def _run(method: Method, parameters: Parameters, scene: AxisScene, samples: Floats) -> SlideResult:
     """Run a scene; `samples` of shape (2, n) is filled with u and u'; of shape (2, 0) it is not."""
+    # Before any method: all of them assume N >= 0 throughout.
     n_min_g, t_uplift = minimum_normal(scene)
     if n_min_g < 0.0:
         return without_displacement(Status.UPLIFT, n_min_g, t_uplift)
@@ -74,6 +76,7 @@ def _run(method: Method, parameters: Parameters, scene: AxisScene, samples: Floa
     if not (outcome.followed and math.isfinite(outcome.s_max - outcome.s_min)):
         samples[:] = np.nan
         return without_displacement(Status.DIVERGED, n_min_g, math.nan)
+    # Methods give s and s' along the slope; displacements are horizontal, u = s cos(theta).
     samples *= scene.cs
     error_m = rounding(scene) if method is EXACT else math.nan
     return _result(outcome, scene.cs, n_min_g, error_m)
@@ -89,12 +92,14 @@ def _events(scene: AxisScene, result: SlideResult) -> tuple[Event, ...]:
             kind=EventKind.STOP if kind == kernel.STOP else EventKind.SLIP,
             u_m=scene.cs * s,
         )
+        # Another run, for which the number of stops says how much room the events need.
         for t, kind, s in exact_events(scene, result.n_stops).tolist()
     )
 
 
 def _result(outcome: Outcome, cs: float, n_min_g: float, error_m: float) -> SlideResult:
     return SlideResult(
+        # Exactly zero: methods set the speed at a stop.
         status=Status.OK if outcome.w_end == 0.0 else Status.SLIDING_AT_END,
         prd_m=cs * max(outcome.s_max, -outcome.s_min),
         residual_m=cs * outcome.s_end,

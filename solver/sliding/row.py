@@ -17,6 +17,7 @@ from solver.kernels import row as kernel
 from solver.model import Floats, Scene, SlideResult, Status, coulomb
 from solver.records.record import raise_any
 from solver.sliding import one_axis
+from solver.sliding.arguments import is_zero_or_more
 
 # Limit on time steps, above which links are too stiff: about one minute for a row of five.
 MOST_STEPS = 10_000_000
@@ -161,10 +162,10 @@ def _faults(row: BlockRow) -> list[str]:
     problems = []
     if not row.mus:
         problems.append("mus is empty; give the friction coefficient of 1 block or more")
-    if not all(_is_none_or_more(mu) for mu in row.mus):
+    if not all(is_zero_or_more(mu) for mu in row.mus):
         problems.append(f"mus is {row.mus!r}; give friction coefficients of 0 or more")
     for name in ("stiffness_per_s2", "damping_per_s"):
-        if not _is_none_or_more(getattr(row, name)):
+        if not is_zero_or_more(getattr(row, name)):
             problems.append(f"{name} is {getattr(row, name)!r}; give a finite number of 0 or more")
     return problems + _share_faults(row.shares, len(row.mus))
 
@@ -196,7 +197,3 @@ def _too_stiff(scene: Scene, row: BlockRow) -> list[str]:
         f"stiffness_per_s2 {row.stiffness_per_s2:g} with damping_per_s {row.damping_per_s:g} takes "
         f"more than {MOST_STEPS:.0e} steps; give softer links, or model the row as one rigid block"
     ]
-
-
-def _is_none_or_more(value: float) -> bool:
-    return 0.0 <= value < math.inf

@@ -146,6 +146,7 @@ def sweep(
     ax, ay, az = checked_records(records, problems, unit_size(components, units, problems))
     axes = [
         axis("slopes_rad", slopes_rad, -math.pi / 2, math.pi / 2, problems),
+        # The limits are not within: zero is a coefficient.
         axis("mus", mus, -math.ulp(0.0), math.inf, problems),
         axis("scales", scales, -math.inf, math.inf, problems),
     ]
@@ -240,6 +241,7 @@ def _run(
         one_axis.sweep_exact(ax, up, x, z, dt, g, scenes[chosen], out)
         outcomes[chosen] = out
 
+    # The kernel lets go of the lock of Python, so threads run side by side.
     with ThreadPoolExecutor(THREADS) as pool:
         for k, part in enumerate(np.array_split(order_alike(scenes), slopes.size)):
             # Dealt out, so that the threads take about equal time.

@@ -59,6 +59,7 @@ def _starts(normal: Floats) -> Floats:
     first, last = normal[:-1], normal[1:]
     (at,) = np.nonzero((first >= 0.0) & (last < 0.0))
     begins = [0.0] if normal[0] < 0.0 else []
+    # N is linear in the interval: it is zero at first / (first - last) of it.
     return np.array([*begins, *(at + first[at] / (first[at] - last[at]))])
 
 
@@ -72,6 +73,7 @@ class Supports:
     @property
     def capacity(self) -> float:
         """Shear over normal force at which the block begins to tip about an edge, b / (2 h)."""
+        # V h = N b / 2, with all of N at one edge.
         return 0.5 * self.spacing_m / self.height_m
 
 
@@ -138,16 +140,13 @@ def tipping_at(demand: float, friction: Friction, supports: Supports) -> Tipping
         if not 0.0 < value < math.inf
     )
     slips = demand > friction.mu_static
+    # The greatest coefficient at any speed.
+    kinetic = friction.mu_slow
+    if friction.rate_s_per_m > 0.0:
+        kinetic = max(friction.mu_slow, friction.mu_fast)
     return Tipping(
         demand=demand,
         capacity=supports.capacity,
         at_rest_ratio=min(demand, friction.mu_static) / supports.capacity,
-        sliding_ratio=_kinetic(friction) / supports.capacity if slips else 0.0,
+        sliding_ratio=kinetic / supports.capacity if slips else 0.0,
     )
-
-
-def _kinetic(friction: Friction) -> float:
-    """Return the greatest coefficient at any speed."""
-    if friction.rate_s_per_m > 0.0:
-        return max(friction.mu_slow, friction.mu_fast)
-    return friction.mu_slow

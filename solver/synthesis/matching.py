@@ -66,11 +66,6 @@ class SpectrumFit:
         return float(self.ratio.mean())
 
 
-def lowest_hz(target: Target) -> float:
-    """Lowest frequency [Hz] of the comparison with a target: 0.1 Hz, or where it begins."""
-    return max(min(float(target[0][0]), BAND_HZ[0]), LONGEST_HZ)
-
-
 def band(per_octave: int, low_hz: float) -> Floats:
     """Frequencies [Hz] from the lowest to 33.3 Hz, `per_octave` to an octave, with both ends."""
     high_hz = BAND_HZ[1]
@@ -88,8 +83,12 @@ def shifted_grids(low_hz: float) -> Floats:
 
 
 def spectrum_fit(record: Record, target: Target, freq_hz: Floats | None = None) -> SpectrumFit:
-    """Compare a record with its target, by default at 1/12 octave from `lowest_hz` to 33.3 Hz."""
-    freq_hz = band(12, lowest_hz(target)) if freq_hz is None else freq_hz
+    """Compare a record with its target, by default at 1/12 octave up to 33.3 Hz.
+
+    That begins where the target does, but not below 0.1 Hz.
+    """
+    if freq_hz is None:
+        freq_hz = band(12, max(min(float(target[0][0]), BAND_HZ[0]), LONGEST_HZ))
     achieved = response_spectrum(record.a_mps2, record.dt_s, 1.0 / freq_hz, DAMPING) / UNITS["g"]
     return SpectrumFit(freq_hz=freq_hz, target_g=target_sa_g(target, freq_hz), achieved_g=achieved)
 
@@ -97,19 +96,6 @@ def spectrum_fit(record: Record, target: Target, freq_hz: Floats | None = None) 
 def keeps(fit: SpectrumFit) -> bool:
     """Whether a fit is within `LEAST`, `GREATEST` and `MEAN_OFF`."""
     return fit.minimum >= LEAST and fit.maximum <= GREATEST and abs(fit.mean - 1.0) <= MEAN_OFF
-
-
-def target_problems(target: Target) -> list[str]:
-    """Return the errors of a target."""
-    freq_hz, sa_g = (np.asarray(column, dtype=np.float64) for column in target)
-    problems = []
-    if freq_hz.ndim != 1 or freq_hz.shape != sa_g.shape or len(freq_hz) < 2:
-        problems.append("target spectrum: give as many accelerations as frequencies, at least 2")
-    elif not (freq_hz[0] > 0.0 and np.all(np.diff(freq_hz) > 0.0) and np.isfinite(freq_hz[-1])):
-        problems.append("target spectrum: give increasing frequencies above 0 [Hz]")
-    if not np.all((sa_g > 0.0) & np.isfinite(sa_g)):
-        problems.append("target spectrum: give accelerations above 0 [g]")
-    return problems
 
 
 # Accepted ratios to the target, and the one at which a low peak is aimed. An interval instead of
@@ -175,7 +161,14 @@ def make_frame(target: Target, dt_s: float, duration_s: float) -> MatchingFrame:
 
 
 def _check(target: Target, dt_s: float, duration_s: float) -> None:
-    problems = target_problems(target)
+    freq_hz, sa_g = (np.asarray(column, dtype=np.float64) for column in target)
+    problems = []
+    if freq_hz.ndim != 1 or freq_hz.shape != sa_g.shape or len(freq_hz) < 2:
+        problems.append("target spectrum: give as many accelerations as frequencies, at least 2")
+    elif not (freq_hz[0] > 0.0 and np.all(np.diff(freq_hz) > 0.0) and np.isfinite(freq_hz[-1])):
+        problems.append("target spectrum: give increasing frequencies above 0 [Hz]")
+    if not np.all((sa_g > 0.0) & np.isfinite(sa_g)):
+        problems.append("target spectrum: give accelerations above 0 [g]")
     if not 0.001 <= dt_s <= 0.01:
         problems.append(f"time step dt is {dt_s!r}; give 0.001 to 0.01 s")
     if not 10.0 <= duration_s <= 60_000 * dt_s:
@@ -258,7 +251,9 @@ def matched(frame: MatchingFrame, a: Floats) -> Floats:
                 best, least = a, excess
             if excess <= _CLOSE:
                 break
-            frame = _joined_by(frame, between.freq_hz[_minima(ratio)])
+            # The rigid oscillator stays last.
+            more_hz = np.union1d(frame.freq_hz[:-1], between.freq_hz[_minima(ratio)])
+            frame = replace(frame, freq_hz=np.append(more_hz, frame.freq_hz[-1]))
     return best
 
 
@@ -267,12 +262,6 @@ def _minima(ratio: Floats) -> _Samples:
     inner = ratio[1:-1]
     is_least = (inner <= ratio[:-2]) & (inner < ratio[2:]) & (inner < _LEAST)
     return np.flatnonzero(is_least) + 1
-
-
-def _joined_by(frame: MatchingFrame, more_hz: Floats) -> MatchingFrame:
-    """Return a frame that matches more frequencies as well; the rigid one stays last."""
-    freq_hz = np.append(np.union1d(frame.freq_hz[:-1], more_hz), frame.freq_hz[-1])
-    return replace(frame, freq_hz=freq_hz)
 
 
 def _corrected(frame: MatchingFrame, a: Floats) -> Floats:
