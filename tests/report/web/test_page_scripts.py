@@ -4,175 +4,134 @@ import re
 
 import pytest
 
-from browsing import STATIC, quiet_page, serve_scripts
+from browsing import STATIC, called, cases
 
 
 @pytest.fixture(scope="module")
-def page(browser):
-    with quiet_page(browser) as page:
-        serve_scripts(page)
-        yield page
-
-
-def called(page, module, body, given=None):
-    """Return what a body of JavaScript returns with a module `m` and what is given `g`."""
-    script = f"async (g) => {{ const m = await import('/static/{module}.js'); {body} }}"
-    return page.evaluate(script, given)
+def page(scripts):
+    return scripts
 
 
 SLIDERS = [{"id": "friction", "typed": 1.0}, {"id": "slope", "typed": 0.0}]
 CHOICES = [{"id": "polarity", "typed": "both", "options": [{"value": "both"}, {"value": "+"}]}]
 LINK = {"sliders": SLIDERS, "choices": CHOICES}
-RESTORED = "return g.fragments.map((one) => m.fromFragment(one, g.sliders, g.choices));"
 
 
-def test_a_link_holds_what_was_changed_and_restores_it(page):
+def test_a_link_restores_what_was_changed_and_without_a_value_it_changes_nothing(page):
     values = {"friction": 0.95, "slope": 0.0, "polarity": "+"}
     body = "return m.toFragment(g.values, [...g.sliders, ...g.choices]);"
     fragment = called(page, "changes", body, LINK | {"values": values})
     assert fragment == "friction=0.95&polarity=%2B"
-    restored = called(page, "changes", RESTORED, LINK | {"fragments": [f"#{fragment}"]})
-    assert restored == [{"friction": 0.95, "polarity": "+"}]
-
-
-def test_a_link_that_names_no_value_changes_nothing(page):
     none = ["", "#friction=", "#friction=NaN", "#polarity=sideways", "#constructor=1"]
-    assert called(page, "changes", RESTORED, LINK | {"fragments": none}) == [{}] * 5
+    body = "return g.fragments.map((one) => m.fromFragment(one, g.sliders, g.choices));"
+    restored = called(page, "changes", body, LINK | {"fragments": [f"#{fragment}", *none]})
+    assert restored == [{"friction": 0.95, "polarity": "+"}, *[{}] * 5]
 
 
 SESSION = """
-    const asked = [], shown = [];
+    const asked = [], shown = [], failed = [];
     const assess = (moving, values, whole) => new Promise((done, failed) => {
       const answered = (more) => done({ of: values.x, moving, ...more });
       asked.push({ moving, values, whole, done: answered, failed });
     });
-    const failed = [];
     const fail = (error) => failed.push(error);
     const session = m.createSession(assess, (one) => shown.push(one), fail);
-    const tick = () => new Promise((done) => setTimeout(done, 0));
+    const pause = (wait) => new Promise((done) => setTimeout(done, wait));
+    const tick = () => pause(0);
     const answers = () =>
       shown.filter(({ answer }) => answer).map(({ phase, answer }) => [phase, answer.of]);
 """
 
 
-def session(page, steps):
-    return called(page, "session", SESSION + steps)
-
-
-def test_while_a_slider_moves_one_request_is_open_and_only_the_newest_values_wait(page):
-    steps = """
+STEPS = {
+    "while a slider moves one request is open and only the newest values wait": ("""
         for (const x of [1, 2, 3]) session.move("x", x);
         const open = asked.length;
         asked[0].done(); await tick();
-        return [open, asked.map(({ moving, values }) => [moving, values.x]), answers()];"""
-    assert session(page, steps) == [1, [[True, 1], [True, 3]], [["moving", 1]]]
-
-
-def test_the_full_model_answers_at_rest_and_a_late_provisional_answer_is_dropped(page):
-    steps = """
+        return [open, asked.map(({ moving, values }) => [moving, values.x]), answers()];""",
+        [1, [[True, 1], [True, 3]], [["moving", 1]]]),
+    "the full model answers at rest, and a late provisional answer is dropped": ("""
         session.move("x", 1);
         session.release();
         asked[1].done(); await tick();
         asked[0].done(); await tick();
-        return [asked.map(({ moving }) => moving), answers(), shown.at(-1).phase];"""
-    assert session(page, steps) == [[True, False], [["rest", 1]], "rest"]
-
-
-def test_a_full_answer_for_values_that_have_changed_is_dropped(page):
-    steps = """
+        return [asked.map(({ moving }) => moving), answers(), shown.at(-1).phase];""",
+        [[True, False], [["rest", 1]], "rest"]),
+    "a full answer for values that have changed is dropped": ("""
         session.set({ x: 1 });
         session.set({ x: 2 });
         asked[0].done(); await tick();
         const early = answers();
         asked[1].done(); await tick();
-        return [early, asked.map(({ values }) => values.x), answers()];"""
-    assert session(page, steps) == [[], [1, 2], [["rest", 2]]]
-
-
-def test_after_an_error_the_next_value_is_asked(page):
-    steps = """
+        return [early, asked.map(({ values }) => values.x), answers()];""",
+        [[], [1, 2], [["rest", 2]]]),
+    "after an error the next value is asked": ("""
         session.set({ x: 1 });
         asked[0].failed(new Error("gone")); await tick();
         session.set({ x: 2 });
         asked[1].done(); await tick();
-        return [failed.map(({ message }) => message), answers()];"""
-    assert session(page, steps) == [["gone"], [["rest", 2]]]
-
-
-def test_a_slider_that_stays_where_it_is_rests(page):
-    steps = """
+        return [failed.map(({ message }) => message), answers()];""",
+        [["gone"], [["rest", 2]]]),
+    "a slider that stays where it is rests": ("""
         session.move("x", 1);
         asked[0].done(); await tick();
-        while (shown.at(-1).phase !== "settling") await new Promise((done) => setTimeout(done, 20));
-        return asked.map(({ moving }) => moving);"""
-    assert session(page, steps) == [True, False]
-
-
-STAYED = """
+        while (shown.at(-1).phase !== "settling") await pause(20);
+        return asked.map(({ moving }) => moving);""",
+        [True, False]),
+    "a slow provisional answer is shown until the full one is there": ("""
         session.move("x", 1);
-        await new Promise((done) => setTimeout(done, 400));
-        for (const k of g) { asked[k].done(); await tick(); }
-        return [asked.map(({ moving }) => moving), answers()];"""
-SHOWN = {(0, 1): [["settling", 1], ["rest", 1]], (1, 0): [["rest", 1]]}
-
-
-@pytest.mark.parametrize("order", SHOWN)
-def test_of_a_slow_provisional_and_the_full_answer_the_first_is_shown(page, order):
-    shown = called(page, "session", SESSION + STAYED, order)
-    assert shown == [[True, False], SHOWN[order]]
-
-
-def test_a_full_answer_is_asked_again_where_the_slider_went_on(page):
-    steps = """
+        await pause(400);
+        for (const k of [0, 1]) { asked[k].done(); await tick(); }
+        return [asked.map(({ moving }) => moving), answers()];""",
+        [[True, False], [["settling", 1], ["rest", 1]]]),
+    "after the full answer a slow provisional one is dropped": ("""
         session.move("x", 1);
-        await new Promise((done) => setTimeout(done, 100));
+        await pause(400);
+        for (const k of [1, 0]) { asked[k].done(); await tick(); }
+        return [asked.map(({ moving }) => moving), answers()];""",
+        [[True, False], [["rest", 1]]]),
+    "a full answer is asked again where the slider went on": ("""
+        session.move("x", 1);
+        await pause(100);
         session.move("x", 2);
         session.release();
         asked[1].done(); await tick();
         const early = answers();
         asked.at(-1).done(); await tick();
-        return [asked.map(({ moving, values }) => [moving, values.x]), early, answers()];"""
-    asked = [[True, 1], [False, 1], [False, 2]]
-    assert session(page, steps) == [asked, [], [["rest", 2]]]
-
-
-def test_what_an_answer_lacks_is_asked_next_and_shown_in_its_place(page):
-    steps = """
+        return [asked.map(({ moving, values }) => [moving, values.x]), early, answers()];""",
+        [[[True, 1], [False, 1], [False, 2]], [], [["rest", 2]]]),
+    "what an answer lacks is asked next and shown in its place": ("""
         session.set({ x: 1 });
         asked[0].done({ pending: "less" }); await tick();
         asked[1].done(); await tick();
-        return [asked.map(({ whole }) => whole), answers()];"""
-    assert session(page, steps) == [[False, True], [["rest", 1], ["rest", 1]]]
-
-
-def test_a_step_that_is_no_drag_is_answered_in_full_at_once(page):
-    steps = """
+        return [asked.map(({ whole }) => whole), answers()];""",
+        [[False, True], [["rest", 1], ["rest", 1]]]),
+    "a step that is no drag is answered in full at once": ("""
         session.move("x", 1, true);
         asked[0].done(); await tick();
-        return [asked.map(({ moving }) => moving), answers()];"""
-    assert session(page, steps) == [[False], [["rest", 1]]]
-
-
-def test_after_a_step_the_slider_may_go_on(page):
-    steps = """
+        return [asked.map(({ moving }) => moving), answers()];""",
+        [[False], [["rest", 1]]]),
+    "after a step the slider may go on": ("""
         for (const x of [1, 2]) session.move("x", x, true);
         asked[0].done(); asked[1].done(); await tick();
         session.release();
         asked[2].done(); await tick();
-        return [asked.map(({ moving, values }) => [moving, values.x]), answers()];"""
-    asked = [[False, 1], [True, 2], [False, 2]]
-    assert session(page, steps) == [asked, [["moving", 2], ["rest", 2]]]
-
-
-def test_a_step_whose_full_answer_takes_long_is_answered_provisionally_meanwhile(page):
-    steps = """
+        return [asked.map(({ moving, values }) => [moving, values.x]), answers()];""",
+        [[[False, 1], [True, 2], [False, 2]], [["moving", 2], ["rest", 2]]]),
+    "a step whose full answer takes long is answered provisionally meanwhile": ("""
         session.move("x", 1, true);
-        while (asked.length < 2) await new Promise((done) => setTimeout(done, 20));
+        while (asked.length < 2) await pause(20);
         asked[1].done(); await tick();
         const phase = shown.at(-1).phase;
         asked[0].done(); await tick();
-        return [asked.map(({ moving }) => moving), phase, answers()];"""
-    assert session(page, steps) == [[False, True], "settling", [["settling", 1], ["rest", 1]]]
+        return [asked.map(({ moving }) => moving), phase, answers()];""",
+        [[False, True], "settling", [["settling", 1], ["rest", 1]]]),
+}  # fmt: skip
+
+
+@cases(STEPS)
+def test_a_session_asks_for_the_newest_values_and_shows_no_older_answer(page, steps, expected):
+    assert called(page, "session", SESSION + steps) == expected
 
 
 UNITS = {
@@ -188,26 +147,22 @@ UNITS = {
 }  # fmt: skip
 
 
-def test_the_value_of_a_slider_is_written_with_its_unit_and_in_full_between_steps(page):
-    body = "return g.values.map((all, k) => all.map((value) => m.own(g.sliders[k], value)));"
+def test_a_value_is_written_with_its_unit_and_what_is_changed_by_its_name(page):
+    body = """const own = g.values.map((all, k) => all.map((value) => m.own(g.sliders[k], value)));
+        return [own, g.all.map((one) => m.changes(one, g))];"""
     values = [[0.83, 1, 0.955], [0.7, 0, -1], [3, -3]]
-    assert called(page, "changes", body, UNITS | {"values": values}) == [
-        ["× 0.83", "× 1.00", "× 0.955"], ["+0.7°", "0.0°", "−1.0°"], ["+3 in", "−3 in"]
-    ]  # fmt: skip
-
-
-def test_what_is_changed_is_named_and_what_is_as_typed_is_not(page):
-    body = "return g.values.map((one) => m.changes(one, g));"
-    values = [{"friction": 0.9, "slope": 0, "rule_set": "b"}, {"friction": 1, "rule_set": "a"}, {}]
-    found = called(page, "changes", body, UNITS | {"values": values})
-    assert found == ["Friction × 0.90, Rule set: ASCE B", *["the values of the workbook"] * 2]
+    all_ = [{"friction": 0.9, "slope": 0, "rule_set": "b"}, {"friction": 1, "rule_set": "a"}, {}]
+    assert called(page, "changes", body, UNITS | {"values": values, "all": all_}) == [
+        [["× 0.83", "× 1.00", "× 0.955"], ["+0.7°", "0.0°", "−1.0°"], ["+3 in", "−3 in"]],
+        ["Friction × 0.90, Rule set: ASCE B", *["the values of the workbook"] * 2],
+    ]
 
 
 TURN = """
     const asked = [];
     const ask = async (values) => {
       asked.push(values[g.id]);
-      const isNg = g.falls ? values[g.id] > 1.065 : values[g.id] < 1.065;
+      const isNg = g.id === "intensity" ? values[g.id] > 1.065 : values[g.id] < 1.065;
       return isNg ? { look: "ng", text: "NG" } : { look: "conditions", text: "OK with conditions" };
     };
     const slider = { id: g.id, least: 0.5, greatest: g.greatest, step: 0.01 };
@@ -217,26 +172,23 @@ TURN = """
 
 
 @pytest.mark.parametrize(
-    ("slider", "value", "is_ng", "falls", "expected"),
+    ("slider", "value", "is_ng", "greatest", "expected"),
     [
-        ("friction", 0.8, True, False, (1.07, "OK with conditions", 1.06)),
-        ("friction", 1.3, False, False, (1.06, "NG", 1.07)),
-        ("intensity", 1.4, True, True, (1.06, "OK with conditions", 1.07)),
-        ("intensity", 1.0, False, True, (1.07, "NG", 1.06)),
+        ("friction", 0.8, True, 2.0, (1.07, "OK with conditions", 1.06)),
+        ("friction", 1.3, False, 2.0, (1.06, "NG", 1.07)),
+        ("intensity", 1.4, True, 2.0, (1.06, "OK with conditions", 1.07)),
+        ("intensity", 1.0, False, 2.0, (1.07, "NG", 1.06)),
+        ("friction", 0.8, True, 1.05, None),  # at the end of the slider the verdict is the same
     ],
 )
 def test_a_mark_is_where_the_verdict_changes_and_both_sides_were_asked(
-    page, slider, value, is_ng, falls, expected
+    page, slider, value, is_ng, greatest, expected
 ):
-    given = {"id": slider, "value": value, "isNg": is_ng, "falls": falls, "greatest": 2.0}
-    found, is_quick, _ = called(page, "turns", TURN, given)
-    assert tuple(found[name] for name in ("value", "verdict", "before")) == expected
+    given = {"id": slider, "value": value, "isNg": is_ng, "greatest": greatest}
+    found, is_quick, most = called(page, "turns", TURN, given)
     assert is_quick
-
-
-def test_there_is_no_mark_where_the_end_of_the_slider_has_the_same_verdict(page):
-    given = {"id": "friction", "value": 0.8, "isNg": True, "falls": False, "greatest": 1.05}
-    assert called(page, "turns", TURN, given) == [None, True, 1.05]
+    assert most <= greatest
+    assert (found and tuple(found[name] for name in ("value", "verdict", "before"))) == expected
 
 
 SLIDER = {
@@ -315,12 +267,8 @@ TAKEAWAY = """
 """
 
 
-def takeaway(page, steps):
-    return called(page, "package", TAKEAWAY + steps)
-
-
-def test_a_package_names_what_it_is_made_with_wherever_the_page_has_other_values(page):
-    steps = """
+PACKAGES = {
+    "a package names what it is made with wherever the page has other values": ("""
         make.click(); await has("progress");
         const notes = [note()];
         values = { friction: 0.8 }; takeaway.compare();
@@ -328,13 +276,10 @@ def test_a_package_names_what_it_is_made_with_wherever_the_page_has_other_values
         state = { ...state, state: "done", is_over: true }; await has(".made");
         notes.push(note());
         values = { friction: 0.9 }; takeaway.compare();
-        return [...notes, note()];"""
-    before = "before the last change of values, with friction 0.9."
-    assert takeaway(page, steps) == ["", f"Started {before}", f"Made {before}", ""]
-
-
-def test_a_package_that_is_canceled_and_made_again_at_once_is_the_one_that_is_followed(page):
-    steps = """
+        return [...notes, note()];""",
+        ["", "Started before the last change of values, with friction 0.9.",
+         "Made before the last change of values, with friction 0.9.", ""]),
+    "a package that is canceled and made again at once is the one that is followed": ("""
         make.focus();
         make.click(); await has("progress");
         const focused = [document.activeElement.textContent];
@@ -349,25 +294,17 @@ def test_a_package_that_is_canceled_and_made_again_at_once_is_the_one_that_is_fo
         seen.push(status.textContent);
         make.click(); await has("progress");
         await pause();
-        return [focused, ...seen, make.disabled, status.textContent];"""
-    focused, *found = takeaway(page, steps)
-    assert focused == ["Cancel", True]
-    assert found == [True, "The package was canceled.", True, "PlansCancel"]
-
-
-def test_a_package_is_found_on_loading_and_gone_with_its_project(page):
-    steps = """
+        return [focused, ...seen, make.disabled, status.textContent];""",
+        [["Cancel", True], True, "The package was canceled.", True, "PlansCancel"]),
+    "a package is found on loading and gone with its project": ("""
         takeaway.open(state); await has("progress");
         const seen = [make.disabled, document.activeElement === document.body];
         takeaway.open(null);
         seen.push(make.disabled, status.textContent.slice(0, 11));
         takeaway.open({ ...state, state: "done", is_over: true }); await has(".made");
-        return [...seen, make.disabled, status.querySelectorAll(".made button").length];"""
-    assert takeaway(page, steps) == [True, True, False, "The package", False, 4]
-
-
-def test_without_the_server_no_bar_is_left_and_the_package_can_be_asked_for_again(page):
-    steps = """
+        return [...seen, make.disabled, status.querySelectorAll(".made button").length];""",
+        [True, True, False, "The package", False, 4]),
+    "without the server no bar is left and the package can be asked for again": ("""
         make.click(); await has("progress");
         const answer = api.packageState;
         api.packageState = async () => { throw new Error("The server does not answer."); };
@@ -375,57 +312,62 @@ def test_without_the_server_no_bar_is_left_and_the_package_can_be_asked_for_agai
         const seen = [failed, status.querySelector("progress"), make.disabled];
         api.packageState = answer;
         make.click(); await has("progress");
-        return seen;"""
-    assert takeaway(page, steps) == [["The server does not answer."], None, False]
+        return seen;""",
+        [["The server does not answer."], None, False]),
+}  # fmt: skip
 
 
-def test_hidden_files_and_excels_lock_are_not_sent(page):
-    names = ["p/input.xlsx", "p/~$input.xlsx", "p/.DS_Store", "p/records/a.csv", "__MACOSX/p/x"]
-    body = "return m.visible(g.map((path) => ({ path }))).map(({ path }) => path);"
-    assert called(page, "upload", body, names) == ["p/input.xlsx", "p/records/a.csv"]
+@cases(PACKAGES)
+def test_a_package_is_followed_from_its_beginning_to_its_files(page, steps, expected):
+    assert called(page, "package", TAKEAWAY + steps) == expected
 
 
-def test_a_drop_is_told_at_once_and_of_two_the_last_is_taken_though_it_is_listed_first(page):
-    body = """
-        const part = () => document.createElement("input");
-        const taken = [], told = [];
-        const take = (files) => taken.push(files);
-        const begin = (text) => told.push(text);
-        m.mountUpload({ zone: part(), files: part(), folder: part() }, { begin, take, fail() {} });
+UPLOAD = """
+    const part = () => document.createElement("input");
+    const taken = [], told = [], failed = [];
+    m.mountUpload({ zone: part(), files: part(), folder: part() }, {
+      begin: (text) => told.push(text),
+      take: (files) => taken.push(files.map(({ path }) => path)),
+      fail: ({ message }) => failed.push(message),
+    });
+    const entry = (path, file) => ({ isFile: true, fullPath: path, file });
+    const drop = (dropped) => {
+      const event = new Event("drop");
+      event.dataTransfer = { items: [{ webkitGetAsEntry: () => dropped }] };
+      dispatchEvent(event);
+    };
+    const tick = () => new Promise((done) => setTimeout(done, 0));
+"""
+DROPS = {
+    "a drop is told at once, and of two the last is taken though it is listed first": ("""
         const answers = [];
-        const drop = (path) => {
-          const file = (done) => answers.push(() => done(path));
-          const entry = { isFile: true, fullPath: path, file };
-          const event = new Event("drop");
-          event.dataTransfer = { items: [{ webkitGetAsEntry: () => entry }] };
-          dispatchEvent(event);
-        };
-        drop("/first"); drop("/last");
+        const late = (path) => entry(path, (done) => answers.push(() => done(path)));
+        drop(late("/first")); drop(late("/last"));
         const early = [...told];
-        for (const answer of answers.toReversed()) {
-          answer();
-          await new Promise((done) => setTimeout(done, 0));
-        }
-        return [early, taken.map((files) => files.map(({ path }) => path))];"""
-    assert called(page, "upload", body) == [["Reading the files …"] * 2, [["last"]]]
+        for (const answer of answers.toReversed()) { answer(); await tick(); }
+        return [early, taken];""",
+        [["Reading the files …"] * 2, [["last"]]]),
+    "files that cannot be read are an error, and nothing is under way": ("""
+        drop(entry("/gone", (_, fails) => fails(new Error("Gone."))));
+        await tick();
+        return [told.at(-1), failed];""",
+        ["", ["The files could not be read: Gone. Drop them again."]]),
+    "a folder is read in as many parts as the browser lists, with the paths of its files": ("""
+        const names = ["input.xlsx", "~$input.xlsx", "records/a.csv"];
+        const createReader = () => {
+          const left = names.map((name) => entry(`/mine/${name}`, (done) => done(name)));
+          return { readEntries: (done) => done(left.splice(0, 2)) };
+        };
+        drop({ isFile: false, fullPath: "/mine", createReader });
+        await tick();
+        return taken;""",
+        [["mine/input.xlsx", "mine/records/a.csv"]]),
+}  # fmt: skip
 
 
-def test_files_that_cannot_be_read_are_an_error_and_nothing_is_under_way(page):
-    body = """
-        const part = () => document.createElement("input");
-        const told = [], failed = [];
-        m.mountUpload({ zone: part(), files: part(), folder: part() },
-          { begin: (text) => told.push(text), fail: ({ message }) => failed.push(message) });
-        const file = (_, fails) => fails(new Error("Gone."));
-        const entry = { isFile: true, fullPath: "/gone", file };
-        const event = new Event("drop");
-        event.dataTransfer = { items: [{ webkitGetAsEntry: () => entry }] };
-        dispatchEvent(event);
-        await new Promise((done) => setTimeout(done, 0));
-        return [told.at(-1), failed];"""
-    told, failed = called(page, "upload", body)
-    assert told == ""
-    assert failed == ["The files could not be read: Gone. Drop them again."]
+@cases(DROPS)
+def test_what_is_dropped_is_read_or_refused(page, steps, expected):
+    assert called(page, "upload", UPLOAD + steps) == expected
 
 
 def test_what_was_opened_last_is_shown_and_asked_about_whichever_answer_comes_first(page):
@@ -450,17 +392,25 @@ def test_what_was_opened_last_is_shown_and_asked_about_whichever_answer_comes_fi
     assert opened == "upload-2"
 
 
-@pytest.mark.nightly
-def test_arrow_keys_go_around_the_tabs(page):
-    keys = [["ArrowRight", 4], ["ArrowLeft", 0], ["Home", 3], ["End", 1], ["a", 1]]
-    body = "return g.map(([key, at]) => m.destination(key, at, 5));"
-    assert called(page, "tabs", body, keys) == [0, 4, 0, 4, -1]
+PATHS = ["p/input.xlsx", "p/~$input.xlsx", "p/.DS_Store", "p/records/a.csv", "__MACOSX/p/x"]
+KEYS = [["ArrowRight", 4], ["ArrowLeft", 0], ["Home", 3], ["End", 1], ["a", 1]]
+FUNCTIONS = {
+    "hidden files and Excel's lock are not sent": (
+        "upload", "return m.visible(g.map((path) => ({ path }))).map(({ path }) => path);",
+        PATHS, ["p/input.xlsx", "p/records/a.csv"]),
+    "arrow keys go around the tabs": (
+        "tabs", "return g.map(([key, at]) => m.destination(key, at, 5));", KEYS, [0, 4, 0, 4, -1]),
+    "a subscript is set as one": (
+        "make", "return m.html('p', {}, m.words(g)).innerHTML;", "S_DS and F_a of A_1B, a_b",
+        "S<sub>DS</sub> and F<sub>a</sub> of A<sub>1B</sub>, a_b"),
+}  # fmt: skip
 
 
-def test_a_subscript_is_set_as_one(page):
-    body = "return m.html('p', {}, m.words('S_DS and F_a of A_1B, a_b')).innerHTML;"
-    words = called(page, "make", body)
-    assert words == "S<sub>DS</sub> and F<sub>a</sub> of A<sub>1B</sub>, a_b"
+@pytest.mark.parametrize(
+    ("module", "body", "given", "expected"), FUNCTIONS.values(), ids=list(FUNCTIONS)
+)
+def test_a_function_gives_what_is_expected(page, module, body, given, expected):
+    assert called(page, module, body, given) == expected
 
 
 @pytest.mark.quick
@@ -497,55 +447,3 @@ def test_text_has_the_contrast_of_wcag_aa(theme):
     # What bounds a control or draws a curve needs 3 (WCAG 1.4.11).
     for line in ("rule", "across"):
         assert _contrast(colors[line], colors["paper"]) >= 3.0, line
-
-
-MOTIONS = """
-    document.body.innerHTML = "<div hidden></div>";
-    const [element] = document.body.children;
-    let state = { id: "t", state: "running", words: "Motion 1 of 7", part: 0.2 };
-    const canceled = { state: "canceled", is_over: true, words: "Canceled." };
-    const sent = [], failed = [], opened = [];
-    const api = {
-      announce() {},
-      startMotions: async (files) => (sent.push(files), state),
-      packageState: async () => state,
-      cancelPackage: async () => (state = { ...state, ...canceled }),
-      file: async (id, name) => ({ blob: `#${id}/${name}` }),
-      upload: async (files) => (opened.push(files), {}),
-    };
-    const open = async (fetched) => { await fetched(); motions.offer(null); };
-    const fail = (error) => failed.push(error.message);
-    const motions = m.mountMotions(element, api, { open, fail });
-    const pause = () => new Promise((done) => setTimeout(done, 20));
-    const until = async (selector) => {
-      for (let k = 0; k < 150 && !element.querySelector(selector); k += 1) await pause();
-      return element.querySelector(selector);
-    };
-    const isHidden = [element.hidden];
-    motions.offer(["a"]); isHidden.push(element.hidden);
-    element.querySelector("button").click();
-    await until("progress");
-"""
-
-
-def test_motions_that_are_made_are_opened_and_can_be_saved(page):
-    steps = """
-        state = { ...state, state: "done", is_over: true };
-        const save = await until(".note + button");
-        motions.offer(null); isHidden.push(element.hidden);
-        return [isHidden, sent, opened, save.textContent, failed];"""
-    zipped = [{"file": "#t/project.zip", "path": "project.zip"}]
-    assert called(page, "offers", MOTIONS + steps) == [
-        [True, False, True], [["a"]], [zipped], "Save workbook and records (zip)", [],
-    ]  # fmt: skip
-
-
-def test_motions_that_are_canceled_are_offered_again(page):
-    steps = """
-        element.querySelector("button").click();
-        for (let k = 0; k < 150 && element.querySelector("progress"); k += 1) await pause();
-        return [element.textContent, opened];"""
-    text, opened = called(page, "offers", MOTIONS + steps)
-    assert text.startswith("No motions? Make seven for this site")
-    assert text.endswith("Canceled.")
-    assert opened == []

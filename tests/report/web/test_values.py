@@ -149,14 +149,10 @@ def test_where_no_run_gives_a_displacement_the_page_says_no_value():
     assert '"none"' not in json.dumps(found)
 
 
-def test_a_law_by_velocity_is_multiplied_as_a_whole():
+def test_friction_multiplies_a_law_as_a_whole_and_intensity_s_ds_together_or_apart():
     given = start("example")
     law = with_values(given, {"friction": 0.5}).sheet.project.arrays[2]
     assert (law.mu, law.mu_fast, law.mu_rate_s_per_m) == (0.2, 0.25, 20.0)
-
-
-def test_intensity_changes_motions_and_s_ds_together_or_apart():
-    given = start("example")
 
     def found(values):
         changed_ = with_values(given, values)
@@ -283,13 +279,8 @@ def test_without_two_largest_orientations_provisional_values_are_the_full_ones(i
     known, sheet = {}, given.sheet
     if is_directional:
         known = typed_reference("school")
-        told = {
-            "": True,
-            "_reason": "agreed",
-            "_reviewer": "R",
-            "_license": "S0",
-            "_date": "2026-01-01",
-        }
+        told = {"": True, "_reason": "agreed", "_reviewer": "R", "_license": "S0"}
+        told["_date"] = "2026-01-01"
         cells_of = {Place("options", 0, f"directional{end}"): value for end, value in told.items()}
         sheet = retyped(sheet, cells_of)
     assert sheet.project.options.directional is is_directional
