@@ -22,14 +22,14 @@ from solver.rules.provisions import AnalysisValue, Basis, Prescriptive, RuleSet
 from solver.sliding import least_model
 from solver.sliding.uplift import Supports, Tipping, Uplift, tipping_at
 
+# In place of a design displacement by a route that is not permitted, or beside it.
 NOT_PERMITTED = "not permitted"
-"""In place of a design displacement by a route that is not permitted, or beside it."""
 
+# Of the limit on the number of motions: more motions lift it, and no other one.
 MOTIONS_KEY = "analysis_min_motions"
-"""Of the limit on the number of motions."""
 
+# Of an array without runs: nothing is known of its normal force.
 NO_UPLIFT = Uplift(n_min_g=math.nan, t_first_s=math.nan, duration_s=0.0, times=0)
-"""Of an array without runs: nothing is known of its normal force."""
 
 
 class DesignBasis(StrEnum):

@@ -76,21 +76,10 @@ def assess(
 ) -> Assessment:
     """Run every array under every motion and check every limit and clearance.
 
-    Parameters
-    ----------
-    former : Assessment, optional
-        Of the same motions and targets: the limits on them are taken from it, and the runs of
-        arrays with the same slope, friction and model.
-    project : ProjectInput, optional
-        Assessed in place of that of the sheet; what the building code's rule set gives is left out.
-    has_less_friction : bool
-        Whether the verdicts are compared with those for less friction: half of the runs. Without,
-        an OK may still be one with conditions; every other verdict stays.
-
-    Raises
-    ------
-    InputError
-        For an override of a provision that the rule set does not have.
+    From a `former` assessment of the same motions and targets come the limits on them, and the runs
+    of arrays with the same slope, friction and model. A `project` is assessed in place of that of
+    the sheet, without what the building code's rule set gives. Without less friction, half of the
+    runs, an OK may still be one with conditions. Raises as `rule_set_of`.
     """
     data = outdated(project or sheet.project, shaking.hashes)
     with ThreadPoolExecutor(THREADS) as pool:

@@ -90,18 +90,17 @@ def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
         *([] if item.is_model_enough else ["requested model"]),
         *([] if item.tipping.is_ok else ["tipping"]),
         *([] if assessment.is_rigid_enough(item) else ["one rigid block"]),
-        *(_gap(item, gap) for gap in assessment.gaps_of(item.id) if not gap.ok),
+        *(
+            f"clearance to {gap.across_from(item.id)}{'' if gap.is_permitted else ', no verdict'}"
+            for gap in assessment.gaps_of(item.id)
+            if not gap.ok
+        ),
         *of_rows,
     ]
 
 
 def _limit(check: Limit) -> str:
     return f"{lowered(check.title)}, {'below' if check.is_at_least else 'over'} its limit"
-
-
-def _gap(item: ArrayAssessment, gap: ClearanceCheck) -> str:
-    clearance = f"clearance to {gap.across_from(item.id)}"
-    return clearance if gap.is_permitted else f"{clearance}, no verdict"
 
 
 def reasons(assessment: Assessment) -> Iterator[str]:

@@ -19,11 +19,12 @@ from report.sheet.schema.scene import Array, Clearance, RoofObject
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor, RuleSet
 
+# Tolerance [deg] within which two downslope directions are the same. The live formulas of the sheet
+# have it, too.
 ALIKE_DEG = 1.0
-"""Tolerance [deg] within which two downslope directions are the same."""
 
+# Tolerance [rad] within which two slopes are the same: they may be typed in different units.
 ALIKE_SLOPE_RAD = 1e-6
-"""Tolerance [rad] within which two slopes are the same: they may be typed in different units."""
 
 # Edges with a parapet are missing here: their height decides.
 _KINDS = {
@@ -204,8 +205,11 @@ def facing(
     """Return the arrays on either side of a clearance, each with the direction toward it."""
     near = by_id(arrays, row.array)
     sides = [(near, row.direction)]
+    # The direction is that of the first array: from the other it is the opposite one, and any where
+    # downslope of the one is no axis of the other.
+    opposite = _OPPOSITE.get(row.direction, row.direction)
     sides += [
-        (other, facing_direction(near.array, other.array, row.direction))
+        (other, opposite if _is_parallel(near.array, other.array) else Direction.ANY)
         for other in arrays
         if other.id == row.object
     ]
@@ -236,17 +240,6 @@ def are_alike(first: Array, other: Array) -> bool:
 def _is_parallel(first: Array, other: Array) -> bool:
     turn = (first.downslope_deg - other.downslope_deg) % 360.0
     return min(turn, 360.0 - turn) <= ALIKE_DEG
-
-
-def facing_direction(near: Array, other: Array, direction: Direction) -> Direction:
-    """Return the direction in the axes of the array across the gap.
-
-    Any where the two arrays have different downslope directions.
-    """
-    # Downslope of one is no axis of the other.
-    if not _is_parallel(near, other):
-        return Direction.ANY
-    return _OPPOSITE.get(direction, direction)
 
 
 def _neighbor(rules: RuleSet, obstacle: RoofObject, array: Array) -> Neighbor:

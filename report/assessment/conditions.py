@@ -47,16 +47,16 @@ from solver.records.acceptance import POINTS_HZ, Acceptance, spectrum_mps2
 from solver.rules.limit import Consequence, Limit
 from solver.rules.provisions import RULE_SETS, Neighbor, review_lifts_slope
 
+# Final displacement of a record [m] above which it drifts: the block would follow it as slip.
 DRIFT_M = 0.010
-"""Final displacement of a record [m] above which it drifts."""
 
+# Periods from which on the mean of the ground motions / their target is compared, and the ratio
+# above which a peer reviewer must accept the motions: in no code.
 LONG_PERIOD_S, MOST_LONG_RATIO = 1.0, 2.0
-"""Periods from which on the mean of the ground motions / their target is compared, and the ratio
-above which a peer reviewer must accept the motions: in no code."""
 _NOISE = 1e-9  # a width in other units is no more than itself
 
+# Of the rows on limits that the motions miss: `limit_verdict` finds them by it.
 MOTIONS_ID = "motions"
-"""Of the rows on limits that the motions miss."""
 
 # Who takes the prescriptive displacement need not meet them.
 _OF_ANALYSIS = (MOTIONS_ID, "drift", "ground_motions", "peer_review", VELOCITY_ROW)
@@ -210,7 +210,6 @@ def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[R
 def _ground_motions(
     data: ProjectInput, prepared: Sequence[PreparedMotion]
 ) -> Iterator[Requirement]:
-    """Yield the mean of the ground motions / target at long periods, where there is a target."""
     # Sliding is driven by long periods: an excess there goes straight into the displacement.
     target, periods_s = targets(data).ground, 1.0 / POINTS_HZ
     # NaN at short periods, so that nanargmax looks at the long ones alone.
@@ -327,7 +326,6 @@ def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Requi
 
 
 def _found_and_required(neighbor: PlanNeighbor, us_first: bool) -> tuple[str, str]:
-    """Return what is found of a clearance, and what is required."""
     if not neighbor.is_short:
         gap = pair(neighbor.gap_m, Quantity.SIZE, us_first)
         if neighbor.is_missing:

@@ -21,11 +21,8 @@ from solver.rules.provisions import Neighbor
 
 Outline = tuple[Point, ...]
 
-KEEP_CLEAR_UNKNOWN = "keep clear: no value"
-"""Field note of an array without a permitted design displacement."""
-
+# Chords in a quarter of a circle. They are tangents, so that the envelope is never too small.
 ARC_STEPS = 6
-"""Chords in a quarter of a circle."""
 
 
 def design_envelope(array: ArrayAssessment) -> Outline:
@@ -61,7 +58,7 @@ def _region(run: OrientedRun) -> Outline:
 
 
 def _circle(radius_m: float) -> Outline:
-    """Return a polygon circumscribed about a circle."""
+    # Circumscribed: the envelope is never less than the circle.
     step = 0.5 * math.pi / ARC_STEPS
     reach = radius_m / math.cos(0.5 * step)
     angles = [(k + 0.5) * step for k in range(4 * ARC_STEPS)]
@@ -138,5 +135,5 @@ def keep_clear(separation_m: float, us_first: bool) -> str:
 def keep_clear_words(separation_m: float, us_first: bool) -> str:
     """Return the field note of an array."""
     if math.isnan(separation_m):
-        return KEEP_CLEAR_UNKNOWN
+        return "keep clear: no value"
     return f"keep clear {keep_clear(separation_m, us_first)}"

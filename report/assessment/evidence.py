@@ -19,7 +19,7 @@ from report.assessment.project import THREADS, Assessment
 from report.assessment.remedies import Remedy, remedies
 from report.assessment.runs import MotionRun, nan_is_worst, run_motion
 from report.assessment.spectra import Spectra, spectra
-from report.assessment.trials import displaced
+from report.assessment.trials import resting
 from report.assessment.uncertainty import Uncertainty, uncertainty
 from report.motions.history import PreparedMotion, first_period_s, through_building
 from report.sheet.schema import ProjectInput
@@ -290,7 +290,7 @@ def saving(assessment: Assessment) -> Saving:
     first = assessment.arrays[0]  # the prescriptive displacement is the same for every array
     floor_m = analysis_floor_m(assessment.rules, first.prescriptive)
     at_floor = [
-        replace(displaced(item, 0.0, floor_m), is_permitted=True) if item.may_be_analyzed else item
+        replace(resting(item, floor_m), is_permitted=True) if item.may_be_analyzed else item
         for item in assessment.arrays
     ]
     short = [gap.clearance for gap in assessment.clearances if not gap.ok]

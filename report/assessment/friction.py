@@ -23,8 +23,9 @@ from solver.friction_tests import Series, governing
 from solver.model import Friction
 from solver.rules.provisions import RuleSet
 
+# Fraction by which the friction coefficients are decreased and increased; a verdict that less
+# friction changes is a condition.
 SHIFT = 0.05
-"""Fraction by which the friction coefficients are decreased and increased."""
 
 
 def coefficient(mu: float) -> str:
@@ -238,19 +239,16 @@ def _row(
 
 
 def _found(check: VelocityCheck, us_first: bool) -> Iterator[str]:
-    yield _slides(check.fastest_mps, us_first)
-    tested_mps = check.tests.velocity_mps
+    fastest_mps, tested_mps = check.fastest_mps, check.tests.velocity_mps
+    if math.isnan(fastest_mps):
+        yield "a run gives no velocity"
+    elif fastest_mps == 0.0:
+        yield "does not slide"
+    else:
+        yield f"slides at {pair(fastest_mps, Quantity.VELOCITY, us_first)}"
     if math.isnan(tested_mps):
         yield f"velocities tested {NOT_GIVEN}"
     else:
         yield f"tested to {pair(tested_mps, Quantity.VELOCITY, us_first)}"
     if check.is_beyond:
         yield f"μ beyond {number(check.mu_beyond, 3)}"
-
-
-def _slides(fastest_mps: float, us_first: bool) -> str:
-    if math.isnan(fastest_mps):
-        return "a run gives no velocity"
-    if fastest_mps == 0.0:
-        return "does not slide"
-    return f"slides at {pair(fastest_mps, Quantity.VELOCITY, us_first)}"

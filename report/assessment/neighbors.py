@@ -26,14 +26,16 @@ from solver.model import INCH_M
 if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment
 
+# An array's neighbors are within this many design displacements: either of two arrays may move.
 REACH_FACTOR = 2.0
-"""An array's neighbors are within this many design displacements."""
 
+# Largest difference [m] between a given clearance and the gap of the plan: an inch, within which
+# `check` (`GAP_TOLERANCES_M`) stays, so that what passes there passes here.
 AGREES_M = INCH_M
-"""Largest difference [m] between a given clearance and the gap of the plan."""
 
+# Largest distance [m] from a side of the roof to the strip of the object that stands for it: one
+# foot.
 EDGE_STRIP_M = 0.3048
-"""Largest distance [m] from a side of the roof to the strip of the object that stands for it."""
 
 _COMPASS = ("east", "northeast", "north", "northwest", "west", "southwest", "south", "southeast")
 EDGES = (ObjectKind.EDGE_WITH_PARAPET, ObjectKind.EDGE_WITHOUT_PARAPET)

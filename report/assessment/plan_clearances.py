@@ -27,8 +27,8 @@ from report.text.units import Quantity, pair, round_down
 from solver.model import INCH_M
 from solver.rules.provisions import Neighbor
 
+# Distances are rounded down to a multiple of this [m]: what is written is never more than is there.
 US_STEP_M, SI_STEP_M = 0.1 * INCH_M, 0.001
-"""Distances are rounded down to a multiple of this [m]."""
 
 _NOISE_M = 1e-9  # coordinates in feet are no round numbers of meters
 _WAYS = (Direction.DOWN, Direction.ACROSS, Direction.UP, Direction.ACROSS)  # by quarter turns
@@ -142,8 +142,10 @@ def _written(
     """Return the cells of new rows, and a line for each row."""
     cells: dict[CellPosition, Value] = {}
     lines: list[str] = []
+    downslope_deg = {array.id: array.downslope_deg for array in data.arrays}
     for near in new:
-        row, direction, drawn_m = table.added(), _direction(near, data), _drawn_m(near, data)
+        row, drawn_m = table.added(), _drawn_m(near, data)
+        direction = direction_of(near, downslope_deg[near.array])
         names: dict[str, Value] = {"array": near.array, "object": near.other}
         cells |= table.cells(row, names | _from_drawing(table, direction, drawn_m))
         at = table.position(row, "array").address
@@ -156,6 +158,7 @@ def _renewed(
 ) -> tuple[dict[CellPosition, Value], list[str]]:
     """Return the cells of rows from the drawing that differ from the plan, and a line for each."""
     rows = {table.position(row, "provided_m").address: row for row in table.inputs.rows}
+    downslope_deg = {array.id: array.downslope_deg for array in data.arrays}
     cells: dict[CellPosition, Value] = {}
     lines: list[str] = []
     for near in pairs:
@@ -166,8 +169,9 @@ def _renewed(
             turned = near
             if was.array != near.array:
                 turned = replace(near, array=near.other, near=near.far, far=near.near)
-            is_one = len(near.given) == 1  # the directions of several rows of a pair differ
-            direction = _direction(turned, data) if is_one else was.direction
+            direction = was.direction
+            if len(near.given) == 1:  # the directions of several rows of a pair differ
+                direction = direction_of(turned, downslope_deg[turned.array])
             if abs(was.provided_m - drawn_m) > _NOISE_M or direction is not was.direction:
                 cells |= table.cells(rows[entered.cell], _from_drawing(table, direction, drawn_m))
                 before, now = (
@@ -178,13 +182,7 @@ def _renewed(
     return cells, lines
 
 
-def _direction(near: PlanNeighbor, data: ProjectInput) -> Direction:
-    downslope = {array.id: array.downslope_deg for array in data.arrays}
-    return direction_of(near, downslope[near.array])
-
-
 def _drawn_m(near: PlanNeighbor, data: ProjectInput) -> float:
-    """Return the distance of a pair as it is written [m]: rounded down."""
     step_m = US_STEP_M if data.us_first else SI_STEP_M
     return round_down(max(near.gap_m, 0.0) / step_m, 0) * step_m
 

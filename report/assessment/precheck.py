@@ -33,6 +33,7 @@ from solver.rules import provisions
 from solver.rules.limit import Limit, Measure
 from solver.rules.provisions import Basis, RuleSet
 
+# The cell that a limit compares, by the key of the limit.
 _FIELDS: Mapping[str, str] = {
     "low_profile_in": "cg_height_m",
     "ibc_max_slope_deg": "slope_value",
@@ -42,11 +43,10 @@ _FIELDS: Mapping[str, str] = {
     "max_risk_category": "risk_category",
     "max_stories": "stories",
 }
-"""The cell that a limit compares, by the key of the limit."""
 
 
+# Pairs without a clearance that are named; the nearest.
 MOST_NAMED = 50
-"""Pairs without a clearance that are named; the nearest."""
 
 
 def findings(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:

@@ -321,5 +321,5 @@ class Changes:
         return sum(item.kind is kind for item in self.items)
 
 
+# Of a package that is compared with none.
 NO_FORMER = Changes()
-"""Of a package that is compared with none."""

@@ -26,10 +26,9 @@ from report.assessment.trials import (
     HUNDREDTH,
     Trials,
     above,
-    displaced,
-    hundredths,
     involved,
     is_final,
+    resting,
     search,
     single_array_check,
     trials_of,
@@ -44,6 +43,7 @@ from report.text.units import Quantity, no_less, pair, round_up
 from solver.friction_tests import MOST_MU
 
 _NOISE_M = 1e-8  # a length that is rounded up is no less than what it is rounded from
+_MOST_HUNDREDTHS = round(100.0 * MOST_MU)
 _MOST_TRIES = 10  # of the length of a move: more only where it goes past the other shape
 
 
@@ -157,8 +157,8 @@ def _failed(assessment: Assessment) -> set[tuple[str, ...]]:
     return {*(gap.between for gap in gaps), *((row.id, row.subject, row.title) for row in rows)}
 
 
+# Clearances for which remedies are searched, those with the largest D/C: each takes runs.
 MOST_GAPS = 12
-"""Clearances for which remedies are searched: those with the largest D/C."""
 
 
 class RemedyKind(StrEnum):
@@ -276,7 +276,7 @@ def _friction(trials: Trials, number: int, row: Clearance | None) -> Remedy:
         if array.friction.is_constant
         else "the friction law scaled as a whole, the coefficient given being that at low velocity"
     )
-    by_tests = "" if most == hundredths(MOST_MU) else ", the most that its tests give,"
+    by_tests = "" if most == _MOST_HUNDREDTHS else ", the most that its tests give,"
     least = held[-1] / 100 if held else math.nan
     return Remedy(
         kind=RemedyKind.FRICTION,
@@ -295,11 +295,12 @@ def _friction(trials: Trials, number: int, row: Clearance | None) -> Remedy:
 def _most_mu(trials: Trials) -> int:
     """Return the largest coefficient that `check` accepts, in hundredths; tests may limit it."""
     data, array = trials.assessment.project, trials.array.array
-    mus = range(above(array.mu), hundredths(MOST_MU) + 1)
+    mus = range(above(array.mu), _MOST_HUNDREDTHS + 1)
 
     def is_refused(mu: int) -> bool:
         return bool(refused(data, _with_mus(data, {array.id: mu / 100})))
 
+    # Where one is refused a larger one is, too: it is above the tests as well.
     return mus.start - 1 + bisect_left(mus, True, key=is_refused)
 
 
@@ -311,9 +312,9 @@ def _in_vain(trials: Trials, row: Clearance | None) -> str:
     is_prescriptive = array.route is Route.PRESCRIPTIVE
     least_m = array.prescriptive.value_m if is_prescriptive else array.floor_m
     holds = partial(single_array_check, assessment, assessment.project)
-    if row is None or holds(displaced(array, 0.0, least_m), row).ok:
+    if row is None or holds(resting(array, least_m), row).ok:
         return ""
-    if holds(displaced(array, 0.0, 0.0), row).ok:
+    if holds(resting(array), row).ok:
         least = "prescriptive displacement" if is_prescriptive else "floor"
         return f"the {least} alone requires more than is provided"
     return "the minimum separation of the rule set is more than is provided"

@@ -171,11 +171,10 @@ def _site_specific(site: Site) -> Iterator[Requirement]:
 
 # PV1-2012: the kinetic average of three runs, of the worse of wet and dry.
 LEAST_RUNS = 3
-"""Runs at one velocity in each condition, whose kinetic coefficients are averaged (PV1-2012)."""
 
 _NOISE = 1e-9  # of a coefficient: a mean of equal values is not above them
+# What names the standard of friction tests: PV1-2012 asks for ASTM G115.
 STANDARD = re.compile(r"\bASTM[\s-]*G[\s-]*115\b", re.IGNORECASE)
-"""What names the standard of friction tests."""
 
 
 def tested(data: ProjectInput) -> tuple[Series, ...]:
@@ -241,7 +240,12 @@ def _wet_and_dry(data: ProjectInput) -> Requirement:
         limit=f"{LEAST_RUNS} runs or more at each velocity, wet and dry",
         is_satisfied=bool(reports)
         and all((report, surface) in by_surface for report in reports for surface in Surface)
-        and all(map(has_enough_runs, by_surface.values())),
+        # Runs without a velocity, which are the last, are no repeats of each other.
+        and all(
+            len(repeats.runs) >= LEAST_RUNS and not math.isnan(repeats.velocity_mps)
+            for tests in by_surface.values()
+            for repeats in tests.repeats
+        ),
         remedy="Obtain the runs that are missing, and enter them with velocities on the sheet "
         "Friction tests.",
         places=tuple(Place("friction_runs", index, "velocity_mps") for index in still)
@@ -287,19 +291,11 @@ def _how_far(law: Friction, tests: Series) -> str:
 
 
 def _where(tests: Series, us_first: bool) -> str:
-    """Return from which to which velocity runs were made."""
     velocities = [repeat.velocity_mps for repeat in tests.repeats]
     ends = [pair(v, Quantity.VELOCITY, us_first) for v in velocities if not math.isnan(v)]
     if not ends:
         return f"(velocities {NOT_GIVEN})"
     return f"at {ends[0]}" if len(ends) == 1 else f"from {ends[0]} to {ends[-1]}"
-
-
-def has_enough_runs(series: Series) -> bool:
-    """Whether there are enough runs at each velocity; runs without one are no repeats."""
-    return not math.isnan(series.repeats[-1].velocity_mps) and all(
-        len(repeats.runs) >= LEAST_RUNS for repeats in series.repeats
-    )
 
 
 def _runs(by_surface: Mapping[Surface, Series | None], us_first: bool) -> Iterator[str]:
@@ -337,8 +333,8 @@ def _velocities(values_mps: Sequence[float], us_first: bool) -> str:
 _row = partial(condition, id="friction_tests", basis="friction tests")
 
 
+# Largest plan dimension of arrays between fire lanes [m]: 150 ft, which local codes amend: hence †.
 FIRE_LANE_M = 150 * 0.3048
-"""Largest plan dimension of arrays between fire lanes [m]."""
 
 _MOST_M = FIRE_LANE_M * (1.0 + 1e-9)  # 150 ft given in meters is no more than 150 ft
 _ROUNDING_M = 1e-3  # a lane of 4 ft is typed as 1.22 m
@@ -351,7 +347,11 @@ def fire_lane_rows(data: ProjectInput) -> Iterator[Requirement]:
     # The section is an input: local fire codes amend the limit and its number.
     lane_m, section = data.site.fire_lane_m, data.site.fire_code_section
     at = {array.id: row for row, array in enumerate(data.arrays)}
-    groups = [(group, _dimension_m(group)) for group in _undivided(data.arrays, lane_m)]
+    groups = [
+        (group, max(plan.x_to_m - plan.x_from_m, plan.y_to_m - plan.y_from_m))
+        for group in _undivided(data.arrays, lane_m)
+        for plan in (around(array.shape for array in group),)
+    ]
     largest_m = max((m for _, m in groups if m <= _MOST_M), default=0.0)
     units = Quantity.PLAN, data.us_first
     lane = pair(lane_m, *units)
@@ -379,11 +379,6 @@ def fire_lane_rows(data: ProjectInput) -> Iterator[Requirement]:
                 if section
                 else (Place("site", 0, "fire_code_section"),),
             )
-
-
-def _dimension_m(group: Sequence[Array]) -> float:
-    plan = around(array.shape for array in group)
-    return max(plan.x_to_m - plan.x_from_m, plan.y_to_m - plan.y_from_m)
 
 
 def _undivided(arrays: Sequence[Array], lane_m: float) -> Sequence[Sequence[Array]]:

@@ -18,12 +18,12 @@ from solver.sliding import least_model
 from solver.sliding.least_model import Model, Settings, Solution
 from solver.sliding.uplift import Uplift, uplift
 
+# The models that a workbook can request.
 REQUESTED_MODELS: Mapping[ModelChoice, Model] = {
     ModelChoice.ONE_AXIS: Model.ONE_AXIS,
     ModelChoice.ONE_AXIS_VERTICAL: Model.ONE_AXIS_VERTICAL,
     ModelChoice.TWO_AXES: Model.TWO_AXES,
 }
-"""The models that a workbook can request."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -153,9 +153,9 @@ def nan_is_worst(value: float) -> float:
 RunMotion = Callable[[Array, Motion], MotionRun]
 
 
+# Runs of an array, and those with the adequate models; one object twice if they are the same.
 Runs = tuple[tuple[MotionRun, ...], tuple[MotionRun, ...]]
-"""Runs of an array, and those with the adequate models; one object twice if they are the same."""
 
 
+# Wait for the runs of each array.
 PendingRuns = Sequence[Callable[[], Runs]]
-"""Wait for the runs of each array."""

@@ -56,11 +56,11 @@ class Spectra:
         return float(ratio[motion, at]), self.ids[motion], float(self.periods_s[at])
 
 
+# Mean of the motions / target above which the motions are said to exceed it: in no code.
 MOST_EXCESS = 1.30
-"""Mean of the motions / target above which the motions are said to exceed it: in no code."""
 
+# Mean of the motions / target below which the motions fall short: 1.00 to the digits printed.
 LEAST_MEAN = 0.995
-"""Mean of the motions / target below which the motions fall short: 1.00 to the digits printed."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

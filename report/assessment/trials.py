@@ -21,18 +21,13 @@ from report.sheet.schema import ProjectInput
 from report.sheet.schema.scene import Array, Clearance
 from solver.model import Status
 
+# Resolution of the searches for a friction coefficient.
 HUNDREDTH = 0.01
-"""Resolution of the searches for a friction coefficient."""
 
+# Hundredths between the values of each pass of a search: coarse first, as each value takes runs.
 STRIDES = (5, 1)
-"""Hundredths between the values of each pass of a search."""
 
 Runs = dict[Hashable, tuple[MotionRun, ...]]
-
-
-def hundredths(value: float) -> int:
-    """Return a value in hundredths, rounded."""
-    return round(100.0 * value)
 
 
 def above(value: float) -> int:
@@ -129,10 +124,9 @@ class Trials:
         return self._done[which]
 
     def _run(self, array: Array, mu: int, every: bool) -> tuple[MotionRun, ...]:
-        if every:
-            first = self._tried(mu, every=False)
-            return tuple(self._pool.map(partial(_other_runs, array), first.motions))
-        return tuple(self._pool.map(partial(_first_run, array), self.array.motions))
+        # Of all runs the governing ones are done already.
+        before = self._tried(mu, every=False) if every else self.array
+        return tuple(self._pool.map(partial(_runs, array, every), before.motions))
 
 
 def trials_of(assessment: Assessment, pool: Executor) -> Mapping[str, Trials]:
@@ -141,12 +135,10 @@ def trials_of(assessment: Assessment, pool: Executor) -> Mapping[str, Trials]:
     return {array.id: Trials(assessment, array, pool, runs) for array in assessment.arrays}
 
 
-def _first_run(array: Array, run: MotionRun) -> MotionRun:
-    return motion_run(run.motion, [run_oriented(array, run.motion, run.governing.orientation)])
-
-
-def _other_runs(array: Array, first: MotionRun) -> MotionRun:
-    motion, done = first.motion, first.governing
+def _runs(array: Array, every: bool, before: MotionRun) -> MotionRun:
+    motion, done = before.motion, before.governing
+    if not every:
+        return motion_run(motion, [run_oriented(array, motion, done.orientation)])
     others = (each for each in motion.orientations if each != done.orientation)
     return motion_run(motion, [done, *(run_oriented(array, motion, each) for each in others)])
 
@@ -162,21 +154,20 @@ def single_array_check(
 ) -> ClearanceCheck:
     """Return a clearance with one array as tried and all others at rest."""
     arrays = tuple(
-        trial if array.id == trial.id else displaced(array, 0.0, 0.0)
-        for array in involved(assessment, row)
+        trial if array.id == trial.id else resting(array) for array in involved(assessment, row)
     )
     return check_clearance(data, assessment.rules, arrays, row)
 
 
-def displaced(array: ArrayAssessment, analysis_m: float, floor_m: float) -> ArrayAssessment:
-    """Return an array with one value from analysis in every direction, and a floor [m]."""
-    ways = {way: replace(value, value_m=analysis_m) for way, value in array.directions.items()}
+def resting(array: ArrayAssessment, floor_m: float = 0.0) -> ArrayAssessment:
+    """Return an array that does not slide in any run, with a floor [m]."""
+    ways = {way: replace(value, value_m=0.0) for way, value in array.directions.items()}
     return replace(
         array,
-        analysis=replace(array.analysis, value_m=analysis_m),
+        analysis=replace(array.analysis, value_m=0.0),
         directions=ways,
         floor_m=floor_m,
-        design_m=max(analysis_m, floor_m),
+        design_m=floor_m,
     )
 
 

@@ -33,17 +33,17 @@ from solver.model import Floats, HorizontalComponent, Orientation, Scene, SlideR
 from solver.records.record import read_only
 from solver.sliding import one_axis, two_axes
 
+# Points of the grid over friction and slope.
 N_MUS, N_SLOPES = 8, 6
-"""Points of the grid over friction and slope."""
 
+# Tolerance of the runs on the grid, relative to the PRD: it is drawn, not printed.
 TOLERANCE = 1e-3
-"""Tolerance of the runs on the grid, relative to the PRD."""
 
+# Fraction of the given friction coefficient down to which the margins are searched.
 LOWEST_SHARE = 0.5
-"""Fraction of the given friction coefficient down to which the margins are searched."""
 
+# Angles of the horizontal pair that the design runs do not have: those are multiples of 90.
 ANGLES_DEG = tuple(k * 22.5 for k in range(16) if k % 4)
-"""Angles of the horizontal pair that the design runs do not have, which are multiples of 90."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -47,12 +47,10 @@ class Verdict(StrEnum):
         return self is not Verdict.NG
 
 
-def _of_item(read: Verdict) -> Verdict:
-    return Verdict.CONDITION if read is Verdict.CONDITIONS else read
-
-
-ItemVerdict = Annotated[Verdict, AfterValidator(_of_item)]
-"""Verdict in a project; results.json of version 0.2 has the project's word for a condition."""
+# Verdict in a project; results.json of version 0.2 has the project's word for a condition.
+ItemVerdict = Annotated[
+    Verdict, AfterValidator(lambda read: Verdict.CONDITION if read is Verdict.CONDITIONS else read)
+]
 
 BY_CONSEQUENCE = {
     Consequence.NG: Verdict.NG,
@@ -139,8 +137,8 @@ def as_one(rows: Sequence[Requirement]) -> Requirement:
     return rows[0].model_copy(update={"found": "; ".join([*alike, *others]), "outcome": outcomes})
 
 
+# A requirement that is a condition where it is not satisfied.
 condition = partial(Requirement, consequence=Consequence.CONDITION)
-"""A requirement that is a condition where it is not satisfied."""
 
 
 def worst(verdicts: Iterable[Verdict]) -> Verdict:
@@ -150,14 +148,14 @@ def worst(verdicts: Iterable[Verdict]) -> Verdict:
 
 NOT_GIVEN = "not given"
 NO_DESIGN = "unknown without a permitted design displacement"
+# Id of the requirement on friction beyond the velocities tested.
 VELOCITY_ROW = "friction_velocity"
-"""Id of the requirement on friction beyond the velocities tested."""
+# Id of the requirement that clearances are given as the plan has them.
 PLAN_ROW = "neighbors"
-"""Id of the requirement that clearances are given as the plan has them."""
+# Id of the requirement on the strength between the parts of an array.
 STRENGTH_ROW = "interconnection"
-"""Id of the requirement on the strength between the parts of an array."""
+# Of a remedy whose outcome the workbook has no cell for: no input takes the condition away.
 STAYS = "The condition stays for the plan checker."
-"""Of a remedy whose outcome the workbook has no cell for."""
 
 
 def stated(section: str, **parts: tuple[str, object]) -> Mapping[str, Any]:
@@ -172,14 +170,14 @@ def stated(section: str, **parts: tuple[str, object]) -> Mapping[str, Any]:
     }
 
 
+# Mark of a number that an override or a departure changes.
 OVERRIDDEN = "‡"
-"""Mark of a number that an override or a departure changes."""
 
 MEANING = f"{OVERRIDDEN}: changed by an override or a departure"
 
 OVERRIDE_ID = "override"
+# Ids of the rows here.
 LOWERING = (OVERRIDE_ID, "directional", "statistic")
-"""Ids of the rows here."""
 
 CONSENT = f"Obtain the consent of the authority having jurisdiction. {STAYS}"
 
@@ -187,8 +185,14 @@ CONSENT = f"Obtain the consent of the authority having jurisdiction. {STAYS}"
 def override_rows(data: ProjectInput) -> tuple[Requirement, ...]:
     """Return what requires less than the rule set: each override that does, and each departure."""
     rules = RULE_SETS[data.site.rule_set]
-    overrides = (pair for pair in enumerate(data.overrides) if _lowers(rules, pair[1]))
-    return (*(_override(rules, *pair) for pair in overrides), *_departures(data, rules))
+    overrides = (
+        _override(rules, index, row)
+        for index, row in enumerate(data.overrides)
+        if (rule := rules.values.get(row.provision)) is not None
+        # One on the safe side needs nobody's consent.
+        and ALLOWED[row.provision].lowers(row.value, rule.value)
+    )
+    return (*overrides, *_departures(data, rules))
 
 
 def rule_set_of(data: ProjectInput) -> RuleSet:
@@ -227,11 +231,6 @@ def under_code(data: ProjectInput) -> ProjectInput:
 def mark_of(value: float, adopted: float) -> str:
     """Return the mark of a number that is another under the rule set as adopted; none for NaN."""
     return "" if math.isnan(value) or value == adopted else OVERRIDDEN
-
-
-def _lowers(rules: RuleSet, row: Override) -> bool:
-    value = rules.values.get(row.provision)
-    return value is not None and ALLOWED[row.provision].lowers(row.value, value.value)
 
 
 def _override(rules: RuleSet, index: int, row: Override) -> Requirement:

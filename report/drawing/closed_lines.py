@@ -130,7 +130,6 @@ def _spline(entity: Any, sagitta: float) -> Iterable[Any]:
 def _chords(
     vertices: Sequence[tuple[float, float, float]], is_closed: bool, sagitta: float
 ) -> Iterator[Point]:
-    """Yield points with arcs as chords."""
     from ezdxf.math import arc_segment_count, bulge_to_arc
 
     # A bulge is the tangent of a quarter of the angle of an arc, positive counterclockwise.
@@ -152,8 +151,8 @@ OPEN = "an open line that closes no outline"
 BRANCHED = "open lines of which three or more meet at a point"
 
 Line = Sequence[Point]
+# A closed line, and which open ones it consists of.
 Closed = tuple[list[Point], list[int]]
-"""A closed line, and which open ones it consists of."""
 
 
 def join(lines: Sequence[Line], tolerance: float) -> tuple[list[Closed], Mapping[int, str]]:

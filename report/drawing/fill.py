@@ -43,8 +43,8 @@ _LEAST_SHARE = 0.05
 _RENAMED_SHARE = 0.9  # the same, of an outline that the drawing calls by a name of its own
 _PLAIN = 2.0  # a row is told from another by this times its share, or its part of the distance
 _SAME_M = 0.05  # sizes that differ by less are the same
+# Most outlines of a kind that cannot be told and are named.
 MOST_TOLD = 20
-"""Most outlines of a kind that cannot be told and are named."""
 _STILL_M = 1e-3  # what has moved by less has not
 _ARRAY, _OBJECT, _EDGE = "array", "object", "edge"
 
@@ -278,11 +278,11 @@ def unread(plan: RoofPlan) -> Iterator[str]:
         yield f"not read: {reason}: {len(items)} on {layers} ({handles})"
 
 
+# Tables with the name of an array or an object, and the columns that have it.
 _NAMED: Mapping[str, Sequence[str]] = {
     "arrays": ("id",), "objects": ("id",), "outlines": ("name",), "links": ("array",),
     "clearances": ("array", "object"),
 }  # fmt: skip
-"""Tables with the name of an array or an object, and the columns that have it."""
 
 
 @dataclass(slots=True)

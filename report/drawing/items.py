@@ -96,8 +96,8 @@ class PlanDrawing:
     dimensions: tuple[PlanDimension, ...]
 
 
+# Application whose extended data names what an outline is of.
 APPLICATION = "ROOFSLIP"
-"""Application whose extended data names what an outline is of."""
 
 _VERSION = "R2010"
 _DASHED = "DASHED"
@@ -206,7 +206,7 @@ def _add_dimension(space: Modelspace, dimension: PlanDimension) -> None:
 
 
 def _plain(words: str) -> str:
-    """Return a text on one line."""
+    # A value of DXF is one line of the file.
     return " ".join(words.split())
 
 

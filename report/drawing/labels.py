@@ -127,16 +127,11 @@ def label_edges(plan: PlanSheet, extent: Rectangle) -> None:
         frame = plan.paper.frame(shape)
         if width_in(words) > max(frame.wide, frame.tall) or not plan.size.is_full:
             words = plan.printed(item.id)
-        _write_along(plan, frame, middle, words)
-
-
-def _write_along(plan: PlanSheet, frame: Frame, middle: Point, words: str) -> None:
-    """Write words beside a strip, away from the middle of the roof."""
-    label, is_upright = along_strip(frame, middle, width_in(words))
-    x, y = label.middle
-    base = (x + _BASE_IN, y) if is_upright else (x, y - _BASE_IN)
-    plan.paper.placer.take(label)
-    plan.paper.text(*base, words, is_centered=True, is_upright=is_upright)
+        label, is_upright = along_strip(frame, middle, width_in(words))
+        x, y = label.middle
+        base = (x + _BASE_IN, y) if is_upright else (x, y - _BASE_IN)
+        plan.paper.placer.take(label)
+        plan.paper.text(*base, words, is_centered=True, is_upright=is_upright)
 
 
 def along_strip(frame: Frame, middle: Point, wide: float) -> tuple[Frame, bool]:

@@ -21,23 +21,23 @@ from report.sheet.schema.shapes import Polygon, Rectangle, Shape, mean, ring, so
 from report.text.units import LENGTHS
 from solver.model import INCH_M, InputError
 
+# Largest gap between modules of one array [m] by default.
 GAP_M = 20.0 * INCH_M
-"""Largest gap between modules of one array [m] by default."""
 
+# Shortest and longest side of a module in plan [m].
 SIDES_M = (0.5, 2.6)
-"""Shortest and longest side of a module in plan [m]."""
 
 # Equal rectangles of a layer from which on they are modules; fewer are arrays.
 LEAST_ALIKE = 3
 
 # Sides within this [m] are equal; a step of an outline within this is none.
 ALIKE_M = 0.005
+# Steps [m] that exports round coordinates to; a finer one is within `ALIKE_M`.
 ROUNDED_M = (
     *(share * LENGTHS["ft"] for share in (1.0, 0.5, 0.25, 0.1)),
     *(share * INCH_M for share in (1.0, 0.5, 0.25, 0.125)),
     0.1, 0.05, 0.01, 0.005, 0.01 * LENGTHS["ft"], 0.1 * INCH_M, 0.002,
 )  # fmt: skip
-"""Steps [m] that exports round coordinates to; a finer one is within `ALIKE_M`."""
 # Coordinates rounded to more than this [m] do not tell modules that are turned.
 COARSEST_M = ROUNDED_M[3]
 # Gaps larger by this [m] are the largest one rounded, such as 20 in to 1.7 ft.
@@ -56,8 +56,8 @@ _OUTWARD = np.array((-1.0, -1.0, 1.0, 1.0))
 
 _KINDS = (LayerKind.ARRAY, LayerKind.UNLIKE_ARRAY)
 
+# A closed line, what it is, and its shape [m].
 Known = tuple[Drawn, LayerKind, Shape]
-"""A closed line, what it is, and its shape [m]."""
 
 
 _Placed = tuple[Drawn, LayerKind]

@@ -44,6 +44,7 @@ from report.sheet.schema.choices import PlanPaper
 from report.sheet.schema.shapes import Point, Rectangle, around, sides
 from report.text.units import Quantity, number
 
+# One over the other; those of one rank in the order of the workbook.
 _OVER = {
     Layer.OUTLINE: 0,
     Layer.BARE_EDGE: 1,
@@ -55,7 +56,6 @@ _OVER = {
     Layer.PARAPET: 5,
     Layer.EDGE: 5,
 }
-"""One over the other; those of one rank in the order of the workbook."""
 _NAMED = (Layer.ARRAY, Layer.UNLIKE, Layer.OBJECT)
 _TICKS = 6  # at most, between coordinates
 
@@ -92,27 +92,16 @@ def _avoid(plan: PlanSheet) -> None:
         paper.placer.avoid(frame)
 
 
-def take_edges(plan: PlanSheet) -> None:
-    """Keep labels off the roof edges."""
-    for item in plan.edges:
-        for a, b in _edge_lines(plan, item.id):
-            plan.paper.placer.take_segment(a, b)
-
-
 def _edge_lines(plan: PlanSheet, name: str) -> Sequence[tuple[Point, Point]]:
     """Return the lines of a roof edge: the middle of a strip, or else its outline."""
     paper, shape = plan.paper, plan.shapes[name]
-    if isinstance(shape, Rectangle):
-        return (_spine(paper.frame(shape)),)
-    return tuple(sides(tuple(map(paper.at, shape.points))))
-
-
-def _spine(frame: Frame) -> tuple[Point, Point]:
-    """Return the center line of a strip."""
+    if not isinstance(shape, Rectangle):
+        return tuple(sides(tuple(map(paper.at, shape.points))))
+    frame = paper.frame(shape)
     x, y = frame.middle
     if frame.tall > frame.wide:
-        return (x, frame.y0), (x, frame.y1)
-    return (frame.x0, y), (frame.x1, y)
+        return (((x, frame.y0), (x, frame.y1)),)
+    return (((frame.x0, y), (frame.x1, y)),)
 
 
 def draw_coordinates(plan: PlanSheet, extent: Rectangle) -> None:
@@ -237,7 +226,8 @@ def _draw(plan: PlanSheet, extent: Rectangle) -> None:
     for spot in spots:
         plan.paper.placer.take(spot)
     lanes = draw_numbers(plan)
-    take_edges(plan)
+    for a, b in (ends for item in plan.edges for ends in _edge_lines(plan, item.id)):
+        plan.paper.placer.take_segment(a, b)
     if plan.size.is_full or plan.size.is_screen:
         draw_dimensions(plan, lanes)
     for array, name in zip(plan.assessment.arrays, names, strict=True):
@@ -251,7 +241,6 @@ def _draw(plan: PlanSheet, extent: Rectangle) -> None:
 
 
 def _extent(assessment: Assessment) -> Rectangle:
-    """Return what the plan must show, in plan."""
     data = assessment.project
     rows = (*data.arrays, *data.objects, data.roof)
     return around(row.placed for row in rows if row.placed is not None)

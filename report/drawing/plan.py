@@ -137,7 +137,6 @@ class PlacedTexts:
         self.texts.append(PlanText(layer=layer, words=words, at=at, of=of, is_upright=is_upright))
 
     def _drawn(self, point: Point) -> Point:
-        """Return a point of the paper in the drawing."""
         unit_in = self.unit_m / self.paper.scale.m_per_in
         return point[0] / unit_in, point[1] / unit_in
 
@@ -146,8 +145,8 @@ def _size(words: str) -> Point:
     return _WIDER * width_in(words) + 2 * PAD_IN, LINE_IN
 
 
+# Height of texts, as a share of the larger side of the plan: a roof of any size is read alike.
 TEXT_SHARE = 1.0 / 170.0
-"""Height of texts, as a share of the larger side of the plan."""
 _LINE = 1.8  # from a line of a list to the next, in heights of texts
 
 
@@ -294,7 +293,7 @@ def array_words(assessment: Assessment, array: ArrayAssessment) -> str:
 
 
 def _by(mark: str) -> str:
-    """Return the mark of an override in words: the fonts of a CAD program may lack it."""
+    # The fonts of a CAD program may lack the mark.
     return " (overridden)" if mark else ""
 
 

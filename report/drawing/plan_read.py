@@ -37,6 +37,7 @@ from report.sheet.schema.shapes import (
 from report.text.units import LENGTHS, Quantity, pair
 from solver.model import InputError
 
+# What is drawn on the layers of the plan that `report` writes.
 LAYERS: Mapping[str, LayerKind] = {layer.title: LayerKind.NOT_READ for layer in Layer} | {
     Layer.OUTLINE.title: LayerKind.ROOF,
     Layer.EDGE.title: LayerKind.EDGE_WITHOUT_PARAPET,
@@ -45,7 +46,6 @@ LAYERS: Mapping[str, LayerKind] = {layer.title: LayerKind.NOT_READ for layer in 
     Layer.UNLIKE.title: LayerKind.UNLIKE_ARRAY,
     Layer.OBJECT.title: LayerKind.FIXED,
 }
-"""What is drawn on the layers of the plan that `report` writes."""
 
 MAX_NAME = 40
 LEAST_AREA_M2 = 1e-3
@@ -56,8 +56,8 @@ ROUNDED_M = 1e-5
 LONG_M = 0.1
 # Largest distance [m] between two outlines that are one drawn twice.
 TWICE_M = 0.005
+# Least and largest length [m] of a roof, and of the largest array.
 ROOF_M, ARRAY_M = (3.0, 3_000.0), (0.9, 1_000.0)
-"""Least and largest length [m] of a roof, and of the largest array."""
 
 _STEMS = {LayerKind.ARRAY: "A", LayerKind.FIXED: "OBJ-", LayerKind.UNLIKE_ARRAY: "PV-"}
 

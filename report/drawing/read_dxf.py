@@ -50,10 +50,10 @@ MAX_DEPTH = 8
 MAX_CURVE_POINTS = 500_000
 MAX_LETTERS = 500_000
 
+# Largest distance [m] of an arc from the chords that it is read as.
 SAGITTA_M = 0.003
-"""Largest distance [m] of an arc from the chords that it is read as."""
+# Largest distance [m] between the ends of open lines that are joined.
 JOIN_M = 0.005
-"""Largest distance [m] between the ends of open lines that are joined."""
 
 _TEXTS = ("TEXT", "MTEXT", "ATTRIB")
 _HEIGHTS = ("HT", "HEIGHT", "ELEV")

@@ -113,8 +113,8 @@ MAX_ENTITIES = 20_000
 MAX_VALUES = 1_000_000
 MAX_LINE = 10_000
 
+# Units of drawings by $INSUNITS.
 UNITS: Mapping[int, str] = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m"}
-"""Units of drawings by $INSUNITS."""
 # Units that drawings state and roofs are not drawn in, and in which such a drawing mostly is.
 OTHER_UNITS: Mapping[int, tuple[str, str]] = {
     3: ("miles", "ft"), 7: ("kilometers", "m"), 8: ("microinches", "in"), 9: ("mils", "in"),

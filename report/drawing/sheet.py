@@ -23,12 +23,12 @@ from report.sheet.schema.shapes import Point, Rectangle, Shape, room, sides
 from report.text.units import LENGTHS
 from solver.model import INCH_M
 
+# Distance between lines of a label.
 LINE_IN = 1.33 * TYPE_PT / 72.0
-"""Distance between lines of a label."""
+# Margin of the text in a frame.
 PAD_IN = 0.045
-"""Margin of the text in a frame."""
+# From the middle of a line down to its baseline.
 BASE_IN = 0.04
-"""From the middle of a line down to its baseline."""
 _STEP_IN = 0.05  # along an oblique line
 
 
@@ -171,8 +171,8 @@ class PlanSize:
         return (0.62, 0.26, 0.48, 0.26) if self.is_full else (0.24, 0.24, 0.24, 0.24)
 
 
+# Width of a column of tables beside a full plan, with its distance.
 COLUMN_IN = 2.8
-"""Width of a column of tables beside a full plan, with its distance."""
 
 
 def _large(sheet: str, wide: float, tall: float) -> tuple[PlanSize, ...]:

@@ -96,7 +96,6 @@ def _slope(index: int, row: DraftRow) -> Iterator[Finding]:
 
 
 def _friction(index: int, row: DraftRow) -> Iterator[Finding]:
-    """Yield inconsistencies of velocity-dependent friction, and models that neglect it."""
     if not row.keys() >= {"mu", "mu_fast", "mu_static", "model"}:
         return
     mu, static, model = row["mu"], row["mu_static"], row["model"]
@@ -189,7 +188,6 @@ def _links(draft: Draft, where: Where) -> Iterator[Finding]:
 def _blocks(
     place: Place, text: str, draft: Draft, where: Where, home: Place | None
 ) -> Iterator[Finding]:
-    """Yield errors in the coefficients of a row, and inconsistencies with its array."""
     mus = coefficients(text)
     if not mus:
         wanted = "give 2 to 20 coefficients from 0 to 1.5 with decimal points, such as 0.40, 0.45"
@@ -280,7 +278,6 @@ def _importance(row: DraftRow) -> Iterator[Finding]:
 
 
 def _edition(row: DraftRow, edition: Edition) -> Iterator[Finding]:
-    """Yield an edition that contradicts the rule set, and coefficients that it does not have."""
     rule_set = row["rule_set"]
     if rule_set in hazard.EDITIONS and rule_set != edition.name:
         text = f"edition of ASCE 7 is '{edition.name}', but the rule set is '{rule_set}'"

@@ -38,6 +38,7 @@ _ANALYSIS = _all_but(
     friction_runs="", motions="", building="", spectrum="", links="", target="", overrides="",
 )  # fmt: skip
 
+# Section, fields of the date and of the record, and what is covered.
 CONFIRMATIONS: Sequence[tuple[str, str, str, _Covers]] = (
     ("project", "drawing_confirmed_date", "drawing_covered",
      {"clearances": {"array", "object", "direction", "provided_m"}}),
@@ -51,7 +52,6 @@ CONFIRMATIONS: Sequence[tuple[str, str, str, _Covers]] = (
      {"site": {"rule_set", "edition_name", "building_code", "building_code_year"},
       **_all_but(confirmation="date covered", overrides="")}),
 )  # fmt: skip
-"""Section, fields of the date and of the record, and what is covered."""
 
 # The fields that are no input: `roofslip report` fills them in.
 COVERED = frozenset(covered for *_, covered, _ in CONFIRMATIONS)
@@ -121,7 +121,8 @@ def _hashes(
 
 
 def _line(key: str, row: Frozen, fields: Sequence[str]) -> str:
-    """Return a row as text: a number in any unit is the same, and a default is none."""
+    # SI with nine digits, so that a change of units is none; without defaults, so that a field that
+    # a later version adds is none either.
     values = row.model_dump(include=set(fields), exclude_defaults=True)
     order = {name: at for at, name in enumerate(layout.ORDERS.get(key, "").split())}
     return "; ".join(

@@ -196,7 +196,9 @@ def unusual(data: ProjectInput) -> Iterator[Finding]:
         for index, row in enumerate(rows if section.is_table else (rows,)):
             for entry in entries(section.model):
                 value, span = getattr(row, entry.name), entry.expected
-                if entry.cell.usual is None or value is None or _is_bare_edge(row, value):
+                # An edge without parapet has height 0, which is no object too low.
+                is_bare = getattr(row, "kind", None) is ObjectKind.EDGE_WITHOUT_PARAPET
+                if entry.cell.usual is None or value is None or (is_bare and value == 0.0):
                     continue
                 if not span.low * (1.0 - ROUNDING) <= value <= span.high * (1.0 + ROUNDING):
                     yield _warning(section, index, entry, row, is_us)
@@ -210,13 +212,6 @@ def _warning(section: SheetSection, index: int, entry: Entry, row: Frozen, is_us
     name = " ".join(f"usual {entry.spoken} {_named(row)}".split())
     place = Place(section.key, index, entry.name)
     return warning(name, place, f"{text} is usual: correct the value or its unit")
-
-
-def _is_bare_edge(row: Frozen, value: float) -> bool:
-    """Whether a value is the height 0 of an edge without parapet."""
-    return (
-        isinstance(row, RoofObject) and row.kind is ObjectKind.EDGE_WITHOUT_PARAPET and value == 0.0
-    )
 
 
 def _named(row: Frozen) -> str:

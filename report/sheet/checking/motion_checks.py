@@ -19,8 +19,8 @@ from solver.building.structure import MOST_STORIES
 from solver.friction_tests import Series, governing, series
 from solver.model import Friction
 
+# Fields of a motion that name a record, each with the name of its component.
 LABELS = {"record": "horizontal", "transverse": "transverse", "vertical": "vertical"}
-"""Fields of a motion that name a record, each with the name of its component."""
 
 # The same by component.
 FIELDS = {label: field for field, label in LABELS.items()}

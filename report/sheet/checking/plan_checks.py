@@ -27,8 +27,8 @@ from report.sheet.schema.shapes import (
 )
 from report.text.units import Quantity, pair
 
+# Whether a condition holds for a row of a draft; not where a cell could not be read.
 Condition = Callable[[DraftRow, Draft], bool]
-"""Whether a condition holds for a row of a draft; not where a cell could not be read."""
 
 
 def _filled(*fields: str) -> Condition:
@@ -40,22 +40,7 @@ def _chosen(field: str, *choices: str | bool) -> Condition:
 
 
 def _has_no_outline(row: DraftRow, draft: Draft) -> bool:
-    """Whether an array needs the four sides of a rectangle."""
     return "id" in row and all(vertex.get("name") != row["id"] for vertex in draft["outlines"])
-
-
-def _lacks_parts(row: DraftRow, draft: Draft) -> bool:
-    """Whether the weight of an array is not computed from its parts."""
-    return all(part in row for part in WEIGHT_PARTS) and any(row[p] is None for p in WEIGHT_PARTS)
-
-
-def _has_no_structure(row: DraftRow, draft: Draft) -> bool:
-    """Whether a building of ground motions needs a period."""
-    return (
-        "structure" in row
-        and row["structure"] is None
-        and any(motion.get("recorded_at") is RecordedAt.GROUND for motion in draft["motions"])
-    )
 
 
 _OR_NONE = "give all four sides of the rectangle, or none"
@@ -79,35 +64,40 @@ REQUIRED: Mapping[tuple[str, str], tuple[Condition, str]] = {
     **{("objects", side): (_filled(*SIDES), _OR_NONE) for side in SIDES},
     ("objects", "height_m"): (
         _chosen("kind", ObjectKind.EDGE_WITH_PARAPET), "give the parapet's height above the roof"),
-    ("arrays", "weight_n"): (_lacks_parts, "give it, or modules, module weight and ballast weight"),
+    ("arrays", "weight_n"): (
+        # A part that could not be read is absent: then nothing is said of the weight.
+        lambda row, _: row.keys() >= {*WEIGHT_PARTS} and None in map(row.get, WEIGHT_PARTS),
+        "give it, or modules, module weight and ballast weight"),
     ("arrays", "mu_fast"): (_filled("mu_rate_s_per_m"), _LAW),
     ("arrays", "mu_rate_s_per_m"): (_filled("mu_fast"), _LAW),
     ("motions", "scale_value"): (
         _chosen("scaling", Scaling.FACTOR, Scaling.PPA), "give the factor, or the PPA in g"),
     ("building", "period_s"): (
-        _has_no_structure, "give it, or a structure type: a motion is recorded at the ground"),
+        lambda row, draft: row.get("structure", "") is None
+        and any(motion.get("recorded_at") is RecordedAt.GROUND for motion in draft["motions"]),
+        "give it, or a structure type: a motion is recorded at the ground"),
     **{
         ("options", f"directional_{field}"): (_chosen("directional", True), _OR_NO)
         for field in ("reason", "reviewer", "license", "date")
     },
 }  # fmt: skip
 
+# Tables whose ids differ from each other, without regard to capitals.
 UNIQUE = (("arrays", "objects"), ("motions",))
-"""Tables whose ids differ from each other, without regard to capitals."""
 
+# Fields that name a row of other tables; an outline may be that of the roof.
 REFERENCES: Mapping[tuple[str, str], tuple[str, ...]] = {
     ("clearances", "array"): ("arrays",),
     ("clearances", "object"): ("objects", "arrays"),
     ("links", "array"): ("arrays",),
     ("outlines", "name"): ("arrays", "objects"),
 }
-"""Fields that name a row of other tables; an outline may be that of the roof."""
 
+# Slope of an array from which it is refused.
 MAX_SLOPE_DEG = 45.0
-"""Slope of an array from which it is refused."""
 
+# Fields of which the second is larger, where a table has them.
 ORDERED = (("x_from_m", "x_to_m"), ("y_from_m", "y_to_m"))
-"""Fields of which the second is larger, where a table has them."""
 
 
 def missing(draft: Draft, where: Where) -> Iterator[Finding]:
@@ -190,7 +180,6 @@ def _shape(row: DraftRow, outline: _Outline | None) -> Shape | None:
 
 
 def _outlines(draft: Draft) -> dict[str, _Outline]:
-    """Return the outlines by name, in the order of the workbook."""
     by_name: dict[str, list[tuple[Place, DraftRow]]] = {}
     for place, row in _rows(draft, ("outlines",)):
         if "name" in row:
@@ -272,7 +261,6 @@ def _scattered(draft: Draft, where: Where) -> Iterator[Finding]:
 
 
 def _doubled(draft: Draft, where: Where) -> Iterator[Finding]:
-    """Yield rectangles of what has an outline as well."""
     outlines = _outlines(draft)
     for place, row in _rows(draft, (*_PLACED, "roof")):
         name = ROOF if place.section == "roof" else row.get("id", "")
@@ -308,7 +296,6 @@ def _on_the_roof(draft: Draft, where: Where) -> Iterator[Finding]:
 def _beyond(
     roof: Rectangle, index: int, array: DraftRow, draft: Draft, where: Where
 ) -> Iterator[Finding]:
-    """Yield the sides of a rectangular array that are outside a rectangular roof."""
     for side in SIDES:
         value, edge, is_low = array.get(side), getattr(roof, side), "from" in side
         if value is None or (value >= edge if is_low else value <= edge):

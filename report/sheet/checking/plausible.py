@@ -58,7 +58,6 @@ def implausible(data: ProjectInput) -> Iterator[Finding]:
 
 
 def _contradictory(data: ProjectInput) -> Iterator[Finding]:
-    """Yield what contradicts the plan, a table, the rules or another cell."""
     us_first = data.us_first
     yield from _dates(data)
     yield from _height(data, us_first)
@@ -95,7 +94,6 @@ def _short_of_plan(data: ProjectInput) -> dict[int, float]:
 
 
 def _dates(data: ProjectInput) -> Iterator[Finding]:
-    """Yield sources that are later than the package, and a revision that its block lacks."""
     issue = data.project
     revisions = [row.revision for row in data.revisions]
     if issue.revision.casefold() not in (name.casefold() for name in revisions):
@@ -144,7 +142,7 @@ def _site_coefficients(site: Site) -> Iterator[Finding]:
 
 
 def _slope(index: int, array: Array) -> Iterator[Finding]:
-    """A slope of 2 % pasted as a number is 0.02."""
+    # A slope of 2 % that is pasted as a number is 0.02.
     if array.slope_unit is SlopeUnit.PERCENT and 0.0 < array.slope_value < MOST_FRACTION:
         value, percent = array.slope_value, 100.0 * array.slope_value
         text = f"slope is {value:g} percent; {percent:g} %? Correct the slope, or acknowledge it"

@@ -42,8 +42,8 @@ DOCUMENTS = (
 
 SUPPORTING: Final = "Supporting analysis, not a code value"
 YEARS = "years.json"
+# When an array is put back where it was installed.
 NEVER, ABOVE, ALWAYS = "never", "above a distance", "after every event"
-"""When an array is put back where it was installed."""
 
 
 Meters = Annotated[

@@ -287,15 +287,13 @@ def is_absent(book: OpenBook, section: SheetSection) -> bool:
 
 
 def _fields(section: SheetSection, entry: Entry) -> tuple[str, ...]:
-    """Return the name of a field and its earlier names."""
     return entry.name, *layout.FIELDS.get((section.key, entry.name), ())
 
 
 def _named(book: OpenBook, names: Iterable[str]) -> CellPosition | None:
     """Return the first of named ranges that is a single cell."""
-    for name in names:
-        title, (left, top, right, bottom) = area_named(book.book, name) or ("", (0, 0, 0, 0))
-        if title and (left, top) == (right, bottom):
+    for title, (left, top, *end) in filter(None, (area_named(book.book, name) for name in names)):
+        if [left, top] == end:
             return CellPosition(title, top, left)
     return None
 

@@ -35,8 +35,8 @@ class Formula(str):
     __slots__ = ()
 
 
+# What is written in a cell: a formula, text, a number, or nothing.
 Value = Formula | str | float | int | None
-"""What is written in a cell: a formula, text, a number, or nothing."""
 
 _Place = tuple[int, int]  # row and column
 _Cells = Mapping[_Place, Value]
@@ -244,7 +244,7 @@ def _look_alike(sheet: Any, looks: Mapping[CellPosition, CellPosition]) -> None:
 
 
 def _forget(sheet: Any, stale: set[_Place]) -> None:
-    """Take the saved values off formulas."""
+    # LibreOffice shows a saved value, and computes only where there is none.
     cells = _cells_of(sheet) if stale else {}
     for place in stale:
         value = cells[place].find("{*}v")

@@ -99,13 +99,7 @@ class SheetOf(Generic[Whole]):
 
     @cached_property
     def project(self) -> Whole:
-        """The input, validated.
-
-        Raises
-        ------
-        InputError
-            With every problem, each as `Sheet!Cell: what was found; what to give`.
-        """
+        """The input, validated; raises `InputError` with every problem and its cell."""
         self.refuse(())
         parts: dict[str, Any] = {}
         for part in sections_of(self.whole):

@@ -24,8 +24,8 @@ from report.sheet.reading.typed_text import shows_nothing
 from report.sheet.schema.fields import Finding, Place, SheetSection
 from report.text.counts import cut
 
+# Cells that are read, each with the place that it is read for.
 Used = Iterable[tuple[Place, Found]]
-"""Cells that are read, each with the place that it is read for."""
 
 # Height [points] and width [characters] below which nothing in a row or column can be read.
 LEAST_HEIGHT, LEAST_WIDTH = 3.0, 0.4
@@ -284,8 +284,8 @@ def not_calculated(book: OpenBook, used: Used, whole: Place) -> Iterator[Finding
         yield replace(warning("calculation", place, text), cell=cell)
 
 
+# Labels in each row of a sheet, in the form that is compared.
 Rows = tuple[frozenset[str], ...]
-"""Labels in each row of a sheet, in the form that is compared."""
 
 
 def copies(

@@ -18,8 +18,8 @@ from report.sheet.reading.read import Gathered, Sheet
 from report.sheet.schema import SECTION
 from report.sheet.schema.fields import Place, entries
 
+# What is typed into a cell: a number in the unit of the cell, a text, or nothing.
 Typed = float | str | None
-"""What is typed into a cell: a number in the unit of the cell, a text, or nothing."""
 
 
 def retyped(sheet: Sheet, typed: Mapping[Place, Typed]) -> Sheet:

@@ -49,8 +49,8 @@ def provision_name(key: str) -> str:
 
 
 def provision_unit(key: str) -> str:
-    """Return the unit of a provision; empty for none."""
-    return OVERRIDABLE[key].partition(" [")[2].rstrip("]")
+    """Return the unit of a provision, as a cell names it; empty for none."""
+    return OVERRIDABLE.get(_provision_key(key), "").partition(" [")[2].rstrip("]")
 
 
 _KEYS_BY_NAME = {provision_name(key).casefold(): key for key in OVERRIDABLE}
@@ -60,11 +60,6 @@ def _provision_key(text: str) -> str:
     """Return the key of a provision given by its name, its key or an earlier key."""
     name = " ".join(text.partition(" [")[0].split()).casefold()
     return PROVISIONS.get(text, _KEYS_BY_NAME.get(name, text))
-
-
-def _unit_of_named(text: str) -> str:
-    key = _provision_key(text)
-    return provision_unit(key) if key in OVERRIDABLE else ""
 
 
 def factors(text: str) -> tuple[float, ...]:
@@ -162,7 +157,7 @@ class Override(Frozen):
         Cell("Provision", provision_name("parapet_height_in")),
     ]
     """The number to replace, from the list; the sheet Provisions has its value and clause."""
-    value: Annotated[float, Cell("Value", 18.0, unit_from=("provision", _unit_of_named))]
+    value: Annotated[float, Cell("Value", 18.0, unit_from=("provision", provision_unit))]
     """In the unit stated on the sheet Provisions."""
     reason: Annotated[RequiredText, Cell("Reason", "Agreed 2026-02-10")]
     """Printed in the package."""
@@ -266,7 +261,7 @@ class ProjectInput(Frozen):
 
     @model_validator(mode="after")
     def _spell_ids_alike(self) -> ProjectInput:
-        """Spell every reference as the id it refers to: capitals do not distinguish ids."""
+        # Capitals do not distinguish ids: each reference gets the spelling of its row.
         ids = {row.id.casefold(): row.id for row in self.arrays}
         ids |= {row.id.casefold(): row.id for row in self.objects}
 

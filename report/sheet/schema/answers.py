@@ -284,6 +284,7 @@ _LEAST_I_E = "".join(f'IF(TRIM(site_risk_category)="{c}",{v:g},' for c, v in LEA
 _LEAST_I_E += '""' + ")" * len(LEAST_I_E)
 _S_MS = ("site_s_ms_g", "site_s_s_g", "site_f_a", "site_s_ds_g")
 
+# Formula and defined name of the answer beside each field of the site.
 SITE_ANSWERS: Mapping[str, tuple[str, str]] = {
     "i_e": (f"IF(ISNUMBER(site_i_e),site_i_e,{_LEAST_I_E})", "live_i_e"),
     "edition_name": (
@@ -298,7 +299,6 @@ SITE_ANSWERS: Mapping[str, tuple[str, str]] = {
     "s_d1_g": (_design("site_s_d1_g", "live_s_m1"), "live_s_d1"),
     "sdc": (_SDC, "live_sdc"),
 }
-"""Formula and defined name of the answer beside each field of the site."""
 
 _I_E = f'IF(rule_importance="{IN_DISPLACEMENT}",IF(ISNUMBER(live_i_e),live_i_e,NA()),1)'
 # The prescriptive displacement [in], before its minimum.
@@ -331,6 +331,7 @@ def worst(column: str) -> tuple[str, str]:
     return _blank_on_error(f"INDEX({ratios},{at})"), _blank_on_error(of)
 
 
+# Headings of formulas by section, lowercase and without unit; other tables have none.
 ANSWER_HEADINGS: Mapping[str, frozenset[str]] = {
     section: frozenset(
         answer.heading.partition("[")[0].strip().casefold()
@@ -338,4 +339,3 @@ ANSWER_HEADINGS: Mapping[str, frozenset[str]] = {
     )
     for section in ("arrays", "clearances", "outlines")
 }
-"""Headings of formulas by section, lowercase and without unit; other tables have none."""

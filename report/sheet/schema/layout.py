@@ -52,16 +52,12 @@ class TablePlace:
         letter = self.letters[name]
         return f"{letter}{self.header + 1}:{letter}{LAST_ROW}"
 
-    def heading_cell(self, name: str) -> str:
-        """Return the address of a heading, for use on other sheets."""
-        return f"{quote_sheetname(self.sheet)}!${self.letters[name]}${self.header}"
-
     def _column(self, name: str) -> str:
         return f"[{_SPECIAL.sub(_ESCAPED, self.headings[name])}]"
 
 
+# The tables of a workbook by section.
 Tables = Mapping[str, TablePlace]
-"""The tables of a workbook by section."""
 
 
 def literal(name: str) -> str:
@@ -88,6 +84,7 @@ def name_formula(book: Workbook, name: str, formula: str) -> None:
     book.defined_names[name] = DefinedName(name, attr_text=formula)
 
 
+# Earlier labels and headings, by section and field: workbooks with them are still read.
 LABELS: Mapping[tuple[str, str], tuple[str, ...]] = {
     ("project", "units_first"): ("Units first",),
     ("site", "stories"): ("Storeys",),
@@ -103,7 +100,6 @@ LABELS: Mapping[tuple[str, str], tuple[str, ...]] = {
     ("target", "from_s"): ("Scaling periods from",),
     ("target", "to_s"): ("Scaling periods to",),
 }
-"""Earlier labels and headings, by section and field."""
 
 # Headings of formulas that every table had, lowercase: what a row lacks, which `check` says.
 ANSWERS = frozenset({"status"})
@@ -111,8 +107,9 @@ ANSWERS = frozenset({"status"})
 # Earlier names of a field, which defined names of cells end with.
 FIELDS: Mapping[tuple[str, str], tuple[str, ...]] = {("site", "stories"): ("storeys",)}
 
+# Earlier sheet of a block: its labels are sought there, too, and records of what a confirmation
+# covers name it.
 SHEETS: Mapping[str, str] = {"roof": "Site", "target": "Options"}
-"""Earlier sheet of a block."""
 
 # Earlier order of the first fields of a block, in which confirmations are hashed.
 ORDERS: Mapping[str, str] = {
@@ -146,5 +143,6 @@ ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(
     )
 )  # fmt: skip
 
+# Earlier keys of provisions to override, with the present ones: a former workbook has them in its
+# cells.
 PROVISIONS: Mapping[str, str] = {"max_storeys": "max_stories"}
-"""Earlier keys of provisions to override, with the present ones."""

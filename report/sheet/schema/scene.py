@@ -42,8 +42,8 @@ OR_OUTLINE = "required, or an outline"
 DRAWING = "drawing"
 # The same with the number of modules.
 DRAWN_MODULES = f"{DRAWING}, modules too"
+# Name of the roof on the sheet Outlines.
 ROOF = "roof"
-"""Name of the roof on the sheet Outlines."""
 
 
 def slope_rad(value: float, unit: SlopeUnit) -> float:
@@ -86,19 +86,14 @@ class Placed(Frozen):
     @property
     def placed(self) -> Shape | None:
         """Its shape in roof plan, if given."""
-        return Polygon(self._outline) if self._outline else rectangle(self)
+        if self._outline:
+            return Polygon(self._outline)
+        sides = _sides_of(self)
+        return None if None in sides else Rectangle(*sides)
 
 
-def rectangle(sides: object) -> Rectangle | None:
-    """Return the rectangle of a row that has all four sides."""
-    x_from, x_to, y_from, y_to = _sides_of(sides)
-    if x_from is None or x_to is None or y_from is None or y_to is None:
-        return None
-    return Rectangle(x_from, x_to, y_from, y_to)
-
-
+# Fields of a rectangle in roof plan.
 SIDES = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
-"""Fields of a rectangle in roof plan."""
 _sides_of = attrgetter(*SIDES)
 
 
@@ -128,8 +123,8 @@ def friction_law(
     )
 
 
+# Fields of an array from which its weight is computed.
 WEIGHT_PARTS = ("modules", "module_weight_n", "ballast_n")
-"""Fields of an array from which its weight is computed."""
 
 
 PlaceFrom = Annotated[Text, Cell("Place from", DRAWING, is_rare=True)]

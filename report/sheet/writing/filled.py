@@ -290,17 +290,13 @@ def _title(book: OpenBook, position: CellPosition) -> str:
     return f"{title.removesuffix(' *')}, computed," if position.sheet == "Site" else title
 
 
-def has_live_formulas(book: OpenBook) -> bool:
-    """Whether a workbook computes while it is filled in, as those of 0.1 do not."""
-    return area_named(book.book, _PANEL) is not None
-
-
 MOVE = "Run roofslip new FOLDER and copy your cells into the new workbook"
 
 
 def what_is_new(book: OpenBook) -> Iterator[Finding]:
     """Yield one note on a workbook of 0.1: its missing parts, and how to gain them."""
-    if has_live_formulas(book):
+    # Those since compute while they are filled in.
+    if area_named(book.book, _PANEL) is not None:
         return
     absent = [section for section in SECTIONS if is_absent(book, section)]
     titles = {title.casefold() for title in book.book.sheetnames}

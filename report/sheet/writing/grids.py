@@ -128,10 +128,12 @@ class GridColumn:
 
 def columns_of(section: SheetSection, units: UnitsFirst) -> list[GridColumn]:
     """Return the columns of a table: what is always needed, the answers, what is rarely needed."""
-    fields = [
-        GridColumn(entry.name, heading_of(entry, units), _width(entry), entry=entry)
-        for entry in entries(section.model)
-    ]
+    fields = []
+    for entry in entries(section.model):
+        unit = entry.unit(is_us=units.is_us)
+        symbol = unit.symbol if unit else str(entry.cell.unit)
+        heading = f"{entry.cell.label} [{symbol}]" if symbol else entry.cell.label
+        fields.append(GridColumn(entry.name, heading, _width(entry), entry=entry))
     answers = [
         GridColumn(answer.name, answer.heading, answer.width, answer=answer)
         for answer in table_answers(section.key, is_us=units is UnitsFirst.US)
@@ -289,13 +291,6 @@ def write_answers(book: Workbook, tables: Tables, place: TablePlace, *, is_us: b
         columns[count].calculatedColumnFormula = TableFormula(attr_text=formula)
         for row in range(place.header + 1, place.header + 1 + place.size):
             style.put_answer(sheet.cell(row, count + FIRST), formula, answers[name].number_format)
-
-
-def heading_of(entry: Entry, units: UnitsFirst) -> str:
-    """Return the heading of a column, with its unit."""
-    unit = entry.unit(is_us=units.is_us)
-    symbol = unit.symbol if unit else str(entry.cell.unit)
-    return f"{entry.cell.label} [{symbol}]" if symbol else entry.cell.label
 
 
 def _allowed(entry: Entry, unit: Unit | None) -> str:

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from openpyxl import Workbook
-from openpyxl.utils import get_column_letter
+from openpyxl.utils import get_column_letter, quote_sheetname
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.schema import SECTIONS, layout, provision_name, provision_unit
@@ -145,7 +145,8 @@ def _units_in_use(tables: layout.Tables) -> Iterator[tuple[str, str, str]]:
                 continue
             words = f"{section.title}: {entry.cell.label}"
             if section.is_table:
-                head = tables[section.key].heading_cell(entry.name)
+                place = tables[section.key]
+                head = f"{quote_sheetname(place.sheet)}!${place.letters[entry.name]}${place.header}"
                 start = f'FIND("[",{head})+1'
                 symbol = f'TRIM(MID({head},{start},FIND("]",{head})-({start})))'
             else:
@@ -293,5 +294,5 @@ def _write_facts(sheet: Worksheet, top: int) -> None:
 
 
 def _merge(sheet: Worksheet, row: int, column: int) -> None:
-    """Give a text the width of a value and its clause."""
+    # A text takes the width of a value and its clause.
     sheet.merge_cells(start_row=row, end_row=row, start_column=column, end_column=column + 1)

@@ -85,8 +85,8 @@ class Answer(str):
     __slots__ = ()
 
 
+# What a row of a static sheet has in a cell.
 Value = Answer | str | float
-"""What a row of a static sheet has in a cell."""
 
 
 def put_values(
