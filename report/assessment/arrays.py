@@ -311,11 +311,7 @@ def assess_array(
     *,
     motions_qualify: bool,
 ) -> ArrayAssessment:
-    """Return an array checked against the rule set.
-
-    From its runs and those `needed`, with the adequate models: `runs` itself where no model is
-    requested.
-    """
+    """Return an array checked against the rule set, by its runs and those of adequate models."""
     adopted, prescriptive = as_adopted(data), prescriptive_of(data, rules)
     basis = statistic_basis(data)
     directions = _by_direction(rules, runs, basis)

@@ -133,10 +133,8 @@ def reassess(assessment: Assessment, project: ProjectInput) -> Assessment:
 
 
 def anticipate(sheet: Sheet, shaking: Shaking, known: Reference) -> Assessment:
-    """Assess a workbook in the orientations that gave the largest PRDs in a full assessment.
-
-    At its values, and as long as these two stay the largest, with the displacements of all.
-    """
+    """Assess a workbook in the orientations that gave the largest PRDs in a full assessment."""
+    # As long as these two stay the largest, with the displacements of all.
     has_all = sheet.project.options.directional  # each direction may have another largest one
 
     def names_of(array: Array) -> Mapping[str, Sequence[str]]:

@@ -160,12 +160,9 @@ def _marked(
 def minimum_gap(
     data: ProjectInput, rules: RuleSet, arrays: Sequence[ArrayAssessment], near: PlanNeighbor
 ) -> tuple[float, str]:
-    """Return the separation that the rule set requires between neighbors of the plan [m], marked.
-
-    As `check_clearance` has it for a row in any direction; NaN without a permitted displacement.
-    """
+    """Return the separation that the rule set requires between neighbors [m], and its mark."""
     if near.kind is not NearbyKind.BARE_EDGE:
-        # Overlapping shapes have a negative gap, which no row of a workbook may have.
+        # As a row in any direction; overlapping shapes have a negative gap, which no row may have.
         row = Clearance(
             array=near.array,
             object=near.other,

@@ -33,11 +33,7 @@ def design_envelope(array: ArrayAssessment) -> Outline:
 
 
 def runs_envelope(array: ArrayAssessment) -> Outline:
-    """Return the outline of an array in all of its runs, by their largest excursions.
-
-    A run is within its excursions downslope, upslope and cross-slope, and within its PRD. Empty if
-    a run has no displacement, or without runs.
-    """
+    """Return the outline of an array in all of its runs; empty if one has no displacement."""
     moves = [point for run in array.runs for point in _region(run)]
     if not moves or any(math.isnan(along + across) for along, across in moves):
         return ()

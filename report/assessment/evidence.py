@@ -85,8 +85,7 @@ Variations = Sequence[tuple[BuildingInput, AnalysisValue]]
 
 
 def building_variations(assessment: Assessment) -> Variations:
-    """Return the building as used, then each variation, with the governing array's value from
-    analysis; nothing where no motion goes through the building."""
+    """Return the building as used, then each variation, with the governing array's value."""
     data, array, prepared = assessment.project, assessment.governing, assessment.shaking.prepared
     if not any(item.roof for item in prepared):
         return ()

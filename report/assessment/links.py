@@ -90,12 +90,9 @@ class LinkedArray:
 
     @property
     def ratio(self) -> float:
-        """Value with links / value of the single block.
-
-        If the single block does not slide: inf, or 1 where the blocks slide less than the tolerance
-        that matters to the choice of model (`least_model.Settings.bound_m`).
-        """
+        """Value with links / value of the single block; inf where that one alone does not slide."""
         rigid, linked = self.rigid.value_m, self.linked.value_m
+        # Less than the tolerance that matters to the choice of model is no sliding of the blocks.
         if rigid == 0.0 and not math.isnan(linked):
             return math.inf if linked > least_model.DEFAULT.bound_m(rigid) else 1.0
         return linked / rigid if rigid != 0.0 else math.nan

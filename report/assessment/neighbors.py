@@ -246,13 +246,7 @@ def plan_pairs(
     addresses: Mapping[Place, str],
     required: Callable[[PlanNeighbor], tuple[float, str]],
 ) -> tuple[PlanNeighbor, ...]:
-    """Return each pair of arrays, array and object, array and bare roof edge of the plan.
-
-    An object without a place in plan is in none of them.
-
-    `reaches` has each array with its reach [m]; `required` returns the required separation of a
-    pair [m], and its mark.
-    """
+    """Return each array beside each other shape in plan, with the separation [m] it requires."""
     pairs = [(each, *required(each)) for each in _pairs(data, reaches, addresses)]
     return tuple(
         each if math.isnan(value_m) else replace(each, required_m=value_m, mark=mark)
@@ -360,10 +354,8 @@ def _candidates(
 
 
 def reaches_of(arrays: Sequence[ArrayAssessment]) -> Sequence[tuple[Array, float]]:
-    """Return each array with its reach [m].
-
-    Twice the design displacement, or the prescriptive one where none is permitted.
-    """
+    """Return each array with its reach [m]."""
+    # Where no displacement is permitted, the prescriptive one says what may be near.
     return [
         (item.array, REACH_FACTOR * (item.prescriptive.value_m if math.isnan(m) else m))
         for item in arrays

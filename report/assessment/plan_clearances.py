@@ -37,10 +37,8 @@ _WAYS = (Direction.DOWN, Direction.ACROSS, Direction.UP, Direction.ACROSS)  # by
 def pairs_before_runs(
     data: ProjectInput, addresses: Mapping[Place, str], arrays: Sequence[ArrayAssessment] = ()
 ) -> tuple[PlanNeighbor, ...]:
-    """Return the pairs of the plan as a package has them at the prescriptive displacement.
-
-    Of arrays that have been run, larger design displacements count.
-    """
+    """Return the pairs of the plan as a package has them at the prescriptive displacement."""
+    # Of arrays that have been run, larger design displacements count.
     rules, least_m = rule_set_of(data), design_before_runs_m(data)
     slides = {array.id: least_m for array in data.arrays} | _larger_m(arrays, least_m)
     known = {array.id: array for array in data.arrays}
@@ -117,10 +115,8 @@ def _has_row(near: PlanNeighbor) -> bool:
 
 
 def direction_of(near: PlanNeighbor, downslope_deg: float) -> Direction:
-    """Return the direction in which the whole distance of a pair lies, from its array; else any.
-
-    No displacement whose component in that direction is less than the distance closes the gap.
-    """
+    """Return the direction in which the whole distance of a pair lies, from its array; else any."""
+    # No displacement whose component in that direction is less than the distance closes the gap.
     for turns, direction in enumerate(_WAYS):
         angle = math.radians(downslope_deg + 90.0 * turns)
         far, own = (

@@ -90,10 +90,8 @@ def limit_value(
 
 
 def limit_words(check: Limit, us_first: bool) -> str:
-    """Return a limit that is not satisfied: quantity, value, what would do, clause.
-
-    The limit as printed satisfies it, and the value as printed does not.
-    """
+    """Return a limit that is not satisfied: quantity, value, what would do, clause."""
+    # The limit as printed satisfies it, and the value as printed does not.
     safe, other = (round_up, round_down) if check.is_at_least else (round_down, round_up)
     most = limit_value(check, check.limit, us_first, safe)
     value = limit_value(check, check.found, us_first)
@@ -104,10 +102,7 @@ def limit_words(check: Limit, us_first: bool) -> str:
 
 
 def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
-    """Yield the limits and requirements that no run is needed for, each at its cell.
-
-    What depends on a displacement, such as a clearance, is not among them.
-    """
+    """Yield the limits and requirements that need no displacement, each at its cell."""
     data = outdated(data, shaking.hashes)
     rules, us_first = rule_set_of(data), data.us_first
     for check in building_limits(data, rules):

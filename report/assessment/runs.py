@@ -56,17 +56,14 @@ class OrientedRun:
         return self.solution.model is Model.NO_SLIP or self.solution.model >= Model.TWO_AXES
 
     def excursion_m(self, direction: Direction) -> float:
-        """Return the largest excursion of the array in a direction [m].
-
-        Where cross-slope motion was not modeled, the PRD is used for it. NaN where the run has no
-        final displacement: lifted off, still sliding at its end, or without a result.
-        """
+        """Return the largest excursion in a direction [m]; NaN without a final displacement."""
         result = self.result
         if result.status is not Status.OK:
             return math.nan
         return {
             Direction.DOWN: result.down_m,
             Direction.UP: result.up_m,
+            # What was not modeled is not more than the PRD.
             Direction.ACROSS: result.across_m if self.has_across else result.prd_m,
             Direction.ANY: result.prd_m,
         }[direction]

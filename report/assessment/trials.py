@@ -41,12 +41,10 @@ def below(value: float) -> int:
 
 
 def with_mu(array: Array, mu: float) -> Array:
-    """Return an array with another low-velocity coefficient, its friction law scaled as a whole.
-
-    A law that starts from zero has no factor: the coefficient is then one at every velocity.
-    """
+    """Return an array with another low-velocity coefficient, its friction law scaled as a whole."""
     if array.mu > 0.0:
         return array_with_friction(array, mu / array.mu).model_copy(update={"mu": mu})
+    # A law that starts from zero has no factor: the coefficient is then one at every velocity.
     return at_low_velocity(array).model_copy(update={"mu": mu})
 
 

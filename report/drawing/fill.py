@@ -87,12 +87,11 @@ class MatchedPlan:
 def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
     """Return a plan with the names of the rows of a workbook.
 
-    An outline with the name of a row in the drawing is that row. The others are told by place among
-    the rows that are left: by what they have in common, then by the nearest center of the same
-    size. What is left is new.
-
     Raises `InputError` with the candidates, for what cannot be told.
     """
+    # An outline with the name of a row in the drawing is that row. The others are told by place
+    # among the rows that are left: by what they have in common, then by the nearest center of the
+    # same size. What is left is new.
     known = [*draft["arrays"], *draft["objects"]]
     rows = {row["id"]: row for row in known if "id" in row}
     groups = {row["id"]: _group(row.get("kind", "")) for row in draft["objects"] if "id" in row}
@@ -320,12 +319,10 @@ def changes(
 ) -> dict[CellPosition, Value]:
     """Return the cells to change so that a workbook has the plan, and what its layers are.
 
-    Rows of the same ID get its place, and keep everything else; others are added below, and those
-    that are to be taken out are emptied wherever they are named. A workbook without the sheet
-    Layers stays without.
-
     Raises `InputError` for each place that is filled already, unless it may be replaced.
     """
+    # Rows of the same ID get its place, and keep everything else; others are added below, and those
+    # that are to be taken out are emptied wherever they are named.
     outlines = None if is_absent(book, SECTION["outlines"]) else GrowingTable.of(book, "outlines")
     fill = _Fill(book, replace, outlines)
     _fill_rows(fill, "arrays", told.plan.arrays)

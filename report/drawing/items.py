@@ -106,11 +106,7 @@ _STYLE = "ROOFSLIP"  # of dimensions
 
 
 def write_dxf(plan: PlanDrawing) -> bytes:
-    """Return a plan as DXF (AutoCAD 2010): a layer for each kind, outlines as closed polylines.
-
-    Each line carries its name as extended data of `APPLICATION`, to be read back, and so does each
-    text that tells the height of something.
-    """
+    """Return a plan as DXF (AutoCAD 2010): a layer for each kind, outlines as closed polylines."""
     # Imported here: it takes longer than all the rest of the drawing.
     import ezdxf
     from ezdxf.enums import TextEntityAlignment
@@ -134,6 +130,7 @@ def write_dxf(plan: PlanDrawing) -> bytes:
         drawn = space.add_lwpolyline(
             line.points, close=line.is_closed, dxfattribs={"layer": line.layer.title}
         )
+        # Its name, to be read back, as that of a text which tells the height of something.
         drawn.set_xdata(APPLICATION, [(1000, _plain(line.name))])
     for text in plan.texts:
         align = (

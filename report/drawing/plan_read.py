@@ -363,10 +363,8 @@ def _strip(start: Point, end: Point) -> Shape:
 
 
 def own_axes(shape: Shape) -> tuple[float, float, float]:
-    """Return the sizes [m] of a shape along its own axes, and their angle to x and y [deg].
-
-    One is parallel to its longest side, the first the one within 45 deg of x.
-    """
+    """Return the sizes [m] of a shape along its own axes, and their angle to x and y [deg]."""
+    # One axis is parallel to its longest side; the first is the one within 45 deg of x.
     (x0, y0), (x1, y1) = max(sides(shape.points), key=lambda side: math.dist(*side))
     direction = math.degrees(math.atan2(y1 - y0, x1 - x0))
     # Within 45 deg: sides of a box are the same by quarter turns.

@@ -31,11 +31,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Drawn:
-    """A closed line of a drawing.
-
-    The sizes are those of the modules that it is the outline of, the most frequent first: their
-    number, long side [m] and short side [m]. Its points are in m then.
-    """
+    """A closed line of a drawing, or the outline of modules, whose points are in m."""
 
     handle: str  # of the line, or of the first of those that are joined
     layer: str
@@ -43,6 +39,7 @@ class Drawn:
     points: tuple[Point, ...]  # a ring, not repeated, in the unit of the drawing
     is_ours: bool  # whether `report` wrote it
     heights: tuple[str, ...] = ()  # attributes of its block that give one, each as `HT 42`
+    # of its modules, the most frequent first: their number, long side [m] and short side [m]
     sizes: tuple[tuple[int, float, float], ...] = ()
     rounded_m: float = 0.0  # step to which corners of turned modules are rounded; 0 for a fine one
 
@@ -70,12 +67,7 @@ class Unread:
 
 @dataclass(frozen=True, slots=True)
 class RoofDrawing:
-    """What a drawing consists of.
-
-    Its north is by GEODATA, counterclockwise from +x, and NaN for none: not by `$NORTHDIRECTION`,
-    "the angle between the Y axis of WCS and the grid north" (AutoCAD help) in a sense that is not
-    documented.
-    """
+    """What a drawing consists of."""
 
     unit: str  # empty if it states none of `UNITS`
     other_unit: str = ""  # what to say of one of `OTHER_UNITS`; empty for none
@@ -85,6 +77,8 @@ class RoofDrawing:
     texts: list[Words] = field(default_factory=list)
     unread: list[Unread] = field(default_factory=list)
     counts: Counter[tuple[str, str]] = field(default_factory=Counter)  # by layer and kind of entity
+    # By GEODATA, counterclockwise from +x; NaN for none. Not by `$NORTHDIRECTION`, "the angle
+    # between the Y axis of WCS and the grid north" (AutoCAD help): its sense is not documented.
     north_deg: float = math.nan
     turned_deg: float = 0.0  # since it was read
 

@@ -41,11 +41,9 @@ class Scale:
 
 
 def round_scale(least_m_per_in: float, us_first: bool) -> Scale:
-    """Return the largest engineering (US) or metric scale that is not larger than needed.
-
-    US: 10, 20, 30, 40, 50, 60, 80, 100, 150, 200 ft and so on to the inch. SI: 1:100, 1:125,
-    1:150, 1:200, 1:250, 1:300, 1:400, 1:500, 1:600, 1:750 and so on.
-    """
+    """Return the largest engineering (US) or metric scale that is not larger than needed."""
+    # US: 10, 20, 30, 40, 50, 60, 80, 100, 150, 200 ft and so on to the inch. SI: 1:100, 1:125,
+    # 1:150, 1:200, 1:250, 1:300, 1:400, 1:500, 1:600, 1:750 and so on.
     us, si = (1, 1.5, 2, 3, 4, 5, 6, 8), (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 7.5)
     unit = LENGTHS["ft"] if us_first else INCH_M
     rounds = (

@@ -17,6 +17,7 @@ from starlette.responses import JSONResponse, PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 HEADERS = {
+    # Nothing of another origin is loaded, and no other page may frame this one.
     "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; "
     "img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; form-action 'self'; "
     "base-uri 'none'; frame-ancestors 'none'",
@@ -66,6 +67,7 @@ class Keys:
         """Return the key for a token that is good; unless it lasts, it is used then."""
         if not self.is_good(token):
             return None
+        # Good once: the address that has it may be copied, or stay in a history.
         self._tokens.discard(token)
         return self.key
 
@@ -106,8 +108,10 @@ class Access:
     def _refusal(self, request: HTTPConnection) -> Response | None:
         """Return the answer to a request that may not pass; the page itself has no secret."""
         path = request.scope["path"]
+        # Another site may give its own name the address of this machine.
         if self._hosts and request.headers.get("host", "") not in self._hosts:
             return PlainTextResponse("This server does not answer to that name.", 421)
+        # The page and its files hold nothing of a project; the entry takes a token instead.
         if not path.startswith("/api/") or path == ENTRY:
             return None
         if not _is_same(request.headers.get(KEY_HEADER, ""), self._keys.key):

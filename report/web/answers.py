@@ -53,6 +53,7 @@ def answer(
     missing = [near for near in assessment.neighbors if near.is_missing]
     designs = {item.id: _design(item, fmt, is_provisional) for item in arrays}
 
+    # What less friction would change is computed after the rest; only an OK may change by it.
     is_whole = is_provisional or assessment.at_reduced_friction is not None
     may_change = not is_whole and assessment.verdict is Verdict.OK
 
@@ -115,6 +116,7 @@ def _reasons(assessment: Assessment, fmt: UnitFormat) -> list[dict[str, Any]]:
         return reasons
     parts = [short_words(gap, assessment.project.us_first) for gap in short]
     worst, most_m = short[0].clearance, max(gap.required_m for gap in short)
+    # They stay where the first of them stood among the other causes.
     first = reasons.index({"level": Consequence.NG.value, "text": parts[0]})
     grouped = {
         "level": Consequence.NG.value,
@@ -193,6 +195,7 @@ def _bars(
     item: ArrayResult, motions: Sequence[MotionRun], fmt: UnitFormat, design: Cell
 ) -> Mapping[str, Any]:
     """Return the PRD of each motion, and the lengths that are lines across its bars."""
+    # A displacement that is not permitted is no line across the bars.
     design_m = math.nan if design["text"] == NOT_PERMITTED else item.design_m
     lines = {
         "design": (design_m, design["text"]),

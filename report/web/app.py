@@ -82,6 +82,7 @@ def made(keys: Keys, folder: Path, hosts: Collection[str]) -> Starlette:
         exception_handlers={
             InputError: _refused,
             RefusedError: _refused,
+            # By these numbers api.js tells a request that is replaced, and another project.
             StaleError: _told(409, "A newer request of this page came."),
             LostError: _told(503, "The process that computes has ended. Try it again."),
             OtherProjectError: _told(
@@ -177,11 +178,14 @@ async def _open_new(
         workbook = await store(request, folder)
         session.prepare(workbook)
         state = await _whole_state(request, workbook)
+        # Of two uploads the one that was begun last stays, whichever is read first.
         if not session.is_newest(folder):
             raise InputError("Another project was opened meanwhile; open this one again.")
+    # Also where the browser has gone: nothing asks for the folder any more.
     except BaseException:
         await run_in_threadpool(shutil.rmtree, folder, ignore_errors=True)
         raise
+    # A workbook with errors is not opened: what was open stays so.
     if state["problems"]:
         state["is_alone"] = await run_in_threadpool(is_alone, workbook, folder)
         await run_in_threadpool(shutil.rmtree, folder, ignore_errors=True)

@@ -68,6 +68,7 @@ def with_values(opened: Opened, values: Values) -> Opened:
         return opened
     sheet = retyped(opened.sheet, changed)
     sheet.refuse(())
+    # Records that stay as they are need not be processed again.
     if _has_motions_of(opened.sheet, sheet):
         sheet.refuse(stiff_links(sheet.project, opened.shaking.motions))
         return replace(opened, sheet=sheet)
@@ -84,10 +85,12 @@ def _has_motions_of(before: Sheet, after: Sheet) -> bool:
 
 
 _LEAST, _MOST = 0.2, 2.0
+# Least, greatest and step in inches, and in millimeters.
 _TRIM = {True: (-24.0, 24.0, 1.0), False: (-600.0, 600.0, 25.0)}
 _TURN_DEG = 5.0
 
 
+# By identity: an opened workbook has no cheap hash of what is in it.
 @lru_cache(16)
 def controls(opened: Opened) -> Mapping[str, Any]:
     """Return the sliders and choices of a workbook for the page."""
@@ -138,6 +141,7 @@ def _is_number(value: object) -> bool:
 
 def _sliders(sheet: Sheet) -> Iterator[dict[str, Any]]:
     mus = [row[name] for row in sheet.draft["arrays"] for name in MUS if row.get(name)]
+    # The cell of a coefficient accepts no more than MOST_MU.
     most_mu = math.floor(100.0 * min(_MOST, MOST_MU / max(mus, default=1.0))) / 100.0
     yield _slider("friction", "Friction", "×", (0.5, most_mu, 0.01), 1.0,
                   "Factor on every coefficient; a law by velocity as a whole.")  # fmt: skip
@@ -200,6 +204,7 @@ def _is_offered(opened: Opened, slider: Mapping[str, Any]) -> bool:
 
 def _choices(opened: Opened) -> Sequence[Mapping[str, Any]]:
     sheet = opened.sheet
+    # Motions may differ: then the workbook has no single choice, and a blank one stands for it.
     polarities = list(dict.fromkeys(row["polarity"] for row in sheet.draft["motions"]))
     has_cells = all(
         Place("motions", i, "polarity") in sheet.addresses for i in range(len(opened.by_motion))

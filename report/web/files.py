@@ -37,6 +37,7 @@ MOST_FILES = 500
 
 _MOST_NAME, _DEEPEST = 200, 8
 _MOST_BYTES = 255  # of a name, in the file systems of today
+# What Windows allows in no name: a project is unpacked on any system.
 _FORBIDDEN = re.compile(r'[\x00-\x1f\x7f<>:"|?*]|[. ]$')
 _DEVICE = re.compile(r"(con|prn|aux|nul|com[0-9]|lpt[0-9])(\..*)?", re.IGNORECASE)
 _CHUNK = 1 << 20
@@ -94,8 +95,10 @@ class _Room:
         self._check_spelling(path, is_written=target in self.paths)
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
+            # Never over another file: a zip may have two members of one name.
             with target.open("xb") as out:
                 while chunk := content.read(_CHUNK):
+                    # Counted as it is read: a zip may state other sizes than it has.
                     self._left -= len(chunk)
                     if self._left < 0:
                         raise InputError(f"more than {MOST_STORED // MB} MB; drop fewer records")
@@ -107,6 +110,7 @@ class _Room:
     def _check_spelling(self, path: PurePosixPath, *, is_written: bool) -> None:
         """Refuse a path that other systems would take for another one."""
         for part in (path, *path.parents):
+            # macOS takes letters with their accents apart, and Windows does not tell capitals.
             key = unicodedata.normalize("NFC", str(part)).casefold()
             first = self._spelled.setdefault(key, str(part))
             if first != str(part) or (part == path and is_written):
@@ -150,6 +154,7 @@ def _unpack(archive: zipfile.ZipFile, room: _Room) -> None:
     """Write the files of a zip; refuse a link, and what is encrypted or damaged."""
     members = [info for info in archive.infolist() if not info.is_dir()]
     for info in members:
+        # The upper half is the mode of Unix; 0 where a zip was made elsewhere.
         kind = stat.S_IFMT(info.external_attr >> 16)
         if kind not in (0, stat.S_IFREG):
             raise InputError(f"{_short(info)}: a link, not a file; put the file into the zip")
@@ -198,6 +203,7 @@ _MOST_FIELDS = 10
 async def receive_json(request: Request) -> Asked:
     """Return a request of the page about what is open; refuse any other."""
     _check_length(request, MOST_JSON)
+    # A form of another site cannot send this type.
     if request.headers.get("content-type", "").partition(";")[0] != "application/json":
         raise HTTPException(415, "Send JSON")
     try:
@@ -240,6 +246,7 @@ async def _form(request: Request) -> FormData:
     except HTTPException as error:
         if error.status_code != 400:
             raise
+        # The library has one error for all, and tells them apart by their words alone.
         if error.detail.startswith("Too many files"):
             raise InputError(
                 f"more than {MOST_FILES} files; drop the workbook and its records"
@@ -294,6 +301,7 @@ async def _begin(request: Request) -> Response:
         await session.ask(job)
     except (OSError, RefusedError):
         await run_in_threadpool(shutil.rmtree, path.parent, ignore_errors=True)
+        # Where another one was opened, the files are gone for that: it is said below.
         if session.workbook == workbook:
             raise
     if session.workbook != workbook:
@@ -330,6 +338,7 @@ async def _file(request: Request) -> Response:
 
 
 def _attached(response: Response, name: str) -> Response:
+    # A header is ASCII, and a quote would end the name.
     plain = "".join(letter for letter in name if letter.isalnum() or letter in " -_.()")
     ascii_name = plain.encode("ascii", "ignore").decode() or "input.xlsx"
     response.headers["Content-Disposition"] = f'attachment; filename="{ascii_name}"'

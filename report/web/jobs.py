@@ -83,6 +83,7 @@ def _row(book: OpenBook, title: str, cell: str) -> Mapping[str, Any] | None:
     if column not in shown:
         shown = sorted([*shown, column])
     at = shown.index(column)
+    # The first column names the row.
     shown = [one for k, one in enumerate(shown) if k == 0 or abs(k - at) <= _BESIDE]
     return {
         "number": row,
@@ -235,6 +236,7 @@ def read_plan(workbook: Path, job: Json) -> Json:
     _, told, layers = plan_as_rows(drawn, unit_m, read_book(change.book).draft, layers)
     change.fill(changes(change.book, told, layers, replace=True))
     withdrawn(change)
+    # One is opened, and one stays to be saved when the other has been replaced.
     for path in (workbook, Path(job["to"])):
         path.write_bytes(change.book.data)
     return {}
@@ -263,12 +265,14 @@ def add_clearances(workbook: Path, job: Json) -> Json:
 def verdict(workbook: Path, job: Json) -> Json:
     """Return the verdict at values, which less friction changes only where it is OK."""
     found = _at_rest(workbook, job["values"], is_whole=False).verdict
+    # Less friction turns an OK into one with conditions, and nothing else.
     if found is Verdict.OK:
         found = _at_rest(workbook, job["values"]).verdict
     return stamp(found, found.value)
 
 
 def _view(draw: Callable[[Assessment, Json], Json]) -> Callable[[Path, Json], Json]:
+    # No view shows what less friction would change.
     return lambda workbook, job: draw(_at_rest(workbook, job["values"], is_whole=False), job)
 
 
@@ -313,6 +317,7 @@ def _given(workbook: Path, key: str) -> Opened:
     values = json.loads(key)
     if _CLEARANCE not in values:
         return with_values(_open(workbook), values)
+    # Clearances last: values that differ in them alone share what comes before.
     return with_values(_given(workbook, _wider(values)), {_CLEARANCE: values[_CLEARANCE]})
 
 
@@ -341,6 +346,7 @@ def _assessment(workbook: Path, key: str) -> Assessment:
 @lru_cache(KEPT_ANSWERS)
 def _whole(workbook: Path, key: str) -> Assessment:
     given, found, values = _given(workbook, key), _complete(workbook, key), json.loads(key)
+    # As typed it has been compared already.
     if found.at_reduced_friction is not None:
         return found
     former = _whole(workbook, _wider(values)) if _CLEARANCE in values else found

@@ -96,6 +96,7 @@ def plan(
     """Return the plan with its design displacements, its clearances and what is without one."""
     words = {name: str(cell["text"]) for name, cell in designs.items()}
     shown, missing = gaps
+    # Provisional values have none.
     has_verdicts = verdict(Verdict.OK) is not None
     wide_px, more_px = _sheet_px(room_px)
     tall_px = min(max(_TALLER * wide_px, _TALL_PX[0]), _TALL_PX[1])
@@ -124,6 +125,7 @@ def plan(
 
 def _sheet_px(room_px: int) -> tuple[int, int]:
     """Return the width of the widest sheet that there is room for, and from where on none is."""
+    # In steps: while a window is resized the page keeps its sheet.
     steps = max(room_px - _LEAST_PX, 0) // _STEP_PX
     return _LEAST_PX + steps * _STEP_PX, _LEAST_PX + (steps + 1) * _STEP_PX
 
@@ -139,6 +141,7 @@ def _element(paper: Paper, item: Item) -> Mapping[str, Any]:
     """Return an element: its kind, its attributes and its text; its key is that of a tip."""
 
     def at(point: Point) -> tuple[float, float]:
+        # SVG counts down from the top, the plan up from the bottom.
         return round(point[0] * _PX, 1), round((paper.tall - point[1]) * _PX, 1)
 
     def path(points: Sequence[Point]) -> str:

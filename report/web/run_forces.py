@@ -36,8 +36,10 @@ def run_forces(
     of = forces(scene)
     demand = _demand_at(of, np.arange(of.normal_mps2.size, dtype=np.float64))
     across = history.across_mps if history.across_mps.size else 0.0
+    # The history is in plan: along the slope it is longer by 1 / cos θ.
     speed = np.hypot(history.v_mps / math.cos(scene.slope_rad), across)
     law = scene.friction
+    # μ(v) = μ_fast − (μ_fast − μ_slow) exp(−r v), as in `solver.model.Friction`.
     drop = law.mu_fast - law.mu_slow
     sliding = law.mu_fast - drop * np.exp(-law.rate_s_per_m * speed)
     used = np.where(during(slips, history.t_s), sliding, demand)
@@ -59,9 +61,11 @@ def with_jumps(run: OrientedRun, used: Floats, events: Sequence[Event]) -> tuple
     # Where the block turns back at once, the demand is above what friction can give at rest.
     at_rest = np.minimum(_demand_at(forces(_modeled(run)), jumps), law.mu_static)
     begins = [event.kind is EventKind.SLIP for event in events]
+    # Slip begins from the demand at rest and ends at no speed, with the slow coefficient.
     before = np.where(begins, at_rest, law.mu_slow)
     after = np.where(begins, law.mu_slow, at_rest)
     i, v = np.concatenate([at, jumps, jumps]), np.concatenate([used, before, after])
+    # Stable: of two values at one number the one before the jump stays first.
     order = np.argsort(i, kind="stable")
     return i[order], v[order]
 

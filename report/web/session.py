@@ -30,6 +30,7 @@ LONGEST_S = 120.0
 IN_BACKGROUND = "verdict"
 """Asked while the page rests: the quick process does it, and a move then takes the other."""
 
+# A job that ends two processes will end a third.
 _TRIES = 2
 
 
@@ -150,6 +151,7 @@ class Session:
 
     def _begin(self, work: Coroutine[Any, Any, None]) -> None:
         task = asyncio.create_task(work)
+        # asyncio keeps no task alive by itself.
         self._preparing.add(task)
         task.add_done_callback(self._preparing.discard)
 
@@ -180,6 +182,7 @@ class Session:
             await self._end_turn(is_quick)
         if "reference" in reply:
             now, own = job["workbook"], str(self.workbook)
+            # Of what is open and of what was asked: an upload is asked about before it is opened.
             kept = {own: self._references[own]} if own in self._references else {}
             self._references = kept | {now: reply["reference"]}
         if "answer" in reply:
@@ -210,6 +213,7 @@ class Session:
 
     def _free(self, kind: str, asked: Asked | None) -> Sequence[bool]:
         """Return which processes may do a job now: either of them, for a move."""
+        # A verdict of the background takes the quick one, all else but a move the other.
         able = (True, False) if asked and asked.moving else (kind == IN_BACKGROUND,)
         return [each for each in able if each not in self._busy]
 
@@ -223,6 +227,7 @@ class Session:
         if asked is None or not asked.page:
             return False
         is_asked_anew = self._newest[asked.page, kind, asked.moving].n > asked.n
+        # A move to other values is replaced by a move alone.
         is_elsewhere = self._newest[asked.page,].values != asked.values
         return is_asked_anew or (is_elsewhere and not asked.moving)
 

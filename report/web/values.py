@@ -77,6 +77,7 @@ def _friction(sheet: Sheet, factor: float) -> Iterator[tuple[Place, Typed]]:
 def _slope(sheet: Sheet, turn_deg: float) -> Iterator[tuple[Place, Typed]]:
     for index, row in enumerate(sheet.draft["arrays"]):
         unit = row["slope_unit"]
+        # As in the cell no slope is less than 0.
         angle = max(slope_rad(row["slope_value"], unit) + math.radians(turn_deg), 0.0)
         per_one = {SlopeUnit.PERCENT: 100.0, SlopeUnit.IN_PER_12: 12.0}
         is_angle = unit is SlopeUnit.DEGREES
@@ -104,6 +105,7 @@ def _intensity(
             yield Place("motions", index, "scale_value"), _rounded(value * factor)
             continue
         scale = scales[row["id"]]
+        # Else it would be scaled to its target again, whatever the sliders say.
         if scaling is Scaling.TARGET or factor != 1.0:
             yield Place("motions", index, "scaling"), Scaling.FACTOR.value
             yield Place("motions", index, "scale_value"), _rounded(scale * factor)
@@ -127,6 +129,7 @@ def _trim(sheet: Sheet, trim_m: float) -> Iterator[tuple[Place, Typed]]:
         if all(name in before for name in names):
             more = gap_m(*(after[n] for n in names)) - gap_m(*(before[n] for n in names))
         else:
+            # What has no place in plan is moved away from by one side.
             more = trim_m * any(after[n] is not before[n] for n in names if n in before)
         place = Place("clearances", index, "provided_m")
         yield place, _in_cell(sheet, place, max(row.provided_m + more, 0.0))
@@ -157,6 +160,7 @@ def _rule_set(sheet: Sheet, values: Values) -> Iterator[tuple[Place, Typed]]:
         return
     yield Place("site", 0, "rule_set"), str(asked)
     edition = site["edition_name"]
+    # `check` refuses two editions that differ; PV1-2012 goes with any.
     if edition is not None and asked in EDITIONS and edition != asked:
         yield Place("site", 0, "edition_name"), None
 

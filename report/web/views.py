@@ -136,6 +136,7 @@ def contour_lines(surface: ResponseSurface) -> Callable[[float], list[list[list[
     Between grid points the logarithm of PRD is linear; a cell with a lost corner has no contour.
     """
     slopes_deg = np.degrees(surface.slopes_rad)
+    # The PRD spans decades, from nothing at high friction: LEAST_M stands for 0.
     logs = np.log10(np.maximum(surface.mean_m, LEAST_M))
     fine_mus, fine_slopes = _divided(surface.mus), _divided(slopes_deg)
     rows = np.array([np.interp(fine_mus, surface.mus, row) for row in logs])
@@ -347,6 +348,7 @@ def _units(units: Sequence[Unit]) -> list[Json]:
 def levels(mean: Sequence[float]) -> list[float]:
     """Return round values within a range of positive ones, at most `MOST_LEVELS`."""
     low, high = min(mean), max(mean)
+    # From the finest steps on: the first that are few enough.
     for steps in ((1, 1.5, 2, 3, 5, 7), (1, 2, 3, 5), (1, 2, 5), (1, 3), (1,)):
         decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
         values = [step * 10.0**exponent for exponent in decades for step in steps]
@@ -368,6 +370,7 @@ def dots(
     surface: ResponseSurface, arrays: Sequence[ArrayAssessment]
 ) -> Mapping[tuple[float, float], Sequence[str]]:
     """Return the arrays at each friction and slope [deg] of a grid: equal ones share a dot."""
+    # To the digits that are printed: what reads alike shares a dot.
     drawn = (array for array in arrays if array.id not in surface.others)
     return ids_by(
         drawn, lambda item: (round(item.array.mu, 3), round(math.degrees(item.array.slope_rad), 2))

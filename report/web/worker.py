@@ -53,6 +53,7 @@ def is_full(error: BaseException | None) -> bool:
 def answered(job: Mapping[str, Any]) -> Mapping[str, Any]:
     """Return the answer to a job, or why there is none."""
     try:
+        # In the process that computes alone: the server starts without the solver.
         from report.web.jobs import perform
 
         return perform(job)
@@ -89,6 +90,7 @@ def motions_made(workbook: Path, out: Path) -> str:
         _, files = generate(targets, MOTIONS, SEED, no_seeds, say)
         add_suite(workbook, records, rows, files)
         out.mkdir(exist_ok=True)
+        # The zip itself, and what this process writes meanwhile.
         left_out = {out, Path(tempfile.gettempdir())}
         with ZipFile(out / PROJECT, "w", ZIP_DEFLATED) as archive:
             for path in sorted(workbook.parent.rglob("*")):
@@ -105,6 +107,7 @@ def _failure(do: Callable[[], object]) -> str:
     except Exception as error:
         from solver.model import InputError
 
+        # An error in words has the one of the system as its cause.
         if is_full(error) or is_full(error.__cause__):
             return FULL
         if isinstance(error, InputError):
@@ -183,6 +186,7 @@ class Package:
             "is_over": self.state is not State.RUNNING,
             "words": self.words,
             "files": [name for end in TYPES for name in OUTPUTS if name.endswith(end)],
+            # One more than the steps: a bar that is full says that it is done.
             "part": self.step / (_STEPS[self.task] + 1),
         }
 
@@ -237,6 +241,7 @@ class Packages:
         package = Package(opened, workbook, values, task)
         self._all[package.id] = package
         running = asyncio.create_task(package.make())
+        # asyncio keeps no task alive by itself.
         self._tasks.add(running)
         running.add_done_callback(self._tasks.discard)
         return package
@@ -279,5 +284,6 @@ def _link(source: Path, target: Path) -> None:
         return
     try:
         os.link(source, target)
+    # Another file system, or one without links.
     except OSError:
         shutil.copyfile(source, target)

@@ -1,7 +1,5 @@
 """Checks of the input that involve more than one cell; each fault names the cell to change.
 
-Of the site: seismic parameters against each other, the edition, and the SDC, by `site_faults`.
-
 Works on a draft, the rows of readable values, so that one invalid cell hides no other fault.
 """
 
@@ -90,12 +88,14 @@ def _slope(index: int, row: DraftRow) -> Iterator[Finding]:
     value, unit = row.get("slope_value"), row.get("slope_unit")
     if value is None or unit is None or math.degrees(slope_rad(value, unit)) < MAX_SLOPE_DEG:
         return
+    # 45 degrees in each unit.
     most = {SlopeUnit.DEGREES: "45", SlopeUnit.PERCENT: "100", SlopeUnit.IN_PER_12: "12"}[unit]
     wanted = f"give 0 to less than {most} {unit}"
     yield Finding.error(Place("arrays", index, "slope_value"), f"slope is {value:g} {unit}", wanted)
 
 
 def _friction(index: int, row: DraftRow) -> Iterator[Finding]:
+    # A cell that could not be read is absent, and has an error of its own.
     if not row.keys() >= {"mu", "mu_fast", "mu_static", "model"}:
         return
     mu, static, model = row["mu"], row["mu_static"], row["model"]
@@ -175,7 +175,9 @@ def _links(draft: Draft, where: Where) -> Iterator[Finding]:
         fault = f"array is '{name}', already given at {where(first)}"
         yield Finding.error(place, fault, "delete one")
     for place, name in named:
+        # A name that is unknown has an error of its own.
         array = draft["arrays"][arrays[name].row] if name in arrays else {}
+        # A block of a row has one coefficient (`solver.sliding.row.BlockRow`).
         if "mu" in array and _by_speed(array):
             text = f"array is '{name}', which has high-velocity or static friction"
             wanted = "leave both blank on the sheet Arrays, or delete this row"
@@ -211,6 +213,7 @@ def _smaller_events(draft: Draft, where: Where) -> Iterator[Finding]:
 def _overrides(draft: Draft, where: Where) -> Iterator[Finding]:
     keys = list(column(draft, ("overrides",), "provision"))
     names = {key: provision_name(key) for key in OVERRIDABLE}
+    # Where the rule set could not be read, no provision is missing from it.
     rules = next((RULE_SETS[name] for _, name in column(draft, ("site",), "rule_set")), None)
     for place, key in keys:
         if key not in names:
@@ -279,9 +282,11 @@ def _importance(row: DraftRow) -> Iterator[Finding]:
 
 def _edition(row: DraftRow, edition: Edition) -> Iterator[Finding]:
     rule_set = row["rule_set"]
+    # PV1-2012 is no edition of ASCE 7: it goes with each of them.
     if rule_set in hazard.EDITIONS and rule_set != edition.name:
         text = f"edition of ASCE 7 is '{edition.name}', but the rule set is '{rule_set}'"
         yield _fault("edition_name", text, "leave it blank, or correct one")
+    # From ASCE 7-22 on, S_MS and S_M1 are read off for a site class.
     if edition.has_site_coefficients:
         return
     for field, label, other in (("f_a", "F_a", "S_MS or S_DS"), ("f_v", "F_v", "S_M1 or S_D1")):
@@ -319,6 +324,7 @@ def _agreement(row: DraftRow, edition: Edition, chain: _Chain) -> Iterator[Findi
         value = row.get(field)
         if value is not None and derived is not None and abs(value - derived) > AGREES_G:
             text = f"{symbol} is {value:g} g, but {words} is {derived:.4f} g"
+            # One fault is enough: the next ones would follow from the same cell.
             yield _fault(field, text, "leave one of them blank, or correct it")
             return
 
@@ -329,6 +335,7 @@ def _design(maximum_g: float | None) -> float | None:
 
 def _site_class(row: DraftRow, edition: Edition) -> Iterator[Finding]:
     site_class = row.get("site_class")
+    # BC, CD and DE came with ASCE 7-22.
     if edition.has_site_coefficients and site_class is not None and site_class not in F_A.rows:
         text = f"site class is '{site_class}', which {edition.name} does not have"
         yield _fault("site_class", text, f"give one of {', '.join(F_A.rows)}")
@@ -388,6 +395,7 @@ def _sdc(row: DraftRow) -> Iterator[Finding]:
         others = " and ".join(name for name, value in lacking.items() if value is None)
         yield _fault("sdc", f"{_SDC} is missing", f"choose A, B, C, D, E or F, or give {others}")
         return
+    # ASCE 7 11.6: the more severe of two tables; S_1 from 0.75 g on gives E, or F in category IV.
     reasons = (
         (f"S_DS = {parameters.s_ds:.3f} g", "ASCE 7 Table 11.6-1"),
         (f"S_D1 = {parameters.s_d1 or 0.0:.3f} g", "ASCE 7 Table 11.6-2"),

@@ -90,11 +90,13 @@ def _dated(
     for section, dated, covered, covers in CONFIRMATIONS:
         block = getattr(data, section)
         date = getattr(block, dated)
+        # A review that is not stated covers nothing, whatever its date.
         if date and getattr(block, "peer_reviewed", True):
             of, _, recorded = getattr(block, covered).partition(": ")
             now = _hashes(covers, data, records, {})
             # By the sheets of earlier workbooks.
             earlier = _hashes(covers, data, records, layout.SHEETS)
+            # With another date it is another confirmation, of the inputs as they are now.
             recorded = recorded if of == str(date) else ""
             yield Place(section, 0, covered), date, recorded, now, earlier
 
@@ -106,11 +108,13 @@ def _hashes(
     lines: dict[str, list[str]] = {}
     for key, fields in covers.items():
         rows = getattr(data, key) if SECTION[key].is_table else [getattr(data, key)]
+        # What was measured or entered needs no confirmation of the drawing.
         if key == "clearances":
             rows = [row for row in rows if row.source is ClearanceSource.DRAWING]
         of = {name: earlier.get(key) or SECTION[key].sheet_of(name) for name in sorted(fields)}
         for sheet, together in grouped_by(of, of.__getitem__).items():
             hashes = [*filter(None, (_line(key, row, together) for row in rows))]
+            # The records themselves: a file may change under the same name.
             hashes += records if key == "motions" else ()
             if hashes:
                 lines.setdefault(sheet, []).extend([key, *hashes])

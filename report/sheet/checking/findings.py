@@ -58,6 +58,7 @@ def grouped(problems: Iterable[Problem]) -> Iterator[Group]:
     alike: dict[tuple[str, str, int], list[Problem]] = {}
     for number, problem in enumerate(problems):
         sheet, has_cell, _ = problem.where.rpartition("!")
+        # Without a cell nothing but its own line tells a problem: none is left out.
         alike.setdefault((sheet, problem.text, 0 if has_cell else number), []).append(problem)
     for (sheet, _, _), those in alike.items():
         cells = [each.where.removeprefix(f"{sheet}!") for each in those] if sheet else []
@@ -93,6 +94,7 @@ def repeated(
 def suggestion(value: str, ids: Collection[str]) -> str:
     """Return in words which id may have been meant, or which there are."""
     same = next((name for name in ids if looks(name) == looks(value)), "")
+    # Letters of two alphabets may look alike, so that the list would show the same name again.
     if said := same and (foreign_letters(value) or foreign_letters(same)):
         return f"it looks like '{same}', but {said}: retype it"
     if close := nearest(value, ids):
@@ -209,6 +211,8 @@ def _warning(section: SheetSection, index: int, entry: Entry, row: Frozen, is_us
     symbol, si = (unit.symbol, unit.si) if unit else (str(entry.cell.unit), 1.0)
     value, span = f"{getattr(row, entry.name) / si:.4g}", entry.expected.words(si)
     text = f"{entry.spoken} is {value} {symbol}".rstrip() + f"; {span} {symbol}".rstrip()
+    # The sheet Acknowledged answers a warning by this name: reasons of former workbooks depend on
+    # it.
     name = " ".join(f"usual {entry.spoken} {_named(row)}".split())
     place = Place(section.key, index, entry.name)
     return warning(name, place, f"{text} is usual: correct the value or its unit")

@@ -77,10 +77,12 @@ def _processing(index: int, row: DraftRow) -> Iterator[Finding]:
 def _building(draft: Draft, where: Where) -> Iterator[Finding]:
     for row in draft["building"]:
         first, second = row.get("period_s"), row.get("period_2_s")
+        # The first mode has the longest period.
         if second is not None and (first is None or second > first):
             longest = "period T1 as well" if first is None else f"at most period T1, {first:g} s"
             text, wanted = f"period T2 is {second:g} s", f"give {longest}, or leave it blank"
             yield Finding.error(Place("building", 0, "period_2_s"), text, wanted)
+    # Only a ground motion passes through the model of the building.
     grounds = (row.get("recorded_at") is RecordedAt.GROUND for row in draft["motions"])
     for row in draft["site"] if any(grounds) else ():
         count = row.get("stories", 1)
@@ -97,6 +99,7 @@ def _own_spectrum(draft: Draft, where: Where) -> Iterator[Finding]:
         yield Finding.error(Place("spectrum"), "one row is given", "give at least two, or none")
     periods = [(row["period_s"], index) for index, row in enumerate(rows) if "period_s" in row]
     for (before, first), (after, second) in pairwise(sorted(periods)):
+        # The spectrum has no line between two points at one period.
         if after - before <= 1e-9 * after:
             at = where(Place("spectrum", first, "period_s"))
             text = f"period is {after:g} s, already given at {at}"
@@ -123,6 +126,7 @@ def _scaled_to_target(draft: Draft, where: Where) -> Iterator[Finding]:
     scaled = [i for i, m in enumerate(draft["motions"]) if m.get("scaling") is Scaling.TARGET]
     for index in scaled:
         corner = draft["motions"][index].get("highpass_hz")
+        # No factor brings back the periods that a high-pass has removed.
         if corner is not None and corner * end > 1.0 + 1e-9:
             text = (
                 f"high-pass corner is {corner:g} Hz, a period of {1.0 / corner:.3g} s, but the"
@@ -167,6 +171,7 @@ def _design_spectrum(draft: Draft, ground: list[int], where: Where) -> Iterator[
             wanted += " S_D1, or S_1 and F_v, and T_L"
             yield Finding.error(place, f"{name} is missing", wanted)
     t_s = None if parameters is None else parameters.t_s
+    # The design spectrum falls as 1/T between T_S and T_L.
     if t_s is not None and t_l_s is not None and t_l_s <= t_s:
         text = f"long-period transition T_L is {t_l_s:g} s"
         wanted = f"give more than T_S = S_D1/S_DS = {digits_up(t_s, 3)} s"
@@ -208,6 +213,7 @@ def _repeated(draft: Draft, where: Where) -> Iterator[Finding]:
 def _tested(draft: Draft) -> tuple[Series, ...]:
     """Return the runs as series; none if any run could not be read."""
     rows, fields = draft["friction_runs"], FrictionTestRow.model_fields
+    # A run that is missing would change every mean.
     if any(field not in row for row in rows for field in fields):
         return ()
     report = _report(draft, {})
@@ -220,6 +226,7 @@ def _law(array: DraftRow) -> Friction | None:
     if not array.keys() >= {*fields, "mu_report"}:
         return None
     mu, fast, rate, static = (array[field] for field in fields)
+    # One without the other is an error of its own.
     return friction_law(mu, fast, rate, static) if (fast is None) == (rate is None) else None
 
 
@@ -234,6 +241,7 @@ def _first(draft: Draft, tests: Series, where: Where) -> str:
 def _beyond(index: int, law: Friction, tests: Series, at: str) -> Iterator[Finding]:
     by_velocity = law.mu_fast != law.mu_slow
     mean, tested = tests.mean_of(law), tests.mean
+    # PV1-2012: the average of the kinetic coefficients, of the worse of wet and dry.
     if mean > tested + MU_TOLERANCE:
         says = f"averages {mean:.3g} at the tested velocities" if by_velocity else f"is {mean:g}"
         text = f"friction coefficient {says}; the tests give {tested:.3g} ({tests.surface}, mean"

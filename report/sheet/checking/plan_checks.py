@@ -104,12 +104,14 @@ def missing(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield the cells that are required by others, and blank."""
     for (section, field), (is_required, wanted) in REQUIRED.items():
         for index, row in enumerate(draft[section]):
+            # What could not be read is not blank, and has an error of its own.
             is_blank = field in row and row[field] in (None, "")
             if is_blank and is_required(row, draft):
                 fault = f"{SECTION[section].entry(field).spoken} is missing"
                 yield Finding.error(Place(section, index, field), fault, wanted)
 
 
+# 2,000 arrays at one place would be two million pairs.
 LEAST_VERTICES, MOST_OVERLAPS = 3, 1_000
 _EDGES = (ObjectKind.EDGE_WITH_PARAPET, ObjectKind.EDGE_WITHOUT_PARAPET)
 _PLACED = ("arrays", "objects")
@@ -227,6 +229,7 @@ def _ring_faults(outline: _Outline, is_us: bool) -> Iterator[Finding]:
     if not outline.vertices:
         return
     points = ring(outline.vertices)
+    # A vertex that is given again is no other corner.
     count = len(set(points))
     if count < LEAST_VERTICES:
         text = f"{outline.name} has {count} {'vertex' if count == 1 else 'vertices'}"
@@ -324,11 +327,13 @@ def _overlaps(draft: Draft, where: Where) -> Iterator[Finding]:
     bodies = sorted(_bodies(draft), key=lambda body: body.bounds.x_from_m)
     for count, body in enumerate(bodies):
         for other in bodies[count + 1 :]:
+            # They are sorted from the left: none of the following reaches back either.
             if other.bounds.x_from_m >= body.bounds.x_to_m:
                 break
             first, second = sorted((body, other), key=lambda each: (not each.is_array, each.place))
             if not first.is_array or frozenset((body.name, other.name)) in cleared:
                 continue
+            # Boxes first: shapes that are no rectangles are measured by a library.
             if gap_m(body.bounds, other.bounds) < 0.0 and gap_m(body.shape, other.shape) < -NEAR_M:
                 text = f"{first.name} and {second.name} at {where(second.place)} overlap in plan"
                 yield Finding.error(first.place, text, "correct one of them")

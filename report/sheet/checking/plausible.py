@@ -52,6 +52,7 @@ def implausible(data: ProjectInput) -> Iterator[Finding]:
     short = _short_of_plan(data)
     findings = [*_contradictory(data), *_provided(data, short)]
     told = {finding.place for finding in findings if finding.level is Level.WARNING}
+    # A length in a wrong unit is outside its usual range as well.
     told |= {Place("clearances", index, "provided_m") for index in short}
     yield from findings
     yield from (finding for finding in unusual(data) if finding.place not in told)
@@ -195,6 +196,7 @@ def _overrides(data: ProjectInput) -> Iterator[Finding]:
 
 
 def _direction(index: int, row: Clearance, array: Array, other: Shape) -> Iterator[Finding]:
+    # Shapes that touch have no direction between them.
     if row.direction is Direction.ANY or gap_m(array.shape, other) <= 0.0:
         return
     (x0, y0), (x1, y1) = closest(array.shape, other)
@@ -239,6 +241,7 @@ def _provided(data: ProjectInput, short: Mapping[int, float]) -> Iterator[Findin
 
 def _mistaken(provided_m: float, gap: float) -> tuple[float, str]:
     """Return how many times too small a clearance is, and the unit it may be in; 1 for none."""
+    # As where feet are typed into a column of inches; what is too large is an error.
     for unit, size in LENGTHS.items():
         for read in LENGTHS.values():
             if size > read and abs(provided_m * size / read - gap) <= gap_tolerance_m(gap):

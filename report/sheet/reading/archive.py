@@ -90,6 +90,7 @@ def open_book(path: Path) -> OpenBook:
 
 def book_of(path: Path, data: bytes) -> OpenBook:
     """Open a workbook from the content that its file has, or will have; raises as `open_book`."""
+    # Sizes before anything is unpacked, and the scan before openpyxl makes objects of the parts.
     with _zip(data) as archive:
         _check_sizes(archive)
         _check_kind(archive)
@@ -114,6 +115,7 @@ def located(path: Path) -> Path:
     """Return the path of a workbook, or of `input.xlsx` in a folder; raises as `open_book`."""
     asked = meant(path)
     if path.is_dir():
+        # Excel puts ~$NAME beside a workbook that is open.
         books = [each for each in path.glob("*.xlsx") if not each.name.startswith("~$")]
         asked = f"did you mean '{books[0]}'?" if len(books) == 1 else ""
         path = path / "input.xlsx"
@@ -143,6 +145,7 @@ def _read(path: Path) -> bytes:
 def _zip(data: bytes) -> zipfile.ZipFile:
     if not data:
         raise InputError("empty file; start again from a fresh workbook (roofslip new FOLDER)")
+    # An OLE file: an .xls, or the container in which Office encrypts an .xlsx.
     if data.startswith(b"\xd0\xcf\x11\xe0"):
         if "EncryptedPackage".encode("utf-16-le") in data:
             raise InputError("protected with a password; save it without one")
@@ -182,6 +185,7 @@ def _check_kind(archive: zipfile.ZipFile) -> None:
         raise InputError(f"an OpenDocument sheet (.ods) by its content; {SAVE_AS}")
     if not {"[Content_Types].xml", _WORKBOOK} <= names:
         raise InputError(f"a zip archive, but not a workbook; {SAVE_AS}")
+    # Its names are others, which openpyxl does not know.
     if b"http://purl.oclc.org/ooxml/" in _content(archive, _WORKBOOK):
         raise InputError(
             "a Strict Open XML workbook; save it as Excel Workbook (.xlsx), not Strict"

@@ -147,6 +147,7 @@ def check_saved(cell: Found) -> None:
     if cell.is_error:
         cause = f" (from {cut(cell.formula)})" if cell.formula else ""
         raise CellError(f"is {cell.value}{cause}", "correct the formula, or type a value")
+    # Libraries write formulas without values; a spreadsheet saves both.
     if cell.formula and cell.value is None:
         raise CellError(
             f"is a formula with no saved value ({cut(cell.formula)})",
@@ -192,6 +193,7 @@ def _converted(cell: Found, entry: Entry, wanted: str, unit: str, si: float) -> 
     if entry.kind in (int, float):
         text = trimmed(cell.value) if isinstance(cell.value, str) else ""
         is_length = entry.quantity is not None and entry.quantity.accepted is LENGTHS
+        # Marks of feet and inches say their own unit, whatever the column has.
         inches = typed_text.inches_in(text) if is_length else math.nan
         if math.isfinite(inches):
             return inches * INCH_M / si
@@ -217,6 +219,7 @@ def number(cell: Found, wanted: str = "give a number", unit: str = "") -> float:
     # Whole numbers of any length are read as such; `float` has no value for 400 digits.
     if not abs(value) <= sys.float_info.max:
         raise CellError(f"is {_quoted(value)}", wanted)
+    # 5% in a cell of percent may be meant as 5 or as 0.05.
     if typed_text.is_percentage(cell.number_format):
         raise CellError(
             f"is a percentage ({100 * value:g}%, which Excel holds as {value:g})",

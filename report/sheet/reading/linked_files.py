@@ -46,6 +46,7 @@ YEARS = "years.json"
 NEVER, ABOVE, ALWAYS = "never", "above a distance", "after every event"
 
 
+# JSON has no infinity: a distance without bound is null.
 Meters = Annotated[
     float | None, BeforeValidator(lambda v: None if isinstance(v, float) and math.isinf(v) else v)
 ]
@@ -110,11 +111,13 @@ def path_beside(
 
     Raises `InputError` if it is outside the folder, also by a link, is no file, or is too large.
     """
+    # A path may have been typed on Windows, and is read on any system.
     name = name.replace("\\", "/")
     where = f"give a file in the workbook's folder, such as {example}"
     if PurePosixPath(name).is_absolute() or PureWindowsPath(name).drive or ".." in name.split("/"):
         raise InputError(f"'{name}' is outside the workbook's folder; {where}")
     try:
+        # A link within the folder may lead out of it.
         path = (folder / name).resolve()
         if not path.is_relative_to(folder.resolve()):
             raise InputError(f"'{name}' is a link to a file outside the workbook's folder; {where}")
@@ -127,6 +130,7 @@ def path_beside(
         path.open("rb").close()  # raises where that is not permitted
     except PermissionError as error:
         raise InputError(f"'{name}' cannot be read ({error.strerror}); allow it") from error
+    # RuntimeError of links in a circle, ValueError of a null character.
     except (OSError, RuntimeError, ValueError) as error:
         if isinstance(error, InputError):
             raise

@@ -77,6 +77,7 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
     headings = [p for p in positions if label_key(sheet.cell(top, p.column).value) not in answers]
     columns, others, absent, problems = _columns(book, section, headings)
     used = [column.number for column in columns.values()]
+    # Tables may lie below each other on one sheet.
     last_row = min(book.extent(sheet.title).last_row, _next_table(sheet, top, used) - 1)
     problems += _merged(sheet, top, last_row, used)
     return TableFound(
@@ -114,6 +115,7 @@ def _headings(book: OpenBook, section: SheetSection) -> _Place:
             if position.row not in taken and label in fields:
                 rows.setdefault(position.row, []).append(position.column)
         best = max(rows, key=lambda row: len(rows[row]), default=0)
+        # A row of another table has some headings in common, and not most of them.
         if best and len(rows[best]) > len(entries(section.model)) / 2:
             return sheet, min(rows[best]), best, max(rows[best]), range(0)
     what = f"no table {section.table_name} and no row of its headings"
@@ -132,6 +134,7 @@ def _rows_of_others(sheet: Worksheet, section: SheetSection) -> set[int]:
 
 def _check_reach(book: OpenBook, sheet: Worksheet, top: int) -> None:
     extent, far = book.extent(sheet.title), []
+    # Every row down to a stray cell would be read.
     if extent.last_row > top + MAX_ROWS:
         far.append((extent.row_cell, f"more than {MAX_ROWS} rows below the headings"))
     if extent.last_column > MAX_COLUMNS:

@@ -116,6 +116,7 @@ def _sheet(title: str, data: bytes) -> Any:
     rows = sheet.find("{*}sheetData")
     if rows is None:
         raise InputError(f"{title}: has no cells; {REOPEN}")
+    # They may be left out: then what is inserted has no place among the others.
     if any("r" not in each.attrib for each in rows.iter("{*}row", "{*}c")):
         raise InputError(f"{title}: has cells without addresses; {REOPEN}")
     return sheet
@@ -278,8 +279,10 @@ def _longer_tables(
         last = bottom
         while last + 1 in filled:
             last += 1
+        # Rows that are typed below a row of totals are no part of the table.
         if last > bottom and "totalsRowCount" not in table.attrib:
             longer = f"{get_column_letter(left)}{top}:{get_column_letter(right)}{last}"
+            # Its filter has the same range.
             for each in table.iter():
                 if each.get("ref") == old:
                     each.set("ref", longer)

@@ -99,6 +99,7 @@ def sheet_titled(book: OpenBook, title: str) -> Worksheet | None:
 def labels(book: OpenBook, sheet: Worksheet) -> Iterator[tuple[CellPosition, str]]:
     """Yield each cell where a label or heading may be, row by row, with `label_key` of its text."""
     extent = book.extent(sheet.title)
+    # Records that are pasted into a sheet make it long: labels are above them.
     for row in range(1, min(extent.last_row, SCANNED_ROWS) + 1):
         for column in range(1, min(extent.last_column, MAX_COLUMNS) + 1):
             yield CellPosition(sheet.title, row, column), label_key(sheet.cell(row, column).value)
@@ -135,6 +136,7 @@ def bounds_of(reference: str | None) -> tuple[int, int, int, int] | None:
 
 def label_key(text: object) -> str:
     """Return a label in the form that is compared: no unit, asterisk, case or extra spaces."""
+    # The template marks a required label with an asterisk.
     return " ".join(heading_parts(text)[0].replace("*", " ").split()).casefold()
 
 

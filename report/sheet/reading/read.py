@@ -128,6 +128,7 @@ class SheetOf(Generic[Whole]):
         for key, replaced in parts.items():
             rows = [replaced] if isinstance(replaced, Frozen) else list(replaced)
             try:
+                # `model_copy`, with which rows are mostly changed, validates nothing.
                 checked = [sections[key].model.model_validate(dict(row)) for row in rows]
             except ValidationError as error:
                 wrong = (
@@ -185,10 +186,7 @@ def read_book(book: OpenBook) -> Sheet:
 
 
 def without_motions(sheet: Sheet) -> ProjectInput:
-    """Return the input whatever its motions are, with clearances that contradict the plan too.
-
-    Raises InputError for what is wrong elsewhere.
-    """
+    """Return the input, whatever its motions are; its clearances may contradict the plan."""
     fields, rows = len(entries(SECTION["clearances"].model)), sheet.draft["clearances"]
     # A contradiction has all of its cells.
     passed = {"motions"} | ({"clearances"} if all(len(row) == fields for row in rows) else set())
@@ -243,6 +241,7 @@ def where(addresses: Mapping[Place, str], place: Place) -> str:
     return addresses.get(place, whole)
 
 
+# Tables that name rows of others: without these every name would be unknown.
 _SOURCES = {
     "clearances": {"arrays", "objects"},
     "links": {"arrays"},
@@ -324,6 +323,7 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
         except InputError as error:
             gathered.add(place, error.parts)
             continue
+        # A row that was copied has its label twice: nobody knows which value is meant.
         for at in typed.get(entry.name, ()):
             if at != position and at.column == position.column:
                 twice = f"label '{entry.cell.label}' appears twice, also in {at.address}"
@@ -332,6 +332,7 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
         if not cell.is_blank and column.heading != position:
             gathered.use(place, found_at(book, column.heading))
         cells_read.append((entry, place, cell, column))
+    # What a blank cell is computed from must have been read.
     last = section.model.computed_last
     for entry, place, cell, column in sorted(
         cells_read, key=lambda read: read[2].is_blank and read[0].name in last

@@ -31,6 +31,7 @@ MAX_SPREAD_CELLS = 100_000
 MAX_FORMULA = 8192
 _VALUES = frozenset(("v", "f", "t", "is", "si"))
 _FORMULAS = frozenset(("f", "definedName", "formula", "formula1", "formula2"))
+# Formulas that fetch from elsewhere: DDE is `app|topic!item`. A bar within quotes is text.
 _QUOTED = re.compile(r""""[^"]*"|'[^']*'""")
 _FETCHES = re.compile(r"\||\b(?:DDE|RTD|WEBSERVICE)\s*\(", re.IGNORECASE)
 _SHAPES = ("xl/drawings/", "xl/charts/", "xl/media/", "xl/theme/")
@@ -194,9 +195,7 @@ class Scan(ContentHandler):
 
 
 def scan_parts(parts: Mapping[str, bytes]) -> dict[str, Scan]:
-    """Scan every part that a parser may read as XML, whatever its name and encoding.
-
-    What passes is safe for any parser: it declares no entities.
+    """Scan every part that a parser may read as XML: what passes is safe for any parser.
 
     Raises `InputError` if a part is damaged, declares entities, or would cost more than an input
     can.

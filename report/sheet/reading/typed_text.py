@@ -120,6 +120,7 @@ def dates_in(text: str) -> list[date]:
         return [datetime.fromisoformat(text).date()]
     except ValueError:
         pass
+    # Day and month in either order, as far as both are dates.
     if slashed := _SLASHED.fullmatch(text):
         first, second, year = map(int, slashed.groups())
         dates = []
@@ -175,6 +176,7 @@ _PARTS = re.compile(
 )
 _LONGEST = 255  # characters that Excel allows in a format code (specifications and limits)
 
+# Each comma behind the last digit divides what is shown by 1,000.
 _SCALE = re.compile(r"[0#?](,+)(?![0#?,])")
 _WORDS = re.compile(r"[^\s()\[\]{},;:=]+")
 _SINGLE = re.compile(r"([^\d^]+?)\^?([23]?)")
@@ -220,6 +222,7 @@ class _Section:
 
 def misleading(code: str, unit: str) -> str:
     """Return how a format shows a number as another, such as `in mm`; empty for its own unit."""
+    # The fourth section is that of text.
     return next(filter(None, (_misleading(part, unit) for part in _sections(code)[:3])), "")
 
 
@@ -270,6 +273,7 @@ def _single(part: str) -> str:
     match = _SINGLE.fullmatch(part.strip("."))
     if match is None:
         return ""
+    # Of one letter the case counts: g is no G.
     name = match[1] if len(match[1]) == 1 else match[1].casefold()
     unit = _UNITS.get(name, "")
     return f"{unit}{match[2]}" if unit else ""

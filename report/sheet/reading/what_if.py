@@ -50,6 +50,7 @@ def _compute(
         row = draft[section][index]
         for entry in entries(SECTION[section].model):
             place = Place(section, index, entry.name)
+            # Emptied here, or blank in the file and left so.
             is_blank = (
                 typed[place] is None if place in typed else sheet.addresses.get(place) in blank
             )

@@ -162,6 +162,7 @@ _ONE, _OTHER = (
     }
     for row in ("array_row", "other_row")
 )
+# MOD is never negative: the smaller of both ways around is the angle.
 _TURN = f"{_ONE['downslope_deg']}-{_OTHER['downslope_deg']}"
 _BACK = f"{_OTHER['downslope_deg']}-{_ONE['downslope_deg']}"
 # As `report.assessment.clearances.are_alike`.
@@ -239,7 +240,9 @@ SITE_FORMAT = "0.000"
 def _coefficient(mapped: str, symbol: str) -> str:
     """Return the site coefficient of the tables, interpolated along the row of the site class."""
     heads, row = f"table_{symbol}_mapped", f"MATCH(site_site_class,table_{symbol}_classes,0)"
+    # Beyond the table its first and last columns hold.
     at = f"MIN(MAX({mapped},MIN({heads})),MAX({heads}))"
+    # The last column has none after it to interpolate with.
     left = f"MIN(MATCH({at},{heads},1),5)"
     start, end = f"INDEX({heads},1,{left})", f"INDEX({heads},1,{left}+1)"
     low = f"INDEX(table_{symbol},{row},{left})"
@@ -272,6 +275,7 @@ def _design(values: str, maximum: str) -> str:
 
 
 # The most severe category: by S_DS, by S_D1, and by S_1.
+# One letter on for each limit that is reached; in category IV from C on.
 _STEPS = 'MID(IF(site_risk_category="IV","ACDD","ABCD"),1+SUMPRODUCT(--({}>={})),1)'
 _BY_S_DS, _BY_S_D1 = (_STEPS.format(f"live_{s}", f"sdc_limits_{s}") for s in ("s_ds", "s_d1"))
 _BY_S_1 = 'IF(N(site_s_1_g)>=sdc_limit_s_1,CODE(IF(site_risk_category="IV","F","E")),0)'

@@ -271,6 +271,7 @@ class Entry:
     def spoken(self) -> str:
         """The label in the form used within a sentence."""
         label = self.cell.label
+        # Symbols such as S_DS and CG keep their capitals.
         return label[0].lower() + label[1:] if label[1:2].islower() else label
 
     @property
@@ -324,6 +325,7 @@ def _entry(model: type[Frozen], name: str, info: FieldInfo, cell: Cell) -> Entry
         name=name,
         cell=cell,
         kind=kind,
+        # A need that something else may satisfy is checked when the row is whole.
         is_required=info.is_required() and not cell.need,
         default=None if info.is_required() else info.default,
         bounds=_bounds(constraints),

@@ -185,6 +185,7 @@ def crossing(points: tuple[Point, ...]) -> Point | None:
     reason = explain_validity(Ring(points))
     if reason == "Valid Geometry":
         return None
+    # The library says the place in its sentence alone: `Self-intersection[1 2]`.
     x, y = reason.partition("[")[2].rstrip("]").split()
     return float(x), float(y)
 

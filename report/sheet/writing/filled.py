@@ -250,23 +250,20 @@ def _blue(book: OpenBook) -> Iterator[CellPosition]:
 def findings(lost: Sequence[Overwritten]) -> Iterator[Finding]:
     """Yield a warning for each run of cells below each other."""
     keys = {section.sheet: section.key for section in reversed(SECTIONS)}
-    for run in _runs(lost):
+
+    def key(numbered: tuple[int, Overwritten]) -> tuple[str, int, int, bool]:
+        count, item = numbered
+        at = item.position
+        return at.sheet, at.column, at.row - count, item.is_broken
+
+    for _, group in groupby(enumerate(lost), key):
+        run = [item for _, item in group]
         first, last = run[0], run[-1]
         cell = first.position.address
         cells = f"{cell}:{last.position.cell}" if len(run) > 1 else cell
         place = Place(keys.get(first.position.sheet, SECTIONS[0].key))
         text = _text(first, len(run))
         yield Finding(level=Level.WARNING, place=place, text=text, cell=cells)
-
-
-def _runs(lost: Sequence[Overwritten]) -> Iterator[list[Overwritten]]:
-    def key(numbered: tuple[int, Overwritten]) -> tuple[str, int, int, bool]:
-        count, item = numbered
-        at = item.position
-        return at.sheet, at.column, at.row - count, item.is_broken
-
-    for _, run in groupby(enumerate(lost), key):
-        yield [item for _, item in run]
 
 
 def _text(item: Overwritten, count: int) -> str:

@@ -147,6 +147,7 @@ def _units_in_use(tables: layout.Tables) -> Iterator[tuple[str, str, str]]:
             if section.is_table:
                 place = tables[section.key]
                 head = f"{quote_sheetname(place.sheet)}!${place.letters[entry.name]}${place.header}"
+                # The user may write another unit into the brackets of the heading.
                 start = f'FIND("[",{head})+1'
                 symbol = f'TRIM(MID({head},{start},FIND("]",{head})-({start})))'
             else:
@@ -181,6 +182,7 @@ def _write_names(book: Workbook, sheet: Worksheet, tables: layout.Tables, row: i
         style.put(sheet, at, 1, said)
         style.put_answer(sheet.cell(at, 2), formula)
         layout.name_cell(name, sheet, at, 2)
+    # A dropdown shows the blanks of its range, too: the names are as many as are in use.
     first = f"{TABLES}!$A${top},0,0"
     for name, length in (("names", "name_count"), ("array_names", "array_count")):
         reach = f"MIN({MOST_NAMES},MAX(1,live_{length}))"

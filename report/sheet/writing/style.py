@@ -236,6 +236,7 @@ def _number_rule(entry: Entry, si: float) -> DataValidation:
         rule.operator = "greaterThan" if bounds.excludes_low else "greaterThanOrEqual"
         rule.formula1 = f"{bounds.low / si:.9g}"
         return rule
+    # The rule `between` needs two numbers.
     low, high = max(bounds.low / si, -NUMBER_LIMIT), min(bounds.high / si, NUMBER_LIMIT)
     rule.operator, rule.formula1, rule.formula2 = "between", f"{low:.9g}", f"{high:.9g}"
     return rule
@@ -251,6 +252,7 @@ def finish(sheet: Worksheet, is_us: bool) -> None:
     sheet.sheet_view.zoomScale = 100
     page = sheet.page_setup
     page.orientation, page.scale = "landscape", _ZOOM
+    # Letter, or A4, by the numbers of the file format.
     page.paperSize = 1 if is_us else 9
     shown = (column for column in sheet.column_dimensions.values() if not column.hidden)
     if sheet.tables and sum(column.width for column in shown) > _WIDEST:
