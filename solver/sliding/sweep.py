@@ -169,9 +169,8 @@ def sweep(
         g_mps2=g,
     )
     raise_any(overflow(largest))
-    if ay.size:
-        return _run_in_plane(largest, axes, factor, progress or (lambda share: None))
-    return _run(ax, az, dt, g, axes, factor, progress or (lambda share: None))
+    follow = _run_in_plane if ay.size else _run
+    return follow(largest, axes, factor, progress or (lambda share: None))
 
 
 def _run_in_plane(
@@ -181,9 +180,8 @@ def _run_in_plane(
 
     def run(each: tuple[float, float, float]) -> SlideResult:
         slope, mu, scale = map(float, each)
-        friction = coulomb(mu)
         return two_axes.run(
-            replace(scene, slope_rad=slope, friction=friction, scale=factor * scale)
+            replace(scene, slope_rad=slope, friction=coulomb(mu), scale=factor * scale)
         )
 
     results: list[SlideResult] = []
@@ -221,15 +219,10 @@ def axis(name: str, values: ArrayLike, above: float, below: float, problems: lis
 
 
 def _run(
-    ax: Floats,
-    az: Floats,
-    dt: float,
-    g: float,
-    axes: list[Floats],
-    factor: float,
-    progress: Callable[[float], None],
+    scene: Scene, axes: list[Floats], factor: float, progress: Callable[[float], None]
 ) -> Sweep:
     slopes, mus, scales = axes
+    ax, az = scene.ax_mps2, scene.az_mps2
     x = one_axis.bounds(ax)
     up, z = (az, one_axis.bounds(az)) if az.size else (None, None)
     grid = np.meshgrid(slopes, mus, factor * scales, indexing="ij")
@@ -238,7 +231,7 @@ def _run(
 
     def run(chosen: NDArray[np.intp]) -> None:
         out = np.empty((chosen.size, 4))
-        one_axis.sweep_exact(ax, up, x, z, dt, g, scenes[chosen], out)
+        one_axis.sweep_exact(ax, up, x, z, scene.dt_s, scene.g_mps2, scenes[chosen], out)
         outcomes[chosen] = out
 
     # The kernel lets go of the lock of Python, so threads run side by side.
