@@ -179,7 +179,6 @@ class SlideResult:
 
     @property
     def _values(self) -> tuple[object, ...]:
-        # NaN differs from itself.
         return tuple(None if value != value else value for value in astuple(self))
 
 
@@ -264,7 +263,6 @@ class Friction:
 
     def at(self, speed_mps: float) -> float:
         """Return the coefficient at a sliding speed [m/s]."""
-        # Eq. 2.
         drop = self.mu_fast - self.mu_slow
         return self.mu_fast - drop * math.exp(-self.rate_s_per_m * speed_mps)
 
