@@ -103,6 +103,9 @@ LONGEST = 12
 
 # A name within a longer word or a path is another name.
 _BEFORE, _AFTER = r"(?<![\w/\\.-])", r"(?![\w/\\]|[.-]\w)"
+# Before a key that stands for a name: `[1]` as somebody typed it has none. No text has a NUL.
+_MARK = "\0"
+_LISTED = re.compile(r"\0\[\d+\](?:, \0\[\d+\])*")
 # What is printed as it was entered, with all within; and what is no text.
 _KEPT = r"""<(\w+)[^>]*\stranslate="no"[^>]*>.*?</\1>|<[^>]*>"""
 
@@ -138,8 +141,8 @@ class Names:
         keys = self._written
         if not keys:
             return text
-        one = _any_of(keys)
-        return re.sub(f"{one}(?:, {one})*", lambda names: _keyed(names[0], one, keys), text)
+        any_of = _any_of(keys)
+        return _ranged_keys(re.compile(any_of).sub(lambda match: _MARK + keys[match[0]], text))
 
     def in_html(self, html: str) -> str:
         """Return a document with the keys of the names in its texts.
@@ -148,21 +151,23 @@ class Names:
         """
         if not self.keys:
             return html
-        keys = {str(escape(name)): key for name, key in self._written.items()}
+        keys = {str(escape(name)): _MARK + key for name, key in self._written.items()}
         head, body, rest = html.partition("<body")
-        one = _any_of(keys)
-        pattern = re.compile(f"{_KEPT}|(?P<names>{one}(?:, {one})*)", re.DOTALL)
-        return head + pattern.sub(
-            lambda match: _keyed(match[0], one, keys) if match["names"] else match[0], body + rest
-        )
+        any_of = rf"{_KEPT}|{_any_of(keys)}"
+        pattern = re.compile(any_of, re.DOTALL)
+        body = pattern.sub(lambda match: keys.get(match[0], match[0]), body + rest)
+        return head + _ranged_keys(body)
 
 
-def _keyed(names: str, one: str, keys: Mapping[str, str]) -> str:
-    """Return the keys of listed names: three or more that count on are a range of keys."""
-    text = re.sub(one, lambda name: keys[name[0]], names)
-    numbers = re.findall(r"\d+", text)
+def _ranged_keys(text: str) -> str:
+    """Return a text without the marks; three or more keys of a list that count on are a range."""
+
     # Names that end in words are no range, as "A1 to A6" is; their keys are.
-    return text if len(numbers) < 3 else re.sub(r"\d+", r"[\g<0>]", ranged(numbers))
+    def shorter(keys: re.Match[str]) -> str:
+        numbers = re.findall(r"\d+", keys[0])
+        return re.sub(r"\d+", r"[\g<0>]", ranged(numbers)) if len(numbers) > 2 else keys[0]
+
+    return _LISTED.sub(shorter, text).replace(_MARK, "")
 
 
 def _any_of(names: Iterable[str]) -> str:
