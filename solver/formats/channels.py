@@ -8,7 +8,7 @@ from __future__ import annotations
 import datetime as dt
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 
@@ -304,14 +304,14 @@ def check_only_blank(source: Source, first: int, stop: int, before: str) -> None
 
 
 def end_of_values(
-    source: Source, lines: range, mark: re.Pattern[str], words: str, of: str
+    source: Source, lines: range, is_mark: Callable[[str], object], words: str, of: str
 ) -> tuple[int, tuple[str, ...]]:
     """Index of the line that ends the values of a series or a channel, with a note if none does.
 
     Nothing but blank lines may follow it. The words are those of the mark and of its place.
     """
     for index in lines:
-        if mark.match(source.lines[index]):
+        if is_mark(source.lines[index]):
             check_only_blank(source, index + 1, lines.stop, f"the end of a {of}")
             return index, ()
     note = f"no end-of-data line{words} follows the values: the file may be truncated"

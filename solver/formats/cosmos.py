@@ -50,7 +50,7 @@ _BLOCKS = (
     (_REALS, 2, _REAL_NUMBERS),
     (_COMMENTS, 1, "comment"),
 )
-_END = re.compile(r"\s*END-OF-DATA", re.IGNORECASE), "", "series"
+_END = re.compile(r"\s*END-OF-DATA", re.IGNORECASE)
 # The line of the sensor, such as `Sta Chan 1: 360 deg (Rcrdr Chan 1) Location: Roof`.
 _NAME = re.compile(r"\s*STA\s+CHA", re.IGNORECASE)
 
@@ -149,7 +149,7 @@ def _channel(source: Source, part: _Part) -> channels.Channel:
     reals = _reals(source, part)
     dt_s = source.step(_step(part, reals))
     lines = range(part.at + 1, part.stop)
-    stop, notes = channels.end_of_values(source, lines, *_END)
+    stop, notes = channels.end_of_values(source, lines, _END.match, "", "series")
     if part.stop < len(source.lines):
         notes = ()  # another series follows at once
     block = Block(first=part.at + 1, stop=stop, count=int(line[1]), promised=part.at)

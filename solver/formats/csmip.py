@@ -36,7 +36,8 @@ from solver.records.record import unit_size
 _VOLUME_1 = re.compile(r"^\s*UNCORRECTED ACCELEROGRAM DATA", re.IGNORECASE)
 _VOLUME_2 = re.compile(r"^\s*CORRECTED ACCELEROGRAM\b", re.IGNORECASE)
 _VOLUME_3 = re.compile(r"^\s*RESPONSE AND FOURIER AMPLITUDE SPECTRA", re.IGNORECASE)
-_END = re.compile(r"\s*/&"), " (/&)", "channel"
+_END = re.compile(r"\s*/&")
+_ENDED = " (/&)", "channel"
 
 # 16I5 on 7 lines below the text, then 8F10.3.
 _WHOLE = 7
@@ -141,7 +142,8 @@ def _pair_values(source: Source, part: range) -> tuple[float, Floats, tuple[str,
         )
     scale = source.scale(unit[1][1], unit[0])
     first = part.start + _ONE.heading
-    stop, ended = channels.end_of_values(source, range(first, part.stop), *_END)
+    lines = range(first, part.stop)
+    stop, ended = channels.end_of_values(source, lines, _END.match, *_ENDED)
     block = Block(first=first, stop=stop, count=2 * int(points[1][1]), promised=points[0])
     pairs = fixed_values(source, block, _PAIRS).reshape(-1, 2)
     if len(pairs) < 2:
@@ -167,7 +169,8 @@ def _even_values(
     if line[4] and not layout:
         raise InputError(f"{source.at(at)}: found format ({line[4]}); give one as (8f10.3)")
     dt_s = source.step(_step(source, part, volume, at, line))
-    stop, ended = channels.end_of_values(source, range(at + 1, part.stop), *_END)
+    lines = range(at + 1, part.stop)
+    stop, ended = channels.end_of_values(source, lines, _END.match, *_ENDED)
     # Velocities and displacements follow the accelerations of volume 2.
     others = (i for i in range(at + 1, stop) if _SERIES.match(source.lines[i]))
     block = Block(first=at + 1, stop=next(others, stop), count=int(line[1]), promised=at)
