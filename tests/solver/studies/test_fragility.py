@@ -1,23 +1,216 @@
-"""Fragilities against another optimizer, closed forms, and the coverage of their intervals."""
+"""Capacities against dense scans; fragilities against theory and other optimizers."""
 
+import dataclasses
 import math
 
 import numpy as np
 import pytest
-from scipy.optimize import minimize
+from scipy.optimize import brentq, minimize, minimize_scalar
 from scipy.stats import goodness_of_fit, norm
 
 from nightly import by_day
-from solver.studies.capacity import Capacities
+from solver import solve
+from solver.model import coulomb
+from solver.studies.capacity import (
+    ACCURACY,
+    COARSE_SCAN,
+    SCAN,
+    Capacities,
+    Curve,
+    capacities,
+    maximum_searches,
+)
 from solver.studies.fragility import (
+    deviance,
     fit_lognormal,
+    fit_normals,
     fragility,
+    inverse_mills,
     lilliefors,
     lilliefors_critical,
     lilliefors_p,
+    log_likelihood,
 )
+from solver.studies.runs import Campaign, Runner, grid
+from studied import frozen, motion
 
-LEVELS = np.geomspace(0.25, 4.0, 20)
+G = 9.80665
+LEVELS = np.linspace(0.2, 2.4, 12)
+
+
+def curve_of(one, slope_deg, mu):
+    """The curve of a motion, prepared as a study prepares it."""
+    slope = math.radians(slope_deg)
+    runner = Runner(Campaign(motions=((one,),), cases=grid(1, [slope], [mu], [1.0])))
+    return Curve(tracks=runner.tracks[0], slope_rad=slope, mu=mu)
+
+
+def scenes(one, slope_deg, mu):
+    place = {"slope_rad": math.radians(slope_deg), "friction": coulomb(mu)}
+    return [one.scene(orientation, **place) for orientation in one.orientations]
+
+
+def single(one, slope_deg, mu, x):
+    """PRD of single runs, the largest of the orientations; NaN for none."""
+    scaled = dataclasses.replace(one, scale=one.scale * x)
+    found = [solve(scene).result for scene in scenes(scaled, slope_deg, mu)]
+    return max(r.prd_m for r in found) if all(r.status == "ok" for r in found) else math.nan
+
+
+def searched(curve, limit, levels=LEVELS, *, is_censoring=False):
+    """The capacity of one curve for one limit."""
+    (found,) = capacities([curve], [limit], levels, is_censoring=is_censoring)
+    return found
+
+
+def is_just_below(found, exact):
+    return found.intensity[0] <= exact <= found.intensity[0] * (1.0 + 1.1 * ACCURACY)
+
+
+@pytest.mark.parametrize(
+    ("letters", "slope", "mu", "limit"),
+    [("x", 2.0, 0.3, 0.02), ("x", 0.0, 0.5, 0.01), ("xz", 2.0, 0.4, 0.05), ("xz", 6.0, 0.3, 0.1)],
+)
+@pytest.mark.parametrize("number", range(2))
+def test_one_axis_capacity_is_the_first_of_a_dense_scan(letters, slope, mu, limit, number):
+    curve = curve_of(motion(number, letters), slope, mu)
+    found = searched(curve, limit)
+    x = np.linspace(1e-4, LEVELS[-1], 24_000)
+    beyond = x[~(curve.prd_m(x) <= limit)]
+    if not beyond.size:
+        assert (found.is_censored[0], found.intensity[0]) == (True, LEVELS[-1])
+        return
+    assert not found.is_censored[0]
+    at = found.intensity[0]
+    assert beyond[0] - (x[1] - x[0]) - ACCURACY * at <= at < beyond[0]
+    assert single(motion(number, letters), slope, mu, at) <= limit
+    assert not single(motion(number, letters), slope, mu, at * (1.0 + 1.1 * ACCURACY)) <= limit
+
+
+@pytest.mark.quick
+def test_two_axes_capacity_is_bracketed_by_single_runs_and_none_before_it_exceeds():
+    one = motion(1, "xyz")
+    at = searched(curve_of(one, 2.0, 0.4), 0.05).intensity[0]
+    assert LEVELS[0] < at < LEVELS[-1]
+    assert single(one, 2.0, 0.4, at) <= 0.05 < single(one, 2.0, 0.4, at * (1.0 + 1.1 * ACCURACY))
+    assert all(single(one, 2.0, 0.4, x) <= 0.05 for x in np.linspace(0.05, at, 15))
+
+
+class Formula:
+    """A curve in closed form whose slip begins at a tenth of an intensity."""
+
+    def __init__(self, prd_m):
+        self.prd_m = prd_m
+
+    def first_slip(self):
+        return 0.1
+
+
+def test_a_capacity_in_closed_form():
+    curve = Formula(lambda x: 0.1 * (x - 0.1) ** 2)
+    found = capacities([curve], [0.01, 0.1], LEVELS, is_censoring=False)
+    for one, exact in zip(found, (0.1 + math.sqrt(0.1), 1.1), strict=True):
+        assert is_just_below(one, exact)
+        assert not one.falls[0]
+
+
+@pytest.mark.parametrize("center", np.linspace(0.9, 0.95, 7))
+def test_a_curve_that_falls_again_counts_the_first_crossing_and_says_so(center):
+    """A peak between two levels that are both below the limit, and a rise beyond both."""
+
+    def prd(x):
+        return 0.05 * x + 0.02 * np.exp(-(((x - center) / 0.03) ** 2))
+
+    limit = 0.05 * center + 0.0195
+    exact = brentq(lambda x: prd(x) - limit, center - 0.06, center)
+    coarse = np.array([0.8, 1.05, 2.4])
+    assert (prd(coarse) <= limit).tolist() == [True, True, False]
+    found = searched(Formula(prd), limit, coarse)
+    assert found.falls[0]
+    assert is_just_below(found, exact)
+
+
+@pytest.mark.parametrize("letters", ["x", "xz", "xyz"])
+@pytest.mark.parametrize(("slope", "mu"), [(0.0, 0.3), (3.0, 0.5)])
+def test_slip_begins_where_the_forces_at_a_sample_reach_the_cone(letters, slope, mu):
+    """Per sample a quadratic in the intensity, |shear|^2 = (mu N)^2, solved in closed form."""
+    one = motion(2, letters)
+    sn, cs = math.sin(math.radians(slope)), math.cos(math.radians(slope))
+    least = math.inf
+    for scene in scenes(one, slope, mu):
+        ax, zero = scene.ax_mps2, np.zeros_like(scene.ax_mps2)
+        ay, az = (a if a.size else zero for a in (scene.ay_mps2, scene.az_mps2))
+        # Shear t0 + x t1 and normal force n0 + x n1 per mass; both orientations have both signs.
+        t0, n0 = G * sn, G * cs
+        for sign in (1.0, -1.0):
+            t1, n1 = az * sn - sign * ax * cs, az * cs + sign * ax * sn
+            a = t1**2 + ay**2 - (mu * n1) ** 2
+            b = 2.0 * (t0 * t1 - mu**2 * n0 * n1)
+            c = t0**2 - (mu * n0) ** 2
+            roots = np.concatenate(
+                [np.roots(row) for row in np.stack([a, b, c + zero], axis=-1) if np.any(row[:2])]
+            )
+            real = roots.real[(np.abs(roots.imag) < 1e-12) & (roots.real > 0.0)]
+            least = min(least, float(real.min()))
+    found = searched(curve_of(one, slope, mu), 0.0)
+    assert found.intensity[0] == pytest.approx(least, rel=1e-9)
+    assert not found.is_censored[0]
+
+
+@pytest.mark.quick
+def test_a_run_without_a_value_is_an_exceedance_or_censors_its_motion():
+    one = motion(1, "xz")
+    curve, levels = curve_of(one, 2.0, 0.6), np.linspace(0.5, 12.0, 24)
+    exceeding, censored = (
+        searched(curve, 1e6, levels, is_censoring=is_censoring) for is_censoring in (False, True)
+    )
+    assert (exceeding.is_censored[0], censored.is_censored[0]) == (False, True)
+    assert exceeding.intensity == censored.intensity
+    at = float(censored.intensity[0])
+    assert math.isfinite(single(one, 2.0, 0.6, at))
+    assert math.isnan(single(one, 2.0, 0.6, at * (1.0 + 1.1 * ACCURACY)))
+
+
+def test_a_record_of_zeros_and_a_slope_beyond_friction_have_the_ends_of_the_range():
+    still = dataclasses.replace(motion(1), ax_mps2=frozen(np.zeros(400)))
+    for limit in (0.0, 0.1):
+        found = searched(curve_of(still, 2.0, 0.4), limit)
+        assert (found.intensity[0], found.is_censored[0]) == (LEVELS[-1], True)
+        sliding = searched(curve_of(motion(1), 30.0, 0.4), limit)
+        assert sliding.intensity[0] == pytest.approx(0.0, abs=ACCURACY)
+
+
+@pytest.mark.parametrize("steps", [COARSE_SCAN, SCAN])
+@pytest.mark.parametrize("letters", ["x", "xz"])
+def test_the_intensities_of_a_search_are_counted_and_are_no_more_than_is_said(steps, letters):
+    for number in range(4):
+        ran = []
+
+        class Counted(Curve):
+            def prd_m(self, intensity, ran=ran):
+                ran.append(intensity.size)
+                return super().prd_m(intensity)
+
+        one = curve_of(motion(number, letters), 2.0, 0.4)
+        curve = Counted(tracks=one.tracks, slope_rad=one.slope_rad, mu=one.mu)
+        limits = [0.0, 0.02, 0.2]
+        for capacity in capacities([curve], limits, LEVELS, is_censoring=False, steps=steps):
+            assert capacity.searched.tolist() == [sum(ran)]
+        assert 0 < sum(ran) <= maximum_searches(limits, LEVELS, steps)
+
+
+@pytest.mark.parametrize("most", [0, 1, 3, 5])
+@pytest.mark.quick
+def test_a_search_that_may_run_no_more_takes_the_capacity_from_below(monkeypatch, most):
+    monkeypatch.setattr("solver.studies.capacity.MOST_CLOSER", most)
+    curve, levels = Formula(lambda x: 0.08 * x * x), np.array([3.0])
+    (found,) = capacities([curve], [0.5], levels, is_censoring=False, steps=12)
+    assert found.searched[0] == 12 + most
+    assert 2.0 < found.intensity[0] < 2.5 * (1.0 - ACCURACY)
+    assert not found.falls[0]
+
+
+GRID = np.geomspace(0.25, 4.0, 20)
 
 
 def known(capacity, end=math.inf):
@@ -38,11 +231,11 @@ def drawn(rng, motions, beta, end=math.inf, theta=1.0):
 
 
 def fitted(found, seed=1):
-    exceeds = found.intensity[:, None] < LEVELS
-    return fragility(LEVELS, exceeds, np.ones_like(exceeds), found, seed=seed)
+    exceeds = found.intensity[:, None] < GRID
+    return fragility(GRID, exceeds, np.ones_like(exceeds), found, seed=seed)
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(4))
 @pytest.mark.quick
 def test_the_likelihood_of_censored_capacities_is_largest_as_another_optimizer_finds(seed):
     rng = np.random.default_rng(seed)
@@ -56,14 +249,6 @@ def test_the_likelihood_of_censored_capacities_is_largest_as_another_optimizer_f
     best = minimize(less, (0.0, -1.0), method="Nelder-Mead", options=finely)
     one = fit_lognormal(found)
     assert (math.log(one.theta), math.log(one.beta)) == pytest.approx(best.x, abs=1e-6)
-
-
-def test_uncensored_capacities_have_their_geometric_mean_and_the_deviation_of_fema_p58():
-    """Method A of Porter et al. 2007: the divisor of the squares is n - 1."""
-    found = drawn(4, 9, 0.2)
-    one, logs = fit_lognormal(found), np.log(found.intensity)
-    assert one.theta == pytest.approx(math.exp(logs.mean()), rel=1e-12)
-    assert one.beta == pytest.approx(logs.std(ddof=1), rel=1e-12)
 
 
 def test_the_exact_intervals_of_seven_capacities():
@@ -117,20 +302,13 @@ def test_the_same_seed_gives_the_same_interval():
     assert (one.theta_range, one.beta_range) == (two.theta_range, two.beta_range)
 
 
-def test_scaling_the_intensity_scales_the_median_alone():
-    one, two = (fitted(drawn(2, 20, 0.4, 1.3 * theta, theta)) for theta in (1.0, 3.0))
-    assert two.fitted.theta == pytest.approx(3.0 * one.fitted.theta, rel=1e-9)
-    assert two.fitted.beta == pytest.approx(one.fitted.beta, rel=1e-9)
-    assert np.array(two.theta_range) == pytest.approx(3.0 * np.array(one.theta_range), rel=1e-6)
-
-
 @pytest.mark.quick
 def test_a_censored_run_is_in_no_count_and_is_stated():
     found = drawn(3, 45, 0.4)
-    exceeds = found.intensity[:, None] <= LEVELS
+    exceeds = found.intensity[:, None] <= GRID
     counts = np.ones_like(exceeds)
     counts[4, -1] = counts[9, -1] = False
-    one = fragility(LEVELS, exceeds, counts, found, seed=1)
+    one = fragility(GRID, exceeds, counts, found, seed=1)
     assert (one.censored, one.counted[0], one.counted[-1]) == (2, 45, 43)
     assert one.exceeded[-1] <= 43
 
@@ -164,13 +342,67 @@ def test_the_p_value_is_that_of_the_formula_of_dallal_and_wilkinson(motions, p):
     assert lilliefors_p(d, motions) == pytest.approx(p, abs=0.006)
 
 
-def test_the_critical_value_is_where_the_p_value_reaches_5_percent():
-    at = lilliefors_critical(9)
-    assert lilliefors_p(at, 9) <= 0.05 < lilliefors_p(at * (1.0 - 1e-9), 9) + 1e-4
-
-
 @pytest.mark.quick
 def test_a_set_of_two_groups_is_no_lognormal_and_a_censored_one_has_no_p_value():
     groups = np.concatenate([np.linspace(0.5, 0.51, 10), np.linspace(2.0, 2.02, 10)])
     assert fitted(known(groups)).p_value < 0.001
     assert math.isnan(fitted(drawn(1, 20, 0.3, 1.0)).p_value)
+
+
+SETS = [
+    ([0.1, -0.3, 0.2, 0.4, 0.4], [0, 0, 0, 1, 1]),
+    ([0.1, -0.3, 0.2, 0.5, 0.4], [0, 0, 0, 0, 0]),
+    ([-2.0, 3.0, -1.9, -1.8, 9.0, 9.0, 9.0], [0, 0, 1, 1, 1, 1, 1]),
+    ([0.0, 0.01, 5.0, 5.0, 5.0, 5.0], [0, 0, 1, 1, 1, 1]),
+    ([0.1, 0.1, 0.4], [0, 0, 1]),
+    ([0.1, 0.2], [0, 1]),
+]
+
+
+ARRAYS = [(np.array([values]), np.array([flags], dtype=bool)) for values, flags in SETS]
+
+
+@pytest.mark.parametrize("one", ARRAYS[4:])
+def test_fewer_than_two_different_values_determine_none(one):
+    found = fit_normals(*one)
+    assert np.isnan([found.mean, found.deviation, found.of_mean, found.of_log]).all()
+
+
+def test_standard_errors_of_uncensored_values_are_those_of_theory():
+    found = fit_normals(*ARRAYS[1])
+    assert found.of_mean == pytest.approx(found.deviation / math.sqrt(5), rel=1e-12)
+    assert found.of_log == pytest.approx(1.0 / math.sqrt(10), rel=1e-12)
+
+
+@pytest.mark.parametrize("one", ARRAYS[:4])
+@pytest.mark.parametrize("off", [-1.5, 0.0, 0.7, 4.0])
+def test_the_likelihood_of_a_mean_is_largest_as_another_optimizer_finds(one, off):
+    y, flags = one
+
+    def less(log_deviation, mean):
+        z = (y - mean) / math.exp(log_deviation)
+        return -np.sum(np.where(flags, norm.logsf(z), norm.logpdf(z) - log_deviation))
+
+    found = fit_normals(y, flags)
+    mean = float(found.mean[0])
+    best = minimize_scalar(less, args=(mean + off,), bounds=(-8, 8), options={"xatol": 1e-10})
+    own = less(math.log(found.deviation[0]), mean)
+    assert log_likelihood(y, flags, found.mean, 1.0 / found.deviation) == pytest.approx(-own)
+    assert deviance(y, flags, mean + off, found)[0] == pytest.approx(
+        2.0 * (best.fun - own), abs=1e-8
+    )
+
+
+def test_tails_are_finite_far_out():
+    for z in (-40.0, -30.0, 0.0, 40.0):
+        assert np.isfinite(inverse_mills(z))
+    assert inverse_mills(-1e4) == pytest.approx(1e4, rel=1e-7)
+
+
+def test_rows_without_a_fit_are_nan():
+    y, flags = np.array([[0.0, 1.0, 2.0], [1.0, 1.0, 1.0]]), np.zeros((2, 3), dtype=bool)
+    found = fit_normals(y, flags)
+    assert found.mean[0] == 1.0
+    deviances = deviance(y, flags, 1.0, found)
+    assert deviances[0] == pytest.approx(0.0, abs=1e-12)
+    assert np.isnan([found.mean[1], found.of_mean[1], deviances[1]]).all()

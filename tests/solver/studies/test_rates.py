@@ -1,11 +1,27 @@
-"""Annual rates of displacement: closed forms, curves that end, shares and bands."""
+"""Annual rates of displacement and lives of a roof: closed forms and independent simulations."""
 
+import dataclasses
 import math
 
 import numpy as np
 import pytest
 from scipy.special import ndtri
 
+from solver import solve
+from solver.kernels import lives as kernel
+from solver.model import coulomb
+from solver.studies.lives import (
+    BELOW_UPLIFT,
+    RESPONSES,
+    Draws,
+    Responses,
+    distances,
+    draw,
+    life_statistics,
+    run_levels,
+    settled_responses,
+    uplift_intensity,
+)
 from solver.studies.rates import (
     LEAST_RATE,
     HazardCurve,
@@ -17,6 +33,8 @@ from solver.studies.rates import (
     probability,
     realizations,
 )
+from solver.studies.runs import Campaign, Runner, grid
+from studied import motion
 
 K0, K = 0.002, 2.5
 
@@ -130,3 +148,194 @@ def test_bands_hold_what_friction_and_motions_might_have_been():
 
 def test_a_rate_of_one_in_the_years_is_exceeded_in_63_percent():
     assert probability(1.0 / 50.0, 50.0) == pytest.approx(1.0 - math.exp(-1.0), rel=1e-14)
+
+
+LEVELS = np.geomspace(0.2, 8.0, 65)
+CURVE = HazardCurve(intensity=np.array([0.01, 100.0]), rate=0.02 * np.array([0.01, 100.0]) ** -2.0)
+YEARS = 25.0
+
+
+def responses(frictions=2, runs=6, *, is_plane=True):
+    """Displacements that grow with intensity, in several directions."""
+    rng = np.random.default_rng(3)
+    size = rng.uniform(0.5, 1.5, (frictions, runs, 1)) * 0.1 * (LEVELS - 0.2) ** 1.3
+    values = np.zeros((frictions, runs, LEVELS.size, 6))
+    angle = rng.uniform(-np.pi, np.pi, (frictions, runs, 1)) if is_plane else 0.0
+    down, up = size * rng.uniform(0.3, 1.0, (2, frictions, runs, 1))
+    values[..., kernel.DOWN], values[..., kernel.UP] = down, up
+    values[..., kernel.ACROSS] = size * np.abs(np.sin(angle))
+    values[..., kernel.RESIDUAL] = 0.8 * down * np.cos(angle) - (0.5 * up if not is_plane else 0.0)
+    values[..., kernel.RESIDUAL_ACROSS] = 0.7 * size * np.sin(angle)
+    # The PRD of a path is at most the distance of a corner of the rectangle around it.
+    corner = np.hypot(np.maximum(down, up), values[..., kernel.ACROSS])
+    values[..., kernel.PRD] = 0.9 * corner if is_plane else np.maximum(down, up)
+    return Responses(levels=np.tile(LEVELS, (runs, 1)), values=values)
+
+
+def drawn(rng=None, *, runs=6, frictions=2, lives=100_000, years=YEARS):
+    rng = rng or np.random.default_rng(1)
+    low, top = LEVELS[0], LEVELS[-1]
+    return draw(
+        rng, CURVE, low=low, top=top, runs=runs, frictions=frictions, years=years, lives=lives
+    )
+
+
+def in_numpy(draws, given, recenter_m):
+    """The largest and the last distance of each life, event by event over all lives at once."""
+    counts = np.diff(draws.first)
+    place, largest = np.zeros((counts.size, 2)), np.zeros(counts.size)
+    for number in range(counts.max()):
+        alive = np.flatnonzero(counts > number)
+        event = draws.first[alive] + number
+        of = given.values[draws.friction[alive], draws.run[event]]
+        at = np.array(
+            [
+                [np.interp(x, LEVELS, rows[:, k]) for k in range(6)]
+                for x, rows in zip(draws.intensity[event], of, strict=True)
+            ]
+        )
+        prd, down, up, across, along, sideways = at.T
+        here = place[alive]
+        box = np.stack([np.abs(here[:, 0] + down), np.abs(here[:, 0] - up)]).max(axis=0)
+        corner = np.sqrt(box**2 + (np.abs(here[:, 1]) + across) ** 2)
+        far = np.minimum(np.sqrt((here**2).sum(axis=1)) + prd, corner)
+        far[~np.isfinite(draws.intensity[event])] = np.inf
+        largest[alive] = np.maximum(largest[alive], far)
+        here = here + np.stack([along, draws.side[event] * sideways], axis=1)
+        here[np.sqrt((here**2).sum(axis=1)) > recenter_m] = 0.0
+        place[alive] = here
+    last = np.sqrt((place**2).sum(axis=1))
+    last[np.isinf(largest)] = np.inf
+    return np.stack([largest, last])
+
+
+@pytest.mark.parametrize(
+    ("recenter_m", "is_plane"), [(math.inf, True), (0.15, True), (0.0, True), (math.inf, False)]
+)
+def test_a_simulation_in_numpy_has_the_same_lives(recenter_m, is_plane):
+    draws, given = drawn(lives=600), responses(is_plane=is_plane)
+    assert np.isinf(draws.intensity).any() or np.diff(draws.first).max() > 10
+    expected = in_numpy(draws, given, recenter_m)
+    assert distances(draws, given, recenter_m) == pytest.approx(expected, rel=1e-12)
+
+
+def test_one_event_alone_has_the_displacements_of_the_hazard_curve():
+    given = responses()
+    limits = np.array([0.05, 0.2, 0.6])
+    rates = exceedance_rates(CURVE, LEVELS, given.prd_m, limits).mean(axis=(1, 2))
+    draws = drawn()
+    one = np.arange(draws.intensity.size + 1)
+    each = Draws(
+        first=one,
+        friction=np.repeat(draws.friction, np.diff(draws.first)),
+        run=draws.run,
+        side=draws.side,
+        intensity=draws.intensity,
+    )
+    for recenter_m in (math.inf, 0.0):
+        largest, _ = distances(each, given, recenter_m)
+        share = (largest[:, None] > limits).mean(axis=0)
+        expected = rates / CURVE.at(LEVELS[:1])[0]
+        assert (np.abs(share - expected) < 4.0 * np.sqrt(expected / largest.size)).all()
+
+
+def test_equal_events_have_the_mean_of_a_renewal_process():
+    """Put back after every third event: by the roots of unity of a Poisson number modulo 3."""
+    values = np.zeros((1, 1, LEVELS.size, 6))
+    values[..., [kernel.PRD, kernel.DOWN, kernel.RESIDUAL]] = 0.1
+    draws = drawn(runs=1, frictions=1, lives=400_000, years=2.0)
+    _, last = distances(draws, Responses(levels=LEVELS[None], values=values), 0.25)
+    mean_events = 2.0 * CURVE.at(LEVELS[:1])[0]
+    roots = np.exp(2j * np.pi * np.arange(3) / 3)
+    of_rest = [(np.exp(mean_events * (roots - 1.0)) * roots**-j).mean().real for j in range(3)]
+    # What is beyond the levels counts as without a value, once in 40,000 events.
+    known = np.isfinite(last)
+    assert last[known].mean() == pytest.approx(0.1 * of_rest[1] + 0.2 * of_rest[2], rel=5e-3)
+    # Without re-centering each event adds its residual (Wald).
+    _, last = distances(draws, Responses(levels=LEVELS[None], values=values), math.inf)
+    assert last[known].mean() == pytest.approx(0.1 * mean_events, rel=5e-3)
+
+
+def test_an_event_without_a_value_leaves_its_life_without_a_distance():
+    given = responses()
+    given.values[0, :, 40:] = np.nan
+    draws = drawn()
+    found = distances(draws, given, 0.0)
+    has_event = np.diff(draws.first) > 0
+    worst = np.maximum.reduceat(np.append(draws.intensity, 0.0), draws.first[:-1])
+    lost = has_event & (draws.friction == 0) & (worst > LEVELS[39])
+    assert np.isinf(found[:, lost & np.isfinite(worst)]).all()
+    statistics = life_statistics(found[0], 0.1)
+    assert statistics.without_value == pytest.approx(np.isinf(found[0]).mean(), abs=1e-12)
+    assert statistics.beyond >= statistics.without_value > 0.0
+    assert statistics.mean_m == found[0][np.isfinite(found[0])].mean()
+
+
+def test_responses_are_those_of_single_runs():
+    given = Campaign(motions=((motion(1, "xyz"),),), cases=grid(1, [0.0], [0.3], [1.0]))
+    tracks, levels = Runner(given).tracks[0], np.array([0.4, 0.9])
+    found = run_levels(tracks, 0.03, [0.3, 0.4], np.tile(levels, (4, 1)))
+    assert found.shape == (2, 4, 2, 6)
+    orientation = given.motions[0][0].orientations[2]
+    one = dataclasses.replace(given.motions[0][0], scale=0.9)
+    single = solve(one.scene(orientation, slope_rad=0.03, friction=coulomb(0.4))).result
+    assert found[1, 2, 1].tolist() == [getattr(single, name) for name in RESPONSES]
+    assert np.abs(found[..., kernel.RESIDUAL_ACROSS]).max() > 0.0
+
+
+def test_a_block_lifts_off_from_its_intensity_on():
+    given = Campaign(motions=((motion(1, "xz"),),), cases=grid(1, [0.0], [0.3], [1.0]))
+    track = Runner(given).tracks[0][0]
+    most = uplift_intensity(track, 0.05)
+    runs = [
+        solve(
+            dataclasses.replace(given.motions[0][0], scale=share * most).scene(
+                given.motions[0][0].orientations[0], slope_rad=0.05, friction=coulomb(0.3)
+            )
+        ).result.status.name
+        for share in (0.999, 1.001)
+    ]
+    assert runs[0] != "UPLIFT"
+    assert runs[1] == "UPLIFT"
+    ends = np.array([[BELOW_UPLIFT * most, BELOW_UPLIFT * most, 1.001 * most]])
+    found = run_levels([track], 0.05, [0.3], ends)[0, 0]
+    assert np.isfinite(found[0]).all()
+    assert (found[0] == found[1]).all()
+    assert np.isnan(found[2]).all()
+    level = Campaign(motions=((motion(1, "x"),),), cases=grid(1, [0.0], [0.3], [1.0]))
+    assert uplift_intensity(Runner(level).tracks[0][0], 0.0) == math.inf
+
+
+def test_levels_are_halved_until_the_results_settle():
+    calls = []
+
+    def run(levels):
+        calls.append(levels.shape[1])
+        return np.repeat((levels**3)[None, :, :, None], 6, axis=3)
+
+    def measured(given):
+        middle = np.interp(2.345, given.levels[0], given.prd_m[0, 0])
+        return np.array([middle, 0.0, math.inf])
+
+    given, change = settled_responses(run, 0.01, np.array([100.0, 30.0]), measured)
+    assert calls == [17, 16, 32]
+    assert given.levels.shape == (2, 65)
+    assert given.levels[1].max() == 30.0
+    assert change < 0.005
+    assert given.prd_m[0] == pytest.approx(given.levels**3, rel=1e-12)
+
+
+def test_a_run_that_ends_exceeds_every_limit_from_its_end_on():
+    """Not from the level below it: the intensity of uplift is known."""
+    ends = np.array([100.0, 3.0])
+    levels = np.minimum(np.geomspace(0.2, 100.0, 12), ends[:, None])
+    values = np.repeat((0.1 * levels)[None, :, :, None], 6, axis=3)
+    given = Responses(levels=levels, values=values)
+    first, second = exceedance_rates(CURVE, levels, given.prd_m, np.array([0.25, 9.0]))[:, 0].T
+    assert first == pytest.approx(CURVE.at(np.array([2.5, 90.0])), rel=1e-12)
+    assert second == pytest.approx(CURVE.at(np.array([2.5, 3.0])), rel=1e-12)
+    each = np.arange(5)
+    draws = Draws(first=each, friction=np.zeros(4, dtype=int), run=np.array([0, 1, 0, 1]),
+                  side=np.ones(4), intensity=np.array([3.1, 3.1, 2.9, 2.9]))  # fmt: skip
+    largest, _ = distances(draws, given, math.inf)
+    assert largest == pytest.approx([0.31, math.inf, 0.29, 0.29], rel=1e-12)

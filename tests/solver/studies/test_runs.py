@@ -1,21 +1,29 @@
-"""Every row of a part is the solution of its case by `solver.solve`, to the bit."""
+"""Parts and studies in memory: every row is the solution of its case, to the bit."""
 
 import math
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
 
-from solver import solve
-from solver.model import Status, coulomb
-from solver.sliding.least_model import Model
-from solver.sliding.sweep import sweep
-from solver.studies.curves import first_allowed
-from solver.studies.runs import LENGTHS, STATUSES, Campaign, Runner, cases_of, grid, run_part
+import solver
+from solver import InputError, Model, Status, coulomb, solve
+from solver.studies import runs as made
+from solver.studies.curves import first_allowed, statistics
+from solver.studies.runs import (
+    LENGTHS,
+    STATUSES,
+    Campaign,
+    Runner,
+    cases_of,
+    grid,
+    run_part,
+)
 from solver.verification.paper_studies import MUS as PAPER_MUS
 from solver.verification.paper_studies import PPAS_G, SLOPES_DEG, design_curves
 from solver.verification.study import own_records, scale_to
-from studied import INTENSITIES, MUS, SLOPES, campaign, motion
+from studied import campaign, motion
 
 pytestmark = pytest.mark.quick
 
@@ -78,14 +86,6 @@ def test_rows_are_solutions_at_the_edge_of_uplift():
     list(assert_rows_agree(replace(c, cases=grid(1, [slope], [0.5], scales))))
 
 
-def test_a_part_without_vertical_agrees_with_a_sweep():
-    c = campaign("x", 1)
-    rows = run_all(c)
-    one = c.motions[0][0]
-    swept = sweep(one.ax_mps2, one.dt_s, slopes_rad=SLOPES, mus=MUS, scales=INTENSITIES)
-    np.testing.assert_array_equal(rows.lengths[0, :, 0], swept.prd_m.ravel())
-
-
 @pytest.mark.nightly
 def test_curves_are_those_of_the_paper_procedure():
     """Figs. 10 to 12: both signs of the slope are both polarities of the record."""
@@ -103,7 +103,139 @@ def test_curves_are_those_of_the_paper_procedure():
     assert least == pytest.approx(expected, rel=1e-9)
 
 
-def test_no_slip_has_no_displacement():
-    c = campaign("xz", 1)
-    rows = run_all(c)
-    assert (rows.lengths[:, rows.model == Model.NO_SLIP] == 0.0).all()
+SCALES = {"slopes_rad": [0.0, 0.25], "mus": [0.2, 0.3, 0.5], "intensities": [0.5, 1.0]}
+
+
+@pytest.fixture(scope="module")
+def motions():
+    rng = np.random.default_rng(3)
+    rows = 6.0 * rng.standard_normal((4, 400)).cumsum(axis=1) / 20.0
+    rows *= np.sin(np.linspace(0.0, np.pi, 400))
+    rows[:, -60:] = 0.0
+    along = [
+        solver.motion(row, az_mps2=0.2 * row[::-1], dt_s=0.02, id=f"M{k}", signs=(1,))
+        for k, row in enumerate(rows[:3])
+    ]
+    return [*along, solver.motion(rows[3], rows[0], dt_s=0.02, id="both")]
+
+
+@pytest.fixture(scope="module")
+def runs(motions):
+    return solver.study(motions, **SCALES)
+
+
+def test_every_run_is_that_of_solve(motions, runs):
+    assert runs.prd_m.shape == (2, 3, 2, 4)
+    assert runs.lengths.shape == (5, 2, 3, 2, 3 + 4)
+    columns = [(one, each) for one in motions for each in one.orientations]
+    assert list(runs.runs) == [(one.id, each.name) for one, each in columns]
+    axes = (*SCALES.values(), columns)
+    for (i, slope), (j, mu), (k, level), (c, (given, each)) in product(*map(enumerate, axes)):
+        scene = replace(given, scale=level).scene(each, slope_rad=slope, friction=coulomb(mu))
+        one = solve(scene)
+        found = runs.lengths[:, i, j, k, c]
+        names = ("prd_m", "down_m", "up_m", "across_m", "residual_m")
+        np.testing.assert_array_equal(found, [getattr(one.result, name) for name in names])
+        assert tuple(Status)[runs.status[i, j, k, c]] is one.result.status
+        assert Model(runs.model[i, j, k, c]) is one.model
+
+
+def test_the_prd_of_a_motion_is_its_largest_and_unknown_where_a_run_is(runs):
+    final = runs.status == 0
+    assert not final.all()
+    expected = np.where(final, runs.lengths[0], np.nan)
+    np.testing.assert_array_equal(runs.prd_m[..., 0], expected[..., 0])
+    both = expected[..., 3:]
+    np.testing.assert_array_equal(
+        runs.prd_m[..., 3],
+        np.where(np.isnan(both).any(axis=-1), np.nan, np.fmax.reduce(both, axis=-1)),
+    )
+    np.testing.assert_array_equal(runs.statistics().mean_m, statistics(runs.prd_m).mean_m)
+    lost = f"{(~final).sum()} without a final value"
+    assert repr(runs).startswith(f"StudyRuns: {runs.status.size} runs, {lost}; slopes 2")
+
+
+def test_least_friction_is_read_off_the_mean(runs):
+    mean = runs.statistics().mean_m
+    allowed = 0.5 * (mean[0, 1, 0] + mean[0, 2, 0])
+    found = runs.minimum_friction(allowed)
+    assert found.shape == (2, 2)
+    assert found[0, 0] == pytest.approx(0.4)
+    assert np.isnan(runs.minimum_friction(0.0)).any()
+
+
+def test_a_fragility_is_fitted_to_the_first_exceedance_of_each_motion(motions):
+    levels = np.linspace(0.1, 3.0, 30)
+    # Those of one component and no vertical, whose PRD rises with intensity.
+    some = [solver.motion(m.ax_mps2, dt_s=m.dt_s, id=m.id, signs=(1,)) for m in motions[:3]]
+    study = solver.study(some, slopes_rad=[0.0], mus=[0.3], intensities=levels)
+    limit_m = 0.01
+    found = study.fragility(limit_m, slope_rad=0.0, mu=0.3)
+    for capacity, one in zip(found.capacities.intensity, some, strict=True):
+        below, above = (
+            solver.slide(one, scale=capacity * factor, slope_rad=0.0, mu=0.3).prd_m
+            for factor in (1.0, 1.0 + 1e-4)
+        )
+        assert below <= limit_m < above
+    logs = np.log(found.capacities.intensity)
+    assert found.fitted.theta == pytest.approx(np.exp(logs.mean()))
+    assert found.fitted.beta == pytest.approx(logs.std(ddof=1))
+    fit = f"median {found.fitted.theta:.4g}, dispersion {found.fitted.beta:.3g}"
+    assert repr(found) == f"Fragility: {fit}, 3 motions, 0 censored"
+    exceeded = ~(study.prd_m[0, 0] <= limit_m)
+    assert found.exceeded.tolist() == exceeded.sum(axis=1).tolist()
+
+
+def test_a_table_has_a_row_for_each_run(runs):
+    frame = runs.to_frame()
+    assert len(frame) == runs.status.size
+    row = frame.loc[(0.25, 0.3, 1.0, "both", "transverse −")]
+    at = (1, 1, 1, runs.runs.index(("both", "transverse −")))
+    assert row["slope_deg"] == pytest.approx(math.degrees(0.25))
+    assert row["prd_m"] == runs.lengths[0][at]
+    assert row["status"] == tuple(Status)[runs.status[at]].value
+    assert row["model"] == Model(runs.model[at]).title
+
+
+def test_a_record_is_a_motion_of_its_name():
+    pulse = solver.record_from_values("pulse", [0.0, 4.0, -4.0, 0.0, 0.0], units="m/s2", dt_s=0.1)
+    found, wanted = (
+        solver.study([given], slopes_rad=[0.0], mus=[0.2])
+        for given in (pulse, solver.motion(pulse))
+    )
+    assert found.motions[0].id == "pulse"
+    assert found.to_frame().equals(wanted.to_frame())
+
+
+def test_what_is_no_study_is_refused(motions):
+    with pytest.raises(InputError, match="motions is empty"):
+        solver.study([], slopes_rad=[0.0], mus=[0.3])
+    with pytest.raises(InputError, match="two motions have one name"):
+        solver.study([motions[0], motions[0]], slopes_rad=[0.0], mus=[0.3])
+    for wrong in ({"mus": [0.3, 0.2]}, {"mus": [0.0, 0.2]}, {"slopes_rad": [2.0]}):
+        with pytest.raises(InputError, match="give"):
+            solver.study(motions, **({"slopes_rad": [0.0], "mus": [0.3]} | wrong))
+
+
+@pytest.mark.parametrize("letters", ["x", "xz", "xyz"])
+def test_parts_cover_every_case_once_and_in_order(letters):
+    c = campaign(letters)
+    rows = np.arange(len(c.cases))
+    assert np.concatenate([rows[part] for part in c.parts]).tolist() == rows.tolist()
+    assert all(part.start < part.stop for part in c.parts)
+    assert c.parts == campaign(letters).parts
+
+
+def test_parts_have_about_as_many_cases():
+    c = campaign("x", mus=np.linspace(0.1, 0.8, 40), intensities=np.linspace(0.05, 2.0, 40))
+    sizes = [part.stop - part.start for part in c.parts]
+    assert len(sizes) == made.LEAST_PARTS
+    assert max(sizes) - min(sizes) <= 1
+
+
+@pytest.mark.parametrize(("letters", "limit"), [("x", "PART_ROWS"), ("xyz", "PLANE_PART_ROWS")])
+def test_no_part_has_more_rows_than_the_limit(letters, limit, monkeypatch):
+    monkeypatch.setattr(made, limit, 16)
+    c = campaign(letters)
+    assert max(part.stop - part.start for part in c.parts) * len(c.columns) <= 16
+    assert c.parts[-1].stop == len(c.cases)
