@@ -2,14 +2,27 @@
 
 import datetime as dt
 import json
+import re
+import shlex
+import shutil
 
 import pytest
+from openpyxl import load_workbook
 
 import packages
+import sheets
 from commands import as_json, printed, refused, run
 from inputs import LB
+from nightly import by_day
+from places import ROOT
+from report.assessment.assess import assess
 from report.assessment.precheck import findings
+from report.assessment.verdict import Verdict
 from report.motions.prepare import prepare
+from report.pages.summary import summary
+from report.sheet.schema.fields import Place
+from report.sheet.schema.scene import SIDES
+from report.text.units import LENGTHS, PRESSURES, WEIGHTS, Quantity, compared_pairs
 from sheets import arrays, at, make, project, read_workbook
 
 REASON = {"warning": "weight A1", "reason": "Frames alone, ballast by others"}
@@ -126,3 +139,187 @@ def test_report_as_json_has_arrays_causes_and_files(steep):
     assert "roof slope, analysis route, over its limit" in first["causes"]
     assert any(name.endswith("calc-package.pdf") for name in document["files"])
     assert {line["level"] for line in document["attention"]} >= {"NG", "warning"}
+
+
+SI = LENGTHS | WEIGHTS | PRESSURES
+NUMBER = re.compile(
+    r"(?:at least|at most|≥|≤|=|give|the friction coefficient,) (?:period T1, )?"
+    r"(?P<value>[\d,]*\d(?:\.\d+)?)(?:° \((?P<percent>[\d.]+) %\))? ?(?P<unit>[a-zA-Z]\w*)?"
+)
+BLANK = re.compile(r"leave (?:it|this|one of them) blank")
+
+# The projects that are altered, each with the cells that are.
+PROJECTS = {
+    "slack and strength": ("example", {
+        "Arrays/A1/Electrical slack": 10, "Arrays/A2/Electrical slack": None,
+        "Arrays/A3/Electrical slack": 47.3, "Arrays/A1/Interconnection strength": 100,
+        "Arrays/A2/Interconnection strength": None, "Arrays/A1/Weight in wind design": 30000,
+        **{f"Clearances/{number}/Provided clearance": 20 for number in (2, 4, 6)},
+    }),
+    "nothing given": ("conditions", {}),
+    "almost enough": ("conditions", {
+        "Arrays/A1/Interconnection strength": 2106, "Arrays/A1/Electrical slack": 21.5,
+    }),
+    "metric": ("school", {
+        "Arrays/A1/Electrical slack": 0.2, "Arrays/A2/Electrical slack": None,
+        "Arrays/A1/Interconnection strength": 10, "Clearances/2/Provided clearance": 100,
+    }),
+}  # fmt: skip
+
+
+@pytest.fixture
+def altered(tmp_path):
+    """A function that copies a project with other cells, to a folder with a blank in its name."""
+
+    def copied(source, cells):
+        folder = tmp_path / f"the {source}"
+        left_out = shutil.ignore_patterns("out", "make.py", "__pycache__")
+        shutil.copytree(ROOT / "projects" / source, folder, ignore=left_out)
+        return sheets.type_into(folder / "input.xlsx", cells)
+
+    return copied
+
+
+def assessed(path):
+    book = sheets.read_workbook(path)
+    return assess(book.sheet, book.shaking)
+
+
+def unit_of(sheet, at):
+    """The unit of a cell, as the heading of its column says."""
+    heads = (sheet.cell(row, sheet[at].column).value for row in range(sheet[at].row - 1, 0, -1))
+    return next(str(head) for head in heads if "[" in str(head)).partition("[")[2].partition("]")[0]
+
+
+def typed(book, cell, text):
+    """What is entered of a text such as `≥ 50.6 in (1285 mm)`, in the unit of its cell."""
+    if BLANK.search(text):
+        return None
+    found = NUMBER.search(text)
+    assert found, text
+    value, unit = float(found["value"].replace(",", "")), found["unit"]
+    title, at = cell.split("!")
+    if found["percent"]:
+        is_percent = book[title][at].offset(column=1).value == "percent"
+        return float(found["percent"]) if is_percent else value
+    return round(value * SI[unit] / SI[unit_of(book[title], at)], 9) if unit in SI else value
+
+
+def required(assessment):
+    """What is not satisfied and has a number: what it is, its cell, and the number as printed."""
+    for row in assessment.conditions:
+        if row.places and re.match(r"[≥=] [\d,.]+ \w", row.limit):
+            yield (row.id, row.subject), row.places[-1], row.limit
+    printed = "\n".join(summary(assessment))
+    for index, gap in enumerate(assessment.clearances):
+        if gap.verdict is Verdict.NG:
+            provided_m, us_first = gap.clearance.provided_m, assessment.project.us_first
+            least, _ = compared_pairs(gap.required_m, provided_m, Quantity.SIZE, us_first)
+            assert f"{least} required" in printed
+            yield ("clearance", index), Place("clearances", index, "provided_m"), f"≥ {least}"
+
+
+def unplaced(given, row):
+    """The cells of the object of a clearance in the plan, which a larger gap would contradict."""
+    ids = [each.id for each in given.project.objects]
+    index = ids.index(given.project.clearances[row].object)
+    return {given.sheet.addresses[Place("objects", index, side)]: None for side in SIDES}
+
+
+@pytest.mark.parametrize("name", PROJECTS)
+@pytest.mark.nightly
+def test_a_value_that_is_required_satisfies_as_it_is_printed(altered, name):
+    path = altered(*PROJECTS[name])
+    given, book = assessed(path), load_workbook(path)
+    asked, cells = list(required(given)), {}
+    for _, place, text in asked:
+        cell = given.sheet.addresses[place]
+        cells[cell] = typed(book, cell, text)
+        if place.section == "clearances":
+            cells |= unplaced(given, place.row)
+    assert asked
+    left = {key for key, _, _ in required(assessed(sheets.type_into(path, cells)))}
+    assert not left & {key for key, _, _ in asked}
+
+
+# Altered cells of a workbook, each with how many pieces of advice with a number are printed.
+CELLS = {
+    "limits": ({
+        "Site/Number of stories": 9, "Site/Fire code section": "2022 CFC, example section",
+        "Arrays/A1/Slope": 12.3, "Arrays/A1/CG height": 32.5, "Arrays/A2/Slope": 15,
+        "Arrays/A2/Support spacing": 40.17, "Arrays/A2/CG height": 20.1,
+    }, 4),
+    "importance": ({"Site/Risk category": "III"}, 1),
+    "hazard below its table": ({"Site/S_S": 2.4}, 1),
+    "edition": ({"Site/Rule set": "ASCE 7-22", "Site/Edition of ASCE 7": "ASCE 7-16"}, 1),
+    "two values that differ": ({"Site/S_MS": 2.0}, 1),
+    "period T2": ({
+        "Building/Period T1": 0.3, "Building/Period T2": 0.5, "Motions/M1/Recorded at": "ground",
+    }, 1),
+    "factor of a motion as recorded": ({"Motions/M1/Factor or PPA": 2}, 1),
+    "end time": ({"Motions/M2/Start time": 0.7, "Motions/M2/End time": 0.5}, 1),
+    "static friction": ({"Arrays/A1/Static friction": 0.4}, 1),
+    "friction above the tests": ({
+        f"Friction tests/{n}/{head}": value
+        for n, mu in enumerate((0.41, 0.412, 0.4113), start=1)
+        for head, value in (("Surface", "dry"), ("Run", n), ("Kinetic coefficient", mu))
+    }, 2),
+}  # fmt: skip
+
+
+PLACED = re.compile(r"\s*(?:warning: |note: )?(?P<cells>[A-Z][\w ]*![A-Z]+\d+[^:]*): (?P<text>.*)")
+CELL = re.compile(r"[A-Z][\w ]*![A-Z]+\d+")
+
+
+def advice(path):
+    """Cell, what it is, and the advice, of each line of `check` with something to enter."""
+    for line in run("check", path).output.splitlines():
+        found = PLACED.match(line)
+        text = found and re.search(r"\b(?:give|leave|at most|at least)\b.*", found["text"])
+        if text and (BLANK.search(text[0]) or NUMBER.search(text[0])):
+            what = re.split(": | is ", found["text"])[0]
+            yield from ((cell, what, text[0]) for cell in CELL.findall(found["cells"]))
+
+
+@pytest.mark.parametrize("name", by_day(CELLS, 3))
+def test_what_check_advises_is_accepted_as_it_is_printed(tmp_path, name):
+    cells, count = CELLS[name]
+    path = sheets.type_into(sheets.make(tmp_path), cells)
+    given, book = list(advice(path)), load_workbook(path)
+    assert len(given) >= count, given
+    # Of two limits on one cell the first is the smaller: it is entered last.
+    sheets.type_into(path, {cell: typed(book, cell, text) for cell, _, text in given[::-1]})
+    left = {(cell, what) for cell, what, _ in advice(path)}
+    assert not left & {(cell, what) for cell, what, _ in given}
+
+
+def commands(output):
+    """The commands that are printed, as a shell would take them apart."""
+    for text in re.findall(r"(?<![\w./-])roofslip ([a-z][^,;()\n]*)", output):
+        yield shlex.split(re.split(r" (?:restores|and) ", text)[0])
+
+
+@pytest.mark.nightly
+def test_each_command_that_is_printed_runs_as_it_is_pasted(altered, monkeypatch):
+    heads = ("Array", "Object", "Direction", "Provided clearance")
+    path = altered("conditions", {f"Clearances/2/{head}": None for head in heads})
+    monkeypatch.chdir(path.parent)
+    given = list(commands(run("check", path.parent).output))
+    assert given.pop() == ["report", str(path.parent)]
+    for words in given:
+        done = run(*words)
+        assert done.exit_code == 0, (words, done.output)
+        more = [each for each in commands(done.output) if each not in given]
+        given += [each for each in more if each[0] != "report"]
+    assert {" ".join(words[:2]) for words in given} >= {"plan clearances"}
+    after = run("check", path.parent).output
+    assert "have no row" not in after
+
+
+@pytest.mark.parametrize("content", [b"", b"PK"])
+@pytest.mark.quick
+def test_each_command_of_a_workbook_that_is_refused_runs(tmp_path, monkeypatch, content):
+    (tmp_path / "input.xlsx").write_bytes(content)
+    monkeypatch.chdir(tmp_path)
+    for words in commands(run("check", tmp_path).output):
+        assert run(*words).exit_code == 0, words

@@ -1,18 +1,26 @@
-"""The commands as a user or a script calls them."""
+"""The commands as a user or a script calls them: help, `new`, `check`, `report`, `doctor`."""
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 from zipfile import ZipFile
 
+import click
 import pytest
+from click.testing import CliRunner
+from openpyxl import load_workbook
 
 import packages
 import report.package.html
 from commands import printed, refused, run
 from places import ROOT
+from report.cli.main import NATIVE, main
+from report.cli.terminal import color_choice, colored
+from report.text.counts import as_typed
 from sheets import arrays, at, make, project
 
 EXAMPLE = ROOT / "projects" / "example"
@@ -63,14 +71,11 @@ def test_new_writes_a_workbook_and_never_overwrites_one(tmp_path):
     (tmp_path / "input.xlsx").symlink_to(tmp_path / "elsewhere.xlsx")
     assert "already exists" in refused("new", tmp_path)
     assert not (tmp_path / "elsewhere.xlsx").exists()
-
-
-def test_new_example_overwrites_no_records(tmp_path):
-    (tmp_path / "records").mkdir()
-    (tmp_path / "records" / "mine.csv").write_text("0,0")
-    told = refused("new", "--example", tmp_path)
+    (tmp_path / "job" / "records" / "mine.csv").write_text("0,0")
+    book.unlink()
+    told = refused("new", "--example", tmp_path / "job")
     assert "records: is not empty; choose another folder" in told
-    assert not (tmp_path / "input.xlsx").exists()
+    assert not book.exists()
 
 
 def test_new_example_writes_the_example_of_the_projects(tmp_path):
@@ -129,10 +134,7 @@ def test_a_rigid_block_that_is_not_adequate_is_ng(tmp_path):
     )
     with packages.unlaid():
         told = printed("report", book)
-    verdict = "NG: one rigid block has not been shown to be adequate for array A2"
-    assert verdict in told
-    (line,) = (text for text in told.splitlines() if text.startswith("A2 "))
-    assert line.endswith("NG: limits on the motions and 5 more")  # the block, four clearances
+    assert "NG: one rigid block has not been shown to be adequate for array A2" in told
     results = json.loads((tmp_path / "out" / "results.json").read_text())
     (row,) = results["linked"]
     assert results["verdict"] == "NG"
@@ -161,3 +163,133 @@ def test_since_a_former_revision_the_terminal_counts_and_the_package_lists(tmp_p
     assert "Friction coefficient" in words
     assert "of another project" not in told
     assert "--since is of another project: 99-1, Elsewhere; check that it is" in of_another
+
+
+VERDICT = "\x1b[31m\x1b[1mNG\x1b[0m"
+
+
+@pytest.mark.quick
+def test_the_help_lists_every_command_under_a_title_with_its_whole_first_sentence():
+    lines = printed("--help").splitlines()
+    titles = [line[:-1] for line in lines if re.fullmatch(r"[A-Z]\w+:", line)]
+    assert titles == ["Options", "Package", "Sheet", "Motions", "Studies", "Trust", "Installation"]
+    words = " ".join(" ".join(lines).split())
+    for name, command in main.commands.items():
+        first = " ".join(command.help.partition("\n\n")[0].split())
+        assert f" {name} {first}" in words
+    for group in ("motion", "plan"):
+        assert "..." not in printed(group, "--help").replace("[ARGS]...", "")
+
+
+def on_a_terminal(*words, env=None):
+    """What a command prints where its output keeps its colors, as on a terminal."""
+    return CliRunner(env=env).invoke(main, [str(word) for word in words], color=True).stdout
+
+
+def test_levels_and_verdicts_are_colored_on_a_terminal_alone(tmp_path):
+    book = make(tmp_path)
+    assert "\x1b[33mwarning\x1b[0m: " in on_a_terminal("check", book)
+    assert "\x1b" not in printed("check", book)
+    assert colored("A1  0.8 in  NG: slope") == f"A1  0.8 in  {VERDICT}: slope"
+    assert click.unstyle(colored("verdict: OK with conditions")) == "verdict: OK with conditions"
+    assert colored("verdict: OK with conditions").count("\x1b[33m") == 1
+    assert colored("a warning: TONG, BOOK, NORTH") == "a warning: TONG, BOOK, NORTH"
+
+
+@pytest.mark.parametrize(("name", "value"), [("NO_COLOR", "1"), ("TERM", "dumb")])
+def test_a_reader_may_want_no_color(tmp_path, monkeypatch, name, value):
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    monkeypatch.setenv("TERM", "xterm")
+    assert color_choice() is None
+    monkeypatch.setenv(name, value)
+    assert color_choice() is False
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+@pytest.mark.quick
+def test_completion_prints_the_script_of_a_shell(shell):
+    script = printed("completion", shell)
+    assert "_ROOFSLIP_COMPLETE" in script
+    assert f"{shell}_complete" in script
+
+
+def test_the_shell_is_told_commands_and_options(monkeypatch):
+    def completed(words, at):
+        env = {"_ROOFSLIP_COMPLETE": "bash_complete", "COMP_WORDS": words, "COMP_CWORD": str(at)}
+        return CliRunner(env=env).invoke(main, []).stdout.split()
+
+    assert completed("roofslip ver", 1) == ["plain,verify", "plain,verify-package"]
+    assert completed("roofslip motion su", 2) == ["plain,suite"]
+    assert completed("roofslip report --fa", 2) == ["plain,--fail-on-ng"]
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("rreport",), "No such command 'rreport'. Did you mean 'report'?"),
+        (("report", "x", "--fail-on"), "Did you mean"),
+        (("sign", "README.md", "--p12", "READNE.md"),
+         "'READNE.md' does not exist; did you mean 'README.md'?"),
+        (("check", "projects/exaample"), "did you mean 'projects/example'?"),
+    ],
+)  # fmt: skip
+def test_a_word_that_is_not_known_is_answered_with_the_nearest(monkeypatch, words, told):
+    monkeypatch.chdir(ROOT)
+    assert told in refused(*words)
+
+
+@pytest.mark.parametrize("typed", ["./roofslip", "'my programs/roofslip'"])
+def test_the_command_is_called_as_the_reader_typed_it(tmp_path, monkeypatch, typed):
+    monkeypatch.setenv("ROOFSLIP_COMMAND", typed.strip("'"))
+    assert f"then run: {typed} check {tmp_path}" in printed("new", tmp_path)
+    told = printed("check", make(tmp_path / "filled"))
+    assert told.splitlines()[-1].startswith(f"Next: {typed} report ")
+    assert as_typed("Run roofslip check FOLDER.") == f"Run {typed} check FOLDER."
+    assert as_typed("of Roofslip, roofslip.pdf") == "of Roofslip, roofslip.pdf"
+    book = load_workbook(tmp_path / "input.xlsx", read_only=True)
+    start = "\n".join(str(cell) for row in book["Start"].values for cell in row)
+    assert f"Run {typed} check FOLDER, which" in start
+
+
+@pytest.mark.nightly
+def test_with_everything_installed_it_says_so():
+    told = printed("doctor")
+    lines = told.splitlines()
+    names = [line.split("  ")[0] for line in lines]
+    assert {"Python", "cores", "numpy", "weasyprint", "fontconfig", "test run"} <= set(names)
+    assert any(re.match(r"test page +[\d,]+ bytes", line) for line in lines)
+    # 0.1 g x 0.8^2 / 6, in closed form.
+    assert any(line.startswith("test run") and "0.104604267 m" in line for line in lines)
+    assert lines[-1] == "Everything that a package needs is here."
+
+
+def test_missing_packages_and_libraries_are_named(monkeypatch):
+    monkeypatch.setitem(NATIVE, "no-such-library", "libnone0")
+    done = run("doctor")
+    assert done.exit_code == 1
+    assert done.stderr == "Error: no-such-library: install it: sudo apt-get install libnone0\n"
+    assert re.search(r"no-such-library +missing", done.stdout)
+    assert "Everything" not in done.stdout
+    needed = ["numpy", "no-such-package", "other-package; extra == 'sign'"]
+    monkeypatch.setattr("importlib.metadata.requires", lambda _: needed)
+    done = run("doctor")
+    assert done.exit_code == 1
+    assert "no-such-package: install it" in done.stderr
+    assert "other-package" not in done.output
+
+
+def test_a_broken_renderer_or_solver_is_a_finding(monkeypatch):
+    def broken(_):
+        raise OSError("cannot load library 'libpango-1.0-0'")
+
+    monkeypatch.setattr("report.typeset.pdf.lay_out", broken)
+    done = run("doctor")
+    assert re.search(r"test page +fails: cannot load library 'libpango-1.0-0'", done.stdout)
+    assert done.stderr == (
+        "Error: test page: install what is missing above, or the program again\n"
+    )
+    monkeypatch.setattr("solver.slide", lambda *_, **__: SimpleNamespace(prd_m=0.1))
+    done = run("doctor")
+    assert done.exit_code == 1
+    assert re.search(r"test run +fails: 0\.100000000 m", done.stdout)
+    assert done.stderr.startswith("Error: test run: remove .venv and run ./roofslip again")

@@ -19,7 +19,7 @@ import pytest
 
 from commands import hearing, printed, refused
 from places import ROOT
-from report.cli.serve import listen, names_of
+from report.cli.serve import names_of
 from report.web.access import ENTRY, KEY_HEADER, TOKEN_HEADER
 
 pytestmark = pytest.mark.quick
@@ -78,19 +78,12 @@ def test_the_server_answers_and_leaves_nothing_behind(tmp_path, end):
     command = [sys.executable, "-m", "report.cli", "serve", "--port", "0", "--no-browser"]
     command += ["--host", "127.0.0.1", "--token-file", str(token)]
     server = subprocess.Popen(
-        command,
-        preexec_fn=hearing(signal.SIGHUP),
-        cwd=ROOT,
+        command, preexec_fn=hearing(signal.SIGHUP), cwd=ROOT, stdout=PIPE, stderr=PIPE, text=True,
         env=os.environ | {"TMPDIR": str(tmp_path)},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
+    )  # fmt: skip
     try:
         address = server.stdout.readline().strip()
-        match = re.fullmatch(
-            r"(http://127\.0\.0\.1:\d+)/\?token=a-token-of-twenty-letters", address
-        )
+        match = re.fullmatch(rf"(http://127\.0\.0\.1:\d+)/\?token={TOKEN}", address)
         page = urllib.request.urlopen(address, timeout=WAIT_S)
         assert b"<title>" in page.read()
         for _ in range(2):  # the token of a file stays good
@@ -160,16 +153,6 @@ def test_a_server_that_ends_during_an_upload_prints_no_traceback(tmp_path):
         assert upload.getresponse().read() == b'{"error":"The server ends."}'
     assert "Traceback" not in told
     assert server.returncode == 0
-
-
-def test_a_short_answer_is_sent_at_once():
-    """Otherwise its body waits 40 ms for the acknowledgment of its head."""
-    with (
-        listen("127.0.0.1", 0) as listening,
-        socket.create_connection(listening.getsockname()),
-        listening.accept()[0] as accepted,
-    ):
-        assert accepted.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
 
 
 @pytest.mark.nightly

@@ -104,15 +104,9 @@ def broken(verification):
     lost = (work["method"] == "penalty-explicit") & (work["setting"] == 1e2)
     work.loc[lost, MEASURED], work.loc[lost, "status"] = math.nan, Status.DIVERGED
     peer = PeerPoint(
-        peer="Other",
-        model="one axis",
-        version="1.2",
-        record="motion-01-x",
-        scene="flat",
-        seconds=0.5,
-        prd_error_percent=1.25,
-        note="as its example",
-    )
+        peer="Other", model="one axis", version="1.2", record="motion-01-x", scene="flat",
+        seconds=0.5, prd_error_percent=1.25, note="as its example",
+    )  # fmt: skip
     no_peer = replace(peer, seconds=math.nan, prd_error_percent=math.nan, note="did not converge")
     checks = (first, wrong, *others)
     return replace(verification, checks=checks, work=work, peers=(peer, no_peer))
@@ -263,13 +257,6 @@ def test_a_failed_check_is_named_and_exits_1_with_the_outputs_written(failed, br
     assert (table["passed"] == "no").sum() == 1
 
 
-@pytest.mark.quick
-def test_a_folder_that_cannot_be_written_is_refused_before_any_run(tmp_path):
-    (tmp_path / "v").write_text("a file")
-    with verifying(lambda *_, **__: 1 / 0):
-        assert "choose another folder" in refused("verify", "--out", tmp_path / "v")
-
-
 def test_tests_of_a_shake_table_go_into_the_manual_and_decide_the_exit_code(
     tmp_path, quick, verification
 ):
@@ -299,9 +286,12 @@ def test_tests_of_a_shake_table_go_into_the_manual_and_decide_the_exit_code(
     assert [len(tests) for tests in given] == [5, 5]
 
 
-def test_a_fault_in_the_tests_of_a_shake_table_is_an_input_error_before_any_run(tmp_path):
+@pytest.mark.quick
+def test_a_folder_or_tests_of_a_shake_table_at_fault_are_refused_before_any_run(tmp_path):
+    (tmp_path / "v").write_text("a file")
     (tmp_path / "tests.csv").write_text("Test,Data\n")
     with verifying(lambda *_, **__: 1 / 0):
+        assert "choose another folder" in refused("verify", "--out", tmp_path / "v")
         told = refused("verify", "--table", tmp_path)
     assert "tests.csv, row 1: has no heading Source" in told
 
@@ -311,18 +301,13 @@ def test_a_fault_in_the_tests_of_a_shake_table_is_an_input_error_before_any_run(
     [
         (formats.scientific, 3.24e-15, "3.2 × 10⁻¹⁵"),
         (formats.scientific, 0.0, "0"),
-        (formats.scientific, math.nan, "—"),
         (formats.scientific, math.inf, "∞"),
-        (formats.scientific, 25.0, "2.5 × 10¹"),
-        (formats.percent, 0.0, "0 %"),
-        (formats.percent, 6.78, "6.78 %"),
         (formats.percent, 0.361, "0.361 %"),
         (formats.percent, 478.2, "478 %"),
         (formats.percent, math.nan, "—"),
         (formats.percent, 1e-6, "1.0 × 10⁻⁶ %"),
         (formats.seconds, 2.5, "2.5 s"),
         (formats.seconds, 0.0123, "12.3 ms"),
-        (formats.seconds, 3.7e-6, "3.7 µs"),
         (formats.seconds, 5e-8, "50 ns"),
         (formats.seconds, math.nan, "—"),
         (lettered, "mu = tan(theta), -0.3 m/s2, v0 a-1", "μ = tan(θ), −0.3 m/s², v₀ a-1"),
