@@ -45,6 +45,9 @@ CONFIRMED = {
         "code": "2022 CBC",
     },
 }
+SHIPPED = sorted(
+    {path.parent.name for path in (ROOT / "projects").glob("*/make.py")} - {"curves", "study"}
+)
 DEPARTURE = {
     "directional": True,
     "directional_reason": "Agreed on 2026-02-10",

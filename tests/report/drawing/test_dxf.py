@@ -1,26 +1,30 @@
 """The plan as DXF: read back as it was written, clean, and the same every time."""
 
 import io
+import itertools
 import math
 import os
 import re
 import subprocess
 import sys
 from dataclasses import replace
+from functools import cache
 
 import ezdxf
 import pytest
+from ezdxf.enums import TextEntityAlignment
+from ezdxf.fonts.fonts import make_font
+from ezdxf.math import BoundingBox2d, Vec2
 
 import scenes
 import stand_in
 from inputs import FT, sides
+from printed import printed
 from report.assessment.envelopes import design_envelope
 from report.assessment.plan_clearances import plan_gaps
 from report.drawing.items import APPLICATION, Layer, write_dxf
 from report.drawing.plan import gap_words, plan_drawing
 from report.sheet.schema.choices import UnitsFirst
-
-pytestmark = pytest.mark.quick
 
 
 @pytest.fixture(scope="module")
@@ -43,6 +47,7 @@ def read(data):
     return ezdxf.read(io.StringIO(data.decode("utf-8")))
 
 
+@pytest.mark.quick
 def test_texts_name_what_is_drawn_and_the_same_plan_gives_the_same_bytes(done):
     assert write_dxf(plan_drawing(done)) == write_dxf(plan_drawing(done))
     plan = plan_drawing(done)
@@ -77,6 +82,7 @@ def test_every_process_writes_the_same_bytes():
     assert len(written) == 1
 
 
+@pytest.mark.quick
 def test_the_auditor_finds_nothing_and_lines_texts_and_dimensions_are_read_back(plan, document):
     auditor = document.audit()
     assert not auditor.errors
@@ -100,6 +106,7 @@ def test_the_auditor_finds_nothing_and_lines_texts_and_dimensions_are_read_back(
     assert (style.dimtxt, chr(style.dimdsep), style.dimzin) == (plan.height, ".", 0)
 
 
+@pytest.mark.quick
 def test_each_kind_has_its_layer_and_each_text_shows_as_it_is(document, plan):
     assert {layer.title for layer in Layer} <= {layer.dxf.name for layer in document.layers}
     used = {entity.dxf.layer for entity in document.modelspace()}
@@ -149,3 +156,104 @@ def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_cl
         "A2 to S edge": Layer.CLEARANCE,
     }
     assert [line.name for line in plan.lines if line.layer is Layer.DESIGN] == ["A2"]
+
+
+@cache
+def crowded():
+    """Small arrays six inches apart, with long names, and a unit a foot from them."""
+    ids = [f"NORTHWEST CORNER OF THE UPPER ROOF {k}" for k in range(12)]
+    arrays = [
+        stand_in.array(name, 1.0)
+        | sides(8.5 * (k % 4), 8.5 * (k % 4) + 8, 8.5 * (k // 4), 8.5 * (k // 4) + 8)
+        for k, name in enumerate(ids)
+    ]
+    unit = stand_in.roof_object(
+        "MAKE-UP AIR UNIT OF THE KITCHEN", "fixed object", 34.5, 36, 3, 5, 1.2
+    )
+    return scenes.package(
+        arrays=arrays,
+        objects=[unit, stand_in.roof_object("E", "edge with parapet", 40, 40.5, 0, 26, 0.5)],
+        clearances=[
+            *(stand_in.clearance(near, far, 6.0) for near, far in itertools.pairwise(ids)),
+            stand_in.clearance(ids[3], unit["id"], 12.0),
+        ],
+    ).assessment
+
+
+@pytest.fixture(scope="module", params=[*scenes.SHIPPED, "unpermitted", "crowded"])
+def roof(request):
+    others = {"unpermitted": scenes.unpermitted, "crowded": crowded}
+    return others[request.param]() if request.param in others else scenes.shipped(request.param)
+
+
+@pytest.fixture(scope="module")
+def space(roof):
+    return ezdxf.read(io.StringIO(write_dxf(plan_drawing(roof)).decode())).modelspace()
+
+
+def texts(space):
+    """Return every text that a viewer shows, those of dimensions too."""
+    return [*space.query("TEXT"), *itertools.chain(*map(texts_of, space.query("DIMENSION")))]
+
+
+def texts_of(dimension):
+    return [part for part in dimension.get_geometry_block() if part.dxftype() == "MTEXT"]
+
+
+def box(text):
+    """Return where a text of one line is, which is centered in height."""
+    is_mtext = text.dxftype() == "MTEXT"
+    font = make_font(text.doc.styles.get(text.dxf.style).dxf.font,
+                     text.dxf.char_height if is_mtext else text.dxf.height)  # fmt: skip
+    wide, tall = font.text_width(text.plain_text()), font.measurements.total_height
+    at = text.dxf.insert if is_mtext else text.dxf.align_point
+    is_left = not is_mtext and text.get_align_enum() is TextEntityAlignment.MIDDLE_LEFT
+    corners = [
+        (x * wide, y * tall) for x in ((0, 1) if is_left else (-0.5, 0.5)) for y in (-0.5, 0.5)
+    ]
+    turn = text.dxf.get("rotation", 0.0)
+    return BoundingBox2d(at.vec2 + Vec2(corner).rotate_deg(turn) for corner in corners)
+
+
+def over(shown):
+    """Return the pairs of texts of which one is over the other."""
+    boxes = [(text.plain_text(), box(text)) for text in shown]
+    return [(a, b) for (a, one), (b, other) in itertools.combinations(boxes, 2)
+            if one.has_overlap(other)]  # fmt: skip
+
+
+def test_no_text_is_over_another_and_one_that_is_is_found(roof, space):
+    shown = texts(space)
+    assert len(shown) > 2 * len(list(plan_gaps(roof)))  # a dimension and a line of the list
+    assert over(shown) == []
+    first, second, *_ = texts(space)
+    moved = second.copy()
+    moved.dxf.insert = moved.dxf.align_point = first.dxf.align_point
+    assert over([first, moved]) == [(first.plain_text(), second.plain_text())]
+
+
+def test_every_gap_is_a_dimension_whose_text_is_that_of_the_schedule(roof, space):
+    unit = "in" if roof.project.us_first else "mm"
+    head = f"Prov’d [{unit}]"
+    tables = [table for table in printed(roof, "plan").tables if head in table.headings]
+    schedule = {row["No."]: row[head] for table in tables for row in table.rows}
+    assert len(schedule) == len(roof.clearances)
+    unit_m = 0.3048 if roof.project.us_first else 1.0
+    for gap, dimension in zip(plan_gaps(roof), space.query("DIMENSION"), strict=True):
+        given = f"{gap.number}: {schedule.get(str(gap.number))}"
+        start = given if gap.is_given else f"not given: {gap.provided_m / 0.0254:.1f}"
+        words = f"{start} {unit}" + " NG" * gap.is_ng
+        has_room = roof is not crowded() or dimension.dxf.text != " "
+        assert [text.plain_text() for text in texts_of(dimension)] == [words] * has_room
+        assert dimension.dxf.text == (words if has_room else " ")
+        assert dimension.get_measurement() == pytest.approx(math.dist(*gap.ends) / unit_m)
+
+
+def test_what_has_no_room_for_its_name_has_a_number_in_the_list(roof):
+    texts = plan_drawing(roof).texts
+    numbered = {text.of: text.words for text in texts if text.is_left and text.of}
+    ids = [array.id for array in roof.arrays] if roof is crowded() else []
+    assert numbered == {name: f"({k}) {name}" for k, name in enumerate(ids, start=1)}
+    named = {text.of: text.words for text in texts if not text.is_left}
+    assert [named[name] for name in ids] == [f"({k})" for k in range(1, len(ids) + 1)]
+    assert {array.id for array in roof.arrays} <= named.keys()

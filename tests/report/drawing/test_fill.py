@@ -177,18 +177,6 @@ def test_a_drawing_without_anything_known_lists_what_there_is(tmp_path):
     assert listed in output
 
 
-def test_a_layer_without_a_proposal_is_remembered_as_not_read(tmp_path):
-    sketch = Sketch()
-    sketch.ring("STRUCTURE", BOX_FT)
-    sketch.ring("PANELS", BOX_FT, "A1")
-    path, drawn = new(tmp_path), sketch.saved(tmp_path)
-    output = run(drawn, path, "--accept")
-    assert "not read: a closed line on a layer that is not in Layers: 1 on STRUCTURE" in output
-    assert "layer STRUCTURE: not read" in output
-    assert layers_of(path) == [("PANELS", "array"), ("STRUCTURE", "not read")]
-    assert "STRUCTURE" not in run(drawn, path, "--replace")
-
-
 def layers_of(path):
     return [(row["layer"], row["kind"].value) for row in read(path).draft["layers"]]
 
@@ -237,17 +225,6 @@ def test_layers_that_are_accepted_or_given_are_kept_on_the_sheet(tmp_path):
     assert layers_of(path)[0] == ("A-ROOF-TANK", "not read")
     assert len(layers_of(path)) == 5
     assert "A1: array, 4 vertices, 80.00 ft (24.38 m) by 30.00 ft (9.14 m) at 17° to the" in again
-
-
-@pytest.mark.nightly
-def test_without_the_sheet_layers_the_plan_is_filled_in_and_the_layers_are_not_kept(tmp_path):
-    path = make(tmp_path, clearances=[])
-    edit(path, lambda book: book.remove(book["Layers"]))
-    sketch = Sketch()
-    sketch.ring("PV_Modules", BOX_FT, "A9")
-    output = run(sketch.saved(tmp_path), tmp_path, "--accept")
-    assert "layer PV_Modules: array" in output
-    assert [row.get("id") for row in read(path).draft["arrays"]] == ["A1", "A2", "A9"]
 
 
 @pytest.mark.parametrize(
