@@ -147,7 +147,6 @@ def test_stiff_buildings_take_the_ground_to_the_roof_and_still_ground_stays_stil
     roof = to_roof(np.zeros(50), 0.01, building_of_periods([1.0]))
     assert roof.a_mps2.tolist() == [0.0] * 50
     assert (roof.n_modes, roof.pad_s, roof.roof_peak_mps2) == (0, 0.0, 0.0)
-    assert not roof.shares.any()
 
 
 def test_a_motion_goes_on_until_the_building_rests_and_no_longer(ground):
@@ -163,10 +162,6 @@ def test_a_motion_goes_on_until_the_building_rests_and_no_longer(ground):
     roof = to_roof(lengthened(ground, 9000), 0.01, building_of_periods([0.5]))
     assert roof.a_mps2.size == 8999 * round(0.01 / roof.dt_s) + 1
     assert roof.pad_s == 0.0
-    a = lengthened(ground, 9000)
-    roof = shaking_to_roof([a], a, 0.01, [building_of_periods([0.5], stories=1)])
-    assert roof.vertical_mps2.size == roof.horizontal[0].a_mps2.size == 9000
-    np.testing.assert_array_equal(roof.vertical_mps2, a)
 
 
 def test_the_step_is_refined_where_the_roof_would_swing_between_samples(ground):
@@ -262,32 +257,28 @@ def test_given_periods_and_modes_are_kept_up_to_the_stories():
             building_of_modes([0.8, 0.3], [0.05, 0.05], factors)
 
 
-@pytest.mark.parametrize(
-    ("alpha0", "stories", "words"),
-    [
-        (math.inf, 0, "uniform, in shear;"),
-        (0.0, 4, "4 equal stories, in bending;"),
-        (3.0, 0, "in shear and bending with a lateral stiffness ratio of 3;"),
-        (3.0, 1, "one story;"),
-    ],
-)
-def test_a_building_says_how_it_was_made(alpha0, stories, words):
-    assert words in building_of_periods([1.0], alpha0=alpha0, stories=stories).words
+def test_a_building_says_how_it_was_made():
+    for (alpha0, stories), words in {
+        (math.inf, 0): "uniform, in shear;",
+        (0.0, 4): "4 equal stories, in bending;",
+        (3.0, 0): "in shear and bending with a lateral stiffness ratio of 3;",
+        (3.0, 1): "one story;",
+    }.items():
+        assert words in building_of_periods([1.0], alpha0=alpha0, stories=stories).words
 
 
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
         ({"periods_s": [0.0]}, "period: found 0.0 s; give above 0 to 10 s"),
-        ({"periods_s": [11.0]}, "period: found 11.0 s"),
-        ({"periods_s": [math.nan]}, "period: found nan s"),
         ({"periods_s": [0.4, 1.0]}, "give the longest first"),
         ({"periods_s": []}, "at least one period"),
         ({"periods_s": [1.0], "damping": [5.0]}, "damping: found 5.0; give a fraction"),
         ({"periods_s": [1.0], "damping": []}, "one damping"),
         ({"periods_s": [1.0], "alpha0": -1.0}, "lateral stiffness ratio: found -1.0"),
         ({"periods_s": [1.0], "stories": 101}, "stories: found 101"),
-        ({"periods_s": [1.0], "stories": -1}, "0 for a beam"),
+        ({"periods_s": [1.0], "alpha0": math.nan}, "nan; give 0 to 1000, or infinity"),
+        ({"periods_s": [1.0], "stories": -1}, "whole number from 1 to 100, 0 for a beam"),
     ],
 )
 def test_what_cannot_be_a_building_is_refused(arguments, said):
@@ -298,7 +289,6 @@ def test_what_cannot_be_a_building_is_refused(arguments, said):
 @pytest.mark.parametrize(
     ("a", "dt_s", "share", "said"),
     [
-        ([1.0], 0.01, 0.05, "two or more finite numbers"),
         ([1.0, math.inf], 0.01, 0.05, "two or more finite numbers"),
         ([1.0, 2.0], 0.0, 0.05, "time step"),
         ([1.0, 2.0], 0.01, 1.0, "limit on neglected modes"),
@@ -309,27 +299,19 @@ def test_what_cannot_be_a_motion_is_refused(a, dt_s, share, said):
         to_roof(a, dt_s, building_of_periods([1.0]), share=share)
 
 
-class TestWholeMotion:
-    def test_each_component_is_carried_by_its_building_and_the_vertical_is_kept(self, noise):
-        along, across = (building_of_periods([period], stories=1) for period in (0.3, 0.6))
-        ground = solver.motion(noise, 0.5 * noise[::-1], 0.2 * noise, dt_s=0.01, id="G", scale=1.5)
-        roof = solver.at_roof(ground, along, across)
-        assert (roof.id, roof.scale, roof.signs) == ("G", 1.5, ground.signs)
-        assert roof.source == f"at the roof of: {along.words}"
-        for mine, theirs, building in (
-            (roof.ax_mps2, ground.ax_mps2, along),
-            (roof.ay_mps2, ground.ay_mps2, across),
-        ):
-            alone = to_roof(theirs, ground.dt_s, building)
-            assert roof.dt_s == alone.dt_s
-            np.testing.assert_array_equal(mine[: alone.a_mps2.size], alone.a_mps2)
-            assert not mine[alone.a_mps2.size :].any()
-        np.testing.assert_array_equal(roof.az_mps2[: noise.size], ground.az_mps2)
-
-    @pytest.mark.quick
-    def test_one_building_is_that_of_both_directions(self, noise):
-        building = building_of_periods([0.3], stories=1)
-        ground = solver.motion(noise, noise, dt_s=0.01)
-        roof = solver.at_roof(ground, building)
-        np.testing.assert_array_equal(roof.ax_mps2, roof.ay_mps2)
-        assert not solver.at_roof(solver.motion(noise, dt_s=0.01), building).has_transverse
+def test_each_component_is_carried_by_its_building_and_the_vertical_is_kept(noise):
+    along, across = (building_of_periods([period], stories=1) for period in (0.3, 0.6))
+    ground = solver.motion(noise, 0.5 * noise[::-1], 0.2 * noise, dt_s=0.01, id="G", scale=1.5)
+    roof = solver.at_roof(ground, along, across)
+    assert (roof.id, roof.scale, roof.signs) == ("G", 1.5, ground.signs)
+    assert roof.source == f"at the roof of: {along.words}"
+    sides = (roof.ax_mps2, ground.ax_mps2, along), (roof.ay_mps2, ground.ay_mps2, across)
+    for mine, theirs, building in sides:
+        alone = to_roof(theirs, ground.dt_s, building)
+        assert roof.dt_s == alone.dt_s
+        np.testing.assert_array_equal(mine[: alone.a_mps2.size], alone.a_mps2)
+        assert not mine[alone.a_mps2.size :].any()
+    np.testing.assert_array_equal(roof.az_mps2[: noise.size], ground.az_mps2)
+    both = solver.at_roof(solver.motion(noise, noise, dt_s=0.01), along)
+    np.testing.assert_array_equal(both.ax_mps2, both.ay_mps2)
+    assert not solver.at_roof(solver.motion(noise, dt_s=0.01), along).has_transverse

@@ -1,7 +1,8 @@
-"""Code rules against published permit calculations and the paper."""
+"""Code rules against published permit calculations and the paper; limits and overrides."""
 
 import csv
 import math
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -11,9 +12,9 @@ from places import DATA
 from refused import refused
 from solver.model import InputError
 from solver.rules.hazard import EDITIONS, Tail, ac156_horizontal, ac156_vertical
+from solver.rules.limit import MOTIONS, PROGRAM, Limit, Measure
 from solver.rules.provisions import (
     OVERRIDABLE,
-    RULE_SETS,
     Basis,
     Neighbor,
     analysis_checks,
@@ -28,7 +29,7 @@ from solver.rules.provisions import (
     prescriptive_displacement,
     required_separation,
 )
-from solver.rules.rulesets import ALLOWED
+from solver.rules.rulesets import ALLOWED, RULE_SETS, Allowed, Confidence, usual
 
 pytestmark = pytest.mark.quick
 
@@ -205,11 +206,7 @@ def test_friction_and_profile_are_limited_as_each_code_has_it():
 
 def checked(rules, *, height_m=0.1, spacing_m=1.0, base_m=1.0, slope_rad=0.0):
     return array_checks(
-        rules,
-        cg_height_m=height_m,
-        support_spacing_m=spacing_m,
-        base_m=base_m,
-        slope_rad=slope_rad,
+        rules, cg_height_m=height_m, support_spacing_m=spacing_m, base_m=base_m, slope_rad=slope_rad
     )
 
 
@@ -279,6 +276,7 @@ def test_an_override_keeps_its_reason_and_its_range_has_the_numbers_of_the_codes
     found = prescriptive(equal, 0.9)
     assert found.minimum_m == found.value_m
     assert found.governs.name == "FORMULA"
+    assert prescriptive(A16, 0.7).governs.name == "MINIMUM"
 
 
 @pytest.mark.parametrize(
@@ -320,11 +318,58 @@ def test_the_ac156_spectrum_is_straight_on_log_axes_and_that_of_published_sites(
     assert "AC156 line" in Tail.AC156.sentence
 
 
-@pytest.mark.parametrize(
-    ("s_ds", "basis", "value_in"),
-    [(0.7, "MINIMUM", 24.0), (1.4, "FORMULA", 60.0)],
-)
-def test_what_governs_is_the_formula_from_where_it_reaches_the_minimum(s_ds, basis, value_in):
-    found = prescriptive(A16, s_ds)
-    assert found.governs.name == basis
-    assert found.value_m / INCH == pytest.approx(value_in, rel=1e-12)
+# The least and the greatest number allowed, and of those that are usual.
+RANGES = {
+    "prescriptive_factor_in": (1, 600, 30, 120),
+    "analysis_max_slope_deg": (0, 30, 1.4312, 14),
+    "analysis_factor": (1, 10, 1, 2.2),
+    "separation_edge": (0.1, 10, 0.75, 4),
+    "parapet_over_cg_in": (0, 240, 0, 12),
+}
+
+
+def test_ranges_are_those_of_the_table_with_zero_where_it_is_allowed():
+    for key, wanted in RANGES.items():
+        allowed, common = ALLOWED[key], usual(key)
+        found = (allowed.low, allowed.high, common.low, common.high)
+        assert found == pytest.approx(wanted, rel=1e-4), key
+    zero = {"parapet_over_cg_in": replace(VALUE, value=0.0)}
+    nothing = {
+        name: replace(rules, values=rules.values | zero) for name, rules in RULE_SETS.items()
+    }
+    assert usual("parapet_over_cg_in", nothing) == ALLOWED["parapet_over_cg_in"]
+
+
+VALUE = RULE_SETS["SEAOC PV1-2012"].values["parapet_over_cg_in"]
+
+
+def test_a_range_has_its_ends_and_requires_less_beyond_its_limit():
+    most, least = Allowed(low=0, high=10, is_maximum=True), Allowed(low=0, high=10)
+    assert [most.lowers(value, 5.0) for value in (4.0, 5.0, 6.0)] == [False, False, True]
+    assert [least.lowers(value, 5.0) for value in (4.0, 5.0, 6.0)] == [True, False, False]
+    whole = Allowed(low=1, high=4, is_whole=True)
+    assert list(filter(whole.has, (0.0, 1.0, 2.5, 4.0, 5.0))) == [1.0, 4.0]
+    confirmed = replace(VALUE, confidence=Confidence.CONFIRMED)
+    assert confirmed.verified
+    assert not replace(confirmed, reason="agreed").verified
+    assert not replace(confirmed, confidence=Confidence.KNOWN).verified
+
+
+def made(found, limit=20.0, **more):
+    return Limit(title="", found=found, limit=limit, **{"is_at_least": True} | more)
+
+
+def test_limits_have_units_and_say_whose_they_are():
+    assert [measure.unit for measure in Measure] == ["deg", "m", "s", "", ""]
+    assert made(1.0, provision=PROGRAM).is_program_limit
+    assert not made(1.0, provision=MOTIONS).is_program_limit
+    assert not MOTIONS.verified
+    assert PROGRAM.verified
+
+
+@pytest.mark.parametrize("is_at_least", [True, False])
+def test_a_value_equal_within_rounding_is_permitted(is_at_least):
+    side = -1.0 if is_at_least else 1.0
+    assert made(20.0 * (1.0 + side * 5e-10), is_at_least=is_at_least).ok
+    assert not made(20.0 * (1.0 + side * 2e-9), is_at_least=is_at_least).ok
+    assert not made(math.nan, is_at_least=is_at_least, may_exceed=True).ok

@@ -1,4 +1,4 @@
-"""Modes of uniform buildings, against many digits and textbook values."""
+"""Periods worked by hand, and modes of uniform buildings against many digits and textbooks."""
 
 import math
 
@@ -6,8 +6,14 @@ import mpmath
 import numpy as np
 import pytest
 
-from solver.building.structure import beam_modes, floor_stiffness, story_modes
-from solver.model import InputError
+from refused import refused
+from solver.building.structure import (
+    FOOT_M,
+    approximate_period_s,
+    beam_modes,
+    floor_stiffness,
+    story_modes,
+)
 
 ALPHAS = [0.0, 0.3, 1.0, 2.0, 5.0, 12.5, 30.0, 200.0]
 
@@ -124,15 +130,23 @@ def test_floors_bend_as_a_cantilever_under_a_load_at_its_top():
     np.testing.assert_allclose(sheared, x, rtol=1e-12)
 
 
-@pytest.mark.parametrize("alpha0", [-0.1, 1001.0, math.nan, -math.inf])
-def test_a_stiffness_ratio_out_of_range_is_refused(alpha0):
-    for modes in (beam_modes, story_modes):
-        with pytest.raises(InputError, match="give 0 to 1000, or infinity"):
-            modes(alpha0, 3)
+@pytest.mark.parametrize(
+    ("system", "height_ft", "period_s"),
+    [
+        ("steel moment frame", 65.0, 0.790),
+        ("steel moment frame", 573.0, 4.505),
+        ("concrete moment frame", 100.0, 1.010),
+        ("concrete moment frame", 30.0, 0.342),
+        ("steel eccentric or buckling-restrained braces", 16.0, 0.240),
+        ("steel eccentric or buckling-restrained braces", 81.0, 0.810),
+        ("other", 16.0, 0.160),
+        ("other", 30.0, 0.256),
+    ],
+)
+def test_the_approximate_period_is_that_of_the_table(system, height_ft, period_s):
+    assert approximate_period_s(system, height_ft * FOOT_M) == pytest.approx(period_s, abs=5e-4)
 
 
-@pytest.mark.parametrize("stories", [0, -1, 101])
-@pytest.mark.quick
-def test_stories_out_of_range_are_refused(stories):
-    with pytest.raises(InputError, match="whole number from 1 to 100"):
-        story_modes(1.0, stories)
+def test_an_unknown_structure_and_a_height_of_nothing_are_both_named():
+    unknown, _ = refused(approximate_period_s, "timber", 0.0)
+    assert "'timber'" in unknown
