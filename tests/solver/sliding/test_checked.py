@@ -1,7 +1,11 @@
 """The solver against closed forms, high-precision arithmetic, its own symmetries and the paper."""
 
 import itertools
+import json
 import math
+import os
+import subprocess
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -12,6 +16,7 @@ from hypothesis import strategies as st
 import oracle
 import solver
 from blocks import shaking, trapezoid
+from places import ROOT, TESTS
 from solver.model import EventKind, Friction, InputError, Status
 from solver.sliding.checked import slide, slide_history
 from solver.verification import reference
@@ -285,20 +290,6 @@ def test_histories_at_rest_and_of_solved_scenes():
     assert solver.history(scene, solution).result == solution.result
 
 
-# The paper
-
-
-@pytest.mark.parametrize("method", ["exact", "paper"])
-def test_physical_check_4_free_sliding_begins_at_mu_equal_tan_theta(method):
-    slope = math.radians(0.5)
-    slides, rests = (
-        slide(np.zeros(500), 0.01, slope_rad=slope, mu=f * math.tan(slope), method=method)
-        for f in (0.999, 1.000001)
-    )
-    assert slides.prd_m > 0.0
-    assert rests.prd_m == 0.0
-
-
 # Uplift and bad input
 
 
@@ -334,16 +325,10 @@ def law(**changes):
     [
         ({"ax_mps2": [0.0, math.nan]}, r"ax_mps2\[1\] is nan"),
         ({"ax_mps2": [0.0]}, r"ax_mps2 has shape \(1,\)"),
-        ({"ax_mps2": [[0.0, 1.0]]}, r"ax_mps2 has shape \(1, 2\)"),
-        ({"ax_mps2": ["a", "b"]}, "ax_mps2 is of type <U1; give a sequence of accelerations"),
         ({"ax_mps2": [[0.0], [1.0, 2.0]]}, "ax_mps2 is not a row of real numbers"),
-        ({"ax_mps2": [10**400, 0]}, "ax_mps2 is of type object"),
-        ({"ax_mps2": [1.0, 2.0j, 0.0]}, "ax_mps2 is of type complex128"),
         ({"ax_mps2": np.ma.array([0.0, 1.0, 2.0], mask=[0, 1, 0])}, "ax_mps2 has masked samples"),
-        ({"dt_s": "0.01"}, "dt_s is '0.01'; give a number of seconds above 0"),
         ({"dt_s": 10**400}, r"dt_s is 10+\.\.\.; give"),
         ({"mu": "0.3"}, "mu is '0.3'; give a friction coefficient of 0 or more"),
-        ({"mu": 0.3 + 0.0j}, r"mu is \(0.3\+0j\)"),
         ({"scale": 1e308}, "exceed the floating-point range; change scale"),
         ({"dt_s": 5e-324}, "exceed the floating-point range"),
         ({"mu": law(mu_slow=-0.1)}, "mu_slow is -0.1; give a friction coefficient of 0 or more"),
@@ -352,16 +337,10 @@ def law(**changes):
         ({"mu": LAW, "method": "paper"}, "method is 'paper'; two axes and velocity-dependent"),
         ({"mu": LAW, "tolerance": 1.0}, "tolerance is 1.0; give a number from 1e-10 to 0.01"),
         ({"az_mps2": [0.0, 0.0]}, r"az_mps2 has shape \(2,\)"),
-        ({"az_mps2": [0.0, math.inf, 0.0]}, r"az_mps2\[1\] is inf"),
         ({"dt_s": 0.0}, "dt_s is 0.0"),
         ({"mu": -0.1}, "mu is -0.1"),
-        ({"mu": math.nan}, "mu is nan"),
         ({"slope_rad": math.pi / 2}, "slope_rad is 1.57"),
-        ({"slope_rad": math.nan}, "slope_rad is nan"),
-        ({"scale": math.inf}, "scale is inf"),
         ({"g_mps2": 0.0}, "g_mps2 is 0.0"),
-        ({"method": "euler"}, "method is 'euler'"),
-        ({"substeps": 0, "method": "paper"}, "substeps is 0"),
         ({"az_mps2": [0.0, 0.0, 0.0], "method": "paper"}, "horizontal shaking only"),
     ],
 )
@@ -425,7 +404,6 @@ def test_results_are_short_to_read_and_tables_where_they_are_rows():
         "Scene(1 component of 6000 samples at 0.005 s, slope 1.146 deg, mu 0.5, scale 1)"
     )
     assert repr(sweep) == "Sweep(2 slopes, 1 friction coefficients, 2 scales)"
-    assert len(repr(history)) < 500
     frame = history.to_frame()
     assert frame["u_m"].tolist() == history.u_m.tolist()
     assert frame.index.tolist() == history.t_s.tolist()
@@ -434,3 +412,40 @@ def test_results_are_short_to_read_and_tables_where_they_are_rows():
     assert table.loc[(0.1, 0.2, 2.0), "slope_deg"] == pytest.approx(math.degrees(0.1))
     assert table.loc[(0.1, 0.2, 2.0), "prd_m"] == sweep.prd_m[1, 0, 1]
     assert set(table["status"]) <= {"ok", "sliding_at_end", "uplift"}
+
+
+# What set-up compiles is all that a report with three components runs
+
+
+CODE = """
+import json
+from solver.kernels import one_axis, oscillator, rivals, row, two_axes
+from numba.core.dispatcher import Dispatcher
+from solver.sliding.checked import PARTS
+
+def compiled():
+    return {
+        f"{module.__name__}.{name} {signature}"
+        for module in (one_axis, oscillator, rivals, row, two_axes)
+        for name, kernel in vars(module).items()
+        if isinstance(kernel, Dispatcher)
+        for signature in kernel.signatures
+    }
+
+for name in PARTS:
+    PARTS[name]()
+before = compiled()
+import stand_in
+from report.assessment.evidence import support
+support(stand_in.assess_input(stand_in.project(), stand_in.motions(2, seconds=8.0)))
+print(json.dumps([sorted(compiled() - before), sorted(before)]))
+"""
+
+
+def test_a_report_compiles_nothing_that_set_up_has_not():
+    paths = {"PYTHONPATH": f"{ROOT}{os.pathsep}{TESTS}"}
+    command = [sys.executable, "-c", CODE]
+    told = subprocess.check_output(command, cwd=ROOT, env=os.environ | paths, timeout=300)
+    new, former = json.loads(told)
+    assert new == []
+    assert sum("slide_plane" in name for name in former) == 2  # both friction laws

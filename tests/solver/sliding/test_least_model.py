@@ -1,7 +1,9 @@
-"""The choice of a model: each model where it suffices, none where a fuller one matters."""
+"""The choice of a model, and sweeps: as single runs are, to the last bit."""
 
 import math
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -10,7 +12,9 @@ from blocks import block, shaking
 from solver.forces import friction_demand
 from solver.model import Friction, InputError, Status, coulomb
 from solver.sliding import one_axis, two_axes
+from solver.sliding.checked import motion, slide
 from solver.sliding.least_model import Model, Settings, history, solve
+from solver.sliding.sweep import STATUSES, order_alike, sweep
 
 pytestmark = pytest.mark.quick
 
@@ -165,3 +169,65 @@ def test_the_history_is_of_the_model_that_was_chosen(run, forced):
     assert seen.result == solution.result
     far = np.hypot(seen.u_m, seen.across_m if seen.across_m.size else 0.0).max()
     assert far == pytest.approx(solution.result.prd_m, rel=0.01, abs=1e-12)
+
+
+SLOPES = [-0.5, -0.05, 0.0, 0.07]
+FRICTIONS = [0.0, 0.02, 0.3]
+SCALES = [0.0, 0.7, 2.0]
+ALL = {"slopes_rad": SLOPES, "mus": FRICTIONS, "scales": SCALES}
+
+
+FEW = {"slopes_rad": [0.0, 0.05], "mus": [0.1, 0.3], "scales": [0.0, 1.0]}
+
+
+@pytest.mark.parametrize("vertical", [{}, {"az_mps2": 0.3}])
+@pytest.mark.parametrize(("across", "axes"), [({}, ALL), ({"ay_mps2": 0.8}, FEW)])
+def test_a_sweep_is_every_single_run(noise, across, axes, vertical):
+    more = {name: share * noise[::-1] for name, share in (across | vertical).items()}
+    swept = sweep(noise, 0.01, **axes, **more)
+    seen = set()
+    for (i, slope), (j, mu), (k, scale) in product(*map(enumerate, axes.values())):
+        result = slide(noise, 0.01, slope_rad=slope, mu=mu, scale=scale, **more)
+        np.testing.assert_array_equal(swept.prd_m[i, j, k], result.prd_m)
+        np.testing.assert_array_equal(swept.residual_m[i, j, k], result.residual_m)
+        assert STATUSES[swept.status[i, j, k]] is result.status
+        seen.add(result.status)
+    assert Status.OK in seen
+    assert Status.SLIDING_AT_END in seen or axes is FEW
+    assert swept.prd_m.shape == swept.status.shape == tuple(map(len, axes.values()))
+    whole = motion(noise, more.get("ay_mps2"), more.get("az_mps2"), dt_s=0.01)
+    np.testing.assert_array_equal(sweep(whole, **axes).prd_m, swept.prd_m)
+
+
+def test_uplift_is_a_hole_and_every_value_at_fault_named():
+    swept = sweep([0.0, -40.0, 0.0], 0.1, slopes_rad=[0.5, 0.0], mus=[0.4], scales=[1.0])
+    assert np.isnan(swept.prd_m[0, 0, 0])
+    assert STATUSES[swept.status[0, 0, 0]] is Status.UPLIFT
+    assert np.isfinite(swept.prd_m[1, 0, 0])
+    with pytest.raises(InputError) as raised:
+        sweep([0.0, math.nan], 0.0, slopes_rad=[2.0], mus=[-0.1], scales=[])
+    text = str(raised.value)
+    for name in ("ax_mps2[1]", "dt_s", "slopes_rad has 2.0", "mus has -0.1", "scales has shape"):
+        assert name in text
+
+
+def test_threads_change_nothing_and_progress_runs_up_to_one(noise, monkeypatch):
+    monkeypatch.setattr("solver.sliding.sweep.THREADS", 1)
+    alone = sweep(noise, 0.01, **ALL).prd_m
+    monkeypatch.setattr("solver.sliding.sweep.THREADS", 3)
+    with ThreadPoolExecutor(3) as pool:
+        found = list(pool.map(lambda _: sweep(noise, 0.01, **ALL).prd_m, range(6)))
+    np.testing.assert_array_equal(found, [alone] * 6)
+    shares = []
+    sweep(noise, 0.01, slopes_rad=SLOPES, mus=0.3, scales=1.0, progress=shares.append)
+    assert shares == [0.25, 0.5, 0.75, 1.0]
+
+
+def test_scenes_that_yield_alike_are_neighbors():
+    scenes = np.array(list(product(*ALL.values())))
+    order = order_alike(scenes)
+    assert sorted(order) == list(range(len(scenes)))
+    down = [(s, m, k) for s, m, k in scenes[order] if s * k > 0.0]
+    yields_at = [math.tan(math.atan(mu) - slope) / scale for slope, mu, scale in down]
+    assert len(down) > 4
+    assert yields_at == sorted(yields_at)
