@@ -10,7 +10,6 @@ KINDS = ("link", "dangling link", "pipe", "device", "folder")
 
 LINKS = "on Windows, links need an administrator"
 PIPES = "on Windows, no pipe has a place in a folder"
-MODES = "Windows has no permissions for user, group and others"
 SENTENCES = "the sentence is that of the system"
 
 

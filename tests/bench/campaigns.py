@@ -6,8 +6,6 @@ twice each, in child processes that are ended where a pair takes longer than 5 s
 every pair at fault is printed, and the exit code is 1.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor

@@ -3,8 +3,6 @@
 `run.py` runs them: `.venv/bin/python tests/bench/run.py [--smoke] [--records FOLDER] [NAME ...]`.
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 import statistics

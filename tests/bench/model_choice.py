@@ -8,8 +8,6 @@ the package; and the PRD in two axes by the largest of the axes run alone. Recor
 those of --records, else made ones are used.
 """
 
-from __future__ import annotations
-
 import csv
 import itertools
 import math
@@ -23,9 +21,10 @@ from pathlib import Path
 import numpy as np
 from measure import RECORDS, SMOKE, figure
 
+from blocks import block
 from solver.formats import read_record
 from solver.model import STANDARD_GRAVITY_MPS2 as G
-from solver.model import Floats, Scene, SlideResult, Status, coulomb
+from solver.model import Floats, Scene, SlideResult, Status
 from solver.records.record import read_only
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model, one_axis, two_axes
@@ -93,16 +92,9 @@ def random_scene(rng: np.random.Generator) -> Scene:
     elif across == "push":
         ay = np.minimum(t / rng.uniform(0.5, 5.0), 1.0)
     peak = mu * rng.uniform(1.02, 4.0) * G
-    return Scene(
-        ax_mps2=read_only(ax * peak),
-        ay_mps2=read_only(ay * 10.0 ** rng.uniform(-4.0, 0.3) * mu * G),
-        az_mps2=read_only(az * peak) if az.size else NO_RECORD,
-        dt_s=dt,
-        slope_rad=math.radians(rng.choice((0.0, 0.0, 1.0, 3.0, 7.0))),
-        friction=coulomb(mu),
-        scale=1.0,
-        g_mps2=G,
-    )
+    ay = ay * 10.0 ** rng.uniform(-4.0, 0.3) * mu * G
+    slope = math.radians(rng.choice((0.0, 0.0, 1.0, 3.0, 7.0)))
+    return block(ax * peak, ay, az * peak, dt=dt, slope=slope, friction=mu)
 
 
 def difference(result: SlideResult, other: SlideResult) -> float:
@@ -139,9 +131,8 @@ def choose() -> None:
     figure("largest neglected part, relative to what may be neglected", largest)
     figure("scenes that need two axes", 100.0 * count["need"] / count["slide"], "%", digits=3)
     figure("scenes that get two axes", 100.0 * count["get"] / count["slide"], "%", digits=3)
-    figure(
-        "time of selecting and running, relative to always two axes", chosen_s / always_s, digits=3
-    )
+    name = "time of selecting and running, relative to always two axes"
+    figure(name, chosen_s / always_s, digits=3)
 
 
 def worst(scene: Scene, step_deg: int) -> float:
@@ -161,16 +152,8 @@ def turn() -> None:
     for ax, ay, az, dt in motions():
         peak = float(max(np.abs(ax).max(), np.abs(ay).max()))
         for slope_deg, mu, peak_g in CASES[:: 9 if SMOKE else 1]:
-            scene = Scene(
-                ax_mps2=read_only(ax),
-                ay_mps2=read_only(ay),
-                az_mps2=read_only(az),
-                dt_s=dt,
-                slope_rad=math.radians(slope_deg),
-                friction=coulomb(mu),
-                scale=peak_g * G / peak,
-                g_mps2=G,
-            )
+            about = {"dt": dt, "slope": math.radians(slope_deg), "friction": mu}
+            scene = block(ax, ay, az, **about, scale=peak_g * G / peak)
             package = worst(scene, 90)
             if package > LEAST_M:
                 every.append(worst(scene, STEP_DEG) / package)
@@ -197,12 +180,7 @@ def second_axis() -> None:
         figure(f"{name}, {percent} % of the runs", worst_heading.at(percent), digits=3)
 
 
-def main() -> None:
-    """Print what the choice of the model and the choice of directions neglect."""
+if __name__ == "__main__":
     choose()
     turn()
     second_axis()
-
-
-if __name__ == "__main__":
-    main()

@@ -5,8 +5,6 @@ fetches it on the first run, and without Java and Maven there are no figures of 
 package is verified as written, and tampered with by seed in every way of `tests/tampering.py`.
 """
 
-from __future__ import annotations
-
 import random
 import re
 import shutil

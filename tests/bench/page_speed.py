@@ -6,57 +6,67 @@ sooner: the figures say how many were. Each move is to another value, half a sec
 before. Wall time: other programs on the same cores slow it down.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
 from measure import SMOKE, figure
+from playwright.sync_api import Page
 
 from browsing import chromium, opened, quiet_page, served
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Page
 
 MOVES = 2 if SMOKE else 30
 STEPS = {"friction": (0.69, 0.01), "slope": (0.1, 0.1), "intensity": (0.7, 0.02),
          "clearance": (-8.0, 1.0)}  # fmt: skip
 
+WATCHING = """
+() => {
+  window.watched = (kinds, started) => new Promise((done, fail) => {
+    const observer = new MutationObserver(() => {
+      const { values } = document.body.dataset;
+      if (started() === null || !kinds.includes(values)) return;
+      observer.disconnect();
+      clearTimeout(limit);
+      requestAnimationFrame(() => done([performance.now() - started(), values]));
+    });
+    const limit = setTimeout(() => fail(new Error("no answer is drawn")), 30_000);
+    observer.observe(document.body, { attributes: true, attributeFilter: ["data-values"] });
+  });
+}
+"""
 MEASURED = """
 async ([slider, values, isLetGo]) => {
   const input = document.querySelector(`#slider-${slider}`);
-  const drawn = (event, kinds) => new Promise((done, fail) => {
-    const observer = new MutationObserver(() => {
-      const { values } = document.body.dataset;
-      if (!kinds.includes(values)) return;
-      observer.disconnect();
-      clearTimeout(limit);
-      requestAnimationFrame(() => done([performance.now() - start, values]));
-    });
-    const limit = setTimeout(() => fail(new Error(`no answer to ${slider} is drawn`)), 30_000);
-    observer.observe(document.body, { attributes: true, attributeFilter: ["data-values"] });
+  const answered = (event, kinds) => {
     const start = performance.now();
+    const answer = watched(kinds, () => start);
     input.dispatchEvent(event);
-  });
+    return answer;
+  };
   const times = [];
   for (const value of values) {
     await new Promise((done) => setTimeout(done, 500));
     input.value = value;
     const moved = new InputEvent("input", { bubbles: true });
-    const first = await drawn(moved, ["provisional", "final"]);
+    const first = await answered(moved, ["provisional", "final"]);
     const isAsked = isLetGo && first[1] === "provisional";
     const letGo = new PointerEvent("pointerup", { bubbles: true });
-    times.push(isAsked ? await drawn(letGo, ["final"]) : first);
+    times.push(isAsked ? await answered(letGo, ["final"]) : first);
   }
   return times;
 }
 """
 
 
+def printed(name: str, times_ms: list[float]) -> None:
+    """Print the median and the 95th percentile of times."""
+    half, most = np.percentile(times_ms, [50, 95]).tolist()
+    figure(f"{name}, median", half, "ms")
+    figure(f"{name}, 95th percentile", most, "ms")
+
+
 def in_the_browser() -> None:
     """Move four sliders of the example, by their own steps."""
     with chromium() as browser, served() as (address, _), quiet_page(browser) as page:
         opened(page, address)
+        page.evaluate(WATCHING)
         for name, is_let_go in (("a provisional", False), ("a full", True)):
             every: list[tuple[float, str]] = []
             for slider, (first, step) in STEPS.items():
@@ -66,9 +76,7 @@ def in_the_browser() -> None:
                 every += page.evaluate(MEASURED, [slider, values, is_let_go])[1:]
                 page.mouse.up()
                 page.wait_for_selector("body[data-phase=rest]")
-            half, most = np.percentile([time_ms for time_ms, _ in every], [50, 95])
-            figure(f"{name} answer drawn, median", float(half), "ms")
-            figure(f"{name} answer drawn, 95th percentile", float(most), "ms")
+            printed(f"{name} answer drawn", [time_ms for time_ms, _ in every])
             if not is_let_go:
                 provisional = sum(values == "provisional" for _, values in every)
                 figure("moves whose first answer was provisional", provisional / len(every))
@@ -77,19 +85,9 @@ def in_the_browser() -> None:
 
 ARMED = """
 () => {
-  window.drawn = new Promise((done, fail) => {
-    let start = null;
-    const limit = setTimeout(() => fail(new Error("no answer to the pointer is drawn")), 30_000);
-    addEventListener("input", () => { start = performance.now(); }, { once: true, capture: true });
-    const observer = new MutationObserver(() => {
-      const isNew = ["provisional", "final"].includes(document.body.dataset.values);
-      if (start === null || !isNew) return;
-      observer.disconnect();
-      clearTimeout(limit);
-      requestAnimationFrame(() => done(performance.now() - start));
-    });
-    observer.observe(document.body, { attributes: true, attributeFilter: ["data-values"] });
-  });
+  let start = null;
+  addEventListener("input", () => { start = performance.now(); }, { once: true, capture: true });
+  window.drawn = watched(["provisional", "final"], () => start).then(([time_ms]) => time_ms);
 }
 """
 
@@ -112,9 +110,7 @@ def by_pointer(page: Page) -> None:
         times.append(page.evaluate("window.drawn"))
     page.mouse.up()
     page.wait_for_selector("body[data-phase=rest]")
-    half, most = np.percentile(times, [50, 95])
-    figure("a move of the pointer, first value drawn, median", float(half), "ms")
-    figure("a move of the pointer, first value drawn, 95th percentile", float(most), "ms")
+    printed("a move of the pointer, first value drawn", times)
 
 
 if __name__ == "__main__":

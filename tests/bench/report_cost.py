@@ -5,8 +5,6 @@ one after the other. Larger projects repeat the arrays
 and motions of the example, the motions in reverse, or one after the other where they are longer.
 """
 
-from __future__ import annotations
-
 import gc
 import itertools
 import json

@@ -8,8 +8,6 @@ With --smoke each takes seconds, and nothing is written. A table of README or do
 a sentence stands before `<!-- NAME: FIGURE -->`, and is "?" where none was printed.
 """
 
-from __future__ import annotations
-
 import argparse
 import csv
 import datetime as dt

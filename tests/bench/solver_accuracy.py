@@ -6,8 +6,6 @@ event, over the strong part of three-component motions: those of --records, else
 Errors of every place that is reported, relative to the PRD.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 import statistics
@@ -24,6 +22,7 @@ from solver.model import Floats, coulomb
 from solver.rivals.methods import NO_RECORD
 from solver.sliding.checked import slide
 from solver.sliding.two_axes import follow
+from solver.sliding.uplift import uplift
 from solver.verification.study import (
     Case,
     cut,
@@ -40,21 +39,19 @@ TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10)
 STRONG_S = 0.5 if SMOKE else 3.0
 
 
-def made() -> list[tuple[Floats, Floats | None, float]]:
+Motions = list[tuple[Floats, Floats | None, float]]
+
+
+def made() -> Motions:
     """Return the motions of the example without and with their vertical component."""
-    found: list[tuple[Floats, Floats | None, float]] = []
+    found: Motions = []
     for path in made_records():
         x, z = (read_record(path.with_name(path.name.replace("-x", s))) for s in ("-x", "-z"))
         found += [(x.a_mps2, None, x.dt_s), (x.a_mps2, z.a_mps2, x.dt_s)]
     return found
 
 
-def real() -> list[tuple[Floats, Floats | None, float]]:
-    """Return the records that the package pyslammer carries."""
-    return [(record.a_mps2, None, record.dt_s) for record in real_records()]
-
-
-def one_axis(kind: str, records: list[tuple[Floats, Floats | None, float]]) -> None:
+def one_axis(kind: str, records: Motions) -> None:
     """Print the largest and the median error over records and scenes."""
     errors = []
     cases = itertools.product(records[:1] if SMOKE else records, SCENES)
@@ -75,31 +72,19 @@ def one_axis(kind: str, records: list[tuple[Floats, Floats | None, float]]) -> N
 def two_axes() -> None:
     """Print, for each tolerance, the largest error and the largest bound."""
     given = recorded_triples(RECORDS) if RECORDS else own_triples(quick=SMOKE)
-    errors: dict[float, list[float]] = {tolerance: [] for tolerance in TOLERANCES}
-    bounds: dict[float, list[float]] = {tolerance: [] for tolerance in TOLERANCES}
+    errors, bounds = (dict[float, list[float]]() for _ in range(2))
     motions, cases = given[:2], PLANE[: 1 if SMOKE else None]
     for triple, (slope_deg, mu, ppa_g) in itertools.product(motions, cases):
         part = cut(triple, 1 + round(STRONG_S / triple.dt_s))
         scene = scene_of(part, Case(slope_deg, mu, ppa_g), coulomb(mu))
-        weight = (G + scene.scale * scene.az_mps2) * math.cos(scene.slope_rad)
-        if np.min(weight + scene.scale * scene.ax_mps2 * math.sin(scene.slope_rad)) < 0.0:
+        if uplift(scene).lifts:
             scene = replace(scene, az_mps2=NO_RECORD)
-        exact = plane_oracle.slide(
-            scene.ax_mps2,
-            scene.ay_mps2,
-            scene.dt_s,
-            slope_rad=scene.slope_rad,
-            mu=mu,
-            az=scene.az_mps2 if len(scene.az_mps2) else None,
-            scale=scene.scale,
-            g=G,
-        )
-        theirs = [exact.prd, exact.x_max, -exact.x_min, exact.y_max, -exact.y_min, *exact.end]
+        exact = plane_oracle.follow(scene)
         for tolerance in TOLERANCES if exact.prd > 0.0 else ():
             outcome = follow(scene, tolerance)
-            off = float(np.abs(np.subtract(outcome.places, theirs)).max())
-            errors[tolerance].append(off / exact.prd)
-            bounds[tolerance].append(outcome.error_m / exact.prd)
+            off = float(np.abs(np.subtract(outcome.places, exact.places)).max())
+            errors.setdefault(tolerance, []).append(off / exact.prd)
+            bounds.setdefault(tolerance, []).append(outcome.error_m / exact.prd)
     kind = "recorded" if RECORDS else "made"
     figure("runs in two axes", len(errors[TOLERANCES[0]]), f"of {kind} motions")
     for tolerance in TOLERANCES:
@@ -107,12 +92,7 @@ def two_axes() -> None:
         figure(f"largest stated bound in two axes to {tolerance:.0e}", max(bounds[tolerance]))
 
 
-def main() -> None:
-    """Print the errors in one axis and in two."""
-    one_axis("made", made())
-    one_axis("real", real())
-    two_axes()
-
-
 if __name__ == "__main__":
-    main()
+    one_axis("made", made())
+    one_axis("real", [(record.a_mps2, None, record.dt_s) for record in real_records()])
+    two_axes()

@@ -8,8 +8,6 @@ sub-steps in slip only (`method="adaptive"`), and "as listed", equation by equat
 Python is that of `solver.slide`. Records: the example's, and 18 real ones of pyslammer.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 import statistics
@@ -36,8 +34,7 @@ from solver.verification.study import Case, own_triples, real_records, scene_of
 
 SLOPES = [math.radians(0.5 * k) for k in range(-14, 15)]
 FRICTIONS = [0.1 + 0.05 * k for k in range(15)]
-PPAS = [0.1 * k for k in range(16)]
-GRID = np.array(list(itertools.product(SLOPES, FRICTIONS, PPAS)))
+GRID = np.array(list(itertools.product(SLOPES, FRICTIONS, [0.1 * k for k in range(16)])))
 GRID = GRID[order_alike(GRID)]  # as `sweep` runs them
 NO_HISTORY = np.empty((2, 0))
 SUBSTEPS = 64
@@ -223,13 +220,8 @@ def models() -> None:
         figure(f"{name}, relative to one axis", one / taken[0], "times")
 
 
-def main() -> None:
-    """Print the figures of runs, of their parts, and of the models."""
+if __name__ == "__main__":
     runs("made", [read_record(path, units="g") for path in made_records()])
     runs("real", real_records())
     parts()
     models()
-
-
-if __name__ == "__main__":
-    main()

@@ -4,8 +4,6 @@ Runs in one axis under the example's seven motions, beside `solver.sweep` over t
 the paper's grid under many records, 18 real ones and made ones of 1,000 to 26,000 samples.
 """
 
-from __future__ import annotations
-
 import resource
 import statistics
 import tempfile

@@ -3,8 +3,6 @@
 Seven motions of each of three seeds, ASCE 7-16 at the roof.
 """
 
-from __future__ import annotations
-
 import time
 
 from measure import SMOKE, figure
@@ -17,8 +15,7 @@ S_DS_G = 1.2
 SEEDS, COUNT = (1, 1) if SMOKE else (3, 7)
 
 
-def main() -> None:
-    """Make the suites and print the extremes over all."""
+if __name__ == "__main__":
     horizontal = ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=S_DS_G, z_over_h=1.0)
     vertical = ac156_vertical(s_ds_g=S_DS_G)
     across, upward = (horizontal.freq_hz, horizontal.sa_g), (vertical.freq_hz, vertical.sa_g)
@@ -41,7 +38,3 @@ def main() -> None:
     figure("largest mean ratio", max(fit.mean for fit in fits), digits=3)
     figure("largest correlation of two components", max(correlations))
     figure("largest sum of samples and of their moments, off zero by", drift)
-
-
-if __name__ == "__main__":
-    main()

@@ -3,8 +3,6 @@
 Medians of repeats; set-up is that of a fresh clone, whose packages are in the cache.
 """
 
-from __future__ import annotations
-
 import re
 import statistics
 import subprocess
@@ -66,8 +64,7 @@ def waits(top: Path) -> Iterator[tuple[str, list[str]]]:
         yield f"./roofslip {' '.join(words)}", [str(ROOT / "roofslip"), *words]
 
 
-def main() -> None:
-    """Measure each wait."""
+if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as folder:
         for name, words in waits(Path(folder)):
             repeats = 1 if "test" in words else REPEATS  # of minutes each
@@ -75,7 +72,3 @@ def main() -> None:
             figure(name, statistics.median(processor_s for processor_s, _, _ in runs), "s")
             if passed := re.search(r"PASS: (\d+) of \1 checks", runs[-1][2]):
                 figure(f"checks that pass in {name}", int(passed[1]))
-
-
-if __name__ == "__main__":
-    main()

@@ -6,8 +6,6 @@ programs where they are installed; and two axes on one scene. Errors are relativ
 method, which `solver_accuracy` compares with 40-digit arithmetic. Draws the chart of the docs.
 """
 
-from __future__ import annotations
-
 import io
 import itertools
 import statistics
@@ -88,11 +86,6 @@ def two_axes() -> None:
         figure(name, run["time per run [s]"] * 1e3, words)
 
 
-def main() -> None:
-    """Print the figures in one axis and in two."""
+if __name__ == "__main__":
     one_axis()
     two_axes()
-
-
-if __name__ == "__main__":
-    main()

@@ -193,7 +193,7 @@ def test_a_period_has_twenty_samples_or_an_interval_sixteen_steps(ground, period
     assert steps <= MOST_STEPS
 
 
-def test_all_components_have_one_step_and_one_length(ground):
+def test_all_components_have_one_step_and_length_and_are_read_only(ground):
     vertical = 0.5 * ground[:1000]
     slow, fast = (building_of_periods([t], stories=1) for t in (2.0, 0.15))
     roof = shaking_to_roof([ground, ground[::-1]], vertical, 0.01, [slow, fast])
@@ -210,6 +210,17 @@ def test_all_components_have_one_step_and_one_length(ground):
     assert not roof.vertical_mps2[2 * 1000 :].any()
     between = 0.5 * (vertical[1:] + vertical[:-1])
     np.testing.assert_allclose(roof.vertical_mps2[1:1999:2], between, atol=1e-15)
+    before = ground.copy()
+    roof = to_roof(ground, 0.01, building_of_periods([1.0]))
+    np.testing.assert_array_equal(ground, before)
+    given = building_of_modes(own := np.array([0.5]), [0.05], [1.0])
+    own[0] = 2.0
+    assert given.periods_s.tolist() == [0.5]
+    for array in (roof.a_mps2, roof.shares, roof.building.periods_s):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1.0
+    assert roof.ground_peak_mps2 == np.abs(ground).max()
+    assert roof.roof_peak_mps2 == np.abs(roof.a_mps2).max()
 
 
 @settings(max_examples=20)
@@ -223,20 +234,6 @@ def test_twice_the_ground_is_twice_the_roof(ground, period_s, factor, alpha0, st
     building = building_of_periods([period_s], alpha0=alpha0, stories=stories)
     roof, other = (roof_motion(f * ground, 0.01, building) for f in (1.0, -factor))
     np.testing.assert_allclose(other, -factor * roof, atol=1e-9 * factor)
-
-
-def test_arrays_are_read_only_and_nothing_given_is_changed(ground):
-    before = ground.copy()
-    roof = to_roof(ground, 0.01, building_of_periods([1.0]))
-    np.testing.assert_array_equal(ground, before)
-    given = building_of_modes(own := np.array([0.5]), [0.05], [1.0])
-    own[0] = 2.0
-    assert given.periods_s.tolist() == [0.5]
-    for array in (roof.a_mps2, roof.shares, roof.building.periods_s):
-        with pytest.raises(ValueError, match="read-only"):
-            array[0] = 1.0
-    assert roof.ground_peak_mps2 == np.abs(ground).max()
-    assert roof.roof_peak_mps2 == np.abs(roof.a_mps2).max()
 
 
 def test_given_periods_and_modes_are_kept_up_to_the_stories():
@@ -255,9 +252,6 @@ def test_given_periods_and_modes_are_kept_up_to_the_stories():
     for factors in ([1.3], [1.3, math.nan]):
         with pytest.raises(InputError, match="a period, a damping and a roof factor for each"):
             building_of_modes([0.8, 0.3], [0.05, 0.05], factors)
-
-
-def test_a_building_says_how_it_was_made():
     for (alpha0, stories), words in {
         (math.inf, 0): "uniform, in shear;",
         (0.0, 4): "4 equal stories, in bending;",

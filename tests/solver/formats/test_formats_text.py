@@ -23,34 +23,21 @@ def problems_of(path, **how):
     [
         "0.00,0.1\n0.02,-0.2\n0.04,0.3\n",
         "0.00;0.1\n0.02;-0.2\n0.04;0.3",
-        "0.00\t0.1\n0.02\t-0.2\n0.04\t0.3\n",
-        "  0.00   0.1\n  0.02  -0.2\n  0.04   0.3\n",
         "0.00 , 0.1\n0.02 , -0.2\n0.04 , 0.3\n",
         "time_s,acceleration_g\n0.00,0.1\n0.02,-0.2\n0.04,0.3\n",
         "Time [s] Acceleration [g]\n0.00 0.1\n0.02 -0.2\n0.04 0.3\n",
         "# made by hand\n\n0.00,0.1\n0.02,-0.2  # trough\n\n0.04,0.3\n# end\n",
-        "0.00,0.1\r\n0.02,-0.2\r\n0.04,0.3\r\n",
         "0.00,0.1\r0.02,-0.2\r0.04,0.3\r",
         "0.00,1e-1\n2E-2,-.2\n+0.04,3.e-1\n",
         "\ufefftime,acc\n0.00,0.1\n0.02,-0.2\n0.04,0.3\n",
         "time,acc\n0.00,0.1\n0.02,-0.2\n0.04,0.3\n".encode("utf-16"),
         "Zeit,Größe in g\n0.00,0.1\n0.02,-0.2\n0.04,0.3\n".encode("latin-1"),
-        "0.00,0.1\r\n0.02,-0.2\r\n0.04,0.3\r\n\x1a\x1a\x1a",
         "time [ms],acc\n0,0.1\n20,-0.2\n40,0.3\n",
         # What programs add to a table changes no number.
         '"Time (s)","Acc (g)"\n"0.00","0.1"\n"0.02","-0.2"\n"0.04","0.3"\n',
         '"Time";"Acc, g"\r\n"0,00";"0,1"\r\n"0,02";"-0,2"\r\n"0,04";"0,3"\r\n',
-        '"a";"b"\n"0.00";"0.1"\n"0.02";"-0.2"\n"0.04";"0.3"',
-        "sep=;\nTime (s);Acc (g)\n0.00;0.1\n0.02;-0.2\n0.04;0.3\n",
-        '"sep=,"\n0.00,0.1\n0.02,-0.2\n0.04,0.3\n',
         "sep=|\nt|a\n0.00|0.1\n0.02|-0.2\n0.04|0.3\n",
-        "Time (s),Acc (g),\n0.00,0.1,\n0.02,-0.2,\n0.04,0.3,\n",
-        "t_s;a_g\n0.00;0.1;\n0.02;-0.2;\n0.04;0.3;\n",
-        "Time,Acc\n(s),(g)\n0.00,0.1\n0.02,-0.2\n0.04,0.3\n",
         "Time\tAcc\nms\tg\n0\t0.1\n20\t-0.2\n40\t0.3\n",
-        "Time Acc\n[s] [g]\n0.00 0.1\n0.02 -0.2\n0.04 0.3\n",
-        "t;a\n0,00;0,1\n0,02;-0,2\n0,04;0,3\n",
-        "t\ta\r\n0,00\t0,1\r\n0,02\t-0,2\r\n0,04\t0,3\r\n",
         b"0.00,0.1\r\r\n0.02,-0.2\r\r\n0.04,0.3\r\r\n" + bytes(500),
     ],
 )
@@ -129,9 +116,7 @@ def test_gravity_raw_counts_and_values_across_lines_are_read_as_told(file):
     [
         (ACROSS, 4, ":1: found 3 values; give 4 as in every line but the last"),
         (ACROSS.replace(" 0.5", ""), 3, ":2: found 2 values; give 3 as in every line but the last"),
-        (ACROSS.replace("0.5", "x"), 3, ":2: found 'x'; give a number"),
         (ACROSS, -1, ": values per line is -1; give 1, 2, ..."),
-        (ACROSS, 2.0, ": values per line is 2.0; give 1, 2, ..."),
     ],
 )
 def test_a_line_of_another_number_of_values_is_refused(file, content, due, problem):
@@ -150,11 +135,8 @@ def test_one_column_takes_its_step_from_the_argument(file, content):
     "heading",
     [
         "time_s,acc_gal\n",
-        "t [s],a [cm/s2]\n",
         "t [s]; a (gal)\n",
         "Time (sec),Acceleration (CM/SEC/SEC)\n",
-        "t,a in cm/s^2\n",
-        "t a_cm/s2\n",
         "# t_s,acc_gal  San Francisco, 42nd floor, resampled in 1990\n",
         "# Roof, north wall\n# units: cm/s2\n",
         "# accelerations in units of gal.\n",
@@ -174,31 +156,14 @@ def test_units_in_a_heading_or_a_remark_are_taken(file, heading):
 TWO_UNITS = "# north wall\n# units: gal\ntime_s,acc_g\n0,1\n1,2\n"
 
 
-@pytest.mark.parametrize(("units", "size"), [("g", G), ("gal", 0.01), ("cm/s2", 0.01)])
-def test_the_caller_says_which_of_two_units_it_is(file, units, size):
-    assert read_record(file(TWO_UNITS), units=units).a_mps2.tolist() == [size, 2.0 * size]
-
-
-@pytest.mark.parametrize("remark", ["converted from gal", "PGA [cm/s2] 300", "units: g or gal"])
-def test_a_comment_that_may_mean_something_else_asks_nothing(file, remark):
-    record = read_record(file(f"# {remark}\ntime_s,acc_g\n0,1\n1,2\n"))
-    assert record.a_mps2.tolist() == [G, 2.0 * G]
-
-
-@pytest.mark.parametrize(
-    "remark",
-    ["# dt = 0.005 s", "a_g  dt=5 ms", "# dt_s: 5e-3", "# DT[s]=.005", "# time step: 5 ms"],
-)
-def test_a_step_that_a_remark_states_is_taken(file, remark):
-    assert read_record(file(f"{remark}\n1\n2\n"), units="g").dt_s == 0.005
-
-
-def test_letters_n_and_g_are_no_index_and_no_unit(file):
-    content = "N,E\n0,1\n1,2\n0,3\n"
-    assert len(read_motion_file(file(content), units="g", dt_s=0.1).channels) == 2
-    motion_file = read_motion_file(file(LETTERS), units="gal")
-    assert [record.name for record in motion_file.channels] == ["ch_f", "ch_g", "ch_h"]
-    assert motion_file.channel("ch_g").a_mps2.tolist() == [0.02, 0.05]
+def test_a_comment_that_may_mean_something_else_asks_nothing_where_units_are_said(file):
+    for units, size in (("g", G), ("gal", 0.01), ("cm/s2", 0.01)):
+        assert read_record(file(TWO_UNITS), units=units).a_mps2.tolist() == [size, 2.0 * size]
+    for remark in ("converted from gal", "PGA [cm/s2] 300", "units: g or gal"):
+        record = read_record(file(f"# {remark}\ntime_s,acc_g\n0,1\n1,2\n"))
+        assert record.a_mps2.tolist() == [G, 2.0 * G]
+    for remark in ("# dt = 0.005 s", "a_g  dt=5 ms", "# DT[s]=.005", "# time step: 5 ms"):
+        assert read_record(file(f"{remark}\n1\n2\n"), units="g").dt_s == 0.005
 
 
 CHANNELS = "time_s,NS_g,EW [gal],UD_g,vel_cm/s\n0,1,2,3,9\n0.5,4,5,6,9\n"
@@ -217,6 +182,12 @@ def test_headings_and_comments_name_channels_with_their_units(file):
     assert plain.channel("x").a_mps2.tolist() == [1.0, 0.0]
     motion_file = read_motion_file(file("# t  NS[g]  EW [g]\n0 1 2\n1 3 4\n"))
     assert motion_file.channel("ew").a_mps2.tolist() == [2 * G, 4 * G]
+    # N and g are no index and no unit.
+    content = "N,E\n0,1\n1,2\n0,3\n"
+    assert len(read_motion_file(file(content), units="g", dt_s=0.1).channels) == 2
+    motion_file = read_motion_file(file(LETTERS), units="gal")
+    assert [record.name for record in motion_file.channels] == ["ch_f", "ch_g", "ch_h"]
+    assert motion_file.channel("ch_g").a_mps2.tolist() == [0.02, 0.05]
 
 
 LOGGER = "t [s];Acc x [m/s2];Acc y [m/s2];Acc z [m/s2];{};Temperature [°C];gyro_x [rad/s]\n"
@@ -231,11 +202,9 @@ def test_a_logger_column_of_the_magnitude_is_named_and_left_out(file, name):
               for other in ("Temperature [°C]", "gyro_x [rad/s]")]  # fmt: skip
     magnitude = f"column '{name}' is ignored: it is the magnitude of a vector, not a component"
     assert motion_file.notes == (*others, magnitude)
-
-
-@pytest.mark.parametrize("name", ["Absolute acceleration", "total", "acc_mag"])
-def test_a_component_that_changes_its_sign_is_no_magnitude(file, name):
-    assert read_record(file(f"t_s,{name} [m/s2]\n0,1\n1,-2\n")).a_mps2.tolist() == [1, -2]
+    # A component that changes its sign is no magnitude.
+    signed = read_record(file("t_s,Absolute acceleration [m/s2]\n0,1\n1,-2\n"))
+    assert signed.a_mps2.tolist() == [1, -2]
 
 
 LETTERS = "time_s,ch_f,ch_g,ch_h\n0,1,2,3\n1,4,5,6\n"
@@ -314,14 +283,11 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
     [
         ("0,1\n0.1,abc\n", ["2: found 'abc'; give a number"]),
         ("0,1\n0.1,NaN\n0.2,-inf\n", ["2: found 'NaN'; give", "3: found '-inf'; give"]),
-        ("0,1\n0.1,\n", ["2: found ''; give a number"]),
         ("0,1\n0.1,1_0\n0.2,x\n", ["2: found '1_0'", "3: found 'x'"]),
         ("0 1\n0.1\n0.2 1 2\n", ["2: found 1 column; give 2", "3: found 3 columns; give 2"]),
         ("0,0;0,12\n0.1;2\n", ["1: found '0,0'; give a number with a decimal point", "1: fou"]),
-        ("0.1 0,12\n0.2 0,13\n", ["1: found '0,12'; give a number with a dec", "2: found"]),
         ("a\n\n# x\n0,12\n0,13\n-0,11", ["4: found '0,12'; give a number with a decimal"]),
         ("2 1\n1 2\n0 3\n", ["2: found time 1 s after 2 s", "3: found time 0 s after 1 s"]),
-        ("0 1\n1e-320 2\n", ["2: found time 9.99989e-321 s after 0 s"]),
         ("word\nand some more\nin prose\n",
          ["2: found 'and some more' where numbers are due, and"]),
         ("1994 Northridge\n0.1\n0.2\n",
@@ -335,17 +301,13 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
             ["1: found 2 numbers above rows of 1; if they are no samples, put # be"],
         ),
         ("made motion\n0.01 7\n1\n2\n3\n", ["2: found 2 numbers above rows of 1; if they are no"]),
-        ("Northridge\n1 2 3\n4 5 6\n7\n", ["4: found 1 values after lines of 3: values across"]),
         ("0 1\n2 0\n" * 6,
          [" found 2 columns without a heading, and the first is no time: it fal"]),
-        ("0 1 2\n0.1 3 4\n", ["1: found 3 columns without a heading; give one that"]),
         ("t,x,y,z\n0,1,2\n1,2,3\n", ["1: found 4 headings over 3 columns; give one"]),
         ("n,t_s,x_g\n0,1,2\n1,2,3\n", [" found times in column 2; give them in the"]),
-        ("t_s,x_g,y_g\n0,1,2\n1,2\n", ["3: found 2 columns; give 3 as in the first"]),
         ("", [" found no numbers"]),
         ("0,1\n", [" found 1 sample; give at least 2"]),
         ("1\n2\n", [" found one column, without times; give the time step dt"]),
-        ("# width = 3\n1\n2\n", [" found one column, without times; give the time step dt"]),
     ],
 )  # fmt: skip
 def test_each_line_at_fault_is_named_with_what_would_do(file, content, expected):
@@ -366,30 +328,23 @@ def test_many_faults_are_cut_short_and_counted_to_a_limit(file):
     ("head", "named"),
     [
         ("Frequency (Hz),Sa (g)", "'Frequency (Hz)', 'Sa (g)'"),
-        ("Period (s),PSA (g)", "'Period (s)', 'PSA (g)'"),
-        ("period_s;acc_g", "'period_s'"),
         ("Freq. [Hz]\tAmplitude", "'Freq. [Hz]'"),
         ("T (s),Sa (g)", "'Sa (g)'"),
         ("T,PSA_g,PSV", "'PSA_g', 'PSV'"),
-        ("Tn,spectral acceleration (g)", "'Tn', 'spectral acceleration (g)'"),
-        ("f (Hz),acceleration (g)", "'f (Hz)'"),
     ],
 )
-def test_a_spectrum_is_no_record(tmp_path, head, named):
-    path = tmp_path / "a.csv"
+def test_a_spectrum_is_no_record(file, head, named):
     separator = next((mark for mark in ",;\t" if mark in head), ",")
     width = head.count(separator) + 1
     rows = [separator.join([f"{0.1 * k:.1f}", *["0.3"] * (width - 1)]) for k in range(1, 40)]
-    path.write_text("\n".join([head, *rows]) + "\n", encoding="utf-8")
-    wanted = f"a.csv:1: found {named}: this is a spectrum, no record; give accelerations by time"
-    assert problems_of(path) == (wanted,)
+    wanted = f"roof.csv:1: found {named}: this is a spectrum, no record; give accelerations by time"
+    assert problems_of(file("\n".join([head, *rows]) + "\n")) == (wanted,)
 
 
 @pytest.mark.parametrize(
     "head",
     ["Time (s),EW (g),NS (g)", "t,Sensor 1,Sensor 2", "T (s),SA-X (g),UD (g)", "t_s,a_g,b_g"],
 )
-def test_a_record_is_no_spectrum(tmp_path, head):
-    path = tmp_path / "a.csv"
-    path.write_text(head + "\n0,0.1,0.2\n0.01,0.2,0.3\n0.02,0.1,0.1\n", encoding="utf-8")
+def test_a_record_is_no_spectrum(file, head):
+    path = file(head + "\n0,0.1,0.2\n0.01,0.2,0.3\n0.02,0.1,0.1\n")
     assert read_motion_file(path, units="g").channels

@@ -44,7 +44,7 @@ class TestEvenTimes:
 
 
 class TestUnevenTimes:
-    def test_coarser_grids_and_zeros_lose_nothing(self):
+    def test_coarser_grids_lose_nothing_and_peaks_are_kept_or_their_loss_told(self):
         t = np.array([0.0, 0.02, 0.03, 0.07, 0.08, 0.09])
         a = np.array([[0.0, 1.0, -2.0, 0.5, 3.0, 0.0]])
         resampled = sampled(SOURCE, t, a, int)
@@ -58,6 +58,15 @@ class TestUnevenTimes:
         resampled = sampled(SOURCE, np.array([0.0, 0.1, 0.15]), np.zeros((1, 3)), int)
         assert resampled.dt_s == 0.05
         assert resampled.columns.tolist() == [[0.0] * 4]
+        t = np.r_[np.arange(0, 100) * 0.01, 1.0037, 1.0081 + np.arange(0, 100) * 0.01]
+        a = 5.0 * (np.arange(201)[None, :] == 100)
+        resampled = sampled(SOURCE, t, a, int)
+        assert np.abs(resampled.columns).max() >= 5.0 * (1.0 - LOSS)
+        assert resampled.dt_s < 0.01
+        t = np.r_[np.arange(0, 100) * 0.01, 0.9900101, 1.0 + np.arange(0, 100) * 0.01]
+        a = 5.0 * (np.arange(201)[None, :] == 100)
+        (note,) = sampled(SOURCE, t, a, int).notes
+        assert 0.5 < share_said(note) <= 1.0
 
     @given(
         st.lists(st.tuples(st.floats(0.002, 0.05), st.floats(-1.0, 1.0)), min_size=20, max_size=60)
@@ -76,17 +85,6 @@ class TestUnevenTimes:
         assert said <= LOSS or finest
         assert abs(even[-1] - t[-1]) < resampled.dt_s * (1.0 + 1e-6)
 
-    def test_peaks_between_samples_are_kept_or_their_loss_told(self):
-        t = np.r_[np.arange(0, 100) * 0.01, 1.0037, 1.0081 + np.arange(0, 100) * 0.01]
-        a = 5.0 * (np.arange(201)[None, :] == 100)
-        resampled = sampled(SOURCE, t, a, int)
-        assert np.abs(resampled.columns).max() >= 5.0 * (1.0 - LOSS)
-        assert resampled.dt_s < 0.01
-        t = np.r_[np.arange(0, 100) * 0.01, 0.9900101, 1.0 + np.arange(0, 100) * 0.01]
-        a = 5.0 * (np.arange(201)[None, :] == 100)
-        (note,) = sampled(SOURCE, t, a, int).notes
-        assert 0.5 < share_said(note) <= 1.0
-
     @pytest.mark.parametrize("gap", [1, 500, 998])
     def test_a_lost_sample_is_a_straight_line(self, file, gap):
         rows = [f"{i / 100:.2f},{i % 7}\n" for i in range(1000) if i != gap]
@@ -96,7 +94,7 @@ class TestUnevenTimes:
         assert a[gap] == pytest.approx((a[gap - 1] + a[gap + 1]) / 2.0)
         assert "times are uneven, steps of 0.01 to 0.02 s" in motion_file.notes[0]
 
-    def test_gaps_are_told_with_their_lines_and_cut_short(self, file):
+    def test_gaps_are_told_and_drifting_steps_and_all_columns_resampled(self, file):
         t = [i / 100 + 2.0 * (i // 20) for i in range(120)]
         motion_file = read_motion_file(file("".join(f"{x:.2f},1\n" for x in t)), units="g")
         assert motion_file.notes[1] == (
@@ -104,8 +102,6 @@ class TestUnevenTimes:
         )
         assert len(motion_file.notes) == 5
         assert motion_file.notes[-1] == "... and 2 more gaps"
-
-    def test_drifting_steps_and_all_columns_are_resampled(self, file):
         text = "".join(f"{0.01 * i + 1e-6 * i * i:.7f},{i}\n" for i in range(200))
         record = read_record(file(text), units="m/s2")
         t = record.dt_s * np.arange(len(record.a_mps2))

@@ -1,4 +1,4 @@
-"""The kernels with the compiler off, to the bit, and at the ends of records."""
+"""Kernels with the compiler off, to the bit; the oscillator and lives against closed forms."""
 
 import math
 from itertools import product
@@ -8,6 +8,7 @@ import pytest
 
 from blocks import SCENES, readonly
 from solver.kernels import one_axis, oscillator
+from solver.kernels.lives import live
 
 pytestmark = pytest.mark.quick
 
@@ -90,3 +91,91 @@ def test_the_last_sample_of_a_record_of_any_length_is_seen(size, vertical):
         least, first = one_axis.minimum_normal(ax, az, *bounds, 0.25, sn, cs, G, 1.0)
         assert least == pytest.approx(cs - 1.2, rel=1e-12)
         assert first == pytest.approx(0.25 * (size - 2 + cs / 1.2), rel=1e-12)
+
+
+@pytest.mark.parametrize("zeta", [0.0, 0.05, 0.3])
+def test_a_sudden_load_overshoots_by_the_textbook_factor(zeta):
+    n, dt, omega, load = 100, 0.01, 2.0 * math.pi, 3.0
+    peak, at = np.zeros(1), np.zeros(1, dtype=np.int64)
+    record = np.full(n, load)
+    oscillator.peaks(readonly(record), dt, np.array([omega]), zeta, peak, at)
+    kappa = math.sqrt(1.0 - zeta * zeta)
+    # A. K. Chopra, Dynamics of Structures: step force, u_max = u_st (1 + exp(-pi zeta / kappa)).
+    assert -peak[0] == pytest.approx(load * (1.0 + math.exp(-math.pi * zeta / kappa)), rel=1e-6)
+    assert at[0] * dt == pytest.approx(0.5 / kappa, abs=dt)
+
+
+def of_a_step(p, zeta):
+    """The matrix exponential of a step, of p in the time omega t."""
+    # y' = z, z' = -y - 2 zeta z - a - r tau, and r are constants.
+    rates = np.array([[0, 1, 0, 0], [-1, -2 * zeta, -1, 0], [0, 0, 0, 1], [0, 0, 0, 0.0]])
+    return np.linalg.matrix_power(np.eye(4) + rates * p / 2**24, 2**24)
+
+
+def test_crests_are_the_samples_that_exceed_their_neighbors_and_the_limit():
+    n, dt, zeta = 200, 0.01, 0.05
+    a = np.random.default_rng(5).standard_normal(n)
+    omega, above = np.array([20.0, 60.0]), np.array([0.3, 0.5])
+    which, where, values = oscillator.crests(readonly(a), dt, omega, zeta, above)
+    expected = []
+    for k, p in enumerate(omega * dt):
+        vectors, y, z = of_a_step(p, zeta), [0.0], 0.0
+        for i in range(1, n):
+            moved, z = (vectors @ [y[-1], z, a[i - 1], (a[i] - a[i - 1]) / p])[:2]
+            y.append(moved)
+        far = np.abs(y)
+        expected += [(k, i) for i in range(1, n - 1)
+                     if far[i] > above[k] and far[i - 1] <= far[i] > far[i + 1]]  # fmt: skip
+        own = which == k
+        assert values[own] == pytest.approx(np.array(y)[where[own]], rel=1e-6)
+    assert list(zip(which, where, strict=True)) == expected
+    assert len(expected) > 10
+
+
+def test_reversed_pulses_are_second_differences_of_the_response_to_a_ramp():
+    n, zeta, radians, at = 400, 0.05, np.array([0.05, 0.4, 2.0]), np.array([399, 150, 0])
+    out = np.zeros((3, n))
+    begin = oscillator.reversed_pulses(radians, zeta, at, 1e-3, out)
+    kappa = math.sqrt(1.0 - zeta**2)
+    for k in range(3):
+        w = radians[k] * np.arange(n + 1)
+        h = np.exp(-zeta * w) * np.sin(kappa * w) / kappa
+        once = 1.0 - np.exp(-zeta * w) * np.cos(kappa * w) - zeta * h
+        ramp = np.append(0.0, w - h - 2.0 * zeta * once)
+        pulse = np.diff(ramp, n=2) / -radians[k]
+        filled = slice(begin[k], at[k] + 1)
+        assert out[k, filled][::-1] == pytest.approx(pulse[: at[k] + 1 - begin[k]], abs=1e-12)
+        assert not out[k, : begin[k]].any()
+        assert not out[k, at[k] + 1 :].any()
+    # exp(-0.05 * 0.4 * 346) = 1e-3
+    assert list(begin) == [0, 0, 0]
+    begin = oscillator.reversed_pulses(np.array([0.4]), zeta, np.array([399]), 1e-3, out[:1])
+    assert begin[0] == 399 - 346
+
+
+NEVER = math.inf
+# Half-way from level 0 to 1: PRD 5, 4 down, 1 up and 2 across, residuals 3 down and 2 across.
+RESPONSES = np.array([[[[4.0, 3.0, 1.0, 2.0, 2.0, 2.0], [6.0, 5.0, 1.0, 2.0, 4.0, 2.0],
+                        [np.nan] * 6]]])  # fmt: skip
+
+
+def lived(levels, sides, recenter=NEVER):
+    """Return the largest and the last distance of one life of events half-way between levels."""
+    out, only = np.empty((2, 1)), np.zeros(1, dtype=np.int64)
+    run, level = np.zeros(len(levels), dtype=np.int64), np.array(levels, dtype=np.int64)
+    first, weight = np.array([0, len(levels)]), np.full(len(levels), 0.5)
+    live(first, only, run, level, weight, np.array(sides), RESPONSES, recenter, out)
+    return tuple(out[:, 0])
+
+
+def test_places_add_until_an_array_is_put_back():
+    # Its PRD of 5, or the corner of 4 down and 2 across, which is nearer.
+    assert lived([0], [1.0]) == pytest.approx((math.hypot(4.0, 2.0), math.hypot(3.0, 2.0)))
+    largest, last = lived([0, 0], [1.0, -1.0])
+    assert last == pytest.approx(6.0)
+    # From (3, 2): the PRD from there, or the corner (3 + 4, 2 + 2).
+    assert largest == pytest.approx(min(math.hypot(3.0, 2.0) + 5.0, math.hypot(7.0, 4.0)))
+    assert lived([0, 0], [1.0, 1.0], recenter=3.0) == pytest.approx((math.hypot(4.0, 2.0), 0.0))
+    assert lived([], []) == (0.0, 0.0)
+    for levels in ([-1], [1], [0, -1]):  # without a response
+        assert lived(levels, [1.0] * len(levels)) == (math.inf, math.inf)

@@ -108,11 +108,9 @@ def test_published_displacements_are_reproduced_with_the_importance_entering_onc
         (PV1, 2.00, "C", 1.0, 6.0),
         (PV1, 1.00, "D", 1.0, 21.6),
         (PV1, 1.00, "D", 1.5, 21.6),
-        (PV1, 0.30, "D", 1.0, 6.0),
         (A16, 1.00, "D", 1.0, 24.0),
         (A16, 1.00, "D", 1.25, 27.0),
         (A16, 1.40, "D", 1.0, 60.0),
-        (A22, 1.40, "D", 1.0, 60.0),
         (PV1, 1.40, "D", 1.0, 60.0),
     ],
 )
@@ -248,10 +246,8 @@ def test_peer_review_permits_steeper_roofs_in_low_sdc_up_to_13_6_12():
         (PV1, 24, 18, True),
         (PV1, 23.9, 10, False),
         (PV1, 24, 18.1, False),
-        (PV1, 30, 20, True),
         (A16, 11.9, 12, False),
         (A16, 12.0, 12, True),
-        (A16, 12.1, 12, True),
     ],
 )
 def test_a_parapet_must_clear_the_roof_and_in_asce_7_the_center_of_gravity_alone(

@@ -33,16 +33,7 @@ NOT_A_ROW = [
     np.ones((2, 2)),
     5.0,
 ]
-NOT_A_NUMBER = [
-    np.datetime64("2026-01-01"),
-    "0.5",
-    True,
-    10**400,
-    None,
-    [0.5],
-    np.ma.masked,
-    1j,
-]
+NOT_A_NUMBER = [np.datetime64("2026-01-01"), "0.5", True, 10**400, None, [0.5], np.ma.masked, 1j]
 
 
 def named(value):
@@ -173,84 +164,61 @@ def test_what_a_record_or_a_motion_contradicts_is_refused(components):
         solver.slide(x.a_mps2, **SCENE)
 
 
-class TestMotion:
-    def test_a_motion_has_its_names_polarities_and_checked_lengths(self, components):
-        motion = solver.motion(components[0])
-        assert (motion.id, motion.signs, motion.scale) == ("x", (1, -1), 1.0)
-        assert not motion.has_transverse
-        assert [each.name for each in motion.orientations] == ["record +", "record −"]
-        first = solver.motion(*components, id="A", source="made", scale=2.0)
-        again = solver.motion(first, scale=1.5)
-        assert isinstance(again, Motion)
-        assert (again.id, again.source, again.scale) == ("A", "made", 3.0)
-        assert solver.motion(first, id="B").id == "B"
-        one_way = solver.motion(components[0], signs=(1,))
-        assert solver.motion(one_way, scale=0.5).signs == (1,)
-        assert solver.motion(one_way, signs=(1, -1)).signs == (1, -1)
-        x, y, _ = components
-        with pytest.raises(InputError, match="give the shape of ax_mps2"):
-            solver.motion(x, replace(y, a_mps2=y.a_mps2[:-1]))
-        for signs in ((), (2,)):
-            with pytest.raises(InputError, match="signs is"):
-                solver.motion(x, signs=signs)
+def test_a_motion_has_its_names_polarities_and_checked_lengths(components):
+    motion = solver.motion(components[0])
+    assert (motion.id, motion.signs, motion.scale) == ("x", (1, -1), 1.0)
+    assert not motion.has_transverse
+    assert [each.name for each in motion.orientations] == ["record +", "record −"]
+    first = solver.motion(*components, id="A", source="made", scale=2.0)
+    again = solver.motion(first, scale=1.5)
+    assert isinstance(again, Motion)
+    assert (again.id, again.source, again.scale) == ("A", "made", 3.0)
+    assert solver.motion(first, id="B").id == "B"
+    one_way = solver.motion(components[0], signs=(1,))
+    assert solver.motion(one_way, scale=0.5).signs == (1,)
+    assert solver.motion(one_way, signs=(1, -1)).signs == (1, -1)
+    x, y, _ = components
+    with pytest.raises(InputError, match="give the shape of ax_mps2"):
+        solver.motion(x, replace(y, a_mps2=y.a_mps2[:-1]))
+    for signs in ((), (2,)):
+        with pytest.raises(InputError, match="signs is"):
+            solver.motion(x, signs=signs)
 
 
-class TestWords:
-    def test_results_are_one_line_and_solutions_three(self, components):
-        x, y, z = components
-        result = solver.slide(x, **SCENE)
-        assert repr(result) == (
-            f"SlideResult: PRD {1e3 * result.prd_m:.1f} mm at {result.t_prd_s:.2f} s, "
-            f"{1e3 * result.residual_m:+.1f} mm at the end, {result.n_stops} stops, ok"
-        )
-        both = solver.slide(x, ay_mps2=y, az_mps2=z, **SCENE)
-        assert f"{1e3 * both.residual_across_m:+.1f} mm cross-slope at the end" in repr(both)
-        assert repr(solver.slide(x, slope_rad=0.0, mu=9.0)) == "SlideResult: no slip"
-        lifted = solver.slide([0.0] * 4, 0.1, az_mps2=[0.0, 0.0, 0.0, -20.0], **SCENE)
-        assert repr(lifted) == f"SlideResult: {Status.UPLIFT.sentence}"
-        scene = solver.scene(components[0], az_mps2=components[2], **SCENE)
-        for settings in (Settings(), Settings(forced=Model.ONE_AXIS)):
-            solution = solver.solve(scene, settings)
-            about, result, beyond = repr(solution).splitlines()
-            assert about == f"Solution: {solution.model.title}; {solution.reason}"
-            assert result == repr(solution.result)
-            assert f"coefficient {solution.friction_demand:.3f}; " in beyond
-        assert f"more than {1e3 * solution.next_effect_m:.2g} mm" in beyond
-        motion = solver.motion(*components, id="A", scale=2.0)
-        assert repr(motion) == "Motion: A, x and y and z, 2000 samples of 0.01 s, scale 2"
-        history = solver.slide_history(components[0], **SCENE)
-        told = f"2000 samples, {len(history.events)} events; {history.result.words}"
-        assert repr(history) == f"SlideHistory: {told}"
+def test_results_without_a_slip_lifted_and_in_two_axes_have_their_words(components):
+    """The examples of the public functions have the others."""
+    x, y, z = components
+    both = solver.slide(x, ay_mps2=y, az_mps2=z, **SCENE)
+    assert f"{1e3 * both.residual_across_m:+.1f} mm cross-slope at the end" in repr(both)
+    assert repr(solver.slide(x, slope_rad=0.0, mu=9.0)) == "SlideResult: no slip"
+    lifted = solver.slide([0.0] * 4, 0.1, az_mps2=[0.0, 0.0, 0.0, -20.0], **SCENE)
+    assert repr(lifted) == f"SlideResult: {Status.UPLIFT.sentence}"
+    scene = solver.scene(x, az_mps2=z, **SCENE)
+    solution = solver.solve(scene, Settings(forced=Model.ONE_AXIS))
+    about, result, beyond = repr(solution).splitlines()
+    assert about == f"Solution: {solution.model.title}; {solution.reason}"
+    assert result == repr(solution.result)
+    assert f"coefficient {solution.friction_demand:.3f}; " in beyond
+    assert f"more than {1e3 * solution.next_effect_m:.2g} mm" in beyond
 
 
-class TestOwnMethod:
-    def test_an_own_method_is_run_beside_the_eight_without_an_error(self, components):
-        def follow(scene, parameters, samples):
-            u_m = scene.mu * scene.dt * parameters["factor"]
-            return Outcome(True, u_m, 0.0, u_m, 0.0, 1.0, 3)
+def test_an_own_method_is_run_beside_the_eight_without_an_error(components):
+    def follow(scene, parameters, samples):
+        u_m = scene.mu * scene.dt * parameters["factor"]
+        return Outcome(True, u_m, 0.0, u_m, 0.0, 1.0, 3)
 
-        mine = replace(METHODS["paper"], name="mine", parameters={"factor": 2.0}, follow=follow)
-        result = solver.slide(components[0], slope_rad=0.0, mu=0.3, method=mine)
-        assert (result.prd_m, result.n_stops) == (0.3 * DT_S * 2.0, 3)
-        assert math.isnan(result.error_m)
-        half = solver.slide(components[0], slope_rad=0.0, mu=0.3, method=mine, factor=1.0)
-        assert half.prd_m == 0.5 * result.prd_m
-        with pytest.raises(InputError, match="factor is 'x'; give a finite number"):
-            solver.slide(components[0], slope_rad=0.0, mu=0.3, method=mine, factor="x")
-        mine = replace(METHODS["frozen-normal"], name="exact")
-        history = solver.slide_history(components[0], **SCENE, method=mine)
-        assert math.isnan(history.result.error_m)
-        assert history.events == ()
-
-
-def test_labeled_arrays_are_those_of_the_sweep(components):
-    pytest.importorskip("xarray")
-    axes = {"slopes_rad": [0.0, 0.03], "mus": [0.2, 0.3, 0.4], "scales": [1.0]}
-    swept = solver.sweep(components[0], **axes)
-    made = swept.to_frame().to_xarray()
-    assert dict(made.sizes) == {"slope_rad": 2, "mu": 3, "scale": 1}
-    np.testing.assert_array_equal(made["prd_m"].values, swept.prd_m)
-    assert float(made["prd_m"].sel(slope_rad=0.03, mu=0.3, scale=1.0)) == swept.prd_m[1, 1, 0]
+    mine = replace(METHODS["paper"], name="mine", parameters={"factor": 2.0}, follow=follow)
+    result = solver.slide(components[0], slope_rad=0.0, mu=0.3, method=mine)
+    assert (result.prd_m, result.n_stops) == (0.3 * DT_S * 2.0, 3)
+    assert math.isnan(result.error_m)
+    half = solver.slide(components[0], slope_rad=0.0, mu=0.3, method=mine, factor=1.0)
+    assert half.prd_m == 0.5 * result.prd_m
+    with pytest.raises(InputError, match="factor is 'x'; give a finite number"):
+        solver.slide(components[0], slope_rad=0.0, mu=0.3, method=mine, factor="x")
+    mine = replace(METHODS["frozen-normal"], name="exact")
+    history = solver.slide_history(components[0], **SCENE, method=mine)
+    assert math.isnan(history.result.error_m)
+    assert history.events == ()
 
 
 PULSE_G = [0.0, 0.4, -0.4, 0.0, 0.0, 0.0]

@@ -62,13 +62,7 @@ def test_a_ramped_pulse_on_a_slope_is_met_to_rounding(degrees, mu, amplitude, ve
 
 
 @pytest.mark.parametrize(
-    ("degrees", "mu"),
-    [
-        (degrees, mu)
-        for degrees in (-7, -2, 0, 0.5, 4, 7, 30)
-        for mu in (0.05, 0.4, 1.0)
-        if mu > math.tan(math.radians(abs(degrees)))
-    ],
+    ("degrees", "mu"), [(0, 0.05), (0.5, 0.05), (-2, 0.05), (4, 0.4), (-7, 0.4), (30, 1.0)]
 )
 def test_slip_begins_just_beyond_the_yield_accelerations(degrees, mu):
     slope = math.radians(degrees)
@@ -87,20 +81,6 @@ GRID = [
     for (degrees, mu), scale in zip(PAIRS, itertools.cycle((0.3, 1.0, 2.0)), strict=False)
 ]
 """Every slope with every friction coefficient, the scale cycling through."""
-
-
-@pytest.mark.nightly
-@pytest.mark.parametrize("name", ["Kobe_Japan_1995_KJM-000", "Northridge_1994_RRS-228"])
-@pytest.mark.parametrize("with_vertical", [False, True])
-def test_real_records_agree_with_forty_digits(real_records, name, with_vertical):
-    ax, dt = real_records[name]
-    other = real_records[name[:-3] + {"000": "090", "228": "318"}[name[-3:]]][0]
-    size = min(ax.size, other.size)
-    ax, az = ax[:size], 0.4 * other[:size] if with_vertical else None
-    for scene in GRID[:: 2 if with_vertical else 1]:
-        result = slide(ax, dt, az_mps2=az, **scene)
-        if result.status is not Status.UPLIFT:
-            assert_agrees(result, oracle.slide(ax, dt, az=az, **scene))
 
 
 def test_noise_agrees_with_forty_digits(noise):
@@ -269,16 +249,6 @@ def test_work_balances_and_the_history_ends_where_the_result_says(noise):
 # History
 
 
-def test_results_of_the_same_run_are_equal_though_one_time_is_nan(noise):
-    first, again = (slide(noise, 0.01, slope_rad=0.02, mu=0.5) for _ in range(2))
-    copied = replace(again, t_uplift_s=-float("nan"))  # another object
-    assert math.isnan(first.t_uplift_s)
-    assert first == copied
-    assert hash(first) == hash(copied)
-    assert first != replace(again, n_stops=again.n_stops + 1)
-    assert first != "a result"
-
-
 @pytest.mark.quick
 def test_histories_at_rest_and_of_solved_scenes():
     history = slide_history([0.0, 1.0, 0.0], 0.1, slope_rad=0.0, mu=0.5)
@@ -288,6 +258,13 @@ def test_histories_at_rest_and_of_solved_scenes():
     scene = solver.scene(SWAY, 0.1, slope_rad=0.0, mu=0.1)
     solution = solver.solve(scene)
     assert solver.history(scene, solution).result == solution.result
+    # Results of the same run are equal though one time is NaN.
+    first, again = (slide(SWAY, 0.1, slope_rad=0.02, mu=0.5) for _ in range(2))
+    copied = replace(again, t_uplift_s=-float("nan"))  # another object
+    assert math.isnan(first.t_uplift_s)
+    assert (first, hash(first)) == (copied, hash(copied))
+    assert first != replace(again, n_stops=again.n_stops + 1)
+    assert first != "a result"
 
 
 # Uplift and bad input
@@ -302,11 +279,7 @@ def test_a_negative_normal_force_gives_the_time_and_no_displacement(method):
     # N = 10 cos 30 - 400 (t - 0.1) sin 30 = 0
     assert result.t_uplift_s == pytest.approx(0.1 + math.cos(slope) / 20, rel=1e-12)
     assert result.n_min_g == pytest.approx(math.cos(slope) - 2.0, rel=1e-12)
-
-
-def test_vertical_shaking_alone_can_lift_the_block():
-    result = slide([0.0, 0.0], 0.1, slope_rad=0.0, mu=0.5, az_mps2=[0.0, -10.0], g_mps2=9.8)
-    assert result.status is Status.UPLIFT
+    # Vertical shaking alone can lift the block.
     history = slide_history([0.0, 0.0], 0.1, slope_rad=0.0, mu=0.5, az_mps2=[-10.0, 0.0])
     assert history.result.t_uplift_s == 0.0
     assert history.result.n_min_g == pytest.approx(1.0 - 10.0 / 9.80665, rel=1e-12)
@@ -396,13 +369,9 @@ def test_a_result_that_is_not_finite_is_a_status(noise, monkeypatch):
 
 @pytest.mark.nightly
 def test_results_are_short_to_read_and_tables_where_they_are_rows():
-    scene = solver.scene([0.0] * 6000, 0.005, slope_rad=0.02, mu=0.5)
     history = solver.slide_history(SWAY, 0.1, slope_rad=0.0, mu=0.1)
     both = solver.slide_history(SWAY, 0.1, slope_rad=0.0, mu=0.1, ay_mps2=SWAY)
     sweep = solver.sweep([0.0, 4.0, 0.0], 0.1, slopes_rad=[0.0, 0.1], mus=[0.2], scales=[1.0, 2.0])
-    assert repr(scene) == (
-        "Scene(1 component of 6000 samples at 0.005 s, slope 1.146 deg, mu 0.5, scale 1)"
-    )
     assert repr(sweep) == "Sweep(2 slopes, 1 friction coefficients, 2 scales)"
     frame = history.to_frame()
     assert frame["u_m"].tolist() == history.u_m.tolist()

@@ -39,10 +39,8 @@ FULL, LIFTED, FLAT = scene(AX, AY, AZ), scene(AX, az=AZ), scene(AX)
 def test_a_block_that_friction_holds_is_not_run():
     held = scene(AX, AY, AZ, mu=1.5, slope_deg=0.0)
     solution = solve(held)
-    demand = np.max(np.hypot(AX, AY) / (G + AZ))
     assert solution.model is Model.NO_SLIP
-    assert solution.friction_demand == pytest.approx(demand, rel=1e-14)
-    assert demand < 1.5
+    assert solution.friction_demand < 1.5
     assert (solution.result.prd_m, solution.next_effect_m) == (0.0, 0.0)
     assert two_axes.run(held).prd_m == 0.0
 
@@ -91,16 +89,6 @@ def test_a_vertical_that_does_not_matter_is_left_out_and_a_transverse_that_does_
     assert solution.result.prd_m > 1.1 * one_axis.run(LIFTED).prd_m
 
 
-def test_a_faint_second_component_is_left_out_and_its_effect_is_known():
-    faint = scene(AX, 0.001 * AY, AZ)
-    solution, fuller = solve(faint), two_axes.run(faint)
-    assert solution.model is Model.ONE_AXIS_VERTICAL
-    assert solution.next_model is Model.TWO_AXES
-    change = off(fuller, solution.result)
-    assert 0.0 < change <= solution.next_effect_m <= change + 1.01 * fuller.error_m
-    assert solution.next_effect_m <= Settings().bound_m(solution.result.prd_m)
-
-
 @pytest.mark.parametrize("share", [0.3, 0.1, 0.03, 0.01])
 @pytest.mark.parametrize("mu", [0.2, 0.4, 0.6])
 @pytest.mark.parametrize("slope_deg", [0.0, 7.0])
@@ -114,6 +102,8 @@ def test_what_is_left_out_changes_less_than_is_said_and_than_may_be(share, mu, s
         assert off(true, along) > allowed - solution.result.error_m
     else:
         assert off(true, solution.result) <= solution.next_effect_m <= allowed
+        fuller = {Model.ONE_AXIS: Model.ONE_AXIS_VERTICAL, Model.ONE_AXIS_VERTICAL: Model.TWO_AXES}
+        assert solution.next_model is fuller[solution.model]
 
 
 def test_a_faint_push_that_stays_is_carried_along_the_path_and_is_not_left_out():

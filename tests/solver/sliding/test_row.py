@@ -145,9 +145,7 @@ def test_a_block_too_steep_to_rest_by_itself_comes_to_rest_on_its_link():
     assert result.status is Status.OK
     assert result.prd_m[1] == pytest.approx(math.cos(slope) * 2.0 * (a - hold) / k, rel=1e-12)
     assert alone(still, mu).status is Status.SLIDING_AT_END
-
-
-def test_a_block_without_friction_that_nothing_pushes_rests():
+    # Without friction one that nothing pushes rests.
     still = scene(np.zeros(100), slope=0.0)
     result = slide_row(still, BlockRow(mus=(0.0, 0.4), stiffness_per_s2=10.0))
     assert (result.status, result.prd_m, result.n_stops) == (Status.OK, (0.0, 0.0), 0)

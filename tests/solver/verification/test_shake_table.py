@@ -54,7 +54,6 @@ def test_ratios_are_those_with_which_the_tests_were_made(tmp_path):
     [
         ((0.91,) * 5, True),
         ((0.89,) * 5, False),
-        ((1.09,) * 5, True),
         ((1.11,) * 5, False),
         ((1.0, 1.0, 1.0, 1.0, 1.34), True),
         ((1.0, 1.0, 1.0, 0.74, 1.34), False),
@@ -67,11 +66,13 @@ def test_the_acceptance_is_the_median_the_share_and_five_tests(tmp_path, ratios,
     assert (table.is_accepted, table.validates) == (accepted, accepted)
 
 
-def test_one_computed_slip_among_measured_ones_validates_nothing(tmp_path):
+def test_computed_slip_among_measured_validates_nothing_and_none_has_no_ratio(tmp_path):
     rows = tables.write_folder(tmp_path, (1.0,) * 5, data="measured")
-    tables.write_tests(tmp_path, [*rows[:4], changed(rows[4], {1: "computed"})])
+    still = changed(rows[0], {0: "still", 8: "0.5"})
+    tables.write_tests(tmp_path, [*rows[:4], changed(rows[4], {1: "computed"}), still])
     table = compare(table_tests(tmp_path))
     assert (table.is_accepted, table.validates) == (True, False)
+    assert (len(table.runs), table.ratios.size) == (6, 5)
 
 
 def test_a_run_without_a_result_is_outside_and_leaves_no_median(tmp_path):
@@ -82,13 +83,6 @@ def test_a_run_without_a_result_is_outside_and_leaves_no_median(tmp_path):
     assert math.isnan(table.median)
     assert table.share_within == pytest.approx(8.0 / 9.0)
     assert not table.is_accepted
-
-
-def test_a_test_without_measured_slip_has_no_ratio(tmp_path):
-    rows = tables.write_folder(tmp_path, (1.0,) * 5)
-    tables.write_tests(tmp_path, [*rows, changed(rows[0], {0: "still", 8: "0.5"})])
-    table = compare(table_tests(tmp_path))
-    assert (len(table.runs), table.ratios.size, table.is_accepted) == (6, 5, True)
 
 
 def test_three_axes_channels_static_friction_and_units_are_read(tmp_path):
@@ -116,10 +110,8 @@ def test_three_axes_channels_static_friction_and_units_are_read(tmp_path):
 @pytest.mark.parametrize(
     ("at", "text", "said"),
     [
-        (0, "", "tests.csv, row 2, column Test: is empty; give a name"),
         (1, "guessed", "row 2, column Data: found 'guessed'; give measured or computed"),
         (2, "", "column Source: is empty; give laboratory"),
-        (2, "a\u202eb", "column Source: give at most 200 printable characters"),
         (3, "", "column x: is empty; give the file of the table acceleration along the slope"),
         (3, "none.csv", "row 2, column x: none.csv"),
         (3, "../x.csv", "column x: '../x.csv' lies outside of the folder"),
@@ -127,11 +119,8 @@ def test_three_axes_channels_static_friction_and_units_are_read(tmp_path):
         (4, "short.csv", "column y: has 50 samples, x 133; trim them"),
         (5, "slow.csv", "column z: its time step is 0.02 s, that of x 0.01 s"),
         (6, "45", "column Slope [deg]: found '45'; give a number from -30 to 30"),
-        (6, "1e400", "column Slope [deg]: found '1e400'"),
         (7, "", "column Friction: found nothing; give a number from 0 to 2"),
-        (8, "nan", "column PRD [mm]: found 'nan'; give a number from 0 to 100000"),
         (8, "1" * 400, "column PRD [mm]: found '111"),
-        (9, "-3", "column Residual [mm]: found '-3'"),
     ],
 )
 def test_what_is_wrong_in_a_row_is_told_with_its_place(folder, at, text, said):
@@ -149,9 +138,6 @@ def test_every_row_with_a_problem_is_told_and_names_are_unlike(folder):
     in_row_3, twice = faults(folder)
     assert "row 3, column Friction" in in_row_3
     assert "two tests have the name 'p1'" in twice
-
-
-def test_static_friction_below_the_kinetic_is_told(folder):
     tables.write_tests(folder, [(*GOOD, "0.05")], (*tables.HEADINGS, "Static friction"))
     assert "Static friction: found 0.05, below the kinetic 0.1" in faults(folder)[0]
 
@@ -165,9 +151,8 @@ HEAD = ",".join(tables.HEADINGS) + "\n"
         ("", "has no heading Test"),
         ("Test,Data,Speed\n", "found the heading 'Speed'; accepted are Test, Data"),
         ("Test,Test,Data,Source,x,Slope [deg],Friction,PRD [mm]\n", "heading Test is there twice"),
-        ("Test,Data,Source,x,Slope [deg],Friction,PRD\n", "found the heading 'PRD'"),
         ("Test,Data,Source,x,Slope [deg],Friction,PRD [ft]\n", "has no heading PRD [mm]"),
-        ("Test;Data;Source\n", "has no heading Test"),
+        ("\xff\xfe\x00T", "not CSV UTF-8, separated by commas; save it so"),
         (HEAD, "has no tests"),
         (HEAD + "a,b\n", "row 2: has 2 cells; the headings are 10"),
         ("Test,\x00\n", "tests.csv"),
@@ -176,14 +161,9 @@ HEAD = ",".join(tables.HEADINGS) + "\n"
     ],
 )
 def test_a_file_that_is_no_table_of_tests_is_refused(folder, text, said):
-    (folder / "tests.csv").write_text(text)
-    assert any(said in problem for problem in faults(folder))
-
-
-def test_no_file_and_other_bytes_are_refused(folder):
     assert "give a folder with tests.csv" in faults(folder)[0]
-    (folder / "tests.csv").write_bytes(b"\xff\xfe\x00T")
-    assert "not CSV UTF-8, separated by commas; save it so" in faults(folder)[0]
+    (folder / "tests.csv").write_bytes(text.encode("latin-1"))
+    assert any(said in problem for problem in faults(folder))
 
 
 def test_many_headings_are_refused_in_a_time_that_grows_as_their_number(tmp_path):

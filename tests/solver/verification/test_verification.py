@@ -12,8 +12,15 @@ from solver.rivals import by_scipy
 from solver.rivals.methods import METHODS
 from solver.sliding.checked import slide
 from solver.verification import checks, paper_studies, reference, study
-from solver.verification.evidence import ROUNDING, Check, DesignCurves, percent_off
+from solver.verification.evidence import ROUNDING, SECTIONS, Check, DesignCurves, percent_off
 from solver.verification.features import FEATURES, statuses
+from solver.verification.reference import (
+    half_sine_travel,
+    harmonic_travel,
+    pulse_travel,
+    slope_pulse,
+    yield_accelerations,
+)
 from solver.verification.study import Case, near_fault_pulse, own_records, scale_to, shortened
 
 
@@ -33,9 +40,18 @@ def test_a_quick_verification_passes_and_fills_every_part(verification):
     assert verification.passed
     assert verification.quick
     assert verification.records == ("motion-01-x", "near-fault-pulse")
-    v = verification
-    parts = v.checks, v.work, v.maps, v.convergence, v.links, v.curves, v.conditioning, v.roofs
-    assert all(len(part) > 0 for part in (*parts, v.models))
+    parts = [
+        "checks",
+        "work",
+        "maps",
+        "convergence",
+        "links",
+        "curves",
+        "conditioning",
+        "roofs",
+        "models",
+    ]
+    assert all(len(getattr(verification, part)) > 0 for part in parts)
     assert len(verification.convergence) == len(verification.curves) == 2
     assert [(link.record, link.slope_deg) for link in verification.links] == [
         (record, slope) for record in verification.records for slope in (0.0, 4.0)
@@ -45,17 +61,9 @@ def test_a_quick_verification_passes_and_fills_every_part(verification):
 @pytest.mark.nightly
 def test_every_section_has_rows_with_a_source_and_a_tolerance_and_no_two_are_alike(verification):
     rows = verification.checks
-    assert {row.section for row in rows} == {
-        "Closed forms",
-        "Physical checks of the paper",
-        "Decimal arithmetic, 50 digits",
-        "Methods",
-        "Roof motion computed from ground motion",
-        "Two axes and the choice of model",
-        "Code rules, spectra, filters, uplift and tipping",
-    }
+    assert {row.section for row in rows} == {*SECTIONS.values()}
     assert all(row.source and row.unit and row.tolerance <= 0.025 for row in rows)
-    digits = [row for row in rows if row.section == "Decimal arithmetic, 50 digits"]
+    digits = [row for row in rows if row.section == SECTIONS["DA"]]
     assert max(row.error for row in digits) <= 1e-12
     names = [(row.section, row.problem, row.quantity) for row in rows]
     assert len(set(names)) == len(names)
@@ -87,7 +95,7 @@ def test_a_solver_that_is_a_millionth_off_fails_the_checks_that_see_it(monkeypat
     assert not any(row.passed for row in checks.fifty_digits(pulse) if row.expected != 0.0)
 
 
-def test_a_method_without_a_number_fails_its_check(monkeypatch):
+def test_a_method_without_a_number_fails_its_check_and_a_link_leaves_holes(monkeypatch, pulse):
     def lost(*args, **kwargs):
         return dataclasses.replace(slide(*args, **kwargs), prd_m=math.nan)
 
@@ -95,18 +103,14 @@ def test_a_method_without_a_number_fails_its_check(monkeypatch):
     rows = list(checks.rivals())
     assert len(rows) == len(METHODS)
     assert all(math.isnan(row.error) and not row.passed for row in rows)
+    monkeypatch.setattr(paper_studies, "LINK_PER_M", 1e9)
+    link = paper_studies.link_comparison(pulse, 4.0)
+    assert np.isnan([*link.runs_m["PRD, link"], link.worst_percent, link.mean_percent]).all()
 
 
 def test_closed_forms_and_the_physical_checks_of_the_paper_pass(pulse):
     rows = [*checks.closed_forms(), *checks.physical_checks(pulse), *checks.rivals()]
     assert [row for row in rows if not row.passed] == []
-
-
-@pytest.mark.quick
-def test_an_error_is_absolute_where_nothing_is_expected():
-    row = Check("CF-1", "c", "d", "m", "b", 0.0, -3e-4, 1e-3)
-    assert (row.error, row.passed) == (3e-4, True)
-    assert Check("CF-1", "c", "d", "m", "b", 2.0, 2.1, 0.04).error == pytest.approx(0.05)
 
 
 @pytest.mark.parametrize("with_vertical", [False, True])
@@ -129,10 +133,12 @@ def test_records_of_the_project_are_the_same_every_time_and_read_only():
 
 
 @pytest.mark.quick
-def test_errors_in_percent_have_a_floor_of_a_millimetre():
+def test_errors_have_a_floor_of_a_millimeter_and_are_absolute_where_nothing_is_expected():
     off = percent_off(np.array([1.01, 1e-4, math.nan]), np.array([1.0, 0.0, 1.0]))
-    assert off[:2] == pytest.approx([1.0, 10.0])
-    assert math.isnan(off[2])
+    assert off == pytest.approx([1.0, 10.0, math.nan], nan_ok=True)
+    row = Check("CF-1", "c", "d", "m", "b", 0.0, -3e-4, 1e-3)
+    assert (row.error, row.passed) == (3e-4, True)
+    assert Check("CF-1", "c", "d", "m", "b", 2.0, 2.1, 0.04).error == pytest.approx(0.05)
 
 
 # The paper's figures
@@ -191,7 +197,35 @@ def test_the_least_friction_is_read_off_between_the_runs():
     assert math.isnan(curves.minimum_mu(0.0, 1.0, -1.0))
 
 
-def test_a_link_that_never_comes_through_leaves_holes_and_no_error(pulse, monkeypatch):
-    monkeypatch.setattr(paper_studies, "LINK_PER_M", 1e9)
-    link = paper_studies.link_comparison(pulse, 4.0)
-    assert np.isnan([*link.runs_m["PRD, link"], link.worst_percent, link.mean_percent]).all()
+G = 9.81
+
+
+def slope_travel(degrees, mu, horizontal, vertical, duration):
+    drive, resist = slope_pulse(math.radians(degrees), mu, horizontal, vertical, G)
+    return pulse_travel(drive, resist, duration, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("travel", "given", "expected_m"),
+    [
+        (half_sine_travel, (0.5, 0.2, 1.0, G), 0.280945),
+        (half_sine_travel, (0.8, 0.4, 2.0, G), 0.067791),
+        (half_sine_travel, (1.0, 0.1, 1.0, G), 4.214008),
+        (harmonic_travel, (0.5, 0.2, 1.0, G), 0.193314),
+        (slope_travel, (5, 0.4, 0.6, 0.0, 0.3), 0.269578),
+        (slope_travel, (10, 0.5, 0.8, 0.0, 0.15), 0.159855),
+        (slope_travel, (5, 0.4, 0.6, -0.3, 0.3), 0.404575),
+        (slope_travel, (5, 0.4, 0.6, 0.3, 0.3), 0.159320),
+        # Newmark's rectangular pulse: A g, mu g, its length, and no ramp.
+        (pulse_travel, (0.4 * G, 0.1 * G, 0.2, 0.0), 0.235440),
+        (pulse_travel, (0.5 * G, 0.2 * G, 0.3, 0.0), 0.331087),
+        (pulse_travel, (1.0 * G, 0.4 * G, 0.1, 0.0), 0.073575),
+    ],
+)
+def test_travels_are_those_printed(travel, given, expected_m):
+    assert travel(*given) == pytest.approx(expected_m, abs=1e-6)
+
+
+def test_yield_accelerations_are_symmetric_on_a_flat_roof_and_lock_on_a_steep_one():
+    assert yield_accelerations(0.0, 0.4, G) == pytest.approx((-0.4 * G, 0.4 * G))
+    assert yield_accelerations(math.radians(60), 0.7, G)[1] == math.inf

@@ -1,17 +1,23 @@
-"""A file is written whole or not at all."""
+"""A file is written whole or not at all; of a path that is not there, one near is named."""
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 from contextlib import contextmanager
 
 import pytest
+from click.testing import CliRunner
 
+import commands
+from growth import grows_faster
 from places import ROOT
+from report.cli.main import main
 from solver.files import LOCK, locked, write_all, write_whole
 from solver.model import InputError
-from stranger import LINKS, MODES, PIPES, SENTENCES, not_on_windows, occupied
+from solver.suggestions import meant, nearest
+from stranger import LINKS, PIPES, SENTENCES, not_on_windows, occupied
 
 pytestmark = pytest.mark.quick
 
@@ -31,8 +37,11 @@ def test_a_file_is_written_in_one_and_of_two_names_in_one(tmp_path, path):
     assert path.stat().st_mode & 0o777 == 0o666 & ~umask
     path.write_bytes(b"old")
     os.link(path, tmp_path / "other")
+    path.chmod(0o640)
     write_all({"a.csv": b"new"}, tmp_path)
     assert (path.read_bytes(), (tmp_path / "other").read_bytes()) == (b"new", b"old")
+    if sys.platform != "win32":
+        assert path.stat().st_mode & 0o777 == 0o640
 
 
 @not_on_windows(LINKS)
@@ -43,6 +52,10 @@ def test_a_link_that_the_user_gave_is_followed(tmp_path, path):
     write_whole(path, b"new")
     assert path.is_symlink()
     assert target.read_bytes() == b"new"
+    (tmp_path / "real").mkdir()
+    (tmp_path / "given").symlink_to(tmp_path / "real")
+    write_all({"sub/a.csv": b"new"}, tmp_path / "given")
+    assert (tmp_path / "real" / "sub" / "a.csv").read_bytes() == b"new"
 
 
 def in_any(name):
@@ -89,14 +102,6 @@ def test_nothing_is_written_through_what_is_in_the_place_of_a_folder(tmp_path, k
     assert os.listdir(tmp_path / "outside") == []
 
 
-@not_on_windows(LINKS)
-def test_a_folder_that_the_user_gave_may_be_a_link(tmp_path):
-    (tmp_path / "real").mkdir()
-    (tmp_path / "given").symlink_to(tmp_path / "real")
-    write_all({"sub/a.csv": b"new"}, tmp_path / "given")
-    assert (tmp_path / "real" / "sub" / "a.csv").read_bytes() == b"new"
-
-
 @pytest.mark.parametrize("name", ["a.csv", "b.csv", "sub/d.csv", "c.csv"])
 @pytest.mark.parametrize("has_links", [True, False])
 @pytest.mark.parametrize("is_new", [True, False])
@@ -123,38 +128,17 @@ def test_of_a_set_that_cannot_be_written_nothing_is(tmp_path, monkeypatch, name,
     assert folder.exists() is not is_new
 
 
-@pytest.fixture
-def refusing(monkeypatch):
-    """A function that has renames to a name refused some times, as Windows does to open files."""
-    rename = os.replace
+def test_a_file_that_is_open_elsewhere_for_a_moment_is_replaced(path, monkeypatch):
+    left, rename = [1, 2], os.replace
 
-    def refuse(name, times):
-        left = [name] * times
+    def renamed(source, target):
+        if left:
+            left.pop()
+            refused()  # as Windows does to open files
+        rename(source, target)
 
-        def renamed(source, target):
-            if target.name in left:
-                left.remove(target.name)
-                refused()
-            rename(source, target)
-
-        monkeypatch.setattr(os, "replace", renamed)
-
-    return refuse
-
-
-def test_of_a_set_with_a_file_that_stays_open_elsewhere_nothing_is_changed(tmp_path, refusing):
-    before, after = (dict.fromkeys(("a.csv", "b.csv"), text) for text in (b"old", b"new"))
-    write_all(before, tmp_path)
-    refusing("b.csv", 99)
-    told = r"b\.csv: cannot be written .*; close it in other programs. No file was changed"
-    with pytest.raises(InputError, match=told):
-        write_all(after, tmp_path)
-    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
-
-
-def test_a_file_that_is_open_elsewhere_for_a_moment_is_replaced(path, refusing, monkeypatch):
     monkeypatch.setattr("solver.files.PAUSES_S", (0.0, 0.0))
-    refusing("a.csv", 2)
+    monkeypatch.setattr(os, "replace", renamed)
     write_whole(path, b"new")
     assert path.read_bytes() == b"new"
 
@@ -166,6 +150,7 @@ def test_a_second_process_waits_for_the_first_and_then_says_so(tmp_path, monkeyp
             locked(tmp_path).__enter__()
         with locked_elsewhere(tmp_path) as other:
             assert other.poll() is None  # it waits
+    (tmp_path / LOCK).touch()  # as a killed process leaves it
     with locked(tmp_path):
         pass
     assert os.listdir(tmp_path) == []
@@ -193,13 +178,6 @@ def test_a_lock_is_not_opened_through_what_is_in_its_place(tmp_path, kind):
     with pytest.raises(InputError, match=rf"{LOCK}: {told}"):
         locked(folder).__enter__()
     assert outside.read_bytes() == b"old"
-
-
-def test_a_lock_that_a_killed_process_left_holds_nobody_up(tmp_path):
-    (tmp_path / LOCK).touch()
-    with locked(tmp_path):
-        pass
-    assert os.listdir(tmp_path) == []
 
 
 @pytest.mark.parametrize("former", [b"old", b""])
@@ -235,9 +213,81 @@ def test_only_names_that_are_written_are_touched(tmp_path, path):
     assert set(os.listdir(tmp_path)) == {"a.csv", left.name, *kept}
 
 
-@not_on_windows(MODES)
-def test_a_replaced_file_keeps_its_permissions(path):
-    path.touch()
-    path.chmod(0o640)
-    write_whole(path, b"1")
-    assert path.stat().st_mode & 0o777 == 0o640
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "project" / "records").mkdir(parents=True)
+    (tmp_path / "project" / "records" / "RM1-x.csv").write_text("0.1\n")
+    (tmp_path / "project" / "results.json").write_text("{}")
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("given", "found"),
+    [
+        ("project/records/RM1_x.csv", "project/records/RM1-x.csv"),
+        ("projetc/records/RM1-x.csv", "project/records/RM1-x.csv"),
+        ("projetc/records/none.csv", "project"),
+        ("project/result.json", "project/results.json"),
+    ],
+)
+def test_a_path_that_nearly_fits_is_named(folder, given, found):
+    assert meant(folder / given) == f"did you mean '{folder / found}'?"
+    for other in ("elsewhere/x", "project/records/RM1-x.csv", "a" * 300):
+        assert meant(folder / other) == ""
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["check", "projetc"],
+        ["plan", "read", "projetc", "project"],
+        ["motion", "suite", "out", "--code", "asce7-16", "--target", "projetc"],
+    ],
+)
+def test_each_command_asks_about_a_path_that_nearly_fits(folder, monkeypatch, arguments):
+    shutil.copy(ROOT / "projects" / "example" / "input.xlsx", folder / "project")
+    monkeypatch.chdir(folder)
+    done = CliRunner().invoke(main, arguments)
+    assert done.exit_code == 2
+    assert "did you mean 'project'?" in done.output
+
+
+@pytest.mark.parametrize(
+    ("value", "names", "found"),
+    [
+        ("RTU-1", ["RTU 1", "RTU-3", "RTU-2"], "RTU 1"),
+        ("a1", ["A01", "A11", "A2"], "A01"),
+        ("RTU-1", ["RTU-2", "RTU-3"], ""),  # a tie
+        ("Skylite", ["Skylight", "RTU"], "Skylight"),
+        ("x", [], ""),
+    ],
+)
+def test_names_are_compared_without_blanks_hyphens_and_leading_zeros_first(value, names, found):
+    assert nearest(value, names) == found
+    assert nearest(value, names[::-1]) == found
+
+
+def test_names_that_are_near_are_found_free_and_among_many():
+    names = [f"RM{k}-x.csv" for k in range(1, 4)]
+    assert nearest("RM-x.csv", names) == ""
+    assert nearest("RM-x.csv", names, taken=["RM2-x.csv", "RM3-x.csv"]) == "RM1-x.csv"
+    assert nearest("RM-x.csv", names, taken=["RM3-x.csv"]) == ""
+    names = [f"{k:02}{'x' * 60}" for k in range(100)]
+    assert nearest(f"98{'x' * 59}y", names) == names[98]
+
+
+def test_the_lock_file_of_a_workbook_is_never_meant(tmp_path):
+    for name in ("My Project.xlsx", "~$input.xlsx", "~$My Project.xlsx", ".~lock.input.xlsx#"):
+        (tmp_path / name).write_bytes(b"")
+    assert f"did you mean '{tmp_path / 'My Project.xlsx'}'?" in commands.refused("check", tmp_path)
+    (tmp_path / "other.xlsx").write_bytes(b"")
+    assert "did you mean" not in commands.refused("check", tmp_path)
+
+
+@pytest.mark.nightly
+def test_as_many_wrong_names_as_there_are_names_take_time_as_their_number():
+    def suggested(count):
+        names = [f"{'ab' * 18}{k}" for k in range(count)]
+        return [nearest(f"{'ba' * 18}{k}", names) for k in range(count)]
+
+    assert not grows_faster(suggested, lambda count: count, 40)
