@@ -34,9 +34,8 @@ FIELDS = {
     "A2": ((30.0, 41.0), [(0, 6)] * 2 + [(0, 3)] * 3),  # an L
     "A3": ((60.0, 40.0), [(0, 4)] * 5),
     "A4": ((0.0, 10.0), [(0, 10)] * 4),
-    "A5": ((30.0, 10.0), [(2, 5), (0, 7), (2, 5)]),  # a cross
 }
-COUNTS = {"A1": 40, "A2": 21, "A3": 20, "A4": 40, "A5": 13}
+COUNTS = {"A1": 40, "A2": 21, "A3": 20, "A4": 40}
 
 
 def modules(fields=FIELDS):
@@ -84,9 +83,6 @@ def outline(name):
     points = {
         "A2": [(x0, 0), (x1, 0), (x1, PITCH_Y + SHORT), (edges((0, 3))[1], PITCH_Y + SHORT),
                (edges((0, 3))[1], top), (x0, top)],
-        "A5": [(x0, 0), (x1, 0), (x1, PITCH_Y), (edges((0, 7))[1], PITCH_Y),
-               (edges((0, 7))[1], PITCH_Y + SHORT), (x1, PITCH_Y + SHORT), (x1, top), (x0, top),
-               (x0, PITCH_Y + SHORT), (0, PITCH_Y + SHORT), (0, PITCH_Y), (x0, PITCH_Y)],
     }.get(name, [(x0, 0), (x1, 0), (x1, top), (x0, top)])  # fmt: skip
     return [(x + a, y + b) for a, b in points]
 
@@ -270,7 +266,7 @@ def test_counts_are_filled_in_where_there_is_a_column(tmp_path):
     book = make(tmp_path, clearances=[])
     edit(book, lambda found: retitle(found, "Arrays", "Modules", ""))
     ended("plan", "read", layout().saved(tmp_path), book, "--replace")
-    assert [row["modules"] for row in read(book).draft["arrays"]] == [None] * 5
+    assert [row["modules"] for row in read(book).draft["arrays"]] == [None] * 4
 
 
 def rounded(unit, decimals, angle_deg, long=2.1):

@@ -11,7 +11,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import scenes
 import stand_in
-from inputs import NO_SIDES, sides
+from inputs import NO_SIDES
 from plans import SMALL, roof_plan
 from printed import printed
 from report.assessment.envelopes import keep_clear_words
@@ -35,21 +35,7 @@ def done():
 
 @pytest.fixture(scope="module")
 def crowded():
-    """Twelve arrays, twelve units in narrow aisles, 29 clearances, of which 12 are too small."""
-    arrays, units, rows = [], [], []
-    for column, row in itertools.product(range(3), range(4)):
-        name, x, y = f"A{4 * column + row + 1}", 15 + 90 * column, 15 + 66 * row
-        arrays.append(stand_in.array(name, 2.0, x=x, y=y))
-        units.append(
-            stand_in.roof_object(f"RTU-{name}", "fixed object", x + 82, x + 86, y + 20, y + 25)
-        )
-        rows.append(stand_in.clearance(name, f"RTU-{name}", 2 * FOOT))
-        if row:
-            rows.append(stand_in.clearance(name, f"A{4 * column + row}", 4 * FOOT))
-        if column:
-            rows.append(stand_in.clearance(name, f"A{4 * column + row - 3}", 8 * FOOT))
-    roof = sides(0, 300, 0, 290)
-    return scenes.package(arrays=arrays, objects=units, clearances=rows, roof=roof).assessment
+    return scenes.twelve(is_long=False).assessment
 
 
 ROOF_FT = ((0, 0), (240, 0), (240, 90), (150, 160), (0, 160))
@@ -245,18 +231,6 @@ def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_cl
         assert (row["Δ [in]"], row["Keep clear [in]"]) == ("none", "unknown")
         required = [row["Req’d [in]"] for row in page.tables[1].rows]
         assert required[:2] == ["none", "none"]
-
-
-@pytest.mark.quick
-def test_the_plan_does_without_objects_drawn():
-    done = scenes.package(
-        objects=[{"id": "RTU-1", "kind": "fixed object"}],
-        clearances=[stand_in.clearance("A1", "RTU-1", 2.0)],
-    ).assessment
-    assert "A1" in words(roof_plan(done, SMALL))
-    page = printed(done, "plan")
-    undrawn = "Neither drawn nor measured, because a place in plan is not given: clearance 1."
-    assert undrawn in page
 
 
 @pytest.mark.parametrize(

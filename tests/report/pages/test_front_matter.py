@@ -1,6 +1,7 @@
-"""Cover, letter, references and symbols say what the project at hand has."""
+"""Cover, letter, references, symbols and notes say what the project at hand has."""
 
 import io
+import math
 import re
 from dataclasses import replace
 from html import unescape
@@ -18,6 +19,7 @@ from report.typeset.pdf import lay_out
 from solver.rules.limit import Consequence
 
 pytestmark = pytest.mark.quick
+
 
 MOTIONS = scenes.motions(3, seconds=4.0)
 
@@ -152,3 +154,36 @@ def symbols(latex):
     rest = _WORDS.sub(" ", re.sub(r"_\{([^{}]*)\}", r"_\1 ", rest))
     names = re.findall(r"[A-Za-zΔθμφ](?:_[A-Za-z0-9]+)?", rest)
     return set(names) - {"e"}  # of the exponential
+
+
+FOOT = stand_in.FOOT
+ARRAYS = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=220)]
+GAPS = [stand_in.clearance("A1", "A2", 120 * FOOT)]
+
+
+def package(**changes):
+    return scenes.package(**{"arrays": ARRAYS, "objects": [], "clearances": GAPS} | changes)
+
+
+def notes(**changes):
+    return printed(package(**changes), "notes")
+
+
+def test_the_schedule_of_gaps_is_rounded_up():
+    near = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42)
+    rows = [*GAPS, stand_in.clearance("A1", "RTU-9", FOOT)]
+    made = package(objects=[near], clearances=rows, options={"peer_reviewed": True})
+    table = printed(made, "notes").table("Schedule of gaps")
+    least = [math.ceil(gap.required_m * 1e3) for gap in made.assessment.clearances]
+    assert [(row["To"], row["At least [mm]"], row["Measured, date, by"]) for row in table.rows] == [
+        ("A2", str(least[0]), ""), ("RTU-9", str(least[1]), ""),
+    ]  # fmt: skip
+    assert least[1] != round(made.assessment.clearances[1].required_m * 1e3)
+
+
+@pytest.mark.parametrize("height_m", [1.2, 0.3])
+def test_only_a_parapet_that_qualifies_is_relied_on(height_m):
+    edge = stand_in.roof_object("N", "edge with parapet", 0, 400, 200, 202, height=height_m)
+    page = notes(objects=[edge], clearances=[stand_in.clearance("A1", "N", 60.0)])
+    assert ("Parapets that the clearances rely on" in page) is (height_m == 1.2)
+    assert ("Height of the parapets above the roof is measured: N." in page) is (height_m == 1.2)

@@ -1,16 +1,19 @@
-"""The page on the models: which is used, why, and what it neglects."""
+"""Models, rows of linked blocks and neighbors: what is said where a value or a place is missing."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+import inputs
 import scenes
 import stand_in
 from printed import printed
+from report.assessment.neighbors import Cover
+from report.assessment.verdict import Verdict
 from report.sheet.schema.choices import Direction
 from solver.sliding.least_model import Model
-from solver.sliding.uplift import Supports, tipping, uplift
 
 pytestmark = pytest.mark.quick
 
@@ -98,13 +101,6 @@ def test_a_stable_array_has_its_tipping_ratios():
         capacity = 0.5 * array.array.support_spacing_m / array.array.cg_height_m
         held = min(array.tipping.demand, array.array.mu) / capacity
         assert array.tipping.at_rest_ratio == pytest.approx(held, rel=1e-12)
-        runs = [run for motion in array.motions for run in motion.runs]
-        assert array.tipping.demand == max(run.solution.friction_demand for run in runs)
-        assert array.uplift.n_min_g == min(uplift(run.scene).n_min_g for run in runs)
-        supports = Supports(
-            height_m=array.array.cg_height_m, spacing_m=array.array.support_spacing_m
-        )
-        assert array.tipping.ratio == max(tipping(run.scene, supports).ratio for run in runs)
         assert row[4] == f"{array.tipping.ratio * capacity:.2f}"
         assert row[5] == f"{capacity:.2f}"
         assert (row[2], row[8]) == ("none", "OK")
@@ -137,3 +133,163 @@ def test_an_array_that_begins_to_tip_is_not_ok_and_is_named():
     assert not done.array_verdict(done.arrays[0]).is_permitted
     assert "begins to tip" in printed(package, "summary")
     assert table(package, CHECKS).row("A1")["Verdict"] == "NG"
+
+
+def linked(requested, shaking=None, **changes):
+    arrays = [stand_in.array("A1", 2.0, mu=0.45), stand_in.array("A2", 2.0, mu=0.40, x=120)]
+    usual = {"arrays": arrays, "options": {"peer_reviewed": True}, "objects": [], "clearances": []}
+    return scenes.package(shaking, **usual | changes, links=requested)
+
+
+@pytest.fixture(scope="module")
+def both():
+    return linked(
+        [stand_in.links(name, "0.40, 0.45, 0.50", 50, damping_ratio=0.05) for name in ("A1", "A2")]
+    )
+
+
+def held(package):
+    """The page, and the rows of its two tables on linked blocks."""
+    page = printed(package, "model")
+    tables = map(page.table, ("Rows of linked blocks", "Adequacy of one rigid block"))
+    return page, *(table.cells for table in tables)
+
+
+def test_a_row_is_ng_by_one_block_and_stiffer_links_may_help(both):
+    done = both.assessment
+    assert [done.array_verdict(item).is_permitted for item in done.arrays] == [False, True]
+    assert [design[-1] for design in held(both)[2]] == ["NG", "OK"]
+    assert "Marked NG: 1 of 2 arrays." in printed(both, "summary")
+    assert "(part 5 compares A1, A2 with a row" in printed(both, "basis")
+    # Its row slides farther here than it does: it is given the result of the other one.
+    far, near = both.assessment.linked
+    near = replace(near, rigid=far.rigid, linked=far.linked)
+    assert near.design.array.mu == min(near.row.mus)
+    done = replace(both.assessment, linked=(near,))
+    text = printed(done, "model").line("Array A2: a row of linked blocks slides")
+    assert text.endswith(". Provide stiffer links.")
+
+
+def test_a_row_without_a_displacement_or_a_limit_says_so():
+    up = np.zeros(400)
+    up[200:300] = -1.3 * stand_in.G
+    lifted = stand_in.motion("UP", np.zeros(400), up, signs=(1,))
+    shaking = (*scenes.motions(3, 4.0), lifted)
+    page, rows, designs = held(linked([stand_in.links("A1", "0.40, 0.50", 50)], shaking))
+    assert rows[0][6:] == ("none",) * 7
+    assert designs[0][5:] == (*("none",) * 5, "NG")
+    assert page.line("Array A1 as a row of linked blocks, UP record +: ")
+    assert not re.search(r"\bnan\b", page)
+    pushed = np.concatenate([0.25 * stand_in.G * np.sin(np.arange(400) / 10.0), np.zeros(600)])
+    shaking = (stand_in.motion("M", pushed),) * 3
+    row = stand_in.links("A1", "0.30, 0.31, 0.10", 0.01)
+    page, _, designs = held(linked([row], shaking, arrays=[stand_in.array("A1", 2.0, mu=0.3)]))
+    assert designs[0][5:] == ("∞", "none", "none", "∞", "∞", "NG")
+    assert " = no limit" in page
+    assert "in one axis, one rigid block does not slide" in page
+
+
+FOOT = stand_in.FOOT
+NEAR = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42)
+FAR = stand_in.roof_object("RTU-8", "fixed object", 190, 200, 35, 42)
+NOWHERE = {"id": "OLD", "kind": "fixed object"}
+ARRAYS = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=220)]
+CAPTION = "Neighbors in plan"
+PARTS = ["Array", "Neighbor", "Kind", "In plan [in]", "Twice displ. [in]", "Clearance", "Remark"]
+
+
+def page(**changes):
+    package = scenes.package(**{"arrays": ARRAYS, "objects": [], "clearances": []} | changes)
+    return printed(package, "plan")
+
+
+def test_distances_are_printed_with_their_rows_and_rounded_up():
+    rows = [
+        stand_in.clearance("A1", "RTU-9", 2 * FOOT), stand_in.clearance("A2", "A1", 120 * FOOT),
+    ]  # fmt: skip
+    made = page(objects=[NEAR, FAR], clearances=rows)
+    table = made.table(CAPTION)
+    assert [[row[part] for part in PARTS] for row in table.rows] == [
+        ["A1", "RTU-9", "fixed object", "12.0", "81.6", "No. 1", "provided differs from plan"]
+    ]
+    assert made.line("Clearances provided as in the plan: No. 2.").endswith(
+        " The other three pairs of the plan are farther apart than twice the design displacement, "
+        "and no less than is required; the nearest are A2 and RTU-8, 240.0 in (6096 mm)."
+    )
+    arrays, options = [stand_in.array("A1", 0.5, mu=0.3)], {"peer_reviewed": True}
+    made = scenes.package(arrays=arrays, objects=[NEAR], clearances=[], options=options)
+    (near,) = made.assessment.neighbors
+    assert near.reach_m / 0.0254 % 0.1 < 0.05  # rounded it would print less
+    row = printed(made, "plan").table(CAPTION).row("RTU-9")
+    assert float(row["Twice displ. [in]"]) > near.reach_m / 0.0254
+    table = page(objects=[NEAR]).table(CAPTION)
+    assert [[row[part] for part in PARTS] for row in table.rows] == [
+        ["A1", "RTU-9", "fixed object", "12.0", "81.6", "—", "not given; NG"]
+    ]
+
+
+@pytest.mark.parametrize("other", [("A2", 120 * FOOT), ("RTU-9", FOOT)])
+def test_clearances_that_are_as_in_the_plan_are_named_and_not_listed(other):
+    made = page(objects=[NEAR], clearances=[stand_in.clearance("A1", *other)])
+    assert made.line("Clearances provided as in the plan: all.")
+    assert (CAPTION in made) is (other[0] == "A2")  # the near unit has no clearance
+
+
+def test_what_is_not_in_plan_or_near_is_named():
+    lost = NOWHERE | {"id": "LOST"}
+    made = page(objects=[NOWHERE, lost], clearances=[stand_in.clearance("A1", "OLD", 9.0)])
+    line = made.line("To the scale stated")
+    assert "Neither drawn nor measured, because a place in plan is not given: clearance 1." in line
+    assert made.line("Neither a place").endswith("LOST.")
+    assert CAPTION not in made
+    assert page().line("The other pair of the plan is farther apart") == (
+        "The other pair of the plan is farther apart than twice the design displacement, and no "
+        "less than is required: A1 and A2, 1440.0 in (36576 mm)."
+    )
+    assert "of the plan" not in page(arrays=ARRAYS[:1])
+
+
+@pytest.mark.parametrize("is_given", [True, False])
+def test_edges_are_those_of_the_outline_where_it_is_given(is_given):
+    roof = stand_in.inputs.sides(0, 380, 0, 170) if is_given else {}
+    assert ("The outline of the roof is not given" in page(roof=roof)) is not is_given
+
+
+def test_distances_that_are_not_known_or_not_of_the_plan_are_told():
+    made = printed(scenes.unpermitted(), "plan")
+    (line,) = (line for line in made.splitlines() if "The other seven pairs of the plan" in line)
+    assert "farther apart than twice the design displacement; the nearest are A1 and" in line
+    rows = [stand_in.clearance("A1", "RTU-9", 2 * FOOT) | {"source": "drawing"}]
+    (near,) = (near for near in drawn(clearances=rows).assessment.neighbors)
+    assert near.cover is Cover.DIFFERS
+
+
+def drawn(**changes):
+    """A package with a distance from the drawing, and one that is measured."""
+    rows = [
+        stand_in.clearance("A1", "RTU-9", FOOT) | {"source": "drawing"},
+        stand_in.clearance("A2", "A1", 120 * FOOT) | {"source": "measured"},
+    ]
+    given = {"arrays": ARRAYS, "objects": [NEAR], "clearances": rows}
+    return scenes.package(**given | changes)
+
+
+def test_drawing_distances_are_conditions_until_confirmed():
+    package = drawn()
+    (row,) = (row for row in package.assessment.rows if row.id == "drawing_distances")
+    assert (row.subject, row.found, row.is_satisfied) == ("A1", "not confirmed", False)
+    assert row.verdict is Verdict.CONDITION
+    made = printed(package, "plan")
+    words = " Distances provided: drawing, not confirmed No. 1; measured No. 2."
+    assert made.line("Factor").endswith(words)
+    line = printed(package, "notes").line("Gaps to be measured first")
+    assert line.endswith("because their distance is from the drawing and not confirmed: No. 1.")
+    confirmed = {"drawing_confirmed_by": "MT", "drawing_confirmed_date": inputs.HEAD["date"]}
+    package = drawn(project=inputs.HEAD | confirmed)
+    (row,) = (row for row in package.assessment.rows if row.id == "drawing_distances")
+    assert row.is_satisfied
+    assert row.found == "confirmed by MT, 2026-03-05"
+    made = printed(package, "plan")
+    words = " Distances provided: drawing, confirmed No. 1; measured No. 2."
+    assert made.line("Factor").endswith(words)
+    assert "Gaps to be measured first" not in printed(package, "notes")

@@ -1,14 +1,24 @@
-"""What the summary, on its page and in the terminal, says where no route is permitted."""
+"""Summary and letter: what they count, what a verdict is due to, and nothing a table denies."""
+
+import math
+import re
+from dataclasses import replace
 
 import pytest
 
+import scenes
 import stand_in
 from places import ROOT
 from printed import printed
 from report.assessment.arrays import Route
 from report.assessment.assess import assess
+from report.assessment.conditions import project_rows
+from report.assessment.envelopes import keep_clear_m, keep_clear_words
+from report.drawing.plan import plan_drawing
 from report.pages.summary import document, summary
 from report.web.controls import opened, with_values
+from scenes import DEPARTURE, FOOT, REVIEW
+from stand_in import INCH
 
 pytestmark = pytest.mark.quick
 
@@ -75,3 +85,214 @@ def test_a_requirement_that_is_found_differently_is_one_row_with_each_array_befo
     line = printed(done, "summary").line("NG: Arrays A1 to A3, interconnection strength provided")
     # 1 lb = 4.448 N; provided is rounded down
     assert "provided: A1: 2 lb (0.01 kN); A2, A3: 4 lb (0.02 kN); required: ≥ 4374 lb" in line
+
+
+NEAR = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42, height=1.0)
+
+
+def test_an_array_that_is_ng_by_a_missing_clearance_says_so_in_its_row():
+    """The clearance that is listed is OK, and its D/C alone stands beside the NG."""
+    made = scenes.package(
+        arrays=[stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=220)],
+        objects=[NEAR],
+        clearances=[stand_in.clearance("A2", "A1", 40.0)],
+    )
+    for key, title in (("letter", "Results"), ("summary", "Arrays")):
+        one, other = printed(made, key).table(title).column("Verdict")
+        assert one == "NG clearance A1 to RTU-9 not given"
+        assert other == "Condition"
+    assert (
+        "Condition: all are satisfied once the conditions below are met; NG: a "
+        "requirement is not satisfied, or no design displacement is permitted"
+    ) in printed(made, "summary")
+    assert any("NG: clearance A1 to RTU-9 not given" in line for line in summary(made.assessment))
+
+
+@pytest.fixture(scope="module")
+def barely():
+    """A clearance, a slack and a strength a hair below what is required."""
+    array = stand_in.array("A1", 0.5)
+    objects = [stand_in.roof_object("RTU-1", "fixed object", 140, 145, 35, 42, height=1.0)]
+    gap = stand_in.clearance("A1", "RTU-1", 9.0)
+    given = scenes.package(arrays=[array], objects=objects, clearances=[gap]).assessment
+    (item,), (gap,) = given.arrays, given.clearances
+    less_m, less_n = ((1.0 - 1e-5) * v for v in (gap.required_m, item.interconnection_n))
+    array |= {"slack_m": less_m, "interconnection_n": less_n}
+    listed = [stand_in.clearance("A1", "RTU-1", less_m)]
+    return scenes.package(arrays=[array], objects=objects, clearances=listed)
+
+
+def test_what_is_short_by_a_hair_prints_as_less_than_is_required(barely):
+    (row,) = printed(barely, "summary").table("Clearances").rows
+    assert float(row["Required [in]"].strip("†")) > float(row["Provided [in]"])
+    slack = printed(barely, "summary").line("NG: Array A1, electrical slack")
+    had, least = re.search(r"provided: ([\d.]+) in .* required: ≥ ([\d.]+) in", slack).groups()
+    assert float(had) < float(least)
+    (strength,) = printed(barely, "limits").tables[-1].rows
+    assert float(strength["Provided [lb]"]) < float(strength["Required [lb]"].strip("†"))
+
+
+def test_deleting_the_row_of_a_clearance_lowers_nothing():
+    """What the plan shows and no row covers counts as the row did: D/C, letter, cover, counts."""
+    array, far = stand_in.array("A1", 0.5), stand_in.clearance("A1", "RTU-8", 40.0 * stand_in.FOOT)
+    objects = [NEAR, stand_in.roof_object("RTU-8", "fixed object", 140, 145, 35, 42, height=1.0)]
+    near = stand_in.clearance("A1", "RTU-9", stand_in.FOOT)  # as in plan
+    both = scenes.package(arrays=[array], objects=objects, clearances=[far, near])
+    deleted = scenes.package(arrays=[array], objects=objects, clearances=[far])
+    ratios, names = [], []
+    for made in (both, deleted):
+        gap = made.assessment.governing_gap()
+        assert gap.demand_capacity == made.assessment.governing_gap("A1").demand_capacity > 1.0
+        ratios.append(gap.demand_capacity)
+        row = printed(made, "letter").table("Results").row("A1")
+        names.append((row["Governing clearance to"], row["D/C"]))
+        worst = printed(made, "summary").table("Clearances").rows[0]["Between"]
+        assert worst == ("A1–RTU-8" if made is deleted else "A1–RTU-9")
+        assert "One of two clearances is satisfied." in printed(made, "letter")
+    assert f"A1 to RTU-9, not given: D/C {row['D/C']}" in str(printed(deleted, "summary"))
+    assert ratios[0] == pytest.approx(ratios[1])
+    assert names == [("RTU-9", names[0][1]), ("RTU-9 (not given)", names[0][1])]
+    assert "The plan shows one of them without a row" in printed(deleted, "letter")
+
+
+def test_the_letter_and_the_cause_say_what_is_not_given():
+    made = scenes.package(arrays=[stand_in.array("A1", 0.5)], objects=[NEAR], clearances=[])
+    said = printed(made, "letter")
+    assert (
+        "The clearance is not satisfied. The plan shows it without a row in the workbook." in said
+    )
+    given = scenes.package(arrays=[stand_in.array("A1", 0.5)], objects=[], clearances=[])
+    item = given.assessment.arrays[0]
+    rows = {row.id: row.cause for row in given.assessment.rows_of(item.id)}
+    assert rows["electrical_slack"] == "electrical slack not given"
+    assert rows["interconnection"] == "interconnection strength not given"
+
+
+@pytest.mark.parametrize(
+    ("array", "gap", "cause"),
+    [
+        ({"slack_m": 0.001}, {}, "electrical slack too short"),
+        ({"interconnection_n": 1.0}, {}, "interconnection strength too low"),
+        ({"roof_capacity_pa": 1.0}, {}, "weight over the roof capacity"),
+        ({}, {"pathway_m": 8.9}, "fire pathway A1 to RTU-1 too narrow"),
+        ({"slope_value": 6.9}, {}, "roof slope, any ballasted system, over its limit"),
+    ],
+)
+def test_a_cause_says_what_is_wrong_and_not_what_is_compared(array, gap, cause):
+    given = scenes.package(
+        arrays=[stand_in.array("A1", 0.5) | array],
+        objects=[stand_in.roof_object("RTU-1", "fixed object", 140, 145, 35, 42, height=1.0)],
+        clearances=[stand_in.clearance("A1", "RTU-1", 9.0) | gap],
+    )
+    assert printed(given, "letter").table("Results").column("Verdict") == [f"NG {cause}"]
+
+
+@pytest.mark.parametrize(
+    ("provided_ft", "text"),
+    [
+        ((0.1, 0.2), "None of the two clearances is satisfied."),
+        ((30.0, 30.0), "Both clearances are satisfied."),
+        ((0.1,), "The clearance is not satisfied."),
+    ],
+)
+def test_the_letter_counts_the_clearances(provided_ft, text):
+    given = zip(("A1", "A2"), provided_ft, strict=False)
+    rows = [stand_in.clearance(name, "RTU-1", ft * FOOT) for name, ft in given]
+    assert printed(scenes.package(clearances=rows), "letter").line(text)
+
+
+def test_the_smallest_margin_is_of_a_satisfied_clearance_and_a_drift_over_its_limit_larger():
+    """A1 alone would satisfy the first one; A3 beside it does not."""
+    arrays = [stand_in.array("A1", 0.5, mu=1.0), stand_in.array("A3", 4.0, y=90)]
+
+    def made(provided_m):
+        gaps = [stand_in.clearance("A1", "A3", provided_m)]
+        return scenes.package(arrays=arrays, options=REVIEW, clearances=gaps)
+
+    low, high = (array.design_m for array in made(9.0).assessment.arrays)
+    page = printed(made((low + high) / 2.0), "accuracy")
+    assert "satisfied clearance" not in page
+    assert page.line("Clearance 1 is not satisfied as given")
+    book = stand_in.book(stand_in.project(clearances=[]), scenes.motions())
+    drifting = replace(
+        book.shaking.prepared[0].measures["horizontal"], final_displacement_m=0.010004
+    )
+    first = replace(book.shaking.prepared[0], measures={"horizontal": drifting})
+    rows = project_rows(book.sheet.project, [first])
+    (row,) = [row for row in rows if row.id == "drift"]
+    numbers = [float(re.search(r"\((\d+) mm\)", text)[1]) for text in (row.found, row.limit)]
+    assert numbers[0] > numbers[1]
+
+
+def test_keep_clear_distances_and_low_parapets_are_those_of_the_package():
+    done = scenes.package(options=REVIEW).assessment
+    words = {text.words for text in plan_drawing(done).texts}
+    for array in done.arrays:
+        keep = keep_clear_words(keep_clear_m(done, array), us_first=True)
+        assert any(f"; {keep}; no conduit" in text for text in words)
+    edge = stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=20 * INCH)
+    package = scenes.package(objects=[edge], clearances=[stand_in.clearance("A3", "N", 6.0)])
+    row = printed(package, "plan").table("Parapets").row("N")
+    assert (row["Beside"], row["Result"]) == ("A3", "does not qualify")
+    assert row["Top above the roof [in]"] == "20.0"
+    of_center = float(row["Center of gravity [in]"])
+    assert float(row["Top above it [in]"]) == pytest.approx(20.0 - of_center, abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({}, "the factor ×, importance included, times Δ, of two"),
+        (DEPARTURE, "importance included, times the displacement toward it, of"),
+    ],
+)
+def test_the_plan_says_which_displacement_a_separation_takes(options, words):
+    assert words in printed(scenes.package(options=REVIEW | options), "plan")
+
+
+@pytest.mark.parametrize(
+    ("rule_set", "base_m", "words"),
+    [
+        ("SEAOC PV1-2012", 1.524, "supporting base: A1 60.0 in (1524 mm)."),
+        ("SEAOC PV1-2012", None, "A1 40.0 in (1016 mm) (support spacing; no base given)."),
+        ("ASCE 7-16", 1.524, "least spacing of the supports: A1 40.0 in (1016 mm)."),
+    ],
+)
+def test_the_length_that_limits_the_center_of_gravity_is_the_one_compared(rule_set, base_m, words):
+    site = stand_in.project().site.model_dump() | {"rule_set": rule_set}
+    array = stand_in.array("A1", 0.5, base_m=base_m)
+    package = scenes.package(site=site, arrays=[array], clearances=[])
+    text = printed(package, "inputs").line("Center of gravity at most 36.0 in (914 mm)")
+    assert text.endswith(words)
+    (check,) = [c for c in package.assessment.arrays[0].checks if "center" in c.title]
+    length_m = 1.524 if "60.0" in words else 1.016
+    assert check.limit == pytest.approx(min(0.5 * length_m, 0.9144))
+
+
+@pytest.mark.parametrize("clearances", [[], [stand_in.clearance("A1", "RTU-1", 60 * FOOT)]])
+def test_a_limit_that_may_be_exceeded_is_nowhere_said_to_be_satisfied(clearances):
+    package = scenes.package(
+        scenes.motions(7),
+        site=stand_in.site(rule_set="ASCE 7-16", sdc="C"),
+        options=REVIEW,
+        arrays=[stand_in.array("A1", 3.5, mu=0.6)],
+        clearances=clearances,
+    )
+    assert package.assessment.verdict.is_permitted
+    assert any(check.passes_by_exception for _, check in package.checks)
+    gaps = ", and all clearances are satisfied; " if clearances else "; the workbook lists no"
+    for key in ("letter", "summary"):
+        text = f"All limits are satisfied or, where permitted, exceeded{gaps}"
+        assert text in printed(package, key)
+
+
+def test_the_largest_peak_of_a_prescriptive_array_is_printed_with_one_rounding():
+    """Rounded up in the design displacement, it was another number three lines below."""
+    gaps = [stand_in.clearance("A1", "RTU-1", 60 * FOOT)]
+    package = scenes.package(scenes.motions(1), arrays=[stand_in.array("A1", 0.5)], clearances=gaps)
+    (item,) = package.assessment.arrays
+    assert item.route.value == "prescriptive"
+    inches = item.analysis.largest_m / INCH
+    assert f"{inches:.1f}" != f"{math.ceil(10.0 * inches) / 10.0:.1f}"
+    found = re.findall(r"max\([\d.]+ in \(\d+ mm\), ([\d.]+) in", printed(package, "method"))
+    assert found == [f"{inches:.1f}"]
