@@ -35,13 +35,10 @@ def worker():
 
 
 @pytest.mark.quick
-def test_results_come_back_in_order_from_another_process(worker):
+def test_results_come_back_in_order_and_an_exception_says_where_it_was_raised(worker):
     asked = [worker.submit(divmod, 7, 2), worker.submit(os.getpid)]
     assert asked[0].result(timeout=60) == (3, 1)
     assert asked[1].result(timeout=60) != os.getpid()
-
-
-def test_an_exception_says_where_it_was_raised_and_the_worker_works_on(worker):
     with pytest.raises(InputError) as caught:
         worker.submit(refuse, "Arrays!B7").result(timeout=60)
     assert caught.value.problems == ("Arrays!B7: not a number",)
@@ -132,7 +129,7 @@ def send_pickle(folder):
     next(each for each in pipes if each.writable).send(MakesFolder(folder))
 
 
-def test_nothing_that_comes_from_a_process_that_is_not_trusted_is_unpickled(tmp_path):
+def test_nothing_of_a_process_that_is_not_trusted_is_unpickled_and_what_it_leaves_goes(tmp_path):
     folder = tmp_path / "unpickled"
     with WorkerProcess(gc.disable, is_trusted=False) as process:
         with pytest.raises(ValueError, match="decode"):
@@ -141,19 +138,16 @@ def test_nothing_that_comes_from_a_process_that_is_not_trusted_is_unpickled(tmp_
     with WorkerProcess(gc.disable) as process, pytest.raises(TypeError):
         process.submit(send_pickle, str(folder)).result(timeout=60)
     assert folder.exists()
+    with WorkerProcess(gc.disable) as process:
+        name = process.submit(left_file).result()
+        assert os.path.exists(name)
+    assert not os.path.exists(os.path.dirname(name))
 
 
 def left_file():
     handle, name = tempfile.mkstemp()
     os.close(handle)
     return name
-
-
-def test_what_it_leaves_in_its_temporary_folder_goes_with_it():
-    with WorkerProcess(gc.disable) as process:
-        name = process.submit(left_file).result()
-        assert os.path.exists(name)
-    assert not os.path.exists(os.path.dirname(name))
 
 
 @pytest.mark.quick

@@ -33,11 +33,6 @@ def every():
     return [row(id) for feature in FEATURES for id in feature.checks]
 
 
-def page(section):
-    """A section of the manual."""
-    return printed.manual(only(), section)
-
-
 def features_of(checks, *found):
     """The rows of the table of features by name."""
     given = only(checks=tuple(checks), tables=found)
@@ -56,7 +51,7 @@ def table(tmp_path):
     return of
 
 
-def test_a_feature_is_verified_if_all_its_checks_ran_and_passed():
+def test_a_feature_is_verified_if_all_its_checks_passed_and_none_is_there_twice():
     found = {status.feature.name: status for status in statuses(every(), ())}
     for feature in FEATURES:
         assert found[feature.name].is_verified == bool(feature.checks)
@@ -64,24 +59,24 @@ def test_a_feature_is_verified_if_all_its_checks_ran_and_passed():
     table = features_of(every())
     assert table["Tipping"] == ["DV-5", "1 of 1", "verified, not validated", ""]
     assert table["Formats of records"] == ["—", "—", "neither", "Automatic tests only"]
+    names = [feature.name for feature in FEATURES]
+    assert len(set(names)) == len(names)
+    for feature in FEATURES:
+        ids = (*feature.checks, *feature.extra)
+        assert len(set(ids)) == len(ids)
+        assert {id.partition("-")[0] for id in ids} <= set(SECTIONS)
 
 
-def test_a_check_that_did_not_run_leaves_a_feature_unverified_and_is_named():
+def test_a_check_that_did_not_run_or_failed_leaves_its_features_unverified_and_is_named():
     left = [row for row in every() if row.id != "TA-8"]
     table = features_of(left)
     assert table["Static friction above kinetic"][2] == "neither"
     assert table["Static friction above kinetic"][3].endswith("Did not run: TA-8")
-
-
-def test_a_check_that_failed_marks_every_feature_that_names_it():
     checks = [*every(), row("CF-3", passed=False)]
     failed = [s.feature.name for s in statuses(checks, ()) if s.n_passed < s.n_checks]
     assert failed == ["Sliding in one axis", "Sliding in one axis with vertical shaking"]
     table = features_of(checks)
     assert all("FAIL" in table[name][2] for name in failed)
-
-
-def test_checks_that_need_scipy_count_where_they_ran():
     name = "Sliding in two axes"
     without, also = (
         next(s for s in statuses(checks, ()) if s.feature.name == name)
@@ -92,49 +87,34 @@ def test_checks_that_need_scipy_count_where_they_ran():
     assert not also.is_verified
 
 
-def test_no_two_features_have_one_name_and_no_id_is_there_twice():
-    names = [feature.name for feature in FEATURES]
-    assert len(set(names)) == len(names)
-    for feature in FEATURES:
-        ids = (*feature.checks, *feature.extra)
-        assert len(set(ids)) == len(ids)
-        assert {id.partition("-")[0] for id in ids} <= set(SECTIONS)
-
-
 def test_checks_of_rules_spectra_filters_uplift_and_tipping_pass_and_fail_where_wrong(monkeypatch):
     rows = list(design_checks())
     assert [row for row in rows if not row.passed] == []
     assert {row.id for row in rows} == {f"DV-{number}" for number in range(1, 9)}
-    monkeypatch.setattr(
-        "solver.verification.design_checks.required_separation", lambda *_, design_m, **__: design_m
-    )
+    name = "solver.verification.design_checks.required_separation"
+    monkeypatch.setattr(name, lambda *_, design_m, **__: design_m)
     wrong = [row.problem for row in design_checks() if not row.passed]
-    assert (
-        len(wrong) == 5
-    )  # like arrays and edges of both documents, and the parapet beside I_e 1.25
+    # Like arrays and edges of both documents, and the parapet beside I_e 1.25.
+    assert len(wrong) == 5
     assert all("Separation" in problem for problem in wrong)
 
 
 def test_without_tests_the_manual_says_that_nothing_is_validated():
-    said = page(shake_table(only()))
+    said = printed.manual(only(), shake_table(only()))
     assert explained(()) in said
     assert "option --table" in said
     assert "the median of the ratios is 0.9 to 1.1" in said
 
 
 @compiled
-def test_computed_slip_validates_nothing_however_well_it_agrees(table):
+def test_measured_slip_validates_the_models_of_its_tests_and_computed_slip_nothing(table):
     made = table((0.99, 1.0, 1.0, 1.0, 1.01))
-    said = page(shake_table(only(tables=(made,))))
+    said = printed.manual(only(), shake_table(only(tables=(made,))))
     assert "the slip of 0 was measured and that of 5 was computed" in said
     assert "A slip that was computed validates nothing" in said
     assert f"The acceptance is satisfied. {NOT_VALIDATED}" in said
     assert tables.MADE in said
     assert not any(status.is_validated for status in statuses(every(), [made]))
-
-
-@compiled
-def test_measured_slip_validates_the_models_that_its_tests_use_and_no_other(table):
     # The words of the file decide; the data are made here as well.
     stated = table((0.99, 1.0, 1.0, 1.0, 1.01), data="measured")
     validated = [s.feature.name for s in statuses(every(), [stated]) if s.is_validated]
@@ -156,7 +136,7 @@ def test_what_is_not_accepted_is_said_with_its_numbers(table):
 
 
 def test_every_error_of_a_released_version_has_an_effect_and_an_action():
-    said = page(section("manual/known-errors", "Known errors"))
+    said = printed.manual(only(), section("manual/known-errors", "Known errors"))
     heads = [found for cells in said.table("Errors").cells if (found := RELEASE.match(cells[0]))]
     errors = [cells for cells in said.table("Errors").cells if cells[1]]
     assert sum(int(head["count"]) for head in heads) == len(errors) > 0

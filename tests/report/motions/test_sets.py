@@ -1,4 +1,4 @@
-"""Which records of a folder are the three components of a motion, by names and headings."""
+"""Records of a folder that are the components of a motion, and records pasted into a sheet."""
 
 import datetime as dt
 import re
@@ -6,14 +6,12 @@ import re
 import numpy as np
 import pytest
 
-from places import ROOT
+from nightly import by_day
+from places import RECORDS, SAMPLES
 from report.motions.sets import LENGTHS_WITHIN, STARTS_WITHIN, sets_of, table
+from sheets import at, edit, make, problems, read_workbook, said, type_into
 from solver.model import InputError
 from waves import plain
-
-pytestmark = pytest.mark.quick
-
-SHARED = ROOT.parent / "shared" / "records"
 
 
 def peer(path, component, dt_s=0.01):
@@ -37,11 +35,8 @@ def taken(folder):
         ("RM1-x RM1-y RM1-z", "RM1"),
         ("CI.PAS.HNE CI.PAS.HNN CI.PAS.HNZ", "CI.PAS"),
         ("PAS.HN1 PAS.HN2 PAS.HNZ", "PAS"),
-        ("AKT_E AKT_N AKT_Z", "AKT"),
-        ("AKT-EW AKT-NS AKT-UD", "AKT"),
         ("AKT_E-W AKT_N-S AKT_U-D", "AKT"),
         ("A-ELC180 A-ELC270 A-ELC-UP", "A-ELC"),
-        ("site-270 site-360 site-UP", "site"),
         ("site_45 site_135 site_vert", "site"),
         ("WTMC_N28W WTMC_S62W WTMC_up", "WTMC"),
         ("ABC180 ABC270 ABCVRT", "ABC"),
@@ -67,9 +62,7 @@ def test_sets_of_three_are_told_by_the_ends_of_names(tmp_path, names, motion):
         ("PET-000 PET-090", "2 horizontal and 0 vertical of one motion; a set has 2 and 1;"
          " --without-vertical takes the two"),
         ("P-000 P-090 P-180 P-UP", "3 horizontal and 1 vertical of one motion; a set has 2 and 1"),
-        ("P-000 P-090 P-UP P-V", "2 horizontal and 2 vertical of one motion; a set has 2 and 1"),
         ("P-000 P-180 P-UP", "the horizontal components are not perpendicular by their names"),
-        ("P-000 P-H2 P-UP", "the horizontal components are not perpendicular by their names"),
         ("P-000 P-090 P-DWN", "P-DWN.csv is positive downward: give it with factor -1, as motion"
          " convert --factor -1 writes it"),
     ],
@@ -112,16 +105,14 @@ def test_components_have_one_time_step_and_about_one_length(tmp_path, dt_s, coun
 @pytest.mark.parametrize(
     ("later", "why"),
     [
-        ("2003/01/02 03:04:20", ""),
         ("2003/01/02 03:04:21", ""),
         ("2003/01/02 03:04:22", "start times differ: 2003-01-02 03:04:20 to 2003-01-02 03:04:22"),
-        ("2004/01/02 03:04:20", "start times differ: 2003-01-02 03:04:20 to 2004-01-02 03:04:20"),
         ("(none)", ""),
     ],
 )
 def test_components_begin_at_one_time_where_their_headings_say_when(tmp_path, later, why):
     assert dt.timedelta(seconds=1) == STARTS_WITHIN
-    record = (ROOT / "tests/data/motions/knet.ns").read_text()
+    record = (SAMPLES / "knet.ns").read_text()
     for end, direction in (("NS", "N-S"), ("EW", "E-W"), ("UD", "U-D")):
         text = record.replace("N-S", direction)
         if end == "UD":
@@ -145,11 +136,8 @@ def test_headings_go_before_names_and_must_not_contradict_them(tmp_path):
         "RSN4_36695": [f"RSN4_36695{end}.AT2" for end in ("021", "111", "-UP")],
         "free": [f"free_CHAN{number}.AT2" for number in ("014", "012", "013")],
     }
-    assert (
-        left["wrong-UP.AT2"]
-        == left["wrong-090.AT2"]
-        == ("its heading (180) and its name have different components")
-    )
+    why = "its heading (180) and its name have different components"
+    assert left["wrong-UP.AT2"] == left["wrong-090.AT2"] == why
     assert left["two-090.AT2"].startswith("1 horizontal and 0 vertical")
 
 
@@ -167,7 +155,7 @@ def test_the_heading_tells_where_a_glued_name_ends(tmp_path):
 
 def channel(path, name, component):
     """A channel of CSMIP, whose heading names its component."""
-    text = (ROOT / "tests/data/motions" / name).read_text()
+    text = (SAMPLES / name).read_text()
     path.parent.mkdir(exist_ok=True)
     path.write_text(re.sub(r"(?im)^chan +1: +\d+ deg", f"Chan  1: {component}", text))
 
@@ -206,9 +194,8 @@ def test_several_channels_of_a_file_are_named_as_in_the_sheet(tmp_path):
     sets, left = taken(tmp_path)
     assert sets == {"PAS": ["PAS.csv | HNE", "PAS.csv | HNN", "PAS.csv | HNZ"]}
     assert left == {"many.csv": "neither its heading (a) nor its name has a component"}
-    assert "PAS     x  PAS.csv | HNE  horizontal e             0.01        8  text" in list(
-        table(sets_of(tmp_path)[0])
-    )
+    row = "PAS     x  PAS.csv | HNE  horizontal e             0.01        8  text"
+    assert row in list(table(sets_of(tmp_path)[0]))
 
 
 def test_a_name_of_two_sets_or_too_long_for_an_id_is_left(tmp_path):
@@ -220,10 +207,8 @@ def test_a_name_of_two_sets_or_too_long_for_an_id_is_left(tmp_path):
     sets, left = taken(tmp_path)
     assert list(sets) == ["K", "x"]
     assert len(left) == 3
-    assert {why.partition(";")[0] for why in left.values()} == {
-        "their name is M",
-        f"their name is {'q' * 41}",
-    }
+    names = {why.partition(";")[0].removeprefix("their name is ") for why in left.values()}
+    assert names == {"M", "q" * 41}
 
 
 def test_hidden_files_and_numbers_that_are_no_azimuth_are_no_components(tmp_path):
@@ -242,9 +227,9 @@ def test_more_files_than_a_session_takes_are_refused(tmp_path):
         sets_of(tmp_path)
 
 
-@pytest.mark.skipif(not SHARED.is_dir(), reason="the real records are not on this machine")
+@pytest.mark.skipif(not RECORDS.is_dir(), reason="the real records are not on this machine")
 def test_real_records_are_told_by_their_headings():
-    sets, left = taken(SHARED)
+    sets, left = taken(RECORDS)
     channels = {name: [each.partition("| ")[2][:16] for each in sets[name]] for name in sets}
     assert channels == {
         "20161113_110259_WTMC_20": ["Component S62W T", "Component N28W L", "Component Up Ver"],
@@ -255,3 +240,129 @@ def test_real_records_are_told_by_their_headings():
     }  # fmt: skip
     # Three channels of one structure at different places are no set.
     assert sum("Structure_CHAN" in what for what in left) == 3
+
+
+RECORD = "Motions/M2/Horizontal record"
+
+
+def pasted(values, header="North", name="Pasted!North"):
+    """Return the cells of a pasted column that M2 uses."""
+    below = {f"Pasted!B{row}": value for row, value in enumerate(values, start=4)}
+    return {"Pasted!B3": header, RECORD: name} | below
+
+
+def timed(times, header="time_s"):
+    """Return the cells of such a column with times beside it."""
+    beside = {f"Pasted!A{row}": time for row, time in enumerate(times, start=4)}
+    return pasted([0.1] * len(times)) | {"Pasted!A3": header} | beside
+
+
+@pytest.fixture(scope="module")
+def with_sheet(tmp_path_factory):
+    """The bytes of the usual workbook with a sheet Pasted."""
+    path = make(tmp_path_factory.mktemp("pasted"))
+    return edit(path, lambda book: book.create_sheet("Pasted").append(["laboratory"])).read_bytes()
+
+
+@pytest.fixture
+def paste(tmp_path, with_sheet):
+    """A function that types cells into such a workbook beside its records, and returns its path."""
+
+    def type_cells(cells):
+        path = make(tmp_path)
+        path.write_bytes(with_sheet)
+        return type_into(path, cells)
+
+    return type_cells
+
+
+@pytest.mark.parametrize("name", ["pasted!north", "'Pasted'!North"])
+def test_a_pasted_column_is_a_record(paste, name):
+    book = read_workbook(paste(pasted([0.1, "0.2", -0.3, 0] * 26, name=name)))
+    expected = np.array([0.1, 0.2, -0.3, 0] * 26) * 9.80665
+    assert book.motions[1].ax_mps2 == pytest.approx(expected)
+    assert (book.records[2].name, book.records[2].npts) == (name, 104)
+
+
+@pytest.mark.parametrize(
+    ("header", "per_row"), [("time_s", 0.01), ("t [ms]", 10.0), ("Time [min]", 0.01 / 60.0)]
+)
+def test_a_pasted_column_agrees_with_the_times_and_units_beside_it(paste, header, per_row):
+    cells = timed([per_row * i for i in range(104)], header)
+    name = {"Pasted!B3": "North [g]", RECORD: "Pasted!North [g]"}
+    assert read_workbook(paste(cells | name)).records[2].npts == 104
+
+
+BLANK = "is blank, beside or above values; fill it in, or delete its row"
+PASTED = f"<{RECORD}>: horizontal record:"
+
+
+@pytest.mark.parametrize(
+    ("cell", "code", "line"),
+    [("B6", '0.0" m/s²"', "0.1, shown in m/s²"), ("A6", '0.00" ms"', "0.02, shown in ms"),
+     ("A6", '0.00" s"', None)],
+)  # fmt: skip
+def test_a_pasted_column_is_shown_in_its_units(paste, cell, code, line):
+    cells = timed([0.01 * i for i in range(104)], "t [s]")
+    path = edit(paste(cells), lambda book: setattr(book["Pasted"][cell], "number_format", code))
+    if line is None:
+        read_workbook(path)
+    else:
+        line = at(f"{PASTED} Pasted!{cell} is {line} by its number format")
+        assert problems(path)[0].startswith(line)
+
+
+@pytest.mark.parametrize(
+    ("cells", "lines"),
+    by_day([
+        (pasted([0.1, "abc", 0.2]), ["Pasted!B5 is 'abc'; give a number"]),
+        (pasted([0.1, "#N/A", 0.2]),
+         ["Pasted!B5 is #N/A; correct the formula, or type a value"]),
+        (pasted([0.1, None, 0.2]), [f"Pasted!B5 {BLANK}"]),
+        (pasted(["x"] * 8),
+         [*(f"Pasted!B{row} is 'x'; give a number" for row in range(4, 9)),
+          "... and 3 more cells"]),
+        (pasted([0.1, 0.2], header="East"),
+         ["sheet 'Pasted' has no heading 'North' in its first 10 rows; write it above the"
+          " column"]),
+        (pasted([0.1, 0.2], name="Elsewhere!North"),
+         ["'Elsewhere!North' names no sheet of this workbook; give Sheet!Header, or a file"]),
+        (pasted([0.1, 0.2], header="North [m/s2]", name="Pasted!North [m/s2]"),
+         ["Pasted!B3 is 'North [m/s2]', but the record units are g; correct one of them"]),
+        (pasted([0.1, 0.2], header="North [km/s2]", name="Pasted!North [km/s2]"),
+         ["Pasted!B3 is 'North [km/s2]', which is no acceleration by time; give the column of"
+          " one"]),
+        (pasted([0.1, 0.2], header="Total [g]", name="Pasted!Total [g]"),
+         ["Pasted!B3 is 'Total [g]', the magnitude of a vector; give a component"]),
+        (pasted([0.1, -999, 0.2]),
+         ["Pasted!North: sample 2 is -999 where no other exceeds 0.2 g: it is a code for missing"
+          " data; give a record without gaps"]),
+        (timed([0.0, 0.02, 0.04, 0.06]),
+         ["Pasted!A3 has times at a step of 0.02 s, but the time step is 0.01 s; correct one of"
+          " them"]),
+        (timed([0.0, 0.01, 0.02, 0.05]),
+         ["Pasted!A7 is 0.05 s, 0.03 s after the row above it, but the typical step is 0.01 s; fill"
+          " in the missing rows, or give the record as a file, which is resampled"]),
+        (timed([0.0, 0.01, 0.01, 0.02]),
+         ["Pasted!A6: found time 0.01 s after 0.01 s, with a typical step of 0.01 s; give"
+          " increasing times"]),
+        (timed([0.0, 1.0, 2.0, 3.0], header="Time [h]"),
+         ["Pasted!A3 is 'Time [h]'; give times in s, ms or min"]),
+        (pasted([0.1, 0.2]) | {"Motions/M2/Time step": None},
+         ["'Pasted!North' is a pasted column; give its time step"]),
+        (pasted([0.1, 0.2]) | {"Pasted!D2": "North"},
+         ["heading 'North' appears at Pasted!D2 and Pasted!B3; rename one"]),
+        (pasted([0.1, 0.2]) | {"Pasted!B300000": 1},
+         ["Pasted!B300000 contains data more than 200,000 rows below the heading; clear it, or give"
+          " the record as a file"]),
+    ], 5),
+)  # fmt: skip
+def test_a_pasted_column_is_refused_by_its_cell(paste, cells, lines):
+    assert problems(paste(cells)) == said(*(f"{PASTED} {line}" for line in lines))
+
+
+@pytest.mark.quick
+def test_gals_of_a_pasted_column_are_cm_s2(paste):
+    cells = pasted([100.0, -200.0] * 51) | {"Motions/M2/Record units": "gal"}
+    motion = read_workbook(paste(cells)).motions[1]
+    assert motion.ax_mps2.tolist() == [1.0, -2.0] * 51

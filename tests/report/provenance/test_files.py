@@ -8,11 +8,9 @@ from importlib.metadata import version
 from pathlib import Path
 
 import pytest
-from openpyxl.utils import coordinate_to_tuple
 
 import scenes
 import stand_in
-from cells import address
 from places import ROOT
 from report import making
 from report.assessment.evidence import support
@@ -31,10 +29,9 @@ from report.provenance.files import (
 )
 from report.results.results_json import results_json
 from report.sheet.reading.linked_files import Document
-from report.sheet.reading.parts import changed
-from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.read import read
 from report.web.controls import opened
+from sheets import type_into
 from solver.model import InputError
 
 EXAMPLE = ROOT / "projects" / "example"
@@ -52,7 +49,7 @@ def attached(found):
     return contents, json.loads(contents["roofslip.json"])
 
 
-def test_workbook_and_records_are_attached_as_they_lie(job):
+def test_workbook_records_and_a_document_are_attached_once_as_they_lie(job, tmp_path):
     found = sources(*job)
     assert [source.path for source in found[:2]] == ["input.xlsx", "records/RM1-x.csv"]
     assert len(found) == 22
@@ -65,9 +62,28 @@ def test_workbook_and_records_are_attached_as_they_lie(job):
         assert content == source.content == contents[entry["name"]]
         assert entry["sha256"] == hashlib.sha256(content).hexdigest()
         assert entry["bytes"] == len(content)
+    sheet, shaking = job
+    given = with_documents(sheet, tmp_path, "letter.pdf", "letter.pdf")
+    assert fingerprint(given, shaking) != fingerprint(sheet, shaking)
+    contents, listed = attached(sources(given, replace(shaking, records=())))
+    assert contents["letter.pdf"] == LETTER
+    kinds = {entry["path"]: entry["kind"] for entry in listed["files"]}
+    assert kinds == {"input.xlsx": "workbook", "letter.pdf": "document", "results.json": "results"}
+    found = attachments(sources(given, shaking), b"{}", "abc")
+    (letter,) = (file for file in found if file.name == "letter.pdf")
+    assert (letter.mime, letter.relationship) == ("application/pdf", "Supplement")
 
 
-def test_the_hash_follows_workbook_records_their_order_and_the_version(job, monkeypatch):
+def test_what_changed_meanwhile_is_an_input_error_and_changes_the_hash(job, tmp_path, monkeypatch):
+    sheet, shaking = job
+    changed = replace(shaking.records[0], sha256="0" * 64)
+    with pytest.raises(InputError, match=r"records/RM1-x\.csv: changed while the report ran"):
+        sources(sheet, replace(shaking, records=(changed, *shaking.records)))
+    given = with_documents(sheet, tmp_path, "letter.pdf", "letter.pdf")
+    other = replace(given.documents[0], sha256=sheet.sha256)
+    given = replace(given, documents=(other, given.documents[1]))
+    with pytest.raises(InputError, match=r"letter\.pdf: changed while the report ran"):
+        sources(given, replace(shaking, records=()))
     sheet, shaking = job
     first, second, *others = shaking.records
     other = replace(first, sha256="0" * 64)
@@ -83,18 +99,6 @@ def test_the_hash_follows_workbook_records_their_order_and_the_version(job, monk
     hashes.append(fingerprint(sheet, shaking))
     assert len(set(hashes)) == 5
     assert all(len(short) == 12 for short in hashes)
-
-
-def test_what_changed_between_two_cells_or_motions_is_an_input_error(job, tmp_path):
-    sheet, shaking = job
-    changed = replace(shaking.records[0], sha256="0" * 64)
-    with pytest.raises(InputError, match=r"records/RM1-x\.csv: changed while the report ran"):
-        sources(sheet, replace(shaking, records=(changed, *shaking.records)))
-    given = with_documents(sheet, tmp_path, "letter.pdf", "letter.pdf")
-    other = replace(given.documents[0], sha256=sheet.sha256)
-    given = replace(given, documents=(other, given.documents[1]))
-    with pytest.raises(InputError, match=r"letter\.pdf: changed while the report ran"):
-        sources(given, replace(shaking, records=()))
 
 
 def replacing(monkeypatch, name):
@@ -114,17 +118,12 @@ OTHER = b"another file"
 
 
 @pytest.mark.parametrize("name", ["input.xlsx", "records/RM1-x.csv", "letter.pdf"])
-def test_what_was_read_is_hashed_and_attached_whatever_lies_there_by_then(
-    tmp_path, monkeypatch, name
-):
+def test_what_was_read_is_attached_whatever_lies_there_by_then(tmp_path, monkeypatch, name):
     project = tmp_path / "project"
     shutil.copytree(EXAMPLE / "records", project / "records")
     shutil.copy(EXAMPLE / "input.xlsx", project)
     (project / "letter.pdf").write_bytes(LETTER)
-    sheet, cell = address(project / "input.xlsx", "Options/Letter of review").split("!")
-    at = CellPosition(sheet, *coordinate_to_tuple(cell))
-    book = project / "input.xlsx"
-    book.write_bytes(changed(book.read_bytes(), {at: "letter.pdf"}))
+    type_into(project / "input.xlsx", {"Options/Letter of review": "letter.pdf"})
     was = {path: path.read_bytes() for path in project.rglob("*") if path.is_file()}
     replacing(monkeypatch, Path(name).name)
     sheet = read(project)
@@ -168,7 +167,7 @@ def test_former_results_are_attached_as_they_were_compared(tmp_path, monkeypatch
     assert kept["since/results.json"] == was
 
 
-def test_records_are_kept_up_to_the_limit_and_hashed_beyond(job, monkeypatch):
+def test_records_are_kept_up_to_the_limit_and_hashed_beyond_it(job, monkeypatch):
     monkeypatch.setattr(motion_files, "MOST_RECORDS", 300_000)
     sheet = read(EXAMPLE)
     records = prepare(sheet).records
@@ -181,26 +180,9 @@ def test_records_are_kept_up_to_the_limit_and_hashed_beyond(job, monkeypatch):
     assert contents.keys() == {"input.xlsx", "results.json", "roofslip.json"}
     assert listed["has_records"] is False
     assert sum(entry["kind"] == "record" for entry in listed["files"]) == 21
-
-
-def test_the_page_keeps_no_file_of_a_package():
     book = opened(EXAMPLE / "input.xlsx").sheet.book
     assert not book.files
     assert not book.records
-
-
-def test_a_document_is_attached_once_and_is_part_of_the_hash(job, tmp_path):
-    sheet, shaking = job
-    given = with_documents(sheet, tmp_path, "letter.pdf", "letter.pdf")
-    assert fingerprint(given, shaking) != fingerprint(sheet, shaking)
-    contents, listed = attached(sources(given, replace(shaking, records=())))
-    assert contents["letter.pdf"] == LETTER
-    kinds = {entry["path"]: entry["kind"] for entry in listed["files"]}
-    assert kinds == {"input.xlsx": "workbook", "letter.pdf": "document", "results.json": "results"}
-    (letter,) = (
-        f for f in attachments(sources(given, shaking), b"{}", "abc") if f.name == "letter.pdf"
-    )
-    assert (letter.mime, letter.relationship) == ("application/pdf", "Supplement")
 
 
 @pytest.mark.quick
@@ -217,19 +199,16 @@ def test_a_file_with_several_channels_counts_once():
 
 
 RENAMED = {
-    "Results.json": "renamed/1/Results.json",
-    "a.csv": "a.csv",
-    "A.csv": "renamed/3/A.csv",
+    "Results.json": "renamed/1/Results.json", "a.csv": "a.csv", "A.csv": "renamed/3/A.csv",
     "sub/a.csv": "sub/a.csv",
-}
+}  # fmt: skip
 
 
 def test_names_that_collide_are_renamed_and_a_former_revision_has_its_own(job):
     sheet, shaking = job
-    rows = []
-    for row, name in zip(shaking.records, RENAMED, strict=False):
-        rows.append(replace(row, name=name))
-    _, listed = attached(sources(sheet, replace(shaking, records=tuple(rows))))
+    named = zip(shaking.records, RENAMED, strict=False)
+    rows = tuple(replace(row, name=name) for row, name in named)
+    _, listed = attached(sources(sheet, replace(shaking, records=rows)))
     records = [entry for entry in listed["files"] if entry["kind"] == "record"]
     assert {entry["path"]: entry["name"] for entry in records} == RENAMED
     found = sources(sheet, shaking, b"{}")
@@ -237,7 +216,7 @@ def test_names_that_collide_are_renamed_and_a_former_revision_has_its_own(job):
 
 
 @pytest.mark.quick
-def test_parts_that_matter_and_the_system_are_named():
+def test_parts_that_matter_and_the_system_are_named_and_what_is_not_installed_is_not(monkeypatch):
     known = versions()
     named = "numpy numba llvmlite pandas openpyxl matplotlib weasyprint pydyf fonttools"
     assert known.keys() - {"lxml"} == {"roofslip", "python", *named.split()}
@@ -245,10 +224,6 @@ def test_parts_that_matter_and_the_system_are_named():
         assert known[name] == metadata.version(name)
     assert environment().keys() - versions().keys() == {"system"}
     assert re.fullmatch(r"[\w.+ -]+", environment()["system"])
-
-
-@pytest.mark.quick
-def test_what_is_not_installed_is_left_out(monkeypatch):
     true = metadata.version
 
     def version(name):

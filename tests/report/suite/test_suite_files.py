@@ -9,16 +9,19 @@ from pathlib import Path
 import numba
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from openpyxl import Workbook
 
-from report.cli.main import main
+import commands
+import waves
 from report.results.publish import STAMP
-from report.suite.inputs import read_seeds
+from report.suite.files import suite_files, suite_table
+from report.suite.inputs import ac156_targets, read_seeds
+from report.text.units import G_MPS2
 from solver.formats import read_motion_file, read_record
 from solver.model import InputError
 from solver.records.spectrum import response_spectrum
 from solver.rules.hazard import EDITIONS, Tail, ac156_horizontal, ac156_vertical
+from waves import PEAK_G
 
 pytestmark = [
     pytest.mark.skipif(
@@ -27,15 +30,14 @@ pytestmark = [
     pytest.mark.quick,
 ]
 
+
 AC156 = ("--sds", 1.2, "--code", "asce7-16")
 G = 9.80665
 
 
 def run(*words, exit_code=0):
     """The output of the command."""
-    done = CliRunner().invoke(main, ["motion", "suite", *map(str, words)])
-    assert done.exit_code == exit_code, done.output
-    return done.output
+    return commands.ended("motion", "suite", *words, exit_code=exit_code)
 
 
 @pytest.fixture(scope="module")
@@ -55,10 +57,16 @@ def records(folder, motion):
 
 
 @pytest.mark.nightly
-def test_every_file_is_written_and_nothing_else(made):
+def test_every_file_is_written_with_the_hold_of_its_envelope_and_nothing_else(made, tmp_path):
     names = {f"motion-0{k}-{axis}.csv" for k in (1, 2) for axis in "xyz"}
     assert {path.name for path in made[0].iterdir()} == names | {"suite.json", "suite.png", STAMP}
     assert (made[0] / "suite.png").read_bytes().startswith(b"\x89PNG")
+    path = made[0] / "motion-01-x.csv"
+    assert path.read_text().startswith("# generated; hold of the envelope 20 s\ntime_s,")
+    assert read_motion_file(path).hold_s == 20.0
+    plain = tmp_path / "plain.csv"
+    plain.write_text(path.read_text().partition("\n")[2])
+    assert math.isnan(read_motion_file(plain).hold_s)
 
 
 @pytest.mark.nightly
@@ -119,27 +127,13 @@ def test_the_rows_of_the_acceptance_are_stated(made, document):
 
 
 @pytest.mark.nightly
-def test_every_file_states_the_hold_of_its_envelope(made, tmp_path):
-    path = made[0] / "motion-01-x.csv"
-    assert path.read_text().startswith("# generated; hold of the envelope 20 s\ntime_s,")
-    assert read_motion_file(path).hold_s == 20.0
-    plain = tmp_path / "plain.csv"
-    plain.write_text(path.read_text().partition("\n")[2])
-    assert math.isnan(read_motion_file(plain).hold_s)
-
-
-@pytest.mark.nightly
-def test_the_target_is_that_of_the_code(document):
+def test_the_target_is_that_of_the_code_and_the_table_states_it_with_the_fit(made, document):
     target = document["target"]
     across = ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=1.2, z_over_h=1.0)
     assert target["horizontal"]["sa_g"] == across.sa_g.tolist()
     assert target["vertical"]["sa_g"] == ac156_vertical(s_ds_g=1.2).sa_g.tolist()
     assert (target["code"], target["s_ds_g"], target["z_over_h"]) == ("ASCE 7-16", 1.2, 1.0)
     assert (target["tail"], target["tail_rule"]) == ("AC156", Tail.AC156.sentence)
-
-
-@pytest.mark.nightly
-def test_the_table_states_target_tail_seed_and_the_fit_of_each_component(made):
     lines = made[1].splitlines()
     assert "AC156 with ASCE 7-16, S_DS 1.2 g, z/h 1: A_FLX 1.92 g, A_RIG 1.44 g" in made[1]
     assert f"tail: {Tail.AC156.sentence}" in made[1]
@@ -155,7 +149,7 @@ def test_the_table_states_target_tail_seed_and_the_fit_of_each_component(made):
 
 
 @pytest.mark.nightly
-def test_the_same_seed_gives_the_same_bytes_whatever_the_count(made, tmp_path):
+def test_the_same_seed_gives_the_same_bytes_and_no_former_motion_remains(made, tmp_path):
     run(tmp_path, *AC156, "--count", 1, "--seed", 5)
     for axis in "xyz":
         name = f"motion-01-{axis}.csv"
@@ -163,10 +157,6 @@ def test_the_same_seed_gives_the_same_bytes_whatever_the_count(made, tmp_path):
     before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
     run(tmp_path, *AC156, "--count", 1, "--seed", 5)
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
-
-
-@pytest.mark.nightly
-def test_motions_of_an_earlier_suite_never_remain_beside_the_new_ones(made):
     output = run(made[0], *AC156, "--count", 1, exit_code=2)
     assert "motion-02-x.csv and 2 other files of an earlier suite would remain" in output
 
@@ -208,7 +198,7 @@ def columns(path, heading):
     return path
 
 
-def test_a_vertical_among_three_channels_seeds_z(tmp_path):
+def test_a_vertical_among_three_channels_seeds_z_and_every_file_at_fault_is_reported(tmp_path):
     path = columns(tmp_path / "site.V2", "time_s,UP_g,N10E_g,S80E_g")
     (group,) = read_seeds([str(path)], units="g", dt_s=math.nan).groups
     assert ["UP" in record.name for record in group] == [False, False, True]
@@ -216,9 +206,6 @@ def test_a_vertical_among_three_channels_seeds_z(tmp_path):
     lone = [columns(tmp_path / f"{name}.csv", "time_s,a_g") for name in ("Z", "X", "Y")]
     (group,) = read_seeds([",".join(map(str, lone))], units="g", dt_s=math.nan).groups
     assert [record.name for record in group] == ["X.csv", "Y.csv", "Z.csv"]
-
-
-def test_too_many_channels_and_every_unreadable_file_are_reported(tmp_path):
     path = columns(tmp_path / "many.csv", "time_s,a_g,b_g,c_g,d_g")
     with pytest.raises(InputError) as caught:
         read_seeds([str(path), "none.csv", "a.csv,b.csv"], units="g", dt_s=math.nan)
@@ -245,34 +232,19 @@ def test_a_sheet_of_a_workbook_is_the_target(tmp_path):
     assert document["target"]["horizontal"]["sa_g"] == [0.12, 1.0, 1.0, 0.5]
     assert document["target"]["vertical"]["sa_g"][1] == pytest.approx(0.67 * 0.9)
     assert document["target"]["vertical_source"] == "AC156"
-    workbook.active["C1"] = "vertical [g]"
-    for row in range(2, 6):
-        workbook.active.cell(row, 3, 0.4)
-    workbook.save(tmp_path / "book.xlsx")
-    run(*words)
-    document = json.loads((tmp_path / "suite" / "suite.json").read_text())
-    assert document["target"]["vertical"]["sa_g"] == [0.4] * 4
 
 
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
         ((), "no target; give --sds and --code, or --target"),
-        (("--sds", 1.0), "no target"),
         (("--sds", 0.0, "--code", "pv1"), "S_DS is 0 g; give 0.01 to 5 g"),
         (("--sds", "inf", "--code", "pv1"), "'--sds': it is inf g; give a finite number."),
         (("--sds", 1.0, "--code", "pv1", "--zh", 1.5), "z/h is 1.5; give a number from 0"),
-        (
-            ("--sds", 1.0, "--code", "pv1", "--zh", "nan"),
-            "'--zh': it is nan; give a finite number.",
-        ),
         (("--sds", 1.0, "--code", "ibc"), "--code is 'ibc'; give one of"),
-        (("--sds", 1.0, "--code", "ASCE 7"), "--code is 'asce 7'; give one of"),
         ((*AC156, "--count", 0), "Invalid value for '--count'"),
-        ((*AC156, "--seed", -1), "Invalid value for '--seed'"),
         ((*AC156, "x.csv"), "unexpected argument 'x.csv'; write --records before the files"),
         ((*AC156, "--records", "none.csv"), "none.csv: no such file"),
-        (("--target", "none.csv"), "none.csv: no such file"),
     ],
 )
 def test_missing_or_invalid_options_are_reported(tmp_path, words, expected):
@@ -299,3 +271,23 @@ def test_seed_records_are_hashed_as_they_were_read(tmp_path, monkeypatch):
     monkeypatch.setattr(Path, "read_bytes", replaced)
     seeds = read_seeds([str(path)], units="g", dt_s=0.01)
     assert seeds.sha256 == {str(path): hashlib.sha256(was.encode()).hexdigest()}
+
+
+def test_the_files_of_a_suite_say_what_its_samples_are():
+    suite = waves.suite(1)
+    targets = ac156_targets("asce7-16", s_ds_g=1.2, z_over_h=1.0, tail=Tail.AC156)
+    files = suite_files(suite, targets, seed=3, records={})
+    document = json.loads(files["suite.json"])
+    (motion,) = document["motions"]
+    for each in motion["components"]:
+        assert each["sha256"] == hashlib.sha256(files[each["file"]]).hexdigest()
+        assert each["pga_g"] == pytest.approx(PEAK_G, rel=1e-3)
+    first = motion["components"][0]
+    # The velocity of a sine that starts at rest reaches twice its amplitude, a / (pi f).
+    assert first["pgv_mps"] == pytest.approx(PEAK_G * G_MPS2 / (math.pi * 0.5), rel=1e-3)
+    assert motion["correlation_xy"] == pytest.approx(0.0, abs=1e-9)
+    assert document["envelope_s"] == pytest.approx([1.0, 2.0, 1.0])
+    assert any(not row["satisfied"] for row in document["acceptance"])
+    assert files["suite.png"].startswith(b"\x89PNG")
+    said = "0 of 3 components have spectra of 0.90 to 1.30"
+    assert any(line.startswith(said) for line in suite_table(suite, targets))

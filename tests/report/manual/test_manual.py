@@ -1,19 +1,20 @@
-"""Recorded roofs compared with computed ones: identification, printed results, charts."""
+"""The comparisons of the manual, of roofs and of models: what is found, printed and charted."""
 
+import io
 import math
+import re
 from dataclasses import replace
-from pathlib import Path
 
 import numba
 import numpy as np
+import pandas as pd
 import pytest
-from click.testing import CliRunner
 
+import commands
 import printed
 from places import RECORDS
-from report.cli.main import main
-from report.manual.measured import building
-from report.manual.render import summary
+from report.manual.measured import building, models
+from report.manual.render import summary, verification_csv
 from solver.building.roof import absolute_accelerations, roof_motion
 from solver.building.structure import beam_modes, building_of_periods
 from solver.model import InputError
@@ -21,6 +22,7 @@ from solver.records.record import Record, write_record
 from solver.records.spectrum import response_spectrum
 from solver.sliding.checked import slide
 from solver.verification import building_checks as checks
+from solver.verification import model_study
 from solver.verification.building import (
     BY_HEIGHT,
     SPECTRUM_S,
@@ -28,7 +30,8 @@ from solver.verification.building import (
     identify,
     recorded_buildings,
 )
-from solver.verification.study import own_records
+from solver.verification.evidence import HELD, SECOND
+from solver.verification.study import own_records, own_triples
 from verified import only
 
 pytestmark = pytest.mark.skipif(
@@ -49,24 +52,28 @@ def comparison(made):
 @pytest.fixture(scope="module")
 def recorded(made):
     """The model building as if it had been recorded, with a period from its height."""
-    return compare(
-        replace(made, title="A tower", description="A frame.", is_recorded=True, code_period_s=1.0)
-    )
+    about = {"title": "A tower", "description": "A frame.", "is_recorded": True}
+    return compare(replace(made, **about, code_period_s=1.0))
 
 
-def page(*roofs):
-    """The section on buildings below the summary."""
-    found = only(roofs=roofs)
-    return printed.manual(found, summary(found), building(found))
+def page(part, **found):
+    """A section below the summary."""
+    found = only(**found)
+    return printed.manual(found, summary(found), part(found))
 
 
 # What the verification finds
 
 
-def test_every_check_passes_and_no_two_are_alike(made, comparison):
+def test_every_check_passes_no_two_are_alike_and_a_fit_that_is_off_fails_its_own(made, comparison):
     rows = list(checks.building_checks(made, comparison))
     assert all(row.passed for row in rows), [row for row in rows if not row.passed]
     assert len({(row.problem, row.quantity) for row in rows}) == len(rows)
+    best = comparison.predictions[0]
+    for change in ({"period_s": 1.19}, {"damping": 0.05}, {"alpha0": 5.0}, {"unexplained": 0.1}):
+        predictions = (replace(best, **change), *comparison.predictions[1:])
+        off = replace(comparison, predictions=predictions)
+        assert sum(not row.passed for row in checks.building_checks(made, off)) == 1
 
 
 @pytest.mark.parametrize(
@@ -85,15 +92,6 @@ def test_what_is_wrong_fails_the_checks_that_see_it(made, comparison, monkeypatc
     assert not all(row.passed for row in checks.building_checks(made, comparison))
 
 
-def test_a_fit_that_is_off_fails_its_checks(made, comparison):
-    best = comparison.predictions[0]
-    for change in ({"period_s": 1.19}, {"damping": 0.05}, {"alpha0": 5.0}, {"unexplained": 0.1}):
-        off = replace(
-            comparison, predictions=(replace(best, **change), *comparison.predictions[1:])
-        )
-        assert sum(not row.passed for row in checks.building_checks(made, off)) == 1
-
-
 @pytest.mark.quick
 def test_a_beam_is_found_again_from_its_own_floors():
     ground = own_records(True)[0]
@@ -110,14 +108,11 @@ def test_a_beam_is_found_again_from_its_own_floors():
     assert fit.unexplained < 1e-5
 
 
-def test_predictions_are_what_their_parts_say(made, recorded):
+def test_predictions_are_what_their_parts_say_to_the_ground_itself(made, recorded, comparison):
     assert [prediction.name for prediction in recorded.predictions] == [
-        "fitted to the 12th and 24th floors",
-        "fitted to the 12th floor",
-        BY_HEIGHT,
-        "first fit, but with 5 % damping",
-        "ground motion applied at the roof, no building",
-    ]
+        "fitted to the 12th and 24th floors", "fitted to the 12th floor", BY_HEIGHT,
+        "first fit, but with 5 % damping", "ground motion applied at the roof, no building",
+    ]  # fmt: skip
     prediction = recorded.predictions[2]
     model = building_of_periods([1.0], damping=[0.05], alpha0=prediction.alpha0)
     roof = roof_motion(made.ground_mps2, made.dt_s, model)[: made.ground_mps2.size]
@@ -135,9 +130,6 @@ def test_predictions_are_what_their_parts_say(made, recorded):
     ]
     assert prediction.prd_m[2] == max(both)
     assert np.abs(recorded.roof_mps2).max() * recorded.scale == pytest.approx(9.80665)
-
-
-def test_the_ground_itself_is_the_last_prediction_and_has_no_building(made, comparison):
     last = comparison.predictions[-1]
     np.testing.assert_array_equal(last.a_mps2, made.ground_mps2)
     assert last.n_modes == 0
@@ -172,15 +164,11 @@ def test_575_market_street_is_read_and_its_misfit_stays_what_it_was():
 
 
 @pytest.mark.quick
-def test_a_lost_record_is_named(tmp_path):
-    (tmp_path / "roof_575_market").mkdir()
-    with pytest.raises(InputError, match=r"LomaPrieta_k_315\.csv: no such file"):
-        recorded_buildings(tmp_path)
-
-
-def test_records_are_cut_to_the_shortest_and_turned_to_one_direction(tmp_path):
+def test_records_are_cut_to_the_shortest_and_turned_to_one_direction_and_a_lost_one_named(tmp_path):
     folder = tmp_path / "roof_575_market"
     folder.mkdir()
+    with pytest.raises(InputError, match=r"LomaPrieta_k_315\.csv: no such file"):
+        recorded_buildings(tmp_path)
     for name, a in (("k_315", [1.0, 2.0, 3.0]), ("i_135", [0.5] * 4), ("c_135", [0.25] * 5)):
         record = Record(name=name, dt_s=0.01, a_mps2=9.80665 * np.array(a))
         write_record(folder / f"SF575Market_LomaPrieta_{name}.csv", record)
@@ -191,28 +179,18 @@ def test_records_are_cut_to_the_shortest_and_turned_to_one_direction(tmp_path):
 
 @pytest.mark.quick
 def test_the_command_names_a_folder_without_records_and_exits_2(tmp_path):
-    done = CliRunner().invoke(
-        main, ["verify", "--records", str(tmp_path), "--out", str(tmp_path / "out")]
-    )
-    assert done.exit_code == 2
-    assert "no subfolder roof_575_market; give a folder that contains it" in done.output
-    assert not Path(tmp_path / "out").exists()
+    told = commands.refused("verify", "--records", tmp_path, "--out", tmp_path / "out")
+    assert "no subfolder roof_575_market; give a folder that contains it" in told
+    assert not (tmp_path / "out").exists()
 
 
 # What the manual prints
 
 
-def test_without_records_the_manual_says_that_no_real_building_was_compared(comparison):
-    said = page(comparison)
-    assert "No records of a real building were given to this run" in said
-    assert "does not show how well a uniform beam represents a real building" in said
-    headed = [line for line in said.splitlines() if line.startswith("## ")]
-    assert headed[1:] == [f"## 2.1 {comparison.title}"]
-    assert "computed from its ground motion" not in said
-
-
-def test_with_records_the_manual_says_how_far_off_each_prediction_is(comparison, recorded):
-    said = page(comparison, recorded)
+def test_the_manual_says_how_far_off_predictions_are_or_that_none_was_compared(
+    comparison, recorded
+):
+    said = page(building, roofs=(comparison, recorded))
     assert "Records of a real building were given: A tower." in said
     ratios = recorded.predictions[2].prd_m / recorded.prd_m
     span = f"{ratios.min():.2f} to {ratios.max():.2f}"
@@ -228,6 +206,12 @@ def test_with_records_the_manual_says_how_far_off_each_prediction_is(comparison,
             assert f"{1e3 * prd:.0f} ({prd / true:.2f})" in cells
     assert cells.count("Recorded") == 2
     assert not any("nan" in cell for cell in cells)
+    said = page(building, roofs=(comparison,))
+    assert "No records of a real building were given to this run" in said
+    assert "does not show how well a uniform beam represents a real building" in said
+    headed = [line for line in said.splitlines() if line.startswith("## ")]
+    assert headed[1:] == [f"## 2.1 {comparison.title}"]
+    assert "computed from its ground motion" not in said
 
 
 def test_charts_name_each_line_and_only_records_have_a_history(comparison, recorded):
@@ -240,3 +224,71 @@ def test_charts_name_each_line_and_only_records_have_a_history(comparison, recor
         assert text in other
     assert "Roof acceleration" not in first
     assert "ground motion applied at the roof" not in other
+
+
+TWO_AXES = "PRD in two axes relative to one axis, median"
+
+
+@pytest.fixture(scope="module")
+def evidence():
+    return model_study.model_evidence(own_triples(True), quick=True)
+
+
+@pytest.fixture(scope="module")
+def said(evidence):
+    return page(models, models=(evidence,))
+
+
+def test_the_factor_of_the_second_axis_and_static_friction_are_told(evidence, said):
+    second = evidence.study.named(SECOND)
+    assert f"PRD is {second.median:.2f} times that of one axis with the same heading" in said
+    assert "One axis underestimates the PRD." in said
+    assert "No records of three components were given" in said
+    result = said.table("Key results").row(TWO_AXES)["Result"]
+    assert result.startswith(f"{second.median:.2f} times")
+    assert not re.search(r"\bnan\b|\d+e[-+]?\d|None|\{|\}", said.split("# 2 Models")[1])
+    held = evidence.study.named(HELD)
+    span = f"({held.at(10.0):.2f} to {held.at(90.0):.2f})"
+    assert f"{held.median:.2f} times in two axes {span}" in said
+    (table,) = [table for table in said.tables if "Distance" in table.title]
+    assert [float(row[1]) for row in table.cells] == pytest.approx(
+        1e3 * evidence.pushed["end_m"], abs=0.005
+    )
+
+
+def recorded_and_lifted(evidence):
+    return replace(evidence, study=replace(evidence.study, n_recorded=1, n_uplift=3))
+
+
+def nothing_slides(evidence):
+    changes = tuple(replace(change, ratios=np.empty(0)) for change in evidence.study.changes)
+    return replace(evidence, study=replace(evidence.study, changes=changes))
+
+
+def without_scipy(evidence):
+    is_ours = ~evidence.work["method"].str.contains("SciPy")
+    return replace(evidence, work=evidence.work[is_ours])
+
+
+@pytest.mark.parametrize(
+    ("changed", "wanted", "unsaid"),
+    [
+        (recorded_and_lifted, "1 recorded in earthquakes", "No records of three"),
+        (nothing_slides, "No run slides 5 mm or more", TWO_AXES),
+        (without_scipy, "SciPy is not installed here", "SciPy's DOP853"),
+    ],
+)
+def test_what_differs_in_another_run_is_told(evidence, changed, wanted, unsaid):
+    said = page(models, models=(changed(evidence),))
+    assert wanted in said
+    assert unsaid not in said
+
+
+def test_the_charts_are_the_same_every_time_and_the_runs_are_in_the_table(evidence):
+    first, other = (models(only(models=(evidence,))).charts for _ in range(2))
+    assert first == other
+    assert len(first) == 1
+    table = pd.read_csv(io.BytesIO(verification_csv(only(models=(evidence,)))))
+    assert set(table["kind"]) == {"run in two axes"}
+    for column in ("residual error [%]", "parameters", "case"):
+        assert table[column].tolist() == evidence.work[column].tolist()

@@ -1,17 +1,15 @@
-"""Tables of a document: which rows are one, and what a cell takes."""
+"""Tables of a document, which rows are one and what a cell takes; and its templates, compiled."""
 
-import sys
 from operator import itemgetter
-from pathlib import Path
 
 import pytest
 
-import scenes
-from places import ROOT
-from report.document.tables import Wide, listed, merged, table_of
+from report.document.tables import Wide, listed, merged
+from report.document.templates import rendered, state_of
 from report.entities.shown import text, words
 
 pytestmark = pytest.mark.quick
+
 
 COLUMNS = (
     (words("Array", 0.8), itemgetter(0)),
@@ -25,14 +23,8 @@ def rows_of(rows, *fields, style=lambda _: "", once=False):
     return [row.cells for row in table.rows], [column.share for column in table.columns]
 
 
-def test_rows_that_differ_in_names_alone_are_one():
-    rows = [
-        ("A1", "3", "x"),
-        ("A2", "4", "x"),
-        ("A3", "3", "x"),
-        ("A4", "3", "x"),
-        ("A5", "3", "x"),
-    ]
+def test_rows_that_differ_in_names_alone_are_one_and_their_column_is_wider():
+    rows = [(name, "4" if name == "A2" else "3", "x") for name in ("A1", "A2", "A3", "A4", "A5")]
     cells, _ = rows_of(rows)
     assert cells == [("A1, A3 to A5", "3", "x"), ("A2", "4", "x")]
     rows = [("10", "3", "A"), ("2", "3", "A"), ("1", "3", "B"), ("3", "3", "B"), ("4", "5", "A")]
@@ -42,13 +34,8 @@ def test_rows_that_differ_in_names_alone_are_one():
     cells, _ = rows_of(rows, "Array", "Side")
     assert cells == [("1, 2", "3", "A"), ("1, 2", "4", "B and A, C")]
     rows = [("1", "3", "A2"), ("1", "3", "A1"), ("2", "3", "A3"), ("3", "3", "A2"), ("9", "4", "B")]
-    assert rows_of(rows, "Array", "Side", once=True)[0] == [
-        ("1 to 3", "3", "A1 to A3"),
-        ("9", "4", "B"),
-    ]
-
-
-def test_other_styles_remain_and_a_column_of_many_names_is_wider():
+    cells, _ = rows_of(rows, "Array", "Side", once=True)
+    assert cells == [("1 to 3", "3", "A1 to A3"), ("9", "4", "B")]
     wide = Wide("Mean", 1)
     rows = [("A1", "3", "x"), ("A2", "3", "x"), (wide, "3", "x"), ("A3", "3", "x")]
     cells, _ = rows_of(rows, style=lambda row: "" if row[0] == "A1" else "total")
@@ -61,33 +48,24 @@ def test_other_styles_remain_and_a_column_of_many_names_is_wider():
     assert 0.8 == narrow < wide < 2.0
 
 
-def calls_of(work):
-    """Return how many calls of the program's own functions something makes."""
-    calls = []
-
-    def note(frame, event, _):
-        if event == "call" and Path(frame.f_code.co_filename).is_relative_to(ROOT / "report"):
-            calls.append(frame.f_code.co_qualname)
-
-    sys.setprofile(note)
-    try:
-        work()
-    finally:
-        sys.setprofile(None)
-    return len(calls)
+def template(folder):
+    (folder / "a.html").write_text("{{ 1.5 | number(2) }}")
+    return rendered(folder, "a.html", {})
 
 
-@pytest.mark.parametrize(
-    ("name", "cells"),
-    [("demand_capacity", 1), ("factor", 1), ("verdict", 1), ("required_m", 2), ("provided_m", 2)],
-)
-def test_a_printed_cell_of_a_clearance_takes_four_calls_at_most(name, cells):
-    package = scenes.package()
+def test_a_template_is_kept_compiled_until_the_state_of_code_changes(tmp_path):
+    assert template(tmp_path) == "1.50"
+    (kept,) = (tmp_path / "__pycache__").iterdir()
+    assert kept.stat().st_size
+    module = tmp_path / "below" / "filters.py"
+    module.parent.mkdir()
+    states = [state_of(tmp_path)]
+    for code in ("a = 1", "a = 22"):
+        module.write_text(code)
+        states.append(state_of(tmp_path))
+    assert len({*states}) == 3
 
-    def calls(names, rows):
-        gaps = [package.clearances[0]] * rows
-        return calls_of(lambda: table_of(gaps, names, package.fmt).body)
 
-    calls(f"count {name}", 1)  # fields are looked up once
-    row, other = (calls(names, 2) - calls(names, 1) for names in (f"count {name}", "count"))
-    assert 0 < row - other <= 4 * cells
+def test_where_nothing_can_be_kept_a_template_is_compiled(tmp_path):
+    (tmp_path / "__pycache__").symlink_to(tmp_path / "gone" / "away")
+    assert template(tmp_path) == "1.50"

@@ -1,0 +1,215 @@
+"""Counts, names, numbers, fields of CSV and commands, as they are printed."""
+
+import csv
+import io
+import math
+import sys
+from pathlib import PureWindowsPath
+
+import numba
+import pytest
+from hypothesis import assume, example, given
+from hypothesis import strategies as st
+
+import tables
+from report.text import units
+from report.text.counts import Names, capitalized, counted, named, quoted, ranged, spelled, trimmed
+from report.text.formats import NOT_VALIDATED, csv_text, explained, validation
+from report.text.units import Quantity, beside, digits_down, digits_up, measured, no_less, number
+from solver.verification.shake_table import compare, table_tests
+
+pytestmark = pytest.mark.quick
+
+
+@pytest.mark.parametrize(
+    ("count", "text"),
+    [(0, "no arrays"), (1, "one array"), (2, "two arrays"), (9, "nine arrays"), (10, "10 arrays")],
+)
+def test_a_count_is_in_words_up_to_nine(count, text):
+    assert counted(count, "array") == text
+    assert spelled(count) == text.split()[0]
+
+
+@pytest.mark.parametrize(
+    ("names", "text"),
+    [
+        ("", ""), ("A1 A2", "A1, A2"), ("A1 A2 A3", "A1 to A3"),
+        ("A8 A9 A10 A12 B13 B14 A15", "A8 to A10, A12, A15, B13, B14"),
+        ("CF-1 CF-2 CF-3 DA-1 SY-1 SY-2", "CF-1 to CF-3, DA-1, SY-1, SY-2"),
+        ("PV-08 PV-09 PV-10 PV-12", "PV-08 to PV-10, PV-12"), ("A3 A10 A2 A1 A2", "A1 to A3, A10"),
+        ("EAST EAST0 EAST1 WEST 7 8 9", "7 to 9, EAST, EAST0, EAST1, WEST"),
+    ],
+)  # fmt: skip
+def test_names_that_count_on_are_a_range_from_three_of_them(names, text):
+    assert ranged(names.split()) == text
+
+
+def test_names_have_their_noun_in_the_number_that_they_are_and_a_sentence_its_capital():
+    assert named(["A9"], "array") == "array A9"
+    assert named(["A1", "A2", "A3"], "array") == "arrays A1 to A3"
+    assert capitalized("the roof of EX-1") == "The roof of EX-1"
+
+
+ARRAYS = ["NORTHWEST ROOF 2", "A1", "NORTHWEST ROOF 10", "NORTHWEST ROOF 1"]
+NAMES = Names.of(ARRAYS, ["Kitchen & make-up air", "RTU-1"])
+
+
+def test_long_names_have_keys_where_they_stand_by_themselves_and_in_ranges():
+    assert Names.of(["twelve chars", "thirteen char"]).keys == {"thirteen char": "[1]"}
+    roofs = {f"NORTHWEST ROOF {k}": f"[{n}]" for n, k in enumerate((1, 2, 10), start=1)}
+    assert NAMES.keys == roofs | {"Kitchen & make-up air": "[4]"}
+    # A key is no name of the project.
+    assert Names.of(["[1]", "a long name of an array"]).keys == {"a long name of an array": "[2]"}
+    assert NAMES("NORTHWEST ROOF 10 to A1") == "[3] to A1"
+    assert NAMES("NORTHWEST ROOF 1: NG, NORTHWEST ROOF 2.") == "[1]: NG, [2]."
+    for other in ("NORTHWEST ROOF 11", "records/NORTHWEST ROOF 1", "NORTHWEST ROOF 1.csv"):
+        assert NAMES(other) == other
+    names = Names.of(["north penthouse", "Roof of the kitchen", "roof of the kitchen"])
+    assert names.keys["Roof of the kitchen"] == "[1]"
+    assert names("North penthouse: NG. Roof of the kitchen: OK") == "[2]: NG. [1]: OK"
+    roofs = [f"roof of bay {word}" for word in ("east", "north", "south", "west")]
+    names = Names.of(roofs)
+    assert names(ranged(roofs)) == "[1] to [4]"
+    assert names(ranged([roofs[0], *roofs[2:]])) == "[1], [3], [4]"
+    assert names.in_html(f"<body><td>{', '.join(roofs)}</td>") == "<body><td>[1] to [4]</td>"
+
+
+@pytest.mark.parametrize("count", [3, 12])
+def test_a_range_of_names_is_the_range_of_their_keys(count):
+    # Nine of twelve characters, and others of thirteen.
+    names = [f"UPPER ROOF {k}" for k in range(1, count + 1)]
+    keys = Names.of(["LOWER ROOF EAST 7", *reversed(names)])
+    both = "[2] to [13]" if count == 12 else "UPPER ROOF 1 to UPPER ROOF 3"
+    assert keys(ranged(names)) == both
+    assert keys.keys["LOWER ROOF EAST 7"] == "[1]"
+
+
+def test_a_document_has_keys_in_its_texts_alone():
+    html = (
+        "<html><title>Kitchen &amp; make-up air</title><body>"
+        '<h1 id="NORTHWEST ROOF 1" translate="no">NORTHWEST ROOF 1 <b>A1</b></h1>'
+        '<p title="NORTHWEST ROOF 1">NORTHWEST ROOF 1 and Kitchen &amp; make-up air</p></body>'
+    )
+    said = ">NORTHWEST ROOF 1 and Kitchen &amp; make-up air<"
+    assert NAMES.in_html(html) == html.replace(said, ">[1] and [4]<")
+    assert Names.of(["A1"]).in_html(html) is html
+
+
+WIDTHLESS = "\u00ad\u200b\u200c\u200d\u200e\u200f\u2060\u2061\u2062\u2063\u2064\ufeff"
+
+
+def test_blanks_and_letters_of_no_width_are_trimmed_at_the_ends():
+    for code in range(sys.maxunicode + 1):
+        letter = chr(code)
+        expected = "" if letter.isspace() or letter in WIDTHLESS else letter
+        assert trimmed(letter) == expected, hex(code)
+    assert trimmed(" \u200ba \u200b b\ufeff\n ") == "a \u200b b"
+
+
+def test_a_path_of_windows_has_the_quotes_of_cmd_and_powershell(monkeypatch):
+    monkeypatch.setattr(sys, "platform", "win32")
+    assert quoted(PureWindowsPath(r"C:\w\roof-1\input.xlsx")) == r"C:\w\roof-1\input.xlsx"
+    for path in (r"C:\My projects\roof", r"C:\R&D\roof (2)", r"C:\it's"):
+        assert quoted(PureWindowsPath(path)) == f'"{path}"'
+
+
+def fields(*values):
+    return next(csv.reader(io.StringIO(csv_text([values]))))
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["=1+1", "+1+1", "-1+1", "@SUM(A1)", "\t=1+1", "\rx", "\u00a0=1+1", "＝1+1", "－a", "-",
+     "-1 in", "-inf", "-1_0", "=cmd|'/c calc'!A0", "-٣"],
+)  # fmt: skip
+def test_a_text_that_a_spreadsheet_would_compute_has_an_apostrophe(text):
+    assert fields("a", text, "b") == ["a", f"'{text}", "b"]
+
+
+@pytest.mark.parametrize(
+    "text", ["", "-0.5", "+1e-3", "-.5", "-1.", "1=1", "a-b", "'=1", "PRD > 1", "#N/A", "a\t=1"]
+)
+def test_numbers_and_other_texts_are_as_they_were(text):
+    assert fields("a\r=1", text, "b\n=1") == ["a\r=1", text, "b\n=1"]
+
+
+@given(st.floats() | st.integers() | st.none())
+def test_a_value_that_is_no_text_is_as_python_prints_it(value):
+    assert fields("a", value) == ["a", "" if value is None else str(value)]
+
+
+def test_without_tests_nothing_is_validated_and_the_text_says_what_that_means():
+    assert validation(()) == NOT_VALIDATED
+    assert explained(()).startswith(f"{NOT_VALIDATED} The checks of the verification manual")
+
+
+@pytest.mark.skipif(numba.config.DISABLE_JIT, reason="runs of whole records")
+@pytest.mark.parametrize(
+    ("ratio", "data", "is_validated"),
+    [(1.02, "measured", True), (1.02, "computed", False), (1.6, "measured", False)],
+)
+def test_only_accepted_measured_tests_validate(tmp_path, ratio, data, is_validated):
+    tables.write_folder(tmp_path, [ratio] * 5, data=data)
+    found = compare(table_tests(tmp_path))
+    assert (NOT_VALIDATED not in explained((found,))) is is_validated
+    assert validation((found,)) == explained((found,)) or not is_validated
+
+
+LENGTHS_M = st.floats(0.01, 20.0)
+
+
+@given(LENGTHS_M, LENGTHS_M)
+@example(36.04 * 0.0254, 35.96 * 0.0254)
+@example(1.0361, 1.0359)
+@example(0.9153, 0.9154)
+def test_a_required_value_is_rounded_up_and_a_provided_one_shows_the_order(required_m, provided_m):
+    assume(abs(required_m - provided_m) > 1e-8)
+    ok = required_m <= provided_m
+    for unit in Quantity.DISPLACEMENT.value:
+        required = float(no_less(required_m, unit))
+        provided = float(beside(required_m, provided_m)(provided_m, unit))
+        assert (required <= provided) is ok
+        assert required >= required_m / unit.si - 1e-5
+        for printed, value_m in ((required, required_m), (provided, provided_m)):
+            assert printed == pytest.approx(value_m / unit.si, abs=1.001 * 10.0**-unit.decimals)
+
+
+def test_provided_values_and_rounding_up_keep_what_is_exact_zero_and_no_value():
+    _, mm = Quantity.SIZE.value
+    for required_m, shown in ((0.5486, "305"), (0.2, "305"), (0.3049, "304"), (math.nan, "305")):
+        assert beside(required_m, 12.0 * 0.0254)(12.0 * 0.0254, mm) == shown
+    pairs = units.compared_pairs(0.3041, 0.3042, Quantity.SIZE, us_first=False)
+    assert pairs == ("305 mm (12.0 in)", "305 mm (12.0 in)")
+    inch, mm = Quantity.SIZE.value
+    assert no_less(1.00001, mm) == "1001"
+    assert no_less(40.8001 * 0.0254, inch) == "40.9"
+    for tenths in range(1, 2000):
+        length_m, text = tenths / 10 * 0.0254, f"{tenths / 10:.1f}"
+        assert no_less(length_m, inch) == number(units.round_down(length_m / inch.si, 1), 1) == text
+    assert digits_up(0.0, 2) == digits_down(0.0, 2) == "0"
+    for show in (measured, no_less):
+        assert show(math.nan, Quantity.SIZE.si) == "—"
+        assert show(math.inf, Quantity.SIZE.si) == "∞"
+    assert math.isnan(units.round_down(math.nan, 1))
+    assert units.round_down(math.inf, 1) == math.inf
+
+
+@given(st.floats(1e-6, 999.0), st.integers(1, 4))
+@example(99.6, 2)
+@example(0.1, 3)
+def test_significant_digits_enclose_a_value(value, digits):
+    low, high = float(digits_down(value, digits)), float(digits_up(value, digits))
+    last = 10.0 ** min(math.floor(math.log10(value)) - digits + 1, 0)
+    assert low <= value * (1 + 1e-9) + 1e-6 * last
+    assert high >= value * (1 - 1e-9) - 1e-6 * last
+    assert high - low <= 1.001 * last
+
+
+@pytest.mark.parametrize(
+    ("value_m", "text"),
+    [(2.07196, "81.6 in (2072 mm)"), (0.9994, "39.3 in (999 mm)"), (1.0049, "39.6 in (1005 mm)"),
+     (12.345, "486.0 in (12345 mm)"), (-1.2346, "−48.6 in (−1235 mm)")],
+)  # fmt: skip
+def test_displacements_print_in_whole_millimeters_of_any_size(value_m, text):
+    assert units.pair(value_m, Quantity.DISPLACEMENT) == text
+    assert [units.round_below(value) for value in (1.0, 4.9, 0.7)] == pytest.approx([1.0, 2.0, 0.5])
