@@ -1,6 +1,7 @@
 """The design curves: each run that of the solver, each statistic and figure of the docs counted."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -11,9 +12,19 @@ import solver
 from nightly import by_day
 from places import ROOT
 from projects.curves import make
+from projects.curves.equation import (
+    LEAST_PRD_M,
+    Equation,
+    RoofRuns,
+    ambraseys_menu_m,
+    fit_equation,
+    jibson_m,
+    saygili_rathje_m,
+    scatter,
+)
 from solver.building.roof import to_roof
 from solver.building.structure import building_of_periods
-from solver.model import InputError
+from solver.model import STANDARD_GRAVITY_MPS2, InputError
 
 TABLES = ROOT / "projects" / "curves"
 
@@ -67,15 +78,13 @@ def test_a_run_is_that_of_the_solver(folder, responses, period, slope, mu, s_ds)
     result = solver.slide(scale * a, dt_s, slope_rad=slope_rad, mu=mu_value)
     assert responses[1].prd_m[period, slope, mu, s_ds] == pytest.approx(result.prd_m, rel=0.01)
     assert result.prd_m > 0.02
-    assert responses[1].ppa_mps2[period] == pytest.approx(
-        np.abs(a).max() / plateau_g(component), rel=2e-3
-    )
+    ppa_mps2 = np.abs(a).max() / plateau_g(component)
+    assert responses[1].ppa_mps2[period] == pytest.approx(ppa_mps2, rel=2e-3)
 
 
-def test_statistics_count_components_and_a_run_without_a_value_is_the_largest():
-    prd_m = np.broadcast_to(
-        np.arange(100.0)[:, None, None, None, None], (100, 4, 29, 15, 16)
-    ).copy()
+def test_statistics_count_components_and_events_are_whole_in_a_half():
+    numbers = np.arange(100.0)[:, None, None, None, None]
+    prd_m = np.broadcast_to(numbers, (100, 4, 29, 15, 16)).copy()
     prd_m[0] = np.nan
     row = make.cases(prd_m).loc[(0.8, 2.0, 0.5, 1.0)]
     assert row["median_m"] == 50.0  # the 50th of 1 to 99, then the one without a value
@@ -84,9 +93,11 @@ def test_statistics_count_components_and_a_run_without_a_value_is_the_largest():
     assert row["without_value"] == 1
     assert row["share_over_prescriptive"] == 1.0  # 60 in x 0.36 is below a meter
     assert make.cases(prd_m).loc[(0.8, 2.0, 0.5, 2.2), "share_over_prescriptive"] == 0.96
+    events = ["a"] * 5 + ["b"] * 4 + ["c"] * 3 + ["d"]
+    assert make.halves(events).tolist() == [True] * 5 + [False] * 7 + [True]
 
 
-def test_capacities_are_where_the_runs_cross_a_limit():
+def test_capacities_are_where_the_runs_cross_a_limit_and_the_least_friction_keeps_it():
     cross_g = np.linspace(0.5, 2.5, 101)  # of each component, with a PRD that grows as S_DS
     prd_m = 24 * make.INCH * (make.S_DS_G / cross_g[:, None])
     whole = np.broadcast_to(prd_m[:, None, None, None, :], (101, 4, 29, 15, 16))
@@ -97,9 +108,6 @@ def test_capacities_are_where_the_runs_cross_a_limit():
     most = make.capacities(2.0 * whole).loc[(0.0, 0.0, 0.5, 48)]
     assert most["s_ds_50_g"] == pytest.approx(1.5)
     assert np.isnan(make.capacities(0.1 * whole).loc[(0.0, 0.0, 0.5, 24), "s_ds_84_g"])
-
-
-def test_the_least_friction_keeps_the_limit_and_is_rounded_up():
     axes = {"period_s": [0.0], "slope_deg": [2.0], "mu": make.MUS, "s_ds_g": [1.0]}
     index = pd.MultiIndex.from_product(axes.values(), names=list(axes))
     table = pd.DataFrame({"p84_m": 48 * make.INCH * (1.3 - make.MUS)}, index=index)
@@ -107,11 +115,6 @@ def test_the_least_friction_keeps_the_limit_and_is_rounded_up():
     assert row.tolist() == pytest.approx([np.nan, np.nan, 0.8, 0.3], nan_ok=True)
     table["p84_m"] += 1e-3
     assert make.least_friction(table).loc[(0.0, 2.0, 1.0), "least_mu_24_in"] == pytest.approx(0.81)
-
-
-def test_events_are_whole_in_a_half_and_the_halves_alike():
-    events = ["a"] * 5 + ["b"] * 4 + ["c"] * 3 + ["d"]
-    assert make.halves(events).tolist() == [True] * 5 + [False] * 7 + [True]
 
 
 def test_all_that_is_missing_is_named(folder, tmp_path):
@@ -139,10 +142,8 @@ def about():
 
 def test_the_page_states_the_equation_and_what_was_run(page, about):
     constants = about["constants"]
-    assert (
-        f"PRD = {constants['c']} V² / A (1 − r)^{constants['p']} exp({constants['s']} √(θ / r))"
-        in page
-    )
+    c, p, s = (constants[name] for name in "cps")
+    assert f"PRD = {c} V² / A (1 − r)^{p} exp({s} √(θ / r))" in page
     for value in (about["runs"], about["components"]):
         assert f"{value:,}" in page
     for name, tried in about["tried"]["all"].items():
@@ -165,3 +166,63 @@ def test_more_friction_or_less_shaking_never_gives_a_larger_median():
     median = pd.read_parquet(TABLES / "curves.parquet")["median_m"]
     assert (median.unstack("s_ds_g").diff(axis=1).iloc[:, 1:] >= 0.0).all(axis=None)
     assert (median.unstack("mu").diff(axis=1).iloc[:, 1:] <= 1e-4).all(axis=None)
+
+
+TRUTH = Equation(c=3.0, p=2.5, s=1.8)
+
+
+def runs(count=400, seed=1):
+    """Runs with the PRD of the formula."""
+    rng = np.random.default_rng(seed)
+    peaks = {
+        "ppa_mps2": rng.uniform(3.0, 30.0, count),
+        "ppv_mps": rng.uniform(0.3, 3.0, count),
+        "slope_rad": np.radians(rng.uniform(0.0, 7.0, count)),
+        "mu": rng.uniform(0.3, 1.0, count),
+    }
+    made = RoofRuns(**peaks, prd_m=np.zeros(count))
+    with np.errstate(invalid="ignore"):
+        return RoofRuns(**peaks, prd_m=TRUTH.prd_m(made))
+
+
+def test_runs_that_follow_the_formula_give_its_constants_and_their_scatter():
+    made = runs()
+    assert 100 < made.holds.sum() < made.holds.size  # some slide too little, and are not fitted
+    parts = [made.only(np.arange(400) % 3 == k) for k in range(3)]
+    assert fit_equation([made]) == fit_equation(parts) == TRUTH
+    made = runs().only(runs().holds)
+    off = np.random.default_rng(2).normal(0.1, 0.5, made.prd_m.size)
+    found = scatter(made.prd_m * np.exp(off), TRUTH.prd_m(made))
+    assert (found.mean, found.deviation) == pytest.approx((off.mean(), off.std()))
+    assert found.runs == off.size
+
+
+def test_what_hardly_slides_has_no_value_or_one_slope_is_not_fitted():
+    made = RoofRuns(
+        ppa_mps2=np.full(4, 10.0),
+        ppv_mps=np.ones(4),
+        slope_rad=np.zeros(4),
+        mu=np.array([0.5, 0.5, 0.5, 1.0]),
+        prd_m=np.array([LEAST_PRD_M, np.nan, 0.5 * LEAST_PRD_M, 1.0]),
+    )
+    assert made.holds.tolist() == [True, False, False, False]  # the last has r = 0.98
+    flat = replace(runs(), slope_rad=np.zeros(400), prd_m=np.ones(400))
+    with pytest.raises(InputError, match="more slopes"):
+        fit_equation([flat])
+
+
+@pytest.mark.quick
+def test_published_formulas_give_what_their_terms_do_by_hand():
+    half = RoofRuns(
+        ppa_mps2=np.array([STANDARD_GRAVITY_MPS2]),
+        ppv_mps=np.array([1.0]),
+        slope_rad=np.zeros(1),
+        mu=np.array([0.5]),
+        prd_m=np.zeros(1),
+    )
+    assert half.r == pytest.approx(0.5)
+    # 10^0.90 0.5^(2.53 - 1.09) and 10^0.215 0.5^(2.341 - 1.438) cm
+    assert ambraseys_menu_m(half) == pytest.approx(0.02928, rel=1e-3)
+    assert jibson_m(half) == pytest.approx(0.00877, rel=1e-3)
+    # exp(-1.56 - 2.29 - 5.21 + 5.59375 - 1.90625 + 1.55 ln 100) cm
+    assert saygili_rathje_m(half) == pytest.approx(0.01 * np.exp(1.76551), rel=1e-4)

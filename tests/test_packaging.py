@@ -1,4 +1,4 @@
-"""What is shipped, what is locked, and what tracked files must not hold."""
+"""What is shipped and locked; what `import roofslip` offers; the launcher, its set-up and tests."""
 
 import os
 import re
@@ -13,6 +13,9 @@ from itertools import chain
 
 import pytest
 
+import report
+import roofslip
+import solver
 from places import ROOT, TESTS
 from report.cli.main import main
 
@@ -37,14 +40,6 @@ def tracked():
     return [ROOT / name for name in names if (ROOT / name).exists()]
 
 
-@pytest.mark.quick
-def test_benchmarks_and_continuous_integration_are_as_planned():
-    """A script finds what is beside it first."""
-    tests, bench = ({file.name for file in TESTS.glob(glob)} for glob in ("*.py", "bench/*.py"))
-    assert tests.isdisjoint(bench)
-    assert "./roofslip test" in (ROOT / ".ci" / "run").read_text()
-
-
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
     """The wheel and the sdist, built offline."""
@@ -58,9 +53,8 @@ def test_wheel_and_sdist_hold_what_is_theirs_and_no_projects(built):
     with zipfile.ZipFile(next(built.glob("*.whl"))) as wheel:
         names = set(wheel.namelist())
     tops = {name.split("/")[0] for name in names}
-    assert {top for top in tops if not top.endswith(".dist-info")} == {
-        "solver", "report", "roofslip.py"
-    }  # fmt: skip
+    ours = {top for top in tops if not top.endswith(".dist-info")}
+    assert ours == {"solver", "report", "roofslip.py"}
     assert any(re.fullmatch(r"report/templates/.*\.html", name) for name in names)
     assert any(re.fullmatch(r"report/templates/fonts/.*OFL.*", name) for name in names)
     web = ("static/index.html", "static/app.js", "example/input.xlsx", "example/records/RM7-z.csv")
@@ -72,7 +66,7 @@ def test_wheel_and_sdist_hold_what_is_theirs_and_no_projects(built):
     assert any(name.endswith("solver/kernels/one_axis.py") for name in names)
 
 
-def test_the_top_level_is_as_planned_and_every_dependency_imported(tracked):
+def test_the_top_level_and_benchmarks_are_as_planned_and_every_dependency_imported(tracked):
     assert {path.relative_to(ROOT).parts[0] for path in tracked} <= TOP_LEVEL
     sources = [p.read_text() for p in tracked if p.suffix == ".py" and TESTS not in p.parents]
     lines = {
@@ -80,6 +74,9 @@ def test_the_top_level_is_as_planned_and_every_dependency_imported(tracked):
     }
     names = map(name_of, PROJECT["project"]["dependencies"])
     assert {name.replace("-", "_") for name in names} <= lines
+    tests, bench = ({file.name for file in TESTS.glob(glob)} for glob in ("*.py", "bench/*.py"))
+    assert tests.isdisjoint(bench)
+    assert "./roofslip test" in (ROOT / ".ci" / "run").read_text()
 
 
 def name_of(requirement):
@@ -99,7 +96,7 @@ def test_every_dependency_is_locked_with_hashes_and_without_addresses():
     assert "://" not in lock
 
 
-def test_no_tracked_file_names_a_registry_or_a_path_of_one_machine(tracked):
+def test_no_tracked_file_names_a_registry_or_machine_and_the_image_no_other_project(tracked):
     hosts = ["py" + "pi.org", "python" + "hosted", "debian" + ".org", "npm" + "js"]
     path = re.compile(r"(?<![\w.])/(?:work|root|home)/\w")
     for file in tracked:
@@ -107,6 +104,17 @@ def test_no_tracked_file_names_a_registry_or_a_path_of_one_machine(tracked):
             text = file.read_text(errors="replace")
             assert not [host for host in hosts if host in text], file
             assert not path.search(text), file
+    lines = (ROOT / ".dockerignore").read_text().splitlines()
+    rules = [line for line in lines if line and not line.startswith("#")]
+    assert rules[0] == "*"
+    kept = [rule[1:] for rule in rules if rule.startswith("!")]
+    projects = {name for name in kept if name.startswith("projects")}
+    assert projects == {"projects/example", "projects/study"}
+    assert all(list(ROOT.glob(name)) for name in kept)
+    targets = PROJECT["tool"]["hatch"]["build"]["targets"]["wheel"]
+    licenses = PROJECT["project"]["license-files"]
+    for name in (*targets["only-include"], "templates", "README.md", *licenses):
+        assert any(fnmatch(name, rule) for rule in kept), name
 
 
 @pytest.fixture
@@ -118,13 +126,9 @@ def launched(tmp_path):
 
     def run(*words, program="./roofslip", path=os.environ["PATH"]):
         before = sorted(tmp_path.rglob("*"))
+        command, env = [program, *words], {"PATH": path}
         done = subprocess.run(
-            [program, *words],
-            cwd=tmp_path,
-            env={"PATH": path},
-            capture_output=True,
-            text=True,
-            check=True,
+            command, cwd=tmp_path, env=env, capture_output=True, text=True, check=True
         )
         assert sorted(tmp_path.rglob("*")) == before  # nothing is installed
         assert done.stderr == ""
@@ -138,7 +142,6 @@ def launched(tmp_path):
     [
         (["--help"], "roofslip"),
         (["report", "projects/example", "-h"], "report"),
-        (["motion", "--help"], "motion"),
         (["motion", "suite", "--count", "3", "--help"], "motion suite"),
     ],
 )
@@ -153,31 +156,8 @@ def test_the_version_needs_nothing_installed(launched, tmp_path):
     version = PROJECT["project"]["version"]
     assert launched("--version") == f"roofslip, version {version}\n"
     path = f"{tmp_path}:{os.environ['PATH']}"
-    assert launched("--help", program=tmp_path / "roofslip", path=path).startswith(
-        "Usage: roofslip "
-    )
-
-
-def test_the_image_holds_what_is_installed_and_no_other_project(tracked):
-    lines = (ROOT / ".dockerignore").read_text().splitlines()
-    rules = [line for line in lines if line and not line.startswith("#")]
-    assert rules[0] == "*"
-    kept = [rule[1:] for rule in rules if rule.startswith("!")]
-    assert {name for name in kept if name.startswith("projects")} == {
-        "projects/example", "projects/study",
-    }  # fmt: skip
-    assert all(list(ROOT.glob(name)) for name in kept)
-    targets = PROJECT["tool"]["hatch"]["build"]["targets"]["wheel"]
-    licenses = PROJECT["project"]["license-files"]
-    for name in (*targets["only-include"], "templates", "README.md", *licenses):
-        assert any(fnmatch(name, rule) for rule in kept), name
-
-
-@pytest.mark.parametrize("name", ["roofslip", "tests/bare_debian.sh"])
-def test_a_script_of_the_shell_is_posix_sh(name):
-    done = subprocess.run(["sh", "-n", str(ROOT / name)], capture_output=True, check=False)
-    assert done.returncode == 0
-    assert os.access(ROOT / name, os.X_OK)
+    told = launched("--help", program=tmp_path / "roofslip", path=path)
+    assert told.startswith("Usage: roofslip ")
 
 
 def test_the_launcher_of_windows_is_as_its_shell_reads_it():
@@ -192,8 +172,180 @@ def test_the_launcher_of_windows_is_as_its_shell_reads_it():
     assert len(labels) == len(set(labels))
 
 
-def test_every_command_that_makes_a_pdf_has_its_libraries_looked_after():
+SLIDE = "roofslip.slide([0, 4, -4, 0, 0, 0], 0.1, slope_rad=0, mu=0.2)"
+SLID = f"import roofslip; print({SLIDE}.status)"
+
+
+def run(folder, program):
+    """Run a program in a folder, whose modules it finds first."""
+    path = [folder, ROOT]
+    told = f"import sys; sys.path[:0] = {list(map(str, path))}; {program}"
+    command = [sys.executable, "-P", "-c", told]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+
+
+def test_a_hidden_package_is_named_and_every_public_name_offered(tmp_path):
+    assert set(dir(roofslip)) == {*solver.__all__, *report.__all__}
+    for package in (solver, report):
+        for name in package.__all__:
+            assert getattr(roofslip, name) is getattr(package, name), name
+    (tmp_path / "solver.py").write_text("")
+    done = run(tmp_path, f"import solver; {SLID}")
+    assert f"{tmp_path / 'solver.py'} is loaded and hides a package of Roofslip" in done.stderr
+    assert done.returncode == 1
+
+
+@pytest.mark.nightly
+def test_a_file_beside_a_notebook_hides_neither_package(tmp_path):
+    for name in ("solver", "report"):
+        (tmp_path / f"{name}.py").write_text("raise SystemExit('the wrong one')\n")
+    assert "the wrong one" in run(tmp_path, "import solver").stderr
+    assert run(tmp_path, SLID).stdout == "ok\n"
+
+
+def test_the_launcher_looks_for_no_package_where_it_is_called_and_for_libraries_of_pdfs():
+    launcher = (ROOT / "roofslip").read_text()
+    calls = re.findall(r'"\$venv/bin/python" (?:-P )?(?:-m|"\$venv)', launcher)
+    assert len(calls) == 3
+    assert all(" -P " in call for call in calls)
+    assert '"$venv/bin/roofslip" "$@"' in launcher
     launcher = (ROOT / "roofslip").read_text()
     names = ("report", "watch", "serve", "study", "verify", "verify-package")
     assert set(names) <= set(main.commands)
     assert f"{' | '.join(names)}) native_libraries" in launcher
+
+
+STUB = """#!/bin/sh
+echo "$PWD: ${PYTHONPATH-no path}" >>"$(dirname -- "$0")/seen"
+exit STATUS
+"""
+
+
+def launcher(tmp_path, name="copy", stamp=""):
+    """A copy of the launcher with tools that only note how they are called."""
+    folder = tmp_path / name
+    bin_ = folder / ".venv" / "bin"
+    bin_.mkdir(parents=True)
+    for file in ("roofslip", "pyproject.toml", "requirements.lock"):
+        shutil.copy(ROOT / file, folder)
+    for tool in TOOLS:
+        (bin_ / tool).write_text(NOTING)
+        (bin_ / tool).chmod(0o755)
+    (folder / ".venv" / ".set-up-from").write_text(stamp)
+    return folder
+
+
+TOOLS = (
+    "uv", "python", "apt-get", "ldconfig", "ruff", "codespell", "oxlint", "mypy", "lint-imports",
+    "hadolint", "pytest", "coverage",
+)  # fmt: skip
+
+
+NOTING = """#!/bin/sh
+echo "$(basename -- "$0") $*" >>"$(dirname -- "$0")/seen"
+"""
+
+
+def calls_of(folder, program, *words, status=0):
+    path = f"{folder / '.venv' / 'bin'}:{os.environ['PATH']}"
+    command = [program, *(words or ("check", "x"))]
+    done = subprocess.run(command, env={"PATH": path}, capture_output=True, check=False)
+    assert done.returncode == status, done.stderr
+    return (folder / ".venv" / "bin" / "seen").read_text().splitlines()
+
+
+def test_the_launcher_follows_its_own_link(tmp_path):
+    folder = launcher(tmp_path)
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "bin" / "one").symlink_to("two")
+    (tmp_path / "bin" / "two").symlink_to("../copy/roofslip")
+    called = f"python -P {folder}/.venv/bin/roofslip check x"
+    assert calls_of(folder, tmp_path / "bin" / "one")[-1] == called
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "said"),
+    [
+        (["stdy", "x"], 2, "no such command 'stdy'; "),
+        (["study", "no.xlsx"], 1, "no.xlsx: no such file or folder"),
+        (["report", "projects", "--jbos=2"], 2, "no such option '--jbos'; see "),
+        (["motion", "rows", "x", "--without"], 0, ""),
+    ],
+)
+def test_the_launcher_checks_arguments_before_it_installs_anything(tmp_path, words, status, said):
+    folder = launcher(tmp_path)
+    shutil.copytree(ROOT / "docs", folder / "docs", ignore=shutil.ignore_patterns("pictures"))
+    (folder / "projects").mkdir()
+    path = f"{folder / '.venv' / 'bin'}:{os.environ['PATH']}"
+    command, env = [folder / "roofslip", *words], {"PATH": path}
+    done = subprocess.run(command, cwd=folder, env=env, capture_output=True, text=True, check=False)
+    assert (done.returncode, said in done.stderr) == (status, True)
+    assert (folder / ".venv" / "bin" / "seen").exists() == (status == 0)
+
+
+def test_an_environment_that_was_copied_is_made_anew_where_it_is(tmp_path):
+    folder = launcher(tmp_path)
+    first = calls_of(folder, folder / "roofslip")
+    assert any(call.startswith("uv venv --quiet --clear") for call in first)
+    called = f"python -P {folder}/.venv/bin/roofslip check x"
+    assert calls_of(folder, folder / "roofslip")[len(first) :] == [called]
+    other = launcher(tmp_path, "other", stamp=(folder / ".venv" / ".set-up-from").read_text())
+    calls = calls_of(other, other / "roofslip")
+    assert any(call.startswith("uv venv --quiet --clear") for call in calls)
+    assert any(call.endswith(f"-e {other}") for call in calls)
+
+
+@pytest.mark.parametrize(
+    ("words", "chosen"),
+    [
+        ([], "-m not nightly"),
+        (["--quick"], "-m quick and not nightly"),
+        (["-x", "tests/solver"], "-x tests/solver"),
+        (["--nightly", "tests/solver"], "-m nightly tests/solver"),
+    ],
+)
+def test_the_launcher_runs_the_tests_of_a_path_a_day_or_a_minute(tmp_path, words, chosen):
+    folder = launcher(tmp_path)
+    called = f"pytest --numprocesses 2 --dist worksteal {chosen}"
+    assert calls_of(folder, folder / "roofslip", "test", *words)[-1] == called
+
+
+@pytest.mark.parametrize("part", ["run", "report", "none"])
+def test_the_night_fails_where_a_test_or_the_coverage_does(tmp_path, part):
+    folder = launcher(tmp_path)
+    coverage = folder / ".venv" / "bin" / "coverage"
+    coverage.write_text(f'{NOTING}[ "$1" != {part} ]\n')
+    calls = calls_of(folder, folder / "roofslip", "test", "--nightly", status=int(part != "none"))
+    done = [call.split()[1] for call in calls if call.startswith("coverage ")]
+    assert done == ["erase", "run", "run", "combine", "report", "report"]
+    assert calls[-1] == "coverage report"
+
+
+def test_the_launcher_takes_nothing_from_where_it_is_called(tmp_path):
+    """Tools of the set-up take modules and settings of the current folder, and so does a path."""
+    folder, here = launcher(tmp_path), tmp_path / "here"
+    here.mkdir()
+    bin_ = folder / ".venv" / "bin"
+
+    def called(status):
+        for name in ("uv", "python"):
+            (bin_ / name).write_text(STUB.replace("STATUS", str(status)))
+        environment = {"PATH": f"{bin_}:{os.environ['PATH']}", "PYTHONPATH": f"{ROOT}:"}
+        command = [folder / "roofslip", "check", "x"]
+        done = subprocess.run(command, cwd=here, env=environment, capture_output=True, check=False)
+        assert (done.returncode == 0) == (status == 0), done.stderr
+        return (bin_ / "seen").read_text().splitlines()
+
+    assert set(called(1)) == {f"{folder}: no path"}
+    *set_up, last = called(0)
+    assert (set(set_up), last) == ({f"{folder}: no path"}, f"{here}: no path")
+
+
+@pytest.mark.parametrize("tool", ["ruff", "lint-imports"])
+def test_what_a_linter_finds_ends_the_tests(tmp_path, tool):
+    folder = launcher(tmp_path)
+    calls_of(folder, folder / "roofslip", "test")
+    failing = folder / ".venv" / "bin" / tool
+    failing.write_text(f"{NOTING}exit 1\n")
+    before = len(calls_of(folder, folder / "roofslip", "test", status=1))
+    assert calls_of(folder, folder / "roofslip", "test", status=1)[before:][-1].startswith(tool)
