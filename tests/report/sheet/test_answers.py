@@ -21,23 +21,12 @@ from report.sheet.schema.choices import SiteClass, UnitsFirst
 from report.sheet.writing.template import write_template
 from report.text.units import PRESSURES, Quantity, number, ratio
 from sheets import formula_cells, project, retitle, same, site, type_into
-from solver.rules import hazard
-from solver.rules.provisions import (
-    Neighbor,
-    Prescriptive,
-    analysis_floor_m,
-    prescriptive_displacement,
-    required_separation,
-)
+from solver.rules import hazard, provisions
 from solver.rules.rulesets import RULE_SETS, RuleSet
 from solver.rules.site_coefficients import F_A, F_V, site_coefficient
 
 pytestmark = pytest.mark.nightly
 PROJECTS = ("example", "school", "conditions", "campus")
-
-
-def of_script(name: str) -> ProjectInput:
-    return importlib.import_module(f"projects.{name}.make").project()
 
 
 L_FT = ((20, 15), (100, 15), (100, 45), (60, 45), (60, 75), (20, 75))
@@ -110,9 +99,9 @@ class Filled:
         return RULE_SETS[self.data.site.rule_set].overridden(changes)
 
     @property
-    def prescriptive(self) -> Prescriptive:
+    def prescriptive(self) -> provisions.Prescriptive:
         site = self.data.site
-        return prescriptive_displacement(
+        return provisions.prescriptive_displacement(
             self.rules, s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
         )
 
@@ -210,7 +199,10 @@ def is_si(name: str, case: ProjectInput) -> bool:
 def filled(tmp_path_factory):
     """Every case; that of `CHANGED` with the grid, weights in kips and one by modules."""
     folder = tmp_path_factory.mktemp("answers")
-    data = {name: case or of_script(name) for name, case in CASES.items()}
+    data = {
+        name: case or importlib.import_module(f"projects.{name}.make").project()
+        for name, case in CASES.items()
+    }
     data |= {name: data[case] for name, case in IN_SI.items()}
     paths = [folder / f"{name}.xlsx" for name in data]
     for (name, case), path in zip(data.items(), paths, strict=True):
@@ -264,7 +256,7 @@ def test_seismic_parameters_category_and_floor_are_those_of_the_package(case):
     )
     assert case.named("live_sdc") == max(categories)
     floor_m, reviewed_m = (
-        analysis_floor_m(case.rules, case.prescriptive, is_reviewed=reviewed)
+        provisions.analysis_floor_m(case.rules, case.prescriptive, is_reviewed=reviewed)
         for reviewed in (False, True)
     )
     assert case.lengths("Floor of the value from analysis") == in_both_units(floor_m)
@@ -322,13 +314,13 @@ def test_the_four_separations_are_those_of_the_package(case):
     data = case.data
     largest = max(row.i_p for row in (*data.arrays, *data.objects))
     for neighbor, what in (
-        (Neighbor.LIKE, "like arrays"),
-        (Neighbor.FIXED, "fixed object or unlike array"),
-        (Neighbor.PARAPET, "edge with qualifying parapet"),
-        (Neighbor.EDGE, "edge without qualifying parapet"),
+        (provisions.Neighbor.LIKE, "like arrays"),
+        (provisions.Neighbor.FIXED, "fixed object or unlike array"),
+        (provisions.Neighbor.PARAPET, "edge with qualifying parapet"),
+        (provisions.Neighbor.EDGE, "edge without qualifying parapet"),
     ):
         importance = data.site.i_e if neighbor.is_edge else largest
-        wanted = required_separation(
+        wanted = provisions.required_separation(
             case.rules, neighbor, design_m=case.prescriptive.value_m, importance=importance
         )
         assert case.lengths(f"Separation, {what}") == in_both_units(wanted)
@@ -336,7 +328,7 @@ def test_the_four_separations_are_those_of_the_package(case):
 
 @pytest.mark.parametrize("label", ["Prescriptive displacement", "Floor of the value from analysis"])
 def test_the_worst_clearance_is_the_first_of_the_largest_ratio(case, label):
-    floor_m = analysis_floor_m(case.rules, case.prescriptive)
+    floor_m = provisions.analysis_floor_m(case.rules, case.prescriptive)
     checks = case.checks(floor_m if "Floor" in label else case.prescriptive.value_m)
     ratios = [ratio(check.demand_capacity) for check in checks]
     worst = max(ratios, key=lambda text: math.inf if text == "∞" else float(text))

@@ -19,14 +19,13 @@ ON = dt.date(2026, 2, 20)
 RECORDS = ("M1 horizontal ab", "M2 horizontal cd")
 RUN = {"surface": "wet", "number": 1, "mu": 0.46, "velocity_mps": 0.0254}
 DRAWN = inputs.clearance("A2", "RTU-1", 60 * INCH) | {"source": "drawing"}
-OTHERS = USUAL["clearances"][:2]
 ARRAYS = USUAL["arrays"]
 GIVEN = {
     "project": inputs.HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": ON},
     "site": inputs.SITE | {"hazard_source": "Hazard Tool", "hazard_date": ON},
     "friction_tests": scenes.TESTS,
     "friction_runs": [RUN],
-    "clearances": [*OTHERS, DRAWN],
+    "clearances": [*USUAL["clearances"][:2], DRAWN],
     "options": scenes.REVIEW,
     "confirmation": scenes.CONFIRMED["confirmation"],
 }
@@ -69,13 +68,8 @@ def test_confirmations_are_put_on_record_where_they_cover_something():
     }
     assert to_record(recorded(given()), RECORDS) == {}
     assert outdated(recorded(given()), RECORDS).outdated == {}
-    none = given(
-        project=inputs.HEAD,
-        site=inputs.SITE,
-        friction_runs=[],
-        options=scenes.REVIEW | {"peer_reviewed": False},
-        confirmation={},
-    )
+    none = given(project=inputs.HEAD, site=inputs.SITE, friction_runs=[], confirmation={},
+                 options=scenes.REVIEW | {"peer_reviewed": False})  # fmt: skip
     assert to_record(none, RECORDS) == {}
 
 
@@ -90,20 +84,16 @@ CHANGES = [
     ({"records": (RECORDS[0], "M2 horizontal ef")}, {"options": "sheet Motions"}),
     (of("motions", 1, scale_value=2.1), {"options": "sheet Motions"}),
     ({"site": {"s_ds_g": 1.6}}, {"site": "sheet Site", "options": "sheet Site"}),
-    ({"site": {"roof_height_m": 9.0}}, {"options": "sheet Site"}),
     (of("friction_runs", 0, mu=0.47),
      {"friction_tests": "sheet Friction tests", "options": "sheet Friction tests"}),
     ({"friction_tests": {"report": "FT-2"}}, {"options": "sheet Friction tests"}),
     (of("clearances", 2, provided_m=96 * INCH), {"project": "sheet Clearances"}),
     (of("clearances", 0, source="drawing"), {"project": "sheet Clearances"}),
-    ({"building": {"period_s": 0.5}}, {"options": "sheet Building"}),
     ({"target": {"t_l_s": 6.0}}, {"options": "sheet Site"}),
     ({"target": {"to_s": 3.0}}, {"options": "sheet Building"}),
     ({"links": [inputs.links("A1", "0.40, 0.45", 50)]}, {"options": "sheet Links"}),
-    ({"options": {"statistic": "mean"}}, {"options": "sheet Options"}),
     ({"overrides": []}, {"options": "sheet Options", "confirmation": "sheet Options"}),
     ({"confirmation": {"by": "MT"}}, {"confirmation": "sheet Options"}),
-    ({"confirmation": {"edition": "ASCE 7-22"}}, {"confirmation": "sheet Options"}),
     ({"site": {"rule_set": "ASCE 7-16"}}, {"options": "sheet Site", "confirmation": "sheet Site"}),
     ({"site": {"building_code_year": 2019}}, {"confirmation": "sheet Site"}),
     ({"site": {"roof_height_m": 9.0}} | of("arrays", 0, mu=0.42),
@@ -116,51 +106,17 @@ def test_an_input_that_changes_after_a_confirmation_is_named(change, said):
     assert changed(**change) == said
 
 
-EARLIER = {  # as c9c3a2cf put it on record, whose sheet Options had the target spectrum
-    "project": GIVEN["project"] | {"drawing_covered": "2026-02-20: Clearances 0eb8ae"},
-    "site": GIVEN["site"] | {
-        "edition_name": "ASCE 7-16", "s_s_g": 1.97, "s_1_g": 0.7, "site_class": "D", "f_a": 1.2,
-        "f_v": 1.7, "s_ms_g": 2.364, "s_m1_g": 1.19, "s_d1_g": 0.793,
-        "hazard": "site-specific analysis", "hazard_covered": "2026-02-20: Site 4de9ae",
-    },
-    "friction_tests": GIVEN["friction_tests"] | {
-        "tests_covered": "2025-06-12: Friction tests 56db8c",
-    },
-    "target": {"t_l_s": 8.0, "from_s": 0.3, "to_s": 2.0},
-    "options": GIVEN["options"] | {
-        "peer_covered": "2026-03-01: Site ff39b0, Arrays 953ec0, Friction tests 540e4e,"
-                        " Motions f2663d, Options bee9a4",
-    },
-    "confirmation": {},
-}  # fmt: skip
-
-
-@pytest.mark.parametrize(
-    ("change", "said"),
-    [
-        ({}, {}),
-        ({"site": {"s_1_g": 0.6}}, {"site": "sheet Site", "options": "sheet Site"}),
-        ({"target": {"t_l_s": 6.0}}, {"options": "sheet Options"}),
-        ({"target": {"to_s": 3.0}}, {"options": "sheet Options"}),
-    ],
-)
-def test_what_earlier_workbooks_have_on_record_covers_what_it_did(change, said):
-    blocks = {key: block | change.get(key, {}) for key, block in EARLIER.items()}
-    assert outdated(given(**blocks), RECORDS).outdated == said
-
-
 @pytest.mark.parametrize(
     "change",
     [
-        {"project": {"checked_by": "MT", "revision": "1", "units_first": "SI"}},
-        {"site": {"jurisdiction": "City of Los Angeles", "hazard_report": "GE-1"}},
-        {"friction_tests": {"report_file": "report.pdf"}},
-        {"options": {"plan_paper": "Letter", "peer_letter": "letter.pdf"}},
+        {"project": {"checked_by": "MT", "revision": "1", "units_first": "SI"},
+         "site": {"jurisdiction": "City of Los Angeles", "hazard_report": "GE-1"},
+         "friction_tests": {"report_file": "report.pdf"},
+         "options": {"plan_paper": "Letter", "peer_letter": "letter.pdf"}},
         of("arrays", 0, slack_m=1.2, interconnection_n=4000.0, x_to_m=ARRAYS[0]["x_to_m"] - 1.0),
         of("clearances", 0, provided_m=121 * INCH),  # which is not from the drawing
-        {"objects": USUAL["objects"][:2]},
     ],
-)
+)  # fmt: skip
 def test_what_no_confirmation_covers_changes_none(change):
     assert changed(**change) == {}
 

@@ -43,23 +43,17 @@ PARAPET = "for the minimum height of a qualifying parapet above the roof [in]; g
 # Of each cell, what is typed there, and how the line goes on after `its label is `.
 SINGLE_CELLS = {
     "Arrays/A1/Friction coefficient": {
-        "abc": f"'abc'; {NUMBER}", "0_4": f"'0_4'; {NUMBER}", "٠.٤": f"'٠.٤'; {NUMBER}",
-        "  ": f"missing; {NUMBER}",
-        -0.1: f"-0.1; {NUMBER}", "0.45 (dry 0.52)": f"'0.45 (dry 0.52)'; {NUMBER}",
+        "abc": f"'abc'; {NUMBER}", "  ": f"missing; {NUMBER}", -0.1: f"-0.1; {NUMBER}",
         "#DIV/0!": "#DIV/0!; correct the formula, or type a value",
         "=0.4+0.05": "a formula with no saved value (=0.4+0.05); open the workbook in Excel or"
                      " LibreOffice and save it",
-        "nan": f"'nan'; {NUMBER}", "1e999": f"'1e999'; {NUMBER}", 1.7: f"1.7; {NUMBER}",
+        "1e999": f"'1e999'; {NUMBER}", 1.7: f"1.7; {NUMBER}",
         True: f"TRUE, a logical value; {NUMBER}", None: f"missing; {NUMBER}",
-        "0,45,5": f"'0,45,5'; {NUMBER}",
     },
     "Arrays/A1/Weight": {
         "42,000": "'42,000'; write 42000, without a comma", 0: f"0; {WEIGHT}",
         "42 kip": f"'42 kip'; {WEIGHT}, with no unit in the cell",
         1e308: f"1e+308; {WEIGHT}, below 1e+15 in size",
-    },
-    "Arrays/A1/CG height": {
-        "9 in": "'9 in'; give a number of more than 0 [in], with no unit in the cell",
     },
     "Arrays/A1/Slope": {
         dt.datetime(2024, 5, 3): f"a date or time (2024-05-03); {FORMATTED}",
@@ -70,21 +64,12 @@ SINGLE_CELLS = {
     },
     "Friction tests/1/Kinetic coefficient": {
         "0.45 (dry)": "'0.45 (dry)'; write the number alone, and dry in the column Surface",
-        1.6: f"1.6; {NUMBER}",
     },
-    "Friction tests/1/Surface": {"damp": "'damp'; choose dry or wet"},
-    "Friction tests/1/Run": {0: "0; give a whole number from 1 to 1000"},
     "Friction tests/1/Velocity": {-1: "-1; give a number of 0 or more [in/s]"},
     "Links/1/Block friction": {
         "0.4," * 51: "204 characters long; give text of at most 200 characters",
-        None: "missing; give text such as '0.40, 0.45, 0.50'",
-    },
-    "Links/1/Link stiffness": {0: "0; give a number of more than 0 [lb/in]"},
-    "Links/1/Link damping": {
-        1.1: "1.1; give a number from 0 to 1", -0.1: "-0.1; give a number from 0 to 1",
     },
     "Arrays/A1/x from": {-1e300: "-1e+300; give a number [ft], below 1e+15 in size"},
-    "Arrays/A1/Slope unit": {"rad": "'rad'; choose degrees, percent or in/12"},
     "Arrays/A1/ID": {
         "A" * 41: f"'{'A' * 41}'; give text of at most 40 characters",
         None: "missing; give text such as 'A1'", "\u200b": "missing; give text such as 'A1'",
@@ -104,23 +89,15 @@ SINGLE_CELLS = {
     },
     "Project/Date": {
         "3/5/2026": "'3/5/2026'; write 2026-03-05 or 2026-05-03",
-        "3/5/26": "'3/5/26'; give a date such as 2026-03-05",
         True: "TRUE; give a date such as 2026-03-05",
         # in a cell that is formatted as a date
         3.5: "1900-01-03, before 2000-01-01; give a date such as 2026-03-05",
     },
-    "Site/Number of stories": {
-        1.5: "1.5; give a whole number from 1 to 200", 0: "0; give a whole number from 1 to 200",
-    },
+    "Site/Number of stories": {1.5: "1.5; give a whole number from 1 to 200"},
     "Site/Rule set": {"ASCE 7-10": "'ASCE 7-10'; choose SEAOC PV1-2012, ASCE 7-16 or ASCE 7-22"},
-    "Site/S_DS": {7: "7; give a number of more than 0 to 5 [g]"},
     "Motions/M2/ID": {" \u200b\ufeff\u2060 ": "missing; give text such as 'M1'"},
-    "Motions/M1/Time step": {
-        0: "0; give a number of more than 0 to 1 [s]",
-        -0.01: "-0.01; give a number of more than 0 to 1 [s]",
-    },
-    "Options/1/Value": {-1: f"-1 {PARAPET} to 240", 1e9: f"1e+09 {PARAPET} to 240"},
-    "Options/Peer review": {"maybe": "'maybe'; choose Yes or No"},
+    "Motions/M1/Time step": {0: "0; give a number of more than 0 to 1 [s]"},
+    "Options/1/Value": {1e9: f"1e+09 {PARAPET} to 240"},
 }  # fmt: skip
 CONTENTS = [(name, typed, line) for name, of in SINGLE_CELLS.items() for typed, line in of.items()]
 
@@ -160,13 +137,8 @@ CONTRADICTIONS = [
      *(f"Clearances/{row}/Array is 'A2', {IN_ARRAYS} A1, a1" for row in (3, 4, 5))),
     ({"Objects/OLD/ID": "A1", "Clearances/4/Object": "S", "Clearances/4/Provided clearance": 9},
      "Objects/OLD/ID is 'A1', already used at <Arrays/A1/ID>; give a unique ID"),
-    ({"Motions/M3/ID": "m1"},
-     "Motions/M3/ID is 'm1', already used at <Motions/M1/ID>; give a unique ID"),
     ({"Clearances/3/Object": "rtu-1"},
      f"Clearances/3/Object is 'rtu-1', {AND_OBJECTS} did you mean 'RTU-1'?"),
-    ({"Clearances/3/Object": "chimney"},
-     f"Clearances/3/Object is 'chimney', {AND_OBJECTS} give one of RTU-1, OLD, N, S, A1, A2"),
-    ({"Clearances/2/Array": "RTU-1"}, f"Clearances/2/Array is 'RTU-1', {IN_ARRAYS} A1, A2"),
     ({"Clearances/1/Object": "A1"},
      "Clearances/1/Object is 'A1', the array itself; give an object or another array"),
     ({"Clearances/4/Object": "RTU-1", "Clearances/4/Provided clearance": 50},
@@ -181,26 +153,10 @@ CONTRADICTIONS = [
      " correct their rectangles in <Arrays/A2/x from:y to> and <Objects/RTU-1/x from:y to>"),
     ({"Arrays/A1/x to": 120} | of("Clearances/1", NO_CLEARANCE),
      "<Arrays/A1/x from>: A1 and A2 at <Arrays/A2/x from> overlap in plan; correct one of them"),
-    ({"Objects/RTU-1/y from": 70} | of("Clearances/3", NO_CLEARANCE),
-     "<Arrays/A2/x from>: A2 and RTU-1 at <Objects/RTU-1/x from> overlap in plan; correct one of"
-     " them"),
     ({"Site/Risk category": "IV", "Site/Importance factor I_e": 1.25},
      "Site/Importance factor I_e is 1.25; give at least 1.5 for risk category IV"),
-    ({"Site/Seismic design category": "C"},
-     "Site/Seismic design category is 'C'; S_DS = 1.566 g in risk category II requires D or higher"
-     " (ASCE 7 Table 11.6-1)"),
     ({"Site/S_DS": None}, "Site/S_DS is missing; give S_DS, S_MS, or both S_S and F_a"),
-    ({"Site/S_DS": None, "Site/S_S": 1.97, "Site/Site class": None},
-     "Site/F_a is missing; give S_DS, S_MS, or both S_S and F_a"),
-    ({"Site/S_DS": None, "Site/F_a": 1.2},
-     "Site/S_S is missing; give S_DS, S_MS, or both S_S and F_a"),
-    ({"Site/S_S": 1.97, "Site/F_a": 1.2},
-     "Site/S_DS is 1.566 g, but 2/3 F_a S_S is 1.5760 g; leave one of them blank, or correct it"),
-    ({"Arrays/A1/Slope": 45}, "Arrays/A1/Slope is 45 degrees; give 0 to less than 45 degrees"),
     ({"Arrays/A2/Slope": 120}, "Arrays/A2/Slope is 120 percent; give 0 to less than 100 percent"),
-    ({"Arrays/A1/High-velocity friction": 0.5},
-     "Arrays/A1/Friction rate is missing; give high-velocity friction and friction rate, or"
-     " neither"),
     (of("Arrays/A2", {"Friction rate": 20, "Static friction": 0.4}),
      "Arrays/A2/High-velocity friction is missing; give high-velocity friction and friction rate,"
      " or neither",
@@ -212,21 +168,17 @@ CONTRADICTIONS = [
      "Objects/N/Height is missing; give the parapet's height above the roof"),
     ({"Objects/RTU-1/x to": None},
      "Objects/RTU-1/x to is missing; give all four sides of the rectangle, or none"),
-    ({"Arrays/A1/x to": 20},
-     "Arrays/A1/x to is 20.00 ft (6.10 m); give more than x from in <Arrays/A1/x from>, 20.00 ft"
-     " (6.10 m)"),
     ({"Objects/RTU-1/y to": 70},
      "Objects/RTU-1/y to is 70.00 ft (21.34 m); give more than y from in <Objects/RTU-1/y from>,"
      " 80.00 ft (24.38 m)"),
-    *(({f"Motions/{motion}/Factor or PPA": None},
-       f"Motions/{motion}/Factor or PPA is missing; give the factor, or the PPA in g")
-      for motion in ("M2", "M3")),
+    ({"Motions/M3/Factor or PPA": None},
+     "Motions/M3/Factor or PPA is missing; give the factor, or the PPA in g"),
     ({"Motions/M1/Transverse record": "records/x.csv"},
      "Motions/M1/Transverse record is 'records/x.csv', the same as the horizontal record; give"
      " another record"),
-    *((of("Motions/M1", {"Scaling": scaling, "Factor or PPA": 2}),
-       f"Motions/M1/Factor or PPA is 2, but scaling is '{scaling}'; change the scaling or leave"
-       " this blank") for scaling in ("target spectrum", "as recorded")),
+    (of("Motions/M1", {"Scaling": "target spectrum", "Factor or PPA": 2}),
+     "Motions/M1/Factor or PPA is 2, but scaling is 'target spectrum'; change the scaling or leave"
+     " this blank"),
     (of("Motions/M1", {"Start time": 1.5, "End time": 1.5}),
      "Motions/M1/End time is 1.5 s; give 2.5 s or more"),
     (of("Motions/M1", {"High-pass corner": 20, "Low-pass corner": 20}),
@@ -234,26 +186,18 @@ CONTRADICTIONS = [
     ({"Motions/M2/Recorded at": "ground"},
      "Building/Period T1 is missing; give it, or a structure type: a motion is recorded at the"
      " ground"),
-    ({"Building/Period T2": 0.3},
-     "Building/Period T2 is 0.3 s; give period T1 as well, or leave it blank"),
     ({"Building/Period T1": 0.2, "Building/Period T2": 0.3},
      "Building/Period T2 is 0.3 s; give at most period T1, 0.2 s, or leave it blank"),
     ({"Building/Period T1": 0.2, "Motions/M2/Recorded at": "ground", "Site/Number of stories": 101},
      "Site/Number of stories is 101, more than the 100 of the building model; give roof motions"),
-    (of("Spectrum/1", {"Period": 1, "Horizontal": 1}),
-     "<Spectrum/heading/Period>: one row is given; give at least two, or none"),
     (SPECTRUM | {"Spectrum/2/Period": 8},
      "Spectrum/2/Period is 8 s, already given at <Spectrum/1/Period>; give each period once"),
-    (SPECTRUM | {"Spectrum/1/Vertical": 1},
-     "Spectrum/2/Vertical is missing; give it in every row, or in none"),
     (SPECTRUM | {"Motions/M1/Scaling": "target spectrum"},
      "<Spectrum/heading/Period>: periods range from 8 to 9 s, but motions are scaled over 0.2 to"
      " 5 s; add rows, or change the scaling periods"),
     (of("Options", {"Confirmed by": "RG", "Confirmed rule set": "SEAOC PV1-2012"}),
      *(f"Options/{label} is missing; give all five cells of the confirmation, or none"
        for label in ("Confirmed on", "Confirmed edition of ASCE 7", "Confirmed building code"))),
-    ({"Building/Shortest scaling period": 5},
-     "Building/Longest scaling period is 5 s; give more than the shortest, 5 s"),
     (of("Motions/M1", {"Scaling": "target spectrum", "High-pass corner": 0.5}),
      "Motions/M1/High-pass corner is 0.5 Hz, a period of 2 s, but the longest scaling period is"
      " 5 s; reduce one of them"),
@@ -270,11 +214,6 @@ CONTRADICTIONS = [
      "Site/S_DS is 1.566 g; give at least 1.6 g, which is 2/3 F_a S_S with F_a of 1 for site class"
      " 'D' (ASCE 7-16 Table 11.4-1†), or select the hazard basis 'site-specific analysis' and give"
      " its report"),
-    (roof(0, 300, 0, None),
-     "Building/Roof y to is missing; give all four sides of the rectangle, or none"),
-    (roof(300, 0, 0, 120),
-     "<Building/Roof x to>: x to is 0.00 ft (0.00 m); give more than x from in"
-     " <Building/Roof x from>, 300.00 ft (91.44 m)"),
     (roof(25, 300, 0, 74),
      "Arrays/A1/x from is 20.00 ft (6.10 m), outside the roof; give 25.00 ft (7.62 m) or more, or"
      " correct the outline at <Building/Roof x from>",
@@ -362,18 +301,15 @@ TYPED = [
     # The clearance to an array with an unreadable plan is not checked.
     ({"Arrays/A2/x to": "abc"}, "Arrays/A2/x to is 'abc'; give a number [ft]"),
     # An optional column that is renamed is not ignored.
-    *(({f"{sheet}/heading/{heading}": other},
-       f"<{sheet}/heading/{heading}>: heading '{heading}' is missing, '{other}' found; {HEADING}")
-      for sheet, heading, other in (("Arrays", "Friction coefficient", "Grip"),
-                                    ("Motions", "Vertical record", "Vertical file"))),
+    ({"Motions/heading/Vertical record": "Vertical file"},
+     "<Motions/heading/Vertical record>: heading 'Vertical record' is missing, 'Vertical file'"
+     f" found; {HEADING}"),
     ({"Arrays/heading/High-velocity friction": "Slope"},
      "<Arrays/heading/High-velocity friction>: heading 'Slope' appears twice, also in"
      f" {at('Arrays/heading/Slope').partition('!')[2]}; keep one"),
     ({"Site/Structure height h/Unit": "yd", "Site/Height of the array z/Unit": None},
      f"<Site/Structure height h/Unit>: unit of structure height h is 'yd'; {LENGTHS}",
      f"<Site/Height of the array z/Unit>: unit of height of the array z is missing; {LENGTHS}"),
-    ({"Options/1/Provision": "parapet"},
-     "Options/1/Provision is 'parapet'; choose a name from the list of the cell"),
     ({"Options/1/Provision": "minimum height of qualifying parapet above roof"},
      "Options/1/Provision is 'minimum height of qualifying parapet above roof'; did you mean"
      " 'Minimum height of a qualifying parapet above the roof'?"),
@@ -388,13 +324,11 @@ def test_what_is_typed_is_reported_with_what_to_write(tmp_path, case):
     assert problems(type_into(make(tmp_path), cells)) == said(*lines)
 
 
-EXTREME = {
-    1e-9: ("Site/S_S", "Site/S_1", "Arrays/1/y from", "Arrays/3/y from"),
-    1e9: ("Building/Roof x from", "Arrays/1/x from", "Arrays/2/y from"),
-}
-
-
-@pytest.mark.parametrize(("name", "value"), [(n, v) for v, names in EXTREME.items() for n in names])
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("Site/S_1", 1e-9), ("Arrays/3/y from", 1e-9), ("Building/Roof x from", 1e9),
+     ("Arrays/1/x from", 1e9)],
+)  # fmt: skip
 def test_the_cell_of_an_extreme_value_is_named_where_another_cell_is_wrong_by_it(
     tmp_path, name, value
 ):
@@ -418,23 +352,13 @@ def test_references_are_spelled_as_the_id_that_they_refer_to():
     assert respelled.links[0].array == "A2"
 
 
-CYRILLIC, GREEK = "\u0410", "\u0391"  # both look like A
-
-
-@pytest.mark.parametrize(
-    ("value", "ids", "line"),
-    [
-        (f"{CYRILLIC}1", ["A1"], f"it looks like 'A1', but '{CYRILLIC}' is a Cyrillic letter"),
-        ("a1", [f"{GREEK}1"], f"it looks like '{GREEK}1', but '{GREEK}' is a Greek letter"),
-        ("RTU-11", ["RTU-1"], "did you mean 'RTU-1'?"),
-        ("\u03b2-1", ["A1"], "give one of A1"),
-    ],
-)
-def test_a_letter_that_only_looks_latin_is_named(value, ids, line):
-    assert suggestion(value, ids).startswith(line)
+CYRILLIC = "\u0410"  # looks like A
 
 
 def test_an_id_that_looks_like_another_is_refused_with_its_letter(tmp_path):
+    line = suggestion(f"{CYRILLIC}1", ["A1"])
+    assert line.startswith(f"it looks like 'A1', but '{CYRILLIC}' is a Cyrillic letter")
+    assert suggestion("RTU-11", ["RTU-1"]) == "did you mean 'RTU-1'?"
     reported = problems(type_into(make(tmp_path), {"Arrays/A2/ID": f"{CYRILLIC}1"}))
     again = f"'{CYRILLIC}1', already used at <Arrays/A1/ID>; '{CYRILLIC}' is a Cyrillic letter"
     assert any(line.startswith(*said(f"Arrays/A2/ID is {again}")) for line in reported)

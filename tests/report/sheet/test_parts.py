@@ -124,13 +124,7 @@ def test_a_cell_that_is_not_there_is_added_in_order(book, row, column):
         assert columns == sorted(set(columns))
 
 
-def test_cells_and_rows_are_added_where_there_are_none(book):
-    path, name = book
-    files = parts(path)
-    files[name] = re.sub(whole(WEIGHT), b"", files[name])
-    data = after(pack(path, files), {place(WEIGHT): 41000, place(HEIGHT): 12.5})
-    assert [cell(opened(data), key).value for key in (WEIGHT, HEIGHT)] == [41000, 12.5]
-    assert len(re.findall(rb'<c r="%b"' % named(HEIGHT), parts(io.BytesIO(data))[name])) == 1
+def test_cells_and_rows_are_added_on_a_sheet_that_has_none(book):
     path, _ = book
     edit(path, lambda opened: opened.create_sheet("Blank"))
     places = itertools.product((2, 5), (3, 1))

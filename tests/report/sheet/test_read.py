@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from openpyxl import load_workbook
-from openpyxl.utils import get_column_letter, range_boundaries
-from openpyxl.worksheet.formula import ArrayFormula
+from openpyxl.utils import coordinate_to_tuple, get_column_letter, range_boundaries
+from openpyxl.worksheet.table import Table
 
 from cells import address, cell
 from inputs import FT
@@ -17,7 +17,7 @@ from nightly import by_day
 from report.sheet import schema
 from report.sheet.schema.choices import Polarity, SlopeUnit, UnitsFirst
 from report.sheet.writing.template import write_template
-from sheets import at, edit, make, of, problems, project, read_workbook, same, type_into
+from sheets import at, edit, make, of, problems, project, read_workbook, said, same, told, type_into
 from sheets import saved_by_libreoffice as by_libreoffice
 
 
@@ -179,8 +179,6 @@ def test_arrangement_does_not_matter(tmp_path, change):
 SPELLINGS = {
     "heading in capitals": ("Arrays/heading/Friction coefficient", " FRICTION\ncoefficient *"),
     "choices in capitals": ("Arrays/A1/Slope unit", " Degrees "),
-    "numbers as text": ("Arrays/A1/Friction coefficient", " 0.45 "),
-    "a date as text": ("Project/Date", "2026-03-05"),
     "a number as a text": ("Project/Revision", 1),
     "a logical value for a yes": ("Options/Peer review", True),
     "notes in a computed column": ("Arrays/A2/Kind of array", "ask the client"),
@@ -215,7 +213,7 @@ def test_what_is_blank_or_absent_takes_its_default(tmp_path):
     row = echo(book)[at(statistic)]
     assert (row.typed, row.value) == ("", "rule set (default)")
 
-    # `test_earlier` and `test_legacy_labels` have the cells that earlier workbooks lack.
+    # `test_earlier` has the cells that earlier workbooks lack.
     def change(book):
         for title in ("Spectrum", "Links", "Friction tests", "Outlines"):
             book.remove(book[title])
@@ -255,13 +253,84 @@ def test_a_workbook_saved_by_libreoffice_reads_the_same_and_shows_its_formulas(t
     assert echo(book)[second].typed == f"={first.partition('!')[2]} → 0.45"
 
 
-def test_an_array_formula_without_a_value_is_reported_like_any_other(tmp_path):
-    name = "Arrays/A1/Friction coefficient"
+def copied(book, title):
+    """Copy a sheet as Excel does: with a table of another name."""
+    sheet = book.copy_worksheet(book[title])
+    for table in book[title].tables.values():
+        sheet.add_table(Table(displayName=f"{table.name}2", ref=table.ref))
+    return sheet
 
-    def change(book):
-        found = cell(book, name)
-        found.value = ArrayFormula(found.coordinate, "=SUM(C8:C9*0)")
 
-    assert problems(edit(make(tmp_path), change))[0].startswith(
-        f"{at(name)}: friction coefficient is a formula with no saved value (=SUM(C8:C9*0));"
+@pytest.mark.quick
+def test_a_copied_sheet_is_ignored_with_a_warning(tmp_path):
+    path = edit(make(tmp_path), lambda book: copied(book, "Arrays"))
+    ((name, cell, text),) = told(path)
+    assert (name, cell) == ("copy Arrays Copy", at("Arrays/heading/ID"))
+    assert text == (
+        "sheets 'Arrays' and 'Arrays Copy' both have the labels of Arrays; 'Arrays' is read,"
+        " and 'Arrays Copy' is ignored: delete the one that is not meant"
     )
+    ((name, _, _),) = told(edit(make(tmp_path), lambda book: copied(book, "Options")))
+    assert name == "copy Options Copy"  # of several parts, named once
+
+
+def test_a_sheet_with_some_of_the_headings_is_no_copy(tmp_path):
+    def change(book):
+        book.create_sheet("Notes").append(["ID", "Slope", "x [g]", "y [g]", "Period [s]"])
+
+    assert told(edit(make(tmp_path), change)) == []
+
+
+FRESH = "copy it from a fresh workbook (roofslip new FOLDER)"
+
+
+def remove(sheet):
+    return lambda book: book.remove(book[sheet])
+
+
+def forget_number(book):
+    del book.defined_names["project_number"]
+    number = cell(book, "Project/Project number")
+    number.offset(column=-1).value = None
+
+
+NO_TABLE = "no table {0}_table and no row of its headings"
+# What is changed in a workbook, and the resulting line.
+EDITED = [
+    # It takes no other table for its own.
+    *((remove(sheet),
+       f"{sheet}: the sheet is missing: {NO_TABLE.format(sheet.lower())}; {FRESH}")
+      for sheet in ("Arrays", "Objects")),
+    (remove("Site"),
+     f"Site: the sheet is missing, or all labels of Site and building; {FRESH}\n"
+     "Site: long-period transition T_L is missing (no name target_t_l_s and no label 'Long-period"
+     f" transition T_L'); {FRESH}"),
+    (forget_number,
+     "Project: project number is missing (no name project_number and no label 'Project number');"
+     f" {FRESH}"),
+    # A required column is pointed at where it was.
+    (lambda book: book["Arrays"].delete_cols(cell(book, "Arrays/A1/Weight").column),
+     "<Arrays/heading/Weight>: heading 'Weight' is missing; write it here in its own column, or"
+     f" {FRESH}"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("change", "line"), EDITED, ids=[line[:40] for _, line in EDITED])
+def test_what_is_missing_is_reported_once(tmp_path, change, line):
+    assert problems(edit(make(tmp_path), change)) == said(*line.splitlines())
+
+
+@pytest.mark.parametrize(
+    ("name", "to"),
+    [("Arrays/A1/Friction test report", (1, 0)), ("Site/Structure height h", (1, 0)),
+     ("Site/Structure height h", (0, 1)), ("Site/Structure height h", (0, -1))],
+    ids=["table", "below", "unit", "label"],
+)  # fmt: skip
+def test_merged_cells_of_a_table_or_over_a_single_field_are_reported(tmp_path, name, to):
+    sheet, first = at(name).split("!")
+    row, column = coordinate_to_tuple(first)
+    (top, bottom), (left, right) = (sorted((0, step)) for step in to)
+    corners = ((row + top, column + left), (row + bottom, column + right))
+    cells = ":".join(f"{get_column_letter(across)}{down}" for down, across in corners)
+    path = edit(make(tmp_path), lambda book: book[sheet].merge_cells(cells))
+    assert problems(path) == (f"{sheet}!{cells}: cells are merged; unmerge them",)

@@ -109,7 +109,7 @@ def _contains(outer, inner):
 
 
 @settings(max_examples=40)
-@given(stars(), stars())
+@given(boxes | stars(), boxes | stars())
 def test_closest_points_lie_on_the_shapes_at_the_gap(a, b):
     gap = gap_m(a, b)
     start, end = closest(a, b)

@@ -1,4 +1,4 @@
-"""Numbers, lengths, dates and choices as people type them, and what has two meanings."""
+"""Numbers, lengths, dates and choices as people type them, and number formats."""
 
 import datetime as dt
 import math
@@ -7,16 +7,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from inputs import FT, INCH
-from nightly import nightly
+from cells import cell
+from inputs import FT
+from nightly import by_day, nightly
+from report.sheet.reading import typed_text
 from report.sheet.reading.cells import plain
 from report.sheet.reading.read import read
 from report.sheet.reading.typed_text import choice_in, dates_in, inches_in, number_in, rise_in
-from report.sheet.schema.choices import RuleSetName, StructureType
-from sheets import make, type_into
-
-pytestmark = pytest.mark.quick
-
+from report.sheet.schema.choices import RuleSetName, StructureType, UnitsFirst
+from sheets import at, edit, make, problems, read_workbook, said, type_into
 
 NUMBERS = {
     "0.45": 0.45, "0,5": 0.5, ",45": 0.45, "-12,5": -12.5, "0,500": 0.5, "1,234.5": 1234.5,
@@ -27,6 +26,7 @@ NUMBERS = {
 
 
 @pytest.mark.parametrize(("text", "value"), NUMBERS.items())
+@pytest.mark.quick
 def test_a_number_with_one_meaning_is_read(text, value):
     assert number_in(text) == value
 
@@ -37,6 +37,7 @@ def test_a_number_with_one_meaning_is_read(text, value):
      "٣", "1_000", "nan", "inf", "0x1f", "4 5", "0.45*", "4 5/2", "1/2", "0.45 (not wet)",
      "mu 0.45", "1,234", "12,345", "-1,234"],  # a comma before three digits may be either
 )  # fmt: skip
+@pytest.mark.quick
 def test_a_number_with_two_meanings_or_none_is_not(text):
     assert not math.isfinite(number_in(text))
 
@@ -123,9 +124,7 @@ def test_a_choice_is_told_by_its_first_words(choices, texts):
 AS_TYPED = [
     {
         "Arrays/A1/x to": ("28'-6\"", "x_to_m", pytest.approx(28.5 * FT)),
-        "Arrays/A1/CG height": ("4'-0\"", "cg_height_m", pytest.approx(48 * INCH)),
         "Arrays/A1/Slope": ("0,5", "slope_value", 0.5),
-        "Arrays/A1/Friction coefficient": ("0.45 (wet)", "mu", 0.45),
         "Project/Date": ("Nov 20, 2026", "date", DAY),
         "Site/Risk category": (2, "risk_category", "II"),
         "Site/Rule set": ("ASCE7-16", "rule_set", "ASCE 7-16"),
@@ -191,3 +190,126 @@ PLAIN = {
 
 def test_a_number_has_the_digits_that_a_spreadsheet_keeps():
     assert [plain(value) for value in PLAIN] == [*PLAIN.values()]
+
+
+@pytest.mark.quick
+@pytest.mark.parametrize(
+    ("how", "unit", "codes"),
+    [("in mm", "in", ['0" mm"', r"0.0\ \m\m", "[$mm]0", '#,##0;-0.0" mm"', '0" (mm)"']),
+     ("in %", "", ['0"%"', r"0\%"]), ("in ft²", "ft", ['0.0" ft²"']),
+     ("in in/min", "in/s", ['0.0" in/min"']), ("in meters", "ft", ['0" meters"']),
+     ("divided by 1,000", "lb", ["0,", "#,##0,", "0,.0", '#,##0.0,"k"']),
+     ("divided by 1,000,000", "lb", ["0.0,,"])],
+)  # fmt: skip
+def test_a_format_that_shows_another_number_is_told(how, unit, codes):
+    assert {code: typed_text.misleading(code, unit) for code in codes} == dict.fromkeys(codes, how)
+
+
+@pytest.mark.parametrize(
+    ("unit", "codes"),
+    [("lb", ["#,##0", "#,##0.00_);[Red](#,##0.00)", '0" lbs"',
+             '_($* #,##0.00_);_($* (#,##0.00);_($* "-"??_);_(@_)']),
+     ("in", ["General", "", "@", "0.00E+00", "# ?/?", '0.0" in"', '0.0" in."', r"0.0\"",
+             '0.0" in (mm)"', '0.0" approx."', '"min. "0', '0;-0;"none";" mm"@']),
+     ("ft", ["0'"]), ("in/s", ['0" in/sec"']), ("deg", ['0" deg in plan"']), ("%", ['0"%"'])],
+)  # fmt: skip
+def test_a_format_with_its_own_unit_or_with_other_words_is_none(unit, codes):
+    assert {code: typed_text.misleading(code, unit) for code in codes} == dict.fromkeys(codes, "")
+
+
+@pytest.mark.parametrize(
+    ("nothing", "cells"),
+    [
+        (True, [(";;;", 5.0), (";;;", "text"), ("0;;", -1), ("0;-0;", 0), ('"n/a"', 5.0)]),
+        (False, [("0;;", 1), ("0;;;@", "text"), ("0", "text"), ("General", 5.0), (";;;", True),
+                 ("General;-General", -5.0)]),
+    ],
+)  # fmt: skip
+def test_a_format_without_digits_shows_nothing(nothing, cells):
+    assert [typed_text.shows_nothing(*cell) for cell in cells] == [nothing] * len(cells)
+
+
+# Cell, number format, and how it shows the number; what to give instead.
+MISLEADING = [
+    ("Arrays/A1/CG height", '0" mm"', "9, shown in mm", "more than 0 [in]"),
+    ("Arrays/A1/Weight", "0,", "42000, shown divided by 1,000", "more than 0 [lb]"),
+    ("Site/Structure height h", '0.0" m"', "36, shown in m", "0 [ft]"),
+    ("Options/1/Value", '0" ft"', "18, shown in ft", "give a number"),
+    ("Motions/M2/Factor or PPA", '0.0"g"', "2, shown in g", "more than 0"),
+]
+
+
+def formatted(path, formats):
+    """Give cells their number formats."""
+
+    def change(book):
+        for name, code in formats.items():
+            cell(book, name).number_format = code
+
+    return edit(path, change)
+
+
+@pytest.mark.parametrize(("name", "code", "what", "wish"), by_day(MISLEADING, 2))
+def test_a_number_shown_in_another_unit_or_in_thousands_is_an_error(
+    tmp_path, name, code, what, wish
+):
+    (line,) = problems(formatted(make(tmp_path), {name: code}))
+    (begin,) = said(f"{name} is {what} by its number format ({code}); give a number")
+    assert line.startswith(begin)
+    assert line.endswith(", formatted as a number")
+    assert wish in line
+
+
+OWN_UNITS = {
+    "US": {
+        "Arrays/A1/CG height": '0.0" in"', "Arrays/A1/Weight": "#,##0", "Options/1/Value": '0" in"',
+        "Arrays/A1/Friction coefficient": '0.00" (lab)"', "Site/S_DS": '0.000"g"',
+        "Arrays/A1/Slope": "0.0°", "Arrays/A2/Slope": '0.0"%"',  # in degrees, and in percent
+        "Motions/M3/Factor or PPA": '0.0"g"',  # a PPA
+    },
+    "SI": {"Arrays/A1/CG height": '0.0" mm"', "Site/Structure height h": '0.0" m"'},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("units", OWN_UNITS)
+def test_a_number_format_may_name_the_unit_of_its_cell(tmp_path, units):
+    read_workbook(formatted(make(tmp_path, UnitsFirst(units)), OWN_UNITS[units]))
+
+
+LENGTHS = "write one of in, ft, mm, cm, m"
+
+# Cells that are changed in one workbook, and how the line of each begins after `unit of`.
+UNITS = [
+    {
+        "Arrays/heading/Friction coefficient": (
+            "Friction coefficient [%]", "friction coefficient is '%'; it has no unit: delete it"),
+        "Arrays/heading/Weight": ("Weight [t]", "weight is 't'; write one of lb, kip, N, kN, kg"),
+        "Arrays/heading/CG height": ("CG height", f"CG height is missing; {LENGTHS}"),
+    },
+    # A unit that cannot be chosen must be that of the sheet.
+    {
+        "Site/F_a/Unit": ("%", "F_a is '%'; it has no unit: delete it"),
+        "Site/S_DS/Unit": ("m/s2", "S_DS is 'm/s2'; give the number in g, and write g"),
+        "Links/heading/Link stiffness": (
+            "Link stiffness [psi]", "link stiffness is 'psi'; write one of lb/in, kip/in,"),
+    },
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("units", UNITS, ids=["headings", "single fields"])
+def test_a_unit_must_be_valid(tmp_path, units):
+    cells = {name: unit for name, (unit, _) in units.items()}
+    reported = problems(type_into(make(tmp_path), cells))
+    for line, (name, (_, wanted)) in zip(reported, units.items(), strict=True):
+        assert line.startswith(f"{at(name)}: unit of {wanted}")
+
+
+def test_a_percentage_is_an_error_with_the_number_that_excel_holds(tmp_path):
+    def percent(book):
+        slope = cell(book, "Arrays/A2/Slope")
+        slope.value, slope.number_format = 0.05, "0.0%"
+
+    assert problems(edit(make(tmp_path), percent)) == said(
+        "Arrays/A2/Slope is a percentage (5%, which Excel holds as 0.05); give a number of 0 or"
+        " more, formatted as a number"
+    )

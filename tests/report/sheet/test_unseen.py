@@ -51,14 +51,13 @@ def test_an_override_on_a_hidden_sheet_is_a_warning(tmp_path, state, said):
 
 
 def test_hidden_rows_and_columns_are_one_warning_with_their_cells(tmp_path):
-    path = make(tmp_path)
     sheet, letter, row = cell_of("Arrays/A2/Friction coefficient")
 
     def change(book):
         book[sheet].row_dimensions[row].hidden = True
         book[sheet].column_dimensions[letter].hidden = True
 
-    ((name, cell, text),) = told(edit(path, change))
+    ((name, cell, text),) = told(edit(make(tmp_path), change))
     assert name == f"hidden {sheet}"
     assert has(text, f"{letter}{row - 2}", f"{letter}{row - 1}", f"B{row}")  # with the heading
     assert not has(text, f"B{row - 1}")
@@ -164,12 +163,7 @@ def test_a_number_that_cannot_be_seen_is_a_warning(tmp_path, look):
     )
 
 
-@pytest.mark.parametrize("look", SEEN)
-def test_text_in_another_color_is_no_warning(tmp_path, look):
-    assert told(looking(make(tmp_path), look)) == []
-
-
-def test_what_the_template_folds_and_a_hidden_sheet_that_is_not_read_are_no_warnings(tmp_path):
+def test_what_the_template_folds_unread_sheets_and_other_colors_are_no_warnings(tmp_path):
     def change(book):
         for name in ("Provisions", "Tables", "Start", "Layers"):
             book[name].sheet_state = "hidden"
@@ -177,6 +171,8 @@ def test_what_the_template_folds_and_a_hidden_sheet_that_is_not_read_are_no_warn
 
     assert told(edit(make(tmp_path), change)) == []
     assert read(blank(tmp_path / "blank.xlsx")).unseen == ()
+    for look in SEEN:
+        assert told(looking(make(tmp_path), look)) == []
 
 
 @pytest.mark.nightly
@@ -190,10 +186,7 @@ def test_a_warning_is_acknowledged_by_its_name_and_the_echo_marks_its_cells(tmp_
     done = replace(scenes.package().assessment, sheet=book.sheet)
     tables = [table for table in printed(done, "echo").tables if table.title == sheet]
     assert "18 (hidden sheet)" in {cell for table in tables for row in table.cells for cell in row}
-    notes = [note for table in tables for note in table.notes]
-    assert all("hidden" not in note.split("Left blank")[-1] for note in notes)
-    others = [r for r in book.sheet.echo if r.sheet != sheet]
-    assert not any(r.unseen for r in others)
+    assert not any(row.unseen for row in book.sheet.echo if row.sheet != sheet)
 
 
 def test_a_pasted_record_on_a_hidden_sheet_is_one_warning_and_a_note_of_the_record(tmp_path):

@@ -1,4 +1,4 @@
-"""Records that a workbook names: which files it may, what is run of them, and what is refused."""
+"""Records and documents that a workbook names: which it may, what is read, what is refused."""
 
 import hashlib
 import os
@@ -6,6 +6,9 @@ import os
 import numpy as np
 import pytest
 
+import sheets
+from report.sheet.reading import linked_files
+from report.sheet.reading.read import read
 from sheets import at, make, of, problems, read_workbook, said, type_into
 
 
@@ -24,7 +27,6 @@ def test_motions_are_scaled_signed_and_run_beside_their_transverse_records(shake
     assert m3.signs == (1,)
     assert m3.scale * np.abs(m3.ax_mps2).max() == pytest.approx(1.5 * 9.80665, rel=1e-12)
     assert (m1.dt_s, m3.dt_s) == (0.01, 0.02)
-    m1, m2, _ = shaken.motions
     assert np.allclose(m1.ay_mps2, 0.980665)
     names = [[one.name for one in motion.orientations] for motion in (m1, m2)]
     assert names == [["record +", "record −", "transverse +", "transverse −"], ["record −"]]
@@ -206,3 +208,67 @@ def test_channels_of_one_file_are_components(tmp_path, names):
         assert a == pytest.approx(slope * 9.80665 * np.arange(101))
     assert book.records[1].name == f"records/all.csv | {names[1]}".strip()
     assert book.records[1].format == "text"
+
+
+LETTER, REPORT = "Options/Letter of review", "Friction tests/Test report file"
+PRINTOUT = "Site/Hazard printout"
+PDF = b"%PDF-1.7\nletter"
+
+
+@pytest.fixture
+def workbook(tmp_path):
+    return sheets.make(tmp_path / "project")
+
+
+def naming(workbook, name, content=None):
+    """Return the workbook with the letter of review named, and the file beside it if it has one."""
+    if content is not None:
+        path = workbook.parent / name.replace("\\", "/")
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(content)
+    return type_into(workbook, {LETTER: name})
+
+
+@pytest.mark.parametrize(
+    ("name", "path"),
+    [("letter.pdf", "letter.pdf"), ("./review/a.PDF", "review/a.PDF"), ("b\\a.pdf", "b/a.pdf")],
+)
+@pytest.mark.quick
+def test_a_document_beside_the_workbook_is_read_with_its_hash(workbook, name, path):
+    (found,) = read(naming(workbook, name, PDF)).documents
+    assert (found.label, found.path, found.size) == ("Letter of review", path, len(PDF))
+    assert found.sha256 == hashlib.sha256(PDF).hexdigest()
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("up/letter.pdf", "is a link to a file outside the workbook's folder"),
+     ("records/x.csv", "is no PDF; attach it as a PDF"),
+     ("leter.pdf", "does not exist; did you mean 'letter.pdf'?")],
+)  # fmt: skip
+def test_what_may_not_be_attached_is_an_error_of_its_cell(workbook, name, said):
+    folder = workbook.parent
+    for home in (folder, folder.parent):
+        (home / "letter.pdf").write_bytes(PDF)
+    (folder / "up").symlink_to(folder.parent)
+    (problem,) = problems(naming(workbook, name))
+    assert problem.startswith(f"{at(LETTER)}: letter of review: '{name}' {said}")
+
+
+def test_all_documents_together_have_a_limit(workbook, monkeypatch):
+    monkeypatch.setattr(linked_files, "MAX_DOCUMENTS", 2 * len(PDF) - 1)
+    naming(workbook, "letter.pdf", PDF)
+    assert len(read(workbook).documents) == 1
+    (workbook.parent / "report.pdf").write_bytes(PDF)
+    (problem,) = problems(type_into(workbook, {REPORT: "report.pdf"}))
+    assert problem.startswith(f"{at(LETTER)}: ")
+    assert "'letter.pdf' and the other documents have more than" in problem
+
+
+def test_one_file_in_three_cells_is_named_three_times(workbook):
+    assert read(workbook).documents == ()
+    naming(workbook, "both.pdf", PDF)
+    documents = read(type_into(workbook, {REPORT: "both.pdf", PRINTOUT: "both.pdf"})).documents
+    labels = ["Hazard printout", "Test report file", "Letter of review"]
+    assert [each.label for each in documents] == labels
+    assert {each.path for each in documents} == {"both.pdf"}
