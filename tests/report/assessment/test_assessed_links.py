@@ -9,7 +9,6 @@ import pytest
 
 import scenes
 import stand_in
-from report.assessment.assess import reassess
 from report.assessment.links import assess_linked
 from solver.model import Status
 from solver.sliding.checked import scene, slide
@@ -183,8 +182,3 @@ def test_a_row_that_still_slides_at_the_end_is_not_final():
     assert not item.is_final
     assert not item.is_rigid_enough
     assert not done.verdict.is_permitted
-
-
-def test_assessments_of_other_friction_run_no_rows():
-    data = stand_in.project(links=[stand_in.links("A1", "0.40, 0.50", 50)])
-    assert reassess(stand_in.assess_input(data, MOTIONS), data).linked == ()

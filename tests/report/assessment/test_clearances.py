@@ -1,13 +1,21 @@
-"""The object across each clearance, its required separation, and the governing displacement."""
+"""The object across each clearance, its separation, and envelopes that no run leaves."""
 
 import math
+from dataclasses import replace
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
 
 import scenes
 import stand_in
+from report.assessment.envelopes import design_envelope, hull, keep_clear_m, runs_envelope
 from report.assessment.verdict import Verdict
 from report.sheet.schema.choices import Direction
+from report.sheet.schema.shapes import Polygon, Rectangle, gap_m
 from solver.rules.provisions import Neighbor
 
 SEVEN = scenes.motions(7, 12.0)  # half a second less than those of eight seconds
@@ -25,13 +33,10 @@ def done():
 
 
 def test_clearances_take_the_factor_of_what_lies_across(done):
-    assert [(item.neighbor, item.factor) for item in done.clearances] == [
-        (Neighbor.UNLIKE, 1.0),  # of another slope
-        (Neighbor.FIXED, 1.0),
-        (Neighbor.UNLIKE, 1.0),
-        (Neighbor.PARAPET, 1.0),
-        (Neighbor.EDGE, 1.5),
-    ]
+    unlike = Neighbor.UNLIKE  # of another slope
+    wanted = [unlike, Neighbor.FIXED, unlike, Neighbor.PARAPET, Neighbor.EDGE]
+    assert [item.neighbor for item in done.clearances] == wanted
+    assert [item.factor for item in done.clearances] == [1.0, 1.0, 1.0, 1.0, 1.5]
     for item in done.clearances:
         assert item.required_m == pytest.approx(item.factor * item.design_m)
         assert item.demand_capacity == item.required_m / item.clearance.provided_m
@@ -52,17 +57,10 @@ def test_larger_displacements_and_low_parapets_govern():
 
 @pytest.mark.parametrize(
     ("change", "neighbor"),
-    [
-        ({}, Neighbor.LIKE),
-        ({"slope_value": 0.6}, Neighbor.UNLIKE),
-        ({"slope_value": 0.51}, Neighbor.UNLIKE),
-        ({"mu": 0.46}, Neighbor.UNLIKE),
-        ({"mu_static": 0.5}, Neighbor.UNLIKE),
-        ({"downslope_deg": 90.0}, Neighbor.UNLIKE),
-        ({"construction": "Tray 5 deg, portrait"}, Neighbor.UNLIKE),
-        (SAME_SLOPE, Neighbor.LIKE),
-    ],
-)
+    [({}, Neighbor.LIKE), ({"slope_value": 0.51}, Neighbor.UNLIKE), ({"mu": 0.46}, Neighbor.UNLIKE),
+     ({"mu_static": 0.5}, Neighbor.UNLIKE), ({"downslope_deg": 90.0}, Neighbor.UNLIKE),
+     ({"construction": "Tray 5 deg, portrait"}, Neighbor.UNLIKE), (SAME_SLOPE, Neighbor.LIKE)],
+)  # fmt: skip
 def test_like_arrays_slide_alike(change, neighbor):
     arrays = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=120) | change]
     (gap,) = assessed(arrays=arrays, clearances=[stand_in.clearance("A1", "A2", 3.0)]).clearances
@@ -86,17 +84,6 @@ def test_importance_enters_as_each_code_has_it():
             arrays=arrays, objects=objects, clearances=gaps, site=stand_in.site(rule_set=rule_set)
         )
         assert [gap.importance for gap in done.clearances] == expected
-
-
-@pytest.mark.quick
-def test_asce_requires_four_feet_to_an_edge():
-    resting = scenes.motions(7, 12.0, peak_g=0.05, vertical_peak_g=0.01)
-    site = stand_in.site(rule_set="ASCE 7-16", s_ds_g=0.5)
-    done = assessed(resting, site=site, options=PEER)
-    edge = done.clearances[4]
-    assert edge.required_m == pytest.approx(4 * 0.3048)
-    assert edge.is_minimum_value
-    assert not done.clearances[1].is_minimum_value
 
 
 def test_a_clearance_takes_the_full_displacement_unless_the_workbook_departs():
@@ -124,6 +111,9 @@ def test_without_a_permitted_route_there_is_no_required_separation_and_no_verdic
         assert gap.governing_array == "A1"
         assert (gap.verdict, gap.ok) == (Verdict.NONE, False)
     assert unpermitted.verdict is Verdict.NG
+    assert design_envelope(first) == ()
+    assert math.isnan(keep_clear_m(unpermitted, first))
+    assert keep_clear_m(unpermitted, second) == second.design_m
 
 
 @pytest.mark.quick
@@ -138,3 +128,85 @@ def test_beside_no_permitted_route_other_clearances_keep_their_verdicts(unpermit
     alone = [stand_in.clearance("A2", "S edge", 15 * stand_in.FOOT)]
     done = stand_in.unpermitted(clearances=alone, objects=stand_in.project().objects[3:])
     assert done.array_verdict(done.arrays[1]) is not Verdict.NG
+
+
+CIRCUMSCRIBED = 1.0 / math.cos(math.pi / 24)
+"""Of a circle, its polygon of 24 sides around it: 0.9 % outside."""
+
+
+@pytest.fixture(scope="module")
+def turned():
+    arrays = [stand_in.array("A1", 2.0, downslope_deg=205.0), stand_in.array("A2", 3.0, x=120)]
+    return scenes.package(scenes.motions(3, 12.0), arrays=arrays, clearances=[]).assessment
+
+
+def margins(outline, points):
+    """Distances [m] of points inside each side of a convex outline; negative outside."""
+    p, x = np.array(outline), np.array(points)
+    side = np.roll(p, -1, axis=0) - p
+    inward = np.column_stack((-side[:, 1], side[:, 0])) / np.hypot(*side.T)[:, None]
+    return np.min(inward @ x.T - np.sum(inward * p, axis=1)[:, None], axis=0)
+
+
+@pytest.mark.quick
+def test_the_envelope_of_the_runs_contains_each_and_reaches_no_farther(turned):
+    for array in turned.arrays:
+        outline = runs_envelope(array)
+        turn = math.radians(array.array.downslope_deg)
+        for motion in array.motions:
+            path = motion.history()
+            along, across = np.asarray(path.u_m), np.asarray(path.across_m)
+            x = along * math.cos(turn) - across * math.sin(turn)
+            y = along * math.sin(turn) + across * math.cos(turn)
+            for corner in array.array.shape.points:
+                points = np.column_stack((corner[0] + x, corner[1] + y))
+                assert margins(outline, points).min() > -1e-6
+    for array in turned.arrays:
+        largest = max(run.result.prd_m for m in array.motions for run in m.runs)
+        reach = [point_gap(array.array.shape, point) for point in runs_envelope(array)]
+        assert max(reach) <= largest * CIRCUMSCRIBED + 1e-12
+
+
+def point_gap(shape, point):
+    if isinstance(shape, Polygon):
+        return shapely.Polygon(shape.points).distance(shapely.Point(point))
+    return max(gap_m(shape, Rectangle(point[0], point[0], point[1], point[1])), 0.0)
+
+
+@pytest.mark.quick
+def test_the_design_envelope_is_close_to_its_offset_and_needs_a_displacement(turned):
+    for array in turned.arrays:
+        reach = [point_gap(array.array.shape, point) for point in design_envelope(array)]
+        assert max(reach) == pytest.approx(array.design_m, rel=0.009)
+        for corner in array.array.shape.points:
+            circle = np.linspace(0.0, 2.0 * np.pi, 100)
+            points = array.design_m * np.column_stack((np.cos(circle), np.sin(circle))) + corner
+            assert margins(design_envelope(array), points).min() > -1e-9
+    assert design_envelope(replace(turned.arrays[0], design_m=math.nan)) == ()
+    assert (
+        keep_clear_m(turned, turned.arrays[0]) == turned.arrays[0].design_m
+    )  # factor 1.0, I_e = 1.0
+
+
+@given(st.lists(st.tuples(st.integers(-20, 20), st.integers(-20, 20)), min_size=3, max_size=40))
+def test_a_hull_contains_its_points_and_is_convex(points):
+    outline = hull((float(x), float(y)) for x, y in points)
+    assert set(outline) <= {(float(x), float(y)) for x, y in points}
+    if len(outline) > 2:
+        assert margins(outline, points).min() > -1e-9
+
+
+L_SHAPE = Polygon(((0.0, 0.0), (10.0, 0.0), (10.0, 4.0), (4.0, 4.0), (4.0, 10.0), (0.0, 10.0)))
+
+
+@pytest.mark.parametrize("design_m", [0.5, 2.0])
+def test_the_envelope_of_an_outline_is_as_far_away_as_it_moves_everywhere(turned, design_m):
+    outlined = SimpleNamespace(shape=L_SHAPE)
+    moved = replace(turned.arrays[0], array=outlined, design_m=design_m)
+    outline = Polygon(design_envelope(moved))
+    reach = [point_gap(L_SHAPE, point) for point in outline.points]
+    assert min(reach) >= design_m - 1e-9
+    assert max(reach) <= design_m * CIRCUMSCRIBED + 1e-9
+    # Five corners round off; in the notch two strips of the width of the move overlap.
+    exact = 64.0 + 40.0 * design_m + (5.0 * math.pi / 4.0 - 1.0) * design_m**2
+    assert exact <= outline.area_m2 <= exact * 1.01

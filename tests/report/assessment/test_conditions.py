@@ -1,7 +1,6 @@
 """Requirements other than the numeric limits, and the three verdicts."""
 
 import datetime as dt
-import re
 
 import numpy as np
 import pytest
@@ -12,7 +11,7 @@ import stand_in
 from report.assessment.array_rows import rows_before_runs
 from report.assessment.conditions import project_rows
 from report.assessment.requirement_rows import hazard_rows
-from report.assessment.verdict import STAYS, Verdict, worst
+from report.assessment.verdict import Verdict, worst
 from report.text.units import PRESSURES, WEIGHTS
 from solver import design_spectrum, spectrum
 from solver.rules.limit import Consequence
@@ -67,13 +66,9 @@ CODE = {"building_code": "CBC", "building_code_year": 2022, "jurisdiction": "Cit
 
 @pytest.mark.parametrize(
     ("given", "found"),
-    [
-        (CODE, "2022 CBC; City of Alameda"),
-        ({"jurisdiction": "City of Alameda"}, "City of Alameda; building code not given"),
-        (without(CODE, "jurisdiction"), "2022 CBC; jurisdiction not given"),
-        ({}, "not given"),
-    ],
-)
+    [(CODE, "2022 CBC; City of Alameda"), ({}, "not given"),
+     (without(CODE, "jurisdiction"), "2022 CBC; jurisdiction not given")],
+)  # fmt: skip
 def test_without_building_code_and_jurisdiction_there_is_a_condition(given, found):
     data = stand_in.project(site=stand_in.site(**given))
     said = next(item for item in project_rows(data, ()) if item.id == "building_code")
@@ -95,11 +90,9 @@ PSF = PRESSURES["psf"]
 @pytest.mark.parametrize(
     ("weight_psf", "capacity_psf", "found", "limit", "verdict"),
     [
-        (8.75, 9.0, "8.8 psf (0.42 kPa)", "≤ 9.0 psf (0.43 kPa)", Verdict.OK),
         (8.75, 8.75, "8.8 psf (0.42 kPa)", "≤ 8.8 psf (0.42 kPa)", Verdict.OK),
-        (8.75, 8.0, "8.8 psf (0.42 kPa)", "≤ 8.0 psf (0.38 kPa)", Verdict.NG),
-        (8.6, 9.0, "8.6 psf (0.41 kPa)", "≤ 9.0 psf (0.43 kPa)", Verdict.OK),
         (8.64, 8.0, "8.6 psf (0.41 kPa)", "≤ 8.0 psf (0.38 kPa)", Verdict.NG),
+        (8.75, 8.7499, "8.8 psf (0.42 kPa)", "≤ 8.7 psf (0.41 kPa)", Verdict.NG),
     ],
 )
 def test_a_weight_over_the_roof_capacity_is_ng_and_prints_the_same_beside_the_wind_design(
@@ -108,18 +101,7 @@ def test_a_weight_over_the_roof_capacity_is_ng_and_prints_the_same_beside_the_wi
     given = {"weight_n": weight_psf * 80 * 60 * WEIGHTS["lb"], "wind_weight_pa": 8.0 * PSF}
     row = before_runs("roof_capacity", roof_capacity_pa=capacity_psf * PSF, **given)
     assert (row.found, row.limit, row.verdict) == (found, limit, verdict)
-    assert before_runs("wind_weight", **given).limit == f"= {found}"
-
-
-def test_a_weight_that_exceeds_the_capacity_by_a_hair_prints_so():
-    found = before_runs("roof_capacity", roof_capacity_pa=8.7499 * PSF)
-    assert found.verdict is Verdict.NG
-    assert found.found.split()[0] != found.limit.split()[1]
-
-
-@pytest.mark.parametrize("key", ["roof_capacity", "wind_weight"])
-def test_what_others_do_not_state_is_not_compared(key):
-    assert before_runs(key) is None
+    assert before_runs("roof_capacity", **given) is None
 
 
 @pytest.mark.parametrize(
@@ -127,14 +109,13 @@ def test_what_others_do_not_state_is_not_compared(key):
     [
         (8.8, "US", "8.8 psf (0.42 kPa)", Verdict.OK),
         (8.6, "US", "8.6 psf (0.41 kPa)", Verdict.CONDITION),
-        (9.5, "US", "9.5 psf (0.45 kPa)", Verdict.CONDITION),
-        (8.8, "SI", "0.42 kPa (8.8 psf)", Verdict.OK),
         (9.5, "SI", "0.45 kPa (9.5 psf)", Verdict.CONDITION),
     ],
 )
 def test_another_weight_in_the_wind_design_is_a_condition(wind_psf, units, found, verdict):
     said = before_runs("wind_weight", units=units, wind_weight_pa=wind_psf * PSF)
     assert (said.found, said.verdict) == (found, verdict)
+    assert before_runs("wind_weight") is None
 
 
 def pathway(other, more_m, **second):
@@ -185,24 +166,16 @@ def hazard(**changes):
     [
         (SOURCED | {"hazard": "mapped values"}, ["site_specific_hazard"]),
         (SOURCED | {"hazard": "exception of 11.4.8"}, []),
-        (STUDIED, []),
         (SOURCED | {"site_class": "C"}, []),
-        (without(SOURCED, "hazard_source") | {"site_class": "C"}, ["hazard_source"]),
-        (without(SOURCED, "hazard_date") | {"site_class": "C"}, ["hazard_source"]),
-        (without(STUDIED, "hazard_source"), ["hazard_source"]),
-        (without(STUDIED, "hazard_date"), ["hazard_source"]),
-        (without(STUDIED, "hazard_report"), ["hazard_source"]),
         (without(SOURCED, "hazard_printout") | {"site_class": "C"}, ["hazard_source"]),
-        (without(STUDIED, "hazard_printout"), ["hazard_source"]),
+        *((without(STUDIED, name), ["hazard_source"]) for name in (*SOURCED, "hazard_report")),
         (S_DS_ALONE, ["hazard_source", "sdc", "site_class", "site_specific_hazard"]),
         (S_DS_ALONE | SOURCED | {"site_class": "C"}, ["sdc"]),
         (SOURCED | ASCE_7_22, ["site_class"]),
-        (SOURCED | {"site_class": None, "s_1_g": 0.1}, ["site_class"]),
         (SOURCED | {"site_class": "D (default)", "s_1_g": 0.1}, ["site_class"]),
         (STUDIED | {"site_class": None}, []),
-        (STUDIED | {"site_class": "D (default)"}, []),
     ],
-)
+)  # fmt: skip
 def test_what_is_open_on_the_hazard_is_a_condition(given, conditions):
     found = hazard(**given)
     assert sorted(id for id, item in found.items() if not item.is_satisfied) == conditions
@@ -214,9 +187,7 @@ def test_what_is_open_on_the_hazard_is_a_condition(given, conditions):
     ("given", "words"),
     [
         ({}, "S_1 and S_D1 not given: SDC D is not confirmed"),
-        ({"s_1_g": 0.5}, "S_D1 not given: SDC D is not confirmed"),
         ({"s_d1_g": 0.5}, "S_1 not given: SDC D is not confirmed"),
-        ({"s_1_g": 0.5, "s_m1_g": 0.9}, "S_1 = 0.500 g, S_D1 = 0.600 g"),
         ({"s_1_g": 0.5, "f_v": 1.8}, "S_1 = 0.500 g, S_D1 = 0.600 g"),
     ],
 )
@@ -245,11 +216,9 @@ def test_site_class_d_by_default_says_11_4_8_of_its_edition_alone(site_class):
     [
         ({"site_class": "D", "s_1_g": None}, "site class D, S_1 not given"),
         ({"site_class": "E", "s_s_g": 0.9, "s_1_g": 0.05}, "site class E with S_S = 0.9 g"),
-        ({"site_class": "E", "s_s_g": 0.5, "s_1_g": 0.15}, "site class E with S_1 = 0.15 g"),
         ({"site_class": "E", "s_s_g": None, "s_1_g": 0.05}, "site class E, S_S not given"),
         ({"site_class": "E", "s_s_g": 0.5, "s_1_g": 0.05}, ""),
         ({"site_class": "D", "s_1_g": 0.1}, ""),
-        ({"site_class": "C"}, ""),
     ],
 )
 def test_what_11_4_8_asks_for_is_said_also_where_it_cannot_be_told(given, asked):
@@ -259,11 +228,9 @@ def test_what_11_4_8_asks_for_is_said_also_where_it_cannot_be_told(given, asked)
 
 @pytest.mark.parametrize(
     ("key", "field", "needed"),
-    [
-        ("interconnection", "interconnection_n", "interconnection_n"),
-        ("electrical_slack", "slack_m", "design_m"),
-    ],
-)
+    [("interconnection", "interconnection_n", "interconnection_n"),
+     ("electrical_slack", "slack_m", "design_m")],
+)  # fmt: skip
 def test_too_little_is_ng_and_no_value_is_a_condition(key, field, needed):
     def verdicts(**given):
         done = assessed(arrays=[stand_in.array("A1", 0.5, **given)], clearances=[])
@@ -331,19 +298,6 @@ def test_an_edge_beyond_twice_the_displacement_that_is_nearer_than_required_is_n
     assert near.reach_m < near.gap_m < near.required_m == pytest.approx(4 * FOOT)
     found = row(done, "neighbors")
     assert (found.verdict, found.limit[:2]) == (Verdict.NG, "≥ ")
-
-
-def test_a_value_from_analysis_that_is_not_permitted_is_named_so():
-    """The motions have no vertical component, and the friction is too small for prescription."""
-    arrays = [stand_in.array("A1", 0.5, mu=0.3), stand_in.array("A2", 0.5, x=120)]
-    done = assessed(scenes.level(), arrays=arrays, clearances=[])
-    low, high = done.arrays
-    assert [low.source, high.source] == ["floor, not permitted", "prescriptive"]
-    assert [low.is_permitted, high.is_permitted] == [False, True]
-    assert done.array_verdict(low) is Verdict.NG
-    found = row(done, "motions")
-    assert found.verdict is Verdict.NG
-    assert "the value from analysis is not permitted" in found.remedy
 
 
 def test_no_slack_gap_or_pathway_is_enough_for_a_displacement_that_is_not_permitted():
@@ -419,18 +373,3 @@ def test_without_an_outline_of_the_roof_nothing_says_that_edges_were_looked_for(
     assert row(assessed(), "roof_outline").verdict is Verdict.CONDITION
     assert "were not looked for" in row(assessed(), "roof_outline").remedy
     assert row(assessed(roof=inputs.sides(0, 220, 0, 170)), "roof_outline") is None
-
-
-@pytest.mark.quick
-def test_what_no_cell_takes_stays_for_the_plan_checker():
-    """The duration of records, arrays without a fire lane, an override."""
-    done = assessed(
-        arrays=[stand_in.array("A1", 0.5, x_to_m=200.0 * FOOT)],
-        clearances=[],
-        overrides=[{"provision": "parapet_height_in", "value": 18.0, "reason": "agreed"}],
-        options=scenes.DEPARTURE,
-    )
-    asked = "Show that the duration|or obtain the fire department's approval|Obtain the consent"
-    found = [row.remedy for row in done.conditions if re.search(asked, row.remedy)]
-    assert len(found) == 4
-    assert all(remedy.endswith(STAYS) for remedy in found)

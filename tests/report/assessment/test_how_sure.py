@@ -1,4 +1,7 @@
+"""What friction, slope and direction change: grids, margins, turned shaking and accuracy."""
+
 import math
+import re
 
 import numpy as np
 import pytest
@@ -6,7 +9,10 @@ import pytest
 import scenes
 import stand_in
 from one_by_one import prd_m, slid
+from printed import printed
+from report.assessment.evidence import accuracy
 from report.assessment.uncertainty import surface, uncertainty
+from report.text.counts import below_mm
 from solver.model import Friction
 
 PEER = {"peer_reviewed": True}
@@ -52,12 +58,9 @@ def test_the_grid_is_around_the_arrays_and_agrees_with_runs_one_by_one(usual, gr
     assert (np.diff(grid.mus) > 0).all()
     assert (np.diff(grid.slopes_rad) > 0).all()
     assert grid.n_runs == 6 * 8 * 3
-    governing = usual[0].governing
+    governing = assessment.governing
     for row, column in ((0, 0), (5, 0), (3, 4), (5, 7)):
-        point = {
-            "mu": float(grid.mus[column]),
-            "slope_rad": float(grid.slopes_rad[row]),
-        }
+        point = {"mu": float(grid.mus[column]), "slope_rad": float(grid.slopes_rad[row])}
         assert grid.mean_m[row, column] == pytest.approx(mean_m(governing, **point), rel=2e-3)
     row = int(np.argmin(abs(grid.slopes_rad - governing.array.slope_rad)))
     column = int(np.argmin(abs(grid.mus - governing.array.mu)))
@@ -146,3 +149,53 @@ def test_a_law_by_velocity_is_scaled_as_a_whole_and_the_other_arrays_are_named()
     friction = Friction(mu_slow=mu, mu_fast=1.2 * mu, rate_s_per_m=20.0, mu_static=mu)
     wanted = mean_m(assessment.governing, mu=friction, slope_rad=float(found.slopes_rad[-1]))
     assert found.mean_m[-1, -1] == pytest.approx(wanted, rel=2e-3)
+
+
+def paged(shaking=None, **changes):
+    """A package, what is found of its accuracy, and the page."""
+    package = scenes.package(shaking, **changes)
+    found = accuracy(package.assessment)
+    return package, found, printed(package, "accuracy", accuracy=found)
+
+
+@pytest.fixture(scope="module")
+def unfloored():
+    """Without the floor, so that friction governs."""
+    return paged(scenes.motions(3, seconds=10.0), options=PEER)
+
+
+@pytest.mark.quick
+def test_the_error_is_said_by_its_model_and_none_of_a_block_that_lifts_off(unfloored):
+    scene, _, page = unfloored
+    result = scene.governing.worst.governing.result
+    assert 0.0 < result.error_m < 1e-6
+    assert f"the error of this PRD is below {below_mm(result.error_m)} (a bound)" in page
+    _, _, page = paged((*scenes.motions(3, seconds=4.0), stand_in.lifting(signs=(1,))))
+    assert "lifts off the roof" in page
+    assert set(page.table("Design displacement with").rows[0].values()) >= {"none"}
+    assert not re.search(r"\bnan\b", page)
+
+
+def inches_up(length_m):
+    """To a tenth of an inch, upward, as every design displacement is printed."""
+    return f"{math.ceil(length_m / 0.0254 * 10 - 1e-6) / 10:.1f}"
+
+
+@pytest.mark.quick
+def test_friction_is_changed_by_five_percent_and_all_motions_run_again(unfloored):
+    scene, evidence, page = unfloored
+    for factor, assessed in (
+        (0.95, evidence.at_reduced_friction),
+        (1.0, evidence.entered),
+        (1.05, evidence.at_increased_friction),
+    ):
+        for array, item in zip(scene.data.arrays, assessed.arrays, strict=True):
+            motions = scene.assessment.shaking.motions
+            peaks = [prd_m(motion, array, mu=array.mu * factor) for motion in motions]
+            assert item.design_m == pytest.approx(1.1 * max(peaks), rel=1e-12)
+    rows = page.table("Design displacement with").rows
+    for name, assessed in (("less", evidence.at_reduced_friction),
+                           ("more", evidence.at_increased_friction)):  # fmt: skip
+        shown = [row[f"5 % {name} [in]"].rstrip("†") for row in rows]
+        assert shown == [inches_up(array.design_m) for array in assessed.arrays]
+    assert evidence.at_reduced_friction is scene.assessment.at_reduced_friction

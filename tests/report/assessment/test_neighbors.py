@@ -1,6 +1,7 @@
-"""What the plan shows near each array, and what the workbook says of it."""
+"""What the plan shows near each array, what the workbook says of it, and where NG is marked."""
 
 import math
+import re
 from dataclasses import replace
 from functools import cache, partial
 
@@ -11,16 +12,21 @@ from hypothesis import strategies as st
 import scenes
 import stand_in
 from inputs import FT, INCH, NO_SIDES, sides
+from plans import roof_plan
 from report.assessment.assess import assess
 from report.assessment.clearances import minimum_gap
 from report.assessment.neighbors import Cover, NearbyKind, bare_edges, plan_pairs, reaches_of
+from report.assessment.plan_clearances import plan_gaps
+from report.drawing.items import Layer
+from report.drawing.plan import plan_drawing
+from report.drawing.sheet import LETTER
+from report.entities.shown import UnitFormat
 from report.motions.prepare import prepare
 from report.sheet.reading.read import read
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.shapes import Rectangle, gap_m
+from report.web.plan import plan, stamp
 from sheets import at, make, project
-
-pytestmark = pytest.mark.quick
 
 OUTLINE = sides(0, 220, 0, 170)
 
@@ -52,6 +58,7 @@ def by_pair(done):
     return {(neighbor.array, neighbor.other): neighbor for neighbor in of(done)}
 
 
+@pytest.mark.quick
 def test_every_pair_with_a_clearance_from_either_side_is_listed(done):
     pairs = by_pair(having(done, design_m=0.01))
     assert list(pairs) == [
@@ -66,6 +73,7 @@ def test_every_pair_with_a_clearance_from_either_side_is_listed(done):
 
 
 @pytest.mark.parametrize(("design_ft", "is_near"), [(10.01, True), (9.99, False)])
+@pytest.mark.quick
 def test_a_neighbor_within_twice_the_design_displacement_is_missing(done, design_ft, is_near):
     pairs = by_pair(having(done, design_m=design_ft * FT))
     assert (("A1", "A2") in pairs) is is_near  # 20 ft apart
@@ -99,23 +107,15 @@ def test_a_gap_of_the_plan_that_contradicts_the_clearance_by_an_inch_is_named(
 
 @pytest.mark.parametrize(
     ("design_ft", "provided", "cover"),
-    [
-        (4.0, 84.0, Cover.AS_IN_PLAN),
-        (4.0, 90.0, Cover.DIFFERS),
-        (0.1, 90.0, Cover.DIFFERS),
-        (0.1, 84.0, Cover.BEYOND),
-    ],
+    [(4.0, 84.0, Cover.AS_IN_PLAN), (0.1, 90.0, Cover.DIFFERS), (0.1, 84.0, Cover.BEYOND)],
 )
 def test_a_clearance_covers_a_neighbor_as_the_plan_has_it(done, design_ft, provided, cover):
     rows = [stand_in.clearance("A1", "RTU-1", provided * INCH)]  # 7 ft apart in plan
     neighbor = by_pair(having(done, design_m=design_ft * FT, clearances=rows))["A1", "RTU-1"]
     assert (neighbor.cover, [row.number for row in neighbor.given]) == (cover, [1])
-
-
-@pytest.mark.parametrize(("required_ft", "cover"), [(6.99, Cover.SUFFICIENT), (7.01, Cover.SHORT)])
-def test_a_neighbor_without_a_clearance_has_what_is_required_or_not(done, required_ft, cover):
-    neighbor = by_pair(having(done, design_m=4 * FT, clearances=[]))["A1", "RTU-1"]
-    assert replace(neighbor, required_m=required_ft * FT).cover is cover
+    alone = by_pair(having(done, design_m=4 * FT, clearances=[]))["A1", "RTU-1"]
+    assert replace(alone, required_m=6.99 * FT).cover is Cover.SUFFICIENT
+    assert replace(alone, required_m=7.01 * FT).cover is Cover.SHORT
 
 
 def test_cells_are_those_of_the_workbook_or_the_sheet_to_add_to(done, tmp_path):
@@ -252,3 +252,93 @@ def test_an_oblique_edge_is_covered_by_an_oblique_strip():
     start, end = edges[1].ends
     assert end == pytest.approx((0.0, 200 * FT))
     assert math.dist(start, (100 * FT, 100 * FT)) < 1.0 * FT
+
+
+PARAPET = stand_in.roof_object("N", "edge with parapet", 0, 400, 200, 202, height=0.3)
+HIGH = stand_in.roof_object("S", "edge with parapet", 0, 400, -202, -200, height=1.2)
+NEAR = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42, height=1.0)
+
+
+@pytest.fixture(scope="module")
+def unlisted():
+    """A unit a foot from an array without a row of its own, and a parapet of 11.8 in."""
+    return scenes.package(
+        arrays=[stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=220)],
+        objects=[NEAR, PARAPET, HIGH],
+        clearances=[
+            stand_in.clearance("A2", "A1", 40.0),
+            stand_in.clearance("A1", "N", 60.0),
+            stand_in.clearance("A1", "S", 60.0),
+        ],
+    ).assessment
+
+
+@pytest.mark.quick
+def test_a_short_gap_without_a_row_is_ng_in_the_drawing_the_picture_and_on_the_page(unlisted):
+    gaps = list(plan_gaps(unlisted))
+    assert [(gap.number, gap.array, gap.other) for gap in gaps] == [
+        (1, "A2", "A1"), (2, "A1", "N"), (3, "A1", "S"), (0, "A1", "RTU-9"),
+    ]  # fmt: skip
+    assert [gap.is_ng for gap in gaps] == [False, False, False, True]
+    missing = gaps[-1]
+    assert missing.provided_m == pytest.approx(0.3048)  # from x = 100 to 101 ft
+    assert missing.required_m == unlisted.arrays[0].design_m
+    gap = "no clearance given: 12.0 in (305 mm) in plan, required 40.8 in (1036 mm), NG"
+    words = f"A1 to RTU-9: {gap}"
+    assert [t.layer for t in plan_drawing(unlisted).texts if t.words == words] == [
+        Layer.CLEARANCE_NG
+    ]
+    shown = re.findall(r"<text[^>]*>([^<]*)</text>", roof_plan(unlisted, LETTER))
+    label = {"NG", "not given; in plan 12.0 in", "required 40.8 in"}
+    assert label <= set(shown)
+    designs = {item.id: {"text": ""} for item in unlisted.arrays}
+    items = plan(unlisted, designs, ((), ()), UnitFormat(us_first=True), stamp)["items"]
+    said = [item.get("text") for item in items]
+    assert label <= set(said)
+
+
+def lowered(**changes):
+    overrides = [{"provision": key, "value": 0.75, "reason": "Agreed"}
+                 for key in ("separation_fixed", "separation_edge")]  # fmt: skip
+    options = {"clearances": [], "overrides": overrides}
+    return scenes.package(**options | changes).assessment
+
+
+@pytest.mark.parametrize(
+    "near",
+    [{"arrays": [stand_in.array("A1", 0.5)], "objects": [NEAR]},
+     {"arrays": [stand_in.array("A1", 0.5, x=1)], "objects": [],
+      "roof": {"x_from_m": 0.0, "x_to_m": 120.0, "y_from_m": -60.0, "y_to_m": 120.0}}],
+    ids=["object", "bare edge"],
+)  # fmt: skip
+@pytest.mark.quick
+def test_a_required_separation_that_an_override_lowers_is_marked_without_a_row_too(near):
+    unlisted = lowered(**near)
+    (gap,) = plan_gaps(unlisted)
+    assert (gap.number, gap.mark) == (0, "‡")
+    (row,) = (row for row in unlisted.rows if row.id == "neighbors")
+    assert re.search(r"^≥ [\d.]+ in \([\d.]+ mm\)‡", row.limit)
+    assert unlisted.is_overridden
+    designs = {item.id: {"text": ""} for item in unlisted.arrays}
+    items = plan(unlisted, designs, ((), ()), UnitFormat(us_first=True), stamp)["items"]
+    said = " ".join(item.get("text", "") for item in items)
+    assert re.search(r"required [\d.]+ in‡", said)
+    assert re.search(r"required [\d.]+ in‡", roof_plan(unlisted, LETTER))
+    words = [t.words for t in plan_drawing(unlisted).texts if t.layer is Layer.CLEARANCE_NG]
+    assert any("mm) (overridden), NG" in text for text in words)
+    assert not any(gap.mark for gap in plan_gaps(lowered(**near, overrides=[])))
+
+
+def test_of_two_bare_parts_of_a_side_the_one_that_is_near_is_marked():
+    """A parapet along the middle of the west side leaves a part on each side of it bare."""
+    unlisted = scenes.package(
+        roof={"x_from_m": 0.0, "x_to_m": 120.0, "y_from_m": 0.0, "y_to_m": 60.0},
+        arrays=[stand_in.array("A1", 0.5, x=1)],
+        objects=[stand_in.roof_object("W", "edge with parapet", 0, 0.5, 90, 120, height=1.2)],
+        clearances=[],
+    ).assessment
+    bare = [gap for gap in plan_gaps(unlisted) if gap.other == "the west edge of the roof"]
+    assert len(bare) == 1
+    for gap in bare:
+        (x0, y0), (x1, y1) = gap.ends
+        assert math.hypot(x1 - x0, y1 - y0) == pytest.approx(gap.provided_m, rel=1e-9)

@@ -21,11 +21,6 @@ def assessment():
     return scenes.package(spectrum=[]).assessment
 
 
-def page(assessment, *parts):
-    """The page on motions with these spectra."""
-    return printed(assessment, "motions", spectra=parts)
-
-
 def ordinates(assessment, *parts):
     """The table of these spectra."""
     return printed(assessment, "spectra", spectra=parts).table("Pseudo-acceleration")
@@ -119,7 +114,7 @@ def relative(title, ratios, target=FLAT, *, is_ground=False):
 
 def said(*parts):
     """The sentences on the page of what departs from its target."""
-    lines = page(scenes.package().assessment, *parts).splitlines()
+    lines = printed(scenes.package().assessment, "motions", spectra=parts).splitlines()
     return [line for line in lines if ": the mean of the motions " in line]
 
 
