@@ -8,6 +8,7 @@ from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 from openpyxl import load_workbook
@@ -17,12 +18,15 @@ from report.cli.main import main
 from report.sheet.schema.choices import UnitsFirst
 from report.study.plan import plan_study
 from report.study.read import read_study, write_study
+from report.study.results import LimitState
 from report.study.schema import Mat, Study, StudyArray, StudyInput
 from report.study.shaking import study_motions
 from report.study.tables import study_xlsx
 from solver import solve
 from solver.model import InputError, coulomb
 from solver.records.record import Record, write_record
+from solver.studies.capacity import Capacities
+from solver.studies.fragility import fragility
 from studied import wave
 
 ABOUT = {
@@ -146,3 +150,15 @@ def with_fit(state, fit, **counts):
     """A limit state with another lognormal, and no dispersion beside its own."""
     found = replace(state.fragility, fitted=fit, **counts)
     return replace(state, fragility=found, effects={})
+
+
+def limit_state(name, capacity, levels, *, words="is so", falls=0, is_censored=False):
+    """A limit state of capacities up to 2: the first ones fall again, the last may be censored."""
+    x = np.array(capacity)
+    found = Capacities(
+        intensity=x, is_censored=np.arange(x.size) >= x.size - is_censored,
+        end=np.full(x.size, 2.0), falls=np.arange(x.size) < falls, searched=np.zeros(x.size, int),
+    )  # fmt: skip
+    exceeds = x[:, None] < levels
+    fitted = fragility(levels, exceeds, np.ones_like(exceeds), found, seed=1)
+    return LimitState(name=name, words=words, limit_m=0.1, fragility=fitted, effects={})

@@ -173,10 +173,6 @@ def spline(space, count=4, degree=3, knots=None, at=1.0):
     found.knots = knots or list(map(float, range(count + degree + 1)))
 
 
-def circle(radius, space):
-    space.add_circle((0, 0), radius)
-
-
 INF, NAN = math.inf, math.nan
 MANY, NO_NUMBER, NO_AREA = (
     "of more than 2000 points",

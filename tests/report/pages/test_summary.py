@@ -13,8 +13,6 @@ from printed import printed
 from report.assessment.arrays import Route
 from report.assessment.assess import assess
 from report.assessment.conditions import project_rows
-from report.assessment.envelopes import keep_clear_m, keep_clear_words
-from report.drawing.plan import plan_drawing
 from report.pages.summary import document, summary
 from report.web.controls import opened, with_values
 from scenes import DEPARTURE, FOOT, REVIEW
@@ -224,12 +222,7 @@ def test_the_smallest_margin_is_of_a_satisfied_clearance_and_a_drift_over_its_li
     assert numbers[0] > numbers[1]
 
 
-def test_keep_clear_distances_and_low_parapets_are_those_of_the_package():
-    done = scenes.package(options=REVIEW).assessment
-    words = {text.words for text in plan_drawing(done).texts}
-    for array in done.arrays:
-        keep = keep_clear_words(keep_clear_m(done, array), us_first=True)
-        assert any(f"; {keep}; no conduit" in text for text in words)
+def test_a_low_parapet_does_not_qualify_by_the_heights_of_the_package():
     edge = stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=20 * INCH)
     package = scenes.package(objects=[edge], clearances=[stand_in.clearance("A3", "N", 6.0)])
     row = printed(package, "plan").table("Parapets").row("N")

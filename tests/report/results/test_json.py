@@ -36,7 +36,7 @@ def test_json_has_the_assessment_in_si_with_models_and_peaks(document):
     assert document["clearances"][4]["required_m"] == assessment.clearances[4].required_m
     assert document["verdict"] == assessment.verdict.value
     assert document["s_ds_g"] == 1.566
-    array, item = document["arrays"][2], scenes.usual().arrays[2]
+    array, item = document["arrays"][2], assessment.arrays[2]
     for direction in Direction:
         values = array["directions"][direction]
         assert values["design_m"] == item.directional_m(direction)

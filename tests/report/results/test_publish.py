@@ -1,19 +1,12 @@
-"""Outputs are written as one set, also by killed runs and by two runs at once.
-
-The reader of the stamp here is independent: hashlib, and the format of sha256sum.
-"""
+"""Outputs are written as one set, also by killed runs; the stamp is read by hashlib here."""
 
 import errno
 import hashlib
 import os
-import random
 import shutil
 import signal
 import subprocess
 import sys
-import time
-import warnings
-from contextlib import contextmanager
 
 import pytest
 
@@ -46,20 +39,17 @@ def is_whole(folder):
 
 @pytest.fixture
 def before_each_replacement(monkeypatch):
-    """A context in which a function is called before each replacement, with its two paths."""
+    """A function that has another one called before each replacement, with its two paths."""
     replace = os.replace
 
-    @contextmanager
-    def calling(function):
+    def call(function):
         def replaced(source, target):
             function(str(source), str(target))
             replace(source, target)
 
-        with monkeypatch.context() as patch:
-            patch.setattr(os, "replace", replaced)
-            yield
+        monkeypatch.setattr(os, "replace", replaced)
 
-    return calling
+    return call
 
 
 OLD = {"a.txt": b"old a", "b.txt": b"old b"}
@@ -81,10 +71,7 @@ def test_files_are_published_together(tmp_path):
 def test_a_file_that_cannot_be_replaced_changes_nothing_and_is_named(tmp_path):
     publish(OLD, tmp_path)
     (tmp_path / "c.txt").mkdir()
-    with (
-        pytest.raises(InputError, match=r"c\.txt: is a folder"),
-        pytest.warns(match="says: c.txt"),
-    ):
+    with pytest.raises(InputError, match=r"c\.txt: is a folder"), pytest.warns(match="says: c.txt"):
         publish(NEW, tmp_path)
     assert names_in(tmp_path) == ["a.txt", "b.txt", "c.txt", STAMP]
     assert contents(tmp_path) == OLD
@@ -102,21 +89,19 @@ def test_ctrl_c_while_files_are_replaced_leaves_one_whole_set(
         if target.endswith(at) and interrupts:
             raise interrupts.pop()
 
-    with before_each_replacement(interrupted), pytest.raises(KeyboardInterrupt):
+    before_each_replacement(interrupted)
+    with pytest.raises(KeyboardInterrupt):
         publish(NEW, tmp_path)
     assert contents(tmp_path) == OLD
     assert names_in(tmp_path) == [*sorted(contents(tmp_path)), STAMP]
     assert is_whole(tmp_path)
 
 
-def test_a_file_or_folder_that_cannot_be_replaced_changes_nothing(tmp_path):
-    (tmp_path / "out").write_text("a file")
-    with pytest.raises(InputError, match=r"out: cannot be written .*--out"):
-        publish({"a.txt": b"1"}, tmp_path / "out")
-    publish({"a.txt": b"1", "sub/b.txt": b"2"}, tmp_path)
+def test_the_stamp_is_one_of_sha256sum(tmp_path):
     tool = shutil.which("sha256sum")
     if tool is None:
         pytest.skip("no sha256sum here")
+    publish({"a.txt": b"1", "sub/b.txt": b"2"}, tmp_path)
     done = subprocess.run([tool, "-c", STAMP], cwd=tmp_path, capture_output=True, text=True)
     assert done.stdout.splitlines() == ["a.txt: OK", "sub/b.txt: OK"]
 
@@ -127,65 +112,6 @@ def test_a_full_disk_leaves_the_old_package(tmp_path, files_up_to):
         publish({"b.txt": b"new", "a.txt": b"new" * 1000}, tmp_path)
     assert names_in(tmp_path) == ["a.txt", STAMP]
     assert (tmp_path / "a.txt").read_bytes() == b"old"
-
-
-# Publishes numbered sets of four files without end; a set is whole or it is told by the stamp.
-WRITER = """
-import sys, time
-from pathlib import Path
-from report.results.publish import publish
-start, step, pause_s = int(sys.argv[2]), int(sys.argv[3]), float(sys.argv[4])
-for n in range(start, 10**6, step):
-    files = {f"{k}.txt": f"{n} {k}\\n".encode() * 20_000 for k in "abc"}
-    publish(files | {"sub/d.txt": b"%d" % n}, Path(sys.argv[1]))
-    print(n, flush=True)
-    time.sleep(pause_s)
-"""
-
-
-def writer(folder, start, step, pause_s=0.0):
-    words = map(str, (folder, start, step, pause_s))
-    return subprocess.Popen([sys.executable, "-c", WRITER, *words], stdout=subprocess.PIPE)
-
-
-def end(child):
-    child.kill()
-    child.wait()
-    child.stdout.close()
-
-
-def numbers_of(folder):
-    """Numbers of the sets that the files are of, without the stamp."""
-    names = [folder / f"{k}.txt" for k in "abc"] + [folder / "sub" / "d.txt"]
-    return {path.read_bytes().split()[0] for path in names}
-
-
-def test_a_run_killed_at_any_moment_leaves_a_set_or_a_mixture_that_is_told(tmp_path):
-    rng = random.Random(1)
-    (tmp_path / "user.txt").write_text("of the user")
-    (tmp_path / ".roofslip-notes").mkdir()
-    (tmp_path / ".roofslip-notes" / "forward.json").write_text('{"user.txt": false}')
-    for trial in range(4):
-        child = writer(tmp_path, 1000 * trial, 1)
-        child.stdout.readline()
-        time.sleep(rng.uniform(0.0, 0.02))
-        end(child)
-        # A reader who checks the stamp never takes a mixture for a set.
-        assert not is_whole(tmp_path) or len(numbers_of(tmp_path)) == 1
-        with warnings.catch_warnings(record=True) as told:
-            warnings.simplefilter("always")
-            warn_if_mixed(tmp_path, FILES)
-        assert bool(told) == (not is_whole(tmp_path))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        publish(FILES, tmp_path)
-    assert is_whole(tmp_path)
-    assert numbers_of(tmp_path) == {b"5"}
-    assert (tmp_path / "user.txt").read_text() == "of the user"
-    assert (tmp_path / ".roofslip-notes" / "forward.json").exists()
-
-
-FILES = dict.fromkeys(("a.txt", "b.txt", "c.txt", "sub/d.txt"), b"5")
 
 
 @pytest.mark.parametrize("before", [OLD, {}], ids=["", "first run"])
@@ -272,24 +198,6 @@ def test_a_folder_that_cannot_be_made_is_refused_before_anything_is_computed(tmp
     assert not (tmp_path / "a").exists()
 
 
-@pytest.mark.nightly
-def test_two_runs_at_once_never_mix_their_sets(tmp_path):
-    children = [writer(tmp_path, start, 2, 0.05) for start in (0, 1)]
-    for child in children:
-        child.stdout.readline()
-    until = time.monotonic() + 1.0
-    seen = set()
-    while time.monotonic() < until:
-        before = (tmp_path / STAMP).read_bytes()
-        numbers, whole = numbers_of(tmp_path), is_whole(tmp_path)
-        if whole and (tmp_path / STAMP).read_bytes() == before:
-            assert len(numbers) == 1
-            seen |= numbers
-    for child in children:
-        end(child)
-    assert len(seen) > 2
-
-
 def test_a_run_waits_for_the_lock_of_another_and_then_says_so(tmp_path, monkeypatch):
     monkeypatch.setattr("solver.files.WAIT_S", 0.2)
     words = "another command has been writing there for 0.2 s"
@@ -298,7 +206,23 @@ def test_a_run_waits_for_the_lock_of_another_and_then_says_so(tmp_path, monkeypa
     assert contents(tmp_path) == {}
 
 
-@pytest.mark.parametrize("way", ["the same", "another spelling", "a link", "a hard link"])
+def test_the_lock_is_held_until_the_last_file_is_replaced(
+    tmp_path, monkeypatch, before_each_replacement
+):
+    monkeypatch.setattr("solver.files.WAIT_S", 0.0)
+    held = []
+
+    def another(_, target):
+        with pytest.raises(InputError, match="another command has been writing"), locked(tmp_path):
+            pass
+        held.append(target)
+
+    before_each_replacement(another)
+    publish(NEW, tmp_path)
+    assert [name.rpartition("/")[2] for name in held] == [*NEW, STAMP]
+
+
+@pytest.mark.parametrize("way", ["another spelling", "a link", "a hard link"])
 def test_an_input_is_not_replaced_by_an_output(tmp_path, way):
     (tmp_path / "job").mkdir()
     book = tmp_path / "job" / "results.xlsx"

@@ -20,7 +20,7 @@ from report.study import figures
 from report.study.curves import compare
 from report.study.exports import export_files
 from report.study.files import study_html
-from report.study.run import estimate, planned
+from report.study.run import planned, run_study
 from report.study.schema import Intensity, NoValue, StudyArray, StudyBuilding
 from report.study.tables import curves_csv, study_xlsx
 from report.study.wording import headline, sentence
@@ -74,9 +74,6 @@ def test_fragilities_are_those_of_single_runs(results):
             assert state.fragility.fitted.beta == pytest.approx(known.std(ddof=1), rel=1e-9)
     slips = [sum(peak(plan, k, 0, 2.0, 0.4, x) != 0.0 for k in range(6)) for x in levels]
     assert array.states[0].fragility.exceeded.tolist() == slips
-    for k, x in enumerate(array.states[0].fragility.capacities.intensity):
-        assert peak(plan, k, 0, 2.0, 0.4, (1.0 - 1e-9) * x) == 0.0
-        assert peak(plan, k, 0, 2.0, 0.4, (1.0 + 1e-3) * x) > 0.0
 
 
 @pytest.mark.nightly
@@ -135,9 +132,6 @@ def test_censored_and_exceeding_runs_without_a_value_differ_as_stated(other):
     assert two.counted.tolist() == [0] * 12
 
 
-# The files
-
-
 @pytest.mark.nightly
 def test_the_command_writes_every_file_and_prints_the_results(made, results):
     folder, output = made
@@ -162,16 +156,6 @@ def test_a_second_run_writes_the_same_bytes_but_for_what_it_took_over(made, resu
     tables = {"curves.csv": curves_csv(results), "study.xlsx": study_xlsx(once)}
     for name, content in {**tables, **export_files(results)}.items():
         assert (made[0] / "out" / "study" / name).read_bytes() == content, name
-
-
-def test_a_dry_run_prints_and_writes_nothing(tmp_path):
-    folder = write(tmp_path, small())
-    done = command(folder, "--dry-run")
-    assert done.exit_code == 0
-    found = estimate(planned(folder)[0])
-    assert f"{found.runs:,} runs" in done.output
-    assert "MB on disk" in done.output
-    assert not (folder / "out").exists()
 
 
 @pytest.mark.parametrize("missing", ["pyarrow", "pyarrow.parquet", "scipy"])
@@ -303,3 +287,21 @@ def test_warnings_on_the_workbook_are_printed_with_the_basis(results):
     table = printed.study(dataclasses.replace(results, plan=warned)).table("Warnings on the")
     assert table.cells == (("Mats!B8", "cell B8 is struck through."),)
     assert "Warnings on the workbook" not in printed.study(results)
+
+
+CHANGING = (
+    (r"Program( \|)? Roofslip.*", "Program <versions>"),
+    (r"Study( \|)? [0-9a-f]{16}", "Study <hash>"),
+    (r"all parts ran on .*?: a repetition gives the same bits", "<machine>"),
+)
+
+
+@pytest.mark.quick
+def test_a_study_has_the_words_that_it_had(golden, tmp_path):
+    """Taken over by `./roofslip test --golden`: of S_DS, tests, a clearance and a tolerance."""
+    study = small(intensity=Intensity.S_DS, s_ds_g=1.0, intensities="0.2 to 2 by 0.2")
+    folder = write(tmp_path, study, motions=4)
+    text = printed.study(run_study(planned(str(folder))[0], str(tmp_path / "out")))
+    for pattern, placeholder in CHANGING:
+        text = re.sub(pattern, placeholder, text)
+    golden("study.txt", text)

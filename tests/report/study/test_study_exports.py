@@ -1,4 +1,4 @@
-"""Exports of a study, read by the libraries of the field or as they read."""
+"""Dispersions of a fragility by name, and its exports, read by the libraries of the field."""
 
 import csv
 import dataclasses
@@ -7,7 +7,6 @@ import json
 import math
 import re
 from statistics import NormalDist
-from types import SimpleNamespace
 
 import defusedxml.ElementTree
 import numpy as np
@@ -16,16 +15,17 @@ import pytest
 from dlml import get_fragility, get_metadata, vocabulary
 from dlml._tabular import load_tabular
 
-from report.study.exports import (
-    component_id,
-    export_files,
-    has_probabilities,
-    known_states,
-    probabilities_of,
-)
-from report.study.schema import Intensity
-from solver.studies.fragility import UNKNOWN, Lognormal
-from study_books import having, with_fit, with_study
+import printed
+from report.study.array_capacities import curves_of
+from report.study.exports import component_id, export_files, known_states, probabilities_of
+from report.study.plan import FRICTION, SLOPE
+from report.study.run import estimate, planned, run_study
+from report.study.schema import Intensity, StudyArray
+from report.study.wording import dispersions, exported, headline
+from solver.studies.capacity import capacities
+from solver.studies.fragility import UNKNOWN, Lognormal, fit_lognormal
+from solver.studies.runs import Runner, Track
+from study_books import command, given, having, sheet_rows, with_fit, with_study, write
 
 # Of openquake.commonlib.nrml and openquake.hazardlib.valid
 SIMPLE_ID = re.compile(r"[\w_\-]{1,75}")
@@ -216,20 +216,171 @@ def test_an_array_whose_runs_are_censored_has_no_chance_of_zero_in_openquake(res
     assert "fragility.xml" not in export_files(having(results, lost))
 
 
-@pytest.mark.nightly
-def test_without_arrays_there_is_nothing_to_export(results):
-    assert export_files(having(results)) == {}
+SIGMA = np.log([0.38, 0.40, 0.42]).std(ddof=1)
+"""Standard deviation of ln of the tests of mat A."""
+
+TOLERANCE_DEG = 0.3
+OFF_RAD = math.radians(TOLERANCE_DEG) / math.sqrt(3.0)
+"""Standard deviation of a uniform distribution."""
 
 
-@pytest.mark.parametrize(
-    ("censored", "is_known", "has"), [(0, False, True), (2, True, True), (2, False, False)]
-)
-@pytest.mark.quick
-def test_an_array_has_probabilities_where_each_state_has_a_lognormal_or_all_its_runs(
-    censored, is_known, has
+def study(**changes):
+    """A study of PPV with arrays on a slope, on none, and of a mat without tests."""
+    arrays = (
+        StudyArray(id="S1", mat="A", slope_deg=2.0, clearance_m=0.1),
+        StudyArray(id="S2", mat="A", slope_deg=0.0, clearance_m=0.1),
+        StudyArray(id="S3", mat="B", slope_deg=2.0, clearance_m=0.1),
+    )
+    about = {
+        "slopes_deg": "2", "intensity": Intensity.PPV, "intensities": "0.5 to 4 by 0.5",
+        "slope_tolerance_deg": TOLERANCE_DEG, "study_arrays": arrays,
+    }  # fmt: skip
+    return given(**{**about, **changes})
+
+
+@pytest.fixture(scope="module")
+def dispersed(tmp_path_factory):
+    folder = write(tmp_path_factory.mktemp("dispersion"), study(), motions=5)
+    return run_study(planned(folder)[0], folder / "out")
+
+
+def half_log(above, below):
+    return 0.5 * abs(math.log(above / below))
+
+
+def yields(mu, slope_rad):
+    """Acceleration / g at which a block without vertical motion begins to slide downslope."""
+    return math.tan(math.atan(mu) - slope_rad)
+
+
+def test_the_dispersions_of_slip_are_those_of_the_yield_acceleration(dispersed):
+    """It is proportional to the intensity at which slip begins, of every motion."""
+    theta = math.radians(2.0)
+    on_slope, flat, untested = (one.states[0].effects for one in dispersed.arrays)
+    mu = dispersed.arrays[0].plan.mu
+    above, below = (yields(mu * math.exp(s * SIGMA), theta) for s in (1.0, -1.0))
+    assert on_slope[FRICTION] == pytest.approx(half_log(above, below), rel=1e-9)
+    assert flat[FRICTION] == pytest.approx(SIGMA, rel=1e-9)
+    above, below = (yields(mu, theta - s * OFF_RAD) for s in (1.0, -1.0))
+    assert on_slope[SLOPE] == pytest.approx(half_log(above, below), rel=1e-9)
+    assert untested.keys() == {SLOPE}
+
+
+def test_a_slope_about_none_disperses_as_its_size(dispersed):
+    """Both polarities: a roof that tilts the other way is the same roof."""
+    mu = dispersed.arrays[1].plan.mu
+    wanted = half_log(yields(mu, 0.0), yields(mu, OFF_RAD))
+    assert dispersed.arrays[1].states[0].effects[SLOPE] == pytest.approx(wanted, rel=1e-9)
+    notes = [" ".join(table_of(dispersed, one).notes) for one in dispersed.arrays]
+    assert ["The slope below is 0" in said for said in notes] == [False, True, False]
+
+
+def table_of(dispersed, one):
+    """The dispersions on the page of an array."""
+    page = printed.study(dataclasses.replace(dispersed, arrays=(one,)))
+    return page.table("Dispersions of the capacity by name")
+
+
+def test_the_dispersion_of_friction_of_a_limit_obeys_the_scaling_of_a_level_roof(dispersed):
+    """On no slope PRD is proportional where friction and intensity are scaled by one factor.
+
+    So the capacity for d at friction f mu is f times the capacity for d / f at mu.
+    """
+    one = dispersed.arrays[1]
+    limits = [0.1 * math.exp(s * SIGMA) for s in (1.0, -1.0)]
+    curves = curves_of(Runner(dispersed.plan.campaign), one.plan, one.plan.mu, 0.0)
+    found = capacities(curves, limits, np.arange(0.1, 6.0, 0.1), is_censoring=False)
+    below, above = (fit_lognormal(capacity).theta for capacity in found)
+    wanted = half_log(above * math.exp(SIGMA), below * math.exp(-SIGMA))
+    assert one.states[2].effects[FRICTION] == pytest.approx(wanted, abs=1e-4)
+
+
+def test_the_dispersion_of_slope_of_a_limit_is_that_of_runs_on_both_slopes(dispersed):
+    one, theta = dispersed.arrays[0], []
+    for s in (1.0, -1.0):
+        slope = 2.0 + s * math.degrees(OFF_RAD)
+        curves = curves_of(Runner(dispersed.plan.campaign), one.plan, one.plan.mu, slope)
+        at = [_crossing(curve) for curve in curves]
+        theta.append(math.exp(np.log(at).mean()))
+    assert one.states[2].effects[SLOPE] == pytest.approx(half_log(*theta), abs=2e-4)
+
+
+def _crossing(curve):
+    """Lowest intensity of a fine grid at which the PRD exceeds 0.1 m, interpolated."""
+    x = np.linspace(0.3, 4.0, 4000)
+    prd = curve.prd_m(x)
+    first = int(np.flatnonzero(~(prd <= 0.1))[0])
+    return np.interp(0.1, prd[first - 1 : first + 1], x[first - 1 : first + 1])
+
+
+def test_the_exported_dispersion_is_the_square_root_of_the_sum_of_squares(dispersed):
+    one = dispersed.arrays[0]
+    state = one.states[2]
+    parts = {part.name: part.beta for part in dispersions(dispersed, one, state)}
+    assert parts["friction"] == state.effects[FRICTION] > 0.0
+    assert parts["slope"] == state.effects[SLOPE] > 0.0
+    squares = sum(b * b for b in (state.fragility.fitted.beta, parts["friction"], parts["slope"]))
+    assert exported(dispersed, one, state).beta == pytest.approx(math.sqrt(squares), rel=1e-12)
+    said = json.loads(export_files(dispersed)["fragility.json"])
+    assert "(tolerance, standard deviation 0.17 deg)" in said["BSA.S1"]["Comments"]
+    assert "(tests of A, standard deviation of ln μ 0.050)" in said["BSA.S1"]["Comments"]
+    assert "friction not included (mat B has no tests)" in said["BSA.S3"]["Comments"]
+    assert "Mass has no effect: each array is one rigid block" in said["BSA.S1"]["Comments"]
+
+
+def test_the_workbook_has_the_dispersions_by_name_and_the_exported_one(dispersed):
+    rows = sheet_rows(dispersed, "Fragility")
+    states = [(one, state) for one in dispersed.arrays for state in one.states]
+    for row, (one, state) in zip(rows, states, strict=True):
+        if not state.fragility.fitted.is_known:
+            continue
+        for part in dispersions(dispersed, one, state):
+            wanted = pytest.approx(part.beta) if part.beta else "none"
+            assert row[f"Beta, {part.name}"] == wanted
+        assert row["Beta exported"] == pytest.approx(exported(dispersed, one, state).beta)
+    assert rows[-1]["Beta, friction"] == "none"
+    assert rows[0]["Beta, friction"] > 0.0
+
+
+def test_a_dispersion_that_cannot_be_determined_is_said_and_keeps_its_column(dispersed):
+    one = dispersed.arrays[0]
+    state = one.states[2]
+    effects = {FRICTION: math.nan, SLOPE: 0.01}
+    states = (*one.states[:2], dataclasses.replace(state, effects=effects))
+    changed = dataclasses.replace(one, states=states)
+    parts = {part.name: part for part in dispersions(dispersed, changed, states[2])}
+    assert (parts["friction"].beta, parts["friction"].source) == (0.0, "not determined")
+    table = table_of(dispersed, changed)
+    names = [heading.partition(":")[0] for heading in table.headings]
+    assert table.cells[-1][names.index("Friction")] == "not determined"
+
+
+def test_the_runs_of_the_capacities_are_counted_and_no_more_than_a_dry_run_says(
+    tmp_path, monkeypatch
 ):
-    fitted = Lognormal(theta=0.5, beta=0.4) if is_known else UNKNOWN
-    state = SimpleNamespace(name="S1", fragility=SimpleNamespace(censored=censored, fitted=fitted))
-    array = SimpleNamespace(states=(state,))
-    assert has_probabilities(array) == has
-    assert known_states(array) == ((state,) if is_known else ())
+    folder = write(tmp_path, study(study_arrays=study().study_arrays[:1]), motions=2)
+    said = estimate(planned(folder)[0])
+    ran, fill = [], Track.fill
+
+    def counted(self, cases, chosen, rows, column):
+        ran.append(len(chosen))
+        fill(self, cases, chosen, rows, column)
+
+    monkeypatch.setattr(Track, "fill", counted)
+    made = run_study(planned(folder)[0], folder / "out")
+    assert made.capacity_runs == sum(ran) - said.runs > 0
+    written = json.loads((folder / "out" / "manifest.json").read_text())
+    assert written["capacity_runs"] == made.capacity_runs <= said.capacity_runs
+    assert said.capacity_runs < 3 * made.capacity_runs
+    done = command(folder, "--dry-run")
+    assert f"at most {said.capacity_runs:,} more runs for the capacities" in done.output
+    assert f", and {made.capacity_runs:,} for the capacities" in headline(made)[0]
+    assert f" {made.capacity_runs:,} more runs find the capacities" in printed.study(made)
+
+
+@pytest.mark.quick
+def test_without_a_tolerance_or_tests_nothing_more_is_run(tmp_path):
+    arrays = (StudyArray(id="S3", mat="B", slope_deg=2.0, clearance_m=0.1),)
+    folder = write(tmp_path, study(slope_tolerance_deg=0.0, study_arrays=arrays), motions=1)
+    (array,) = planned(folder)[0].arrays
+    assert array.shifts == {}

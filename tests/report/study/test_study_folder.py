@@ -1,8 +1,11 @@
-"""The folder of a study: what is in its place, and parts of another user or machine."""
+"""The folder of a study, parts of another user or machine, and the key that signs one's own."""
 
 import html
 import json
 import shutil
+import stat
+import tempfile
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,6 +14,7 @@ import printed
 import stranger
 from report.cli.study import make
 from report.study.exports import export_files
+from report.study.manifest import KEY_BYTES, state_folder, user_key
 from report.study.run import planned, run_study
 from report.study.wording import headline
 from solver.files import LOCK, locked
@@ -63,14 +67,6 @@ def test_a_second_study_in_the_same_folder_waits_and_then_says_so(tmp_path, monk
     assert list(runs.iterdir()) == []
 
 
-@pytest.fixture
-def forged_study(made, tmp_path):
-    """A plan, the folder of its outputs, and its study after part 0 was forged."""
-    out = shutil.copytree(made[0] / "out" / "study", tmp_path / "out")
-    forged(out / "runs" / "part-00000.parquet")
-    return planned(made[0])[0], out
-
-
 @pytest.mark.nightly
 def test_runs_that_are_taken_over_are_stated_with_their_dates(made, results):
     """The first study took over nothing; that which went on with its parts says so."""
@@ -88,22 +84,12 @@ def test_runs_that_are_taken_over_are_stated_with_their_dates(made, results):
 
 
 @pytest.mark.nightly
-def test_a_forged_part_is_computed_again_and_the_user_is_told(forged_study, results):
-    plan, out = forged_study
-    with pytest.warns(
-        UserWarning, match=r": 1 part \([0-9,]+ runs\) without .*--trust-parts takes"
-    ):
-        found = run_study(plan, out)
-    assert np.array_equal(found.curves.mean_m, results.curves.mean_m, equal_nan=True)
-    (own,) = found.manifest["taken_over"]
-    assert 0 < own["runs"] < found.manifest["rows"]
-
-
-@pytest.mark.nightly
 def test_a_forged_part_is_taken_over_on_the_word_of_the_option_and_every_file_says_so(
-    forged_study, results
+    made, results, tmp_path
 ):
-    plan, out = forged_study
+    out = shutil.copytree(made[0] / "out" / "study", tmp_path / "out")
+    forged(out / "runs" / "part-00000.parquet")
+    plan, _ = planned(made[0])
     found = run_study(plan, out, trust_parts=True, allow_matched=True)
     slid = results.curves.mean_m > 0.0
     shares = found.curves.mean_m[slid] / results.curves.mean_m[slid]
@@ -124,8 +110,12 @@ def test_a_forged_part_is_taken_over_on_the_word_of_the_option_and_every_file_sa
     for content in exports.values():
         text = content.decode() if isinstance(content, bytes) else content
         assert f"{told}." in html.unescape(text)
-    with pytest.warns(UserWarning, match="computed again"):
-        run_study(plan, out)  # taken over, it is not signed
+    again = r": 1 part \([0-9,]+ runs\) without .*--trust-parts takes"
+    with pytest.warns(UserWarning, match=again):
+        found = run_study(plan, out)  # taken over, it is not signed
+    assert np.array_equal(found.curves.mean_m, results.curves.mean_m, equal_nan=True)
+    (own,) = found.manifest["taken_over"]
+    assert 0 < own["runs"] < found.manifest["rows"]
 
 
 @pytest.mark.filterwarnings("always::UserWarning")  # the command prints them
@@ -161,3 +151,85 @@ def test_a_study_is_not_written_through_what_is_in_its_place(tmp_path, place, ki
     told = command(job).output
     assert f"{job / place}: is a" in told
     assert stranger.state(tmp_path) == before
+
+
+@pytest.fixture
+def state(tmp_path, monkeypatch):
+    """The state folder of a user, in which nothing is."""
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    return tmp_path / "state"
+
+
+@pytest.mark.quick
+def test_the_key_is_made_once_for_its_user_alone(state):
+    key = user_key()
+    (path,) = (state / "roofslip").iterdir()
+    assert stat.S_IMODE(path.stat().st_mode) == 0o600
+    assert stat.S_IMODE(path.parent.stat().st_mode) == 0o700
+    assert user_key() == key == path.read_bytes()
+    assert len(key) == KEY_BYTES
+    path.unlink()
+    assert user_key() != key
+
+
+def test_processes_that_make_it_at_once_agree(state, monkeypatch):
+    """Another one is quicker, between the look at the folder and the new file."""
+    others, make = bytes(range(KEY_BYTES)), tempfile.mkstemp
+
+    def slow(dir):
+        (state / "roofslip/study.key").write_bytes(others)
+        return make(dir=dir)
+
+    monkeypatch.setattr(tempfile, "mkstemp", slow)
+    assert user_key() == others
+    assert [path.name for path in (state / "roofslip").iterdir()] == ["study.key"]
+
+
+@pytest.mark.parametrize("content", [b"", bytes(KEY_BYTES + 1)])
+def test_a_damaged_key_signs_nothing(state, content):
+    user_key()
+    (state / "roofslip/study.key").write_bytes(content)
+    with pytest.raises(InputError, match=rf"study\.key: damaged, {len(content)} bytes.*delete it"):
+        user_key()
+
+
+def test_a_study_whose_key_cannot_be_kept_says_what_to_do_before_it_runs(state, tmp_path):
+    state.write_bytes(b"a file, no folder")
+    folder = write(tmp_path / "job")
+    done = command(folder)
+    assert done.exit_code == 2
+    assert f"{state / 'roofslip'}" in done.output
+    assert "cannot be kept there (Not a directory)" in done.output
+    assert "set XDG_STATE_HOME to a folder of yours" in done.output
+    assert not (folder / "out").exists()
+
+
+@pytest.mark.quick
+def test_a_user_without_a_home_is_told_what_to_do(monkeypatch):
+    def none():
+        raise RuntimeError("Could not determine home directory.")
+
+    monkeypatch.delenv("XDG_STATE_HOME")
+    monkeypatch.setattr(Path, "home", none)
+    with pytest.raises(InputError, match=r"your state folder: .* set XDG_STATE_HOME"):
+        user_key()
+
+
+@pytest.mark.parametrize(
+    ("platform", "given", "wanted"),
+    [
+        ("linux", {"XDG_STATE_HOME": "/theirs"}, "/theirs"),
+        ("linux", {"XDG_STATE_HOME": "relative"}, "/users/ann/.local/state"),
+        ("darwin", {}, "/users/ann/Library/Application Support"),
+        ("win32", {"LOCALAPPDATA": "/local"}, "/local"),
+        ("win32", {}, "/users/ann/AppData/Local"),
+    ],
+)
+def test_the_state_folder_is_that_of_the_platform(monkeypatch, platform, given, wanted):
+    for name in ("XDG_STATE_HOME", "LOCALAPPDATA"):
+        monkeypatch.delenv(name, raising=False)
+    for name, value in given.items():
+        monkeypatch.setenv(name, value)
+    monkeypatch.setattr("sys.platform", platform)
+    monkeypatch.setattr(Path, "home", lambda: Path("/users/ann"))
+    assert state_folder() == Path(wanted)

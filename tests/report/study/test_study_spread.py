@@ -1,10 +1,11 @@
-"""The spread of the motions' spectra, and what the limits of a study say of it."""
+"""Spread of the motions' spectra and goodness of fit: what is said and exported of both."""
 
 import csv
 import dataclasses
 import io
 import json
 import math
+import re
 from statistics import NormalDist
 
 import defusedxml.ElementTree
@@ -14,17 +15,18 @@ import pytest
 import printed
 from report.study import files
 from report.study.array_capacities import spectral_spread
+from report.study.array_page import fragility as pages
 from report.study.exports import export_files
 from report.study.plan import FRICTION, SLOPE, ArrayPlan
-from report.study.results import ArrayStudyResult, LimitState
+from report.study.results import ArrayStudyResult
 from report.study.run import planned, run_study
 from report.study.schema import StudyArray
 from report.study.wording import headline, sentence
-from solver.studies.capacity import Capacities
-from solver.studies.fragility import Fragility, Lognormal
+from report.text.units import digits_down
+from solver.studies.fragility import Lognormal
 from solver.studies.uncertainty import Spread
 from studied import motion
-from study_books import command, given, with_study, write
+from study_books import command, given, limit_state, sheet_rows, with_fit, with_study, write
 
 
 def like(number, factor):
@@ -83,29 +85,14 @@ def test_the_limits_name_the_spread_and_call_it_small_only_where_it_is(results):
     assert "spectra of the" not in said(results, [motion(1)])
 
 
-# What is exported of motions matched to one spectrum
-
 FILES = {"fragility.csv", "fragility.json", "placement.csv", "fragility.xml"}
 LEVELS = np.array([0.5, 1.0, 1.5, 2.0])
 
 
 def with_state(results, motions, *, allow_matched=False, **changes):
     """The results with an array of one limit state (median 1.2, beta 0.06), and other motions."""
-    state = LimitState(
-        name="LS1",
-        words="slip begins",
-        limit_m=0.0,
-        fragility=Fragility(
-            levels=LEVELS, exceeded=np.zeros(4, int), counted=np.full(4, 3), censored=0,
-            capacities=Capacities(
-                intensity=np.array([1.13, 1.2, 1.27]), is_censored=np.zeros(3, bool),
-                end=np.full(3, 2.0), falls=np.zeros(3, bool), searched=np.zeros(3, int),
-            ),
-            fitted=Lognormal(theta=1.2, beta=0.06), theta_range=(1.1, 1.3),
-            beta_range=(0.03, 0.1), p_value=0.5, critical=0.3,
-        ),
-        effects={},
-    )  # fmt: skip
+    state = limit_state("LS1", [1.13, 1.2, 1.27], LEVELS, words="slip begins")
+    state = with_fit(state, Lognormal(theta=1.2, beta=0.06))
     array = ArrayPlan(
         array=StudyArray(id="S1", mat="A", slope_deg=2.0, clearance_m=0.1), building=0, seed=1,
         mu=0.4, spreads={FRICTION: Spread(center=0.4), SLOPE: Spread(center=2.0)}, shifts={},
@@ -196,3 +183,54 @@ def test_a_run_that_exports_nothing_leaves_no_export_of_a_former_one(tmp_path, m
     assert again.exit_code == 0, again.output
     assert "The fragility files are not written" in again.output
     assert not FILES & {path.name for path in out.iterdir()}
+
+
+@pytest.fixture(scope="module")
+def fitted(tmp_path_factory):
+    """A study whose array has one state that fits, one of two groups, and one that is censored."""
+    folder = write(tmp_path_factory.mktemp("goodness"), given(), motions=1)
+    found = run_study(planned(folder)[0], folder / "out")
+    rng = np.random.default_rng(3)
+    states = (
+        limit_state("LS1", np.exp(0.2 * rng.standard_normal(7)), LEVELS),
+        limit_state("LS2", [0.90, 0.901, 0.902, 0.903, 1.8, 1.801, 1.802], LEVELS, falls=2),
+        limit_state("LS3", [1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 2.0], LEVELS, is_censored=True),
+    )
+    one = dataclasses.replace(found.arrays[0], states=states)
+    return dataclasses.replace(found, arrays=(one,))
+
+
+def test_the_chart_has_a_panel_for_each_state_with_the_p_value_of_the_table(fitted):
+    charts = pages(fitted, fitted.arrays[0]).charts
+    assert list(charts) == ["fragility", "goodness"]
+    texts = re.findall(r">(LS\d: [^<]*)<", charts["goodness"])
+    p = [digits_down(s.fragility.p_value, 2) for s in fitted.arrays[0].states[:2]]
+    assert texts == [f"LS1: p = {p[0]}", f"LS2: p = {p[1]}"]
+    assert printed.study(fitted).table("Fragilities").column("p of fit") == [*p, "—"]
+    assert "leave in 5\u00a0% of lognormal samples." in printed.study(fitted)
+
+
+def test_without_a_p_value_there_is_no_chart(fitted):
+    one = dataclasses.replace(fitted.arrays[0], states=fitted.arrays[0].states[2:])
+    assert list(pages(fitted, one).charts) == ["fragility"]
+
+
+def test_the_band_leaves_out_the_capacities_whose_p_value_is_below_5_percent(fitted):
+    """A rank beyond the band is what the test of Lilliefors rejects."""
+    for one, is_inside in zip(fitted.arrays[0].states[:2], (True, False), strict=True):
+        f = one.fragility
+        x = np.sort(f.capacities.intensity)
+        chance = f.fitted.at(x)
+        ranks = np.arange(x.size + 1) / x.size
+        off = np.maximum(ranks[1:] - chance, chance - ranks[:-1]).max()
+        assert (off < f.critical) == is_inside == (f.p_value > 0.05)
+    assert math.isnan(fitted.arrays[0].states[2].fragility.critical)
+
+
+def test_the_workbook_has_the_p_value_and_the_motions_that_fall_below_the_limit_again(fitted):
+    rows = sheet_rows(fitted, "Fragility")
+    assert [row["Motions below the limit again"] for row in rows] == [0, 2, 0]
+    assert [row["Censored capacities"] for row in rows] == [0, 0, 1]
+    p = [row["Lilliefors p of fit"] for row in rows]
+    wanted = [s.fragility.p_value for s in fitted.arrays[0].states[:2]]
+    assert p == [*map(pytest.approx, wanted), "none"]

@@ -13,12 +13,9 @@ from solver import solve
 from solver.model import coulomb
 from solver.studies.capacity import (
     ACCURACY,
-    COARSE_SCAN,
-    SCAN,
     Capacities,
     Curve,
     capacities,
-    maximum_searches,
 )
 from solver.studies.fragility import (
     deviance,
@@ -106,14 +103,6 @@ class Formula:
         return 0.1
 
 
-def test_a_capacity_in_closed_form():
-    curve = Formula(lambda x: 0.1 * (x - 0.1) ** 2)
-    found = capacities([curve], [0.01, 0.1], LEVELS, is_censoring=False)
-    for one, exact in zip(found, (0.1 + math.sqrt(0.1), 1.1), strict=True):
-        assert is_just_below(one, exact)
-        assert not one.falls[0]
-
-
 @pytest.mark.parametrize("center", np.linspace(0.9, 0.95, 7))
 def test_a_curve_that_falls_again_counts_the_first_crossing_and_says_so(center):
     """A peak between two levels that are both below the limit, and a rise beyond both."""
@@ -178,25 +167,6 @@ def test_a_record_of_zeros_and_a_slope_beyond_friction_have_the_ends_of_the_rang
         assert (found.intensity[0], found.is_censored[0]) == (LEVELS[-1], True)
         sliding = searched(curve_of(motion(1), 30.0, 0.4), limit)
         assert sliding.intensity[0] == pytest.approx(0.0, abs=ACCURACY)
-
-
-@pytest.mark.parametrize("steps", [COARSE_SCAN, SCAN])
-@pytest.mark.parametrize("letters", ["x", "xz"])
-def test_the_intensities_of_a_search_are_counted_and_are_no_more_than_is_said(steps, letters):
-    for number in range(4):
-        ran = []
-
-        class Counted(Curve):
-            def prd_m(self, intensity, ran=ran):
-                ran.append(intensity.size)
-                return super().prd_m(intensity)
-
-        one = curve_of(motion(number, letters), 2.0, 0.4)
-        curve = Counted(tracks=one.tracks, slope_rad=one.slope_rad, mu=one.mu)
-        limits = [0.0, 0.02, 0.2]
-        for capacity in capacities([curve], limits, LEVELS, is_censoring=False, steps=steps):
-            assert capacity.searched.tolist() == [sum(ran)]
-        assert 0 < sum(ran) <= maximum_searches(limits, LEVELS, steps)
 
 
 @pytest.mark.parametrize("most", [0, 1, 3, 5])
@@ -326,20 +296,6 @@ def test_the_p_value_is_that_of_another_simulation():
 def test_the_p_value_is_5_percent_at_the_critical_values_of_molin_and_abdi(motions, critical):
     assert lilliefors_p(critical, motions) == pytest.approx(0.05, abs=0.006)
     assert lilliefors_critical(motions) == pytest.approx(critical, rel=0.015)
-
-
-@pytest.mark.parametrize("motions", [7, 20, 40])
-@pytest.mark.parametrize("p", [0.02, 0.05, 0.1])
-def test_the_p_value_is_that_of_the_formula_of_dallal_and_wilkinson(motions, p):
-    """The American Statistician 40 (1986) 294-296; stated for p up to 0.1.
-
-    ln p = -7.01256 d^2 (n + 2.78019) + 2.99587 d sqrt(n + 2.78019) - 0.122119 + 0.974598 / sqrt(n)
-    + 1.67997 / n.
-    """
-    m = motions + 2.78019
-    rest = -0.122119 + 0.974598 / math.sqrt(motions) + 1.67997 / motions - math.log(p)
-    d = (2.99587 + math.sqrt(2.99587**2 + 4.0 * 7.01256 * rest)) / (2.0 * 7.01256 * math.sqrt(m))
-    assert lilliefors_p(d, motions) == pytest.approx(p, abs=0.006)
 
 
 @pytest.mark.quick

@@ -45,11 +45,6 @@ def power(low=1e-3, high=1e3, **more):
     return HazardCurve(intensity=x, rate=K0 * x**-K, **more)
 
 
-def stepped(capacities, levels):
-    """PRD of blocks that move by 1 m from their capacity on."""
-    return np.where(levels >= capacities[:, None], 1.0, 0.0)
-
-
 def cornell(median, beta):
     """Rate at which a lognormal capacity is exceeded (Cornell et al. 2002, Eq. 7)."""
     return K0 * median**-K * math.exp(0.5 * (K * beta) ** 2)
