@@ -60,14 +60,6 @@ def contents(folder):
     return {path.name: path.read_bytes() for path in folder.glob("*.txt") if path.is_file()}
 
 
-@pytest.mark.quick
-def test_files_are_published_together(tmp_path):
-    publish(OLD, tmp_path / "out")
-    assert names_in(tmp_path / "out") == ["a.txt", "b.txt", STAMP]
-    publish(NEW, tmp_path / "out")
-    assert contents(tmp_path / "out") == NEW
-
-
 def test_a_file_that_cannot_be_replaced_changes_nothing_and_is_named(tmp_path):
     publish(OLD, tmp_path)
     (tmp_path / "c.txt").mkdir()

@@ -212,9 +212,8 @@ def test_the_workbook_holds_summaries_only(made, results):
 
 
 LIVE = [
-    "=1+1", "{=1+1}", "+1+1", "-1+1", "@SUM(A1)", "http://a.test", "mailto:a@b.test",
-    "internal:Study!A1", "external:a.xlsx", "file:///etc/passwd", r"\\server\share",
-    '=HYPERLINK("http://a.test")', "1e3", "-0.5", "#N/A",
+    "=1+1", "{=1+1}", "-1+1", "@SUM(A1)", "http://a.test", "mailto:a@b.test", "internal:Study!A1",
+    "file:///etc/passwd", r"\\server\share", "1e3", "-0.5", "#N/A",
 ]  # fmt: skip
 
 

@@ -376,11 +376,3 @@ def test_the_runs_of_the_capacities_are_counted_and_no_more_than_a_dry_run_says(
     assert f"at most {said.capacity_runs:,} more runs for the capacities" in done.output
     assert f", and {made.capacity_runs:,} for the capacities" in headline(made)[0]
     assert f" {made.capacity_runs:,} more runs find the capacities" in printed.study(made)
-
-
-@pytest.mark.quick
-def test_without_a_tolerance_or_tests_nothing_more_is_run(tmp_path):
-    arrays = (StudyArray(id="S3", mat="B", slope_deg=2.0, clearance_m=0.1),)
-    folder = write(tmp_path, study(slope_tolerance_deg=0.0, study_arrays=arrays), motions=1)
-    (array,) = planned(folder)[0].arrays
-    assert array.shifts == {}

@@ -10,9 +10,12 @@ import pytest
 import solver
 from solver import InputError, Model, Status, coulomb, solve
 from solver.studies import runs as made
-from solver.studies.curves import statistics
-from solver.studies.runs import LENGTHS, STATUSES, Runner, cases_of, grid, run_part
-from studied import campaign
+from solver.studies.curves import first_allowed, statistics
+from solver.studies.runs import LENGTHS, STATUSES, Campaign, Runner, cases_of, grid, run_part
+from solver.verification.paper_studies import MUS as PAPER_MUS
+from solver.verification.paper_studies import PPAS_G, SLOPES_DEG, design_curves
+from solver.verification.study import own_records, scale_to
+from studied import campaign, motion
 
 pytestmark = pytest.mark.quick
 
@@ -69,6 +72,23 @@ def test_rows_are_solutions_at_the_edge_of_uplift():
     lifts = 9.80665 * math.cos(slope) / (peak * math.sin(slope))
     scales = [lifts * (1.0 + step * 2.0**-52) for step in range(-4, 5)]
     list(assert_rows_agree(replace(c, cases=grid(1, [slope], [0.5], scales))))
+
+
+@pytest.mark.nightly
+def test_curves_are_those_of_the_paper_procedure():
+    """Figs. 10 to 12: both signs of the slope are both polarities of the record."""
+    record = own_records(True)[0]
+    study = design_curves(record)
+    one = replace(motion(0), dt_s=record.dt_s, ax_mps2=record.a_mps2, scale=scale_to(record, 1.0))
+    slopes, ppas = SLOPES_DEG[::7], PPAS_G[3::6]
+    c = Campaign(motions=((one,),), cases=grid(1, np.radians(slopes), PAPER_MUS, ppas))
+    prd = run_part(Runner(c), slice(0, len(c.cases))).lengths[0].max(axis=1)
+    prd = prd.reshape(slopes.size, PAPER_MUS.size, ppas.size)
+    assert prd == pytest.approx(study.prd_m[::7, :, 3::6], rel=1e-12, abs=1e-15)
+    wanted = 0.1 * float(prd[1, :, -1].max())
+    least = first_allowed(PAPER_MUS, prd[1, :, -1], wanted)
+    expected = study.minimum_mu(float(slopes[1]), float(ppas[-1]), wanted)
+    assert least == pytest.approx(expected, rel=1e-9)
 
 
 SCALES = {"slopes_rad": [0.0, 0.25], "mus": [0.2, 0.3, 0.5], "intensities": [0.5, 1.0]}
