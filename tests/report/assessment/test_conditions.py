@@ -101,6 +101,7 @@ def test_a_weight_over_the_roof_capacity_is_ng_and_prints_the_same_beside_the_wi
     given = {"weight_n": weight_psf * 80 * 60 * WEIGHTS["lb"], "wind_weight_pa": 8.0 * PSF}
     row = before_runs("roof_capacity", roof_capacity_pa=capacity_psf * PSF, **given)
     assert (row.found, row.limit, row.verdict) == (found, limit, verdict)
+    assert before_runs("wind_weight", **given).limit == f"= {found}"
     assert before_runs("roof_capacity", **given) is None
 
 
