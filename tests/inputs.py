@@ -38,31 +38,16 @@ def sides(x_from: float, x_to: float, y_from: float, y_to: float) -> Row:
 def array(name: str, slope: float, *, x: float = 20, y: float = 15, **changes: object) -> Row:
     """Return an array of 80 ft x 60 ft."""
     return {
-        "id": name,
-        "slope_value": slope,
-        "slope_unit": "degrees",
-        "mu": 0.45,
-        "mu_report": "ASTM G115, Lab 1234, 2025-06-12",
-        "construction": "Tray 10 deg, landscape",
-        "weight_n": 42000 * LB,
-        "cg_height_m": 9 * INCH,
-        "support_spacing_m": 40 * INCH,
-        **sides(x, x + 80, y, y + 60),
-        "downslope_deg": 270.0,
-    } | changes
+        "id": name, "slope_value": slope, "slope_unit": "degrees", "mu": 0.45,
+        "mu_report": "ASTM G115, Lab 1234, 2025-06-12", "construction": "Tray 10 deg, landscape",
+        "weight_n": 42000 * LB, "cg_height_m": 9 * INCH, "support_spacing_m": 40 * INCH,
+        **sides(x, x + 80, y, y + 60), "downslope_deg": 270.0,
+    } | changes  # fmt: skip
 
 
-def roof_object(
-    name: str,
-    kind: str,
-    x_from: float | None = None,
-    x_to: float = 0,
-    y_from: float = 0,
-    y_to: float = 0,
-    height: float | None = None,
-) -> Row:
+def roof_object(name: str, kind: str, *plan_ft: float, height: float | None = None) -> Row:
     """Return an object or edge, with a height [m] and its rectangle in feet if it has one."""
-    plan = {} if x_from is None else sides(x_from, x_to, y_from, y_to)
+    plan = sides(*plan_ft) if plan_ft else {}
     return {"id": name, "kind": kind, "height_m": height} | plan
 
 

@@ -56,19 +56,6 @@ class Sheet:
     filled: float
     wide: float
 
-    def heads(self, last: bool) -> tuple[str, ...]:
-        """Return the headings of its first table, or of its last."""
-        tables = [at for at, block in enumerate(self.blocks) if block.kind == "Table"]
-        if not tables:
-            return ()
-        below = self.blocks[tables[-1 if last else 0] + 1 :]
-        found = []
-        for block in below:
-            if block.kind != "TH":
-                break
-            found.append(block.text)
-        return tuple(found)
-
 
 def sheets(path: Path) -> list[Sheet]:
     """Return the sheets of a tagged PDF."""
@@ -114,22 +101,6 @@ def headings_left_behind(found: Sequence[Sheet]) -> list[tuple[int, str]]:
                 left.append((heading.sheet, heading.text))
             heading = None
     return left
-
-
-def split_tables(found: Sequence[Sheet], head: str, but: str = "-") -> list[int]:
-    """Return the sheets that begin with the rest of a table whose first heading is this.
-
-    Of those whose second heading does not begin with what may go on overleaf.
-    """
-    return [
-        after.number
-        for sheet, after in pairwise(found)
-        if after.blocks
-        and after.blocks[0].kind == "Table"
-        and after.heads(last=False)[:1] == (head,)
-        and after.heads(last=False) == sheet.heads(last=True)
-        and not after.heads(last=False)[1].startswith(but)
-    ]
 
 
 def short_sheets(found: Sequence[Sheet], least: float) -> list[tuple[int, float]]:

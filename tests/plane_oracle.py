@@ -180,11 +180,7 @@ def _extremes(dense, solver, begun, seen, cs):
     seen.append([*solver.y[:2], begun + solver.t])
     times = np.linspace(solver.t_old, solver.t, 9)
     states = dense(times)
-    for quantity in (
-        lambda y: cs * cs * y[0] * y[2] + y[1] * y[3],
-        lambda y: y[2],
-        lambda y: y[3],
-    ):
+    for quantity in (lambda y: cs * cs * y[0] * y[2] + y[1] * y[3], lambda y: y[2], lambda y: y[3]):
         values = quantity(states)
         for a, b, first, other in zip(times[:-1], times[1:], values[:-1], values[1:], strict=True):
             if first * other < 0.0:

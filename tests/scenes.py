@@ -29,41 +29,27 @@ from solver.records.record import Record
 
 FOOT = stand_in.FOOT
 REVIEW = {
-    "peer_reviewed": True,
-    "peer_reviewer": "Reviewer of record",
-    "peer_license": "CA S0000",
-    "peer_date": dt.date(2026, 3, 1),
-    "peer_letter": "peer-review.pdf",
-}
+    "peer_reviewed": True, "peer_reviewer": "Reviewer of record", "peer_license": "CA S0000",
+    "peer_date": dt.date(2026, 3, 1), "peer_letter": "peer-review.pdf",
+}  # fmt: skip
 CONFIRMED = {
     "site": inputs.SITE | {"building_code": "CBC", "building_code_year": 2022},
-    "confirmation": {
-        "by": "RG, SE",
-        "date": dt.date(2026, 3, 1),
-        "rule_set": "SEAOC PV1-2012",
-        "edition": "ASCE 7-16",
-        "code": "2022 CBC",
-    },
-}
+    "confirmation": {"by": "RG, SE", "date": dt.date(2026, 3, 1), "rule_set": "SEAOC PV1-2012",
+                     "edition": "ASCE 7-16", "code": "2022 CBC"},
+}  # fmt: skip
 SHIPPED = sorted(
     {path.parent.name for path in (ROOT / "projects").glob("*/make.py")} - {"curves", "study"}
 )
 DEPARTURE = {
-    "directional": True,
-    "directional_reason": "Agreed on 2026-02-10",
-    "directional_reviewer": "Reviewer of record",
-    "directional_license": "CA S0000",
+    "directional": True, "directional_reason": "Agreed on 2026-02-10",
+    "directional_reviewer": "Reviewer of record", "directional_license": "CA S0000",
     "directional_date": dt.date(2026, 3, 1),
-}
+}  # fmt: skip
 TESTS = {
-    "laboratory": "Example Laboratories",
-    "accreditation": "ISO/IEC 17025, no. 1234.01",
-    "standard": "ASTM G115-10",
-    "report": "FT-118",
-    "date": dt.date(2025, 6, 12),
-    "membrane": "TPO, 60 mil",
-    "support": "EPDM pad",
-}
+    "laboratory": "Example Laboratories", "accreditation": "ISO/IEC 17025, no. 1234.01",
+    "standard": "ASTM G115-10", "report": "FT-118", "date": dt.date(2025, 6, 12),
+    "membrane": "TPO, 60 mil", "support": "EPDM pad",
+}  # fmt: skip
 
 
 @cache
@@ -139,21 +125,16 @@ def twelve(*, is_long: bool) -> PackageData:
     ids = [name("M", "Loma Prieta 1989, Gilroy, scaled, no.", k) for k in range(1, 8)]
     places = [(15 + 90 * (k // 4), 15 + 66 * (k % 4)) for k in range(12)]
     clearances = [
-        *(
-            stand_in.clearance(array, unit, 2 * FOOT)
-            for array, unit in zip(arrays, units, strict=True)
-        ),
+        *(stand_in.clearance(arrays[k], units[k], 2 * FOOT) for k in range(12)),
         *(stand_in.clearance(arrays[k], arrays[k - 1], 4 * FOOT) for k in range(12) if k % 4),
         *(stand_in.clearance(arrays[k], arrays[k - 4], 8 * FOOT) for k in range(4, 12)),
     ]
     return package(
         tuple(replace(motion, id=id) for motion, id in zip(motions(7), ids, strict=True)),
-        arrays=[
-            stand_in.array(id, 2.0, x=x, y=y) for id, (x, y) in zip(arrays, places, strict=True)
-        ],
+        arrays=[stand_in.array(arrays[k], 2.0, x=x, y=y) for k, (x, y) in enumerate(places)],
         objects=[
-            stand_in.roof_object(id, "fixed object", x + 82, x + 86, y + 20, y + 25)
-            for id, (x, y) in zip(units, places, strict=True)
+            stand_in.roof_object(units[k], "fixed object", x + 82, x + 86, y + 20, y + 25)
+            for k, (x, y) in enumerate(places)
         ],
         clearances=clearances,
         motions=[inputs.motion(id) for id in ids],

@@ -98,16 +98,10 @@ def project(**changes) -> ProjectInput:
 
 
 SECTIONS = {
-    "revisions": [
-        {
-            "revision": inputs.HEAD["revision"],
-            "date": inputs.HEAD["date"],
-            "description": "Issued for permit",
-            "by": inputs.HEAD["prepared_by"],
-        }
-    ],
-    "site": inputs.SITE
-    | {"s_s_g": 1.97, "f_a": 1.2, "f_v": 1.7, "fire_code_section": "2022 CFC, example section"},
+    "revisions": [{"revision": inputs.HEAD["revision"], "date": inputs.HEAD["date"],
+                   "description": "Issued for permit", "by": inputs.HEAD["prepared_by"]}],
+    "site": inputs.SITE | {"s_s_g": 1.97, "f_a": 1.2, "f_v": 1.7,
+                           "fire_code_section": "2022 CFC, example section"},
     "arrays": [array("A1", 0.5), array("A2", 2.0, x=120), array("A3", 3.0, mu=0.55, y=90)],
     "objects": [
         roof_object("RTU-1", "fixed object", 107, 112, 35, 42, height=42 * INCH),
@@ -124,7 +118,7 @@ SECTIONS = {
     ],
     "motions": [{"id": "M1", "record": "records/m1-x.csv", "units": "g"}],
     "spectrum": LOW_SPECTRUM,
-}
+}  # fmt: skip
 
 
 def site(**changes):
@@ -160,19 +154,10 @@ def unpermitted(**changes):
 def sheet(data):
     """What the workbook reader gives for an input."""
     return Made(
-        path=Path("input.xlsx"),
-        sha256="5f" * 32,
-        book=None,
-        whole=ProjectInput,
-        draft={},
-        echo=tuple(_echo(data)),
-        problems=(),
-        addresses={},
-        unfound=frozenset(),
-        unseen=(),
-        warnings=(),
-        made=data,
-    )
+        path=Path("input.xlsx"), sha256="5f" * 32, book=None, whole=ProjectInput, draft={},
+        echo=tuple(_echo(data)), problems=(), addresses={}, unfound=frozenset(), unseen=(),
+        warnings=(), made=data,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -189,33 +174,24 @@ class Made(Sheet):
 def book(data=None, shaking=None):
     """What the reader and the preparation of motions give."""
     shaking = shaking or motions()
-    return Book(
-        sheet(data or project()),
-        Shaking(
-            motions=shaking,
-            prepared=tuple(prepared(motion) for motion in shaking),
-            records=tuple(
-                RecordFile(
-                    motion_id=motion.id,
-                    component=component,
-                    name=f"records/{motion.id.lower()}-{component[0]}.csv",
-                    sha256="ab" * 32,
-                    format="text",
-                    npts=len(motion.ax_mps2),
-                    dt_s=motion.dt_s,
-                    npts_trimmed=0,
-                    notes=(),
-                    hold_s=math.nan,
-                    size=100_000,
-                    spikes=(),
-                    peak_g=float(np.abs(values).max() / G),
-                    others_g=float(np.abs(values).max() / G),
-                )
-                for motion in shaking
-                for component, values in components(motion).items()
-            ),
-        ),
+    records = tuple(
+        record_file(motion, component, values)
+        for motion in shaking
+        for component, values in components(motion).items()
     )
+    parts = tuple(prepared(motion) for motion in shaking)
+    return Book(sheet(data or project()), Shaking(motions=shaking, prepared=parts, records=records))
+
+
+def record_file(motion, component, values):
+    """What the reader says of the file of a component."""
+    peak_g = float(np.abs(values).max() / G)
+    return RecordFile(
+        motion_id=motion.id, component=component, sha256="ab" * 32, format="text", notes=(),
+        name=f"records/{motion.id.lower()}-{component[0]}.csv", npts=len(motion.ax_mps2),
+        dt_s=motion.dt_s, npts_trimmed=0, hold_s=math.nan, size=100_000, spikes=(),
+        peak_g=peak_g, others_g=peak_g,
+    )  # fmt: skip
 
 
 def components(motion):
@@ -232,15 +208,10 @@ def prepared(given, **changes):
         for name, values in components(given).items()
     }
     usual = {
-        "motion_id": given.id,
-        "recorded_at": RecordedAt.ROOF,
-        "done": "as recorded",
-        "scaling": "as recorded",
+        "motion_id": given.id, "recorded_at": RecordedAt.ROOF, "done": "as recorded",
+        "scaling": "as recorded", "scaled": scaled, "roof": {}, "unfiltered": (),
         "measures": {name: measures(record) for name, record in scaled.items()},
-        "scaled": scaled,
-        "roof": {},
-        "unfiltered": (),
-    }
+    }  # fmt: skip
     return PreparedMotion(**(usual | changes))
 
 
@@ -251,9 +222,8 @@ def _echo(data):
             for column, (key, value) in enumerate(row.items()):
                 cell = f"{get_column_letter(2 + column)}{7 + index}"
                 typed = "" if value is None else str(value)
-                yield EchoRow(
-                    sheet=section.title(), cell=cell, label=key, typed=typed, unit="", value=typed
-                )
+                said = {"label": key, "typed": typed, "unit": "", "value": typed}
+                yield EchoRow(sheet=section.title(), cell=cell, **said)
 
 
 def assess_input(data, shaking) -> Assessment:

@@ -34,15 +34,11 @@ def motion(number, letters="x", *, samples=400, signs=(1, -1)):
     """A motion whose intensity 1 is a peak of 1 g."""
     none = frozen([])
     return Motion(
-        id=f"M{number}",
-        source="",
-        dt_s=0.02,
+        id=f"M{number}", source="", dt_s=0.02, scale=1.0, signs=signs,
         ax_mps2=wave(3 * number, samples),
         ay_mps2=wave(3 * number + 1, samples) if "y" in letters else none,
         az_mps2=frozen(0.4 * wave(3 * number + 2, samples)) if "z" in letters else none,
-        scale=1.0,
-        signs=signs,
-    )
+    )  # fmt: skip
 
 
 def campaign(letters="x", count=2, *, mus=MUS, intensities=INTENSITIES, buildings=1, samples=400):

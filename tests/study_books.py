@@ -30,12 +30,9 @@ from solver.studies.fragility import fragility
 from studied import wave
 
 ABOUT = {
-    "title": "A study",
-    "date": dt.date(2026, 3, 1),
-    "slopes_deg": "0, 2, 4",
-    "intensities": "0.5 to 2 by 0.5",
-    "folder": "records",
-}
+    "title": "A study", "date": dt.date(2026, 3, 1), "slopes_deg": "0, 2, 4",
+    "intensities": "0.5 to 2 by 0.5", "folder": "records",
+}  # fmt: skip
 
 
 def given(**changes):
@@ -109,15 +106,10 @@ def at(text):
 def small(**changes):
     """A study of six motions that slides, with two arrays and a chance."""
     about = {
-        "slopes_deg": "0, 2, 4",
-        "intensities": "0.2 to 2.4 by 0.2",
-        "mus": "0.3, 0.5",
-        "allowed_m": 0.1,
-        "site_intensity": 1.0,
-        "intensity_beta": 0.2,
-        "slope_tolerance_deg": 0.25,
-        "samples": 20,
-    }
+        "slopes_deg": "0, 2, 4", "intensities": "0.2 to 2.4 by 0.2", "mus": "0.3, 0.5",
+        "allowed_m": 0.1, "site_intensity": 1.0, "intensity_beta": 0.2,
+        "slope_tolerance_deg": 0.25, "samples": 20,
+    }  # fmt: skip
     arrays = (
         StudyArray(id="S1", mat="A", slope_deg=2.0, clearance_m=0.1, reaches="RTU & co"),
         StudyArray(id="S 2", mat="B", slope_deg=0.0, clearance_m=0.02),

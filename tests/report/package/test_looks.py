@@ -1,25 +1,30 @@
-"""How the sheets of the shipped projects look, as far as a program can tell; and a contact sheet.
+"""How the sheets of the shipped projects look, as far as a program can tell; their tags.
 
 `CONTACT_SHEETS=FOLDER ./roofslip test tests/report/package/test_looks.py` leaves a PNG of all
 sheets of each project in that folder: look at them before a release.
+tests/bench/package_checks.py asks veraPDF, which knows every clause of PDF/A-3a and PDF/UA-1.
 """
 
+import io
 import os
 import shutil
 from base64 import b64encode
 from pathlib import Path
 
+import pikepdf
 import pytest
-from click.testing import CliRunner
 from PIL import Image
 
 import looked
 import packages
+from commands import printed
+from packages import FILES
 from places import ROOT
-from report.cli.main import main
+from report.typeset.finish import FIELD
 from report.typeset.pdf import lay_out
 
 pytestmark = pytest.mark.quick
+
 
 PROJECTS = tuple(path.parent.name for path in sorted(ROOT.glob("projects/*/input.xlsx")))
 LEAST_FILLED = 0.5
@@ -31,11 +36,9 @@ def _made(name, factory):
         return packages.reported(factory, name, by_script=True).out / "calc-package.pdf"
 
     def run(folder):
-        shutil.copytree(
-            ROOT / "projects" / name, folder / name, ignore=shutil.ignore_patterns("out")
-        )
-        done = CliRunner().invoke(main, ["study", str(folder / name)])
-        assert done.exit_code == 0, done.output
+        left_out = shutil.ignore_patterns("out")
+        shutil.copytree(ROOT / "projects" / name, folder / name, ignore=left_out)
+        printed("study", folder / name)
 
     return packages.once(factory, "looked-study", run) / name / "out" / "study" / "study.pdf"
 
@@ -53,8 +56,6 @@ def test_the_sheets_have_no_fault_that_a_program_sees(sheets):
     assert len(sheets) > 10
     assert looked.broken_numbers(sheets) == []
     assert looked.headings_left_behind(sheets) == []
-    # The runs of an array may go on overleaf, by three rows or more.
-    assert looked.split_tables(sheets, "Motion", but="PRD of each run") == []
     # Each section of a study begins a sheet.
     is_study = sheets[0].blocks[0].lines[0].startswith("Study")
     assert is_study or looked.short_sheets(sheets, LEAST_FILLED) == []
@@ -77,15 +78,12 @@ h2 {{ break-after: auto }}
 <h2>Left behind</h2>{DRAWING}
 <h2>Short</h2>{DRAWING}
 <table style="break-before: page; width: 0.3in"><tr><td>2025-<br/>11-<br/>01</td></tr></table>
-<p style="height: 8.3in">Full.</p>
-<table><thead><tr><th>Motion</th><th>PRD</th></tr></thead><tbody>
-{"".join(f"<tr><td>RM{count}</td><td>0.85</td></tr>" for count in range(40))}
-</tbody></table>
 <h1 style="break-before: page">Before a larger sheet</h1><p>End.</p>
 <h1 style="page: large">Last</h1><p>End.</p>
 </body></html>"""
 
 
+@pytest.mark.quick
 def test_each_fault_is_seen_where_there_is_one(tmp_path):
     made = tmp_path / "faults.pdf"
     made.write_bytes(lay_out(FAULTS))
@@ -93,9 +91,101 @@ def test_each_fault_is_seen_where_there_is_one(tmp_path):
     assert looked.headings_left_behind(sheets) == [(1, "Left behind")]
     ((sheet, cell),) = looked.broken_numbers(sheets)
     assert (sheet, cell.replace(" / ", "")) == (3, "2025-11-01")
-    assert looked.split_tables(sheets, "Motion") == [5, 6]
-    assert looked.split_tables(sheets, "PRD") == []
-    assert [number for number, _ in looked.short_sheets(sheets, LEAST_FILLED)] == [3, 6]
+    assert [number for number, _ in looked.short_sheets(sheets, LEAST_FILLED)] == [3]
     looked.contact_sheet(made, tmp_path / "faults.png")
     with Image.open(tmp_path / "faults.png") as drawn:
         assert drawn.width > drawn.height
+
+
+@pytest.fixture(scope="module")
+def pdf(tmp_path_factory):
+    with pikepdf.open(io.BytesIO(packages.of_one_motion(tmp_path_factory))) as opened:
+        yield opened
+
+
+@pytest.fixture(scope="module")
+def elements(pdf):
+    """Every structure element in order of reading, with its parent."""
+
+    def below(element):
+        kids = element.get("/K", [])
+        for kid in kids if isinstance(kids, pikepdf.Array) else [kids]:
+            if isinstance(kid, pikepdf.Dictionary) and "/S" in kid:
+                yield kid
+                yield from below(kid)
+
+    return list(below(pdf.Root.StructTreeRoot))
+
+
+def of_kind(elements, kind):
+    return [element for element in elements if kind == element.S]
+
+
+@pytest.mark.nightly
+def test_attachments_keep_their_paths_and_the_document_claims_both_standards(pdf):
+    assert list(pdf.attachments) == [file.name for file in FILES]
+    associated = {str(spec.UF): spec for spec in pdf.Root.AF}
+    for file in FILES:
+        spec = associated[file.name]
+        stream = spec.EF.F
+        assert stream.read_bytes() == file.content
+        assert stream.Subtype == f"/{file.mime}"
+        assert stream.Params.Size == len(file.content)
+        assert spec.AFRelationship == f"/{file.relationship}"
+        assert str(spec.Desc) == file.description
+    with pdf.open_metadata() as claims:
+        assert claims["{http://www.aiim.org/pdfa/ns/id/}part"] == "3"
+        assert claims["{http://www.aiim.org/pdfa/ns/id/}conformance"] == "A"
+        assert claims["{http://www.aiim.org/pdfua/ns/id/}part"] == "1"
+        assert "Alameda Warehouse" in claims["dc:title"]
+    assert pdf.Root.Lang == "en-US"
+    assert pdf.Root.MarkInfo.Marked
+    assert pdf.Root.ViewerPreferences.DisplayDocTitle
+
+
+@pytest.mark.nightly
+def test_figures_have_alternate_texts_headings_skip_no_level_and_no_table_is_empty(elements):
+    figures = of_kind(elements, "/Figure")
+    assert len(figures) > 20
+    assert all(str(figure.Alt).strip() for figure in figures)
+    levels = [int(str(item.S)[2:]) for item in elements if str(item.S) in ("/H1", "/H2", "/H3")]
+    assert levels[0] == 1
+    assert set(levels) == {1, 2}
+    assert all(body.K for body in of_kind(elements, "/TBody"))
+
+
+@pytest.mark.nightly
+def test_every_table_heading_has_the_scope_of_its_place_and_every_link_is_one(elements, pdf):
+    headings = of_kind(elements, "/TH")
+    scopes = {(str(heading.P.P.S), str(heading.A.Scope)) for heading in headings}
+    assert scopes == {("/THead", "/Column"), ("/TBody", "/Row")}
+    linked = {
+        kid.Obj.objgen
+        for element in of_kind(elements, "/Link")
+        for kid in element.K
+        if isinstance(kid, pikepdf.Dictionary) and kid.get("/Type") == "/OBJR"
+    }
+    links = [
+        annotation.objgen
+        for page in pdf.pages
+        for annotation in page.get("/Annots", [])
+        if annotation.Subtype == "/Link"
+    ]
+    assert len(links) > 30
+    assert set(links) <= linked
+
+
+@pytest.mark.nightly
+def test_an_empty_signature_field_lies_over_the_seal_box(pdf, elements):
+    (field,) = pdf.Root.AcroForm.Fields
+    assert field.FT == "/Sig"
+    assert str(field.T) == FIELD
+    assert "/V" not in field
+    assert field.objgen in {annotation.objgen for annotation in pdf.pages[0].Annots}
+    left, bottom, right, top = map(float, field.Rect)
+    # Letter, with margins of 0.75 in: the left one of two boxes with 0.15 in between them.
+    assert left == pytest.approx(0.75 * 72, abs=0.1)
+    assert right == pytest.approx((8.5 / 2 - 0.075) * 72, abs=0.1)
+    assert top - bottom == pytest.approx(1.1 * 72, abs=10.0)
+    (form,) = of_kind(elements, "/Form")
+    assert form.K[0].Obj.objgen == field.objgen

@@ -1,19 +1,34 @@
-"""PDF, results.json and results.xlsx say the same word of the same thing."""
+"""One thing has one word, one number and one mark wherever it stands: sheets, files, screens."""
 
 import io
 import json
+import math
 import re
+from dataclasses import replace
 
+import numpy as np
 import openpyxl
 import pytest
 
 import scenes
-from printed import printed
+import stand_in
+from printed import IDS, printed
+from report.assessment.assess import reassess
 from report.assessment.evidence import support
-from report.assessment.verdict import as_one
+from report.assessment.spectra import spectra
+from report.assessment.verdict import Verdict, as_one
+from report.drawing.on_paper import plan_on_paper
+from report.drawing.plan import plan_drawing
+from report.drawing.sheet import LETTER
+from report.figures.base import style
+from report.figures.plan import painted
+from report.pages.summary import summary
 from report.results.results_json import results_json
 from report.results.xlsx import results_xlsx
+from report.sheet.reading.archive import open_book
 from report.text.counts import grouped_by
+from report.web.answers import answer
+from sheets import make
 
 CASES = {
     "example": lambda: scenes.shipped("example"),
@@ -70,7 +85,6 @@ def test_verdicts_of_arrays_clearances_and_neighbors_are_one_word(made):
     cells = rows_of(book["Clearances"], 4)
     assert [row["Verdict"] for row in cells] == [row["verdict"] for row in gaps]
     assert [f"{row['Kind']}, {row['Direction']}" for row in cells] == kinds
-    _, document, book = made
     expected = {(row["array"], row["other"]): row["what"] for row in document["neighbors"]}
     cells = {(row["Array"], row["Neighbor"]): row["Kind"] for row in rows_of(book["Neighbors"], 1)}
     assert cells == expected
@@ -97,3 +111,113 @@ def test_the_verdicts_of_requirements(made):
     shown = {(plain(r["Requirement"]), plain(r["Found"])): bare(r["Verdict"]) for r in table}
     assert shown
     assert shown.items() <= said.items()
+
+
+INCH = 0.0254
+# On the sheets of results a value in one direction, which is another one, may be the lower number.
+PAGES = ("letter", "summary", "plan", "comparison", "method", "model", "accuracy")
+
+
+@pytest.fixture(scope="module")
+def example():
+    """The example with a slope of A3 whose displacement would be less, rounded to the nearest."""
+    given = scenes.shipped("example")
+    for slope_deg in np.arange(3.0, 2.5, -0.03).tolist():
+        arrays = (
+            array.model_copy(update={"slope_value": slope_deg}) if array.id == "A3" else array
+            for array in given.project.arrays
+        )
+        data = given.project.model_copy(update={"arrays": tuple(arrays)})
+        other = reassess(given, data)
+        if round(inches := other.governing.design_m / INCH, 1) < inches:
+            return scenes.package_data(other)
+    raise AssertionError
+
+
+@pytest.mark.quick
+def test_no_page_rounds_the_design_displacement_down(example):
+    item = example.assessment.governing
+    inches = item.design_m / INCH
+    up, down = (f"{to(10 * inches) / 10:.1f}" for to in (math.ceil, math.floor))
+    assert up != down
+    assert round(inches, 1) == float(down)  # rounded to the nearest it would be less
+    assert set(PAGES) <= {"letter", *IDS}
+    for page in PAGES:
+        words = printed(example, page)
+        assert not re.search(rf"(?<![\d.]){re.escape(down)}(?!\d)", words), page
+    for page in ("letter", "summary", "comparison", "plan"):
+        assert up in printed(example, page)
+    said = "\n".join(summary(example.assessment))
+    assert up in said
+    assert f"{down} in" not in said
+    shown = str(answer(example.assessment, is_provisional=False)["arrays"])
+    assert up in shown
+    assert f"{down} in" not in shown
+
+
+FACTOR = {"provision": "separation_fixed", "value": 0.5, "reason": "Agreed on 2026-02-10"}
+MINIMUM = {"provision": "prescriptive_factor_in", "value": 40.0, "reason": "Agreed on 2026-02-11"}
+LENGTH = r"[\d.,]+ in \([\d.,]+ mm\)"
+
+
+@pytest.fixture(scope="module")
+def done():
+    outline = {"x_from_m": 0.0, "x_to_m": 220 * stand_in.FOOT,
+               "y_from_m": 0.0, "y_to_m": 171 * stand_in.FOOT}  # fmt: skip
+    changes = {"overrides": [FACTOR, MINIMUM], "roof": outline}
+    return scenes.package(**changes).assessment
+
+
+def test_lowered_values_are_marked_where_they_govern_on_the_plan_and_in_results_json(done):
+    assert {item.governs for item in done.arrays} == {"floor"}
+    assert {item.design_mark for item in done.arrays} == {"‡"}
+    assert done.verdict is not Verdict.OK
+    row = printed(done, "comparison").table("Displacement by analysis").row("A1")
+    assert all(row[f"{name} [in]"].endswith("‡") for name in ("Prescriptive", "Floor", "Design"))
+    with style():
+        figure = painted(plan_on_paper(done, LETTER).paper)
+    said = " ".join(text.get_text() for text in figure.findobj(lambda a: hasattr(a, "get_text")))
+    assert re.search(rf"Δ {LENGTH}‡", said)
+    arrays, schedule = printed(done, "plan").tables[:2]
+    for row in arrays.rows:
+        assert all(re.fullmatch(r"[\d.]+‡", row[f"{name} [in]"]) for name in ("Δ", "Keep clear"))
+    assert all(re.fullmatch(r"[\d.]+‡", row["Req’d [in]"]) for row in schedule.rows)
+    said = " ".join(text.words for text in plan_drawing(done).texts)
+    assert re.search(rf"design displacement {LENGTH} \(overridden\)", said)
+    assert re.search(r"keep clear \d+ in \(overridden\); no conduit", said)
+    assert "‡" not in said
+    found = json.loads(results_json(done, support(done)))
+    assert all(item["design_is_overridden"] for item in found["arrays"])
+    assert all(item["required_is_overridden"] for item in found["clearances"])
+    ids = [row["id"] for row in found["requirements"] if row["verdict"] != "OK"]
+    assert ids.count("override") == 2
+
+
+def test_results_xlsx_shows_the_mark_and_keeps_the_number_as_terminal_and_page(done, tmp_path):
+    book = openpyxl.load_workbook(io.BytesIO(results_xlsx(done, spectra(done))), data_only=True)
+    for sheet, headings in (
+        ("Design", ("Prescriptive [in]", "Floor [in]", "Design [in]", "Design by Roofslip [in]")),
+        ("Clearances", ("Design [in]", "Required [in]", "Required [mm]", "D/C")),
+    ):
+        rows = list(book[sheet].iter_rows(min_row=4))
+        names = [cell.value for cell in rows[0]]
+        for heading in headings:
+            cell = rows[1][names.index(heading)]
+            assert isinstance(cell.value, float)
+            assert cell.number_format.endswith('"‡"'), (sheet, heading)
+        assert "‡: changed by an override" in " ".join(str(cell.value) for cell in book[sheet][2])
+    said = [cell.value for row in book["Requirements"].iter_rows() for cell in row]
+    assert any("0.5‡" in str(value) for value in said)
+    book = open_book(make(tmp_path))
+    done = replace(done, sheet=replace(done.sheet, book=book))
+    lines = list(summary(done))
+    assert re.search(rf"A1 .*{LENGTH}‡ .*{LENGTH}‡ .*[\d.]+‡", lines[1])
+    assert "‡: changed by an override or a departure" in lines
+    assert any(line.startswith("condition: override of the separation") for line in lines)
+    shown = answer(done, is_provisional=False)
+    for table, columns in {"arrays": ["Design"], "clearances": ["Required", "D/C"]}.items():
+        for cells in shown[table]["rows"]:
+            row = dict(zip(shown[table]["heads"], cells, strict=True))
+            assert all(row[column]["text"].endswith("‡") for column in columns)
+            assert all("‡" in row[column].get("title", "‡") for column in columns)
+    assert "‡: changed by an override" in shown["model_text"]

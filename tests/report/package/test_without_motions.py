@@ -1,15 +1,19 @@
-"""A package without motions: every array takes the prescriptive displacement, and says so."""
+"""Packages of other ways to begin: without motions, and from a roof that was drawn in CAD."""
 
 import json
 import math
 import re
+import shutil
 from itertools import pairwise
 
 import pytest
-from click.testing import CliRunner
 
+import commands
+import packages
 import printed
 import scenes
+from inputs import FT, NO_SIDES, clearance
+from places import ROOT
 from recalculated import recalculated
 from report.assessment.arrays import Route
 from report.assessment.assess import assess, changed
@@ -17,7 +21,6 @@ from report.assessment.causes import reasons
 from report.assessment.evidence import support
 from report.assessment.verdict import Verdict
 from report.cli.check import checked, lines
-from report.cli.main import main
 from report.drawing.items import Layer, write_dxf
 from report.drawing.plan import plan_drawing
 from report.making import make
@@ -25,8 +28,12 @@ from report.pages.registry import OF_MOTIONS, PAGES, package_data, pages_in
 from report.pages.summary import summary
 from report.results.results_json import former_from, results_json
 from report.results.xlsx import results_xlsx
-from report.sheet.schema.choices import PackageEdition
+from report.sheet.reading.read import read
+from report.sheet.schema.choices import PackageEdition, UnitsFirst
+from report.sheet.schema.scene import Clearance, Roof
+from report.sheet.writing.template import write_template
 from sheets import type_into, without_motions
+from sketch import Sketch
 
 PRESCRIPTIVE_M = 60 * 0.0254 * (1.566 - 0.4) ** 2
 
@@ -39,7 +46,7 @@ def with_arrays(**changes):
     return assess(given.sheet, given.shaking, project=changed(given.project, arrays=arrays))
 
 
-def test_arrays_and_clearances_take_the_prescriptive_displacement():
+def test_all_take_the_prescriptive_displacement_and_what_is_not_permitted_is_ng():
     for item in scenes.without_motions().arrays:
         assert item.route is Route.PRESCRIPTIVE
         assert item.is_permitted
@@ -51,9 +58,6 @@ def test_arrays_and_clearances_take_the_prescriptive_displacement():
     assert verdicts["A1", "A2"] is Verdict.OK  # 96 in, for 81.6
     assert verdicts["A1", "RTU-1"] is Verdict.NG  # 48 in
     assert given.verdict is Verdict.NG
-
-
-def test_routes_that_are_not_permitted_are_ng_or_not_offered():
     given = with_arrays(mu=0.35)
     first = given.arrays[0]
     assert given.array_verdict(first) is Verdict.NG
@@ -101,28 +105,19 @@ def test_no_page_states_anything_of_runs(id):
     assert "nan" not in text.split()
 
 
-def test_summary_and_screen_say_what_an_analysis_could_save():
-    page = printed.printed(scenes.without_motions(), "summary")
-    assert page.facts["Analysis"] == "none: no motions are given"
-    said = page.line(
-        "By analysis, the design displacement of all arrays could be as low as 40.8 in"
-    )
-    assert said.endswith("all of the four clearances that are not satisfied would be.")
-    said = list(summary(scenes.without_motions()))
-    assert said[0].split()[:3] == ["array", "prescriptive", "design"]
-    (note,) = [line for line in said if line.startswith("note: no motions are given")]
-    assert "81.6 in (2072 mm)" in note
-    assert "40.8 in (1036 mm)" in note
-    assert said[-1] == "verdict: NG"
-
-
-def test_check_says_what_is_made_and_what_is_not(tmp_path):
+def test_check_says_what_is_made_and_the_screen_what_an_analysis_could_save(tmp_path):
     path = type_into(without_motions(tmp_path), {"Options/Smaller events": "0.50"})
     sheet, _, found = checked(path)
     notes = [line for line in lines(sheet, found) if line.startswith("note: ")]
     assert any("Motions!" in note and "takes the prescriptive displacement" in note
                for note in notes)  # fmt: skip
     assert any("smaller events needs motions" in note for note in notes)
+    said = list(summary(scenes.without_motions()))
+    assert said[0].split()[:3] == ["array", "prescriptive", "design"]
+    (note,) = [line for line in said if line.startswith("note: no motions are given")]
+    assert "81.6 in (2072 mm)" in note
+    assert "40.8 in (1036 mm)" in note
+    assert said[-1] == "verdict: NG"
 
 
 def test_results_json_has_null_for_what_needs_runs_and_is_read_as_a_former_revision():
@@ -139,16 +134,11 @@ def test_results_json_has_null_for_what_needs_runs_and_is_read_as_a_former_revis
     assert former.arrays[0].design_m == given.arrays[0].design_m
 
 
-def _book(tmp_path):
+@pytest.mark.nightly
+def test_results_xlsx_follows_from_the_site_by_formula(tmp_path):
     path = tmp_path / "results.xlsx"
     path.write_bytes(results_xlsx(scenes.without_motions(), ()))
     (book,) = recalculated([path], tmp_path)
-    return book
-
-
-@pytest.mark.nightly
-def test_results_xlsx_follows_from_the_site_by_formula(tmp_path):
-    book = _book(tmp_path)
     assert book.sheetnames == ["Design", "Clearances", "Neighbors", "Requirements", "Inputs"]
     rows = [[cell.value for cell in row] for row in book["Design"].iter_rows(min_row=4)]
     heads, first = rows[0], rows[1]
@@ -164,5 +154,69 @@ def test_results_xlsx_follows_from_the_site_by_formula(tmp_path):
 def test_the_package_is_made_and_verified_from_the_workbook_alone(tmp_path):
     _, folder, made, _ = make(without_motions(tmp_path), None, None, lambda _: None)
     assert {path.name for path in folder.iterdir()} >= made.keys()
-    ran = CliRunner().invoke(main, ["verify-package", str(folder / "calc-package.pdf")])
-    assert ran.exit_code == 0, ran.output
+    commands.printed("verify-package", folder / "calc-package.pdf")
+
+
+L_FT = ((30, 140), (180, 140), (180, 190), (140, 190), (140, 232), (30, 232))
+
+
+def box(x0, x1, y0, y1):
+    return (x0, y0), (x1, y0), (x1, y1), (x0, y1)
+
+
+def drawing(folder):
+    sketch = Sketch()
+    sketch.ring("ROOF-OUTLINE", box(0, 360, 0, 240))
+    sketch.ring("ROOF-PARAPET", box(0, 360, 240, 241), "NORTH, height 30 in")
+    sketch.ring("ARRAY", L_FT, "A1")
+    sketch.ring("ARRAY", box(30, 150, 30, 132), "A2")
+    sketch.ring("ARRAY", box(200, 350, 30, 180), "A3")
+    sketch.ring("OBJECT", box(150, 162, 196, 208), "RTU-1, height 48 in")
+    sketch.ring("OBJECT", box(260, 272, 13, 25), "RTU-2, height 48 in")
+    return sketch.saved(folder)
+
+
+CLEARANCES = (
+    clearance("A1", "A2", 8 * FT, "down"),
+    clearance("A1", "RTU-1", 6 * FT),
+    clearance("A1", "NORTH", 8 * FT, "up"),
+    clearance("A3", "RTU-2", 5 * FT, "down"),
+    clearance("A3", "EDGE-2", 10 * FT, "across"),
+)
+
+
+def without_places(path):
+    """Write the example without what a drawing gives, and with clearances of the plan."""
+    given = read(ROOT / "projects" / "example" / "input.xlsx").project
+    changes = {
+        "roof": Roof(),
+        "arrays": tuple(array.model_copy(update=NO_SIDES) for array in given.arrays),
+        "objects": (),
+        "clearances": tuple(map(Clearance.model_validate, CLEARANCES)),
+        "motions": given.motions[:3],
+    }
+    write_template(path, units=UnitsFirst.US, example=given.model_copy(update=changes))
+
+
+@pytest.fixture(scope="module")
+def reported(tmp_path_factory):
+    job = tmp_path_factory.mktemp("drawn")
+    without_places(job / "input.xlsx")
+    shutil.copytree(ROOT / "projects" / "example" / "records", job / "records")
+    with packages.unlaid(), packages.undrawn():
+        commands.printed("plan", "read", drawing(job), job)
+        commands.printed("report", job)
+    return job
+
+
+@pytest.mark.nightly
+def test_the_gap_is_that_of_the_outline_and_the_package_says_so(reported):
+    document = json.loads((reported / "out" / "results.json").read_text())
+    gaps = {(row["array"], row["other"]): row["gap_m"] for row in document["neighbors"]}
+    # The unit is 6 ft above the lower leg and 10 ft from the upper one.
+    assert gaps["A1", "RTU-1"] == pytest.approx(6 * FT, abs=1e-6)
+    assert gaps["A1", "A2"] == pytest.approx(8 * FT, abs=1e-6)
+    assert not any(row["contradictions"] for row in document["neighbors"])
+    html = (reported / "out" / "calc-package.pdf").read_text(encoding="utf-8")
+    said = "By an outline, of which the rectangle around it is given: A1 (6 vertices)."
+    assert said in packages.words(html)
