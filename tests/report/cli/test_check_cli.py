@@ -35,7 +35,7 @@ def with_text(text, lines):
     return line
 
 
-def test_check_prints_each_warning_with_its_reason_and_nothing_where_quiet(tmp_path):
+def test_check_prints_each_warning_with_its_reason_also_as_json(tmp_path):
     first, *lines = printed("check", make(tmp_path, **ANSWERED)).splitlines()
     assert "input.xlsx: no errors, " in first
     weight = with_text("[weight A1]", lines)
@@ -46,10 +46,6 @@ def test_check_prints_each_warning_with_its_reason_and_nothing_where_quiet(tmp_p
     done = run("check", "--quiet", make(tmp_path))
     assert (done.exit_code, done.output) == (0, "")
     assert "no such file" in refused("check", "--quiet", tmp_path / "nothing")
-
-
-@pytest.mark.quick
-def test_check_as_json_has_a_schema_version_findings_and_errors(tmp_path):
     document = as_json("check", make(tmp_path, **ANSWERED))
     assert (document["schema_version"], document["errors"]) == (1, [])
     (weight,) = (f for f in document["findings"] if f["id"] == "weight A1")
@@ -103,7 +99,7 @@ def lines(reported):
 
 
 @pytest.mark.nightly
-def test_a_steep_roof_is_ng_in_terminal_package_and_exit_code(steep, reported):
+def test_a_steep_roof_is_ng_with_its_value_and_limit_everywhere(steep, reported, lines):
     assert reported.exit_code == 3
     quiet = run("report", steep, "--quiet", "--out", steep.parent / "other")
     assert (quiet.exit_code, quiet.output) == (0, "")
@@ -114,10 +110,6 @@ def test_a_steep_roof_is_ng_in_terminal_package_and_exit_code(steep, reported):
     results = json.loads((out / "results.json").read_text())
     (finding,) = (f for f in results["findings"] if f["id"] == "weight A1")
     assert (finding["cell"], finding["reason"]) == (at("Arrays/A1/Weight"), REASON["reason"])
-
-
-@pytest.mark.nightly
-def test_each_line_names_array_value_and_limit(lines):
     # An NG that is not of the clearance says what it is of.
     (of_the_array,) = (line for line in lines if line.startswith("A1 "))
     assert "NG: roof slope, any ballasted system, over its limit and " in of_the_array

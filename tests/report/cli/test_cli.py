@@ -55,13 +55,7 @@ def test_help_and_errors_wait_for_nothing_heavy(tmp_path):
     assert not loaded & {"numba", "pandas", "matplotlib"}
 
 
-@pytest.mark.nightly
-def test_what_only_the_second_process_needs_is_not_loaded_with_the_tasks_for_it():
-    _, loaded = loaded_by("import report.drawing.items, report.package.html, report.results.xlsx")
-    assert not loaded & {"ezdxf", "matplotlib", "pandas", "ziamath"}
-
-
-def test_new_writes_a_workbook_and_never_overwrites_one(tmp_path):
+def test_new_writes_a_workbook_or_the_example_and_never_overwrites_one(tmp_path):
     printed("new", tmp_path / "job")
     assert (tmp_path / "job" / "records").is_dir()
     book = tmp_path / "job" / "input.xlsx"
@@ -76,10 +70,7 @@ def test_new_writes_a_workbook_and_never_overwrites_one(tmp_path):
     told = refused("new", "--example", tmp_path / "job")
     assert "records: is not empty; choose another folder" in told
     assert not book.exists()
-
-
-def test_new_example_writes_the_example_of_the_projects(tmp_path):
-    made = tmp_path / "job"
+    made = tmp_path / "example"
     printed("new", "--example", made)
     names = {path.relative_to(made) for path in made.rglob("*.*")}
     assert len(names) == 22
@@ -93,7 +84,7 @@ def test_new_example_writes_the_example_of_the_projects(tmp_path):
     assert "no errors, 3 warnings. 3 arrays, 6 clearances, 7 motions, S_DS 1.566 g" in told
 
 
-def test_a_blank_workbook_or_a_damaged_former_revision_is_an_input_error(tmp_path):
+def test_input_errors_and_failed_runs_leave_the_older_package(tmp_path, monkeypatch):
     printed("new", tmp_path)
     told = refused("check", tmp_path)
     assert at("<Project/Project name>: project name is missing") in told
@@ -103,9 +94,6 @@ def test_a_blank_workbook_or_a_damaged_former_revision_is_an_input_error(tmp_pat
     told = refused("report", tmp_path / "no-such-project", "--since", former)
     assert "issued.json: is no results.json or is damaged" in told
     assert not (tmp_path / "out").exists()
-
-
-def test_failed_runs_and_internal_errors_leave_the_older_package(tmp_path, monkeypatch):
     monkeypatch.setattr(report.package.html, "pages", lambda *_: 1 / 0)
     done = run("report", make(tmp_path))
     assert done.exit_code == 1
@@ -196,13 +184,14 @@ def test_levels_and_verdicts_are_colored_on_a_terminal_alone(tmp_path):
     assert colored("a warning: TONG, BOOK, NORTH") == "a warning: TONG, BOOK, NORTH"
 
 
-@pytest.mark.parametrize(("name", "value"), [("NO_COLOR", "1"), ("TERM", "dumb")])
-def test_a_reader_may_want_no_color(tmp_path, monkeypatch, name, value):
+def test_a_reader_may_want_no_color(monkeypatch):
     monkeypatch.delenv("NO_COLOR", raising=False)
     monkeypatch.setenv("TERM", "xterm")
     assert color_choice() is None
-    monkeypatch.setenv(name, value)
-    assert color_choice() is False
+    for name, value in (("NO_COLOR", "1"), ("TERM", "dumb")):
+        with monkeypatch.context() as patch:
+            patch.setenv(name, value)
+            assert color_choice() is False
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
@@ -211,16 +200,6 @@ def test_completion_prints_the_script_of_a_shell(shell):
     script = printed("completion", shell)
     assert "_ROOFSLIP_COMPLETE" in script
     assert f"{shell}_complete" in script
-
-
-def test_the_shell_is_told_commands_and_options(monkeypatch):
-    def completed(words, at):
-        env = {"_ROOFSLIP_COMPLETE": "bash_complete", "COMP_WORDS": words, "COMP_CWORD": str(at)}
-        return CliRunner(env=env).invoke(main, []).stdout.split()
-
-    assert completed("roofslip ver", 1) == ["plain,verify", "plain,verify-package"]
-    assert completed("roofslip motion su", 2) == ["plain,suite"]
-    assert completed("roofslip report --fa", 2) == ["plain,--fail-on-ng"]
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ import pytest
 
 import commands
 from places import DATA, ROOT
-from solver.formats import UNIT_CHOICES, read_record
+from solver.formats import read_record
 from solver.records.measures import measures
 from solver.sliding.checked import slide
 
@@ -46,25 +46,7 @@ def three(tmp_path):
     return path
 
 
-@pytest.mark.parametrize("command", [("slide",), ("motion", "info"), ("motion", "suite")])
-def test_the_units_on_the_command_line_are_those_of_the_reader(command):
-    assert f"[{'|'.join(UNIT_CHOICES)}]" in commands.printed(*command, "--help")
-
-
-def test_info_lists_all_channels_or_the_one_that_is_named(three):
-    summary = as_json("info", three)
-    assert list(summary) == ["file", "format", "notes", "channels"]
-    assert [channel["name"] for channel in summary["channels"]] == ["HN1", "HN2", "HNZ"]
-    assert [channel["pga_g"] for channel in summary["channels"]] == pytest.approx([0.1, 0.2, 0.3])
-    for name in ("hnz", "3"):
-        (only,) = as_json("info", three, "--channel", name)["channels"]
-        assert only["name"] == "HNZ"
-    lines = printed("info", three).splitlines()
-    assert lines[0] == f"{three}: {summary['format']}"
-    assert [line.split()[:2] for line in lines[2:5]] == [["1", "HN1"], ["2", "HN2"], ["3", "HNZ"]]
-
-
-def test_info_gives_sampling_length_peak_and_every_measure_in_si():
+def test_info_gives_every_measure_in_si_of_all_channels_or_the_one_that_is_named(three):
     summary = as_json("info", RECORD)
     (channel,) = summary["channels"]
     record = read_record(RECORD)
@@ -83,6 +65,16 @@ def test_info_gives_sampling_length_peak_and_every_measure_in_si():
         "final_velocity_mps": expected.final_velocity_mps,
         "final_displacement_m": expected.final_displacement_m,
     }
+    summary = as_json("info", three)
+    assert list(summary) == ["file", "format", "notes", "channels"]
+    assert [channel["name"] for channel in summary["channels"]] == ["HN1", "HN2", "HNZ"]
+    assert [channel["pga_g"] for channel in summary["channels"]] == pytest.approx([0.1, 0.2, 0.3])
+    for name in ("hnz", "3"):
+        (only,) = as_json("info", three, "--channel", name)["channels"]
+        assert only["name"] == "HNZ"
+    lines = printed("info", three).splitlines()
+    assert lines[0] == f"{three}: {summary['format']}"
+    assert [line.split()[:2] for line in lines[2:5]] == [["1", "HN1"], ["2", "HN2"], ["3", "HNZ"]]
 
 
 def test_values_across_the_lines_are_read_where_their_number_is_given(tmp_path):
@@ -121,12 +113,18 @@ def test_info_prints_a_table_for_people_and_never_over_a_record(column):
     assert column.read_text() == COLUMN
 
 
-def test_notes_of_the_reading_are_shown(tmp_path):
+def test_notes_of_the_reading_are_shown_and_a_picture_of_too_many_channels_is_refused(tmp_path):
     path = tmp_path / "uneven.csv"
     path.write_text("time [s],HN1 [g]\n0,0\n0.01,0.1\n0.03,0.3\n0.04,0\n")
     (note,) = as_json("info", path)["notes"]
     assert f"note: {note}" in printed("info", path).splitlines()
     assert f"note: {note}" in printed("convert", path, tmp_path / "out.csv").splitlines()
+    path = tmp_path / "many.csv"
+    names = ",".join(f"C{k} [g]" for k in range(13))
+    path.write_text(f"time [s],{names}\n" + "".join(f"{t},{'0.1,' * 12}0\n" for t in (0, 0.01)))
+    told = refused("info", path, "--plot", tmp_path / "a.svg")
+    assert "a.svg: a plot shows at most 12 channels; select one with --channel" in told
+    assert not (tmp_path / "a.svg").exists()
 
 
 @pytest.mark.parametrize(("name", "start"), [("a.svg", b"<svg"), ("a.PNG", b"\x89PNG")])
@@ -138,15 +136,6 @@ def test_info_draws_all_channels_the_same_each_time(three, tmp_path, name, start
     assert len(first) > 10_000
     printed("info", three, "--plot", out)
     assert out.read_bytes() == first
-
-
-def test_a_picture_of_too_many_channels_is_refused(tmp_path):
-    path = tmp_path / "many.csv"
-    names = ",".join(f"C{k} [g]" for k in range(13))
-    path.write_text(f"time [s],{names}\n" + "".join(f"{t},{'0.1,' * 12}0\n" for t in (0, 0.01)))
-    told = refused("info", path, "--plot", tmp_path / "a.svg")
-    assert "a.svg: a plot shows at most 12 channels; select one with --channel" in told
-    assert not (tmp_path / "a.svg").exists()
 
 
 def test_convert_writes_time_and_g(column, tmp_path):
@@ -209,7 +198,7 @@ found, slide_refused = (
 )
 
 
-def test_slide_gives_what_the_solver_gives_at_its_scale():
+def test_slide_gives_what_the_solver_gives_for_files_or_channels():
     record = read_record(RECORD, units="g")
     expected = slide(record.a_mps2, record.dt_s, slope_rad=math.radians(2), mu=0.5)
     values = found(RECORD, *PLACE)
@@ -223,9 +212,6 @@ def test_slide_gives_what_the_solver_gives_at_its_scale():
         found(RECORD, *PLACE, *words) for words in (("--ppa-g", 2 * peak), ("--factor", 2))
     )
     assert scaled["prd_m"] == pytest.approx(doubled["prd_m"])
-
-
-def test_slide_takes_components_from_files_or_channels():
     two = found(RECORD, *PLACE, "--transverse", ACROSS, "--vertical", UP)
     x, y, z = (read_record(name, units="g").a_mps2 for name in (RECORD, ACROSS, UP))
     expected = slide(x, 0.005, slope_rad=math.radians(2), mu=0.5, ay_mps2=y, az_mps2=z)

@@ -9,7 +9,6 @@ import shutil
 import sys
 import time
 import warnings
-from itertools import groupby
 from pathlib import Path
 
 import pytest
@@ -22,7 +21,6 @@ from inputs import SITE
 from packages import unlaid
 from places import ROOT
 from report.cli import several
-from report.cli.main import main
 from report.cli.several import ReportOutcome
 from report.cli.terminal import Progress, show_warnings
 from report.making import make as make_package
@@ -230,7 +228,7 @@ def test_report_puts_a_confirmation_on_record_once_and_attaches_the_workbook_wit
 
 
 @pytest.mark.nightly
-def test_a_workbook_that_is_read_only_stays_as_it_is(tmp_path, monkeypatch):
+def test_a_workbook_that_is_not_to_be_written_stays_as_it_is(tmp_path, monkeypatch):
     path = confirmed(tmp_path)
     before, usual = path.read_bytes(), os.access
     monkeypatch.setattr(os, "access", lambda at, mode: Path(at) != path and usual(at, mode))
@@ -239,10 +237,7 @@ def test_a_workbook_that_is_read_only_stays_as_it_is(tmp_path, monkeypatch):
     assert path.read_bytes() == before
     (line,) = lines
     assert line.endswith("not put on record: the workbook is read-only, or was saved meanwhile")
-
-
-@pytest.mark.nightly
-def test_a_workbook_that_is_open_or_of_an_earlier_version_stays_as_it_is(tmp_path):
+    monkeypatch.undo()
     path = confirmed(tmp_path)
     beside = path.with_name("~$input.xlsx")
     beside.touch()
@@ -275,23 +270,7 @@ def terminal(monkeypatch):
     return lambda: monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
 
 
-@pytest.fixture
-def bars(terminal, monkeypatch, capsys):
-    """A function that runs a command and returns how much of 20 is full at each of its steps."""
-
-    def run(*words):
-        terminal()
-        for stream in ("stdout", "stderr"):
-            monkeypatch.setattr(sys, stream, getattr(sys, stream))  # the command replaces it
-        main(list(map(str, words)), standalone_mode=False)
-        shown = capsys.readouterr().err.split("\r\x1b[2K")
-        filled = [line.count("#") for line in shown if line.startswith("[")]
-        return [count for count, _ in groupby(filled)]  # a line is written again every second
-
-    return run
-
-
-def test_on_a_terminal_a_bar_grows_with_each_step_and_is_cleared(terminal, capsys):
+def test_a_bar_grows_with_each_step_and_is_cleared_or_never_there(terminal, capsys):
     terminal()
     with Progress(4) as progress:
         for step in ("reading", "running", "writing"):
@@ -300,6 +279,16 @@ def test_on_a_terminal_a_bar_grows_with_each_step_and_is_cleared(terminal, capsy
     bars = ["[" + "#" * full + "." * (20 - full) for full in (0, 5, 10)]
     assert [line.partition("]")[0] for line in shown] == ["", *bars, ""]
     assert shown[2].endswith(" s  running")
+    terminal()
+    with Progress() as progress:
+        progress("reading")
+    shown = capsys.readouterr().err
+    assert "reading" in shown
+    assert "[" not in shown.replace("\x1b[", "")
+    terminal()
+    with Progress(2, quiet=True) as progress:
+        progress("reading")
+    assert capsys.readouterr().err == ""
 
 
 def shown_at(seconds, monkeypatch, capsys, progress):
@@ -340,34 +329,6 @@ def test_the_line_is_written_again_while_a_step_lasts(terminal, capsys):
     assert len(lines) >= 2
     assert all(line.endswith("  running") for line in lines)
     assert cleared == ""
-
-
-def test_there_is_no_bar_without_a_number_of_steps_or_where_quiet(terminal, capsys):
-    terminal()
-    with Progress() as progress:
-        progress("reading")
-    shown = capsys.readouterr().err
-    assert "reading" in shown
-    assert "[" not in shown.replace("\x1b[", "")
-    terminal()
-    with Progress(2, quiet=True) as progress:
-        progress("reading")
-    assert capsys.readouterr().err == ""
-
-
-@pytest.mark.parametrize(
-    ("command", "steps"),
-    [
-        (["check", "{0}"], 3),
-        (["motion", "suite", "{1}", "--sds=1", "--zh=1", "--code=pv1", "--count=2"], 3),
-    ],
-)
-@pytest.mark.nightly
-def test_the_bar_of_a_command_is_full_when_it_ends(tmp_path, bars, command, steps):
-    paths = make(tmp_path / "old"), tmp_path / "new"
-    assert bars(*(word.format(*paths) for word in command)) == [
-        20 * done // steps for done in range(steps)
-    ]
 
 
 def test_elsewhere_plain_lines_start_after_a_second_and_a_warning_is_one(monkeypatch, capsys):

