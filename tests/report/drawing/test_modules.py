@@ -266,7 +266,7 @@ def test_counts_are_filled_in_where_there_is_a_column(tmp_path):
     book = make(tmp_path, clearances=[])
     edit(book, lambda found: retitle(found, "Arrays", "Modules", ""))
     ended("plan", "read", layout().saved(tmp_path), book, "--replace")
-    assert [row["modules"] for row in read(book).draft["arrays"]] == [None] * 4
+    assert [row["modules"] for row in read(book).draft["arrays"]] == [None] * 5  # with A2 as typed
 
 
 def rounded(unit, decimals, angle_deg, long=2.1):
