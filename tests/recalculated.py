@@ -20,20 +20,28 @@ SECONDS = 240
 Cell = float | str | None
 Sheets = dict[str, list[list[Cell]]]
 
-_AS_SHEETS = "csv:Text - txt - csv (StarCalc):44,34,76,1,,0,true,true,false,false,false,-1"
-"""Every sheet as a file of its own: texts quoted, numbers with 15 digits."""
-
 _PRINTED = re.compile(
     rb'<definedName [^>]*name="_xlnm\.Print_(?:Area|Titles)"[^>]*>[^<]*</definedName>'
 )
 """Which rows repeat on each printed page; finding the pages takes half the time of a workbook."""
 
-_CELL = re.compile(r'"((?:[^"]|"")*)"(,|\n)|([^,\n]*)(,|\n)')
-
 
 def converted(paths: list[Path], folder: Path, kind: str = "xlsx") -> list[Path]:
     """Return files as LibreOffice saves them, in one start; skip the test without it."""
-    out = _convert(paths, folder, kind)
+    soffice = shutil.which("soffice")
+    if soffice is None:
+        pytest.skip("LibreOffice is not installed: sudo apt-get install libreoffice-calc")
+    out = folder / "recalculated"
+    home = _home()
+    profile = f"-env:UserInstallation=file://{home / 'profile'}"
+    done = subprocess.run(
+        [soffice, profile, "--headless", "--convert-to", kind, "--outdir", out, *paths],
+        capture_output=True,
+        timeout=SECONDS,
+        check=False,
+        env=os.environ | {"HOME": str(home)},
+    )
+    assert out.is_dir(), done.stderr.decode()
     made = [out / f"{path.stem}.{kind}" for path in paths]
     assert all(path.exists() for path in made), list(out.glob("*"))
     return made
@@ -46,15 +54,9 @@ def recalculated(paths: list[Path], folder: Path) -> list[Workbook]:
 
 
 def recalculated_sheets(paths: list[Path], folder: Path) -> list[Sheets]:
-    """Return the values of every sheet by its title; faster than whole workbooks."""
-    out = _convert(_unprinted(paths, folder), folder, _AS_SHEETS)
-    return [
-        {
-            made.stem.removeprefix(f"{path.stem}-"): _rows(made.read_text(encoding="utf-8"))
-            for made in out.glob(f"{path.stem}-*.csv")
-        }
-        for path in paths
-    ]
+    """Return the values of every sheet by its title."""
+    books = recalculated(paths, folder)
+    return [{sheet.title: [[*row] for row in sheet.values] for sheet in book} for book in books]
 
 
 def _unprinted(paths: list[Path], folder: Path) -> list[Path]:
@@ -71,43 +73,9 @@ def _unprinted(paths: list[Path], folder: Path) -> list[Path]:
     return [copies / path.name for path in paths]
 
 
-def _convert(paths: list[Path], folder: Path, kind: str) -> Path:
-    soffice = shutil.which("soffice")
-    if soffice is None:
-        pytest.skip("LibreOffice is not installed: sudo apt-get install libreoffice-calc")
-    out = folder / "recalculated"
-    home = _home()
-    profile = f"-env:UserInstallation=file://{home / 'profile'}"
-    done = subprocess.run(
-        [soffice, profile, "--headless", "--convert-to", kind, "--outdir", out, *paths],
-        capture_output=True,
-        timeout=SECONDS,
-        check=False,
-        env=os.environ | {"HOME": str(home)},
-    )
-    assert out.is_dir(), done.stderr.decode()
-    return out
-
-
 @cache
 def _home() -> Path:
     """Return the folder of LibreOffice's profile; of this process: two starts with one wait."""
     folder = mkdtemp()
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     return Path(folder)
-
-
-def _rows(text: str) -> list[list[Cell]]:
-    rows: list[list[Cell]] = [[]]
-    for quoted, quoted_end, bare, bare_end in _CELL.findall(text):
-        rows[-1].append(quoted.replace('""', '"') if quoted_end else _value(bare))
-        if (quoted_end or bare_end) == "\n":
-            rows.append([])
-    return rows[:-1]
-
-
-def _value(bare: str) -> Cell:
-    try:
-        return float(bare) if bare else None
-    except ValueError:
-        return bare  # a date, a truth value or an error
