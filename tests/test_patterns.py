@@ -1,4 +1,4 @@
-"""The time of a pattern grows as its text does, whatever a stranger writes in it.
+"""The time of a pattern grows as its text does, and hostile inputs by seed are read or refused.
 
 Nobody lists the patterns: they are the values of the product's modules and classes, and what its
 source gives to calls such as `re.sub`.
@@ -17,6 +17,7 @@ from re import _parser as parser  # there is no other parser of patterns
 import pytest
 
 from growth import NOISE_S, grows_faster, seconds
+from mutations import trouble
 from places import ROOT
 
 METHODS = ("match", "fullmatch", "search", "sub", "split", "findall", "finditer")
@@ -259,3 +260,15 @@ def test_the_time_of_each_pattern_of_a_file_grows_as_the_text(path):
 )
 def test_a_pattern_whose_time_grows_faster_is_found(source, method):
     assert len(slow([(re.compile(source), method, 1)])) == 1
+
+
+# 10^4 cases a night: most on the records and the cells.
+CASES = {"record": 7300, "cell": 2000, "argument": 500, "part": 150, "book": 50}
+
+
+@pytest.mark.parametrize("share", [0.1, pytest.param(1.0, marks=pytest.mark.nightly)])
+@pytest.mark.parametrize("kind", CASES)
+def test_hostile_inputs_are_read_or_refused(kind, share):
+    seeds = range(round(share * CASES[kind]))
+    ended = {seed: told for seed in seeds if (told := trouble(kind, seed))}
+    assert ended == {}
