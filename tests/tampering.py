@@ -251,12 +251,6 @@ def _with_layers(pdf: pikepdf.Pdf) -> None:
     _form(pdf).OC = layer
 
 
-def _glyphs_exchanged(pdf: pikepdf.Pdf) -> pikepdf.Object:
-    order = list(range(4000))
-    order[20], order[21] = 21, 20
-    return pdf.make_stream(b"".join(glyph.to_bytes(2, "big") for glyph in order))
-
-
 def _painted_twice(pdf: pikepdf.Pdf) -> pikepdf.Object:
     white = pdf.make_stream(_white(pdf).read_bytes())
     return pikepdf.Array([pdf.pages[0].obj.Contents, white])
@@ -320,9 +314,6 @@ REFUSED: dict[str, Callable[[pikepdf.Pdf], object]] = {
     ),
     # Codes stand for other glyphs, by a map inside the file.
     "mapped by a stream": lambda pdf: _put(_font(pdf), Encoding=pdf.make_stream(_OTHER_CODES)),
-    "glyphs mapped by a stream": lambda pdf: _put(
-        _font(pdf).DescendantFonts[0], CIDToGIDMap=_glyphs_exchanged(pdf)
-    ),
     "alternative text": lambda pdf: _put(
         _first_with(pdf, "/Alt"), Alt="All requirements are satisfied"
     ),
@@ -350,42 +341,8 @@ def drawing_of_results(pdf: pikepdf.Pdf) -> None:
     _form(pdf).write(file_of(pdf, "results.json"))
 
 
-def widths_of_glyphs(pdf: pikepdf.Pdf) -> None:
-    widths = _font(pdf).DescendantFonts[0].W
-    for run in widths:
-        if isinstance(run, pikepdf.Array):
-            run[0] = 0
-
-
-def digits_exchanged(pdf: pikepdf.Pdf) -> None:
-    """Exchange the outlines of two digits in the embedded font; the text stays."""
-    from fontTools.ttLib import TTFont
-
-    font = _font(pdf)
-    codes = {text: int(code, 16) for code, text in _codes(font)}
-    program = font.DescendantFonts[0].FontDescriptor.FontFile2
-    shapes, out = TTFont(io.BytesIO(program.read_bytes())), io.BytesIO()
-    names, glyphs = shapes.getGlyphOrder(), shapes["glyf"]
-    one, two = names[codes["3"]], names[codes["8"]]
-    glyphs.glyphs[one], glyphs.glyphs[two] = glyphs[two], glyphs[one]
-    shapes.save(out)
-    program.write(out.getvalue())
-
-
-def _codes(font: pikepdf.Object) -> list[tuple[str, str]]:
-    """Return the codes of a font in hexadecimal digits, and what each stands for."""
-    pairs = re.findall(rb"<([0-9a-fA-F]{4})>\s*<([0-9a-fA-F]{4})>", font.ToUnicode.read_bytes())
-    return [(code.decode(), chr(int(text, 16))) for code, text in pairs]
-
-
-def bookmark_on_another_line(pdf: pikepdf.Pdf) -> None:
-    dest = pdf.Root.Outlines.First.Dest
-    pdf.Root.Outlines.First.Dest = [*dest[:3], dest[3] + 100, *dest[4:]]
-
-
 REDRAWN: tuple[Callable[[pikepdf.Pdf], None], ...] = (
-    painted_over, drawing_painted_over, drawing_of_results, widths_of_glyphs, digits_exchanged,
-    bookmark_on_another_line,
+    painted_over, drawing_painted_over, drawing_of_results,
 )  # fmt: skip
 """Changes to what a package shows that other software could have made, for all one can tell."""
 

@@ -15,9 +15,8 @@ import pytest
 import yaml
 from asn1crypto import tsp
 from certomancer.registry import ArchLabel, CertLabel, CertomancerConfig, ServiceLabel
-from click.testing import CliRunner
-from cryptography.hazmat.primitives import serialization
 from cryptography.hazmat.primitives.asymmetric import rsa
+from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
 from pyhanko.keys import load_certs_from_pemder_data
 from pyhanko.pdf_utils import generic
 from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter
@@ -26,19 +25,17 @@ from pyhanko.sign.validation import validate_pdf_signature
 from pyhanko_certvalidator import ValidationContext
 from pypdf import PdfReader
 
+import commands
 import packages
 import tampering
 from nightly import by_day
-from report.cli.main import main
 from report.cli.terminal import warn_of_others
 from report.proof.contents import refused
 from report.proof.signatures import Appended, Signature, appended
-from report.proof.signatures import signed as signed_by
 from report.typeset.finish import FIELD
 from solver.model import InputError
 
 PASSWORD = "pass word"
-command = sys.modules["report.cli.verify"]
 CONFIG = """
 external-url-prefix: "http://localhost"
 keysets:
@@ -82,15 +79,10 @@ pki-architectures:
 def authority(tmp_path_factory):
     """Certificates for an engineer and a clock, with keys made now."""
     folder = tmp_path_factory.mktemp("keys")
+    form = (Encoding.PEM, PrivateFormat.PKCS8, NoEncryption())
     for name in ("root", "engineer", "clock"):
         key = rsa.generate_private_key(public_exponent=65537, key_size=2048)
-        (folder / f"{name}.pem").write_bytes(
-            key.private_bytes(
-                serialization.Encoding.PEM,
-                serialization.PrivateFormat.PKCS8,
-                serialization.NoEncryption(),
-            )
-        )
+        (folder / f"{name}.pem").write_bytes(key.private_bytes(*form))
     config = CertomancerConfig(yaml.safe_load(CONFIG), key_search_dir=str(folder))
     return config.get_pki_arch(ArchLabel("test"))
 
@@ -148,8 +140,7 @@ def sign(data, p12, tmp_path_factory):
     def run(*options, content=data, password=PASSWORD):
         path = tmp_path_factory.mktemp("signed") / "calc-package.pdf"
         path.write_bytes(content)
-        words = ["sign", str(path), "--p12", str(p12), "--password", password, *options]
-        done = CliRunner().invoke(main, words)
+        done = commands.run("sign", path, "--p12", p12, "--password", password, *options)
         made = path.with_name("calc-package-signed.pdf")
         return done, made.read_bytes() if made.exists() else b""
 
@@ -177,7 +168,7 @@ def checked(content, authority):
 
 
 @pytest.mark.nightly
-def test_a_signature_is_pades_b_b_without_a_network(signed, authority, data, found):
+def test_a_signature_is_pades_b_b_and_what_is_appended_is_found(signed, authority, data, found):
     done, content = signed
     assert done.exit_code == 0, done.output
     assert content.startswith(data)
@@ -186,8 +177,10 @@ def test_a_signature_is_pades_b_b_without_a_network(signed, authority, data, fou
     assert signature.sig_object["/SubFilter"] == "/ETSI.CAdES.detached"
     assert status.bottom_line
     assert status.timestamp_validity is None
-    signed = Signature(field=FIELD, signer="Jane Doe, S.E.")
-    assert found(content) == Appended(signed=(signed,), problems=())
+    expected = Signature(field=FIELD, signer="Jane Doe, S.E.")
+    assert found(content) == Appended(signed=(expected,), problems=())
+    for more in (b"\n", b"% more\n", b"1 0 obj\n<<>>\nendobj\n"):
+        assert "appended: bytes that no signature covers" in found(content + more).problems
 
 
 @pytest.mark.nightly
@@ -198,13 +191,6 @@ def test_a_time_stamp_makes_it_b_t(sign, authority, clock, found):
     assert status.bottom_line
     assert status.timestamp_validity.valid
     assert found(content).problems == ()
-
-
-@pytest.mark.nightly
-def test_what_is_appended_after_the_signature_is_found(signed, found):
-    _, content = signed
-    for more in (b"\n", b"% more\n", b"1 0 obj\n<<>>\nendobj\n"):
-        assert "appended: bytes that no signature covers" in found(content + more).problems
 
 
 @pytest.fixture
@@ -334,7 +320,7 @@ def test_what_came_with_a_signature_is_found(sign, updated, found, change, said)
 def made(job, monkeypatch):
     """Has the command take the package that is there for the one made again."""
     data = (job / "out" / "calc-package.pdf").read_bytes()
-    monkeypatch.setattr(command, "made_again", lambda *_: data)
+    monkeypatch.setattr("report.cli.verify.made_again", lambda *_: data)
     return data
 
 
@@ -343,17 +329,14 @@ def test_a_signature_that_cannot_be_checked_is_said_not_to_be(made, sign, tmp_pa
     path = tmp_path / "calc-package-signed.pdf"
     path.write_bytes(sign(content=made)[1])
     monkeypatch.setitem(sys.modules, "pyhanko.sign.validation", None)
-    done = CliRunner().invoke(main, ["verify-package", str(path)])
-    assert done.exit_code == 4, done.output
-    assert "Same" not in done.output
-    assert "were not checked" in done.output
-    assert "./roofslip sign installs" in done.output
+    told = commands.ended("verify-package", path, exit_code=4)
+    assert "Same" not in told
+    assert "were not checked" in told
+    assert "./roofslip sign installs" in told
     assert list(tmp_path.iterdir()) == [path]
     monkeypatch.undo()
-    monkeypatch.setattr(command, "made_again", lambda *_: made)
-    done = CliRunner().invoke(main, ["verify-package", str(path), "--json"])
-    assert done.exit_code == 0, done.output
-    said = json.loads(done.stdout)
+    monkeypatch.setattr("report.cli.verify.made_again", lambda *_: made)
+    said = commands.as_json("verify-package", path)
     assert said["answer"] == "same"
     assert said["signed"] == [{"field": FIELD, "signer": "Jane Doe, S.E."}]
 
@@ -363,14 +346,18 @@ def test_what_was_painted_over_before_it_was_signed_is_never_the_same(made, sign
     path = tmp_path / "calc-package-signed.pdf"
     painted = tampering.rewritten(made, tampering.painted_over)
     path.write_bytes(sign(content=painted)[1])
-    done = CliRunner().invoke(main, ["verify-package", str(path)])
-    assert done.exit_code == 4, done.output
-    assert "drawings not compared: read the package made again" in done.output
-    assert "by 'Jane Doe, S.E.'" in done.output
+    told = commands.ended("verify-package", path, exit_code=4)
+    assert "drawings not compared: read the package made again" in told
+    assert "by 'Jane Doe, S.E.'" in told
     assert (tmp_path / "calc-package-signed-again.pdf").read_bytes() == made
 
 
-def test_a_second_signature_has_no_field_and_a_rewritten_file_is_no_update(sign, signed, data):
+def test_what_cannot_be_signed_is_an_input_error_and_a_rewritten_file_can(sign, signed, data):
+    done, content = sign(password="other")
+    assert (done.exit_code, content) == (2, b"")
+    assert "another password" in done.output
+    done, content = sign("--time-stamp", "http://127.0.0.1:9")
+    assert (done.exit_code, content) == (2, b""), done.output
     done, _ = sign(content=signed[1])
     assert done.exit_code == 2
     assert "cannot be signed" in done.output
@@ -380,40 +367,23 @@ def test_a_second_signature_has_no_field_and_a_rewritten_file_is_no_update(sign,
     assert content.startswith(again)
 
 
-def test_another_password_and_a_clock_that_does_not_answer_are_input_errors(sign):
-    done, content = sign(password="other")
-    assert (done.exit_code, content) == (2, b"")
-    assert "another password" in done.output
-    done, content = sign("--time-stamp", "http://127.0.0.1:9")
-    assert (done.exit_code, content) == (2, b""), done.output
-
-
 @pytest.mark.parametrize("missing", ["calc-package.pdf", "yours.p12"])
 def test_a_file_that_is_not_there_is_told_before_a_password_is_asked_for(missing, tmp_path):
     for name in {"calc-package.pdf", "yours.p12"} - {missing}:
         (tmp_path / name).write_bytes(b"")
-    words = ["sign", str(tmp_path / "calc-package.pdf"), "--p12", str(tmp_path / "yours.p12")]
-    done = CliRunner().invoke(main, words)
-    assert done.exit_code == 2
-    assert missing in done.output
-    assert "assword" not in done.output
+    package, p12 = (tmp_path / name for name in ("calc-package.pdf", "yours.p12"))
+    told = commands.refused("sign", package, "--p12", p12)
+    assert missing in told
+    assert "assword" not in told
 
 
 @pytest.mark.quick
 def test_the_package_is_not_overwritten_by_the_one_that_is_signed(tmp_path):
     package = tmp_path / "calc-package.pdf"
     package.write_bytes(b"as it was")
-    words = ["sign", str(package), "--p12", str(package), "--password", "x", "--out", str(package)]
-    done = CliRunner().invoke(main, words)
-    assert done.exit_code == 2
-    assert "choose another --out" in done.output
+    words = ("sign", package, "--p12", package, "--password", "x", "--out", package)
+    assert "choose another --out" in commands.refused(*words)
     assert package.read_bytes() == b"as it was"
-
-
-@pytest.mark.quick
-def test_a_file_that_is_no_certificate_is_an_input_error():
-    with pytest.raises(InputError, match="not PKCS#12, or another password"):
-        signed_by(b"", b"no certificate", PASSWORD)
 
 
 @pytest.mark.nightly
