@@ -2,7 +2,6 @@
 
 import errno
 import os
-import shlex
 import signal
 import subprocess
 import sys
@@ -79,15 +78,18 @@ def test_a_workbook_that_is_a_link_is_not_written_through(folder, writer):
 
 
 @pytest.mark.parametrize("writer", by_day(WRITERS, 2))
-def test_a_workbook_that_the_user_gave_may_be_a_link(folder, writer):
+def test_a_workbook_that_the_user_gave_may_be_a_link_and_is_kept_as_it_was(folder, writer):
     link = folder / "given.xlsx"
     link.symlink_to(folder / "input.xlsx")
     before = (folder / "input.xlsx").read_bytes()
+    (folder / "input.before.xlsx").write_bytes(b"of the command before")
     words = [link if word == folder else word for word in writes(writer, folder)]
     commands.printed(*words)
     assert link.is_symlink()
     assert (folder / "input.xlsx").read_bytes() != before
     assert (folder / "input.before.xlsx").read_bytes() == before
+    names = {"given.xlsx", "input.xlsx", "input.before.xlsx", "records", "made"}
+    assert {path.name for path in folder.iterdir()} <= names
 
 
 @pytest.mark.parametrize("lock", by_day(["~$input.xlsx", ".~lock.input.xlsx#"], 1))
@@ -101,17 +103,6 @@ def test_a_workbook_that_a_program_has_open_is_not_changed(folder, writer, lock)
     assert state(folder.parent) == before
     (folder / lock).unlink()
     commands.printed(*writes(writer, folder))
-
-
-@pytest.mark.parametrize("writer", by_day(WRITERS, 2))
-def test_the_workbook_as_it_was_is_kept_by_one_name(folder, writer):
-    before = (folder / "input.xlsx").read_bytes()
-    (folder / "input.before.xlsx").write_bytes(b"of the command before")
-    commands.printed(*writes(writer, folder))
-    assert (folder / "input.before.xlsx").read_bytes() == before
-    assert (folder / "input.xlsx").read_bytes() != before
-    names = {"input.xlsx", "input.before.xlsx", "records", "made"}
-    assert {path.name for path in folder.iterdir()} <= names
 
 
 PLACES = ("input.before.xlsx", LOCK, "records/KJM-x.csv", "records")
@@ -132,30 +123,6 @@ def test_nothing_is_written_through_what_is_in_a_place(folder, place, kind):
     assert f"{folder / place}: is a" in told
     assert where.get(kind, kind) in told
     assert state(folder.parent) == before
-
-
-TRAP = '{"../stolen.txt": true, "../../stolen.txt": true, "theirs.txt": false}'
-
-
-@pytest.mark.nightly
-def test_no_instruction_is_read_from_a_folder(folder):
-    """Journals of an earlier version replaced, removed and moved files as they said."""
-    (folder / "theirs.txt").write_text("theirs")
-    for home in (folder, folder / "records", folder / "made"):
-        for name in ("forward.json", "back.json"):
-            trap = home / f".roofslip-{name[:3]}"
-            for part in ("new", "old"):
-                (trap / part).mkdir(parents=True)
-            (trap / name).write_text(TRAP)
-            (trap / "new" / "theirs.txt").write_text("stolen")
-        (home / ".roofslip-0123456789abcdef.part").symlink_to(folder.parent)
-    os.mkfifo(folder / ".roofslip-fedcba9876543210.part")
-    before = state(folder.parent)
-    for writer in WRITERS:
-        commands.printed(*writes(writer, folder))
-    after = state(folder.parent)
-    others = {name for name in before if not name.startswith("job/input")}
-    assert {name: after[name] for name in others} == {name: before[name] for name in others}
 
 
 @pytest.mark.parametrize("kind", by_day(["link", "dangling link", "pipe", "device"], 2))
@@ -244,11 +211,3 @@ def test_of_two_commands_at_once_none_loses_a_row(folder):
         assert other.wait() == 0
     data = read(folder).project
     assert (data.motions[-1].id, data.arrays[0].mu) == ("KJM", 0.123)
-
-
-def test_a_command_that_is_printed_runs_as_it_is_pasted(tmp_path):
-    told = commands.printed("new", tmp_path / "Projekt für Dächer", "--example")
-    words = shlex.split(told.rpartition("run: ")[2])
-    assert words == ["roofslip", "report", str(tmp_path / "Projekt für Dächer")]
-    told = commands.run("check", tmp_path / "Projekt für Dächer").stdout
-    assert shlex.split(told.rpartition("Next: ")[2]) == words

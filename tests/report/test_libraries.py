@@ -116,47 +116,6 @@ def test_a_command_takes_nothing_from_the_current_folder(started, words):
     started(words)
 
 
-WORKER = """
-import os, sys
-from importlib import import_module
-from report.cli.main import main
-from report.workers import WorkerProcess
-def tried():
-    import_module("ezdxf")
-    import_module("matplotlib")
-    return os.getcwd()
-if __name__ == "__main__":
-    with WorkerProcess(str) as worker:
-        assert worker.submit(tried).result() == os.getcwd()
-"""
-
-
-@pytest.mark.nightly
-def test_nor_does_a_worker_which_works_in_that_folder(stranger, tmp_path):
-    script = tmp_path / "script.py"
-    script.write_text(WORKER)
-    stranger(script, program=sys.executable)
-
-
-WATCH = """
-import sys
-from report.cli import report
-from report.cli.main import main
-def interrupted():
-    raise KeyboardInterrupt
-report.collect = interrupted  # after the first round
-main(["watch", sys.argv[1]])
-"""
-
-
-@pytest.mark.nightly
-def test_nor_does_a_watch_until_it_ends(stranger, project, tmp_path):
-    script = tmp_path / "script.py"
-    script.write_text(WATCH)
-    told = stranger(script, project, program=sys.executable, code=130)
-    assert f"{project / 'out' / 'calc-package.pdf'}" in told
-
-
 @pytest.mark.nightly
 @pytest.mark.parametrize("words", NIGHT.values(), ids=NIGHT)
 def test_nor_does_one_that_takes_longer(started, words):
