@@ -1,6 +1,6 @@
 """Every command of README and docs runs as it is pasted, in order, on fresh projects; Python too.
 
-The launcher's set-up is that of tests/test_roofslip.py. The study has fewer slopes and intensities.
+Set-up by the launcher: tests/test_packaging.py. The study has fewer slopes and intensities.
 """
 
 import json
@@ -41,26 +41,17 @@ TEXTS = [README, *(DOCS[ROOT / "docs" / name] for name in NAV)]
 
 
 def blocks(language):
-    return [
-        found
-        for text in TEXTS
-        for found in re.findall(rf"```{language}\n(.*?)```", text, re.DOTALL)
-    ]
+    return re.findall(rf"```{language}\n(.*?)```", "\n".join(TEXTS), re.DOTALL)
 
 
-COMMANDS = [
-    line.split("#")[0].strip()
-    for block in blocks("sh")
-    for line in block.splitlines()
-    if line.strip()
-]
+LINES = "".join(blocks("sh")).splitlines()
+COMMANDS = [line.split("#")[0].strip() for line in LINES if line.strip()]
 
 
 _SPEC = spec_from_file_location("make_docs", ROOT / "docs" / "make.py")
 make_docs = module_from_spec(_SPEC)
 _SPEC.loader.exec_module(make_docs)
 
-REPORT = ["report", "projects/example"]
 ELSEWHERE = (
     "./roofslip test",  # runs this test
     "./roofslip serve",  # until Ctrl+C: run by tests/report/web/test_page.py
@@ -120,17 +111,13 @@ def few_cases(book):
 
 
 @pytest.mark.nightly
-def test_every_command_of_readme_and_docs_runs_as_it_is_pasted(pasted):
+def test_every_command_of_readme_and_docs_runs_as_it_is_pasted_and_the_study_has_its_curves(pasted):
     top, printed = pasted
     assert {command.split()[1] for command in printed} >= {"report", "new", "check", "plan"}
     assert printed.keys() | set(ELSEWHERE) == set(COMMANDS)
     assert len(COMMANDS) > 30
     for name in ("example", "warehouse"):
         assert (top / "projects" / name / "out" / "calc-package.pdf").is_file()
-
-
-@pytest.mark.nightly
-def test_the_study_of_the_docs_has_its_curves(pasted):
     top, printed = pasted
     # Three mats on eight slopes at twenty intensities, and the cases of the array.
     assert printed["./roofslip study projects/study --dry-run"].startswith("557 cases, ")
@@ -140,29 +127,32 @@ def test_the_study_of_the_docs_has_its_curves(pasted):
 
 
 @pytest.mark.nightly
-def test_a_report_leaves_four_files_and_their_hashes(reported):
+def test_a_report_leaves_four_files_and_their_hashes_and_prints_where(reported):
     names = {path.name for path in reported.out.iterdir()}
     assert names == {"calc-package.pdf", "plan.dxf", "results.json", "results.xlsx", STAMP}
-
-
-def test_report_prints_where_the_files_are(reported):
     for name in ("calc-package.pdf", "results.xlsx", "results.json"):
         assert f"projects/example/out/{name}" in reported.stdout.splitlines()
         assert (reported.out / name).stat().st_size > 1000
 
 
-def test_the_readme_shows_what_the_example_prints(reported):
+def test_the_readme_and_the_answers_show_what_the_example_prints(reported):
     lines = reported.stdout.splitlines()
     verdict = next(line for line in lines if line.startswith("verdict: "))
     shown = "\n".join([*lines[:4], verdict])
     assert f"```text\n{shown}\n```" in README
     assert shown.count("81.6 in (2072 mm)") == shown.count("  Condition: ") == 3
-
-
-def test_progress_is_plain_lines_when_piped(reported):
-    assert "\x1b" not in reported.stderr
-    assert "\r" not in reported.stderr
-    assert all(line.startswith("[") for line in reported.stderr.splitlines())
+    assert all(line.startswith("[") for line in reported.stderr.splitlines())  # where piped
+    page = DOCS[ROOT / "docs" / "questions.md"]
+    found = json.loads((reported.out / "results.json").read_text())
+    east = next(row for row in found["clearances"] if row["object"] == "EAST")
+    required_in, provided_in = (east[key] / 0.0254 for key in ("required_m", "provided_m"))
+    s_ds = found["s_ds_g"]
+    for said in (
+        f"{60.0 * (s_ds - 0.4) ** 2:.2f} in",
+        f"keep {required_in:.3f} in",
+        f"{required_in:.3f} / {provided_in:.0f} = {required_in / provided_in:.4f}",
+    ):
+        assert said in page
 
 
 def test_the_json_of_the_example_agrees_with_the_solver_run_by_hand(reported):
@@ -209,7 +199,7 @@ def test_the_python_of_the_readme_runs(folder, monkeypatch):
     assert (folder / "prd.png").is_file()
 
 
-def test_every_page_picture_and_file_is_found_and_none_is_long():
+def test_every_page_is_found_not_long_and_as_the_program_would_make_it():
     named = [
         path.parent / name
         for path, text in (FRONT | DOCS).items()
@@ -224,6 +214,8 @@ def test_every_page_picture_and_file_is_found_and_none_is_long():
     assert len(README.split()) <= 1500
     home = DOCS[ROOT / "docs" / "index.md"]
     assert set(re.findall(r"\]\(([\w-]+\.md)", home)) == set(NAV) - {"index.md"}
+    for path, text in make_docs.pages().items():
+        assert DOCS[path] == text, f"python docs/make.py writes {path.name} anew"
 
 
 @pytest.mark.quick
@@ -287,20 +279,6 @@ def test_the_published_spectrum_is_computed_as_the_page_says(record, tmp_path, m
     assert len(computed) == 5
 
 
-def test_the_answers_have_the_numbers_of_the_example(reported):
-    page = DOCS[ROOT / "docs" / "questions.md"]
-    found = json.loads((reported.out / "results.json").read_text())
-    east = next(row for row in found["clearances"] if row["object"] == "EAST")
-    required_in, provided_in = (east[key] / 0.0254 for key in ("required_m", "provided_m"))
-    s_ds = found["s_ds_g"]
-    for said in (
-        f"{60.0 * (s_ds - 0.4) ** 2:.2f} in",
-        f"keep {required_in:.3f} in",
-        f"{required_in:.3f} / {provided_in:.0f} = {required_in / provided_in:.4f}",
-    ):
-        assert said in page
-
-
 @pytest.mark.nightly
 def test_the_example_of_the_first_package_has_the_numbers_of_its_pages(reported):
     told = DOCS[ROOT / "docs" / "first-package.md"].partition("## The example")[2]
@@ -340,16 +318,9 @@ def test_every_key_of_results_json_has_a_meaning_that_is_more_than_its_name():
         for key, field in model.get("properties", {}).items()
     ]
     assert len(rows) > 400
-    named = [
-        key for key, meaning in rows if "_" in key and key.replace("_", " ").title() == meaning
-    ]
-    assert named == []
+    spelled = [(key.replace("_", " ").title(), meaning) for key, meaning in rows if "_" in key]
+    assert [meaning for key, meaning in spelled if key == meaning] == []
     assert all(meaning for _, meaning in rows)
-
-
-def test_pages_that_the_program_makes_are_as_it_would_make_them():
-    for path, text in make_docs.pages().items():
-        assert DOCS[path] == text, f"python docs/make.py writes {path.name} anew"
 
 
 @pytest.mark.nightly
