@@ -77,7 +77,7 @@ def test_info_gives_every_measure_in_si_of_all_channels_or_the_one_that_is_named
     assert [line.split()[:2] for line in lines[2:5]] == [["1", "HN1"], ["2", "HN2"], ["3", "HNZ"]]
 
 
-def test_values_across_the_lines_are_read_where_their_number_is_given(tmp_path):
+def test_values_across_the_lines_and_a_zip_in_a_zip_are_read(tmp_path):
     path, out = tmp_path / "across.txt", tmp_path / "out.csv"
     path.write_text("0 0.125 -0.25\n0.1 0.2 0.3\n0.5\n")
     assert "(--values-per-line 3)" in refused("info", path, *READING)
@@ -85,9 +85,6 @@ def test_values_across_the_lines_are_read_where_their_number_is_given(tmp_path):
     record = read_record(out)
     assert record.dt_s == 0.02
     assert record.a_mps2 / G == pytest.approx([0.0, -0.125, 0.25, -0.1, -0.2, -0.3, -0.5])
-
-
-def test_a_zip_in_a_zip_is_unpacked_and_two_components_are_taken_where_asked(tmp_path):
     inner, outer = io.BytesIO(), tmp_path / "site.zip"
     with zipfile.ZipFile(inner, "w") as archive:
         for axis in "xy":
@@ -111,20 +108,6 @@ def test_info_prints_a_table_for_people_and_never_over_a_record(column):
     told = refused("info", column, *READING, "--plot", column)
     assert "use the extension .svg or .png" in told
     assert column.read_text() == COLUMN
-
-
-def test_notes_of_the_reading_are_shown_and_a_picture_of_too_many_channels_is_refused(tmp_path):
-    path = tmp_path / "uneven.csv"
-    path.write_text("time [s],HN1 [g]\n0,0\n0.01,0.1\n0.03,0.3\n0.04,0\n")
-    (note,) = as_json("info", path)["notes"]
-    assert f"note: {note}" in printed("info", path).splitlines()
-    assert f"note: {note}" in printed("convert", path, tmp_path / "out.csv").splitlines()
-    path = tmp_path / "many.csv"
-    names = ",".join(f"C{k} [g]" for k in range(13))
-    path.write_text(f"time [s],{names}\n" + "".join(f"{t},{'0.1,' * 12}0\n" for t in (0, 0.01)))
-    told = refused("info", path, "--plot", tmp_path / "a.svg")
-    assert "a.svg: a plot shows at most 12 channels; select one with --channel" in told
-    assert not (tmp_path / "a.svg").exists()
 
 
 @pytest.mark.parametrize(("name", "start"), [("a.svg", b"<svg"), ("a.PNG", b"\x89PNG")])
@@ -156,7 +139,7 @@ def test_convert_loses_nothing_of_a_small_record(tmp_path, scale):
     assert np.abs(back - values * 0.01).max() <= 1.001e-9 * np.abs(values * 0.01).max()
 
 
-def test_convert_asks_for_one_channel_and_never_overwrites(three, tmp_path, column):
+def test_convert_never_overwrites_and_too_many_channels_are_not_drawn(three, tmp_path, column):
     out = tmp_path / "out.csv"
     assert "1 HN1; 2 HN2; 3 HNZ" in refused("convert", three, out)
     assert not out.exists()
@@ -165,6 +148,18 @@ def test_convert_asks_for_one_channel_and_never_overwrites(three, tmp_path, colu
     out.write_text("mine")
     assert "already exists; give another name" in refused("convert", column, out, *READING)
     assert out.read_text() == "mine"
+    out.unlink()
+    path = tmp_path / "uneven.csv"
+    path.write_text("time [s],HN1 [g]\n0,0\n0.01,0.1\n0.03,0.3\n0.04,0\n")
+    (note,) = as_json("info", path)["notes"]
+    assert f"note: {note}" in printed("info", path).splitlines()
+    assert f"note: {note}" in printed("convert", path, tmp_path / "out.csv").splitlines()
+    path = tmp_path / "many.csv"
+    names = ",".join(f"C{k} [g]" for k in range(13))
+    path.write_text(f"time [s],{names}\n" + "".join(f"{t},{'0.1,' * 12}0\n" for t in (0, 0.01)))
+    told = refused("info", path, "--plot", tmp_path / "a.svg")
+    assert "a.svg: a plot shows at most 12 channels; select one with --channel" in told
+    assert not (tmp_path / "a.svg").exists()
 
 
 # What each command writes, as its last words.

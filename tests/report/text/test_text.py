@@ -44,17 +44,11 @@ def test_names_that_count_on_are_a_range_from_three_of_them(names, text):
     assert ranged(names.split()) == text
 
 
-def test_names_have_their_noun_in_the_number_that_they_are_and_a_sentence_its_capital():
-    assert named(["A9"], "array") == "array A9"
-    assert named(["A1", "A2", "A3"], "array") == "arrays A1 to A3"
-    assert capitalized("the roof of EX-1") == "The roof of EX-1"
-
-
 ARRAYS = ["NORTHWEST ROOF 2", "A1", "NORTHWEST ROOF 10", "NORTHWEST ROOF 1"]
 NAMES = Names.of(ARRAYS, ["Kitchen & make-up air", "RTU-1"])
 
 
-def test_long_names_have_keys_where_they_stand_by_themselves_and_in_ranges():
+def test_long_names_have_keys_by_themselves_in_ranges_and_in_texts_of_a_document():
     assert Names.of(["twelve chars", "thirteen char"]).keys == {"thirteen char": "[1]"}
     roofs = {f"NORTHWEST ROOF {k}": f"[{n}]" for n, k in enumerate((1, 2, 10), start=1)}
     assert NAMES.keys == roofs | {"Kitchen & make-up air": "[4]"}
@@ -72,6 +66,14 @@ def test_long_names_have_keys_where_they_stand_by_themselves_and_in_ranges():
     assert names(ranged(roofs)) == "[1] to [4]"
     assert names(ranged([roofs[0], *roofs[2:]])) == "[1], [3], [4]"
     assert names.in_html(f"<body><td>{', '.join(roofs)}</td>") == "<body><td>[1] to [4]</td>"
+    html = (
+        "<html><title>Kitchen &amp; make-up air</title><body>"
+        '<h1 id="NORTHWEST ROOF 1" translate="no">NORTHWEST ROOF 1 <b>A1</b></h1>'
+        '<p title="NORTHWEST ROOF 1">NORTHWEST ROOF 1 and Kitchen &amp; make-up air</p></body>'
+    )
+    said = ">NORTHWEST ROOF 1 and Kitchen &amp; make-up air<"
+    assert NAMES.in_html(html) == html.replace(said, ">[1] and [4]<")
+    assert Names.of(["A1"]).in_html(html) is html
 
 
 @pytest.mark.parametrize("count", [3, 12])
@@ -84,26 +86,18 @@ def test_a_range_of_names_is_the_range_of_their_keys(count):
     assert keys.keys["LOWER ROOF EAST 7"] == "[1]"
 
 
-def test_a_document_has_keys_in_its_texts_alone():
-    html = (
-        "<html><title>Kitchen &amp; make-up air</title><body>"
-        '<h1 id="NORTHWEST ROOF 1" translate="no">NORTHWEST ROOF 1 <b>A1</b></h1>'
-        '<p title="NORTHWEST ROOF 1">NORTHWEST ROOF 1 and Kitchen &amp; make-up air</p></body>'
-    )
-    said = ">NORTHWEST ROOF 1 and Kitchen &amp; make-up air<"
-    assert NAMES.in_html(html) == html.replace(said, ">[1] and [4]<")
-    assert Names.of(["A1"]).in_html(html) is html
-
-
 WIDTHLESS = "\u00ad\u200b\u200c\u200d\u200e\u200f\u2060\u2061\u2062\u2063\u2064\ufeff"
 
 
-def test_blanks_and_letters_of_no_width_are_trimmed_at_the_ends():
+def test_letters_of_no_width_are_trimmed_names_have_their_noun_and_sentences_a_capital():
     for code in range(sys.maxunicode + 1):
         letter = chr(code)
         expected = "" if letter.isspace() or letter in WIDTHLESS else letter
         assert trimmed(letter) == expected, hex(code)
     assert trimmed(" \u200ba \u200b b\ufeff\n ") == "a \u200b b"
+    assert named(["A9"], "array") == "array A9"
+    assert named(["A1", "A2", "A3"], "array") == "arrays A1 to A3"
+    assert capitalized("the roof of EX-1") == "The roof of EX-1"
 
 
 def test_a_path_of_windows_has_the_quotes_of_cmd_and_powershell(monkeypatch):
