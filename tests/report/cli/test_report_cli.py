@@ -170,7 +170,6 @@ def test_a_project_with_an_error_names_the_files_of_its_earlier_run(tmp_path):
     assert told[-1].startswith(f"{tmp_path / 'out' / 'plan.dxf'} is of an earlier run, 2")
 
 
-SHIPPED = sorted(path.parent.name for path in (ROOT / "projects").glob("*/input.xlsx"))
 PLACES = "<Site/Hazard covered>, <Options/Review covered>"
 
 
@@ -181,7 +180,7 @@ def confirmed(folder: Path, **changes) -> Path:
     return make(folder, **{"site": site, "options": options} | changes)
 
 
-@pytest.mark.parametrize("name", [name for name in SHIPPED if name != "study"])
+@pytest.mark.parametrize("name", scenes.SHIPPED)
 @pytest.mark.quick
 def test_a_shipped_project_has_on_record_what_its_confirmations_cover(name):
     sheet = read(ROOT / "projects" / name)
