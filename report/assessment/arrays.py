@@ -242,6 +242,13 @@ class ArrayAssessment(RouteLimits):
         return max(speeds, key=nan_is_worst, default=math.nan)
 
     @property
+    def residual_m(self) -> float:
+        """Largest distance from its place at the end of a run [m]; NaN where one has none."""
+        results = (run.result for run in self.runs)
+        ends = (math.hypot(end.residual_m, end.residual_across_m) for end in results)
+        return max(ends, key=nan_is_worst, default=math.nan)
+
+    @property
     def worst(self) -> MotionRun:
         """The motion with the largest PRD."""
         return max(self.motions, key=lambda run: nan_is_worst(run.governing.prd_m))

@@ -128,6 +128,10 @@ class Assessment:
     _rows_by_subject: Mapping[str, Sequence[Requirement]] = field(init=False, compare=False)
     _gaps_by_array: Mapping[str, Sequence[ClearanceCheck]] = field(init=False, compare=False)
     _verdicts: Mapping[str, Verdict] = field(init=False, compare=False)  # by array
+    # what the plan shows near each array, or what a clearance is given to
+    neighbors: tuple[PlanNeighbor, ...] = field(init=False, compare=False)
+    # those without a clearance that are not known to be sufficient
+    missing_gaps: tuple[PlanNeighbor, ...] = field(init=False, compare=False)
 
     def __post_init__(self) -> None:
         rows = [gap.clearance for gap in self.clearances]
@@ -138,6 +142,10 @@ class Assessment:
         object.__setattr__(self, "_rows_by_subject", rows_by_subject)
         verdicts = {item.id: self._array_verdict(item) for item in self.arrays}
         object.__setattr__(self, "_verdicts", verdicts)
+        neighbors = tuple(pair for pair in self.pairs if pair.is_listed)
+        object.__setattr__(self, "neighbors", neighbors)
+        missing = tuple(near for near in neighbors if near.is_short)
+        object.__setattr__(self, "missing_gaps", missing)
 
     def __repr__(self) -> str:
         counts = f"{len(self.arrays)} arrays, {len(self.clearances)} clearances"
@@ -231,16 +239,6 @@ class Assessment:
                 *(gap.mark for gap in self.missing_gaps),
             )
         )
-
-    @property
-    def neighbors(self) -> tuple[PlanNeighbor, ...]:
-        """What the plan shows near each array, or what a clearance is given to."""
-        return tuple(pair for pair in self.pairs if pair.is_listed)
-
-    @property
-    def missing_gaps(self) -> tuple[PlanNeighbor, ...]:
-        """The gaps of the plan without a clearance that are not known to be sufficient."""
-        return tuple(near for near in self.neighbors if near.is_short)
 
     def rows_of(self, subject: str) -> Sequence[Requirement]:
         """Return the rows about an array or a motion."""

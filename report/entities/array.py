@@ -17,7 +17,6 @@ from report.assessment.envelopes import keep_clear, keep_clear_m, keep_clear_mar
 from report.assessment.friction import mu_words
 from report.assessment.neighbors import ComparedGap, PlanNeighbor
 from report.assessment.project import Assessment, ChangeKind
-from report.assessment.runs import nan_is_worst
 from report.assessment.verdict import NOT_GIVEN, STRENGTH_ROW, ItemVerdict, Verdict
 from report.entities.motion import PeakResult, RunResult, peak_result, run_result
 from report.entities.requirement import LimitResult, Marked
@@ -263,6 +262,7 @@ class ArrayResult(LowVelocityResult):
     clause: Annotated[str, words("Clause", 1.9)] = printed("")
     seaoc_m: Annotated[float, required("PV1")] = printed(math.nan)
     model: Annotated[str, Shown(head="Model", share=0.7)] = printed("")
+    residual_m: Annotated[float, length("Residual", 0.9)] = printed(math.nan)
 
     cause: str = printed("")
     """Of a verdict that the D/C beside it does not show."""
@@ -276,12 +276,6 @@ class ArrayResult(LowVelocityResult):
     def permitted_m(self) -> float:
         """The design displacement [m]; NaN where none is permitted."""
         return self.design_m if self.design_permitted else math.nan
-
-    @unwritten(length("Residual", 0.9))
-    def residual_m(self) -> float:
-        """Largest distance from its place at the end of a run [m]."""
-        ends = (math.hypot(run.residual_m, run.residual_across_m) for run in self.runs)
-        return max(ends, key=nan_is_worst, default=math.nan)
 
     @unwritten(_weight("Lighter part"))
     def lighter_n(self) -> float:
@@ -362,8 +356,8 @@ def gap_name(gap: ComparedGap, array_id: str) -> str:
     return f"{name} ({NOT_GIVEN})" if isinstance(gap, PlanNeighbor) else name
 
 
-def array_results(marked: Marked, *, has_runs: bool = True) -> Iterator[ArrayResult]:
-    """Yield the arrays with the marks of their numbers, and beside an NG its cause."""
+def array_results(marked: Marked) -> Iterator[ArrayResult]:
+    """Yield the arrays without their runs, with the marks of their numbers, and an NG's cause."""
     for item in marked.assessment.arrays:
         cause = unshown_cause(marked.assessment, item)
         is_said = cause and not marked.assessment.array_verdict(item).is_permitted
@@ -371,7 +365,7 @@ def array_results(marked: Marked, *, has_runs: bool = True) -> Iterator[ArrayRes
             marked.assessment,
             item,
             clause=marked.clause("interconnection_sds"),
-            has_runs=has_runs,
+            has_runs=False,
             interconnection_n=marked.mark("interconnection_sds"),
             prescriptive_m=marked.prescriptive_mark(item),
             computed_m=item.mark(lambda array: array.analysis.value_m),

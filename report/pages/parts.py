@@ -114,7 +114,7 @@ class PackageData(Marked):
         """Whether each array, clearance, limit and requirement is not NG."""
         assessment = self.assessment
         return {
-            "array": [item.verdict.is_permitted for item in self.arrays],
+            "array": [assessment.array_verdict(item).is_permitted for item in assessment.arrays],
             "clearance": [
                 *(gap.verdict.is_permitted for gap in assessment.clearances),
                 # A pair in plan that has no clearance counts as one that is not satisfied.

@@ -48,7 +48,7 @@ def answer(
     """Return what the page shows, with room for its plan; provisional values have no verdict."""
     marked = Marked(assessment=assessment, has_daggers=False)
     fmt = unit_format(assessment)
-    arrays = list(array_results(marked, has_runs=False))
+    arrays = list(array_results(marked))
     gaps = list(clearance_results(marked, dict(enumerate(assessment.clearances, start=1))))
     missing = [near for near in assessment.neighbors if near.is_missing]
     designs = {item.id: _design(item, fmt, is_provisional) for item in arrays}
