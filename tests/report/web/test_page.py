@@ -25,16 +25,16 @@ from places import ROOT
 EXAMPLE = ROOT / "projects" / "example"
 
 
-@pytest.fixture(scope="module")
-def untouched(browser, address):
-    """A page as it opens, for tests that only look."""
-    with quiet_page(browser) as page:
-        opened(page, address)
-        yield page
+UNNAMED = """() => {
+  const all = document.querySelectorAll("button, input, select, [role=img], [role=tabpanel]");
+  const named = (each) => each.labels?.length || each.textContent.trim() || each.ariaLabel
+    || each.getAttribute("aria-labelledby");
+  return [...all].filter((each) => each.checkVisibility() && !named(each))
+    .map((each) => each.outerHTML);
+}"""
 
 
-def test_a_first_visit_shows_the_example_running_and_says_what_to_do(untouched):
-    page = untouched
+def test_a_first_visit_shows_the_example_running_says_what_to_do_and_has_names_for_all(page):
     assert "This is the example" in page.inner_text("#welcome")
     assert page.title().startswith(page.inner_text("h1"))
     assert "token" not in page.url
@@ -45,19 +45,6 @@ def test_a_first_visit_shows_the_example_running_and_says_what_to_do(untouched):
     assert page.locator("#bars tbody tr").count() == 7
     assert page.evaluate("document.fonts.check('13px \"Source Sans 3\"')")
     assert page.evaluate("document.body.scrollWidth <= innerWidth")
-
-
-UNNAMED = """() => {
-  const all = document.querySelectorAll("button, input, select, [role=img], [role=tabpanel]");
-  const named = (each) => each.labels?.length || each.textContent.trim() || each.ariaLabel
-    || each.getAttribute("aria-labelledby");
-  return [...all].filter((each) => each.checkVisibility() && !named(each))
-    .map((each) => each.outerHTML);
-}"""
-
-
-def test_a_screen_reader_gets_names_for_all_and_the_verdict_at_rest(untouched):
-    page = untouched
     assert page.evaluate(UNNAMED) == []
     assert page.inner_text("#live").startswith(f"{verdicts(page)[0]}.")
     assert page.locator("#slider-friction").get_attribute("aria-valuetext")
@@ -156,7 +143,7 @@ def test_no_control_moves_with_the_verdict_and_the_plan_is_on_the_first_screen(p
     assert end <= size["height"]
 
 
-def test_the_plan_tells_what_is_under_the_pointer_and_selects_with_the_table(page):
+def test_the_plan_tells_what_is_under_the_pointer_selects_with_the_table_and_zooms(page):
     said = page.locator("#plan-said")
     page.hover("#plan-drawing [data-key='#5']")
     assert said.inner_text().startswith("Clearance 5, A3 to PV-OLD, up: provided 72.0 in (")
@@ -173,10 +160,7 @@ def test_the_plan_tells_what_is_under_the_pointer_and_selects_with_the_table(pag
     assert page.locator("#plan-drawing .is-picked").get_attribute("data-key") == "A1"
     page.keyboard.press("ArrowRight")
     assert "A2" in page.inner_text("#bars caption")
-
-
-@pytest.mark.nightly
-def test_the_plan_zooms_about_the_pointer_and_shows_the_whole_roof_again(page):
+    # It zooms about the pointer, and shows the whole roof again.
     drawing, spot = page.locator("#plan-drawing > svg"), page.locator("[data-key=A3]")
     whole, (x, y, wide, _) = drawing.get_attribute("viewBox"), spot.bounding_box().values()
     page.mouse.move(x, y)
@@ -402,22 +386,20 @@ def test_the_views_draw_what_is_chosen_with_the_values_of_the_tables(page):
 
 
 @pytest.mark.nightly
-def test_without_the_server_the_page_says_what_to_do_and_goes_on_when_it_is_back(browser, address):
-    with quiet_page(browser) as page:
-        opened(page, address)
-        busy = {"status": 503, "json": {"error": "Busy."}}
-        page.route("**/api/assess", lambda route: route.fulfill(**busy))
-        moved(page, "friction", 0.95)
-        page.wait_for_selector("#verdict:has-text('No verdict: the server gave no answer.')")
-        assert "Busy." in page.inner_text("#error:visible")
-        page.route("**/api/assess", lambda route: route.abort())
-        page.click("text=Try again")
-        page.wait_for_selector("#verdict:has-text('the server does not answer')")
-        assert page.locator(".tag:visible").count() == 0
-        page.unroute("**/api/assess")
-        page.click("text=Try again")
-        at_rest(page)
-        page.wait_for_selector("#error", state="hidden")
+def test_without_the_server_the_page_says_what_to_do_and_goes_on_when_it_is_back(page):
+    busy = {"status": 503, "json": {"error": "Busy."}}
+    page.route("**/api/assess", lambda route: route.fulfill(**busy))
+    moved(page, "friction", 0.95)
+    page.wait_for_selector("#verdict:has-text('No verdict: the server gave no answer.')")
+    assert "Busy." in page.inner_text("#error:visible")
+    page.route("**/api/assess", lambda route: route.abort())
+    page.click("text=Try again")
+    page.wait_for_selector("#verdict:has-text('the server does not answer')")
+    assert page.locator(".tag:visible").count() == 0
+    page.unroute("**/api/assess")
+    page.click("text=Try again")
+    at_rest(page)
+    page.wait_for_selector("#error", state="hidden")
 
 
 @pytest.mark.nightly

@@ -1,6 +1,5 @@
 """The page in a real browser: what is dropped and chosen, and what is taken away."""
 
-import base64
 import io
 import json
 import math
@@ -56,10 +55,7 @@ def test_errors_are_listed_by_cell_beside_a_picture_of_the_row(page, tmp_path):
     moved(page, "friction", 0.95)
     page.wait_for_url("**/#friction=0.95")
     at_rest(page)
-
-
-@pytest.mark.nightly
-def test_of_a_workbook_that_is_sent_alone_the_page_says_first_that_its_records_are_missing(page):
+    # Of a workbook alone the page says first that its records are missing.
     page.set_input_files("#files", EXAMPLE / "input.xlsx")
     page.wait_for_selector("#problems tbody tr")
     assert page.inner_text("#problems h2") == "The records were not sent"
@@ -98,31 +94,6 @@ def test_names_of_40_characters_are_cut_with_the_whole_as_a_tooltip(page, tmp_pa
         assert page.evaluate("document.body.scrollWidth <= innerWidth"), size
         name = page.locator("#arrays tbody .cut").first
         assert name.evaluate("(one) => one.scrollWidth > one.clientWidth"), size
-
-
-@pytest.mark.nightly
-def test_a_folder_that_is_dropped_is_read_with_its_paths(page):
-    workbook = base64.b64encode((EXAMPLE / "input.xlsx").read_bytes()).decode()
-    page.evaluate(
-        """(workbook) => {
-          // What a browser gives for a dropped folder, which no script can make.
-          const bytes = Uint8Array.from(atob(workbook), (letter) => letter.charCodeAt(0));
-          const entry = (path, content) => ({ isFile: true, fullPath: `/mine/${path}`,
-            file: (done) => done(new File([content], path.split("/").at(-1))) });
-          const listed = [entry("input.xlsx", bytes), entry("~$input.xlsx", "locked"),
-            entry("records/RM1-x.csv", "0 0")];
-          const folder = { isFile: false, fullPath: "/mine",
-            createReader: () => ({ readEntries: (done) => done(listed.splice(0, 2)) }) };
-          const drop = new Event("drop", { bubbles: true, cancelable: true });
-          drop.dataTransfer = { items: [{ webkitGetAsEntry: () => folder }] };
-          document.body.dispatchEvent(drop);
-        }""",
-        workbook,
-    )
-    page.wait_for_selector("#problems tbody tr")
-    files = page.inner_text("#problems")
-    assert "records/RM1-y.csv" in files
-    assert "RM1-x.csv does not exist" not in files
 
 
 @pytest.mark.nightly
@@ -191,6 +162,9 @@ def test_the_package_the_workbook_and_the_page_agree(page, tmp_path):
     assert name.endswith(".xlsx")
     assert 0.45 in mus
     page.click("#make-package")
+    page.click("text=Cancel")
+    page.wait_for_selector("text=The package was canceled.")
+    page.click("#make-package")
     page.wait_for_selector("#package-status progress")
     page.wait_for_selector("#package-status .made", timeout=150_000)
     _, made = saved(page, lambda: page.click("text=results.json"))
@@ -208,14 +182,6 @@ def test_the_package_the_workbook_and_the_page_agree(page, tmp_path):
     assert all(value.removesuffix(" in") in summary for value in design)
     moved(page, "friction", 0.95)
     assert "before the last change" in page.inner_text("#package-status")
-
-
-@pytest.mark.nightly
-def test_a_package_that_is_canceled_leaves_the_page_as_it_was(page):
-    page.click("#make-package")
-    page.click("text=Cancel")
-    page.wait_for_selector("text=The package was canceled.")
-    assert page.locator("#make-package").is_enabled()
 
 
 @pytest.mark.nightly
@@ -268,23 +234,11 @@ def test_a_drawing_is_saved_as_svg_and_png_once_it_is_there(page, tab):
 
 
 @pytest.mark.nightly
-def test_a_link_restores_the_values_and_reset_those_of_the_workbook(page, address):
+def test_an_address_is_good_once_restores_the_values_and_the_page_gives_another(page, browser):
     moved(page, "slope", 1.0)
     page.wait_for_url("**/#slope=1")
-    shown = numbers(page, "arrays", 3)
-    page.reload()
     at_rest(page)
-    assert page.locator("#slider-slope").input_value() == "1"
-    assert numbers(page, "arrays", 3) == shown
-    page.get_by_label("Slope: back to the workbook's value").click()
-    page.wait_for_url(re.compile(r"/$"))
-    assert numbers(page, "arrays", 3) != shown
-
-
-@pytest.mark.nightly
-def test_an_address_is_good_once_and_the_page_gives_another_one(page, browser, address):
-    moved(page, "slope", 1.0)
-    page.wait_for_url("**/#slope=1")
+    shown = numbers(page, "arrays", 3)
     page.evaluate("() => { navigator.clipboard.writeText = () => Promise.reject(); }")
     page.click("#copy-link")
     link = page.locator("#package-status input").input_value()
@@ -296,6 +250,11 @@ def test_an_address_is_good_once_and_the_page_gives_another_one(page, browser, a
         assert other.context.cookies() == []
         other.reload()
         at_rest(other)
+        assert other.locator("#slider-slope").input_value() == "1"
+        assert numbers(other, "arrays", 3) == shown
+        other.get_by_label("Slope: back to the workbook's value").click()
+        other.wait_for_url(re.compile(r"/$"))
+        assert numbers(other, "arrays", 3) != shown
     for used in (link, link.partition("?")[0]):
         with quiet_page(browser) as third:
             assert third.goto(used).status == (403 if used == link else 200)

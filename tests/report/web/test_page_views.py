@@ -2,17 +2,14 @@
 
 import math
 import re
-from contextlib import contextmanager
 
 import numpy as np
 import pytest
 
 import stand_in
-from browsing import ALONE, FONTS, quiet_page, serve_scripts
-from report.assessment.verdict import Verdict
+from browsing import called, quiet_page, serve_scripts
 from report.text.units import Quantity, measured, number, pair
 from report.web import views
-from report.web.plan import stamp
 
 MOTIONS = stand_in.motions(2, seconds=8.0)
 MOUNT = """
@@ -55,33 +52,13 @@ def run(assessment):
 
 
 @pytest.fixture(scope="module")
-def page(browser):
-    with scripts(browser) as page:
-        yield page
-
-
-@contextmanager
-def scripts(browser, **options):
-    """A page with the scripts, the styles and the fonts."""
-
-    def font(route):
-        route.fulfill(path=FONTS / route.request.url.rpartition("/")[2])
-
-    with quiet_page(browser, **options) as page:
-        serve_scripts(page)
-        page.route(f"{ALONE}/static/fonts/*", font)
-        yield page
+def page(scripts):
+    return scripts
 
 
 def mounted(page, view, data, wide=590):
     page.mouse.move(1270, 710)
     page.evaluate(MOUNT, [view, data, wide])
-
-
-def called(page, module, body, **given):
-    """Return what JavaScript gives with a module `m` and what is given `g`."""
-    script = f"async (g) => {{ const m = await import('/static/{module}.js'); return {body}; }}"
-    return page.evaluate(script, given)
 
 
 def press(page, selector, *keys):
@@ -101,52 +78,46 @@ def value_at(series, dt_s, time):
     return float(np.interp(time, at * dt_s, np.array(series["v"], float)))
 
 
-# --- what the page reads and draws, function by function
-
-
 def test_a_reading_is_written_as_in_the_package(page):
     inch, mm = ("in", 0.0254, 1), ("mm", 1e-3, 0)
     units = [dict(zip(("symbol", "si", "decimals"), unit, strict=True)) for unit in (inch, mm)]
     values = [*np.random.default_rng(5).normal(size=200).tolist(), 0.0, -1e-9, -0.04, 123.4]
-    body = "[null, ...g.values].map((v) => m.reading(v, g.units))"
-    none, *found = called(page, "reading", body, values=values, units=units)
+    body = "return [null, ...g.values].map((v) => m.reading(v, g.units));"
+    none, *found = called(page, "reading", body, {"values": values, "units": units})
     assert found == [pair(value, Quantity.DISPLACEMENT) for value in values]
     assert none == number(math.nan, 1)
-    ticks = "[m.tickText(-0.5, 0.1), m.tickText(20, 10), m.tickText(0, 2)]"
+    ticks = "return [[-0.5, 0.1], [20, 10], [0, 2]].map((both) => m.tickText(...both));"
     assert called(page, "reading", ticks) == ["−0.5", "20", "0"]
 
 
-@pytest.mark.parametrize(
-    ("low", "high", "wanted"),
-    [(0.0, 30.0, 6), (-0.013, 0.0042, 4), (0.31, 0.75, 7), (-900.0, 3.0, 3)],
-)
+TICKS = [(0.0, 30.0, 6), (-0.013, 0.0042, 4), (0.31, 0.75, 7), (-900.0, 3.0, 3)]
+
+
+@pytest.mark.parametrize(("low", "high", "wanted"), TICKS)
 def test_ticks_are_round_within_their_range_and_not_too_many(page, low, high, wanted):
-    found = called(page, "view-parts", "m.ticks(...g.range)", range=[low, high, wanted])
+    found = called(page, "view-parts", "return m.ticks(...g);", [low, high, wanted])
     values, step = found["values"], found["step"]
     assert float(f"{step:e}"[0]) in (1.0, 2.0, 5.0)
     assert low - 1e-9 <= values[0] < values[-1] <= high + 1e-9
     assert 2 <= len(values) <= 1.5 * wanted + 1
 
 
-def test_a_number_is_rounded_down_to_one_two_or_five(page):
+def test_numbers_are_rounded_down_and_a_value_between_samples_is_on_the_line(page):
     values = [1.0, 1.99, 2.0, 4.9, 73.0, 0.034]
-    below = called(page, "view-parts", "g.values.map(m.roundBelow)", values=values)
+    below = called(page, "view-parts", "return g.map(m.roundBelow);", values)
     assert below == pytest.approx([1.0, 1.0, 2.0, 2.0, 50.0, 0.02])
-
-
-def test_a_value_between_samples_is_on_the_line_and_a_gap_has_none(page):
     series = {"t": [0.0, 0.1, 0.4, 0.5, 0.6], "v": [1.0, 3.0, -3.0, None, 2.0]}
     times = [0.0, 0.05, 0.1, 0.25, 0.4, 0.45, 0.5, 0.6, 0.7]
-    body = "g.times.map((t) => m.valueAt(g.series, t))"
-    found = called(page, "view-panels", body, series=series, times=times)
+    body = "return g.times.map((t) => m.valueAt(g, t));"
+    found = called(page, "view-panels", body, series | {"times": times})
     assert found == pytest.approx([1.0, 2.0, 3.0, 0.0, -3.0, None, None, 2.0, 2.0], abs=1e-12)
 
 
 def test_a_curve_of_many_samples_keeps_the_extremes_of_every_column_of_pixels(page):
     t = np.linspace(0.0, 100.0, 5001)
     v = np.random.default_rng(1).normal(size=t.size)
-    body = "m.curve(g, [0, 100], (t) => t, (v) => 1000 * v)"
-    drawn = called(page, "view-panels", body, t=t.tolist(), v=v.tolist())
+    body = "return m.curve(g, [0, 100], (t) => t, (v) => 1000 * v);"
+    drawn = called(page, "view-panels", body, {"t": t.tolist(), "v": v.tolist()})
     xy = np.array([pair.split() for pair in re.split("[ML]", drawn)[1:]], float)
     assert drawn.count("M") == 1
     assert len(xy) <= 4 * 101
@@ -161,8 +132,8 @@ def test_between_computed_points_the_logarithm_is_linear(page):
     xs, ys = [0.3, 0.4, 0.6], [0.0, 1.0, 3.0]
     values = np.random.default_rng(8).uniform(0.01, 2.0, (3, 3)).tolist()
     at = [[0.3, 0.0], [0.6, 3.0], [0.35, 1.0], [0.57, 2.2]]
-    body = "g.at.map(([x, y]) => m.surfaceAt(g.xs, g.ys, g.values, x, y, 1e-4))"
-    found = called(page, "contour", body, xs=xs, ys=ys, values=values, at=at)
+    body = "return g.at.map(([x, y]) => m.surfaceAt(g.xs, g.ys, g.values, x, y, 1e-4));"
+    found = called(page, "contour", body, {"xs": xs, "ys": ys, "values": values, "at": at})
     logs = np.log10(values)
     for (x, y), one in zip(at, found, strict=True):
         rows = [np.interp(x, xs, row) for row in logs]
@@ -170,37 +141,11 @@ def test_between_computed_points_the_logarithm_is_linear(page):
     assert [one["isComputed"] for one in found] == [True, True, False, False]
 
 
-CLEARANCES = """async (cells) => {
-  document.body.innerHTML = '<link rel="stylesheet" href="/static/style.css">' +
-    '<table class="numbers" id="clearances"></table>';
-  await new Promise((done) => (document.querySelector('link').onload = done));
-  const table = document.querySelector('table');
-  table.style.width = '352px'; // beside the plan, on a screen of 1280 pixels
-  const { showTable } = await import('/static/results.js');
-  const heads = ["No.", "From, to", "Provided", "Required", "D/C", "Verdict"];
-  const how = { named: 1, key: () => null };
-  showTable(table, { caption: "Clearances", heads, rows: [cells] }, how);
-  await document.fonts.ready;
-  return table.getBoundingClientRect().width;
-}"""
-
-
-@pytest.mark.parametrize("verdict", [Verdict.NG, Verdict.CONDITION])
-def test_names_of_a_dozen_letters_leave_the_verdict_of_a_clearance_in_view(page, verdict):
-    cells = [{"text": text} for text in ("1", "ARRAY-NW-01 to PV existing 2014", "96.0 in")]
-    cells += [{"text": "107.5 in"}, {"text": "0.83"}, stamp(verdict)]
-    cells[1] |= {"from": "ARRAY-NW-01", "to": "PV existing 2014", "note": "across"}
-    assert page.evaluate(CLEARANCES, cells) <= 352
-
-
-# --- watch it slide
-
-
 def clock(page):
     return float(text(page, ".clock").split()[0])
 
 
-def test_the_run_opens_at_its_peak_with_the_values_of_the_package(page, run):
+def test_the_run_opens_at_its_peak_with_the_values_of_the_package_and_the_array_there(page, run):
     mounted(page, "slide", run)
     assert text(page, ".watch-head strong") == run["texts"]["prd"]
     assert clock(page) == round(run["t_prd_s"], 2)
@@ -212,11 +157,7 @@ def test_the_run_opens_at_its_peak_with_the_values_of_the_package(page, run):
     assert f"{measured(downslope, Quantity.DISPLACEMENT.us)} in" in heads[0]
     assert f"{number(force, 2)} W" in heads[1]
     assert "used" in heads[2]
-
-
-def test_the_plan_moves_as_the_array_does(page, run):
-    """At the PRD the array is on its mark, in the direction of its slope."""
-    mounted(page, "slide", run)
+    # At the PRD the array is on its mark, in the direction of its slope.
     on_roof = page.locator(".track").nth(1)
     moved = on_roof.locator("g g").first.get_attribute("transform")
     x, y = map(float, re.findall(r"-?[\d.]+", moved))
@@ -284,7 +225,8 @@ def test_it_plays_at_a_speed_pauses_and_stops_when_a_slider_moves(page, run):
 
 @pytest.mark.nightly
 def test_where_motion_is_to_be_reduced_it_goes_from_event_to_event(browser, run):
-    with scripts(browser, reduced_motion="reduce") as page:
+    with quiet_page(browser, reduced_motion="reduce") as page:
+        serve_scripts(page)
         page.clock.install()
         mounted(page, "slide", run)
         page.locator(".play").click()
@@ -294,7 +236,7 @@ def test_where_motion_is_to_be_reduced_it_goes_from_event_to_event(browser, run)
             assert clock(page) == round(event, 2)
 
 
-def test_another_run_is_asked_for_by_name_and_an_error_is_said(page, run):
+def test_another_run_is_asked_by_name_an_error_is_said_and_a_late_answer_is_marked(page, run):
     mounted(page, "slide", run)
     page.locator(".toolbar select").select_option("record +")
     page.wait_for_function("asked.length === 2")
@@ -304,14 +246,11 @@ def test_another_run_is_asked_for_by_name_and_an_error_is_said(page, run):
     page.evaluate("view.update({ values: { friction: 2 }, array: 'A2', motion: 'M2' })")
     assert text(page, ".view [role=alert]") == "Choose another motion."
     assert "run" not in page.evaluate("asked[2]")  # another motion: its governing run
-
-
-def test_an_answer_that_comes_while_a_slider_moves_is_marked_as_out_of_date(page, run):
-    mounted(page, "slide", run)
+    # An answer that comes while a slider moves is out of date.
     late = """async (data) => {
       let answer;
       reply = () => new Promise((done) => { answer = done; });
-      view.update({ values: { friction: 2 }, array: 'A2', motion: 'M1' });
+      view.update({ values: { friction: 3 }, array: 'A2', motion: 'M1' });
       view.moving();
       answer(data);
       await new Promise((done) => setTimeout(done, 0));
@@ -347,9 +286,6 @@ def test_a_run_without_displacement_is_drawn_at_rest(page):
     assert page.locator(".track .peak").nth(1).get_attribute("visibility") == "hidden"
     mounted(page, "histories", answer)
     assert page.locator(".panel").count() == 4
-
-
-# --- histories
 
 
 def when(page):
@@ -399,7 +335,7 @@ def test_histories_zoom_and_read_by_keys(page, run):
     assert span(page)[0] == 0.0
 
 
-def test_the_wheel_zooms_what_is_chosen_and_else_scrolls_the_page(page, run):
+def test_the_wheel_zooms_what_is_chosen_and_else_scrolls_and_a_drag_enlarges(page, run):
     mounted(page, "histories", run)
     box = page.locator(".stage").bounding_box()
     place = box["x"] + 300, box["y"] + 100
@@ -415,12 +351,7 @@ def test_the_wheel_zooms_what_is_chosen_and_else_scrolls_the_page(page, run):
     assert low - 0.5 < about < high + 0.5
     page.mouse.dblclick(*place)
     assert is_whole(page)
-
-
-@pytest.mark.nightly
-def test_a_span_is_enlarged_by_dragging_over_it(page, run):
-    mounted(page, "histories", run)
-    box = page.locator(".stage").bounding_box()
+    # Dragging over a span enlarges it.
     page.mouse.move(box["x"] + 200, box["y"] + 60)
     first = when(page)
     page.mouse.down()
@@ -449,9 +380,6 @@ def test_a_reading_is_that_of_its_sample_in_a_record_of_more_than_the_page_is_wi
     # The shortest span has 20 samples, and the curve goes through each of them.
     curve = page.locator(".panel").first.locator(".curve").last.get_attribute("d")
     assert 20 <= len(re.split("[ML]", curve)) - 1 <= 24
-
-
-# --- contours and paths
 
 
 def test_a_contour_is_read_by_keys_at_computed_values_and_by_pointer_between_them(page, assessment):
@@ -495,21 +423,6 @@ def test_paths_are_at_one_scale_and_read_point_by_point(page, assessment):
     assert f"at 8.00 s: {pair(far, Quantity.DISPLACEMENT)} from" in text(page, reading)
 
 
-# --- all views
-
-
-@pytest.mark.nightly
-def test_in_print_a_run_is_named_and_no_control_is_left(page, run):
-    for view in ("slide", "histories"):
-        mounted(page, view, run)
-        page.emulate_media(media="print")
-        title = text(page, ".view .print-only")
-        assert title.startswith(f"Array A2, motion M1, run {run['run']}")
-        for gone in ("select", "button", "[type=range]", "[id$=-keys]"):
-            assert page.locator(f".view {gone}:visible").count() == 0, gone
-        page.emulate_media(media="screen")
-
-
 CLIPPED = """() => [...document.querySelectorAll('.view, .panel-head')]
   .filter((one) => one.scrollWidth > one.clientWidth || one.scrollHeight > one.clientHeight + 1)
   .map((one) => one.className)"""
@@ -517,10 +430,16 @@ CLIPPED = """() => [...document.querySelectorAll('.view, .panel-head')]
 
 @pytest.mark.parametrize("wide", [411, 590, 760])
 @pytest.mark.nightly
-def test_nothing_of_a_view_is_cut_off_in_any_width_of_the_page(page, run, assessment, wide):
-    drawn = {"slide": run, "histories": run}
-    drawn |= {name: getattr(views, name)(assessment, "A1") for name in ("contour", "paths")}
-    for view, data in drawn.items():
+def test_nothing_of_a_view_is_cut_off_and_in_print_a_run_is_named(page, run, assessment, wide):
+    drawn = {name: getattr(views, name)(assessment, "A1") for name in ("contour", "paths")}
+    for view, data in (drawn | {"slide": run, "histories": run}).items():
         mounted(page, view, data, wide=wide)
         page.evaluate("document.fonts.ready")
         assert page.evaluate(CLIPPED) == [], view
+        page.emulate_media(media="print")
+        for gone in ("select", "button", "[type=range]", "[id$=-keys]"):
+            assert page.locator(f".view {gone}:visible").count() == 0, (view, gone)
+        if view in ("slide", "histories"):
+            title = text(page, ".view .print-only")
+            assert title.startswith(f"Array A2, motion M1, run {run['run']}")
+        page.emulate_media(media="screen")
