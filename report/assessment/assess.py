@@ -79,7 +79,8 @@ def assess(
     From a `former` assessment of the same motions and targets come the limits on them, and the runs
     of arrays with the same slope, friction and model. A `project` is assessed in place of that of
     the sheet, without what the building code's rule set gives. Without less friction, half of the
-    runs, an OK may still be one with conditions. Raises as `rule_set_of`.
+    runs, an OK may still be one with conditions, and that rule set is left out too. Raises as
+    `rule_set_of`.
     """
     data = outdated(project or sheet.project, shaking.hashes)
     with ThreadPoolExecutor(THREADS) as pool:
@@ -101,7 +102,7 @@ def assess(
 
         done = whole(data, begun=begun, slow=slow, reduced_friction=at_reduced_friction)
         other = under_code(data)
-        if other is data or project is not None:
+        if other is data or project is not None or not has_less_friction:
             return done
         acceptance = shaking_acceptance(shaking, targets(other))  # of another edition maybe
         return _beside(whole(other, begun=begun, acceptance=acceptance), done)
