@@ -2,7 +2,9 @@
 
 import importlib
 import json
+import math
 import re
+import shutil
 from dataclasses import dataclass
 from zipfile import ZipFile
 
@@ -15,9 +17,14 @@ import packages
 import scenes
 from places import ROOT
 from printed import FRONT, IDS, printed
+from report.making import make
 from report.motions.history import targets
 from report.motions.prepare import prepare
+from report.pages.registry import PAGES
 from report.sheet.reading.read import read
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import PackageEdition
+from report.sheet.writing.template import write_template
 from sheets import read_workbook
 from solver.formats import read_record
 from solver.records.spectrum import response_spectrum
@@ -54,6 +61,31 @@ def results_of_clearances(book):
 
 def page(name, key):
     return printed(scenes.shipped(name), key)
+
+
+def test_the_required_separation_of_a_clearance_stands_in_four_places_at_most():
+    """A3 to EAST of the example: beside the plan, in an equation, and to be measured."""
+    given = scenes.shipped("example")
+    (gap,) = (gap for gap in given.clearances if gap.clearance.object == "EAST")
+    inches = re.escape(f"{math.ceil(round(gap.required_m / 0.0254 * 10, 6)) / 10:.1f}")
+    keys = [part.id for part in PAGES if part.edition is PackageEdition.PLAN_CHECK]
+    lines = [line for key in keys for line in page("example", key).splitlines()]
+    found = [line for line in lines if re.search(rf"(?<![\d.]){inches}(?![\d.]*\d)", line)]
+    assert 2 <= len(found) <= 4, found
+
+
+@pytest.mark.nightly
+def test_one_array_with_one_clearance_has_at_most_12_sheets(tmp_path):
+    given = read(PROJECTS / "example" / "input.xlsx").project.model_dump()
+    first, gap = given["arrays"][:1], given["clearances"][1:2]
+    near = [row for row in given["objects"] if row["id"] == gap[0]["object"]]
+    project = ProjectInput.model_validate(
+        given | {"arrays": first, "clearances": gap, "objects": near}
+    )
+    shutil.copytree(PROJECTS / "example" / "records", tmp_path / "records")
+    write_template(tmp_path / "input.xlsx", units=project.project.units_first, example=project)
+    make(tmp_path / "input.xlsx", tmp_path / "out", None, lambda _: None)
+    assert len(PdfReader(tmp_path / "out" / "calc-package.pdf").pages) <= 12
 
 
 @pytest.fixture(scope="module")

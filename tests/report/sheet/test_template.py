@@ -284,6 +284,15 @@ def test_wide_tables_print_on_two_pages_with_their_first_columns(tmp_path, print
 
 
 @pytest.mark.nightly
+@pytest.mark.parametrize("units", UnitsFirst)
+def test_the_example_prints_on_twelve_sheets(tmp_path, units):
+    path = tmp_path / "input.xlsx"
+    write_template(path, units=units, example=example())
+    (file,) = converted([path], tmp_path, "pdf")
+    assert len(PdfReader(file).pages) <= 12
+
+
+@pytest.mark.nightly
 def test_rare_columns_are_folded_until_one_is_filled(tmp_path):
     empty = load_workbook(blank(tmp_path / "blank.xlsx"))
     rare = column(empty, "High-velocity friction")

@@ -1,6 +1,7 @@
 """The page in a real browser: what is dropped and chosen, and what is taken away."""
 
 import io
+import itertools
 import json
 import math
 import re
@@ -94,6 +95,37 @@ def test_names_of_40_characters_are_cut_with_the_whole_as_a_tooltip(page, tmp_pa
         assert page.evaluate("document.body.scrollWidth <= innerWidth"), size
         name = page.locator("#arrays tbody .cut").first
         assert name.evaluate("(one) => one.scrollWidth > one.clientWidth"), size
+
+
+@pytest.mark.nightly
+def test_six_arrays_under_seven_motions_print_in_two_pages(page, tmp_path):
+    folder = shutil.copytree(EXAMPLE, tmp_path / "six", ignore=shutil.ignore_patterns("out"))
+    # A3 becomes four.
+    corners = itertools.product((200, 278), (30, 108))
+    like = (3, "degrees", 0.4, "EX-FT-1, example values", "Ballasted tray, 10 deg tilt")
+    quarters = [
+        (f"A{count}", *like, 30_900, 9, 40, x, x + 72, y, y + 72, 270)
+        for count, (x, y) in enumerate(corners, start=3)
+    ]
+    gaps = [
+        ("A4", "PV-OLD", "up", 72),
+        ("A5", "EAST", "across", 120),
+        ("A6", "EAST", "across", 120),
+    ]
+    gaps += [("A3", "A4", "up", 72), ("A5", "A6", "up", 72)]
+    gaps += [("A3", "A5", "across", 72), ("A4", "A6", "across", 72)]
+    tables = {"Arrays": ("BCDEFGKLMNOPQR", 10, quarters), "Clearances": ("BCDE", 12, gaps)}
+    cells = {
+        f"{sheet}!{column}{number}": value
+        for sheet, (columns, first, rows) in tables.items()
+        for number, row in enumerate(rows, start=first)
+        for column, value in zip(columns, row, strict=True)
+    }
+    type_into(folder / "input.xlsx", cells)
+    page.set_input_files("#folder", folder)
+    page.wait_for_selector("#arrays th[title=A6]")
+    at_rest(page)
+    assert len(PdfReader(io.BytesIO(page.pdf(prefer_css_page_size=True))).pages) == 2
 
 
 @pytest.mark.nightly
