@@ -133,8 +133,13 @@ def reassess(assessment: Assessment, project: ProjectInput) -> Assessment:
     )
 
 
-def anticipate(sheet: Sheet, shaking: Shaking, known: Reference) -> Assessment:
-    """Assess a workbook in the orientations that gave the largest PRDs in a full assessment."""
+def anticipate(
+    sheet: Sheet, shaking: Shaking, known: Reference, acceptance: Acceptance | None = None
+) -> Assessment:
+    """Assess a workbook in the orientations that gave the largest PRDs in a full assessment.
+
+    The limits on the motions are those of `acceptance`, where it is known for these motions.
+    """
     # As long as these two stay the largest, with the displacements of all.
     has_all = sheet.project.options.directional  # each direction may have another largest one
 
@@ -149,7 +154,7 @@ def anticipate(sheet: Sheet, shaking: Shaking, known: Reference) -> Assessment:
         return scene_key(array), json.dumps(names_of(array))
 
     data = outdated(sheet.project, shaking.hashes)
-    acceptance = shaking_acceptance(shaking, targets(data))
+    acceptance = acceptance or shaking_acceptance(shaking, targets(data))
     return _by_own_models(sheet, shaking, data, acceptance, run, key)
 
 

@@ -18,12 +18,14 @@ from openpyxl.worksheet.worksheet import Worksheet
 from report.assessment.assess import anticipate, assess, reference_of
 from report.assessment.neighbors import NearbyKind
 from report.assessment.plan_clearances import missing_rows
+from report.assessment.precheck import shaking_acceptance
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.drawing.fill import changes, layers_of, plan_as_rows
 from report.drawing.plan_read import known_layers
 from report.drawing.read_dxf import read_dxf
 from report.drawing.roof_drawing import drawn_on, proposed
+from report.motions.history import targets
 from report.sheet.checking.findings import Group, grouped, listed
 from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.locate import find_table
@@ -42,6 +44,7 @@ from report.web.controls import Opened, check, controls, opened, shown, with_val
 from report.web.plan import USUAL_PX, stamp
 from report.web.values import Values, typed
 from solver.model import InputError
+from solver.records.acceptance import Acceptance
 
 _MOST_COLUMNS, _BESIDE = 40, 2  # of a sheet that are read, and of those the ones around a cell
 
@@ -181,7 +184,12 @@ def answer_at(workbook: Path, job: Json) -> Json:
     """Return the answer at values: of the largest runs while a slider moves, else complete."""
     opened = _given(workbook, _key(workbook, job["values"]))
     if job["moving"]:
-        reply = anticipate(opened.sheet, opened.shaking, job.get("reference", {}))
+        known, has_same_motions = (
+            job.get("reference", {}),
+            opened.shaking is _open(workbook).shaking,
+        )
+        accepted = _acceptance(workbook) if has_same_motions else None
+        reply = anticipate(opened.sheet, opened.shaking, known, accepted)
     else:
         reply = _at_rest(workbook, job["values"], is_whole=job.get("whole", True))
     shows = answer(reply, is_provisional=job["moving"], room_px=job["room"])
@@ -319,6 +327,13 @@ def _given(workbook: Path, key: str) -> Opened:
         return with_values(_open(workbook), values)
     # Clearances last: values that differ in them alone share what comes before.
     return with_values(_given(workbook, _wider(values)), {_CLEARANCE: values[_CLEARANCE]})
+
+
+@lru_cache(KEPT_PROJECTS)
+def _acceptance(workbook: Path) -> Acceptance:
+    """Return the limits on the motions as typed, which friction and slope do not change."""
+    opened = _open(workbook)
+    return shaking_acceptance(opened.shaking, targets(opened.sheet.project))
 
 
 def _complete(workbook: Path, key: str) -> Assessment:
