@@ -52,6 +52,8 @@ from solver.kernels.compiler import INNER, KEPT
 # Division by zero gives infinity, as in IEEE arithmetic: numba adds no test and raises nothing.
 # Without `_nrt` no reference is counted: every function but `slide_plane` borrows its arrays, and
 # locked counters took a tenth of the time.
+# All in one file, long as it is: numba keeps `slide_plane` compiled until this file changes, and
+# would run a former version of a function that changed in another.
 ieee = partial(njit, error_model="numpy")
 jit = partial(ieee, **INNER)
 
