@@ -31,10 +31,12 @@ export function createViews(api) {
       mounted.get(id).update(needed());
       return;
     }
+    element.setAttribute("aria-busy", "true"); // a drawing that is saved waits for the script too
     try {
       const { build } = await import(`./${id}.js`);
       if (scene && !mounted.has(id)) mounted.set(id, createView(element, needed(), (request) => api.computed(asks, request), build, api.announce));
     } catch (error) {
+      element.removeAttribute("aria-busy");
       replace(element, html("p", {}, `This drawing could not be loaded. Reload the page. (${error.message})`));
     }
   }

@@ -168,11 +168,11 @@ def crowded():
         for k, name in enumerate(ids)
     ]
     unit = stand_in.roof_object(
-        "MAKE-UP AIR UNIT OF THE KITCHEN", "fixed object", 34.5, 36, 3, 5, 1.2
+        "MAKE-UP AIR UNIT OF THE KITCHEN", "fixed object", 34.5, 36, 3, 5, height=1.2
     )
     return scenes.package(
         arrays=arrays,
-        objects=[unit, stand_in.roof_object("E", "edge with parapet", 40, 40.5, 0, 26, 0.5)],
+        objects=[unit, stand_in.roof_object("E", "edge with parapet", 40, 40.5, 0, 26, height=0.5)],
         clearances=[
             *(stand_in.clearance(near, far, 6.0) for near, far in itertools.pairwise(ids)),
             stand_in.clearance(ids[3], unit["id"], 12.0),

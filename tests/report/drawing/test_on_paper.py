@@ -42,9 +42,9 @@ def thirty(paper=PlanPaper.BY_SIZE, us_first=True):
                 stand_in.clearance(name, f"A{1 + (row - 1) * COLUMNS + column}", LANE * FOOT)
             )
     units = [
-        stand_in.roof_object("RTU-1", "fixed object", 282, 288, 40, 52, 1.0),
-        stand_in.roof_object("RTU-2", "fixed object", 100, 114, 182, 190, 1.0),
-        stand_in.roof_object("W", "edge with parapet", -1, 0, 0, 200, 1.0),
+        stand_in.roof_object("RTU-1", "fixed object", 282, 288, 40, 52, height=1.0),
+        stand_in.roof_object("RTU-2", "fixed object", 100, 114, 182, 190, height=1.0),
+        stand_in.roof_object("W", "edge with parapet", -1, 0, 0, 200, height=1.0),
     ]
     rows += [
         stand_in.clearance("A10", "RTU-1", 6 * FOOT),

@@ -124,9 +124,9 @@ def test_a_package_with_a_document_verifies_and_with_another_one_differs(tmp_pat
     assert opened(path.read_bytes()).files["friction.pdf"] == LETTER.read_bytes()
     commands.printed("verify-package", path)
     another = given(path.read_bytes(), with_file("friction.pdf", LETTER.read_bytes() + b"%"))
-    (said,) = json.loads(commands.ended("verify-package", another, "--json", exit_code=1))[
-        "reasons"
-    ]
+    done = commands.run("verify-package", another, "--json")
+    assert done.exit_code == 1, done.output
+    (said,) = json.loads(done.stdout)["reasons"]
     assert said.startswith("roofslip.json: hash is ")
 
 

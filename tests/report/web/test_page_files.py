@@ -252,8 +252,17 @@ def test_clearances_that_the_plan_lacks_are_added_by_a_button(page, tmp_path):
 @pytest.mark.parametrize("tab", ["plan", "contour", "paths"])
 @pytest.mark.nightly
 def test_a_drawing_is_saved_as_svg_and_png_once_it_is_there(page, tab):
+    held = []
+    page.route(f"**/static/{tab}.js", lambda route: held.append(route))
     page.click(f"#tab-{tab}")
-    name, vector = saved(page, lambda: page.click("#save-svg"))
+
+    def save():
+        page.click("#save-svg")
+        for script in held:
+            script.continue_()
+
+    name, vector = saved(page, save)
+    assert len(held) == (tab != "plan")
     assert name.endswith(f"{tab}.svg")
     texts = [
         each.text for each in ElementTree.fromstring(vector).iter() if each.tag.endswith("text")
