@@ -96,7 +96,7 @@ SHOWN = """() => {
 def test_while_a_slider_moves_there_is_no_verdict_and_the_page_says_which_model(page):
     page.evaluate(SHOWN)
     # It goes on moving until its values are shown, as under a finger.
-    for step in range(100):
+    for step in range(1000):
         moved(page, "friction", 0.7 + step % 2 / 100)
         if "two orientations" in page.locator("#verdict").text_content():
             break
