@@ -72,14 +72,14 @@ def assess(
     former: Assessment | None = None,
     project: ProjectInput | None = None,
     *,
-    has_less_friction: bool = True,
+    is_whole: bool = True,
 ) -> Assessment:
     """Run every array under every motion and check every limit and clearance.
 
     From a `former` assessment of the same motions and targets come the limits on them, and the runs
     of arrays with the same slope, friction and model. A `project` is assessed in place of that of
-    the sheet, without what the building code's rule set gives. Without less friction, half of the
-    runs, an OK may still be one with conditions, and that rule set is left out too. Raises as
+    the sheet, without what the building code's rule set gives. Unless it is whole, that is left out
+    too, and less friction, half of the runs: an OK may still be one with conditions. Raises as
     `rule_set_of`.
     """
     data = outdated(project or sheet.project, shaking.hashes)
@@ -90,7 +90,7 @@ def assess(
         reduced = with_friction(data, 1.0 - SHIFT)
         less: PendingRuns = ()
         known = former.at_reduced_friction.arrays if former and former.at_reduced_friction else ()
-        if has_less_friction:
+        if is_whole:
             less = begin(run_motion, reduced, check_models=False, former=known)
         known = former.low_velocity.arrays if former else ()
         slow = begin(run_motion, with_low_velocity(data), check_models=False, former=known)
@@ -98,11 +98,11 @@ def assess(
         whole = partial(_assess, sheet, shaking, acceptance=acceptance, pool=pool)
 
         def at_reduced_friction() -> Assessment | None:
-            return whole(reduced, begun=less, has_pairs=False) if has_less_friction else None
+            return whole(reduced, begun=less, has_pairs=False) if is_whole else None
 
         done = whole(data, begun=begun, slow=slow, reduced_friction=at_reduced_friction)
         other = under_code(data)
-        if other is data or project is not None or not has_less_friction:
+        if other is data or project is not None or not is_whole:
             return done
         acceptance = shaking_acceptance(shaking, targets(other))  # of another edition maybe
         return _beside(whole(other, begun=begun, acceptance=acceptance), done)

@@ -355,7 +355,7 @@ def _assessment(workbook: Path, key: str) -> Assessment:
         former = _complete(workbook, _wider(values))
     elif given.shaking is _open(workbook).shaking:  # friction and slope: no motion
         former = _as_typed(workbook)
-    return assess(given.sheet, given.shaking, former, has_less_friction=False)
+    return assess(given.sheet, given.shaking, former, is_whole=False)
 
 
 @lru_cache(KEPT_ANSWERS)
