@@ -92,14 +92,8 @@ def _numbered(plan: PlanSheet, lane: Lane) -> Lane:
     ng = (NG_TALL_IN if lane.is_upright else ng_wide()) if is_ng else 0.0
     size = circle + ng, (ng_wide() if is_ng and lane.is_upright else 2 * RADIUS_IN)
     # It slides along the gap to where it touches nothing; where no place is left it has a leader.
-    shifts = list(_steps(0.0, lane.half))
-    # With its dimension line, or else where labels leave no place for that, without.
-    for across in (max(size[1], lane.narrow), size[1]):
-        frames = [lane.frame(shift, size[0], across) for shift in shifts]
-        taken = plan.paper.placer.take_first(frames)
-        if taken is not None:
-            break
-    if taken is None:
+    shift = _slid(plan.paper.placer, lane, *size)
+    if shift is None:
         draw_gap(plan, gap)
         frame = plan.paper.placer.place(
             circle + (ng_wide() if is_ng else 0.0),
@@ -112,8 +106,8 @@ def _numbered(plan: PlanSheet, lane: Lane) -> Lane:
             return lane
         plan.leader(gap.middle, frame)
     else:
-        frame = lane.frame(shifts[taken], *size)
-        dx, dy = (shifts[taken] * way for way in lane.along)
+        frame = lane.frame(shift, *size)
+        dx, dy = (shift * way for way in lane.along)
         a, b = ((x + dx, y + dy) for x, y in (gap.a, gap.b))
         draw_gap(plan, replace(gap, a=a, b=b))
     (x, y), is_row = frame.middle, frame.wide >= frame.tall
@@ -126,6 +120,18 @@ def _numbered(plan: PlanSheet, lane: Lane) -> Lane:
         at = (frame.x1 - ng_wide() / 2, y) if is_row else (x, frame.y0 + NG_TALL_IN / 2)
         draw_ng(plan.paper, at)
     return replace(lane, number=frame)
+
+
+def _slid(placer: Placer, lane: Lane, long: float, tall: float) -> float | None:
+    """Reserve the first free place of a number on its lane; return how far it slid, if any is."""
+    shifts = list(_steps(0.0, lane.half))
+    # With its dimension line, or else where labels leave no place for that, without.
+    for across in (max(tall, lane.narrow), tall):
+        for some in (shifts[:1], shifts[1:]):  # most have room in the middle
+            taken = placer.take_first([lane.frame(shift, long, across) for shift in some])
+            if taken is not None:
+                return some[taken]
+    return None
 
 
 def provided_words(of: PlanGap, fmt: UnitFormat) -> str:

@@ -69,46 +69,72 @@ def centered(x: float, y: float, wide: float, tall: float) -> Frame:
 Corners = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
 
 
+class _Frames:
+    """Frames, each a row of a table that has room for more."""
+
+    def __init__(self) -> None:
+        self._room, self._count = np.empty((64, 4)), 0
+
+    @property
+    def table(self) -> Corners:
+        """The frames."""
+        return self._room[: self._count]
+
+    def add(self, rows: Sequence[Frame]) -> None:
+        """Add frames."""
+        start, self._count = self._count, self._count + len(rows)
+        if self._count > len(self._room):
+            self._room = np.vstack((self._room, np.empty((self._count, 4))))
+        self._room[start : self._count] = rows
+
+    def remove(self, frame: Frame) -> None:
+        """Remove the first frame that is equal to another one."""
+        first = int(np.flatnonzero((self.table == frame).all(axis=1))[0])
+        self._room[first : self._count - 1] = self._room[first + 1 : self._count]
+        self._count -= 1
+
+
 class Placer:
-    """Labels placed so far, and what they should not cover: each a table with a row for a frame."""
+    """Labels placed so far, and what they should not cover."""
 
     def __init__(self, page: Frame) -> None:
         self._page = page
-        self._taken, self._threads, self._lines, self._walls = (np.empty((0, 4)) for _ in range(4))
+        self._taken, self._threads, self._lines, self._walls = (_Frames() for _ in range(4))
 
     @property
     def right(self) -> float:
         """The right end of all frames [in]."""
-        return float(np.vstack((self._taken, self._lines))[:, 2].max())
+        return float(np.vstack((self._taken.table, self._lines.table))[:, 2].max())
 
     def take(self, frame: Frame) -> None:
         """Reserve a frame: no label will touch it."""
-        self._taken = np.vstack((self._taken, frame))
+        self._taken.add([frame])
 
     def release(self, frame: Frame) -> None:
         """Give a reserved frame back."""
-        first = int(np.flatnonzero((self._taken == frame).all(axis=1))[0])
-        self._taken = np.delete(self._taken, first, axis=0)
+        self._taken.remove(frame)
 
     def avoid(self, frame: Frame) -> None:
         """Mark a line or a small object, covered only where there is no other room."""
-        self._lines = np.vstack((self._lines, frame))
+        self._lines.add([frame])
 
     def wall(self, frame: Frame) -> None:
         """Mark a side of an array: as `avoid`, and no leader will cross it."""
         self.avoid(frame)
-        self._walls = np.vstack((self._walls, frame))
+        self._walls.add([frame])
 
     def take_first(self, frames: Sequence[Frame], within: Sequence[Frame] = ()) -> int | None:
         """Reserve the first frame that touches no label, no line and, `within`, no wall, if any."""
         if not frames:
             return None
-        low, high = np.split(np.array(frames), 2, axis=1)
+        corners = np.array(frames)
+        low, high = corners[:, :2], corners[:, 2:]
         taken = (low < self._page[:2]).any(axis=1) | (high > self._page[2:]).any(axis=1)
-        taken |= _touches(low, high, np.vstack((self._taken, self._threads)), 0.0).any(axis=1)
+        for others in (self._taken, self._threads):
+            taken |= _touches(low, high, others.table, 0.0).any(axis=1)
         if within:
-            low, high = np.split(np.array(within), 2, axis=1)
-            taken |= _touches(low, high, self._walls, 0.0).any(axis=1)
+            corners = np.array(within)
+            taken |= _touches(corners[:, :2], corners[:, 2:], self._walls.table, 0.0).any(axis=1)
         if taken.all():
             return None
         first = int(np.argmin(taken))
@@ -117,8 +143,9 @@ class Placer:
 
     def take_segment(self, a: Point, b: Point) -> None:
         """Reserve a line between two points: no label will touch it, leaders may cross it."""
-        points = np.linspace(a, b, max(2, math.ceil(math.dist(a, b) / 0.06)))
-        self._threads = np.vstack((self._threads, np.hstack((points - 0.01, points + 0.01))))
+        count = max(1, math.ceil(math.dist(a, b) / 0.06) - 1)
+        (x, y), dx, dy = a, (b[0] - a[0]) / count, (b[1] - a[1]) / count
+        self._threads.add([centered(x + k * dx, y + k * dy, 0.02, 0.02) for k in range(count + 1)])
 
     def place(
         self,
@@ -141,7 +168,7 @@ class Placer:
         cost = _CROSSED if may_cross else np.inf
         # As bytes they are keys of the cache; arrays have no hash.
         tables = (self._taken, self._threads, self._lines, self._walls)
-        rows = (table.tobytes() for table in tables)
+        rows = (frames.table.tobytes() for frames in tables)
         frame = _placed((wide, tall), near, page, maximum, cost, *rows)
         if frame is not None:
             self.take(frame)
