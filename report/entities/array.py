@@ -192,7 +192,20 @@ class UpliftResult(Entity):
     """Number of times that the normal force falls below zero."""
 
 
-class ArrayResult(LowVelocityResult):
+class ArrayRow(LowVelocityResult):
+    """An array in a short table: its displacements, what governs them, its verdict."""
+
+    verdict: Annotated[
+        ItemVerdict,
+        centered("Verdict", 1.65),
+        Column(),
+        Told(ChangeKind.VERDICT, "Array {row.id}", of_gone=True),
+    ]
+    """Verdict on the array, with the clearances beside it."""
+    source: Annotated[str, words("Governs", 1.55)] = printed("")
+
+
+class ArrayResult(ArrayRow):
     """An array: what it is, its displacements by direction, motion and run, its limits."""
 
     first: ClassVar[tuple[str, ...]] = (
@@ -204,13 +217,6 @@ class ArrayResult(LowVelocityResult):
         "friction_as_run",
     )
 
-    verdict: Annotated[
-        ItemVerdict,
-        centered("Verdict", 1.65),
-        Column(),
-        Told(ChangeKind.VERDICT, "Array {row.id}", of_gone=True),
-    ]
-    """Verdict on the array, with the clearances beside it."""
     slope_rad: Annotated[float, at("array.slope_rad")]
     """Roof slope."""
     friction: Annotated[Friction, at("array.friction")]
@@ -245,7 +251,6 @@ class ArrayResult(LowVelocityResult):
     """Limits on the prescriptive route."""
     runs: tuple[RunResult, ...]
     """All runs."""
-    source: Annotated[str, words("Governs", 1.55)] = printed("")
     governing_gap: Annotated[str, words("Clearance to", 1.4)] = printed("none given")
     largest_dc: Annotated[str, Shown(head="D/C", share=0.8)] = printed("—")
     gap_required_m: Annotated[Number, required("Required", 0.8)] = printed(math.nan)
@@ -374,6 +379,16 @@ def array_results(marked: Marked) -> Iterator[ArrayResult]:
             verdict=f" {cause}" if is_said else "",
             seaoc_m=marked.mark_of_seaoc,
         )
+
+
+def short_rows(marked: Marked) -> Iterator[ArrayRow]:
+    """Yield the arrays as rows of a short table, with the marks of their numbers."""
+    for item in marked.assessment.arrays:
+        marks = {
+            "prescriptive_m": marked.prescriptive_mark(item),
+            "design_m": marked.design_mark(item),
+        }
+        yield ArrayRow.of(item, verdict=marked.assessment.array_verdict(item), marks=marks)
 
 
 def direction_result(item: ArrayAssessment, direction: Direction) -> DirectionResult:

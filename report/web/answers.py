@@ -18,7 +18,7 @@ from report.assessment.runs import MotionRun
 from report.assessment.verdict import MEANING, Verdict
 from report.document.templates import sentence
 from report.drawing.sheet import unit_format
-from report.entities.array import ArrayResult, array_results
+from report.entities.array import ArrayRow, short_rows
 from report.entities.clearance import ClearanceResult, clearance_results
 from report.entities.requirement import Marked
 from report.entities.shown import UnitFormat
@@ -48,7 +48,7 @@ def answer(
     """Return what the page shows, with room for its plan; provisional values have no verdict."""
     marked = Marked(assessment=assessment, has_daggers=False)
     fmt = unit_format(assessment)
-    arrays = list(array_results(marked))
+    arrays = list(short_rows(marked))
     gaps = list(clearance_results(marked, dict(enumerate(assessment.clearances, start=1))))
     missing = [near for near in assessment.neighbors if near.is_missing]
     designs = {item.id: _design(item, fmt, is_provisional) for item in arrays}
@@ -76,7 +76,7 @@ def answer(
         "pending": "" if is_whole else _LESS,
         "arrays": {
             "caption": "Arrays: displacement",
-            "heads": heads(ArrayResult, _ARRAY, mean_prd_m="Mean PRD"),
+            "heads": heads(ArrayRow, _ARRAY, mean_prd_m="Mean PRD"),
             "rows": [
                 cells(item, _ARRAY, fmt, design_m=designs[item.id], verdict=verdict(item.verdict))
                 for item in arrays
@@ -128,7 +128,7 @@ def _reasons(assessment: Assessment, fmt: UnitFormat) -> list[dict[str, Any]]:
     return [*others[:first], grouped, *others[first:]]
 
 
-def _design(item: ArrayResult, fmt: UnitFormat, is_provisional: bool) -> Cell:
+def _design(item: ArrayRow, fmt: UnitFormat, is_provisional: bool) -> Cell:
     """Return the design displacement and what governs; while provisional, not whether it may."""
     if math.isnan(item.design_m):
         return {"text": fmt.none}
@@ -169,7 +169,7 @@ def _between(first: str, other: str, note: str) -> Cell:
 
 def _tips(
     assessment: Assessment,
-    arrays: Sequence[ArrayResult],
+    arrays: Sequence[ArrayRow],
     designs: Mapping[str, Cell],
     gaps: Sequence[ClearanceResult],
 ) -> dict[str, str]:
@@ -192,7 +192,7 @@ def _tips(
 
 
 def _bars(
-    item: ArrayResult, motions: Sequence[MotionRun], fmt: UnitFormat, design: Cell
+    item: ArrayRow, motions: Sequence[MotionRun], fmt: UnitFormat, design: Cell
 ) -> Mapping[str, Any]:
     """Return the PRD of each motion, and the lengths that are lines across its bars."""
     # A displacement that is not permitted is no line across the bars.
