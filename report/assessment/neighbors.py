@@ -322,9 +322,12 @@ def _pairs(
 ) -> Iterator[PlanNeighbor]:
     rows = _rows(data, addresses)
     kinds = {item.id: item.kind.value for item in data.objects}
+    to_add = {
+        table: addresses.get(Place(table), table.capitalize())
+        for table in ("objects", "clearances")
+    }
     for array, other, kind, (near, far), reach_m in _candidates(data, reaches):
         is_bare = kind is NearbyKind.BARE_EDGE
-        table = "objects" if is_bare else "clearances"
         yield PlanNeighbor(
             array=array,
             other=other,
@@ -335,7 +338,7 @@ def _pairs(
             gap_m=gap_m(near, far),
             reach_m=reach_m,
             given=() if is_bare else rows.get(frozenset((array, other)), ()),
-            to_add=addresses.get(Place(table), table.capitalize()),
+            to_add=to_add["objects" if is_bare else "clearances"],
         )
 
 

@@ -210,9 +210,9 @@ def as_adopted(data: ProjectInput) -> ProjectInput:
     chosen = data.options
     # PV1-2012 states 1.1 x the mean or the largest; ASCE 7 states no statistic to depart from.
     statistic = Statistic.RULE_SET if _takes_plain_mean(data) else chosen.statistic
-    options = chosen.model_copy(update={"directional": False, "statistic": statistic})
-    if not data.overrides and options == chosen:
+    if not (data.overrides or chosen.directional or statistic is not chosen.statistic):
         return data
+    options = chosen.model_copy(update={"directional": False, "statistic": statistic})
     return data.model_copy(update={"overrides": (), "options": options})
 
 

@@ -5,8 +5,9 @@ Owns ids and acknowledgments. Read `report.sheet.checking.plausible` next.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any
 
 from report.sheet.schema import SECTIONS, ProjectInput
@@ -190,20 +191,29 @@ def _idle(data: ProjectInput, findings: Iterable[Finding]) -> Iterator[Finding]:
 ROUNDING = 1e-9
 
 
+@cache
+def _ranged(model: type[Frozen]) -> Sequence[tuple[Entry, float, float]]:
+    """Return the fields of a model with a usual range, and its ends."""
+    return [
+        (entry, entry.expected.low * (1.0 - ROUNDING), entry.expected.high * (1.0 + ROUNDING))
+        for entry in entries(model)
+        if entry.cell.usual is not None
+    ]
+
+
 def unusual(data: ProjectInput) -> Iterator[Finding]:
     """Yield a warning for each number outside its usual range."""
     is_us = data.us_first
     for section in SECTIONS:
         rows = getattr(data, section.key)
         for index, row in enumerate(rows if section.is_table else (rows,)):
-            for entry in entries(section.model):
-                value, span = getattr(row, entry.name), entry.expected
-                # An edge without parapet has height 0, which is no object too low.
-                is_bare = getattr(row, "kind", None) is ObjectKind.EDGE_WITHOUT_PARAPET
-                if entry.cell.usual is None or value is None or (is_bare and value == 0.0):
+            # An edge without parapet has height 0, which is no object too low.
+            is_bare = getattr(row, "kind", None) is ObjectKind.EDGE_WITHOUT_PARAPET
+            for entry, low, high in _ranged(section.model):
+                value = getattr(row, entry.name)
+                if value is None or low <= value <= high or (is_bare and value == 0.0):
                     continue
-                if not span.low * (1.0 - ROUNDING) <= value <= span.high * (1.0 + ROUNDING):
-                    yield _warning(section, index, entry, row, is_us)
+                yield _warning(section, index, entry, row, is_us)
 
 
 def _warning(section: SheetSection, index: int, entry: Entry, row: Frozen, is_us: bool) -> Finding:

@@ -107,6 +107,11 @@ class SheetOf(Generic[Whole]):
             parts[part.key] = rows if part.is_table else rows[0]
         return self.whole(**parts)
 
+    @cached_property
+    def units(self) -> Mapping[str, str]:
+        """Unit of each cell as typed, by address; empty for none."""
+        return {row.address: row.unit for row in self.echo}
+
     def with_(self, **parts: Frozen | Iterable[Frozen]) -> Self:
         """Return the same with other inputs, checked as those of a workbook.
 

@@ -67,8 +67,7 @@ def size_of_unit(sheet: Sheet, place: Place) -> float:
 def _unit_of(sheet: Sheet, place: Place) -> tuple[str, float]:
     """Return the unit of the number of a cell, and its size in SI."""
     quantity = SECTION[place.section].entry(place.field).quantity
-    title, _, cell = sheet.addresses[place].rpartition("!")
-    unit = next(row.unit for row in sheet.echo if row.cell == cell and row.sheet == title)
+    unit = sheet.units[sheet.addresses[place]]
     return unit, quantity.accepted[unit] if quantity else 1.0
 
 
