@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -18,14 +19,7 @@ from report.study.schema import NoValue
 from solver.model import Floats, Motion
 from solver.records.acceptance import LEAST_RATIO, POINTS_HZ
 from solver.records.spectrum import response_spectrum
-from solver.studies.capacity import (
-    COARSE_SCAN,
-    SCAN,
-    Capacities,
-    Curve,
-    capacities,
-    maximum_searches,
-)
+from solver.studies.capacity import COARSE_SCAN, Capacities, Curve, capacities, maximum_searches
 from solver.studies.fragility import first_order_beta, fit_lognormal
 from solver.studies.runs import Runner
 
@@ -34,14 +28,18 @@ SHARES = (0.0, 0.5, 1.0)
 
 
 def array_capacities(
-    plan: StudyPlan, array: ArrayPlan, runner: Runner
+    plan: StudyPlan, array: ArrayPlan, runner: Runner, peaks_m: Floats
 ) -> tuple[tuple[Capacities, ...], list[dict[str, float]], int]:
     """Return the capacities of an array for each of `SHARES`, what disperses them, and its runs.
 
+    `peaks_m` are the PRDs of its fragility, which were run before, shape (motions, levels).
     The dispersions due to friction and slope have the names of `ArrayPlan.shifts`.
     """
     levels = np.array(plan.input.intensities)
-    capacities = _searched(plan, array, runner, (array.mu, array.array.slope_deg), levels, SCAN)
+    curves = curves_of(runner, array, array.mu, array.array.slope_deg)
+    for curve, peaks in zip(curves, peaks_m, strict=True):
+        curve.known.update(zip(levels.tolist(), peaks.tolist(), strict=True))
+    capacities = _searched(plan, array, curves, levels)
     searches = [capacities]
     medians = _medians(capacities)
     effects: list[dict[str, float]] = [{} for _ in SHARES]
@@ -84,15 +82,15 @@ def curves_of(runner: Runner, array: ArrayPlan, mu: float, slope_deg: float) -> 
 
 
 def _searched(
-    plan: StudyPlan, array: ArrayPlan, runner: Runner, at: Shift, levels: Floats, steps: int
+    plan: StudyPlan, array: ArrayPlan, curves: Sequence[Curve], levels: Floats, **search: Any
 ) -> tuple[Capacities, ...]:
-    """Return the capacities at a friction and slope [deg], for each of `SHARES`."""
+    """Return the capacities of curves for each of `SHARES`."""
     return capacities(
-        curves_of(runner, array, *at),
+        curves,
         [share * array.array.clearance_m for share in SHARES],
         levels,
         is_censoring=plan.input.study.no_value is NoValue.CENSORED,
-        steps=steps,
+        **search,
     )
 
 
@@ -104,7 +102,8 @@ def _shifted(
     # motions would reach a limit.
     later = _yield(*at) / _yield(array.mu, array.array.slope_deg)
     top = np.array([max(1.0, later) * plan.input.intensities[-1]])
-    return _searched(plan, array, runner, at, top, COARSE_SCAN)
+    curves = curves_of(runner, array, *at)
+    return _searched(plan, array, curves, top, steps=COARSE_SCAN, to_end=False)
 
 
 def _medians(found: Sequence[Capacities]) -> list[float]:

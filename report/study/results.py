@@ -234,7 +234,7 @@ def _array(
     counts = ~lost if study.no_value is NoValue.CENSORED else np.ones_like(lost)
     reaches = array.array.reaches or "the object or edge"
     words = ("slip begins", "half the clearance is used", f"{reaches} is reached")
-    found, effects, runs = array_capacities(plan, array, runner)
+    found, effects, runs = array_capacities(plan, array, runner, peaks_m)
     states = [
         LimitState(
             name=f"LS{k + 1}",

@@ -7,9 +7,9 @@ nothing (`fragility` does). Read `capacities`.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
@@ -46,7 +46,8 @@ class Capacities:
     is_censored: Flags
     end: Floats  # intensity above which the motion would be censored
     falls: Flags  # whether the PRD is at or below the limit again at a greater intensity
-    searched: NDArray[np.int64]  # intensities run for all limits together, each once by orientation
+    # Intensities run for all limits together, each once by orientation; not those known before.
+    searched: NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,9 +57,16 @@ class Curve:
     tracks: Sequence[Track]  # one for each orientation
     slope_rad: float
     mu: float
+    known: dict[float, float] = field(default_factory=dict)  # PRD by intensity, of runs so far
 
     def prd_m(self, intensity: Floats) -> Floats:
         """Return the PRD at intensities, shape (m,) [m]; NaN without a final value."""
+        wanted = intensity.tolist()
+        new = [x for x in wanted if x not in self.known]
+        self.known.update(zip(new, self._run(new).tolist(), strict=True))
+        return np.array([self.known[x] for x in wanted])
+
+    def _run(self, intensity: Sequence[float]) -> Floats:
         cases = grid(1, [self.slope_rad], [self.mu], intensity)
         rows = empty_rows((len(cases), len(self.tracks)))
         for column, track in enumerate(self.tracks):
@@ -97,6 +105,7 @@ def capacities(
     *,
     is_censoring: bool,
     steps: int = SCAN,
+    to_end: bool = True,
 ) -> tuple[Capacities, ...]:
     """Return the capacities of motions, for each limit.
 
@@ -115,9 +124,17 @@ def capacities(
     is_censoring : bool
         Whether a run without a value ends what is known of its motion; otherwise it counts as an
         exceedance.
+    to_end : bool
+        Whether to run intensities above the first beyond all limits: `Capacities.end` and
+        `Capacities.falls` need them.
     """
     of_motion = partial(
-        _of_motion, limits_m=limits_m, levels=levels, is_censoring=is_censoring, steps=steps
+        _of_motion,
+        limits_m=limits_m,
+        levels=levels,
+        is_censoring=is_censoring,
+        steps=steps,
+        to_end=to_end,
     )
     with ThreadPoolExecutor(THREADS) as pool:
         rows = np.array(list(pool.map(of_motion, curves))).reshape(len(curves), len(limits_m), 5)
@@ -139,7 +156,13 @@ def maximum_searches(limits_m: Sequence[float], levels: Floats, steps: int = SCA
 
 
 def _of_motion(
-    curve: Curve, limits_m: Sequence[float], levels: Floats, *, is_censoring: bool, steps: int
+    curve: Curve,
+    limits_m: Sequence[float],
+    levels: Floats,
+    *,
+    is_censoring: bool,
+    steps: int,
+    to_end: bool,
 ) -> list[tuple[float, bool, float, bool, int]]:
     """Return the fields of `Capacities` for each limit."""
     slip, top = curve.first_slip(), float(levels[-1])
@@ -151,13 +174,25 @@ def _of_motion(
         ]
     if not slip:  # the slope alone exceeds friction: a block at rest does not stay at rest
         return [(0.0, is_censoring and limit > 0.0, 0.0, False, 0) for limit in limits_m]
+    before = len(curve.known)
     x = np.union1d(np.linspace(slip, top, steps + 1), levels[levels > slip])
-    scan = _Scan(curve, x, np.concatenate([[0.0], curve.prd_m(x[1:])]))
+    run = curve.prd_m(x[1:]) if to_end else np.array([*_until_beyond(curve, x[1:], max(limits_m))])
+    scan = _Scan(curve, x[: run.size + 1], np.concatenate([[0.0], run]))
     capacities = [
         scan.capacity(limit, is_censoring) if limit else (slip, False, math.inf, False)
         for limit in limits_m
     ]
-    return [(*capacity, scan.searched) for capacity in capacities]
+    return [(*capacity, len(curve.known) - before) for capacity in capacities]
+
+
+def _until_beyond(curve: Curve, intensity: Floats, limit_m: float) -> Iterator[float]:
+    """Yield the PRD at increasing intensities, up to the first that is beyond a limit."""
+    for x in intensity:
+        (prd_m,) = curve.prd_m(x[None]).tolist()
+        yield prd_m
+        # Not > : NaN is beyond every limit.
+        if not prd_m <= limit_m:
+            return
 
 
 class _Scan:
@@ -165,11 +200,6 @@ class _Scan:
 
     def __init__(self, curve: Curve, x: Floats, prd_m: Floats) -> None:
         self._curve, self._x, self._prd_m = curve, x, prd_m
-
-    @property
-    def searched(self) -> int:
-        """Intensities that were run: all but that of the beginning of slip."""
-        return self._x.size - 1
 
     def capacity(self, limit_m: float, is_censoring: bool) -> tuple[float, bool, float, bool]:
         """Return the fields of `Capacities` for a limit above 0."""

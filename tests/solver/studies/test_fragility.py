@@ -96,8 +96,12 @@ def test_two_axes_capacity_is_bracketed_by_single_runs_and_none_before_it_exceed
 class Formula:
     """A curve in closed form whose slip begins at a tenth of an intensity."""
 
-    def __init__(self, prd_m):
-        self.prd_m = prd_m
+    def __init__(self, formula):
+        self.known, self.formula = {}, formula
+
+    def prd_m(self, intensity):
+        self.known.update(zip(intensity.tolist(), self.formula(intensity), strict=True))
+        return self.formula(intensity)
 
     def first_slip(self):
         return 0.1
@@ -178,6 +182,34 @@ def test_a_search_that_may_run_no_more_takes_the_capacity_from_below(monkeypatch
     assert found.searched[0] == 12 + most
     assert 2.0 < found.intensity[0] < 2.5 * (1.0 - ACCURACY)
     assert not found.falls[0]
+
+
+@pytest.mark.parametrize("limits", [[0.5], [0.1, 0.5], [0.5, 40.0]])
+@pytest.mark.parametrize("greatest", [3.0, 7.0])
+def test_a_search_that_ends_at_the_last_limit_finds_the_same_in_fewer_runs(limits, greatest):
+    def prd(x):
+        return np.where(x > 6.0, math.nan, 0.08 * x * x + 0.03 * np.sin(9.0 * x))
+
+    searches = [
+        capacities([Formula(prd)], limits, np.array([greatest]), is_censoring=True, to_end=to_end)
+        for to_end in (True, False)
+    ]
+    for whole, ended in zip(*searches, strict=True):
+        assert ended.intensity == whole.intensity
+        assert ended.is_censored == whole.is_censored
+        assert (ended.searched < whole.searched) == (greatest > 6.0 or limits[-1] < 40.0)
+
+
+def test_intensities_that_were_run_before_are_not_run_again():
+    """A level of the study is the same run as one of the search."""
+    first, again = (Formula(lambda x: 0.08 * x * x) for _ in range(2))
+    levels = np.array([1.0, 2.0, 3.0])
+    again.prd_m(levels)
+    (alone,), (after,) = (
+        capacities([one], [0.5], levels, is_censoring=False) for one in (first, again)
+    )
+    assert after.intensity == alone.intensity
+    assert after.searched == alone.searched - levels.size
 
 
 GRID = np.geomspace(0.25, 4.0, 20)
