@@ -214,6 +214,7 @@ function fillSelects() {
 
 // The session reports: a slider moves, the full model runs, or an answer came.
 function show({ phase, answer: next }) {
+  if (phase === "rest") enterValues(); // first: the browser lays out at once what has changed before it
   document.body.dataset.phase = phase;
   part("changed").textContent = `With ${changes(session.values(), state)}`;
   part("changed").title = part("changed").textContent;
@@ -261,13 +262,16 @@ function showMoving(phase, next) {
   else if (isFormer) showProvisional(part("verdict"), "The values are being computed; no verdict.", FORMER);
 }
 
+function enterValues() {
+  const fragment = toFragment(session.values(), [...state.sliders, ...state.choices]);
+  if (`#${fragment}` !== (location.hash || "#")) history.pushState({ depth: history.state.depth + 1, opened: state.opened }, "", fragment ? `#${fragment}` : location.pathname);
+}
+
 function showRest() {
   showVerdict(part("verdict"), answer);
   if (!answer.pending) announce(`${answer.verdict.text}. ${answer.line}. ${answer.verdict_text} ${answer.model_text}`);
-  const fragment = toFragment(session.values(), [...state.sliders, ...state.choices]);
-  if (`#${fragment}` !== (location.hash || "#")) history.pushState({ depth: history.state.depth + 1, opened: state.opened }, "", fragment ? `#${fragment}` : location.pathname);
   part("undo").disabled = history.state.depth < 1;
-  part("reset-all").disabled = fragment === "";
+  part("reset-all").disabled = location.hash === "";
   takeaway.compare();
   views.update(scene());
   turns.start(state.sliders, session.values(), answer.verdict.look === "ng");
