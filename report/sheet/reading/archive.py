@@ -21,6 +21,7 @@ from xml.etree.ElementTree import ParseError
 
 import defusedxml.ElementTree
 from openpyxl import LXML, Workbook, load_workbook
+from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.reading.scan import REOPEN, Extent, Scan, scan_parts
 from solver.files import check_length
@@ -58,12 +59,14 @@ class OpenBook:
     path: Path
     sha256: str
     book: Workbook
-    scans: Mapping[str, Scan]  # by the title of the sheet
+    sheets: Mapping[str, Worksheet]  # by the title, as the scans
+    scans: Mapping[str, Scan]
     calculation: Mapping[str, str]  # how it was calculated when it was saved, as the file says it
     outside: Sequence[str] = ()  # what its formulas and links take values from
     # what a package holds, as it was read, by SHA-256: workbook and documents; records
     files: dict[str, bytes] = field(default_factory=dict)
     records: dict[str, bytes] = field(default_factory=dict)
+    labels: dict[str, Sequence[Any]] = field(default_factory=dict)  # see `positions.labels`
 
     @property
     def data(self) -> bytes:
@@ -105,6 +108,7 @@ def book_of(path: Path, data: bytes) -> OpenBook:
         sha256=sha256,
         files={sha256: data},
         book=book,
+        sheets={sheet.title: sheet for sheet in book.worksheets},
         scans=scans,
         calculation=parts[_WORKBOOK].calculation,
         outside=tuple(dict.fromkeys(link for scan in parts.values() for link in scan.outside)),

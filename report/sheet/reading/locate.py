@@ -248,9 +248,10 @@ def beside(book: OpenBook, section: SheetSection) -> Mapping[str, list[CellPosit
     fields = fields_by_label(section)
     by_field: dict[str, list[CellPosition]] = {}
     for position, label in _labels(book, section):
-        at = replace(position, column=position.column + 1)
-        if label in fields and not found_at(book, at).is_blank:
-            by_field.setdefault(fields[label].name, []).append(at)
+        if label in fields:
+            at = replace(position, column=position.column + 1)
+            if not found_at(book, at).is_blank:
+                by_field.setdefault(fields[label].name, []).append(at)
     return by_field
 
 

@@ -6,7 +6,7 @@ Knows no input; `locate` finds them with it.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 
@@ -52,7 +52,7 @@ class CellPosition:
 
 def found_at(book: OpenBook, position: CellPosition) -> Found:
     """Return the content of a cell, as typed and as computed."""
-    cell = book.book[position.sheet].cell(position.row, position.column)
+    cell = book.sheets[position.sheet].cell(position.row, position.column)
     return Found(
         sheet=position.sheet,
         cell=position.cell,
@@ -96,13 +96,19 @@ def sheet_titled(book: OpenBook, title: str) -> Worksheet | None:
     return next((s for s in book.book.worksheets if s.title.strip().casefold() == wanted), None)
 
 
-def labels(book: OpenBook, sheet: Worksheet) -> Iterator[tuple[CellPosition, str]]:
-    """Yield each cell where a label or heading may be, row by row, with `label_key` of its text."""
-    extent = book.extent(sheet.title)
-    # Records that are pasted into a sheet make it long: labels are above them.
-    for row in range(1, min(extent.last_row, SCANNED_ROWS) + 1):
-        for column in range(1, min(extent.last_column, MAX_COLUMNS) + 1):
-            yield CellPosition(sheet.title, row, column), label_key(sheet.cell(row, column).value)
+def labels(book: OpenBook, sheet: Worksheet) -> Sequence[tuple[CellPosition, str]]:
+    """Return each cell that may be a label or heading, row by row, with `label_key` of its text."""
+    # Each section looks through the sheets that it may be on.
+    if sheet.title not in book.labels:
+        extent = book.extent(sheet.title)
+        # Records that are pasted into a sheet make it long: labels are above them.
+        book.labels[sheet.title] = [
+            (CellPosition(sheet.title, row, column), label_key(value))
+            for row in range(1, min(extent.last_row, SCANNED_ROWS) + 1)
+            for column in range(1, min(extent.last_column, MAX_COLUMNS) + 1)
+            if (value := sheet.cell(row, column).value) is not None
+        ]
+    return book.labels[sheet.title]
 
 
 def area_named(book: Workbook, name: str) -> tuple[str, tuple[int, int, int, int]] | None:
