@@ -274,7 +274,7 @@ def plain_lines(lines: Sequence[str]) -> list[str]:
 
 
 def _is_row(line: str) -> bool:
-    return bool(line.strip()) and not line.lstrip().startswith("#")
+    return line.strip()[:1] not in ("", "#")
 
 
 def _unquoted(line: str, mark: str) -> str:

@@ -276,11 +276,12 @@ def _lines(name: str, data: bytes) -> list[str]:
     if count > MAX_LINES:
         raise InputError(f"{name}: found {count:,} lines; give at most {MAX_LINES:,}")
     lines = text.split("\n")
-    raise_any(
-        f"{name}:{number}: found a line of {len(line)} characters; give at most {MAX_LINE}"
-        for number, line in enumerate(lines, start=1)
-        if len(line) > MAX_LINE
-    )
+    if max(map(len, lines)) > MAX_LINE:
+        raise_any(
+            f"{name}:{number}: found a line of {len(line)} characters; give at most {MAX_LINE}"
+            for number, line in enumerate(lines, start=1)
+            if len(line) > MAX_LINE
+        )
     return lines
 
 
