@@ -10,11 +10,11 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from pydantic_core import from_json
 
 from report.motions.files import BAR
-from report.motions.sets import Sets
 from report.results.publish import STAMP, content, stamp
 from report.sheet.checking.findings import limit, lines
 from report.sheet.checking.motion_checks import GENERATED, LABELS
@@ -27,6 +27,9 @@ from report.sheet.schema.fields import Finding, Place
 from report.sheet.writing.filled import BEFORE, WorkbookChange, changing
 from solver.files import check_plain
 from solver.model import InputError, Problem
+
+if TYPE_CHECKING:
+    from report.motions.sets import Sets
 
 Row = Mapping[str, Value]
 """A motion by the fields of `report.sheet.schema.MotionInput`; those not given stay blank."""
