@@ -46,10 +46,12 @@ def curve(entity: Any, sagitta: float) -> tuple[list[Point], bool] | str:
     is_closed = bool(entity.is_closed) if kind.endswith("POLYLINE") else _is_circle(entity, kind)
     if kind == "ELLIPSE":
         exact = entity.flattening(sagitta)
-    else:
-        exact = (
-            _spline(entity, sagitta) if kind == "SPLINE" else _chords(vertices, is_closed, sagitta)
-        )
+    elif kind == "SPLINE":
+        exact = _spline(entity, sagitta)
+    elif any(bulge for *_, bulge in vertices):
+        exact = _chords(vertices, is_closed, sagitta)
+    else:  # most lines are modules
+        return [(x, y) for x, y, _ in vertices], is_closed
     # One point more than are allowed tells the caller that there are too many.
     points = [(float(p[0]), float(p[1])) for p in islice(exact, MAX_POINTS + 1)]
     return (points, is_closed) if _are_numbers(points) else no_number
@@ -87,7 +89,7 @@ def _vertices(entity: Any, kind: str) -> list[tuple[float, float, float]]:
         start, end, bulge = arc_to_bulge(dxf.center, turn[0], turn[1], dxf.radius)
         vertices = [(*start, bulge), (*end, 0.0)]
     elif kind == "LWPOLYLINE":
-        vertices = [(x, y, bulge) for x, y, bulge in entity.get_points("xyb")]
+        vertices = [(x, y, bulge) for x, y, _, _, bulge in entity]
     else:
         shown = [v for v in entity.vertices if not v.dxf.flags & _SPLINE_FRAME]
         vertices = [(v.dxf.location.x, v.dxf.location.y, v.dxf.bulge) for v in shown]

@@ -207,7 +207,7 @@ def _shape(line: Drawn, unit_m: float) -> Shape | Unread:
 
 def _clear_box(points: Sequence[Point]) -> Rectangle | None:
     """Return a closed line as a rectangle, if it is one of four corners with long sides."""
-    shape = Polygon(ring(points))
+    shape = Polygon(tuple(points))
     box = _box(shape)
     if box is None or min(box.x_to_m - box.x_from_m, box.y_to_m - box.y_from_m) < LONG_M:
         return None

@@ -10,6 +10,7 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -126,6 +127,7 @@ def _check_expanded(count: int) -> None:
         )
 
 
+@lru_cache(maxsize=1024)  # thousands of entities are on a few layers
 def _printable(text: object) -> str:
     """Return a text of the drawing without what no terminal and no page may print."""
     return trimmed(UNPRINTABLE.sub("", str(text)))
@@ -274,7 +276,8 @@ class _Reader:
             return f"a {kind} without an area"
         if len(line.points) > MAX_POINTS:
             return f"a {kind} of more than {MAX_POINTS} points"
-        self.drawing.lines.append(replace(line, points=ring(line.points)))
+        points = ring(line.points)
+        self.drawing.lines.append(line if points == line.points else replace(line, points=points))
         return ""
 
     def _take_joined(self) -> None:
