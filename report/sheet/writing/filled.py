@@ -6,6 +6,7 @@ Read `changing`; then `overwritten` for blue cells whose formula is gone, and `w
 from __future__ import annotations
 
 import os
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence, Set
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
@@ -30,7 +31,7 @@ from report.sheet.schema.choices import ClearanceSource
 from report.sheet.schema.fields import DraftRow, Finding, Level, Place
 from report.sheet.writing.style import is_answer
 from report.sheet.writing.template import START
-from report.text.counts import cut
+from report.text.counts import cut, grouped_by
 from solver.files import check_plain, locked, write_all
 from solver.model import InputError
 
@@ -158,15 +159,15 @@ def _dependents(book: OpenBook, cells: Set[CellPosition]) -> Set[CellPosition]:
         if bounds is None or title not in titles:  # a name, a column of a table, other files
             return True
         left, top, right, bottom = bounds
-        return any(
-            title == at.sheet.casefold() and left <= at.column <= right and top <= at.row <= bottom
-            for at in dependents
-        )
+        return any(left <= at.column <= right and top <= at.row <= bottom for at in places[title])
 
-    while more := {
-        at for at in areas if at not in dependents and any(starmap(may_refer, areas[at]))
-    }:
-        dependents |= more
+    places: Mapping[str, list[CellPosition]]
+    added: Set[CellPosition] = cells
+    while added:
+        # What refers to the others is found already.
+        places = defaultdict(list, grouped_by(added, lambda at: at.sheet.casefold()))
+        added = {at for at in areas if at not in dependents and any(starmap(may_refer, areas[at]))}
+        dependents |= added
     return dependents - cells
 
 
