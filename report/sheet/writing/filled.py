@@ -227,9 +227,9 @@ def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
     """Return the blue cells that have lost their formula, by sheet, column and row."""
     # Of earlier workbooks the column Status has no use.
     lost = [
-        Overwritten(position=position, content=cell, title=title)
+        Overwritten(position=position, content=found_at(book, position), title=title)
         for position in _blue(book)
-        if not (cell := found_at(book, position)).formula or _BROKEN in cell.formula
+        if not (formula := book.formula(position.sheet, position.cell)) or _BROKEN in formula
         if (title := _title(book, position)) != "Status"
     ]
     titles = book.book.sheetnames
