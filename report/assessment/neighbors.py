@@ -291,31 +291,30 @@ def _line(start: Point, end: Point) -> Shape:
 
 def _bare(side: tuple[Point, Point], strips: Sequence[Shape]) -> Iterator[tuple[Point, Point]]:
     """Yield the parts of a side along which no strip lies; none shorter than `EDGE_STRIP_M`."""
-    long, at = math.dist(*side), 0.0
-    for start, end in [*sorted(_covered(side, strips)), (long, long)] if long else ():
+    from shapely import LineString
+    from shapely.ops import substring
+
+    line, at = LineString(side), 0.0
+    for start, end in [*sorted(_covered(side, strips)), (line.length, line.length)]:
         if start - at > EDGE_STRIP_M:
-            yield _at(side, at / long), _at(side, start / long)
+            first, last = substring(line, at, start).coords
+            yield first, last
         at = max(at, end)
-
-
-def _at(side: tuple[Point, Point], share: float) -> Point:
-    """Return the point of a side at a share of its length."""
-    (x0, y0), (x1, y1) = side
-    return side[1] if share >= 1.0 else (x0 + share * (x1 - x0), y0 + share * (y1 - y0))
 
 
 def _covered(side: tuple[Point, Point], strips: Sequence[Shape]) -> Iterator[tuple[float, float]]:
     """Yield the ranges of a side near which strips lie [m], from its start."""
-    line, long, ((x0, y0), (x1, y1)) = _line(*side), math.dist(*side), side
+    import shapely
+
+    line, path = _line(*side), shapely.LineString(side)
     for strip in strips:
         if isinstance(line, Rectangle) and isinstance(strip, Rectangle):
             parts = [strip.points] if gap_m(line, strip) <= EDGE_STRIP_M else []
         else:
             parts = spans_near(strip, *side, EDGE_STRIP_M)
         for points in parts:
-            dots = [(x - x0) * (x1 - x0) + (y - y0) * (y1 - y0) for x, y in points]
-            along = [dot / ((x1 - x0) ** 2 + (y1 - y0) ** 2) * long for dot in dots]
-            yield max(min(along), 0.0), min(max(along), long)
+            along = shapely.line_locate_point(path, shapely.points(points)).tolist()
+            yield min(along), max(along)
 
 
 def _pairs(

@@ -10,9 +10,11 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
-from xml.parsers import expat
+from xml.sax import SAXException
+from xml.sax.handler import ContentHandler
 
-from defusedxml import DTDForbidden
+import defusedxml.sax
+from defusedxml import DefusedXmlException
 from openpyxl.formula.translate import Translator
 from openpyxl.utils import coordinate_to_tuple, get_column_letter, range_boundaries
 
@@ -79,7 +81,7 @@ class Budget:
 
 
 @dataclass(slots=True)
-class Scan:
+class Scan(ContentHandler):
     """The extent of values in a part, and its formulas by cell: each with the cell it is of."""
 
     budget: Budget
@@ -97,7 +99,7 @@ class Scan:
     _row: int = 0
     _column: int = 0
 
-    def start(self, name: str, attrs: dict[str, str]) -> None:
+    def startElement(self, name: str, attrs: Any) -> None:  # noqa: N802
         """Count the element, and keep what it says of the sheet."""
         element = name.rpartition(":")[2]
         self.budget.take(element, attrs.get("sqref", ""))
@@ -114,7 +116,7 @@ class Scan:
             case "v" | "is":
                 self.extent.grow(self._row, self._column)
             case _ if element in _FORMULAS:
-                self._formula, self._text = attrs, []
+                self._formula, self._text = dict(attrs), []
                 if element == "f":
                     self.extent.grow(self._row, self._column)
                 # LibreOffice writes those of Excel's own twice, such as _xlnm.Print_Titles.
@@ -132,7 +134,7 @@ class Scan:
             case "mergeCell" | "hyperlink":
                 self._spread(attrs.get("ref"))
             case "calcPr":
-                self.calculation = attrs
+                self.calculation = dict(attrs)
 
     def _is_again(self, *key: Any) -> bool:
         is_again = key in self._once
@@ -144,7 +146,7 @@ class Scan:
         if self._formula is not None:
             self._text.append(content)
 
-    def end(self, name: str) -> None:
+    def endElement(self, name: str) -> None:  # noqa: N802
         """Keep a formula with its cell."""
         element = name.rpartition(":")[2]
         if self._formula is None or element not in _FORMULAS:
@@ -222,20 +224,11 @@ def _is_xml(name: str, data: bytes) -> bool:
 
 
 def _walk(name: str, data: bytes, scan: Scan) -> None:
-    def refuse(doctype: str, system: str | None, public: str | None, _: bool) -> None:
-        raise DTDForbidden(doctype, system, public)
-
-    parser = expat.ParserCreate()
-    parser.buffer_text = True
-    # Entities are declared within a document type, which no part has.
-    parser.StartDoctypeDeclHandler = refuse
-    parser.StartElementHandler, parser.EndElementHandler = scan.start, scan.end
-    parser.CharacterDataHandler = scan.characters
     try:
-        parser.Parse(data, True)
-    except DTDForbidden as error:
+        defusedxml.sax.parseString(data, scan, forbid_dtd=True)
+    except DefusedXmlException as error:
         raise InputError(f"contains XML entity declarations at {name}; {REOPEN}") from error
     except InputError as error:
         raise InputError(f"{name}: {error.problems[0]}") from error
-    except (expat.ExpatError, ValueError, LookupError) as error:  # LookupError: unknown encodings
+    except (SAXException, ValueError, LookupError) as error:  # LookupError: unknown encodings
         raise InputError(f"damaged at {name}; {REOPEN}") from error
