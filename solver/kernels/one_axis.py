@@ -102,7 +102,7 @@ def minimum_normal(ax, az, x, z, dt, sn, cs, g, scale):
                     most = max(most, _net_driving(c, ax, az, i))
     if most <= 0.0:
         return -most / g, np.nan
-    i = 0
+    i = np.int64(0)  # as in `slide_exact`
     while _net_driving(c, ax, az, i) <= 0.0:
         i += 1
     if i == 0:
