@@ -102,13 +102,13 @@ def minimum_normal(ax, az, x, z, dt, sn, cs, g, scale):
                     most = max(most, _net_driving(c, ax, az, i))
     if most <= 0.0:
         return -most / g, np.nan
-    i = np.int64(0)  # as in `slide_exact`
-    while _net_driving(c, ax, az, i) <= 0.0:
-        i += 1
-    if i == 0:
+    first = np.int64(0)  # as in `slide_exact`
+    while _net_driving(c, ax, az, first) <= 0.0:
+        first += 1
+    if first == 0:
         return -most / g, 0.0
-    before, after = _net_driving(c, ax, az, i - 1), _net_driving(c, ax, az, i)
-    return -most / g, (i - 1 + before / (before - after)) * dt
+    before, after = _net_driving(c, ax, az, first - 1), _net_driving(c, ax, az, first)
+    return -most / g, (first - 1 + before / (before - after)) * dt
 
 
 @njit(cache=KEPT, forceinline=True)
