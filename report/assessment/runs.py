@@ -15,7 +15,7 @@ from report.sheet.schema.choices import Direction, ModelChoice
 from report.sheet.schema.scene import Array
 from solver.model import Motion, Orientation, Scene, SlideHistory, SlideResult, Status
 from solver.sliding import least_model
-from solver.sliding.least_model import Model, Settings, Solution
+from solver.sliding.least_model import DEFAULT, Model, Settings, Solution
 from solver.sliding.uplift import Uplift, uplift
 
 # The models that a workbook can request.
@@ -109,15 +109,20 @@ def scene_key(array: Array) -> Hashable:
 
 
 def run_motion(
-    array: Array, motion: Motion, model: ModelChoice | None = None, names: Collection[str] = ()
+    array: Array,
+    motion: Motion,
+    model: ModelChoice | None = None,
+    names: Collection[str] = (),
+    tolerance: float = DEFAULT.tolerance,
 ) -> MotionRun:
     """Run one array under one motion in all of its runs.
 
     `model` replaces that of the array. Of the orientations those in `names` are run alone, if the
-    motion has them, which is not for design.
+    motion has them, which is not for design; nor is a larger tolerance.
     """
     wanted = [each for each in motion.orientations if each.name in names] or motion.orientations
-    return motion_run(motion, [run_oriented(array, motion, each, model) for each in wanted])
+    runs = [run_oriented(array, motion, each, model, tolerance) for each in wanted]
+    return motion_run(motion, runs)
 
 
 def largest_two(done: MotionRun) -> list[str]:
@@ -133,12 +138,16 @@ def motion_run(motion: Motion, runs: Sequence[OrientedRun]) -> MotionRun:
 
 
 def run_oriented(
-    array: Array, motion: Motion, orientation: Orientation, model: ModelChoice | None = None
+    array: Array,
+    motion: Motion,
+    orientation: Orientation,
+    model: ModelChoice | None = None,
+    tolerance: float = DEFAULT.tolerance,
 ) -> OrientedRun:
     """Run one array under one motion at one orientation; the rest as in `run_motion`."""
     forced = REQUESTED_MODELS.get(array.model if model is None else model)
     scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
-    solution = least_model.solve(scene, Settings(forced=forced))
+    solution = least_model.solve(scene, Settings(forced=forced, tolerance=tolerance))
     return OrientedRun(orientation=orientation, scene=scene, solution=solution)
 
 

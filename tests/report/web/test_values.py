@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from dataclasses import asdict
 from functools import cache
 
 import pytest
@@ -57,6 +58,15 @@ def test_other_friction_than_was_reviewed_has_the_floor_at_rest_and_while_it_mov
         for values in ({}, {"friction": 0.97})
     ]
     assert ["floor" in title for title in designs] == [False, True]
+
+
+def near(value):
+    """The same with its lengths within the tolerance of runs while a slider moves."""
+    if isinstance(value, dict):
+        return {key: near(part) for key, part in value.items()}
+    if isinstance(value, list):
+        return list(map(near, value))
+    return pytest.approx(value, rel=1e-4) if isinstance(value, float) else value
 
 
 def offered(project, kind="sliders"):
@@ -225,7 +235,7 @@ def test_at_the_values_of_rest_provisional_values_are_those_of_rest():
     for table in ("arrays", "clearances"):
         known = [row | {"Verdict": None} for row in rows(full[table])]
         assert sorted(known, key=str) == sorted(rows(moving[table]), key=str)
-    assert moving["bars"] == full["bars"]
+    assert moving["bars"] == near(full["bars"])
 
 
 DRAGS = {
@@ -287,7 +297,8 @@ def test_without_two_largest_orientations_provisional_values_are_the_full_ones(i
     full = assess(sheet, given.shaking)
     quick = anticipate(sheet, given.shaking, known)
     for item, known_item in zip(quick.arrays, full.arrays, strict=True):
-        assert item.directions == known_item.directions
+        for direction, value in item.directions.items():
+            assert asdict(value) == near(asdict(known_item.directions[direction]))
 
 
 def test_s_ds_that_changes_leaves_the_table_of_its_coefficient_behind():
