@@ -21,6 +21,7 @@ from typing import Any, TypeVar
 
 from pydantic import ValidationError
 from pypdf import PdfReader
+from pypdf.generic import ByteStringObject, TextStringObject
 
 from report.motions.files import MAX_BYTES as MAX_RECORD
 from report.proof.contents import differences, first_other_word, guarded, parsed, refused, words
@@ -103,10 +104,12 @@ def _attachments(pdf: PdfReader) -> dict[str, bytes]:
     total = 0
     for key, file in zip(listed[::2], listed[1::2], strict=True):
         about = file.get_object()
+        name = str(about["/UF"])
         # Readers show one of three names, each another one: all must agree.
-        if key in files or not key == about["/UF"] == about["/F"] or len(files) >= MAX_MEMBERS:
-            raise InputError(f"its attachment {key!s:.80} has two names or is one of too many")
-        files[str(key)] = content = about["/EF"]["/F"].get_data()
+        agree = name == _in_utf8(key) == _in_utf8(about["/F"])
+        if name in files or not agree or len(files) >= MAX_MEMBERS:
+            raise InputError(f"its attachment {name:.80} has two names or is one of too many")
+        files[name] = content = about["/EF"]["/F"].get_data()
         total += len(content)
         if len(content) > MAX_RECORD or total > MAX_TOTAL:
             raise InputError(
@@ -114,6 +117,15 @@ def _attachments(pdf: PdfReader) -> dict[str, bytes]:
                 f" {MAX_TOTAL // MB} MB in all"
             )
     return files
+
+
+def _in_utf8(text: Any) -> str:
+    """Return a string that the renderer writes in UTF-8, which PDF takes for another encoding."""
+    is_text = isinstance(text, TextStringObject | ByteStringObject)
+    try:
+        return text.original_bytes.decode() if is_text else str(text)
+    except UnicodeDecodeError:
+        return str(text)
 
 
 def _manifest(files: Mapping[str, bytes]) -> Manifest:

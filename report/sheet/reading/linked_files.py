@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from itertools import chain, islice
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Annotated, Final, Literal
+from unicodedata import normalize
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError
 
@@ -118,7 +119,7 @@ def path_beside(
         raise InputError(f"'{name}' is outside the workbook's folder; {where}")
     try:
         # A link within the folder may lead out of it.
-        path = (folder / name).resolve()
+        path = _as_spelled(folder / name).resolve()
         if not path.is_relative_to(folder.resolve()):
             raise InputError(f"'{name}' is a link to a file outside the workbook's folder; {where}")
         if not path.exists():
@@ -138,6 +139,16 @@ def path_beside(
     if size > max_bytes:
         raise InputError(f"'{name}' has {size / 1e6:.0f} MB; give at most {max_bytes / 1e6:.0f} MB")
     return path
+
+
+def _as_spelled(path: Path) -> Path:
+    """Return a path; where there is no such file, the one beside it whose name looks the same."""
+    if path.exists():
+        return path
+    # macOS writes the accent of a letter as a character of its own; Excel does not.
+    name = normalize("NFC", path.name)
+    beside = islice(path.parent.glob("*"), MOST_LISTED)
+    return next((file for file in beside if normalize("NFC", file.name) == name), path)
 
 
 def _meant(folder: Path, name: str, taken: Iterable[str]) -> str:

@@ -116,14 +116,15 @@ def test_no_file_is_left_when_a_signal_ends_it(job, tmp_path, name):
 def test_a_package_with_a_document_verifies_and_with_another_one_differs(tmp_path, given):
     ignored = shutil.ignore_patterns("out", "make.py", "__pycache__")
     shutil.copytree(ROOT / "projects" / "conditions", tmp_path / "job", ignore=ignored)
-    shutil.copy(LETTER, tmp_path / "job" / "friction.pdf")
-    named = {"Friction tests/Test report file": "friction.pdf"}
+    name = "Pr\u00fcfung.pdf"
+    shutil.copy(LETTER, tmp_path / "job" / name)
+    named = {"Friction tests/Test report file": name}
     type_into(tmp_path / "job" / "input.xlsx", named)
     commands.printed("report", tmp_path / "job")
     path = tmp_path / "job" / "out" / "calc-package.pdf"
-    assert opened(path.read_bytes()).files["friction.pdf"] == LETTER.read_bytes()
+    assert opened(path.read_bytes()).files[name] == LETTER.read_bytes()
     commands.printed("verify-package", path)
-    another = given(path.read_bytes(), with_file("friction.pdf", LETTER.read_bytes() + b"%"))
+    another = given(path.read_bytes(), with_file(name, LETTER.read_bytes() + b"%"))
     done = commands.run("verify-package", another, "--json")
     assert done.exit_code == 1, done.output
     (said,) = json.loads(done.stdout)["reasons"]
@@ -135,6 +136,25 @@ def test_this_process_alone_writes_every_file_as_two_do(job, tmp_path_factory):
     alone = packages.reported(tmp_path_factory, job.name).out
     for name in OUTPUTS:
         assert (alone / name).read_bytes() == (job / "out" / name).read_bytes(), name
+
+
+def test_a_name_with_an_accent_is_one_name_in_the_two_encodings_of_the_renderer(data):
+    name = "records/S\u00fcd.csv"
+
+    def change(pdf):
+        names = pdf.Root.Names.EmbeddedFiles.Names
+        at = 2 * [str(key) for key in names[::2]].index(RECORD)
+        names[at] = names[at + 1].F = pikepdf.String(name.encode())
+        names[at + 1].UF = name
+        tampering.of_manifest(lambda manifest: rename(manifest["files"]))(pdf)
+
+    def rename(files):
+        (record,) = (file for file in files if file["name"] == RECORD)
+        record["name"] = name
+
+    files = opened(tampering.rewritten(data, change)).files
+    assert name in files
+    assert RECORD not in files
 
 
 def test_an_input_that_no_longer_runs_differs(data, given):

@@ -66,6 +66,14 @@ def test_a_file_name_that_nearly_fits_is_asked_about(tmp_path, name):
     assert problem.endswith(f"{asked}; did you mean 'records/long_name.{NEARLY[name]}'?")
 
 
+def test_a_file_whose_name_macos_wrote_in_other_characters_is_read(tmp_path):
+    name = "records/S\u00fcd.csv"
+    path = type_into(make(tmp_path), {"Motions/M1/Horizontal record": name})
+    folder = path.parent / "records"
+    (folder / "x.csv").rename(folder / "Su\u0308d.csv")
+    assert read_workbook(path).records[0].name == name
+
+
 REFUSED = [
     ("records/none.csv", f"'records/none.csv' does not exist; {WITHIN}"),
     ("records", f"'records' is not a file; {WITHIN}"),
