@@ -281,6 +281,15 @@ def test_the_sheets_are_of_the_family_of_the_plan(paper, units, size_in):
         assert [float(v) / 72 for v in sheet.mediabox[2:]] == pytest.approx(size_in, abs=0.01)
 
 
+@pytest.mark.parametrize("id_", ["summary", "notes"])
+def test_a_name_of_one_word_is_not_broken_beside_its_numbers(id_):
+    name = "ROOFTOPWEST2"
+    package = scenes.package(arrays=[stand_in.array(name, 1.0)], objects=[], clearances=[])
+    made = lay_out(part(package, support(package.assessment), id_, {}))
+    text = "\n".join(pages(made))
+    assert text.count(name) == text.count(name[:6]) > 0
+
+
 @pytest.fixture(scope="module")
 def long():
     return scenes.twelve(is_long=True)
