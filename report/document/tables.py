@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import groupby
+from functools import cached_property
+from itertools import groupby, islice
 from operator import itemgetter
 from typing import Any
 
@@ -15,8 +16,10 @@ from markupsafe import Markup
 
 from report.assessment.verdict import Verdict
 from report.entities.shown import Entity, Shown, TableColumn, UnitFormat, shown_by
-from report.text.counts import grouped_by, joined, name_order, ranged
+from report.text.counts import LONGEST, grouped_by, joined, name_order, ranged
 from report.text.units import Unit
+from report.typeset.letters import width_em
+from report.typeset.pdf import pieces
 from solver.model import DefectError
 
 # The format of a table without quantities in two systems of units.
@@ -24,6 +27,9 @@ PLAIN = UnitFormat(us_first=True, none="—")
 
 # Of a column of names.
 MOST_SHARE = 1.9
+# Of the package, as its style sheet has them: width of a text, and type size of its tables.
+TEXT_IN, TYPE_PT = 7.0, 8.5
+_ROUNDING = 1.03  # the renderer sets letters a little wider than they are measured
 # Longer tables may break across pages, with the heading repeated.
 WHOLE_ROWS = 6
 
@@ -44,7 +50,7 @@ class TableRow:
     kind: str = ""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Table:
     """A table, whose caption the template says; equal headings of adjacent columns are merged."""
 
@@ -52,21 +58,68 @@ class Table:
     rows: tuple[TableRow, ...]
     kind: str = ""
     whole_rows: int = WHOLE_ROWS
+    wide_in: float = TEXT_IN
 
     @property
     def heads(self) -> tuple[tuple[str, int, str, str], ...]:
         """Headings, with number of columns spanned, alignment and width."""
+        widths = iter(self._widths)
         groups = [list(group) for _, group in groupby(self.columns, key=lambda c: c.head)]
-        whole = sum(column.share for column in self.columns)
         return tuple(
             (
                 group[0].head,
                 len(group),
                 "center" if len(group) > 1 else group[0].align,
-                f"{100.0 * sum(column.share for column in group) / whole:.2f}%",
+                f"{100.0 * sum(islice(widths, len(group))):.2f}%",
             )
             for group in groups
         )
+
+    @property
+    def fits(self) -> bool:
+        """Whether no column is narrower than its widest word."""
+        return sum(self._least) <= 1.0
+
+    @property
+    def _widths(self) -> list[float]:
+        """Widths of the columns, of 1 in all: by their shares, but each as wide as its words."""
+        shares = [column.share for column in self.columns]
+        least = self._least if self.fits else [0.0] * len(shares)
+        widened: set[int] = set()
+        while True:
+            others = sum(share for k, share in enumerate(shares) if k not in widened)
+            room = (1.0 - sum(least[k] for k in widened)) / (others or 1.0)
+            more = {k for k, share in enumerate(shares) if room * share < least[k]} - widened
+            if not more:
+                return [least[k] if k in widened else room * x for k, x in enumerate(shares)]
+            widened |= more
+
+    @cached_property
+    def _least(self) -> list[float]:
+        """Least width of each column, of 1 in all: of its widest word with its padding."""
+        words: list[set[str]] = [set() for _ in self.columns]
+        for _, cells in self.body:
+            at = 0
+            for text, _, span, _ in cells:
+                if span == 1:
+                    words[at].update(pieces(text))
+                at += span
+        whole = sum(column.share for column in self.columns)
+        # A mark may hang out of the column before one of words.
+        inner_pt, outer_pt = (9.0, 5.0) if "compact" in self.kind else (11.0, 6.0)
+        least = []
+        for k, (column, own) in enumerate(zip(self.columns, words, strict=True)):
+            padding_pt = inner_pt if k and column.align == "left" else outer_pt
+            # A key stands for a longer name; one more letter is the comma after one.
+            wide_em = max((width_em(word) for word in own if len(word) <= LONGEST + 1), default=0.0)
+            head_em = max(width_em(word, is_bold=True) for word in pieces(column.head))
+            of_words, of_head = (
+                (_ROUNDING * TYPE_PT * em + padding_pt) / (72.0 * self.wide_in)
+                for em in (wide_em, head_em)
+            )
+            # A heading may stand out of its column, but no farther than it does by its share.
+            least.append(max(of_words, min(of_head, column.share / whole)))
+        return least
 
     @property
     def body(self) -> Sequence[tuple[str, Sequence[tuple[str, str, int, str]]]]:
@@ -112,6 +165,7 @@ def table_of(
     kind: str = "",
     heads: Mapping[str, str] = {},
     shares: Mapping[str, float] = {},
+    wide_in: float = TEXT_IN,
 ) -> Table:
     """Return rows of one entity as a table of the named fields, in that order.
 
@@ -131,7 +185,7 @@ def table_of(
             text = stamp(value) if isinstance(value, Verdict) else value
             cells += shown.cells(text, fmt.none, units[name], mark, show)
         made.append(TableRow(cells=tuple(cells), kind=row.style))
-    return Table(columns=tuple(columns), rows=tuple(made), kind=kind)
+    return Table(columns=tuple(columns), rows=tuple(made), kind=kind, wide_in=wide_in)
 
 
 _Value = Callable[[Any], Any]

@@ -11,16 +11,14 @@ import io
 import math
 from dataclasses import dataclass
 from enum import Enum
-from functools import cache
 from typing import TYPE_CHECKING
 
 from report.sheet.schema.scene import Array
-from report.typeset.pdf import TEMPLATES
+from report.typeset.letters import width_em
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
     from ezdxf.layouts.layout import Modelspace
-    from matplotlib.ft2font import FT2Font
 
 
 Point = tuple[float, float]
@@ -290,25 +288,11 @@ def level(item: Item) -> int:
 
 
 TYPE_PT = 9.0  # the renderer clips letters of 8.5 pt
-_FINER = 16.0  # than a point: widths are rounded to pixels
 
 
-@cache
 def width_in(text: str, *, is_bold: bool = False) -> float:
     """Return the width of a text [in] at `TYPE_PT`."""
-    font = _font("Semibold" if is_bold else "Regular")
-    font.set_text(text, 0.0)
-    wide: float = font.get_width_height()[0] / 64.0
-    return wide / _FINER / 72.0
-
-
-@cache
-def _font(weight: str) -> FT2Font:
-    from matplotlib.ft2font import FT2Font
-
-    font = FT2Font(TEMPLATES / "fonts" / f"SourceSans3-{weight}.ttf")
-    font.set_size(TYPE_PT, 72.0 * _FINER)
-    return font
+    return width_em(text, is_bold=is_bold) * TYPE_PT / 72.0
 
 
 def tick_text(name: str) -> str:

@@ -74,7 +74,7 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
 
     columns = (
         (words("No.", 0.8), lambda margin: str(margin.number)),
-        (words("Array", package.id_share(0.8, 0.17)), lambda margin: margin.array.id),
+        (words("Array", 0.8), lambda margin: margin.array.id),
         (
             text("μ", "given", package.mu_share),
             lambda margin: mu_words(margin.array.array.friction),

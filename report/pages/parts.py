@@ -104,11 +104,6 @@ class PackageData(Marked):
         # A law by velocity prints two coefficients and a rate in one cell.
         return 2.4 if any(array.friction.is_by_velocity for array in self.data.arrays) else 0.9
 
-    def id_share(self, least: float, letter: float) -> float:
-        """Width of a column of arrays where `letter` is that of one: no name is broken in it."""
-        names = map(self.data.names, (array.id for array in self.data.arrays))
-        return max(least, letter * max(map(len, names), default=0))
-
     @property
     def routes(self) -> Mapping[str, Sequence[str]]:
         """The arrays of each route that any takes."""

@@ -1,4 +1,4 @@
-"""Which letters can be drawn: those of the fonts of a package, or else of the machine.
+"""Which letters can be drawn: those of the fonts of a package, or else of the machine; how wide.
 
 Knows no page. Read `undrawable` first.
 """
@@ -9,10 +9,14 @@ import re
 import subprocess
 import sys
 from functools import cache
+from typing import TYPE_CHECKING
 
 from report.libraries import has_font_on_windows
 from report.sheet.reading.read import Sheet
 from solver.model import InputError, Problem
+
+if TYPE_CHECKING:
+    from matplotlib.ft2font import FT2Font
 
 _LISTED = 5
 
@@ -68,6 +72,29 @@ def _is_on_machine(letter: str) -> bool:
     except (OSError, subprocess.TimeoutExpired):
         return False
     return bool(fonts.stdout.strip())
+
+
+_PX = 144  # to an em: widths are rounded to pixels
+
+
+@cache
+def width_em(text: str, *, is_bold: bool = False) -> float:
+    """Return the width of a text in the font of a package, in its type size."""
+    font = _font("Semibold" if is_bold else "Regular")
+    font.set_text(text, 0.0)
+    wide: float = font.get_width_height()[0] / 64.0
+    return wide / _PX
+
+
+@cache
+def _font(weight: str) -> FT2Font:
+    from matplotlib.ft2font import FT2Font
+
+    from report.typeset.pdf import TEMPLATES
+
+    font = FT2Font(TEMPLATES / "fonts" / f"SourceSans3-{weight}.ttf")
+    font.set_size(_PX, 72.0)
+    return font
 
 
 def check_letters(sheet: Sheet) -> None:

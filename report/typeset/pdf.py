@@ -52,6 +52,17 @@ def _kept(match: re.Match[str]) -> str:
     return f'<span style="white-space: nowrap">{whole}</span>' if whole else match[0]
 
 
+# After a hyphen before a letter, or a dash.
+_BREAK = re.compile(r"[ \n]+|(?<=\w-)(?=[^\W\d])|(?<=–)")
+_HELD = str.maketrans({" ": "\xa0", "-": "\u2011"})
+
+
+def pieces(text: str) -> Iterator[str]:
+    """Yield the parts of a text between which a line may break."""
+    held = _PATTERN.sub(lambda match: (match["whole"] or "").translate(_HELD), text)
+    return (piece.replace("\u2011", "-") for piece in _BREAK.split(held))
+
+
 _HERE = Path(__file__).resolve().parents[1]
 # In a wheel the folder is inside the package, in a checkout beside it.
 TEMPLATES = next(

@@ -21,6 +21,7 @@ from report.drawing.on_paper import printed_plan
 from report.figures.plan import paper_svg
 from report.package.html import pages as written
 from report.package.html import part
+from report.pages.registry import draw_assessment
 from report.sheet.schema.choices import PlanPaper
 from report.typeset.pdf import TEMPLATES, lay_out
 
@@ -281,13 +282,17 @@ def test_the_sheets_are_of_the_family_of_the_plan(paper, units, size_in):
         assert [float(v) / 72 for v in sheet.mediabox[2:]] == pytest.approx(size_in, abs=0.01)
 
 
-@pytest.mark.parametrize("id_", ["summary", "notes"])
-def test_a_name_of_one_word_is_not_broken_beside_its_numbers(id_):
-    name = "ROOFTOPWEST2"
-    package = scenes.package(arrays=[stand_in.array(name, 1.0)], objects=[], clearances=[])
-    made = lay_out(part(package, support(package.assessment), id_, {}))
+@pytest.mark.parametrize("id_", ["summary", "plan", "limits", "notes"])
+def test_a_name_of_one_word_is_not_broken_in_a_table(id_):
+    names = "ROOFTOPWEST2", "WAREHOUSEA12"
+    arrays = [stand_in.array(name, 1.0 + k, x=200 * k) for k, name in enumerate(names)]
+    given = stand_in.clearance(names[0], names[1], 3.0)
+    package = scenes.package(arrays=arrays, objects=[], clearances=[given])
+    drawings = draw_assessment(package)
+    made = lay_out(part(package, support(package.assessment), id_, drawings))
     text = "\n".join(pages(made))
-    assert text.count(name) == text.count(name[:6]) > 0
+    for name in names:
+        assert text.count(name) == text.count(name[:6]) > 0
 
 
 @pytest.fixture(scope="module")
