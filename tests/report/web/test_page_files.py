@@ -227,7 +227,7 @@ def test_a_tab_whose_project_another_tab_has_replaced_shows_none_of_the_other(
     before = numbers(page, "arrays", 3)
     moved(page, "friction", 0.9)
     page.wait_for_selector("#error:visible")
-    assert "opened in another tab" in page.inner_text("#error")
+    assert "another tab" in page.inner_text("#error").casefold()  # by that tab, or the server
     assert numbers(page, "arrays", 3) == before
     page.click("#error button")
     page.wait_for_selector("h1:has-text('Small Warehouse')")
