@@ -30,8 +30,7 @@ import solver
 from report.provenance.files import installed, processor
 from report.text.units import G_MPS2
 from solver.model import InputError, Motion
-from solver.sliding.least_model import DEFAULT
-from solver.studies.runs import Campaign
+from solver.studies.runs import SETTINGS, Campaign
 
 # Raised where a key of the manifest or a column of the parts changes its name or meaning.
 SCHEMA_VERSION = 1
@@ -92,8 +91,8 @@ def manifest_of(campaign: Campaign, about: Mapping[str, Any]) -> dict[str, Any]:
         "program": program(),
         "about": dict(about),
         "g_mps2": G_MPS2,
-        "model": {"matters_m": DEFAULT.matters_m, "matters_share": DEFAULT.matters_share,
-                  "tolerance": DEFAULT.tolerance},
+        "model": {"matters_m": SETTINGS.matters_m, "matters_share": SETTINGS.matters_share,
+                  "tolerance": SETTINGS.tolerance},
         "motions": [[_motion(m) for m in motions] for motions in campaign.motions],
         "cases": {"count": len(campaign.cases), "sha256": _cases_sha256(campaign)},
         "rows": campaign.rows,

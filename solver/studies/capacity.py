@@ -1,6 +1,6 @@
 """The capacity of each motion: the lowest intensity at which its PRD exceeds a limit.
 
-Found by runs of its own, as `solver.solve` makes them, not read off the levels of a study. Fits
+Found by runs of its own, as those of a study, not read off the levels of a study. Fits
 nothing (`fragility` does). Read `capacities`.
 """
 

@@ -1,6 +1,6 @@
 """What a roof sees in its life: events by Poisson, whose displacements accumulate.
 
-The responses are runs of their own, as `solver.solve` makes them. Read `draw`, then `distances`.
+The responses are runs of their own, as those of a study. Read `draw`, then `distances`.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from solver.kernels.compiler import THREADS
 from solver.model import Floats, Status
 from solver.sliding import least_model
 from solver.studies.rates import HazardCurve
-from solver.studies.runs import Track, scene_of
+from solver.studies.runs import SETTINGS, Track, scene_of
 
 Indices = NDArray[np.int64]
 
@@ -69,7 +69,7 @@ def run_levels(
         rows = np.full((once.size, len(RESPONSES)), math.nan)
         for row, x in zip(rows, once, strict=True):
             scene = scene_of(track.scene, np.array([slope_rad, mu, track.scene.scale * x]))
-            result = least_model.solve(scene).result
+            result = least_model.solve(scene, SETTINGS).result
             if result.status is Status.OK:
                 row[:] = [getattr(result, name) for name in RESPONSES]
         return rows[at]

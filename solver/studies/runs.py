@@ -1,4 +1,4 @@
-"""Runs a part of a study, each row as `solver.solve` solves it, to the bit.
+"""Runs a part of a study, each row as `solver.solve` solves it with `SETTINGS`, to the bit.
 
 Motions of one horizontal component are run many cases at a time, with what the choice of the model
 needs from a record computed once; others by `solver.sliding.least_model`. Read `run_part`.
@@ -23,8 +23,12 @@ from solver.forces import friction_demand
 from solver.kernels import one_axis as kernel
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Motion, Orientation, Scene, Status, coulomb
 from solver.sliding import least_model
-from solver.sliding.least_model import DEFAULT, Model
+from solver.sliding.least_model import Model, Settings
 from solver.sliding.sweep import order_alike
+
+# In two axes a run of a study is bounded to a ten-thousandth of its PRD, which is farther from it
+# than the bound of a package, in half the time: motions differ by tens of percent.
+SETTINGS = Settings(tolerance=1e-4)
 
 # Rows of a part at most, in one axis and in two: some seconds, so that a killed study repeats
 # little.
@@ -195,7 +199,7 @@ def scene_of(scene: Scene, slope_mu_scale: Floats) -> Scene:
 
 
 def _solve_one(scene: Scene, slope_mu_scale: Floats, rows: Rows, at: tuple[int, int]) -> None:
-    solution = least_model.solve(scene_of(scene, slope_mu_scale))
+    solution = least_model.solve(scene_of(scene, slope_mu_scale), SETTINGS)
     rows.lengths[:, *at] = [getattr(solution.result, name) for name in LENGTHS]
     rows.status[at] = STATUSES.index(solution.result.status)
     rows.model[at] = solution.model
@@ -253,7 +257,7 @@ def _is_level_enough(
     """Whether neglecting the vertical record changes no displacement by more than matters."""
     if track.z is None:
         return np.ones(len(scenes), dtype=bool)
-    bound = np.maximum(DEFAULT.matters_m, DEFAULT.matters_share * full[0])
+    bound = np.maximum(SETTINGS.matters_m, SETTINGS.matters_share * full[0])
     effect = np.abs(full[:4] - level[:4]).max(axis=0) + _rounding(track, scenes)
     return np.asarray(effect <= bound)
 

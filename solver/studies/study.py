@@ -149,8 +149,8 @@ def study(
 ) -> StudyRuns:
     """Run every slope, friction and intensity under every motion.
 
-    Each motion is run in all its orientations. Each run is that of `solver.solve`, to the bit. The
-    runs are distributed over all cores.
+    Each motion is run in all its orientations. Each run is that of `solver.solve`, to the bit, with
+    a tolerance of 1e-4. The runs are distributed over all cores.
 
     Parameters
     ----------

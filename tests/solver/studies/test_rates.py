@@ -33,7 +33,7 @@ from solver.studies.rates import (
     probability,
     realizations,
 )
-from solver.studies.runs import Campaign, Runner, grid
+from solver.studies.runs import SETTINGS, Campaign, Runner, grid
 from studied import motion
 
 K0, K = 0.002, 2.5
@@ -273,7 +273,8 @@ def test_responses_are_those_of_single_runs():
     assert found.shape == (2, 4, 2, 6)
     orientation = given.motions[0][0].orientations[2]
     one = dataclasses.replace(given.motions[0][0], scale=0.9)
-    single = solve(one.scene(orientation, slope_rad=0.03, friction=coulomb(0.4))).result
+    scene = one.scene(orientation, slope_rad=0.03, friction=coulomb(0.4))
+    single = solve(scene, SETTINGS).result
     assert found[1, 2, 1].tolist() == [getattr(single, name) for name in RESPONSES]
     assert np.abs(found[..., kernel.RESIDUAL_ACROSS]).max() > 0.0
 

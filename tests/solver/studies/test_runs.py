@@ -25,7 +25,8 @@ def solution(c, row, column):
     own = c.motions[c.cases.building[row]][number]
     own = replace(own, scale=own.scale * float(c.cases.intensity[row]))
     friction = coulomb(float(c.cases.mu[row]))
-    return solve(own.scene(heading, slope_rad=float(c.cases.slope_rad[row]), friction=friction))
+    scene = own.scene(heading, slope_rad=float(c.cases.slope_rad[row]), friction=friction)
+    return solve(scene, made.SETTINGS)
 
 
 def assert_rows_agree(c):
@@ -120,12 +121,14 @@ def test_every_run_is_that_of_solve(motions, runs):
     axes = (*SCALES.values(), columns)
     for (i, slope), (j, mu), (k, level), (c, (given, each)) in product(*map(enumerate, axes)):
         scene = replace(given, scale=level).scene(each, slope_rad=slope, friction=coulomb(mu))
-        one = solve(scene)
+        one = solve(scene, made.SETTINGS)
         found = runs.lengths[:, i, j, k, c]
         names = ("prd_m", "down_m", "up_m", "across_m", "residual_m")
         np.testing.assert_array_equal(found, [getattr(one.result, name) for name in names])
         assert tuple(Status)[runs.status[i, j, k, c]] is one.result.status
         assert Model(runs.model[i, j, k, c]) is one.model
+        closer = solve(scene).result.prd_m
+        np.testing.assert_allclose(found[0], closer, rtol=made.SETTINGS.tolerance)
 
 
 def test_the_prd_of_a_motion_is_its_largest_and_unknown_where_a_run_is(runs):
