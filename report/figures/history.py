@@ -65,8 +65,7 @@ def histories(
         figure, axes = canvas(ROW_IN * grid.rows + 0.3, across, up)
         _rules(axes, grid, len(panels))
         _traces(axes, grid)
-        for index, panel in enumerate(panels):
-            _titles(axes, grid, index, panel, us_first, printed)
+        _titles(axes, grid, panels, us_first, printed)
         return svg_text(figure)
 
 
@@ -162,25 +161,35 @@ def _traces(axes: Axes, grid: _Grid) -> None:
 def _titles(
     axes: Axes,
     grid: _Grid,
-    index: int,
-    panel: RunPanel,
+    panels: Sequence[RunPanel],
     us_first: bool,
     printed: Callable[[str], str],
 ) -> None:
-    top, run = grid.y(index, grid.high) + 0.045, panel.motion
+    show, room_in = UnitFormat(us_first), 0.92 * WIDTH_IN / (1.1 * grid.columns)
+    names = [_name(panel, printed) for panel in panels]
+    peaks = [panel.motion.governing.prd_m for panel in panels]
+    prds = [show.both(prd_m) for prd_m in peaks]
+
+    def fits(text: str, prd: str) -> bool:
+        return width_in(text, is_bold=True) + width_in(prd) < room_in
+
+    # The second unit of the PRDs gives way to the names, in all panels alike.
+    if not all(map(fits, map("".join, names), prds)):
+        prds = [show.short(prd_m) for prd_m in peaks]
+    for index, ((array, run), prd) in enumerate(zip(names, prds, strict=True)):
+        # Then the names of the arrays: motion, orientation and PRD are printed in full.
+        room = (n for n in range(len(array), 3, -1) if fits(cut(array, n) + run, prd))
+        top = grid.y(index, grid.high) + 0.045
+        axes.text(grid.x(index, 0.0), top, cut(array, next(room, 4)) + run, weight="semibold")
+        axes.text(index % grid.columns + 0.97, top, prd, ha="right")
+
+
+def _name(panel: RunPanel, printed: Callable[[str], str]) -> tuple[str, str]:
+    """Return the array of a panel, if it names one, and its motion with the orientation."""
+    motion, way = panel.motion.motion, panel.motion.governing.orientation.name
     # With its component where the motion has two.
-    way = run.governing.orientation.name
-    name = f"{printed(run.motion.id)} {way if run.motion.has_transverse else way[-1]}"
-    prd = UnitFormat(us_first).both(run.governing.prd_m)
-    if panel.array:
-        name, arrays = f": {name}", printed(panel.array)
-        # The names of the arrays give way: motion, orientation and PRD are printed in full.
-        room_in = 0.92 * WIDTH_IN / (1.1 * grid.columns) - width_in(name, is_bold=True)
-        fits = (n for n in range(len(arrays), 3, -1)
-                if width_in(cut(arrays, n), is_bold=True) < room_in - width_in(prd))  # fmt: skip
-        name = cut(arrays, next(fits, 4)) + name
-    axes.text(grid.x(index, 0.0), top, name, weight="semibold")
-    axes.text(index % grid.columns + 0.97, top, prd, ha="right")
+    run = f"{printed(motion.id)} {way if motion.has_transverse else way[-1]}"
+    return (printed(panel.array), f": {run}") if panel.array else ("", run)
 
 
 def envelope(t: Floats, u: Floats, maximum: int = MAX_POINTS) -> tuple[Floats, Floats]:

@@ -183,6 +183,21 @@ def test_a_run_in_one_axis_is_a_straight_line_and_one_without_a_value_none(array
     assert words(hodographs(array.motions[:1], [none], True)).count("none") == 1
 
 
+def test_the_second_unit_of_a_prd_gives_way_to_the_name_of_an_array_and_then_the_name(array):
+    def titles(name):
+        panels = [history.RunPanel(name, run, run.history()) for run in array.motions]
+        shown = words(history.histories(panels, True))
+        return [text for text in shown if ": " in text], "mm)" in " ".join(shown)
+
+    for name, is_both in (("A1", True), ("WESTHALL", False)):
+        names, has_both = titles(name)
+        assert [text.startswith(f"{name}: ") for text in names] == [True] * 3
+        assert has_both == is_both
+    names, has_both = titles("WAREHOUSES-OF-THE-WESTERN-HALVES")
+    assert all("…: " in text for text in names)
+    assert not has_both
+
+
 @pytest.mark.parametrize(("us_first", "unit"), [(True, "in"), (False, "mm")])
 def test_motions_downslope_and_a_round_scale_are_named(array, us_first, unit):
     printed = words(hodographs(array.motions, [m.history() for m in array.motions], us_first))

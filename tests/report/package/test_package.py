@@ -295,6 +295,20 @@ def test_a_name_of_one_word_is_not_broken_in_a_table(id_):
         assert text.count(name) == text.count(name[:6]) > 0
 
 
+def test_places_in_plan_fill_the_sheet_before_the_plan_where_the_schedule_leaves_it_empty():
+    def precede(name):
+        at = {f"{name}{k}": {"x": 120 * (k // 2), "y": 100 * (k % 2)} for k in range(4)}
+        arrays = [stand_in.array(name, 1.0, **corner) for name, corner in at.items()]
+        a, b, c, d = at
+        pairs = ((a, b), (a, c), (b, d), (c, d))
+        given = [stand_in.clearance(*pair, 40 * stand_in.FOOT) for pair in pairs]
+        page = printed(scenes.package(arrays=arrays, objects=[], clearances=given), "plan")
+        return page.index("place in plan") < page.index("To the scale stated")
+
+    assert not precede("A")
+    assert precede("WAREHOUSEA1")
+
+
 @pytest.fixture(scope="module")
 def long():
     return scenes.twelve(is_long=True)
