@@ -34,8 +34,8 @@ def _to_objects(change: Callable[[pikepdf.Pdf, random.Random], object]) -> Tampe
 
 
 def _attached(pdf: pikepdf.Pdf) -> dict[str, pikepdf.Object]:
-    names = pdf.Root.Names.EmbeddedFiles.Names
-    return {str(names[k]): names[k + 1] for k in range(0, len(names), 2)}
+    files = pdf.Root.Names.EmbeddedFiles.Names[1::2]
+    return {str(file.UF): file for file in files}  # the other names need not say their encoding
 
 
 def set_file(pdf: pikepdf.Pdf, name: str, content: bytes) -> None:

@@ -73,11 +73,13 @@ def _shown(path: Path, book: OpenBook | None, problem: Group) -> Mapping[str, An
 
 
 def _row(book: OpenBook, title: str, cell: str) -> Mapping[str, Any] | None:
-    """Return the row of a cell as texts with the headings above them; none without the sheet."""
+    """Return the row of a cell as texts with the headings above them; none of headings alone."""
     if title not in book.book.sheetnames:
         return None
     row, column = coordinate_to_tuple(cell)
     header, columns = _headed(book, book.book[title], row, column)
+    if row == header:
+        return None
     shown = [
         number
         for number in columns
@@ -97,14 +99,14 @@ def _row(book: OpenBook, title: str, cell: str) -> Mapping[str, Any] | None:
 
 
 def _headed(book: OpenBook, sheet: Worksheet, row: int, column: int) -> tuple[int, Sequence[int]]:
-    """Return the row of the headings above a cell, 0 for none, and the columns to show."""
+    """Return the row of the headings above a cell or in it, 0 for none, and the columns to show."""
     for section in (s for s in SECTIONS if s.is_table and s.sheet == sheet.title):
         try:
             table = find_table(book, section)
         except InputError:
             continue
         numbers = sorted(c.number for c in table.columns.values())
-        if row in table.rows and numbers:
+        if row in {table.heading.row, *table.rows} and numbers:
             return table.heading.row, numbers[:_MOST_COLUMNS]
     last = min(sheet.max_column, _MOST_COLUMNS)
     return 0, range(1, max(last, column if column <= _MOST_COLUMNS else 1) + 1)

@@ -66,11 +66,8 @@ mountCauses(part("verdict"));
 mountTabs(part("tabs"), (panel) => views.open(panel));
 mountUpload({ zone: part("drop"), files: part("files"), folder: part("folder") }, { begin: showBusy, take, fail });
 part("back").addEventListener("click", showProject);
-part("example").addEventListener("click", () => {
-  showBusy("Opening the example …");
-  opening(api.example);
-});
-part("add-clearances").addEventListener("click", () => opening(api.addClearances, true));
+part("example").addEventListener("click", () => opening(api.example, { words: "Opening the example …" }));
+part("add-clearances").addEventListener("click", () => opening(api.addClearances, { isRestored: true }));
 for (const key of ["array", "motion"]) part(key).addEventListener("change", ({ target }) => choose({ [key]: target.value }));
 part("undo").addEventListener("click", () => history.back());
 part("reset-all").addEventListener("click", () => setAll({}));
@@ -97,14 +94,16 @@ tabs.addEventListener("message", ({ data: { opened, name } }) => {
   replace(part("error"), html("p", {}, `Another tab has opened ${name}. This page still shows ${state.project.name}, which no longer answers.`), button("Reload", reload));
   part("error").hidden = false;
 });
-opening(() => api.enter().then(api.state), true);
+opening(() => api.enter().then(api.state), { isRestored: true });
 
 // Fetch a state and show it: the example, an upload, or what is open. Only what the
 // server holds belongs to the values in the address.
 function take(files) {
   dropped = files;
-  showBusy(`Sending and checking ${files.length} file${files.length === 1 ? "" : "s"} …`);
-  opening(() => api.upload(files));
+  // What is offered is for the workbook before.
+  motions.offer(null);
+  offerDrawing(null, null);
+  opening(() => api.upload(files), { words: `Sending and checking ${files.length} file${files.length === 1 ? "" : "s"} …` });
 }
 
 // What is sent again has the workbook as it was filled in.
@@ -118,7 +117,8 @@ function showBusy(text) {
   part("busy").hidden = text === "";
 }
 
-async function opening(fetched, isRestored = false) {
+async function opening(fetched, { isRestored = false, words = "" } = {}) {
+  showBusy(words);
   document.body.setAttribute("aria-busy", "true");
   hideError();
   try {
