@@ -235,6 +235,7 @@ def slow(uses):
     return found
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("path", FILES, ids=str)
 def test_the_time_of_each_pattern_of_a_file_grows_as_the_text(path):
     module = importlib.import_module(".".join(path.with_suffix("").parts))

@@ -87,6 +87,7 @@ CASES = {
 }
 
 
+@pytest.mark.nightly
 def test_every_formula_gives_in_libreoffice_the_value_written_with_it(tmp_path):
     """In one start, from copies without the values."""
     books = [made(**changes)[1:] for changes in CASES.values()]

@@ -267,6 +267,7 @@ def test_all_errors_are_reported_together_in_the_order_of_the_sheets(tmp_path):
     assert tuple(line.split(": ")[0] for line in reported) == said(*wrong)
 
 
+@pytest.mark.nightly
 def test_thousands_of_overlaps_and_settings_given_twice_are_told(tmp_path):
     assert problems(make(tmp_path, clearances=[], arrays=[])) == said(
         "<Arrays/heading/ID>: no array is given; fill in at least one row"

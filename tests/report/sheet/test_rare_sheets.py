@@ -9,6 +9,7 @@ from pydantic import ValidationError
 import inputs
 from cells import cell
 from inputs import FT, INCH, LB, NO_SIDES, SIDES, clearance, sides
+from nightly import by_day
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.motions import Links, coefficients
@@ -296,7 +297,7 @@ NOTCHED = ((0, 0), (300, 0), (300, 60), (80, 60), (80, 100), (0, 100))
 
 @pytest.mark.parametrize(
     ("changes", "words"),
-    [
+    by_day([
         (outlined() | {"arrays": arrays()},
          f": x from is given, and A1 has an outline at {FIRST}; leave the four sides blank, or"
          " delete the outline"),
@@ -308,7 +309,7 @@ NOTCHED = ((0, 0), (300, 0), (300, 60), (80, 60), (80, 100), (0, 100))
         (outlined(roof=NOTCHED), "or the outline of the roof at <Outlines/7/Outline of>"),
         (outlined() | {"arrays": arrays(**NO_SIDES)[:1], "roof": ROOF_SIDES | {"y_to_m": 74 * FT}},
          f"{FIRST}: A1 is outside the roof near x "),
-    ],
+    ], 2),
 )  # fmt: skip
 def test_what_contradicts_an_outline_is_told_by_its_cell(tmp_path, changes, words):
     (line,) = problems(make(tmp_path, **changes))

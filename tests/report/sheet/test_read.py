@@ -315,15 +315,17 @@ EDITED = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("change", "line"), EDITED, ids=[line[:40] for _, line in EDITED])
+@pytest.mark.parametrize(
+    ("change", "line"), by_day(EDITED, 2), ids=[line[:40] for _, line in EDITED]
+)
 def test_what_is_missing_is_reported_once(tmp_path, change, line):
     assert problems(edit(make(tmp_path), change)) == said(*line.splitlines())
 
 
 @pytest.mark.parametrize(
     ("name", "to"),
-    [("Arrays/A1/Friction test report", (1, 0)), ("Site/Structure height h", (1, 0)),
-     ("Site/Structure height h", (0, 1)), ("Site/Structure height h", (0, -1))],
+    by_day([("Arrays/A1/Friction test report", (1, 0)), ("Site/Structure height h", (1, 0)),
+            ("Site/Structure height h", (0, 1)), ("Site/Structure height h", (0, -1))], 2),
     ids=["table", "below", "unit", "label"],
 )  # fmt: skip
 def test_merged_cells_of_a_table_or_over_a_single_field_are_reported(tmp_path, name, to):

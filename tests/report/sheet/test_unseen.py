@@ -12,6 +12,7 @@ from openpyxl.worksheet.filters import AutoFilter, FilterColumn, Filters
 
 import scenes
 from cells import cell as named
+from nightly import by_day
 from printed import printed
 from report.assessment.precheck import findings
 from report.sheet.reading.read import read
@@ -152,7 +153,7 @@ SEEN = (
 )
 
 
-@pytest.mark.parametrize("look", INVISIBLE)
+@pytest.mark.parametrize("look", by_day(INVISIBLE, 3))
 def test_a_number_that_cannot_be_seen_is_a_warning(tmp_path, look):
     ((name, place, text),) = told(looking(make(tmp_path), look))
     sheet, _, cell = place.partition("!")

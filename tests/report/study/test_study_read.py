@@ -13,6 +13,7 @@ from openpyxl import load_workbook
 
 import printed
 from cells import address, cell
+from nightly import by_day
 from places import ROOT
 from projects.study.make import study
 from report.sheet.reading.linked_files import SUPPORTING, StudyYears
@@ -126,7 +127,7 @@ def test_an_ordinary_workbook_is_told_what_to_do(tmp_path):
 
 @pytest.mark.parametrize(
     ("changes", "wanted"),
-    [
+    by_day([
         ({"slopes_deg": "2, 1"}, ("<Study/Slopes>: slopes are '2, 1'", "0 to 7 by 0.5")),
         ({"slopes_deg": "50"}, ("<Study/Slopes>: slopes have 50; give numbers from 0 to 45",)),
         ({"intensities": "inf"}, ("<Study/Intensities>: intensities have inf",)),
@@ -154,7 +155,7 @@ def test_an_ordinary_workbook_is_told_what_to_do(tmp_path):
          ("<Study/Record-to-record source>: the record-to-record dispersion needs its source",)),
         ({"slopes_deg": "0 to 45 by 0.1", "intensities": "1 to 100 by 0.25",
           "mus": "0.1 to 2 by 0.01"}, ("<Study/Intensities>: make", "cases")),
-    ],
+    ], 8),
     ids=lambda value: str(value)[:40] if isinstance(value, dict) else "",
 )  # fmt: skip
 def test_errors_name_the_cell_and_what_to_do(tmp_path, changes, wanted):
@@ -339,7 +340,7 @@ def test_a_file_is_read_to_the_roof(tmp_path):
 
 @pytest.mark.parametrize(
     ("changes", "lines"),
-    [
+    by_day([
         ({"hazard": hazard(site_factor=None, site_basis="")}, ["Factor to the site is missing"]),
         ({"hazard": hazard(site_basis="")}, ["Basis of this factor is missing"]),
         ({"hazard": hazard(site_vs30_mps=760.0)}, ["Factor to the site is given"]),
@@ -356,7 +357,7 @@ def test_a_file_is_read_to_the_roof(tmp_path):
          ["mat 'Z' is not on the sheet Mats"]),
         ({"friction_runs": (StudyFrictionRun(mat="A", surface=Surface.DRY, number=1, mu=0.5),)},
          ["1 friction runs on 1 surfaces"]),
-    ],
+    ], 6),
 )  # fmt: skip
 def test_what_a_hazard_lacks_is_said_at_its_cell(tmp_path, changes, lines):
     write(tmp_path, yearly(**changes))

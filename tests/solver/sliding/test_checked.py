@@ -411,6 +411,7 @@ print(json.dumps([sorted(compiled() - before), sorted(before)]))
 """
 
 
+@pytest.mark.nightly
 def test_a_report_compiles_nothing_that_set_up_has_not():
     paths = {"PYTHONPATH": f"{ROOT}{os.pathsep}{TESTS}"}
     command = [sys.executable, "-c", CODE]
