@@ -26,8 +26,8 @@ from solver.sliding import least_model
 from solver.sliding.least_model import Model, Settings
 from solver.sliding.sweep import order_alike
 
-# In two axes a run of a study is bounded to a ten-thousandth of its PRD, which is farther from it
-# than the bound of a package, in half the time: motions differ by tens of percent.
+# The PRDs of a study differ from motion to motion by far more than by this bound on their error in
+# two axes; that of a package, a hundred times closer, takes longer.
 SETTINGS = Settings(tolerance=1e-4)
 
 # Rows of a part at most, in one axis and in two: some seconds, so that a killed study repeats

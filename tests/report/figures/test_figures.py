@@ -194,7 +194,7 @@ def test_the_second_unit_of_a_prd_gives_way_to_the_name_of_an_array_and_then_the
         assert [text.startswith(f"{name}: ") for text in names] == [True] * 3
         assert has_both == is_both
     names, has_both = titles("WAREHOUSES-OF-THE-WESTERN-HALVES")
-    assert all("…: " in text for text in names)
+    assert ["…: " in text for text in names] == [True] * 3
     assert not has_both
 
 
