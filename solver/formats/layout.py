@@ -55,6 +55,18 @@ _SPECTRAL = re.compile(
     r"(?<![a-z])(?:p?s_?[avd]|p?r?s_?acc|spectr(?:al|um)|pseudo|response)(?![a-z])", re.IGNORECASE
 )
 
+# A line of text that says what the numbers below it are. The peak of a velocity, or that of shear
+# waves, tells of the record or the site, as does a quantity with its value.
+_SPECTRUM = re.compile(
+    r"\W*(?:freq|frequency|periods?)(?![a-z])|.*(?<![a-z])(?:spectr(?:al|um|a)|p?s_?a)(?![a-z])",
+    re.IGNORECASE,
+)
+_QUANTITY = re.compile(
+    r"\W*(?:(?!peak|max|wave|shear)\w+\W+){0,3}?(vel|velocity|velocities|disp|displacements?)"
+    r"(?:\W+(?:time|history|histories|series|record|trace|data|in)\b|\W*[\[(,;]|\W*$)",
+    re.IGNORECASE,
+)
+
 _BRACKETED = re.compile(r"([^\[(]*)[\[(]([^\])]*)[\])]\s*")
 _IN = re.compile(r"(.*\S)\s+in\s+(\S+)", re.IGNORECASE)
 _WORD = re.compile(r"[^\s\[(]+(?:\s?[\[(][^\])]*[\])])?")
@@ -149,6 +161,23 @@ def of_a_spectrum(headings: list[Heading]) -> list[str]:
     if _ABSCISSAS.match(first.text):
         return [first.text, *spectral]
     return spectral if spectral and len(spectral) == len(others) else []
+
+
+def is_of_a_spectrum(line: str) -> bool:
+    """Whether a line of text says that the numbers below it are a spectrum."""
+    return bool(_SPECTRUM.match(line))
+
+
+def is_of_acceleration(line: str) -> bool:
+    """Whether a line of text names accelerations or a unit of theirs."""
+    return bool(_ACCELERATION.search(line) or units_in(line))
+
+
+def other_quantity(line: str) -> str:
+    """What a line of text says that the numbers below it are, if no acceleration; "" for none."""
+    quantity = _QUANTITY.match(line)
+    others = (unit for unit in _UNITS_OF.findall(line) if is_other_unit(unit))
+    return quantity[1].lower() if quantity else next(others, "")
 
 
 def remark(line: str, separator: str | None, width: int) -> list[Heading]:

@@ -82,6 +82,7 @@ def read(source: Source) -> MotionFile:
             f"{source.at(table.heading_index)}: found {', '.join(map(shown, named))}: this is a"
             " spectrum, no record; give accelerations by time"
         )
+    _check_remarks(source, table)
     timed = _has_times(source, table)
     columns = range(int(timed), table.values.shape[1])
     others = [i for i in columns if table.headings and table.headings[i].kind is Kind.OTHER]
@@ -116,6 +117,26 @@ def read(source: Source) -> MotionFile:
     file = motion_file(source, "text", channels, [*even.notes, *notes])
     holds = [hold for _, line in table.remarks if (hold := _HOLD.search(line))]
     return replace(file, hold_s=float(holds[0][1])) if holds else file
+
+
+def _check_remarks(source: Source, table: _Table) -> None:
+    """Raise where the text above the numbers says that they are no accelerations."""
+    numbers = table.values[:, 1:] if table.values.shape[1] > 1 else table.values
+    # A record may be matched to a spectrum: only a spectrum is nowhere below zero.
+    is_positive = len(numbers) > _FEW and bool((numbers >= 0.0).all())
+    is_headed = any(heading.kind is Kind.ACCELERATION for heading in table.headings)
+    is_said = is_headed or any(layout.is_of_acceleration(line) for _, line in table.remarks)
+    for index, line in table.remarks:
+        if is_positive and layout.is_of_a_spectrum(line):
+            raise InputError(
+                f"{source.at(index)}: found {shown(line)} above values of which none is negative:"
+                " this is a spectrum, no record; give accelerations by time"
+            )
+        if not is_said and (other := layout.other_quantity(line)):
+            raise InputError(
+                f"{source.at(index)}: found {other!r}, and no acceleration; give the file of"
+                " acceleration, or a heading such as time_s,acc_g where it is one"
+            )
 
 
 def _magnitudes(table: _Table, columns: Sequence[int]) -> list[int]:

@@ -348,3 +348,59 @@ def test_a_spectrum_is_no_record(file, head, named):
 def test_a_record_is_no_spectrum(file, head):
     path = file(head + "\n0,0.1,0.2\n0.01,0.2,0.3\n0.02,0.1,0.1\n")
     assert read_motion_file(path, units="g").channels
+
+
+def table_below(remark):
+    return remark + "\n" + "".join(f"{0.1 * k:.1f} {0.3 + 0.01 * k:.2f}\n" for k in range(1, 40))
+
+
+@pytest.mark.parametrize(
+    "remark",
+    [
+        "# Pseudo-acceleration spectrum, 5 % damping, g",
+        "# Period (s), PSA (g)",
+        "# T(s) Sa(g)",
+        "Response spectra of the site",
+        "% Frequency Hz FAS",
+    ],
+)
+def test_a_line_above_the_numbers_tells_of_a_spectrum(file, remark):
+    problems = problems_of(file(table_below(remark)))
+    assert problems[0].startswith("roof.csv:1: found ")
+    assert "spectrum, no record; give accelerations by time" in problems[0]
+    # Below the name of a spectrum, a record has values of both signs.
+    assert read_record(file("# Matched to the response spectrum of the site\n0.1\n-0.2\n0.3\n"),
+                       units="g", dt_s=0.01)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("remark", "named"),
+    [
+        ("# Velocity history, cm/s", "velocity"),
+        ("# Displacement (cm)", "displacement"),
+        ("Corrected ground velocity", "velocity"),
+        ("# time, disp", "disp"),
+        ("# UNITS: cm/s", "cm/s"),
+    ],
+)
+def test_a_line_above_the_numbers_tells_of_another_quantity(file, remark, named):
+    path = file(remark + "\n0.00 0.1\n0.01 -0.2\n0.02 0.3\n")
+    (problem,) = problems_of(path)
+    assert problem.startswith(f"roof.csv:1: found {named!r}, and no acceleration; give "), problem
+    head, _, rows = path.read_text().partition("\n")
+    # A heading of accelerations decides.
+    assert read_record(file(f"# {head}\ntime_s acc_g\n{rows}"))
+
+
+@pytest.mark.parametrize(
+    "remark",
+    [
+        "# shear wave velocity Vs30 300 m/s",
+        "# peak velocity 30 cm/s, peak displacement 4 cm",
+        "# Displacement = 4.1 cm",
+        "# velocity pulse at 3 s",
+        "# velocity and displacement beside this acceleration",
+    ],
+)
+def test_a_line_may_tell_of_velocity_beside_accelerations(file, remark):
+    assert read_record(file(remark + "\n0.00 0.1\n0.01 -0.2\n0.02 0.3\n"), units="g")
