@@ -232,12 +232,20 @@ def _evened(source: Source, table: _Table, columns: Floats, timed: bool) -> Samp
 
 def _check_is_time(source: Source, table: _Table, times: Floats) -> None:
     """Raise where the first of columns without headings cannot be times at all."""
+    if table.headings or len(times) <= _FEW:
+        return
     falling = int((np.diff(times) <= 0.0).sum())
-    if not table.headings and len(times) > 10 and 4 * falling > len(times):
+    if 4 * falling > len(times):
         raise InputError(
             f"{source.name}: found {table.values.shape[1]} columns without a heading, and the first"
             f" is no time: it falls {falling} times; give a heading such as time_s,x_g, or"
             f" {ACROSS.format(table.values.shape[1])}"
+        )
+    if times[0] == len(times) - 1 and times[1] < times[0]:
+        index, first = next(rows_of(source.lines, table.start))
+        raise InputError(
+            f"{source.at(index)}: found {shown(first)} above {len(times) - 1} times: if it is their"
+            " count and step, put # before it"
         )
 
 

@@ -404,3 +404,10 @@ def test_a_line_above_the_numbers_tells_of_another_quantity(file, remark, named)
 )
 def test_a_line_may_tell_of_velocity_beside_accelerations(file, remark):
     assert read_record(file(remark + "\n0.00 0.1\n0.01 -0.2\n0.02 0.3\n"), units="g")
+
+
+def test_a_count_and_a_step_above_times_are_no_sample(file):
+    rows = "".join(f"{0.01 * k:.2f} {0.1 * (-1) ** k:.1f}\n" for k in range(12))
+    named = "roof.csv:1: found '12 0.01' above 12 times: if it is their count and step, put #"
+    assert problems_of(file(f"12 0.01\n{rows}")) == (f"{named} before it",)
+    assert read_record(file(f"# 12 0.01\n{rows}"), units="g").dt_s == 0.01
