@@ -25,7 +25,18 @@ from report.study.schema import Intensity, NoValue, StudyArray, StudyBuilding
 from report.study.tables import curves_csv, study_xlsx
 from report.study.wording import headline, sentence
 from report.text.units import Quantity
-from study_books import at, command, having, in_one_go, peak, sheet_rows, small, with_study, write
+from study_books import (
+    at,
+    command,
+    given,
+    having,
+    in_one_go,
+    peak,
+    sheet_rows,
+    small,
+    with_study,
+    write,
+)
 
 
 @pytest.mark.nightly
@@ -278,6 +289,19 @@ def test_one_case_makes_a_report(other):
     )  # fmt: skip
     assert isinstance(found.fits[0], str)
     assert "None is given" in printed.study(found)
+
+
+def test_two_axes_say_how_large_the_error_of_a_displacement_is(tmp_path):
+    one = given(slopes_deg="2", intensities="1", study_arrays=())
+    said = {
+        letters: printed.study(
+            run_study(planned(str(write(tmp_path / letters, one, motions=1, letters=letters)))[0],
+                      str(tmp_path / f"out-{letters}"))
+        )
+        for letters in ("x", "xy")
+    }  # fmt: skip
+    wanted = "In two axes the error of a displacement is at most 0.01 % of the PRD."
+    assert [wanted in text for text in said.values()] == [False, True]
 
 
 @pytest.mark.nightly
