@@ -179,7 +179,7 @@ def _titles(
     for index, ((array, run), prd) in enumerate(zip(names, prds, strict=True)):
         # Then the names of the arrays: motion, orientation and PRD are printed in full.
         room = (n for n in range(len(array), 3, -1) if fits(cut(array, n) + run, prd))
-        top = grid.y(index, grid.high) + 0.045
+        top = grid.y(index, grid.high) + 0.07
         axes.text(grid.x(index, 0.0), top, cut(array, next(room, 4)) + run, weight="semibold")
         axes.text(index % grid.columns + 0.97, top, prd, ha="right")
 

@@ -134,14 +134,14 @@ def test_motions_are_named_where_they_are_below_their_target_alone():
 def test_the_component_farthest_above_the_target_speaks_for_those_of_one_target():
     texts = said(
         relative("Horizontal", [1.0, 1.5, 1.0, 1.0, 9.0]),
-        relative("Transverse", [1.4, 1.6, 1.0, 0.9, 9.0]),
+        relative("Transverse", [1.4, 1.602, 1.0, 0.9, 9.0]),
         relative("Vertical", [1.0] * 5),
     )
     short, excess = texts
     assert short.startswith("Transverse: the mean of the motions falls to 0.90 times the target")
     assert "at 0.2 Hz; it is below the target there alone." in short
     assert excess == (
-        "Transverse (horizontal likewise): the mean of the motions reaches 1.60 times the target "
+        "Transverse (horizontal likewise): the mean of the motions reaches 1.61 times the target "
         "(AC156) at 1 Hz; it exceeds 1.30 times the target from 1 to 2 Hz. "
         "The displacements are those of the stronger motions, without reduction."
     )
