@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from solver.model import Friction, coulomb
-from solver.records.record import read_only
-from solver.rivals.methods import NO_RECORD
+from solver.records.record import NO_RECORD, read_only
 from solver.sliding.two_axes import follow
 from solver.verification.random_pairs import pair
 from solver.verification.study import flat_scene

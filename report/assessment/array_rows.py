@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from report.assessment.arrays import ArrayAssessment
 from report.assessment.verdict import NO_DESIGN, NOT_GIVEN, STRENGTH_ROW, Requirement, condition
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import ClearanceSource, DistanceBasis
@@ -14,6 +13,9 @@ from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import Array
 from report.text.units import Quantity, compared_pairs, measured, pair
 from solver.rules.limit import Consequence
+
+if TYPE_CHECKING:
+    from report.assessment.arrays import ArrayAssessment
 
 _NOISE = 1e-9  # a weight in other units is no more than itself
 

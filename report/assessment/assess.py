@@ -16,9 +16,9 @@ from functools import cache, partial
 from typing import Any
 
 from report.assessment.array_rows import array_rows
-from report.assessment.arrays import ArrayAssessment, assess_array, by_id
+from report.assessment.arrays import ArrayAssessment, assess_array
 from report.assessment.causes import outcome
-from report.assessment.clearances import check_clearance, largest_separation_m, minimum_gap
+from report.assessment.clearances import by_id, check_clearance, largest_separation_m, minimum_gap
 from report.assessment.conditions import (
     less_friction_rows,
     motion_rows,
@@ -29,7 +29,6 @@ from report.assessment.conditions import (
 )
 from report.assessment.friction import (
     NOT_BY_VELOCITY,
-    SHIFT,
     low_velocity,
     velocity_rows,
     with_friction,
@@ -48,7 +47,7 @@ from report.assessment.runs import (
     run_motion,
     scene_key,
 )
-from report.assessment.verdict import rule_set_of, under_code
+from report.assessment.verdict import SHIFT, rule_set_of, under_code
 from report.motions.history import targets
 from report.motions.prepare import Shaking
 from report.sheet.checking.checks import faults

@@ -10,10 +10,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from report.assessment.arrays import statistic_basis
 from report.assessment.precheck import lacking_motions, limit_words
-from report.assessment.runs import nan_is_worst
-from report.assessment.verdict import Requirement, Verdict
+from report.assessment.routes import statistic_basis
+from report.assessment.verdict import Requirement, Verdict, nan_is_worst
 from report.sheet.schema.choices import ModelChoice
 from report.text.counts import ids_by, lowered, ranged
 from report.text.units import Quantity, compared_pairs, ratio

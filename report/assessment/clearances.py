@@ -8,16 +8,18 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
-from report.assessment.arrays import ArrayAssessment, by_id
 from report.assessment.neighbors import ComparedGap, NearbyKind, PlanNeighbor
-from report.assessment.runs import nan_is_worst
-from report.assessment.verdict import Verdict, as_adopted, mark_of
+from report.assessment.verdict import Verdict, as_adopted, mark_of, nan_is_worst
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import Direction, DistanceBasis, ObjectKind
 from report.sheet.schema.scene import Array, Clearance, RoofObject
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor, RuleSet
+
+if TYPE_CHECKING:
+    from report.assessment.arrays import ArrayAssessment
 
 # Tolerance [deg] within which two downslope directions are the same. The live formulas of the sheet
 # have it, too.
@@ -33,6 +35,11 @@ _KINDS = {
     ObjectKind.EDGE_WITHOUT_PARAPET: Neighbor.EDGE,
 }
 _OPPOSITE = {Direction.DOWN: Direction.UP, Direction.UP: Direction.DOWN}
+
+
+def by_id(arrays: Sequence[ArrayAssessment], wanted: str) -> ArrayAssessment:
+    """Return the array with an id."""
+    return next(array for array in arrays if array.id == wanted)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

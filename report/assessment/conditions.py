@@ -8,18 +8,19 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck, facing
-from report.assessment.friction import SHIFT
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.requirement_rows import fire_lane_rows, friction_rows, hazard_rows
+from report.assessment.routes import Route
 from report.assessment.verdict import (
     NO_DESIGN,
     NOT_GIVEN,
     PLAN_ROW,
+    SHIFT,
     STAYS,
     VELOCITY_ROW,
     Requirement,
@@ -46,6 +47,9 @@ from report.text.units import (
 from solver.records.acceptance import POINTS_HZ, Acceptance, spectrum_mps2
 from solver.rules.limit import Consequence, Limit
 from solver.rules.provisions import RULE_SETS, Neighbor, review_lifts_slope
+
+if TYPE_CHECKING:
+    from report.assessment.arrays import ArrayAssessment
 
 # Final displacement of a record [m] above which it drifts: the block would follow it as slip.
 DRIFT_M = 0.010

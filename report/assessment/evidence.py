@@ -11,16 +11,18 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
 
-from report.assessment.arrays import ArrayAssessment, Route, by_id, statistic_basis
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.assess import reassess
-from report.assessment.clearances import ClearanceCheck, check_clearance
-from report.assessment.friction import SHIFT, InputCase, with_friction
+from report.assessment.clearances import ClearanceCheck, by_id, check_clearance
+from report.assessment.friction import InputCase, with_friction
 from report.assessment.project import THREADS, Assessment
 from report.assessment.remedies import Remedy, remedies
-from report.assessment.runs import MotionRun, nan_is_worst, run_motion
+from report.assessment.routes import Route, statistic_basis
+from report.assessment.runs import MotionRun, run_motion
 from report.assessment.spectra import Spectra, spectra
 from report.assessment.trials import resting
 from report.assessment.uncertainty import Uncertainty, uncertainty
+from report.assessment.verdict import SHIFT, nan_is_worst
 from report.motions.history import PreparedMotion, first_period_s, through_building
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import Direction

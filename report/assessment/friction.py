@@ -9,9 +9,10 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment, assess_array
+from report.assessment.arrays import ArrayAssessment, assess_array
 from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.requirement_rows import tested
+from report.assessment.routes import NOT_PERMITTED
 from report.assessment.runs import PendingRuns
 from report.assessment.verdict import NOT_GIVEN, VELOCITY_ROW, Requirement, Verdict, condition
 from report.sheet.checking.motion_checks import MU_TOLERANCE
@@ -22,10 +23,6 @@ from report.text.units import Quantity, no_less, number, pair
 from solver.friction_tests import Series, governing
 from solver.model import Friction
 from solver.rules.provisions import RuleSet
-
-# Fraction by which the friction coefficients are decreased and increased; a verdict that less
-# friction changes is a condition.
-SHIFT = 0.05
 
 
 def coefficient(mu: float) -> str:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.runs import nan_is_worst
+from report.assessment.verdict import nan_is_worst
 from report.sheet.schema.choices import Direction
 from report.sheet.schema.motions import Links
 from report.sheet.schema.scene import Array

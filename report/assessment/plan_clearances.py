@@ -10,9 +10,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from report.assessment.arrays import ArrayAssessment, prescriptive_of
 from report.assessment.clearances import ClearanceCheck, separation_m
 from report.assessment.neighbors import REACH_FACTOR, NearbyKind, PlanNeighbor, plan_pairs
+from report.assessment.routes import prescriptive_of
 from report.assessment.verdict import Verdict, rule_set_of
 from report.sheet.reading.parts import DIGITS, GrowingTable, Value
 from report.sheet.reading.positions import CellPosition
@@ -28,6 +28,7 @@ from solver.model import INCH_M
 from solver.rules.provisions import Neighbor
 
 if TYPE_CHECKING:
+    from report.assessment.arrays import ArrayAssessment
     from report.assessment.project import Assessment
 
 # Distances are rounded down to a multiple of this [m]: what is written is never more than is there.

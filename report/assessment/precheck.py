@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 
 from report.assessment.array_rows import rows_before_runs
-from report.assessment.arrays import Route, interconnection_n, limits_of, statistic_basis
 from report.assessment.conditions import motion_rows, noted, project_rows
 from report.assessment.neighbors import REACH_FACTOR, NearbyKind
 from report.assessment.plan_clearances import design_before_runs_m, pairs_before_runs
+from report.assessment.routes import Route, interconnection_n, limits_of, statistic_basis
 from report.assessment.verdict import Requirement, Verdict, rule_set_of
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion, Targets, targets
@@ -28,7 +29,8 @@ from report.sheet.schema.choices import RecordedAt
 from report.sheet.schema.fields import Finding, Place
 from report.text.counts import lowered, numbered, quoted
 from report.text.units import Quantity, number, pair, round_down, round_up
-from solver.records.acceptance import Acceptance, acceptance
+from solver.records.acceptance import POINTS_HZ, Acceptance, SpectraOf, acceptance, one_by_one
+from solver.records.block_spectra import together
 from solver.rules import provisions
 from solver.rules.limit import Limit, Measure
 from solver.rules.provisions import Basis, RuleSet
@@ -107,7 +109,8 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
     rules, us_first = rule_set_of(data), data.us_first
     for check in building_limits(data, rules):
         yield from _limit(check, "site", 0, us_first)
-    acceptance = shaking_acceptance(shaking, targets(data))
+    spectra_of = partial(together, periods_s=1.0 / POINTS_HZ)
+    acceptance = shaking_acceptance(shaking, targets(data), spectra_of)
     basis = statistic_basis(data)
     # Only the statistic counts, not its value, which the runs give.
     few = provisions.analysis_value(rules, [0.0] * len(shaking.motions), basis).basis
@@ -212,7 +215,9 @@ def _requirements(rows: Iterable[Requirement]) -> Iterator[Finding]:
         yield note(row.places[0], text) if is_note else limit(text, *row.places)
 
 
-def shaking_acceptance(shaking: Shaking, targets: Targets) -> Acceptance:
+def shaking_acceptance(
+    shaking: Shaking, targets: Targets, spectra_of: SpectraOf = one_by_one
+) -> Acceptance:
     """Compare the motions as run with the targets at the roof, and with the other limits."""
     if not shaking.motions:
         return Acceptance(rows=(), motions=())
@@ -221,6 +226,7 @@ def shaking_acceptance(shaking: Shaking, targets: Targets) -> Acceptance:
         [_hold_s(prepared, shaking.records) for prepared in shaking.prepared],
         lambda freq_hz: targets.roof.ordinates(1.0 / freq_hz),
         lambda freq_hz: targets.vertical.ordinates(1.0 / freq_hz),
+        spectra_of,
     )
 
 

@@ -16,8 +16,15 @@ from report.assessment.conditions import MOTIONS_ID
 from report.assessment.friction import LowVelocityAssessment
 from report.assessment.links import LinkedArray
 from report.assessment.neighbors import ComparedGap, PlanNeighbor
-from report.assessment.runs import OrientedRun, nan_is_worst, scene_key
-from report.assessment.verdict import BY_CONSEQUENCE, Requirement, Verdict, as_one, worst
+from report.assessment.runs import OrientedRun, scene_key
+from report.assessment.verdict import (
+    BY_CONSEQUENCE,
+    Requirement,
+    Verdict,
+    as_one,
+    nan_is_worst,
+    worst,
+)
 from report.motions.history import Targets
 from report.motions.prepare import Shaking
 from report.sheet.reading.read import Sheet

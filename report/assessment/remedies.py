@@ -14,14 +14,14 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import partial
 
-from report.assessment.arrays import DesignBasis, Route
+from report.assessment.arrays import DesignBasis
 from report.assessment.assess import changed, entered, refused
 from report.assessment.causes import ProjectOutcome, outcome
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.neighbors import compass
 from report.assessment.plan_clearances import shapes_of
 from report.assessment.project import THREADS, Assessment
-from report.assessment.runs import nan_is_worst
+from report.assessment.routes import Route
 from report.assessment.trials import (
     HUNDREDTH,
     Trials,
@@ -34,7 +34,7 @@ from report.assessment.trials import (
     trials_of,
     with_mu,
 )
-from report.assessment.verdict import Verdict
+from report.assessment.verdict import Verdict, nan_is_worst
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.scene import SIDES, Array, Clearance
 from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape, gap_m

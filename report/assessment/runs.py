@@ -11,6 +11,7 @@ from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from operator import attrgetter
 
+from report.assessment.verdict import nan_is_worst
 from report.sheet.schema.choices import Direction, ModelChoice
 from report.sheet.schema.scene import Array
 from solver.model import Motion, Orientation, Scene, SlideHistory, SlideResult, Status
@@ -149,11 +150,6 @@ def run_oriented(
     scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
     solution = least_model.solve(scene, Settings(forced=forced, tolerance=tolerance))
     return OrientedRun(orientation=orientation, scene=scene, solution=solution)
-
-
-def nan_is_worst(value: float) -> float:
-    """Return a sort key in which NaN is the largest."""
-    return math.inf if math.isnan(value) else value
 
 
 RunMotion = Callable[[Array, Motion], MotionRun]

@@ -17,7 +17,7 @@ import numpy as np
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import THREADS, Assessment
-from report.assessment.runs import MotionRun, nan_is_worst, run_motion, run_oriented
+from report.assessment.runs import MotionRun, run_motion, run_oriented
 from report.assessment.trials import (
     Trials,
     below,
@@ -28,6 +28,7 @@ from report.assessment.trials import (
     trials_of,
     with_mu,
 )
+from report.assessment.verdict import nan_is_worst
 from report.sheet.schema.scene import Array
 from solver.model import Floats, HorizontalComponent, Orientation, Scene, SlideResult, Status
 from solver.records.record import read_only

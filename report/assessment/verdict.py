@@ -146,6 +146,10 @@ def worst(verdicts: Iterable[Verdict]) -> Verdict:
     return max(verdicts, key=list(Verdict).index, default=Verdict.OK)
 
 
+# Fraction by which the friction coefficients are decreased and increased; a verdict that less
+# friction changes is a condition.
+SHIFT = 0.05
+
 NOT_GIVEN = "not given"
 NO_DESIGN = "unknown without a permitted design displacement"
 # Id of the requirement on friction beyond the velocities tested.
@@ -226,6 +230,11 @@ def under_code(data: ProjectInput) -> ProjectInput:
     # With what it derives: another edition may not.
     other = site.model_copy(update=values | {"rule_set": RuleSetName(name), "edition_name": None})
     return as_adopted(data.model_copy(update={"site": other}))
+
+
+def nan_is_worst(value: float) -> float:
+    """Return a sort key in which NaN is the largest."""
+    return math.inf if math.isnan(value) else value
 
 
 def mark_of(value: float, adopted: float) -> str:

@@ -66,7 +66,7 @@ def checked(
 
     progress("reading the workbook")
     sheet = read(source)
-    # They load the compiler of the solver: an error in the workbook does not wait for it.
+    # An error in the workbook does not wait for what reads records.
     from report.assessment.precheck import findings, limits_before_runs, missing_clearances
     from report.motions.prepare import prepare
     from report.results.motions import other_sources

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.envelopes import (
     Outline,
     design_envelope,
@@ -21,6 +21,7 @@ from report.assessment.envelopes import (
 from report.assessment.neighbors import EDGES, bare_edges
 from report.assessment.plan_clearances import PlanGap, parapet_note, plan_gaps
 from report.assessment.project import Assessment
+from report.assessment.routes import NOT_PERMITTED
 from report.assessment.verdict import Verdict
 from report.drawing.dimensions import alongside, lane_of, provided_words
 from report.drawing.items import (

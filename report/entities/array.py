@@ -11,12 +11,13 @@ from typing import Annotated, ClassVar
 
 from pydantic import BeforeValidator
 
-from report.assessment.arrays import SEAOC, ArrayAssessment, DesignBasis, Route, prescriptive_of
+from report.assessment.arrays import ArrayAssessment, DesignBasis
 from report.assessment.causes import unshown_cause
 from report.assessment.envelopes import keep_clear, keep_clear_m, keep_clear_mark
 from report.assessment.friction import mu_words
 from report.assessment.neighbors import ComparedGap, PlanNeighbor
 from report.assessment.project import Assessment, ChangeKind
+from report.assessment.routes import SEAOC, Route, prescriptive_of
 from report.assessment.verdict import NOT_GIVEN, STRENGTH_ROW, ItemVerdict, Verdict
 from report.entities.motion import PeakResult, RunResult, peak_result, run_result
 from report.entities.requirement import LimitResult, Marked

@@ -13,8 +13,9 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, model_validator
 
-from report.assessment.arrays import SEAOC, ArrayAssessment, DesignBasis
+from report.assessment.arrays import ArrayAssessment, DesignBasis
 from report.assessment.project import Assessment
+from report.assessment.routes import SEAOC
 from report.assessment.verdict import OVERRIDDEN, Requirement, Verdict
 from report.entities.shown import (
     LEFT_OUT,

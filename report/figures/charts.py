@@ -17,7 +17,8 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 
-from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.routes import NOT_PERMITTED
 from report.drawing.items import TYPE_PT
 from report.entities.shown import UnitFormat
 from report.figures.base import (

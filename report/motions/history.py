@@ -24,9 +24,8 @@ from solver.building.roof import RoofMotion, shaking_to_roof
 from solver.building.structure import Building, approximate_period_s, building_of_periods
 from solver.model import Floats, Motion
 from solver.records.measures import Measures, measures
-from solver.records.record import Record, read_only
+from solver.records.record import NO_RECORD, Record, read_only
 from solver.records.spectrum import Target, design_spectrum, factor_to_target
-from solver.rivals.methods import NO_RECORD
 from solver.rules.hazard import (
     RequiredSpectrum,
     Tail,

@@ -22,7 +22,6 @@ from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import DraftRow, Finding, Place, Where
 from report.text.units import G_MPS2, Quantity
 from solver.model import Floats, Motion
-from solver.sliding.row import MOST_STEPS, BlockRow, minimum_steps
 
 # Largest difference of two samples / peak where records are the same: above that of rounding.
 ALIKE = 1e-3
@@ -90,6 +89,10 @@ def _times(row: DraftRow) -> tuple[float, float]:
 
 def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Finding]:
     """Yield the rows whose runs together need more than `MOST_STEPS` steps."""
+    if not data.links:
+        return
+    from solver.sliding.row import MOST_STEPS, BlockRow, minimum_steps  # with the compiler
+
     seconds = sum(
         len(motion.orientations) * motion.dt_s * len(motion.ax_mps2) for motion in motions
     )

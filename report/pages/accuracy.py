@@ -9,12 +9,14 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from report.assessment.arrays import ArrayAssessment, by_id
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.clearances import by_id
 from report.assessment.evidence import Accuracy, Cumulative, Evidence
-from report.assessment.friction import SHIFT, mu_words
+from report.assessment.friction import mu_words
 from report.assessment.project import Assessment
 from report.assessment.trials import with_mu
 from report.assessment.uncertainty import Margin
+from report.assessment.verdict import SHIFT
 from report.document.tables import Column, Table, listed
 from report.entities.shown import NO_VALUE, length, required, text, words
 from report.pages.parts import PackageData

@@ -9,7 +9,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from report.assessment.arrays import ArrayAssessment, by_id
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.clearances import by_id
 from report.assessment.friction import mu_words, velocity_check
 from report.assessment.requirement_rows import tested
 from report.assessment.verdict import NOT_GIVEN, VELOCITY_ROW, Verdict

@@ -15,13 +15,13 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from report.assessment.arrays import ArrayAssessment, Route
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.evidence import Evidence
 from report.assessment.project import ChangeKind, Changes
 from report.assessment.requirement_rows import tested
-from report.assessment.runs import nan_is_worst
+from report.assessment.routes import Route
 from report.assessment.spectra import departures
-from report.assessment.verdict import LOWERING, Verdict
+from report.assessment.verdict import LOWERING, Verdict, nan_is_worst
 from report.entities.clearance import ClearanceResult
 from report.pages.limits import analysis_faults, check_table, troubles
 from report.pages.parts import PackageData, statistic

@@ -13,11 +13,12 @@ from typing import Any
 
 from markupsafe import Markup, escape
 
-from report.assessment.arrays import ArrayAssessment, Route
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.friction import mus_words
 from report.assessment.neighbors import Cover
 from report.assessment.plan_clearances import plan_gaps
 from report.assessment.precheck import findings
+from report.assessment.routes import Route
 from report.assessment.verdict import STRENGTH_ROW, Verdict, as_one
 from report.document.tables import Table, listed, table_of
 from report.drawing.labels import alike_arrays

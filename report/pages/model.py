@@ -13,7 +13,8 @@ from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.links import LinkedArray
-from report.assessment.runs import REQUESTED_MODELS, OrientedRun, nan_is_worst
+from report.assessment.runs import REQUESTED_MODELS, OrientedRun
+from report.assessment.verdict import nan_is_worst
 from report.document.tables import Table, Wide, by_place, listed
 from report.entities.evidence import linked_result
 from report.entities.shown import NO_VALUE, centered, length, plain, text, words

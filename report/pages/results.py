@@ -16,7 +16,8 @@ from markupsafe import Markup
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.evidence import Evidence
 from report.assessment.project import run_warnings
-from report.assessment.runs import MotionRun, nan_is_worst
+from report.assessment.runs import MotionRun
+from report.assessment.verdict import nan_is_worst
 from report.document.tables import Column, Table, TableRow, Wide, listed, table_of
 from report.drawing.items import drawn_slope_deg
 from report.entities.shown import Shown, UnitFormat, length, text, words

@@ -11,13 +11,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from report.assessment.arrays import NOT_PERMITTED
 from report.assessment.causes import causes, reasons, row_words
 from report.assessment.evidence import saving
 from report.assessment.friction import mu_words
 from report.assessment.precheck import findings
 from report.assessment.project import Assessment
 from report.assessment.remedies import Remedy, RemedyKind, best_remedy
+from report.assessment.routes import NOT_PERMITTED
 from report.assessment.trials import with_mu
 from report.assessment.verdict import MEANING
 from report.document.templates import sentence

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Annotated, ClassVar
 
-from report.assessment.arrays import ArrayAssessment, Route
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.project import Assessment
+from report.assessment.routes import Route
 from report.assessment.verdict import MEANING, OVERRIDDEN, Verdict, worst
 from report.entities.array import ArrayResult, DirectionResult, array_result, direction_result
 from report.entities.motion import PeakResult, peak_result

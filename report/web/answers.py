@@ -10,10 +10,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 from typing import Any
 
-from report.assessment.arrays import NOT_PERMITTED
 from report.assessment.causes import outcome, short_clearances, short_words
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.project import Assessment
+from report.assessment.routes import NOT_PERMITTED
 from report.assessment.runs import MotionRun
 from report.assessment.verdict import MEANING, Verdict
 from report.document.templates import sentence

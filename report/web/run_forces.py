@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from report.assessment.runs import OrientedRun
 from solver.forces import Forces, forces
 from solver.model import Event, EventKind, Floats, Scene, SlideHistory
-from solver.rivals.methods import NO_RECORD
+from solver.records.record import NO_RECORD
 from solver.sliding import least_model
 from solver.sliding.least_model import Model
 

@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from solver.building.structure import Building
-from solver.kernels import oscillator
 from solver.model import Floats, Motion
 from solver.records.record import raise_any, read_only
 from solver.records.spectrum import refined
@@ -238,6 +237,8 @@ def absolute_accelerations(
     a_mps2: ArrayLike, dt_s: float, periods_s: ArrayLike, damping: ArrayLike
 ) -> Floats:
     """Return absolute accelerations of oscillators, shape (n, m), one row per sample [m/s2]."""
+    from solver.kernels import oscillator  # with the compiler, which a motion at the roof needs not
+
     a, zeta = read_only(a_mps2), read_only(damping)
     omega = read_only(2.0 * math.pi / np.asarray(periods_s, dtype=np.float64))
     accelerations = np.empty((a.size, omega.size))

@@ -226,6 +226,9 @@ def read_only(values: ArrayLike) -> Floats:
     return array
 
 
+NO_RECORD = read_only(np.empty(0))
+
+
 def is_finite_number(value: object) -> bool:
     """Whether the value is a number (not a boolean) of magnitude below `BEYOND`."""
     # A difference of dates is an integer to numpy.

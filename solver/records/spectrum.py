@@ -12,9 +12,8 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from solver.kernels import oscillator
 from solver.model import Floats, InputError, Motion
 from solver.records.record import UNITS, Record, raise_any, read_only
 
@@ -127,16 +126,15 @@ def response_spectrum(
     below dt/2.5. Free vibration after the end of the record is not included: pad the record with
     zeros to include it. Arguments and errors are those of `spectrum`.
     """
+    from solver.kernels import oscillator  # with the compiler, which targets need not
+
     a, periods = read_only(a_mps2), np.asarray(periods_s, dtype=np.float64)
     _check_spectrum(a, dt_s, periods, damping)
     with np.errstate(divide="ignore", over="ignore"):
         omega = 2.0 * math.pi / periods
     rigid = ~np.isfinite(omega)
     spectrum = np.full(omega.shape, np.abs(a).max())
-    # Points per interval at which the peak of an oscillator is evaluated: powers of two, so that
-    # oscillators of many periods share one refined record.
-    needed = PEAK_FINENESS * float(dt_s) * np.where(rigid, 0.0, omega) / (2.0 * math.pi)
-    steps = (2.0 ** np.ceil(np.log2(np.clip(needed, 1.0, PEAK_STEPS)))).astype(np.int64)
+    steps = steps_per_interval(dt_s, np.where(rigid, 0.0, omega))
     for each in np.unique(steps[~rigid]).tolist():
         some = ~rigid & (steps == each)
         peak, at = np.empty(some.sum()), np.empty(some.sum(), dtype=np.int64)
@@ -144,6 +142,13 @@ def response_spectrum(
         oscillator.peaks(fine, dt_s / each, omega[some], float(damping), peak, at)
         spectrum[some] = np.abs(peak)
     return spectrum
+
+
+def steps_per_interval(dt_s: float, omega: Floats) -> NDArray[np.int64]:
+    """Return the points per interval at which the peaks of oscillators [rad/s] are evaluated."""
+    # Powers of two, so that oscillators of many periods share one refined record.
+    needed = PEAK_FINENESS * float(dt_s) * omega / (2.0 * math.pi)
+    return (2.0 ** np.ceil(np.log2(np.clip(needed, 1.0, PEAK_STEPS)))).astype(np.int64)
 
 
 def refined(a: Floats, steps: int) -> Floats:

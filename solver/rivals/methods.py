@@ -18,10 +18,8 @@ import numpy as np
 
 from solver.kernels import one_axis, rivals
 from solver.model import Floats
-from solver.records.record import read_only
+from solver.records.record import NO_RECORD, read_only
 from solver.rivals import by_scipy
-
-NO_RECORD = read_only(np.empty(0))
 
 
 @dataclass(frozen=True, slots=True)

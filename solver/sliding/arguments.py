@@ -17,9 +17,9 @@ from numpy.typing import ArrayLike
 
 from solver.formats.layout import parse
 from solver.model import Floats, Friction, InputError, Motion, Scene, coulomb
-from solver.records.record import UNITS, Record, has_gravity, raise_any, read_only
+from solver.records.record import NO_RECORD, UNITS, Record, has_gravity, raise_any, read_only
 from solver.records.record import unit_size as records_unit
-from solver.rivals.methods import ANY_NUMBER, METHODS, NO_RECORD, WANTED, Method, Parameters
+from solver.rivals.methods import ANY_NUMBER, METHODS, WANTED, Method, Parameters
 from solver.sliding import two_axes
 
 # Shaking as it is: a row of accelerations with a step beside it, a record, or a whole motion.

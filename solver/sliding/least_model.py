@@ -14,7 +14,7 @@ from typing import Any
 
 from solver.forces import friction_demand
 from solver.model import InputError, Scene, SlideHistory, SlideResult, Status, coulomb
-from solver.rivals.methods import NO_RECORD
+from solver.records.record import NO_RECORD
 from solver.sliding import one_axis, two_axes
 
 

@@ -13,9 +13,9 @@ import numpy as np
 
 from solver.kernels import one_axis as kernel
 from solver.model import Event, EventKind, Floats, Scene, SlideHistory, SlideResult, Status
+from solver.records.record import NO_RECORD
 from solver.rivals.methods import (
     METHODS,
-    NO_RECORD,
     AxisScene,
     Method,
     Outcome,

@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Motion, Scene, coulomb
-from solver.rivals.methods import NO_RECORD
+from solver.records.record import NO_RECORD
 from solver.sliding import one_axis, two_axes
 from solver.sliding.row import BlockRow, slide_row
 from solver.verification import workprecision

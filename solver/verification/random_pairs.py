@@ -15,8 +15,7 @@ import numpy as np
 
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Friction, Scene, Status, coulomb
-from solver.records.record import read_only
-from solver.rivals.methods import NO_RECORD
+from solver.records.record import NO_RECORD, read_only
 from solver.sliding.two_axes import TwoAxesOutcome, follow
 
 EPS = 2.0**-52

@@ -34,9 +34,9 @@ from solver.model import (
     SlideResult,
     coulomb,
 )
-from solver.records.record import Record, read_only
+from solver.records.record import NO_RECORD, Record, read_only
 from solver.rivals import by_scipy
-from solver.rivals.methods import METHODS, NO_RECORD, AxisScene, Method
+from solver.rivals.methods import METHODS, AxisScene, Method
 from solver.rules.hazard import Target
 from solver.sliding import checked, one_axis, two_axes
 from solver.sliding.checked import motion

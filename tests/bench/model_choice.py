@@ -25,8 +25,7 @@ from blocks import block
 from solver.formats import read_record
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Scene, SlideResult, Status
-from solver.records.record import read_only
-from solver.rivals.methods import NO_RECORD
+from solver.records.record import NO_RECORD, read_only
 from solver.sliding import least_model, one_axis, two_axes
 from solver.verification import model_study
 from solver.verification.evidence import WORST

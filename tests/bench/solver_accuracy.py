@@ -19,7 +19,7 @@ import plane_oracle
 from solver.formats import read_record
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, coulomb
-from solver.rivals.methods import NO_RECORD
+from solver.records.record import NO_RECORD
 from solver.sliding.checked import slide
 from solver.sliding.two_axes import follow
 from solver.sliding.uplift import uplift

@@ -22,8 +22,7 @@ from solver.formats import read_record
 from solver.kernels import one_axis, rivals
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Friction, Scene, coulomb
-from solver.records.record import Record
-from solver.rivals.methods import NO_RECORD
+from solver.records.record import NO_RECORD, Record
 from solver.sliding import least_model, two_axes
 from solver.sliding import one_axis as one_axis_run
 from solver.sliding.checked import slide

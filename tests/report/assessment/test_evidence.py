@@ -12,7 +12,6 @@ import stand_in
 from nightly import by_day
 from one_by_one import prd_m
 from printed import printed
-from report.assessment.arrays import Route
 from report.assessment.assess import assess, changed
 from report.assessment.evidence import (
     building_case,
@@ -22,6 +21,7 @@ from report.assessment.evidence import (
     saving,
     support,
 )
+from report.assessment.routes import Route
 from report.assessment.verdict import Requirement, Verdict, as_one
 from report.document.templates import sentence
 from report.entities.requirement import Marked

@@ -9,8 +9,8 @@ import scenes
 import sheets
 import stand_in
 from commands import printed
-from report.assessment.arrays import Route
 from report.assessment.precheck import limits_before_runs
+from report.assessment.routes import Route
 from report.sheet.schema.fields import Level, Place
 from report.sheet.schema.scene import SIDES
 

@@ -6,8 +6,8 @@ import pytest
 import scenes
 import stand_in
 from printed import printed
-from report.assessment.arrays import Route
 from report.assessment.causes import reasons
+from report.assessment.routes import Route
 from report.assessment.verdict import Verdict
 from report.pages.summary import summary
 from report.web.answers import answer

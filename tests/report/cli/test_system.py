@@ -95,6 +95,16 @@ assert "numba" not in sys.modules
 """
 
 
+def test_check_loads_no_compiler():
+    program = (
+        "import sys; from report.cli.main import main; "
+        "main(['check', 'projects/example', '--quiet'], standalone_mode=False); "
+        "assert not {'numba', 'scipy', 'pandas', 'matplotlib'} & sys.modules.keys()"
+    )
+    done = python("-P", "-c", program)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
 @pytest.mark.parametrize("kind", ["file", "pipe"])
 def test_no_command_starts_beside_settings_of_numba(tmp_path, kind):
     """They may name a folder of compiled code, which would run: numba is not loaded."""

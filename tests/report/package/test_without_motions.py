@@ -15,10 +15,10 @@ import scenes
 from inputs import FT, NO_SIDES, clearance
 from places import ROOT
 from recalculated import recalculated
-from report.assessment.arrays import Route
 from report.assessment.assess import assess, changed
 from report.assessment.causes import reasons
 from report.assessment.evidence import support
+from report.assessment.routes import Route
 from report.assessment.verdict import Verdict
 from report.cli.check import checked, lines
 from report.drawing.items import Layer, write_dxf

@@ -10,9 +10,9 @@ import scenes
 import stand_in
 from places import ROOT
 from printed import printed
-from report.assessment.arrays import Route
 from report.assessment.assess import assess
 from report.assessment.conditions import project_rows
+from report.assessment.routes import Route
 from report.pages.summary import document, summary
 from report.web.controls import opened, with_values
 from scenes import DEPARTURE, FOOT, REVIEW

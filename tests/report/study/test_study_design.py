@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 import printed
 import stand_in
-from report.assessment.arrays import Route
+from report.assessment.routes import Route
 from report.study.curves import allowed, compare
 from report.study.page_parts import design_length
 from report.study.results import STATISTICS
