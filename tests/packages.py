@@ -21,11 +21,9 @@ from filelock import FileLock
 from matplotlib.figure import Figure
 
 import report.typeset.pdf
-import stand_in
 from places import ROOT
 from report.cli.main import main
 from report.figures import charts, history, plan, records, spectra
-from report.typeset.finish import Attached
 
 
 def once(factory: pytest.TempPathFactory, name: str, fill: Callable[[Path], object]) -> Path:
@@ -56,10 +54,36 @@ class Reported:
         return self.project / "out"
 
 
-def reported(factory: pytest.TempPathFactory, name: str, *, by_script: bool = False) -> Reported:
-    """Return a project with its report, run in this process or as by a script."""
-    fill = partial(_report, name=name, run=_script if by_script else _here)
-    top = once(factory, f"{name}-by-script" if by_script else name, fill)
+def here(top: Path, project: str) -> tuple[str, str]:
+    """Report a project in this process; return what is printed."""
+    done = CliRunner().invoke(main, ["report", str(top / project)])
+    assert done.exit_code == 0, done.output
+    return done.stdout, done.stderr
+
+
+def by_script(top: Path, project: str) -> tuple[str, str]:
+    """Report a project as a script does, in a process of its own; return what is printed."""
+    command = [sys.executable, "-m", "report.cli", "report", project]
+    done = subprocess.run(
+        command, cwd=top, capture_output=True, text=True, check=False, timeout=240
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout, done.stderr
+
+
+def results_alone(top: Path, project: str) -> tuple[str, str]:
+    """Report a project without figures and layout, which take most of the time."""
+    with unlaid(), undrawn():
+        return here(top, project)
+
+
+def reported(
+    factory: pytest.TempPathFactory,
+    name: str,
+    run: Callable[[Path, str], tuple[str, str]] = here,
+) -> Reported:
+    """Return a project with its report, which is made once in each way of running it."""
+    top = once(factory, f"{name}-{run.__name__}", partial(_report, name=name, run=run))
     return Reported(
         project=top / "projects" / name,
         stdout=(top / "stdout").read_text(encoding="utf-8"),
@@ -72,41 +96,6 @@ def _report(top: Path, name: str, run: Callable[[Path, str], tuple[str, str]]) -
     shutil.copytree(source, project, ignore=shutil.ignore_patterns("out", "make.py", "__pycache__"))
     for stream, text in zip(("stdout", "stderr"), run(top, f"projects/{name}"), strict=True):
         (top / stream).write_text(text, encoding="utf-8")
-
-
-def _here(top: Path, project: str) -> tuple[str, str]:
-    done = CliRunner().invoke(main, ["report", str(top / project)])
-    assert done.exit_code == 0, done.output
-    return done.stdout, done.stderr
-
-
-def _script(top: Path, project: str) -> tuple[str, str]:
-    command = [sys.executable, "-m", "report.cli", "report", project]
-    done = subprocess.run(
-        command, cwd=top, capture_output=True, text=True, check=False, timeout=240
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout, done.stderr
-
-
-FILES = (
-    Attached(name="input.xlsx", content=b"workbook", mime="application/vnd.ms-excel",
-             relationship="Source", description="Input workbook"),
-    Attached(name="records/a/x.csv", content=b"1\n2\n", mime="text/csv", relationship="Data",
-             description="Record"),
-    Attached(name="records/b/x.csv", content=b"3\n4\n", mime="text/csv", relationship="Data",
-             description="Record"),
-)  # fmt: skip
-
-
-def of_one_motion(factory: pytest.TempPathFactory) -> bytes:
-    """Return a package with `FILES` attached."""
-    return (once(factory, "one-motion", _one_motion) / "package.pdf").read_bytes()
-
-
-def _one_motion(folder: Path) -> None:
-    html = stand_in.html(stand_in.book(shaking=stand_in.motions(1, seconds=8.0)))
-    (folder / "package.pdf").write_bytes(report.typeset.pdf.lay_out(html, FILES))
 
 
 @contextmanager

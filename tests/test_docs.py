@@ -74,7 +74,12 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module")
 def reported(tmp_path_factory):
     """The example with its report as by a script."""
-    return packages.reported(tmp_path_factory, "example", by_script=True)
+    return packages.reported(tmp_path_factory, "example", packages.by_script)
+
+
+@pytest.fixture(scope="module")
+def results_alone(tmp_path_factory):
+    return packages.reported(tmp_path_factory, "example", packages.results_alone)
 
 
 @pytest.fixture(scope="module")
@@ -135,15 +140,15 @@ def test_a_report_leaves_four_files_and_their_hashes_and_prints_where(reported):
         assert (reported.out / name).stat().st_size > 1000
 
 
-def test_the_readme_and_the_answers_show_what_the_example_prints(reported):
-    lines = reported.stdout.splitlines()
+def test_the_readme_and_the_answers_show_what_the_example_prints(results_alone):
+    lines = results_alone.stdout.splitlines()
     verdict = next(line for line in lines if line.startswith("verdict: "))
     shown = "\n".join([*lines[:4], verdict])
     assert f"```text\n{shown}\n```" in README
     assert shown.count("81.6 in (2072 mm)") == shown.count("  Condition: ") == 3
-    assert all(line.startswith("[") for line in reported.stderr.splitlines())  # where piped
+    assert all(line.startswith("[") for line in results_alone.stderr.splitlines())  # where piped
     page = DOCS[ROOT / "docs" / "questions.md"]
-    found = json.loads((reported.out / "results.json").read_text())
+    found = json.loads((results_alone.out / "results.json").read_text())
     east = next(row for row in found["clearances"] if row["object"] == "EAST")
     required_in, provided_in = (east[key] / 0.0254 for key in ("required_m", "provided_m"))
     s_ds = found["s_ds_g"]
@@ -155,12 +160,12 @@ def test_the_readme_and_the_answers_show_what_the_example_prints(reported):
         assert said in page
 
 
-def test_the_json_of_the_example_agrees_with_the_solver_run_by_hand(reported):
-    document = json.loads((reported.out / "results.json").read_text())
+def test_the_json_of_the_example_agrees_with_the_solver_run_by_hand(results_alone):
+    document = json.loads((results_alone.out / "results.json").read_text())
 
     @cache
     def record(motion, letter):
-        path = reported.project / "records" / f"{motion}-{letter}.csv"
+        path = results_alone.project / "records" / f"{motion}-{letter}.csv"
         return 9.80665 * np.loadtxt(path, delimiter=",", skiprows=2, usecols=1)
 
     runs = [(array, run) for array in document["arrays"] for run in array["runs"]]

@@ -13,19 +13,20 @@ import pandas as pd
 import pytest
 from pypdf import PdfReader
 
-import report.manual.render
 import solver.verification.run
 import tables
 import verified
 from commands import refused, run
 from report.figures import work
+from report.manual import render
 from report.text import formats
 from report.text.counts import lettered
 from report.text.formats import NOT_VALIDATED
 from solver.model import Status
 from solver.rivals.methods import METHODS
-from solver.verification.evidence import PeerPoint
+from solver.verification.evidence import Check, PeerPoint
 from solver.verification.shake_table import compare
+from verified import only
 
 pytestmark = pytest.mark.skipif(
     numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
@@ -51,6 +52,7 @@ def made(quick):
     return {path.relative_to(out).as_posix(): path.read_bytes() for path in written}
 
 
+@pytest.mark.nightly
 def test_the_quick_command_of_the_readme_writes_everything(quick, made, verification):
     out, count = quick.out, len(quick.verification.checks)
     assert quick.stdout.startswith(f"PASS: {count} of {count} checks passed\n")
@@ -99,7 +101,7 @@ def verifying(verify):
     """Have the command verify otherwise, and lay nothing out; layout is tested above."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(solver.verification.run, "verify", verify)
-        patch.setattr(report.manual.render, "lay_out", str.encode)
+        patch.setattr(render, "lay_out", str.encode)
         yield patch
 
 
@@ -136,6 +138,7 @@ def words_of_broken(failed):
     return said((failed[1] / "verification.pdf").read_text())
 
 
+@pytest.mark.nightly
 def test_the_manual_has_cover_contents_heads_methods_and_machine(texts, verification, words, whole):
     assert 15 <= len(texts) <= 40
     passed = f"PASS {len(verification.checks)} of {len(verification.checks)} checks passed."
@@ -167,6 +170,7 @@ def test_the_manual_has_cover_contents_heads_methods_and_machine(texts, verifica
         assert curve.loc[16, measured] == np.median(runs[measured])
 
 
+@pytest.mark.nightly
 def test_every_check_and_the_papers_figures_are_printed_and_in_the_table(verification, words, made):
     for row in verification.checks:
         assert f"{row.id}. Source: {lettered(row.source)}" in words
@@ -205,6 +209,7 @@ def curve_of(method, points, floor=0.0):
     return work.medians(points, "PRD error [%]", floor).loc[method]
 
 
+@pytest.mark.nightly
 def test_failed_cells_and_runs_are_counted_and_not_drawn(
     broken, words_of_broken, made, verification, words
 ):
@@ -222,6 +227,7 @@ def test_failed_cells_and_runs_are_counted_and_not_drawn(
         assert f">{text}<" in svg
 
 
+@pytest.mark.nightly
 def test_failed_checks_are_said_and_exit_1(verification, words_of_broken, words, failed, broken):
     count = len(verification.checks)
     assert words_of_broken.count(f"FAIL {count - 1} of {count} checks passed.") == 2
@@ -242,6 +248,7 @@ def test_failed_checks_are_said_and_exit_1(verification, words_of_broken, words,
     assert (table["passed"] == "no").sum() == 1
 
 
+@pytest.mark.nightly
 def test_tests_of_a_shake_table_go_into_the_manual_and_decide_the_exit_code(
     tmp_path, quick, verification
 ):
@@ -260,7 +267,7 @@ def test_tests_of_a_shake_table_go_into_the_manual_and_decide_the_exit_code(
         with verifying(kept) as patch:
             for name in drawn:
                 part = quick.parts[name]
-                patch.setattr(report.manual.render, name, lambda _, part=part: part)
+                patch.setattr(render, name, lambda _, part=part: part)
             done = run("verify", "--table", folder, "--out", out)
         assert done.exit_code == code, done.output
         assert f"shake table: 5 tests, median ratio {factor:.3f}. The acceptance is" in done.stdout
@@ -269,6 +276,25 @@ def test_tests_of_a_shake_table_go_into_the_manual_and_decide_the_exit_code(
         assert "13 Comparison with a shake table" in words
         assert tables.MADE in words
     assert [len(tests) for tests in given] == [5, 5]
+
+
+def test_a_verification_of_two_checks_is_laid_out_and_the_one_that_failed_ends_with_1(
+    tmp_path, monkeypatch
+):
+    of = {"source": "S", "quantity": "PRD", "unit": "m", "problem": "P", "expected": 2.0}
+    rows = (Check(id="CF-1", computed=2.0, **of), Check(id="PH-1", computed=1.5, **of))
+    monkeypatch.setattr(solver.verification.run, "verify", lambda *_, **__: only(checks=rows))
+    monkeypatch.setattr(render, "sections", lambda v: (render.summary(v), render.checks(v)))
+    done, out = run("verify", "--quick", "--out", tmp_path / "v"), tmp_path / "v"
+    assert (done.exit_code, done.stdout.splitlines()[0]) == (1, "FAIL: 1 of 2 checks passed")
+    assert "  Physical checks of the paper: P, PRD: expected 2, found 1.5 m" in done.stdout
+    assert not list(out.glob(".roofslip-*"))
+    for name in ("verification.pdf", "verification.csv"):
+        assert str(out / name) in done.output
+    pages = [page.extract_text() for page in PdfReader(out / "verification.pdf").pages]
+    assert "FAIL 1 of 2 checks passed." in " ".join(pages[0].split())
+    assert f"Sheet {len(pages)} of {len(pages)}" in pages[-1]
+    assert pd.read_csv(out / "verification.csv")["passed"].tolist() == ["yes", "no"]
 
 
 @pytest.mark.quick

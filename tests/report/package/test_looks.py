@@ -17,10 +17,10 @@ from PIL import Image
 
 import looked
 import packages
+import stand_in
 from commands import printed
-from packages import FILES
 from places import ROOT
-from report.typeset.finish import FIELD
+from report.typeset.finish import FIELD, Attached
 from report.typeset.pdf import lay_out
 
 pytestmark = pytest.mark.quick
@@ -28,12 +28,20 @@ pytestmark = pytest.mark.quick
 
 PROJECTS = tuple(path.parent.name for path in sorted(ROOT.glob("projects/*/input.xlsx")))
 LEAST_FILLED = 0.5
+FILES = (
+    Attached(name="input.xlsx", content=b"workbook", mime="application/vnd.ms-excel",
+             relationship="Source", description="Input workbook"),
+    Attached(name="records/a/x.csv", content=b"1\n2\n", mime="text/csv", relationship="Data",
+             description="Record"),
+    Attached(name="records/b/x.csv", content=b"3\n4\n", mime="text/csv", relationship="Data",
+             description="Record"),
+)  # fmt: skip
 
 
 def _made(name, factory):
     """Return the PDF of a project, whichever command makes it."""
     if name != "study":
-        return packages.reported(factory, name, by_script=True).out / "calc-package.pdf"
+        return packages.reported(factory, name, packages.by_script).out / "calc-package.pdf"
 
     def run(folder):
         left_out = shutil.ignore_patterns("out")
@@ -98,8 +106,9 @@ def test_each_fault_is_seen_where_there_is_one(tmp_path):
 
 
 @pytest.fixture(scope="module")
-def pdf(tmp_path_factory):
-    with pikepdf.open(io.BytesIO(packages.of_one_motion(tmp_path_factory))) as opened:
+def pdf():
+    html = stand_in.html(stand_in.book(shaking=stand_in.motions(1, seconds=8.0)))
+    with pikepdf.open(io.BytesIO(lay_out(html, FILES))) as opened:
         yield opened
 
 

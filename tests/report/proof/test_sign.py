@@ -26,7 +26,6 @@ from pyhanko_certvalidator import ValidationContext
 from pypdf import PdfReader
 
 import commands
-import packages
 import tampering
 from nightly import by_day
 from report.cli.terminal import warn_of_others
@@ -126,11 +125,6 @@ def clock(authority):
 def test_without_the_library_a_signature_is_not_checked(monkeypatch):
     monkeypatch.setitem(sys.modules, "pyhanko.sign.validation", None)
     assert appended(b"") == Appended(is_checked=False)
-
-
-@pytest.fixture(scope="module")
-def data(tmp_path_factory):
-    return packages.of_one_motion(tmp_path_factory)
 
 
 @pytest.fixture(scope="module")

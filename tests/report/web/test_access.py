@@ -52,13 +52,13 @@ def test_a_cookie_is_no_key(visitor, keys):
     assert answer.status_code == 401
 
 
-def test_another_name_of_the_server_is_not_answered(client):
-    assert client.get("/", headers={"host": "evil.example:8765"}).status_code == 421
+def test_another_name_of_the_server_is_not_answered(visitor):
+    assert visitor.get("/", headers={"host": "evil.example:8765"}).status_code == 421
 
 
 @pytest.mark.parametrize("path", ["/", "/static/index.html", "/api/nothing", "/?token=wrong"])
-def test_every_answer_has_the_headers(client, path):
-    answer = client.get(path)
+def test_every_answer_has_the_headers(visitor, path):
+    answer = visitor.get(path)
     assert {name: answer.headers[name] for name in HEADERS} == HEADERS
     policy = answer.headers["content-security-policy"]
     assert "unsafe" not in policy
