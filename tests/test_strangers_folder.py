@@ -66,7 +66,7 @@ def writes(name, job):
     return (*name.split(), *WRITERS[name](job))
 
 
-@pytest.mark.parametrize("writer", WRITERS)
+@pytest.mark.parametrize("writer", by_day(WRITERS, 2))
 def test_a_workbook_that_is_a_link_is_not_written_through(folder, writer):
     outside = folder.parent / "theirs.xlsx"
     (folder / "input.xlsx").rename(outside)
@@ -77,7 +77,7 @@ def test_a_workbook_that_is_a_link_is_not_written_through(folder, writer):
     assert state(folder.parent) == before
 
 
-@pytest.mark.parametrize("writer", by_day(WRITERS, 2))
+@pytest.mark.parametrize("writer", by_day(WRITERS, 1))
 def test_a_workbook_that_the_user_gave_may_be_a_link_and_is_kept_as_it_was(folder, writer):
     link = folder / "given.xlsx"
     link.symlink_to(folder / "input.xlsx")
@@ -93,7 +93,7 @@ def test_a_workbook_that_the_user_gave_may_be_a_link_and_is_kept_as_it_was(folde
 
 
 @pytest.mark.parametrize("lock", by_day(["~$input.xlsx", ".~lock.input.xlsx#"], 1))
-@pytest.mark.parametrize("writer", by_day(WRITERS, 2))
+@pytest.mark.parametrize("writer", by_day(WRITERS, 1))
 def test_a_workbook_that_a_program_has_open_is_not_changed(folder, writer, lock):
     (folder / lock).write_bytes(b"")
     before = state(folder.parent)
@@ -110,7 +110,7 @@ PLACES = ("input.before.xlsx", LOCK, "records/KJM-x.csv", "records")
 
 @pytest.mark.parametrize(
     ("place", "kind"),
-    by_day([pair for pair in product(PLACES, KINDS) if pair != ("records", "folder")], 6),
+    by_day([pair for pair in product(PLACES, KINDS) if pair != ("records", "folder")], 3),
 )
 def test_nothing_is_written_through_what_is_in_a_place(folder, place, kind):
     outside = folder.parent / "outside"

@@ -146,7 +146,7 @@ def test_smaller_events_are_off_or_without_a_sum_where_a_run_has_no_value():
     assert cumulative(with_events("")) == ()
 
 
-@pytest.mark.parametrize("typed", by_day(["0.5, 1.2", "0.0", "0,5", ", ".join(["0.5"] * 21)], 2))
+@pytest.mark.parametrize("typed", by_day(["0.5, 1.2", "0.0", "0,5", ", ".join(["0.5"] * 21)], 1))
 def test_factors_are_read_from_the_sheet_and_refused_by_cell_outside_of_the_range(tmp_path, typed):
     path = type_into(make(tmp_path), {CELL: FACTORS})
     assert read_workbook(path).input.options.smaller_factors == (0.5, 0.5, 0.25)

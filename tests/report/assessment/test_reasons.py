@@ -5,6 +5,7 @@ import pytest
 
 import scenes
 import stand_in
+from nightly import by_day
 from printed import printed
 from report.assessment.causes import reasons
 from report.assessment.routes import Route
@@ -47,7 +48,7 @@ CASES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", by_day(CASES, 5))
 def test_the_reason_stands_first_wherever_the_verdict_does(name):
     shaking, changes, start = CASES[name]
     made = scenes.package(shaking or scenes.motions(), **WIDE | changes)

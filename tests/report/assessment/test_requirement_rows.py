@@ -7,6 +7,7 @@ import pytest
 import inputs
 import scenes
 import stand_in
+from nightly import by_day
 from report.assessment.requirement_rows import fire_lane_rows
 from report.assessment.verdict import OVERRIDDEN, Verdict, override_rows
 from report.sheet.checking.covered import to_record
@@ -217,7 +218,7 @@ LATER = ISSUED + dt.timedelta(days=1)
 
 @pytest.mark.parametrize(
     ("changes", "what"),
-    [
+    by_day([
         ({"options": scenes.REVIEW | {"peer_date": LATER}}, "peer review"),
         ({"friction_tests": {"date": LATER}}, "friction report"),
         ({"site": inputs.SITE | {"hazard_date": LATER}}, "hazard"),
@@ -225,7 +226,7 @@ LATER = ISSUED + dt.timedelta(days=1)
          "confirmation of the drawing"),
         (scenes.CONFIRMED | {"confirmation": scenes.CONFIRMED["confirmation"] | {"date": LATER}},
          "confirmation of the provisions"),
-    ],
+    ], 2),
 )  # fmt: skip
 def test_what_is_dated_later_than_the_package_is_a_condition(changes, what):
     late = row(assessed(**changes), "dates")
@@ -336,13 +337,13 @@ def test_provisions_of_another_rule_set_edition_or_code_are_not_those_confirmed(
 
 @pytest.mark.parametrize(
     ("change", "sheet"),
-    [
+    by_day([
         ({"overrides": [OVERRIDE]}, "sheet Options"),
         ({"confirmation": {"by": "MT"}}, "sheet Options"),
         ({"confirmation": {"code": "2019 CBC"}, "site": {"building_code_year": 2019}},
          "sheets Site, Options"),
         ({"site": {"rule_set": "ASCE 7-16"}}, "sheet Site"),
-    ],
+    ], 1),
 )  # fmt: skip
 def test_a_later_change_of_what_was_confirmed_brings_the_marks_back(change, sheet):
     given = on_record(**scenes.CONFIRMED)

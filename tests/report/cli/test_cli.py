@@ -17,6 +17,7 @@ from openpyxl import load_workbook
 import packages
 import report.package.html
 from commands import printed, refused, run
+from nightly import by_day
 from places import ROOT
 from report.cli.main import NATIVE, main
 from report.cli.terminal import color_choice, colored
@@ -217,7 +218,7 @@ def test_a_word_that_is_not_known_is_answered_with_the_nearest(monkeypatch, word
     assert told in refused(*words)
 
 
-@pytest.mark.parametrize("typed", ["./roofslip", "'my programs/roofslip'"])
+@pytest.mark.parametrize("typed", by_day(["./roofslip", "'my programs/roofslip'"], 1))
 def test_the_command_is_called_as_the_reader_typed_it(tmp_path, monkeypatch, typed):
     monkeypatch.setenv("ROOFSLIP_COMMAND", typed.strip("'"))
     assert f"then run: {typed} check {tmp_path}" in printed("new", tmp_path)

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import commands
+from nightly import by_day
 from places import DATA, ROOT
 from solver.formats import read_record
 from solver.records.measures import measures
@@ -110,7 +111,7 @@ def test_info_prints_a_table_for_people_and_never_over_a_record(column):
     assert column.read_text() == COLUMN
 
 
-@pytest.mark.parametrize(("name", "start"), [("a.svg", b"<svg"), ("a.PNG", b"\x89PNG")])
+@pytest.mark.parametrize(("name", "start"), by_day([("a.svg", b"<svg"), ("a.PNG", b"\x89PNG")], 1))
 def test_info_draws_all_channels_the_same_each_time(three, tmp_path, name, start):
     out = tmp_path / name
     assert printed("info", three, "--plot", out).splitlines()[-1] == str(out)

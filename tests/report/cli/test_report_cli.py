@@ -18,6 +18,7 @@ import scenes
 from cells import address
 from commands import printed, refused, run
 from inputs import SITE
+from nightly import by_day
 from packages import unlaid
 from places import ROOT
 from report.cli import several
@@ -180,7 +181,7 @@ def confirmed(folder: Path, **changes) -> Path:
     return make(folder, **{"site": site, "options": options} | changes)
 
 
-@pytest.mark.parametrize("name", scenes.SHIPPED)
+@pytest.mark.parametrize("name", by_day(scenes.SHIPPED, 1))
 @pytest.mark.quick
 def test_a_shipped_project_has_on_record_what_its_confirmations_cover(name):
     sheet = read(ROOT / "projects" / name)

@@ -4,6 +4,7 @@ import pytest
 from ezdxf.xclip import XClip
 
 from commands import refused
+from nightly import by_day
 from report.drawing.read_dxf import read_dxf
 from report.sheet.schema.choices import UnitsFirst
 from sheets import blank
@@ -179,13 +180,13 @@ def test_a_flat_block_is_read_and_an_outline_over_an_equal_one_counts_once(tmp_p
 
 @pytest.mark.parametrize(
     ("unit", "factor", "has_roof", "said"),
-    [
+    by_day([
         ("in", 0.0254, True, "the roof is 6.10 ft (1.86 m) long, which none is; give --units with"
          " that of the drawing, ft or m"),
         ("in", 1 / 200, False, "the largest array is 0.40 ft (0.12 m) long"),
         ("m", 304.8, True, "the roof is 73152.00 ft (22296.73 m) long, which none is; give --units"
          " with that of the drawing, in or mm or cm"),
-    ],
+    ], 1),
 )  # fmt: skip
 def test_a_size_that_no_roof_has_is_refused_with_the_units_that_would_do(
     tmp_path, unit, factor, has_roof, said

@@ -19,6 +19,7 @@ from ezdxf.math import BoundingBox2d, Vec2
 import scenes
 import stand_in
 from inputs import FT, sides
+from nightly import by_day
 from printed import printed
 from report.assessment.envelopes import design_envelope
 from report.assessment.plan_clearances import plan_gaps
@@ -180,7 +181,7 @@ def crowded():
     ).assessment
 
 
-@pytest.fixture(scope="module", params=[*scenes.SHIPPED, "unpermitted", "crowded"])
+@pytest.fixture(scope="module", params=by_day([*scenes.SHIPPED, "unpermitted", "crowded"], 3))
 def roof(request):
     others = {"unpermitted": scenes.unpermitted, "crowded": crowded}
     return others[request.param]() if request.param in others else scenes.shipped(request.param)

@@ -230,13 +230,13 @@ def ringed(k):
 
 @pytest.mark.parametrize(
     ("line", "count", "reasons"),
-    [
+    by_day([
         (starred, 300, {"open lines of which three or more meet at a point"}),
         (ringed, 3000, {f"a closed line {MANY}"}),
         (lambda k: (((k // 2) % 30, k // 60), ((k // 2) % 30 + k % 2, k // 60 + 1 - k % 2)), 1800,
          {"open lines of which three or more meet at a point"}),
         (lambda k: ((0, 0), (0, 0)), 300, {OPEN_LINE}),
-    ],
+    ], 1),
     ids=["star", "ring", "grid", "points"],
 )  # fmt: skip
 def test_open_lines_without_measure_are_listed(tmp_path, line, count, reasons):
@@ -248,7 +248,7 @@ def test_open_lines_without_measure_are_listed(tmp_path, line, count, reasons):
     assert {item.reason for item in found.unread} >= reasons
 
 
-@pytest.mark.parametrize("code", ["\\S1/2;", "\\C", "{\\H2x;"])
+@pytest.mark.parametrize("code", by_day(["\\S1/2;", "\\C", "{\\H2x;"], 1))
 def test_a_text_of_many_codes_takes_time_as_its_length(tmp_path, code):
     def drawn(count):
         sketch = Sketch()
@@ -307,7 +307,7 @@ def clip(sketch, points, extrusion, seed):
 
 
 @CASES
-@pytest.mark.parametrize("draw", [hatch, face, mesh, clip])
+@pytest.mark.parametrize("draw", by_day([hatch, face, mesh, clip], 2))
 def test_whatever_is_drawn_is_an_outline_or_named(tmp_path, draw, count):
     @settings(SETTINGS, max_examples=max(count // 4, 10))
     @given(POINTS, EXTRUSIONS, st.integers(0, 1000))

@@ -9,6 +9,7 @@ import pytest
 
 from commands import ended, refused
 from inputs import INCH
+from nightly import by_day
 from report.drawing.modules import GAP_M
 from report.drawing.plan_read import plan_of
 from report.drawing.read_dxf import read_dxf
@@ -97,7 +98,7 @@ def is_ring(got, wanted, within):
     )
 
 
-@pytest.mark.parametrize("deg", [0.0, 17.0, 45.0, -3.5, 90.0])
+@pytest.mark.parametrize("deg", by_day([0.0, 17.0, 45.0, -3.5, 90.0], 2))
 @pytest.mark.parametrize(("noise", "within"), [(0.0, 1e-8), (0.0005, 0.0015)])
 def test_modules_become_arrays_with_their_outlines(tmp_path, deg, noise, within):
     found = plan(layout(deg, noise).saved(tmp_path))
@@ -281,7 +282,7 @@ def rounded(unit, decimals, angle_deg, long=2.1):
     return sketch
 
 
-@pytest.mark.parametrize("angle_deg", [0.0, 5.0, 17.0, 45.0])
+@pytest.mark.parametrize("angle_deg", by_day([0.0, 5.0, 17.0, 45.0], 2))
 @pytest.mark.parametrize(
     ("unit", "decimals"), [("m", 2), ("ft", 2), ("ft", 1), ("in", 1), ("in", 0), ("mm", 0)]
 )

@@ -15,6 +15,7 @@ from matplotlib.text import Text
 
 import scenes
 import stand_in
+from nightly import by_day
 from plans import SMALL, roof_plan
 from report.assessment.evidence import support
 from report.assessment.spectra import spectra
@@ -232,7 +233,7 @@ def test_spectra_are_those_of_each_record_in_g(channels):
     assert np.array_equal(spectra[1], expected)
 
 
-@pytest.mark.parametrize("count", [1, 3, 12])
+@pytest.mark.parametrize("count", by_day([1, 3, 12], 1))
 def test_any_number_of_channels_is_drawn_each_with_room_and_a_line_of_its_own(channels, count):
     some = channels[:count]
     svg = records.records_picture(some, PERIODS_S, spectra_g(some))
@@ -244,7 +245,7 @@ def test_any_number_of_channels_is_drawn_each_with_room_and_a_line_of_its_own(ch
     assert len(looks) == count <= records.MOST
 
 
-@pytest.mark.parametrize("size", [0.0, 1e-9, 1e3])
+@pytest.mark.parametrize("size", by_day([0.0, 1e-9, 1e3], 1))
 def test_records_of_any_size_are_drawn_without_a_warning(noise, size):
     some = [Record(name="r" * 200, dt_s=0.01, a_mps2=noise * size)]
     png = records.records_picture(some, PERIODS_S, spectra_g(some), png_bytes)
@@ -342,7 +343,7 @@ def test_in_pictures_of_records(drawn, noise):
     assert not list(faults(drawn))
 
 
-@pytest.mark.parametrize("count", [1, 3, 4])
+@pytest.mark.parametrize("count", by_day([1, 3, 4], 1))
 def test_in_the_stability_maps_of_the_manual(drawn, count):
     x, y = np.geomspace(1e2, 1e8, 7), np.geomspace(1e-5, 1e-2, 5)
     one = StabilityMap(

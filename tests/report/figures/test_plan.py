@@ -12,6 +12,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 import scenes
 import stand_in
 from inputs import NO_SIDES
+from nightly import by_day
 from plans import SMALL, roof_plan
 from printed import printed
 from report.assessment.envelopes import keep_clear_words
@@ -100,7 +101,7 @@ def extents(drawn):
     return [(text, box.transformed(drawn.dpi_scale_trans.inverted())) for text, box in boxes]
 
 
-@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("size", by_day(SIZES, 1))
 @pytest.mark.parametrize("name", ["done", "crowded", "outlined"])
 def test_no_label_touches_another_or_leaves_the_sheet(request, name, size):
     drawn = figure(request.getfixturevalue(name), size)

@@ -301,13 +301,14 @@ CASES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", by_day(CASES, 3))
+@pytest.mark.parametrize("name", by_day(CASES, 1))
 def test_a_motion_that_is_given_again_is_refused_with_both_cells(tmp_path, name):
     motions, records, line = CASES[name]
     (problem,) = problems(book(tmp_path, *motions, **records))
     assert problem.startswith(at(line))
 
 
+@pytest.mark.nightly
 def test_zeros_a_vertical_in_common_and_parts_that_do_not_overlap_are_no_repetition(tmp_path):
     zeros = np.zeros(400)
     path = book(tmp_path, taking("a", "z"), taking("b", "z"), a=A[0], b=A[1], z=zeros)

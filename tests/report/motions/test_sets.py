@@ -276,7 +276,7 @@ def paste(tmp_path, with_sheet):
     return type_cells
 
 
-@pytest.mark.parametrize("name", ["pasted!north", "'Pasted'!North"])
+@pytest.mark.parametrize("name", by_day(["pasted!north", "'Pasted'!North"], 1))
 def test_a_pasted_column_is_a_record(paste, name):
     book = read_workbook(paste(pasted([0.1, "0.2", -0.3, 0] * 26, name=name)))
     expected = np.array([0.1, 0.2, -0.3, 0] * 26) * 9.80665
@@ -285,7 +285,8 @@ def test_a_pasted_column_is_a_record(paste, name):
 
 
 @pytest.mark.parametrize(
-    ("header", "per_row"), [("time_s", 0.01), ("t [ms]", 10.0), ("Time [min]", 0.01 / 60.0)]
+    ("header", "per_row"),
+    by_day([("time_s", 0.01), ("t [ms]", 10.0), ("Time [min]", 0.01 / 60.0)], 1),
 )
 def test_a_pasted_column_agrees_with_the_times_and_units_beside_it(paste, header, per_row):
     cells = timed([per_row * i for i in range(104)], header)
@@ -299,8 +300,8 @@ PASTED = f"<{RECORD}>: horizontal record:"
 
 @pytest.mark.parametrize(
     ("cell", "code", "line"),
-    [("B6", '0.0" m/s²"', "0.1, shown in m/s²"), ("A6", '0.00" ms"', "0.02, shown in ms"),
-     ("A6", '0.00" s"', None)],
+    by_day([("B6", '0.0" m/s²"', "0.1, shown in m/s²"), ("A6", '0.00" ms"', "0.02, shown in ms"),
+     ("A6", '0.00" s"', None)], 1),
 )  # fmt: skip
 def test_a_pasted_column_is_shown_in_its_units(paste, cell, code, line):
     cells = timed([0.01 * i for i in range(104)], "t [s]")
@@ -355,7 +356,7 @@ def test_a_pasted_column_is_shown_in_its_units(paste, cell, code, line):
         (pasted([0.1, 0.2]) | {"Pasted!B300000": 1},
          ["Pasted!B300000 contains data more than 200,000 rows below the heading; clear it, or give"
           " the record as a file"]),
-    ], 5),
+    ], 2),
 )  # fmt: skip
 def test_a_pasted_column_is_refused_by_its_cell(paste, cells, lines):
     assert problems(paste(cells)) == said(*(f"{PASTED} {line}" for line in lines))

@@ -12,6 +12,7 @@ import pytest
 
 import scenes
 import stand_in
+from nightly import by_day
 from printed import IDS, printed
 from report.assessment.assess import reassess
 from report.assessment.evidence import support
@@ -38,7 +39,7 @@ CASES = {
 }
 
 
-@pytest.fixture(scope="module", params=CASES)
+@pytest.fixture(scope="module", params=by_day(CASES, 2))
 def made(request):
     """A package, its results.json and its results.xlsx."""
     package = scenes.package_data(CASES[request.param]())

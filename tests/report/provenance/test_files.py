@@ -11,6 +11,7 @@ import pytest
 
 import scenes
 import stand_in
+from nightly import by_day
 from places import ROOT
 from report import making
 from report.assessment.evidence import support
@@ -117,7 +118,7 @@ def replacing(monkeypatch, name):
 OTHER = b"another file"
 
 
-@pytest.mark.parametrize("name", ["input.xlsx", "records/RM1-x.csv", "letter.pdf"])
+@pytest.mark.parametrize("name", by_day(["input.xlsx", "records/RM1-x.csv", "letter.pdf"], 1))
 def test_what_was_read_is_attached_whatever_lies_there_by_then(tmp_path, monkeypatch, name):
     project = tmp_path / "project"
     shutil.copytree(EXAMPLE / "records", project / "records")

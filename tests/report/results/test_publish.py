@@ -11,6 +11,7 @@ import sys
 import pytest
 
 import report.results.publish
+from nightly import by_day
 from places import ROOT
 from report.results.publish import (
     STAMP,
@@ -107,7 +108,7 @@ def test_a_full_disk_leaves_the_old_package(tmp_path, files_up_to):
 
 
 @pytest.mark.parametrize("before", [OLD, {}], ids=["", "first run"])
-@pytest.mark.parametrize("stop", ["a.txt", "b.txt", "c.txt", STAMP])
+@pytest.mark.parametrize("stop", by_day(["a.txt", "b.txt", "c.txt", STAMP], 2))
 def test_a_set_cut_off_before_any_replacement_is_told_and_made_whole_by_the_next(
     tmp_path, before, stop
 ):

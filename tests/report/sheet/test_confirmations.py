@@ -7,6 +7,7 @@ import pytest
 import inputs
 import scenes
 from inputs import INCH
+from nightly import by_day
 from report.sheet.checking.covered import outdated, to_record
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.fields import Place
@@ -140,7 +141,7 @@ def test_a_record_that_was_typed_over_covers_nothing(text):
         assert found["options"].startswith("sheets Site, Arrays")
 
 
-@pytest.mark.parametrize("units", UnitsFirst)
+@pytest.mark.parametrize("units", by_day(UnitsFirst, 1))
 def test_what_is_covered_does_not_depend_on_the_units_of_the_cells(tmp_path, units):
     options = scenes.REVIEW | {"peer_letter": ""}
     book = read_workbook(make(tmp_path, units=units, **GIVEN | {"options": options}))

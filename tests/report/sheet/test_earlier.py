@@ -7,6 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 from cells import cell
+from nightly import by_day
 from packages import undrawn, unlaid
 from places import DATA, ROOT
 from report.cli.main import main
@@ -32,7 +33,7 @@ def beside(folder, name, project):
     return shutil.copy(EARLIER / f"{name}.xlsx", folder / "input.xlsx")
 
 
-@pytest.mark.parametrize("name", ["campus", "conditions", "example", "school"])
+@pytest.mark.parametrize("name", by_day(["campus", "conditions", "example", "school"], 1))
 def test_a_project_is_read_as_it_was(tmp_path, name):
     sheet = read(beside(tmp_path / name, name, name))
     assert same(sheet.project, ProjectInput.model_validate(RECORDED[name]["input"]))
@@ -68,7 +69,9 @@ def test_a_study_is_read_as_it_was():
     assert same(sheet.project, StudyInput.model_validate(RECORDED["study"]["input"]))
 
 
-@pytest.mark.parametrize(("name", "project"), [("begun", "example"), ("undone", "conditions")])
+@pytest.mark.parametrize(
+    ("name", "project"), by_day([("begun", "example"), ("undone", "conditions")], 1)
+)
 def test_what_is_wrong_in_a_half_filled_one_is_named_as_it_was(
     tmp_path, monkeypatch, name, project
 ):

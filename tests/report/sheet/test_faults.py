@@ -8,6 +8,7 @@ import pytest
 import sheets
 from cells import address
 from inputs import links
+from nightly import by_day
 from places import ROOT
 from refused import refused
 from report.sheet.checking.findings import suggestion
@@ -327,8 +328,8 @@ def test_what_is_typed_is_reported_with_what_to_write(tmp_path, case):
 
 @pytest.mark.parametrize(
     ("name", "value"),
-    [("Site/S_1", 1e-9), ("Arrays/3/y from", 1e-9), ("Building/Roof x from", 1e9),
-     ("Arrays/1/x from", 1e9)],
+    by_day([("Site/S_1", 1e-9), ("Arrays/3/y from", 1e-9), ("Building/Roof x from", 1e9),
+     ("Arrays/1/x from", 1e9)], 2),
 )  # fmt: skip
 def test_the_cell_of_an_extreme_value_is_named_where_another_cell_is_wrong_by_it(
     tmp_path, name, value

@@ -10,6 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 from inputs import FT, INCH, LB
+from nightly import by_day
 from report.cli.main import main
 from report.sheet.checking.findings import grouped, lines, note, unusual, warning
 from report.sheet.checking.plausible import implausible
@@ -190,7 +191,7 @@ def of_records(path, **changes):
 
 @pytest.mark.parametrize(
     ("step", "counts", "names", "words"),
-    [
+    by_day([
         (0.2, (100, 100), ["step M1"],
          "time step of 0.2 s, and so no content above 2.5 Hz; 0.02 s or less"),
         (0.02, (18001, 18001), ["duration M1"],
@@ -200,7 +201,7 @@ def of_records(path, **changes):
          "last 10 of 200 samples trimmed, to the length of the shortest component"),
         (0.01, (200, 189), ["length M1", "note"],
          "x.csv has 200 samples, and 11 of them are trimmed"),
-    ],
+    ], 3),
 )  # fmt: skip
 def test_a_coarse_or_long_record_or_one_that_is_cut_gives_a_warning(
     tmp_path, step, counts, names, words
@@ -214,7 +215,10 @@ def test_a_coarse_or_long_record_or_one_that_is_cut_gives_a_warning(
 
 @pytest.mark.parametrize(
     ("indices", "which"),
-    [((70,), "sample 71, at 0.7 s, is"), ((250, 70), "sample 71 and 1 more, at 0.7 s, reach")],
+    by_day(
+        [((70,), "sample 71, at 0.7 s, is"), ((250, 70), "sample 71 and 1 more, at 0.7 s, reach")],
+        1,
+    ),
 )
 def test_a_sample_far_above_all_others_gives_a_warning_that_names_it(tmp_path, indices, which):
     path = make(tmp_path, motions=[{"id": "M1", "record": "records/x.csv", "dt_s": 0.01}])

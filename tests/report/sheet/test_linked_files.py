@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import sheets
+from nightly import by_day
 from report.sheet.reading import linked_files
 from report.sheet.reading.read import read
 from sheets import at, make, of, problems, read_workbook, said, type_into
@@ -56,7 +57,7 @@ NEARLY = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", NEARLY)
+@pytest.mark.parametrize("name", by_day(NEARLY, 2))
 def test_a_file_name_that_nearly_fits_is_asked_about(tmp_path, name):
     path = type_into(make(tmp_path), {"Motions/M1/Horizontal record": name})
     for kind in ("at2", "csv"):
@@ -92,7 +93,7 @@ REFUSED = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("start", range(0, len(REFUSED), 3))
+@pytest.mark.parametrize("start", by_day(range(0, len(REFUSED), 3), 2))
 def test_a_record_must_be_a_file_within_the_folder(tmp_path, start):
     """Three at a time: the workbook has three motions."""
     cases, folder = REFUSED[start : start + 3], tmp_path / "job"
@@ -167,7 +168,7 @@ def test_a_record_that_cannot_be_run_is_refused_at_its_cell(tmp_path, case):
 
 @pytest.mark.parametrize(
     ("cells", "wanted"),
-    [
+    by_day([
         # Units that neither file nor sheet states are requested; those that differ are reported.
         ({"Record units": "from file"},
          {"Horizontal record": "give units, one of", "Vertical record": "give units, one of"}),
@@ -179,7 +180,7 @@ def test_a_record_that_cannot_be_run_is_refused_at_its_cell(tmp_path, case):
         # Records are checked even if their row has other errors.
         ({"ID": None, "Record units": "furlongs", "Horizontal record": "records/none.csv"},
          {"ID": "", "Horizontal record": "does not exist", "Record units": "furlongs"}),
-    ],
+    ], 2),
 )  # fmt: skip
 def test_what_does_not_suit_a_record_is_reported_at_its_cell(tmp_path, cells, wanted):
     path = type_into(recorded(make(tmp_path), all=CHANNELS), of("Motions/M1", cells))
@@ -239,7 +240,10 @@ def naming(workbook, name, content=None):
 
 @pytest.mark.parametrize(
     ("name", "path"),
-    [("letter.pdf", "letter.pdf"), ("./review/a.PDF", "review/a.PDF"), ("b\\a.pdf", "b/a.pdf")],
+    by_day(
+        [("letter.pdf", "letter.pdf"), ("./review/a.PDF", "review/a.PDF"), ("b\\a.pdf", "b/a.pdf")],
+        1,
+    ),
 )
 @pytest.mark.quick
 def test_a_document_beside_the_workbook_is_read_with_its_hash(workbook, name, path):
@@ -250,9 +254,9 @@ def test_a_document_beside_the_workbook_is_read_with_its_hash(workbook, name, pa
 
 @pytest.mark.parametrize(
     ("name", "said"),
-    [("up/letter.pdf", "is a link to a file outside the workbook's folder"),
+    by_day([("up/letter.pdf", "is a link to a file outside the workbook's folder"),
      ("records/x.csv", "is no PDF; attach it as a PDF"),
-     ("leter.pdf", "does not exist; did you mean 'letter.pdf'?")],
+     ("leter.pdf", "does not exist; did you mean 'letter.pdf'?")], 1),
 )  # fmt: skip
 def test_what_may_not_be_attached_is_an_error_of_its_cell(workbook, name, said):
     folder = workbook.parent

@@ -38,7 +38,7 @@ def path(tmp_path):
     return make(tmp_path, friction_tests=TESTS, friction_runs=runs())
 
 
-@pytest.mark.parametrize("units", UnitsFirst)
+@pytest.mark.parametrize("units", by_day(UnitsFirst, 1))
 def test_runs_and_links_are_read_in_the_units_of_the_sheet(tmp_path, units):
     rows = {"friction_runs": runs(), "links": [inputs.links("A1", "0.40, 0.45, 0.50", 5000)]}
     path = make(tmp_path, units, friction_tests=TESTS, **rows)
@@ -78,6 +78,7 @@ def test_coefficients_above_the_tested_means_are_reported(tmp_path):
     )
 
 
+@pytest.mark.nightly
 def test_one_run_is_compared_and_rounding_is_allowed(tmp_path):
     path = make(tmp_path, arrays=arrays(mu=0.4651), friction_runs=runs())
     assert len(problems(path)) == 1
@@ -167,13 +168,15 @@ CELLS = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("cells", CELLS)
+@pytest.mark.parametrize("cells", by_day(CELLS, 1))
 def test_what_contradicts_the_arrays_is_named_with_what_to_give(linked, cells):
     reported = problems(type_into(linked, {name: typed for name, (typed, _) in cells.items()}))
     assert reported == said(*(f"{name} is {line}" for name, (_, line) in cells.items()))
 
 
-@pytest.mark.parametrize("friction", [{"mu_fast": 0.5, "mu_rate_s_per_m": 20}, {"mu_static": 0.5}])
+@pytest.mark.parametrize(
+    "friction", by_day([{"mu_fast": 0.5, "mu_rate_s_per_m": 20}, {"mu_static": 0.5}], 1)
+)
 def test_a_row_takes_one_coefficient_for_each_block(tmp_path, friction):
     linked = make(tmp_path, arrays=arrays(**friction), links=[row_of(), row_of("A2")])
     assert problems(linked) == said(
@@ -222,6 +225,7 @@ def in_meters(points):
 ROOF_SIDES = dict(zip(SIDES, (0.0, 300 * FT, 0.0, 120 * FT), strict=True))
 
 
+@pytest.mark.nightly
 def test_a_rectangular_roof_is_read_back_as_written_and_without_one_north_is_up(tmp_path):
     roof = ROOF_SIDES | {"north_deg": 60.0}
     data = read_workbook(make(tmp_path, roof=roof)).input
@@ -231,7 +235,7 @@ def test_a_rectangular_roof_is_read_back_as_written_and_without_one_north_is_up(
     assert (bare.placed, bare.north_deg) == (None, 90.0)
 
 
-@pytest.mark.parametrize("units", list(UnitsFirst))
+@pytest.mark.parametrize("units", by_day(list(UnitsFirst), 1))
 def test_outlines_are_read_back_as_written(tmp_path, units):
     changes = outlined(roof=ROOF_FT)
     data = read_workbook(make(tmp_path, units, **changes)).input
@@ -276,14 +280,14 @@ NO_NUMBER = "<Outlines/2/y>: y is "
 
 @pytest.mark.parametrize(
     ("typed", "begin", "end"),
-    [
+    by_day([
         (BEYOND_TWO, f"{FIRST}: A1 has 2 vertices", "; give at least 3, one to a row"),
         ({"2/x": 30, "2/y": 90},  # across the upper side
          f"{FIRST}: outline of A1 touches or crosses itself near x ",
          "; give its vertices in order, none of them twice"),
         ({"2/y": "nan"}, NO_NUMBER, "; give a number [ft]"),
         ({"2/y": None}, NO_NUMBER, "; give a number [ft]"),
-    ],
+    ], 1),
 )  # fmt: skip
 def test_what_is_no_outline_is_told_by_its_cell(tmp_path, typed, begin, end):
     (line,) = changed(tmp_path, typed)
@@ -309,7 +313,7 @@ NOTCHED = ((0, 0), (300, 0), (300, 60), (80, 60), (80, 100), (0, 100))
         (outlined(roof=NOTCHED), "or the outline of the roof at <Outlines/7/Outline of>"),
         (outlined() | {"arrays": arrays(**NO_SIDES)[:1], "roof": ROOF_SIDES | {"y_to_m": 74 * FT}},
          f"{FIRST}: A1 is outside the roof near x "),
-    ], 2),
+    ], 1),
 )  # fmt: skip
 def test_what_contradicts_an_outline_is_told_by_its_cell(tmp_path, changes, words):
     (line,) = problems(make(tmp_path, **changes))

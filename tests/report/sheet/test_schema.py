@@ -9,6 +9,7 @@ from pydantic import ValidationError
 import inputs
 import roofslip
 from inputs import SITE
+from nightly import by_day
 from report.cli.main import main
 from report.sheet.checking.checks import site_faults
 from report.sheet.reading.read import read
@@ -191,14 +192,17 @@ NO_SDC = "Site/Seismic design category is missing; choose A, B, C, D, E or F, or
 
 @pytest.mark.parametrize(
     ("changes", "line"),
-    [
-        ({"S_1": None, "S_D1": 0.4}, f"{NO_SDC} S_1"),
-        ({"F_v": None}, f"{NO_SDC} S_D1"),
-        ({"S_1": None, "F_v": None}, f"{NO_SDC} S_1 and S_D1"),
-        ({"Site class": "E", "S_S": 1.2}, NO_F_A),
-        ({"Hazard basis": "site-specific analysis"}, NO_F_A),
-        ({"Risk category": None}, "Site/Risk category is missing; choose I, II, III or IV"),
-    ],
+    by_day(
+        [
+            ({"S_1": None, "S_D1": 0.4}, f"{NO_SDC} S_1"),
+            ({"F_v": None}, f"{NO_SDC} S_D1"),
+            ({"S_1": None, "F_v": None}, f"{NO_SDC} S_1 and S_D1"),
+            ({"Site class": "E", "S_S": 1.2}, NO_F_A),
+            ({"Hazard basis": "site-specific analysis"}, NO_F_A),
+            ({"Risk category": None}, "Site/Risk category is missing; choose I, II, III or IV"),
+        ],
+        2,
+    ),
 )
 def test_what_does_not_follow_is_asked_for(tmp_path, changes, line):
     assert problems(made(tmp_path, **changes)) == said(line)
@@ -229,8 +233,8 @@ def test_other_inputs_are_those_of_a_workbook_that_has_them(tmp_path):
 
 @pytest.mark.parametrize(
     ("changes", "said"),
-    [({"mu": -0.4}, "arrays: mu: Input should be greater than or equal to 0"),
-     ({"slope_value": 60.0}, "slope is 60"), ({"id": "A9"}, "which is not in Arrays")],
+    by_day([({"mu": -0.4}, "arrays: mu: Input should be greater than or equal to 0"),
+     ({"slope_value": 60.0}, "slope is 60"), ({"id": "A9"}, "which is not in Arrays")], 1),
 )  # fmt: skip
 def test_what_a_workbook_may_not_have_is_refused(tmp_path, changes, said):
     sheet = read(make(tmp_path))

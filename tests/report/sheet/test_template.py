@@ -10,6 +10,7 @@ from pypdf import PdfReader
 
 import sheets
 from cells import address, cell
+from nightly import by_day
 from projects.example.make import project as example
 from recalculated import converted
 from report.drawing.items import TYPE_PT, width_in
@@ -28,7 +29,7 @@ SHEETS = [
 RARE = {"Spectrum", "Links", "Outlines", "Layers", "Acknowledged"}
 
 
-@pytest.fixture(scope="module", params=list(UnitsFirst))
+@pytest.fixture(scope="module", params=by_day(list(UnitsFirst), 1))
 def fresh(request, tmp_path_factory):
     path = tmp_path_factory.mktemp("blank") / "input.xlsx"
     write_template(path, units=request.param)
@@ -213,7 +214,7 @@ FUNCTIONS = {
 }  # fmt: skip
 
 
-@pytest.fixture(scope="module", params=["blank", "filled"])
+@pytest.fixture(scope="module", params=by_day(["blank", "filled"], 1))
 def parts(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("parts")
     path = make(folder) if request.param == "filled" else blank(folder / "input.xlsx")
@@ -314,7 +315,7 @@ UNIT_IN, BESIDE_IN, INDENT_IN, LINE = 7 / 96, 5 / 96, 9 / 96, 1.22
 DEFAULT_ROW_PT, DEFAULT_WIDTH = 15.0, 8.43
 
 
-@pytest.fixture(scope="module", params=["US", "SI", "example"])
+@pytest.fixture(scope="module", params=by_day(["US", "SI", "example"], 1))
 def book(request, tmp_path_factory):
     path = tmp_path_factory.mktemp("whole") / "input.xlsx"
     is_example = request.param == "example"

@@ -353,6 +353,7 @@ def test_killed_workers_lose_nothing_and_every_row_has_the_bytes_of_this_machine
         assert row_bytes(there / part_name(number)) == row_bytes(here / part_name(number))
 
 
+@pytest.mark.nightly
 @OF_DASK
 def test_workers_of_another_version_are_an_error_before_anything_runs(cluster):
     manifest = manifest_of(campaign("x"), {})

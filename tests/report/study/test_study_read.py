@@ -19,7 +19,8 @@ from projects.study.make import study
 from report.sheet.reading.linked_files import SUPPORTING, StudyYears
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import UnitsFirst
-from report.study.files import study_files
+from report.study import files
+from report.study.files import study_files, study_html
 from report.study.read import read_study, write_study
 from report.study.run import planned, run_study
 from report.study.schema import (
@@ -36,6 +37,7 @@ from report.study.schema import (
 )
 from report.study.shaking import points_of
 from report.study.years import RECURRENCES
+from report.typeset.pdf import lay_out
 from sheets import edit, type_into
 from solver.friction_tests import Surface
 from solver.model import InputError
@@ -155,7 +157,7 @@ def test_an_ordinary_workbook_is_told_what_to_do(tmp_path):
          ("<Study/Record-to-record source>: the record-to-record dispersion needs its source",)),
         ({"slopes_deg": "0 to 45 by 0.1", "intensities": "1 to 100 by 0.25",
           "mus": "0.1 to 2 by 0.01"}, ("<Study/Intensities>: make", "cases")),
-    ], 8),
+    ], 4),
     ids=lambda value: str(value)[:40] if isinstance(value, dict) else "",
 )  # fmt: skip
 def test_errors_name_the_cell_and_what_to_do(tmp_path, changes, wanted):
@@ -174,13 +176,25 @@ def test_cells_of_a_wrong_kind_are_all_listed(tmp_path):
 
 @pytest.mark.parametrize(
     ("letters", "change", "wanted"),
-    [("x", lambda folder: (folder / "M1-x.csv").write_text("no record"), "M1-x.csv"),
-     ("xz", lambda folder: (folder / "M2-z.csv").unlink(),
-      "motion M2 has 1 components, the first has 2"),
-     ("xz", lambda folder: (folder / "M1-x.csv").unlink(), "'records' has no record M1-x"),
-     ("x", lambda folder: [path.unlink() for path in folder.iterdir()], "'records' has no record")],
+    by_day(
+        [
+            ("x", lambda folder: (folder / "M1-x.csv").write_text("no record"), "M1-x.csv"),
+            (
+                "xz",
+                lambda folder: (folder / "M2-z.csv").unlink(),
+                "motion M2 has 1 components, the first has 2",
+            ),
+            ("xz", lambda folder: (folder / "M1-x.csv").unlink(), "'records' has no record M1-x"),
+            (
+                "x",
+                lambda folder: [path.unlink() for path in folder.iterdir()],
+                "'records' has no record",
+            ),
+        ],
+        2,
+    ),
     ids=["damaged", "other components", "without its first component", "empty"],
-)  # fmt: skip
+)
 def test_a_folder_of_motions_is_refused_at_its_cell(tmp_path, letters, change, wanted):
     folder = write(tmp_path, letters=letters)
     (folder / "records" / "suite.json").write_text("{}")
@@ -292,7 +306,10 @@ def results(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def made(results):
-    return study_files(results)
+    """Its files; the layout of a study is read elsewhere."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(files, "lay_out", str.encode)
+        return study_files(results)
 
 
 def test_files_of_two_columns_and_of_the_tool_are_read():
@@ -357,7 +374,7 @@ def test_a_file_is_read_to_the_roof(tmp_path):
          ["mat 'Z' is not on the sheet Mats"]),
         ({"friction_runs": (StudyFrictionRun(mat="A", surface=Surface.DRY, number=1, mu=0.5),)},
          ["1 friction runs on 1 surfaces"]),
-    ], 6),
+    ], 3),
 )  # fmt: skip
 def test_what_a_hazard_lacks_is_said_at_its_cell(tmp_path, changes, lines):
     write(tmp_path, yearly(**changes))
@@ -395,8 +412,12 @@ def test_lives_are_put_back_as_they_say(results):
     assert never[0].beyond >= never[1].beyond
 
 
-def test_the_page_says_what_the_curve_is_and_what_follows(results, made):
-    assert made["study.pdf"].startswith(b"%PDF-")
+@pytest.mark.nightly
+def test_the_page_of_the_years_is_laid_out(results):
+    assert lay_out(study_html(results)).startswith(b"%PDF-")
+
+
+def test_the_page_says_what_the_curve_is_and_what_follows(results):
     text = printed.study(results)
     assert text.count(SUPPORTING) >= 1
     for said in ("Here, 34, -118; Survey; Model 2018", "760 m/s, which is rock", "(Table S)"):

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import printed
+from nightly import by_day
 from report.study import files
 from report.study.array_capacities import spectral_spread
 from report.study.array_page import fragility as pages
@@ -110,7 +111,7 @@ MATCHED = [like(1, 1.0), like(1, 1.02), like(1, 0.98)]
 UNMATCHED = [motion(k) for k in range(4)]
 
 
-@pytest.mark.parametrize("motions", [MATCHED, [motion(1)]])
+@pytest.mark.parametrize("motions", by_day([MATCHED, [motion(1)]], 1))
 def test_a_fragility_without_record_to_record_dispersion_is_not_exported(results, motions):
     found = with_state(results, motions)
     assert export_files(found) == {}

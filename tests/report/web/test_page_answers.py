@@ -2,6 +2,7 @@
 
 import pytest
 
+from nightly import by_day
 from places import ROOT
 from report.assessment.assess import assess, reassess
 from report.assessment.friction import with_friction
@@ -113,7 +114,7 @@ CLEARANCES = """async (cells) => {
 }"""
 
 
-@pytest.mark.parametrize("verdict", [Verdict.NG, Verdict.CONDITION])
+@pytest.mark.parametrize("verdict", by_day([Verdict.NG, Verdict.CONDITION], 1))
 def test_names_of_a_dozen_letters_leave_the_verdict_of_a_clearance_in_view(scripts, verdict):
     cells = [{"text": text} for text in ("1", "ARRAY-NW-01 to PV existing 2014", "96.0 in")]
     cells += [{"text": "107.5 in"}, {"text": "0.83"}, stamp(verdict)]

@@ -6,6 +6,7 @@ import zipfile
 
 import pytest
 
+from nightly import by_day
 from report.web.files import checked, store
 from solver.model import InputError
 
@@ -106,25 +107,28 @@ LOCKED = changed(packed([("input.xlsx", b"abc")]), (LISTED, 8, b"\1"), (HEADER, 
 
 @pytest.mark.parametrize(
     ("files", "problem"),
-    [
-        (sent(), "no file was sent"),
-        (sent("a.csv"), r"no workbook \(.xlsx\) was sent"),
-        (sent("a.xlsx", "b.xlsx"), r"2 workbooks were sent \(a.xlsx, b.xlsx\)"),
-        (sent("a.zip", "b.xlsx"), "a zip was sent with other files"),
-        (sent("input.xlsx", *(f"{k}.csv" for k in range(500))), "more than 500 files"),
-        (zipped(b""), "the zip is damaged"),
-        (zipped(HEADER), "the zip is damaged"),
-        (zipped(b"not a zip"), "the zip is damaged"),
-        (zipped(bytes(100)), "the zip is damaged"),
-        (LOCKED, "has a password"),
-        # Names that another system takes for one.
-        (sent("input.xlsx", "a.csv", "A.csv"), "rename one"),
-        (sent("input.xlsx", "records/a.csv", "Records/b.csv"), "rename one"),
-        (sent("input.xlsx", "a.csv", "a.csv"), "rename one"),
-        (sent("input.xlsx", "a", "a/b.csv"), "rename one"),
-        (sent("input.xlsx", "a/b.csv", "a"), "rename one"),
-        (sent("input.xlsx", "caf\u00e9.csv", "cafe\u0301.csv"), "rename one"),
-    ],
+    by_day(
+        [
+            (sent(), "no file was sent"),
+            (sent("a.csv"), r"no workbook \(.xlsx\) was sent"),
+            (sent("a.xlsx", "b.xlsx"), r"2 workbooks were sent \(a.xlsx, b.xlsx\)"),
+            (sent("a.zip", "b.xlsx"), "a zip was sent with other files"),
+            (sent("input.xlsx", *(f"{k}.csv" for k in range(500))), "more than 500 files"),
+            (zipped(b""), "the zip is damaged"),
+            (zipped(HEADER), "the zip is damaged"),
+            (zipped(b"not a zip"), "the zip is damaged"),
+            (zipped(bytes(100)), "the zip is damaged"),
+            (LOCKED, "has a password"),
+            # Names that another system takes for one.
+            (sent("input.xlsx", "a.csv", "A.csv"), "rename one"),
+            (sent("input.xlsx", "records/a.csv", "Records/b.csv"), "rename one"),
+            (sent("input.xlsx", "a.csv", "a.csv"), "rename one"),
+            (sent("input.xlsx", "a", "a/b.csv"), "rename one"),
+            (sent("input.xlsx", "a/b.csv", "a"), "rename one"),
+            (sent("input.xlsx", "caf\u00e9.csv", "cafe\u0301.csv"), "rename one"),
+        ],
+        5,
+    ),
 )
 def test_files_that_are_refused_are_refused_with_the_reason(files, problem, tmp_path):
     with pytest.raises(InputError, match=problem):

@@ -10,6 +10,7 @@ import pytest
 import report.suite.files
 import waves
 from browsing import called, cases, opened, quiet_page, served
+from nightly import by_day
 from report.sheet.reading.read import read
 from report.web import worker
 from report.web.jobs import perform
@@ -30,7 +31,7 @@ def without_motions(folder, **cells):
     return path
 
 
-@pytest.mark.parametrize("cells", [{}, {"S_DS": None, "S_MS": None, "S_S": None}])
+@pytest.mark.parametrize("cells", by_day([{}, {"S_DS": None, "S_MS": None, "S_S": None}], 1))
 def test_a_workbook_without_motions_is_offered_some(tmp_path, cells):
     answer = perform({"do": "state", "workbook": str(without_motions(tmp_path, **cells))})["answer"]
     assert answer["lacks"] == ["motions"]

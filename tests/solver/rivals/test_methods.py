@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 import solver
 from blocks import block, readonly, trapezoid
+from nightly import by_day
 from solver.model import InputError, Status, coulomb
 from solver.rivals import by_scipy
 from solver.rivals.methods import METHODS, link_frequency
@@ -349,7 +350,7 @@ def assert_followed(scene):
     return exact.result
 
 
-@pytest.mark.parametrize("slope_deg", [0.0, 4.0])
+@pytest.mark.parametrize("slope_deg", by_day([0.0, 4.0], 1))
 def test_two_axes_follow_the_exact_motion_where_there_is_one_axis(slope_deg):
     part = cut(own_triples(True)[0], 41)
     scene = scene_of(part, Case(slope_deg, 0.5, 1.0), coulomb(0.5), second=False)

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 import oracle
 import solver
 from blocks import shaking, trapezoid
+from nightly import by_day
 from places import ROOT, TESTS
 from solver.model import EventKind, Friction, InputError, Status
 from solver.sliding.checked import slide, slide_history
@@ -184,7 +185,7 @@ def test_units_of_a_power_of_two_change_no_bit(noise, power, dips):
     assert (slower.t_prd_s, slower.n_stops) == (unit * result.t_prd_s, result.n_stops)
 
 
-@pytest.mark.parametrize("scale", [1.0, 0.03, -1.7])
+@pytest.mark.parametrize("scale", by_day([1.0, 0.03, -1.7], 1))
 def test_a_vertical_record_of_zeros_changes_no_bit(scale):
     # At the yield acceleration itself, where a rounding decides.
     for slope, mu in itertools.product((-0.06, 0.0, 0.3), np.linspace(0.05, 0.95, 20)):

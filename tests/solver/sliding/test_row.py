@@ -9,6 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from blocks import block, readonly, shaking
+from nightly import by_day
 from solver.model import InputError, Status, coulomb
 from solver.sliding import one_axis
 from solver.sliding.row import BlockRow, row_history, slide_row
@@ -69,7 +70,7 @@ def test_blocks_of_equal_friction_move_as_one_whatever_their_links(stiffness, sh
 
 
 @pytest.mark.parametrize("shares", [(), (0.5, 0.2, 0.3)])
-@pytest.mark.parametrize("seed", [2, 3])
+@pytest.mark.parametrize("seed", by_day([2, 3], 1))
 def test_stiff_links_make_the_rigid_array_of_mean_friction(seed, shares):
     """The difference falls at least with the root of the stiffness, the stretch with it.
 
@@ -175,7 +176,7 @@ def test_the_mirrored_row_under_the_mirrored_motion_goes_the_mirrored_way():
 
 @pytest.mark.parametrize("k", [0.0, 1e2, 1e4, 1e6])
 @pytest.mark.parametrize("damping", [0.0, 5.0, 300.0])
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", by_day(range(4), 1))
 def test_samples_put_between_samples_change_no_more_than_the_bound(seed, damping, k):
     run, row = shaken(seed), replace(MIXED, stiffness_per_s2=k, damping_per_s=damping)
     samples = np.arange(run.ax_mps2.size)

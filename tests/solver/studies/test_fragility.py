@@ -123,7 +123,7 @@ def test_a_curve_that_falls_again_counts_the_first_crossing_and_says_so(center):
     assert is_just_below(found, exact)
 
 
-@pytest.mark.parametrize("letters", ["x", "xz", "xyz"])
+@pytest.mark.parametrize("letters", by_day(["x", "xz", "xyz"], 2))
 @pytest.mark.parametrize(("slope", "mu"), [(0.0, 0.3), (3.0, 0.5)])
 def test_slip_begins_where_the_forces_at_a_sample_reach_the_cone(letters, slope, mu):
     """Per sample a quadratic in the intensity, |shear|^2 = (mu N)^2, solved in closed form."""
@@ -284,7 +284,7 @@ def held(motions, beta, end, sets):
 
 
 @pytest.mark.parametrize("beta", by_day([0.05, 0.2, 0.4], 1))
-@pytest.mark.parametrize("motions", [7, 20, 40])
+@pytest.mark.parametrize("motions", by_day([7, 20, 40], 1))
 def test_the_intervals_hold_the_truth_in_88_to_92_percent_of_sets(motions, beta):
     share = held(motions, beta, math.inf, 2000)
     assert ((share >= 0.88) & (share <= 0.92)).all(), share

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.special import ndtri
 
+from nightly import by_day
 from solver import solve
 from solver.kernels import lives as kernel
 from solver.model import coulomb
@@ -50,7 +51,7 @@ def cornell(median, beta):
     return K0 * median**-K * math.exp(0.5 * (K * beta) ** 2)
 
 
-@pytest.mark.parametrize(("median", "beta"), [(0.8, 0.2), (1.3, 0.4)])
+@pytest.mark.parametrize(("median", "beta"), by_day([(0.8, 0.2), (1.3, 0.4)], 1))
 def test_lognormal_capacities_of_many_motions_have_the_rate_of_cornell(median, beta):
     n = 4000
     capacities = median * np.exp(beta * ndtri((np.arange(n) + 0.5) / n))
