@@ -11,8 +11,6 @@ from sheets import blank
 from sketch import BOX_FT, ROOF_FT, UNIT_FT, Sketch, plan
 from solver.model import InputError
 
-pytestmark = pytest.mark.quick
-
 
 def reasons(found):
     return [(one.reason, one.layer) for one in found.unread]
@@ -28,6 +26,7 @@ def with_block(sketch, layer="OBJECT", own="0", **put):
     return sketch.space.add_blockref("UNIT", (0, 0), dxfattribs={"layer": layer} | put)
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("state", ["frozen", "off"])
 @pytest.mark.parametrize("is_block", [False, True])
 def test_what_is_on_a_hidden_layer_is_left_out_with_its_reason(tmp_path, state, is_block):
@@ -43,6 +42,7 @@ def test_what_is_on_a_hidden_layer_is_left_out_with_its_reason(tmp_path, state, 
     assert only[1].casefold() == "object"
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize(("state", "shown"), [("frozen", []), ("off", ["OBJ-1"])])
 def test_a_block_on_a_layer_that_is_off_shows_what_has_layers_of_its_own(tmp_path, state, shown):
     sketch = Sketch()
@@ -52,6 +52,7 @@ def test_a_block_on_a_layer_that_is_off_shows_what_has_layers_of_its_own(tmp_pat
     assert names(plan(sketch.saved(tmp_path))) == shown
 
 
+@pytest.mark.quick
 def test_what_is_invisible_is_left_out_and_an_external_reference_is_named(tmp_path):
     sketch = Sketch()
     sketch.ring("ARRAY", BOX_FT).dxf.invisible = 1
@@ -71,6 +72,7 @@ def test_what_is_invisible_is_left_out_and_an_external_reference_is_named(tmp_pa
 CLIPPED = "a block that is clipped, and read whole where the clip crosses a line"
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("is_nested", [False, True])
 @pytest.mark.parametrize(
     ("path", "is_inverted", "shown"),
@@ -145,6 +147,7 @@ def damaged(tmp_path, old, new):
 SECTION, END = "  0\nSECTION\n  2\nCLASSES\n", "  0\nENDSEC\n"
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize(("old", "new"), [(END, 2 * END), (SECTION, "")])
 def test_a_damaged_drawing_is_read_as_far_as_it_can_be_and_says_so(tmp_path, old, new):
     found = read_dxf(damaged(tmp_path, old, new))
@@ -153,12 +156,14 @@ def test_a_damaged_drawing_is_read_as_far_as_it_can_be_and_says_so(tmp_path, old
     assert [len(line.points) for line in found.lines] == [4]
 
 
+@pytest.mark.quick
 def test_a_drawing_whose_number_would_be_guessed_is_refused(tmp_path):
     path = damaged(tmp_path, "\n 20\n75.0\n", "\n 20\n75.0x\n")
     with pytest.raises(InputError, match="not a DXF drawing, or damaged"):
         read_dxf(path)
 
 
+@pytest.mark.quick
 def test_a_flat_block_is_read_and_an_outline_over_an_equal_one_counts_once(tmp_path):
     sketch = Sketch()
     with_block(sketch, zscale=0.0)

@@ -24,9 +24,6 @@ from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
 from solver.rules.hazard import EDITIONS, Tail, ac156_horizontal, ac156_vertical
 
-pytestmark = pytest.mark.quick
-
-
 G = 9.80665
 GROUND = {"recorded_at": "ground"}
 
@@ -56,6 +53,7 @@ def shaken(records, data_changes=None, unfiltered=None, **changes):
     return pair
 
 
+@pytest.mark.quick
 def test_a_roof_motion_is_as_recorded_or_scaled_to_its_peak_with_its_drift_and_unfiltered():
     given = records()
     motion, prepared = shaken(given)
@@ -88,6 +86,7 @@ def log_ratio(motion, target, periods_s):
     return float((np.mean(logs, axis=0) - np.log(target.at(1 / periods_s))).mean())
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize(("start", "end"), [(0.2, 5.0), (0.5, 2.0)])
 def test_a_motion_scaled_to_the_target_matches_it_over_the_scaling_periods(start, end):
     data = {"target": {"from_s": start, "to_s": end}}
@@ -97,6 +96,7 @@ def test_a_motion_scaled_to_the_target_matches_it_over_the_scaling_periods(start
     assert prepared.scaling == f"target, {start:g} to {end:g} s"
 
 
+@pytest.mark.quick
 def test_a_ground_motion_goes_through_the_building_scaled_where_it_was_recorded():
     given = records()
     building = {"period_s": 0.62, "transverse_s": 0.5, "damping_percent": 3.0}
@@ -124,6 +124,7 @@ def test_a_ground_motion_goes_through_the_building_scaled_where_it_was_recorded(
     assert (motion.has_transverse, motion.has_vertical) == (False, False)
 
 
+@pytest.mark.quick
 def test_processing_and_the_period_follow_their_cells():
     height_ft = 36.0
     for building, period in (
@@ -165,6 +166,7 @@ def across_of(tail):
     return ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=1.566, z_over_h=1.0, **tail)
 
 
+@pytest.mark.quick
 def test_targets_at_the_roof_and_on_the_ground_are_those_of_code_and_project():
     goals, across = made(), across_of({})
     upward = ac156_vertical(s_ds_g=1.566)
@@ -201,6 +203,7 @@ def test_targets_at_the_roof_and_on_the_ground_are_those_of_code_and_project():
     assert np.isnan(ground.ordinates(PERIODS)).all()
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("changes", [{}, {"target": {"t_l_s": 8.0}}, {"spectrum": own()}])
 def test_targets_can_be_pickled(changes):
     goals = made(motions=ON_GROUND, **changes)
@@ -323,6 +326,7 @@ def sine(count=1000):
     return np.sin(0.1 * np.arange(count))
 
 
+@pytest.mark.quick
 def test_only_few_samples_above_the_factor_are_spikes():
     assert spikes(sine())[0] == ()
     assert spikes(np.random.default_rng(1).normal(size=3000))[0] == ()
@@ -336,6 +340,7 @@ def test_only_few_samples_above_the_factor_are_spikes():
     assert spikes(np.array([*np.ones(99), np.nextafter(FACTOR, 9.0)]))[0] == (99,)
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("at", [(0,), (999,), (3, 500), tuple(range(100, 110))])
 def test_spikes_of_either_sign_are_found(at):
     a = sine()

@@ -135,7 +135,6 @@ def example():
     raise AssertionError
 
 
-@pytest.mark.quick
 def test_no_page_rounds_the_design_displacement_down(example):
     item = example.assessment.governing
     inches = item.design_m / INCH
@@ -169,6 +168,7 @@ def done():
     return scenes.package(**changes).assessment
 
 
+@pytest.mark.quick
 def test_lowered_values_are_marked_where_they_govern_on_the_plan_and_in_results_json(done):
     assert {item.governs for item in done.arrays} == {"floor"}
     assert {item.design_mark for item in done.arrays} == {"‡"}

@@ -17,9 +17,6 @@ from report.figures.plan import array_section
 from scenes import TESTS as REPORT
 from solver.friction_tests import fit_law
 
-pytestmark = pytest.mark.quick
-
-
 AT = "at 1.00 in/s (25.4 mm/s)"
 ON_FILE = "Friction test report stated"
 STANDARD = "Tested to ASTM G115"
@@ -53,6 +50,7 @@ UNKNOWN = [run("wet", k, 0.46) for k in (1, 2, 3)]
 OTHER_REPORT = run("wet", 1, 0.5, report="FT-9", velocity_mps=0.0254)
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize(
     ("title", "report", "given", "is_satisfied", "found"),
     [
@@ -85,6 +83,7 @@ def test_a_row_is_satisfied_by_what_its_report_and_its_runs_have(
     assert found in one.found
 
 
+@pytest.mark.quick
 def test_the_row_has_the_units_of_the_project():
     si = stand_in.project().project.model_dump() | {"units_first": "SI"}
     found = row(REPEATS, friction_runs=runs(), project=si).found
@@ -134,6 +133,7 @@ def test_the_section_states_its_dimensions(slope):
     assert drawn_slope_deg(array) == pytest.approx(min(max(slope, 8.0), 15.0))
 
 
+@pytest.mark.quick
 def test_the_weight_is_over_the_plan_area_with_its_parts():
     array = stand_in.project().arrays[0]  # 42,000 lb on 80 ft x 60 ft
     assert array.weight_pa == pytest.approx(8.75 * 47.880259)
@@ -147,6 +147,7 @@ def test_the_weight_is_over_the_plan_area_with_its_parts():
     )
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize(("file", "is_on_file"), [("", False), ("ft-118.pdf", True)])
 def test_a_friction_report_is_on_file_only_where_it_is_attached(file, is_on_file):
     found = row(ON_FILE.replace("stated", "on file") if file else ON_FILE,
@@ -220,6 +221,7 @@ def full():
     return package({"target": {"t_l_s": 8.0}}, **FULL)
 
 
+@pytest.mark.quick
 def test_the_values_are_those_of_a_permit_sheet_or_category_e_near_a_fault(full):
     """Permit sheet of provisions.md: S_S 1.271, F_a 1.2, S_1 0.455, F_v 1.845, h 30 ft."""
     found = values(full)
@@ -262,6 +264,7 @@ def test_equations_and_periods_follow_what_is_given(full):
     }  # fmt: skip
 
 
+@pytest.mark.quick
 def test_the_force_and_its_factors_are_those_of_a_permit_sheet():
     """Permit sheet of provisions.md: h 35 ft, S_DS 1.0504, a_p 1, R_p 1.5."""
     height = {"structure_height_m": 35 * FT, "roof_height_m": 35 * FT}
@@ -274,6 +277,7 @@ def test_the_force_and_its_factors_are_those_of_a_permit_sheet():
     assert "at most 2.400," in forces(made)[0][1]  # 1.6 x S_DS x the larger I_p
 
 
+@pytest.mark.quick
 def test_asce_7_22_has_no_site_coefficients_and_its_own_clauses():
     made = package(
         rule_set="ASCE 7-22",

@@ -15,8 +15,6 @@ from report.assessment.verdict import Verdict
 from report.sheet.schema.choices import Direction
 from solver.sliding.least_model import Model
 
-pytestmark = pytest.mark.quick
-
 
 def scene(shaking=None, **changes):
     return scenes.package(shaking, objects=[], clearances=[], **changes)
@@ -33,6 +31,7 @@ def alone(motions):
     return tuple(replace(motion, ay_mps2=np.empty(0)) for motion in motions)
 
 
+@pytest.mark.quick
 def test_a_model_that_is_not_adequate_is_ng():
     package = scene(
         scenes.motions(3, 12.0),
@@ -75,6 +74,7 @@ def test_a_model_that_is_run_or_not_requested_is_said_so():
     assert "in either polarity: four runs for each motion" in printed(scene(), "model")
 
 
+@pytest.mark.quick
 def test_where_nothing_slips_nothing_is_neglected_and_the_largest_demand_said():
     still = tuple(replace(motion, scale=1e-3) for motion in scenes.motions(3, 4.0))
     package = scene(still, arrays=[stand_in.array("A1", 1.0)])
@@ -86,6 +86,7 @@ def test_where_nothing_slips_nothing_is_neglected_and_the_largest_demand_said():
     assert f"the required friction coefficient, {row['Demand']}," in row["Reason"]
 
 
+@pytest.mark.quick
 def test_a_stable_array_has_its_tipping_ratios():
     """Of the whole motion, also where the model of the array neglects its vertical component."""
     arrays = [
@@ -106,6 +107,7 @@ def test_a_stable_array_has_its_tipping_ratios():
         assert (row[2], row[8]) == ("none", "OK")
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize(
     ("n_vertical", "uplift_s", "text"),
     [
@@ -124,6 +126,7 @@ def test_uplift_is_said_to_be_checked_only_under_motions_with_a_vertical(
     assert text in page
 
 
+@pytest.mark.quick
 def test_an_array_that_begins_to_tip_is_not_ok_and_is_named():
     tall = stand_in.array("A1", 0.5, cg_height_m=0.9, support_spacing_m=0.5)
     package = scene(scenes.motions(3, 6.0), arrays=[tall])
@@ -155,6 +158,7 @@ def held(package):
     return page, *(table.cells for table in tables)
 
 
+@pytest.mark.quick
 def test_a_row_is_ng_by_one_block_and_stiffer_links_may_help(both):
     done = both.assessment
     assert [done.array_verdict(item).is_permitted for item in done.arrays] == [False, True]
@@ -170,6 +174,7 @@ def test_a_row_is_ng_by_one_block_and_stiffer_links_may_help(both):
     assert text.endswith(". Provide stiffer links.")
 
 
+@pytest.mark.quick
 def test_a_row_without_a_displacement_or_a_limit_says_so():
     up = np.zeros(400)
     up[200:300] = -1.3 * stand_in.G
@@ -228,6 +233,7 @@ def test_distances_are_printed_with_their_rows_and_rounded_up():
     ]
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("other", [("A2", 120 * FOOT), ("RTU-9", FOOT)])
 def test_clearances_that_are_as_in_the_plan_are_named_and_not_listed(other):
     made = page(objects=[NEAR], clearances=[stand_in.clearance("A1", *other)])
@@ -235,6 +241,7 @@ def test_clearances_that_are_as_in_the_plan_are_named_and_not_listed(other):
     assert (CAPTION in made) is (other[0] == "A2")  # the near unit has no clearance
 
 
+@pytest.mark.quick
 def test_what_is_not_in_plan_or_near_is_named():
     lost = NOWHERE | {"id": "LOST"}
     made = page(objects=[NOWHERE, lost], clearances=[stand_in.clearance("A1", "OLD", 9.0)])
@@ -249,12 +256,14 @@ def test_what_is_not_in_plan_or_near_is_named():
     assert "of the plan" not in page(arrays=ARRAYS[:1])
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("is_given", [True, False])
 def test_edges_are_those_of_the_outline_where_it_is_given(is_given):
     roof = stand_in.inputs.sides(0, 380, 0, 170) if is_given else {}
     assert ("The outline of the roof is not given" in page(roof=roof)) is not is_given
 
 
+@pytest.mark.quick
 def test_distances_that_are_not_known_or_not_of_the_plan_are_told():
     made = printed(scenes.unpermitted(), "plan")
     (line,) = (line for line in made.splitlines() if "The other seven pairs of the plan" in line)
@@ -274,6 +283,7 @@ def drawn(**changes):
     return scenes.package(**given | changes)
 
 
+@pytest.mark.quick
 def test_drawing_distances_are_conditions_until_confirmed():
     package = drawn()
     (row,) = (row for row in package.assessment.rows if row.id == "drawing_distances")

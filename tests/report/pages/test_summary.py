@@ -18,9 +18,8 @@ from report.web.controls import opened, with_values
 from scenes import DEPARTURE, FOOT, REVIEW
 from stand_in import INCH
 
-pytestmark = pytest.mark.quick
 
-
+@pytest.mark.quick
 def test_prescriptive_designs_have_no_floor_and_clearances_without_verdict_are_counted():
     arrays = [stand_in.array("A2", 0.5, x=120)]
     done = stand_in.unpermitted(arrays=arrays, clearances=[])
@@ -52,6 +51,7 @@ def test_the_terminal_marks_what_is_not_permitted_and_calls_nothing_beside_it_ok
     assert lines[-1] == "verdict: NG"
 
 
+@pytest.mark.quick
 def test_what_is_alike_of_several_arrays_or_clearances_is_said_once():
     arrays = [stand_in.array(f"A{k}", 0.5, x=120 * k) for k in (1, 2, 3)]
     done = stand_in.assess_input(stand_in.project(arrays=arrays), stand_in.motions(1, seconds=4.0))
@@ -73,6 +73,7 @@ def test_what_is_alike_of_several_arrays_or_clearances_is_said_once():
     assert "required: as in the plan" in line
 
 
+@pytest.mark.quick
 def test_a_requirement_that_is_found_differently_is_one_row_with_each_array_before_its_own():
     given = {"A1": 10.0, "A2": 20.0, "A3": 20.0}
     arrays = [
@@ -88,6 +89,7 @@ def test_a_requirement_that_is_found_differently_is_one_row_with_each_array_befo
 NEAR = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42, height=1.0)
 
 
+@pytest.mark.quick
 def test_an_array_that_is_ng_by_a_missing_clearance_says_so_in_its_row():
     """The clearance that is listed is OK, and its D/C alone stands beside the NG."""
     made = scenes.package(
@@ -120,6 +122,7 @@ def barely():
     return scenes.package(arrays=[array], objects=objects, clearances=listed)
 
 
+@pytest.mark.quick
 def test_what_is_short_by_a_hair_prints_as_less_than_is_required(barely):
     (row,) = printed(barely, "summary").table("Clearances").rows
     assert float(row["Required [in]"].strip("†")) > float(row["Provided [in]"])
@@ -130,6 +133,7 @@ def test_what_is_short_by_a_hair_prints_as_less_than_is_required(barely):
     assert float(strength["Provided [lb]"]) < float(strength["Required [lb]"].strip("†"))
 
 
+@pytest.mark.quick
 def test_deleting_the_row_of_a_clearance_lowers_nothing():
     """What the plan shows and no row covers counts as the row did: D/C, letter, cover, counts."""
     array, far = stand_in.array("A1", 0.5), stand_in.clearance("A1", "RTU-8", 40.0 * stand_in.FOOT)
@@ -153,6 +157,7 @@ def test_deleting_the_row_of_a_clearance_lowers_nothing():
     assert "The plan shows one of them without a row" in printed(deleted, "letter")
 
 
+@pytest.mark.quick
 def test_the_letter_and_the_cause_say_what_is_not_given():
     made = scenes.package(arrays=[stand_in.array("A1", 0.5)], objects=[NEAR], clearances=[])
     said = printed(made, "letter")
@@ -199,6 +204,7 @@ def test_the_letter_counts_the_clearances(provided_ft, text):
     assert printed(scenes.package(clearances=rows), "letter").line(text)
 
 
+@pytest.mark.quick
 def test_the_smallest_margin_is_of_a_satisfied_clearance_and_a_drift_over_its_limit_larger():
     """A1 alone would satisfy the first one; A3 beside it does not."""
     arrays = [stand_in.array("A1", 0.5, mu=1.0), stand_in.array("A3", 4.0, y=90)]
@@ -222,6 +228,7 @@ def test_the_smallest_margin_is_of_a_satisfied_clearance_and_a_drift_over_its_li
     assert numbers[0] > numbers[1]
 
 
+@pytest.mark.quick
 def test_a_low_parapet_does_not_qualify_by_the_heights_of_the_package():
     edge = stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=20 * INCH)
     package = scenes.package(objects=[edge], clearances=[stand_in.clearance("A3", "N", 6.0)])
@@ -243,6 +250,7 @@ def test_the_plan_says_which_displacement_a_separation_takes(options, words):
     assert words in printed(scenes.package(options=REVIEW | options), "plan")
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize(
     ("rule_set", "base_m", "words"),
     [
@@ -262,6 +270,7 @@ def test_the_length_that_limits_the_center_of_gravity_is_the_one_compared(rule_s
     assert check.limit == pytest.approx(min(0.5 * length_m, 0.9144))
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("clearances", [[], [stand_in.clearance("A1", "RTU-1", 60 * FOOT)]])
 def test_a_limit_that_may_be_exceeded_is_nowhere_said_to_be_satisfied(clearances):
     package = scenes.package(
@@ -279,6 +288,7 @@ def test_a_limit_that_may_be_exceeded_is_nowhere_said_to_be_satisfied(clearances
         assert text in printed(package, key)
 
 
+@pytest.mark.quick
 def test_the_largest_peak_of_a_prescriptive_array_is_printed_with_one_rounding():
     """Rounded up in the design displacement, it was another number three lines below."""
     gaps = [stand_in.clearance("A1", "RTU-1", 60 * FOOT)]

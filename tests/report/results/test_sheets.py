@@ -12,6 +12,7 @@ from pypdf import PdfReader
 import scenes
 import stand_in
 from cells import cell
+from nightly import by_day
 from recalculated import converted, recalculated
 from report.assessment.spectra import spectra
 from report.results.xlsx import results_xlsx
@@ -25,7 +26,7 @@ LEGIBLE = 0.6  # of 11 pt
 
 @pytest.fixture(
     scope="module",
-    params=[scenes.usual, scenes.unpermitted, lambda: scenes.shipped("campus")],
+    params=by_day([scenes.usual, scenes.unpermitted, lambda: scenes.shipped("campus")], 1),
     ids=["usual", "unpermitted", "campus"],
 )
 def done(request):

@@ -261,7 +261,6 @@ def copied(book, title):
     return sheet
 
 
-@pytest.mark.quick
 def test_a_copied_sheet_is_ignored_with_a_warning(tmp_path):
     path = edit(make(tmp_path), lambda book: copied(book, "Arrays"))
     ((name, cell, text),) = told(path)

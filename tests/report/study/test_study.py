@@ -319,7 +319,6 @@ CHANGING = (
 )
 
 
-@pytest.mark.quick
 def test_a_study_has_the_words_that_it_had(golden, tmp_path):
     """Taken over by `./roofslip test --golden`: of S_DS, tests, a clearance and a tolerance."""
     study = small(intensity=Intensity.S_DS, s_ds_g=1.0, intensities="0.2 to 2 by 0.2")

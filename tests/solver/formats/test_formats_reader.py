@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from test_formats import HELD
 
-from nightly import by_day
 from places import RECORDS, SAMPLES
 from refused import refused
 from solver.formats import read_motion_file, read_record
@@ -40,7 +39,7 @@ def channel_of(row):
     return motion_file.channel(row["component"] if len(motion_file.channels) > 1 else "")
 
 
-@pytest.mark.parametrize("row", by_day(manifest(), 10))
+@pytest.mark.parametrize("row", manifest())
 def test_real_records_have_the_step_count_and_peak_of_the_manifest(row):
     record = channel_of(row)
     a, count = record.a_mps2, int(row["npts"])

@@ -15,8 +15,6 @@ from solver.sliding import one_axis
 from solver.verification import peers, stability, study, workprecision
 from solver.verification.study import CASES, compared_runs, near_fault_pulse, own_triples, shortened
 
-pytestmark = pytest.mark.quick
-
 
 @pytest.fixture(scope="module")
 def record():
@@ -39,6 +37,7 @@ def test_every_method_runs_in_every_case_over_its_settings(points):
         np.testing.assert_array_equal(mine["setting"], wanted * 3)
 
 
+@pytest.mark.quick
 def test_the_exact_method_has_no_error_and_finer_settings_have_less(points):
     exact = points[points["method"] == "exact"]
     assert (exact[["PRD error [m]", "residual error [m]"]] == 0.0).all(axis=None)
@@ -50,6 +49,7 @@ def test_the_exact_method_has_no_error_and_finer_settings_have_less(points):
     assert (events["PRD error [%]"] < 1e-9).all()
 
 
+@pytest.mark.quick
 def test_the_runs_are_real_records_a_case_each_where_they_are_installed(record, monkeypatch):
     real = [record] * 18
     monkeypatch.setattr(study, "real_records", lambda: real)
@@ -59,6 +59,7 @@ def test_the_runs_are_real_records_a_case_each_where_they_are_installed(record, 
     assert len(compared_runs(True)) == 2 * 3
 
 
+@pytest.mark.quick
 def test_a_failed_run_is_a_hole_with_its_status(record, monkeypatch):
     stiff = replace(METHODS["penalty-explicit"], sweep=(1e8,), link_steps_per_radian=0.0)
     monkeypatch.setattr(workprecision, "runnable_methods", lambda: [stiff])
@@ -68,6 +69,7 @@ def test_a_failed_run_is_a_hole_with_its_status(record, monkeypatch):
     assert measured.isna().all(axis=None)
 
 
+@pytest.mark.quick
 def test_what_is_timed_is_what_is_run(record):
     for case, name in itertools.product(CASES, ("exact", "paper", "penalty-implicit")):
         method, scene = METHODS[name], study.prepared(record, case)
@@ -99,6 +101,7 @@ def test_fixed_steps_gain_with_their_number_and_stay_far_behind(plane, method):
     assert mine[-1] > 1e3 * ours[4]
 
 
+@pytest.mark.quick
 def test_scipy_takes_part_where_it_is_installed_and_gains(plane, monkeypatch):
     counts = plane[plane["method"].str.startswith("SciPy")].groupby("method").size()
     assert counts.tolist() == ([3, 4, 3] if by_scipy.is_installed() else [])
@@ -126,6 +129,7 @@ def judged(*judges, model=peers.ONE_AXIS, triples=()):
     )
 
 
+@pytest.mark.quick
 def test_a_peer_gets_the_scaled_record_and_its_error_is_of_the_exact_prd():
     peaks = []
 
@@ -141,6 +145,7 @@ def test_a_peer_gets_the_scaled_record_and_its_error_is_of_the_exact_prd():
     assert {(point.model, point.note) for point in results} == {("one axis", "as is")}
 
 
+@pytest.mark.quick
 def test_a_peer_that_raises_is_a_hole_with_its_reason_and_one_that_is_absent_left_out():
     def broken(_):
         raise RuntimeError("no library")
@@ -155,6 +160,7 @@ def test_a_peer_that_raises_is_a_hole_with_its_reason_and_one_that_is_absent_lef
     assert judged(peer(lambda _: 1.0, module="no_such_module")) == []
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize(
     ("model", "judge"),
     [
@@ -207,6 +213,7 @@ def test_every_map_has_a_cell_for_each_pair_and_marks_those_that_failed(maps):
         assert (m.error_percent[order[0]] <= m.error_percent[order[-1]] + 1e-9).all()
 
 
+@pytest.mark.quick
 def test_a_link_fails_above_its_limit_and_is_sound_well_below(links):
     for m in links:
         above = m.y[:, None] > 1.05 * m.limit
@@ -221,6 +228,7 @@ def test_a_link_fails_above_its_limit_and_is_sound_well_below(links):
         assert np.nanmin(m.error_percent[fine]) < 0.01
 
 
+@pytest.mark.quick
 def test_at_the_critical_friction_the_ninth_digit_shows_and_elsewhere_it_does_not(pulse):
     still, shaken, wide, design = stability.conditioning(pulse, quick=True)
     nearest = int(np.abs(still.mu / stability.CRITICAL_MU - 1.0).argmin())

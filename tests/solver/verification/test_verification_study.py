@@ -36,12 +36,11 @@ from solver.verification.study import (
     triple_scale,
 )
 
-pytestmark = pytest.mark.quick
-
 X, Y, Z = map(readonly, ([0, 6, -6, 0], [0, 1, 2, 0], [0, 1, -1, 0]))
 MADE = motion(X, Y, Z, dt_s=0.1, id="made")
 
 
+@pytest.mark.quick
 def test_scenes_are_those_of_each_motion_in_turn_scaled_to_the_case():
     turned = Orientation(component=HorizontalComponent.TRANSVERSE, polarity=-1)
     scenes = study.scenes_of([MADE], study.MODEL_CASES, (AS_RECORDED, turned))
@@ -58,6 +57,7 @@ def test_scenes_are_those_of_each_motion_in_turn_scaled_to_the_case():
     assert found == tuple(Case(*values) for values in wanted)
 
 
+@pytest.mark.quick
 def test_runs_are_those_of_a_slide_and_of_the_law_of_their_own_friction():
     push = np.array([0.0, 5.0, -5.0, 0.0])
     half, whole, double = (
@@ -77,6 +77,7 @@ def test_runs_are_those_of_a_slide_and_of_the_law_of_their_own_friction():
     assert study.run(record, case).prd_m == study.run(record, case, "exact").prd_m
 
 
+@pytest.mark.quick
 def test_repeats_end_early_the_least_time_and_the_first_of_the_least_count(monkeypatch):
     calls = []
     study.minimum_seconds(lambda: calls.append(0), enough_s=0.0)
@@ -97,6 +98,7 @@ def own():
     return only
 
 
+@pytest.mark.quick
 def test_own_and_recorded_motions_have_one_factor_and_a_part_is_the_strongest(own, tmp_path):
     assert np.shares_memory(own.ax_mps2, study.own_records(True)[0].a_mps2)
     assert own.source != study.RECORDED
@@ -189,6 +191,7 @@ def test_every_run_is_counted_and_a_ratio_is_that_of_two_slides(compared):
     assert np.abs(compared.named(SECOND).ratios - ratio).min() == pytest.approx(0.0, abs=1e-9)
 
 
+@pytest.mark.quick
 def test_models_differ_as_they_should(compared):
     """One axis underestimates, friction at rest changes little, stiff rows move as rigid arrays."""
     assert min(compared.named(name).median for name in (SECOND, WORST)) > 1.0
@@ -208,6 +211,7 @@ def test_models_differ_as_they_should(compared):
     assert change.share_above_one == pytest.approx(2.0 / 3.0)
 
 
+@pytest.mark.quick
 def test_lifted_runs_are_counted_and_not_compared():
     (triple,) = own_triples(True)
     lifting = replace(triple, az_mps2=read_only(20.0 * triple.az_mps2))
@@ -217,6 +221,7 @@ def test_lifted_runs_are_counted_and_not_compared():
     assert math.isnan(compared.largest_error)
 
 
+@pytest.mark.quick
 def test_a_push_between_kinetic_and_static_holds_in_one_axis_alone():
     pushed = model_study.pushed()
     alone_m, faint_m, *pushed_m = pushed["end_m"]
