@@ -336,8 +336,10 @@ def size_in(found, text):
 
 def n_lines(found, wide):
     """How many lines a cell breaks its text into, between words and after hyphens and slashes."""
+    if size_in(found, found.value) <= wide:
+        return 1
     count, line = 1, ""
-    for word in str(found.value).split(" "):
+    for word in found.value.split(" "):
         tried = f"{line} {word}".strip()
         if line and size_in(found, tried) > wide:
             count, tried = count + 1, word
