@@ -64,6 +64,7 @@ def plateau_g(component):
     return np.exp(np.log(peaks).mean())
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     ("period", "slope", "mu", "s_ds"), by_day([(2, 28, 14, 12), (0, 8, 2, 9)], 1)
 )

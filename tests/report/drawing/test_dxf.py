@@ -181,7 +181,7 @@ def crowded():
     ).assessment
 
 
-@pytest.fixture(scope="module", params=by_day([*scenes.SHIPPED, "unpermitted", "crowded"], 3))
+@pytest.fixture(scope="module", params=by_day([*scenes.SHIPPED, "unpermitted", "crowded"], 2))
 def roof(request):
     others = {"unpermitted": scenes.unpermitted, "crowded": crowded}
     return others[request.param]() if request.param in others else scenes.shipped(request.param)

@@ -11,7 +11,7 @@ from report.proof.package import compared, opened
 
 @pytest.fixture(scope="session")
 def job(tmp_path_factory):
-    return packages.reported(tmp_path_factory, "conditions", packages.by_script).project
+    return packages.reported(tmp_path_factory, "conditions", packages.without_figures).project
 
 
 @pytest.fixture(scope="session")

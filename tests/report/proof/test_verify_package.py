@@ -51,7 +51,13 @@ def with_file(name, content):
 
 
 @pytest.fixture(scope="module")
-def after_record_changed(data, given):
+def whole(tmp_path_factory):
+    """The project with its package as a process of its own wrote it."""
+    return packages.reported(tmp_path_factory, "conditions", packages.by_script).project
+
+
+@pytest.fixture(scope="module")
+def after_record_changed(whole, given):
     """How the command ends for a package of which a record was changed, and its hash."""
 
     def change(pdf):
@@ -59,16 +65,17 @@ def after_record_changed(data, given):
         lines[500:700] = [line.replace(b",0.", b",0.9", 1) for line in lines[500:700]]
         with_file(RECORD, b"\n".join(lines))(pdf)
 
+    data = (whole / "out" / "calc-package.pdf").read_bytes()
     return commands.run("verify-package", given(data, change), "--json")
 
 
 @pytest.mark.nightly
-def test_a_package_is_the_same_to_the_byte_unless_a_record_was_changed(job, after_record_changed):
+def test_a_package_is_the_same_to_the_byte_unless_a_record_was_changed(whole, after_record_changed):
     """A process of its own wrote it; this one has laid out a package before."""
-    told = commands.printed("verify-package", job / "out" / "calc-package.pdf")
+    told = commands.printed("verify-package", whole / "out" / "calc-package.pdf")
     assert "Same: the input in the package gives this package, to the byte." in told
-    assert sorted(path.name for path in job.iterdir()) == ["input.xlsx", "out", "records"]
-    assert sorted(path.name for path in (job / "out").glob("*.pdf")) == ["calc-package.pdf"]
+    assert sorted(path.name for path in whole.iterdir()) == ["input.xlsx", "out", "records"]
+    assert sorted(path.name for path in (whole / "out").glob("*.pdf")) == ["calc-package.pdf"]
     done = after_record_changed
     assert done.exit_code == 1, done.output
     said = json.loads(done.stdout)
@@ -77,7 +84,8 @@ def test_a_package_is_the_same_to_the_byte_unless_a_record_was_changed(job, afte
 
 
 @pytest.mark.nightly
-def test_a_painted_package_is_not_compared_in_full_and_is_made_again_beside_it(data, given):
+def test_a_painted_package_is_not_compared_in_full_and_is_made_again_beside_it(whole, given):
+    data = (whole / "out" / "calc-package.pdf").read_bytes()
     path = given(data, tampering.painted_over)
     told = commands.ended("verify-package", path, exit_code=4)
     assert "drawings not compared: read the package made again" in told
@@ -132,10 +140,10 @@ def test_a_package_with_a_document_verifies_and_with_another_one_differs(tmp_pat
 
 
 @pytest.mark.nightly
-def test_this_process_alone_writes_every_file_as_two_do(job, tmp_path_factory):
-    alone = packages.reported(tmp_path_factory, job.name).out
+def test_this_process_alone_writes_every_file_as_two_do(whole, tmp_path_factory):
+    alone = packages.reported(tmp_path_factory, whole.name).out
     for name in OUTPUTS:
-        assert (alone / name).read_bytes() == (job / "out" / name).read_bytes(), name
+        assert (alone / name).read_bytes() == (whole / "out" / name).read_bytes(), name
 
 
 def test_a_name_with_an_accent_is_one_name_in_the_two_encodings_of_the_renderer(data):

@@ -160,9 +160,11 @@ FAULTS = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("case", FAULTS, ids=[lines[0][:70] for _, _, *lines in FAULTS])
-def test_a_record_that_cannot_be_run_is_refused_at_its_cell(tmp_path, case):
-    texts, cells, *lines = case
+@pytest.mark.parametrize(
+    "number", by_day(range(len(FAULTS)), 4), ids=[lines[0][:70] for _, _, *lines in FAULTS]
+)
+def test_a_record_that_cannot_be_run_is_refused_at_its_cell(tmp_path, number):
+    texts, cells, *lines = FAULTS[number]
     assert problems(type_into(recorded(make(tmp_path), **texts), cells)) == said(*lines)
 
 
@@ -267,6 +269,7 @@ def test_what_may_not_be_attached_is_an_error_of_its_cell(workbook, name, said):
     assert problem.startswith(f"{at(LETTER)}: letter of review: '{name}' {said}")
 
 
+@pytest.mark.nightly
 def test_all_documents_together_have_a_limit(workbook, monkeypatch):
     monkeypatch.setattr(linked_files, "MAX_DOCUMENTS", 2 * len(PDF) - 1)
     naming(workbook, "letter.pdf", PDF)
@@ -277,6 +280,7 @@ def test_all_documents_together_have_a_limit(workbook, monkeypatch):
     assert "'letter.pdf' and the other documents have more than" in problem
 
 
+@pytest.mark.nightly
 def test_one_file_in_three_cells_is_named_three_times(workbook):
     assert read(workbook).documents == ()
     naming(workbook, "both.pdf", PDF)

@@ -31,6 +31,7 @@ def formulas(path):
     return {f"{t}!{c}": book.formula(t, c) for t, scan in book.scans.items() for c in scan.formulas}
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("units", by_day(UnitsFirst, 1))
 def test_every_blue_cell_of_a_new_workbook_that_loses_its_formula_is_named(tmp_path, units):
     path = make(tmp_path, units)
@@ -263,6 +264,7 @@ def test_formulas_that_fetch_are_named_wherever_they_are(tmp_path, formula):
     assert elsewhere(formula) in told(path)
 
 
+@pytest.mark.nightly
 def test_a_bar_in_a_text_and_a_link_of_a_cell_fetch_nothing(tmp_path):
     formula = """="a|b"&'Ar|rays'!A1&"it's|" """
     assert not told(edit(make(tmp_path), lambda book: book["Site"].cell(90, 60, formula)))

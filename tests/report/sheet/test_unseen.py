@@ -195,6 +195,7 @@ def test_a_warning_is_acknowledged_by_its_name_and_the_echo_marks_its_cells(tmp_
     assert not any(row.unseen for row in book.sheet.echo if row.sheet != sheet)
 
 
+@pytest.mark.nightly
 def test_a_pasted_record_on_a_hidden_sheet_is_one_warning_and_a_note_of_the_record(tmp_path):
     def change(book):
         sheet = book.create_sheet("Pasted")

@@ -132,6 +132,7 @@ def test_motions_without_a_final_prd_are_counted(results):
     assert f"{cases} of {6 * cases} pairs of case and motion have no final PRD" in said
 
 
+@pytest.mark.nightly
 def test_censored_and_exceeding_runs_without_a_value_differ_as_stated(other):
     """A friction below the slope never lets the block stop: no value at any intensity."""
     arrays = (StudyArray(id="S", mat="A", slope_deg=30.0, clearance_m=0.1),)

@@ -111,6 +111,7 @@ def test_too_few_motions_give_no_design_displacement_and_it_is_said(tmp_path, mo
     assert all("design displacement" not in line for line in headline(found))
 
 
+@pytest.mark.nightly
 def test_without_s_ds_the_displacement_is_called_before_the_floor(tmp_path):
     found = run(tmp_path, intensity=Intensity.PPA, intensities="0.5, 1", s_ds_g=None, allowed_m=0.3)
     assert found.design_m == pytest.approx(1.1 * found.curves.mean_m, nan_ok=True)

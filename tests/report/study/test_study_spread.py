@@ -201,6 +201,7 @@ def fitted(tmp_path_factory):
     return dataclasses.replace(found, arrays=(one,))
 
 
+@pytest.mark.nightly
 def test_the_chart_has_a_panel_for_each_state_with_the_p_value_of_the_table(fitted):
     charts = pages(fitted, fitted.arrays[0]).charts
     assert list(charts) == ["fragility", "goodness"]

@@ -50,7 +50,7 @@ def test_the_target_of_a_suite_is_the_site_of_the_workbook_with_its_cells_and_ed
             (("--sds", 0.5, "--code", "asce7-22"), "AC156 with ASCE 7-22, S_DS 0.5 g, z/h 1"),
             (("--sds", 0.5, "--code", "ASCE 7-16"), "AC156 with ASCE 7-16, S_DS 0.5 g, z/h 1"),
         ],
-        2,
+        1,
     ),
 )
 def test_a_target_is_that_of_the_options_or_of_the_workbook(tmp_path, quick, options, said):

@@ -93,6 +93,7 @@ SHOWN = """() => {
 }"""
 
 
+@pytest.mark.nightly
 def test_while_a_slider_moves_there_is_no_verdict_and_the_page_says_which_model(page):
     page.evaluate(SHOWN)
     # It goes on moving until its values are shown, as under a finger.

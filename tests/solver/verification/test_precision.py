@@ -37,7 +37,6 @@ def test_every_method_runs_in_every_case_over_its_settings(points):
         np.testing.assert_array_equal(mine["setting"], wanted * 3)
 
 
-@pytest.mark.quick
 def test_the_exact_method_has_no_error_and_finer_settings_have_less(points):
     exact = points[points["method"] == "exact"]
     assert (exact[["PRD error [m]", "residual error [m]"]] == 0.0).all(axis=None)
@@ -101,7 +100,6 @@ def test_fixed_steps_gain_with_their_number_and_stay_far_behind(plane, method):
     assert mine[-1] > 1e3 * ours[4]
 
 
-@pytest.mark.quick
 def test_scipy_takes_part_where_it_is_installed_and_gains(plane, monkeypatch):
     counts = plane[plane["method"].str.startswith("SciPy")].groupby("method").size()
     assert counts.tolist() == ([3, 4, 3] if by_scipy.is_installed() else [])
@@ -213,7 +211,6 @@ def test_every_map_has_a_cell_for_each_pair_and_marks_those_that_failed(maps):
         assert (m.error_percent[order[0]] <= m.error_percent[order[-1]] + 1e-9).all()
 
 
-@pytest.mark.quick
 def test_a_link_fails_above_its_limit_and_is_sound_well_below(links):
     for m in links:
         above = m.y[:, None] > 1.05 * m.limit
