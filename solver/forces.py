@@ -44,10 +44,14 @@ def friction_demand(scene: Scene) -> float:
 
 def components(scene: Scene) -> tuple[Floats, Floats, Floats]:
     """Return the record along, across and up [m/s2]; zeros for what it does not have."""
+    across, up = (each if each.size else _still(scene) for each in (scene.ay_mps2, scene.az_mps2))
+    return scene.ax_mps2, across, up
+
+
+def _still(scene: Scene) -> Floats:
     still = np.zeros_like(scene.ax_mps2)
     still.setflags(write=False)  # as all records are: for another array numba compiles once more
-    across, up = (each if each.size else still for each in (scene.ay_mps2, scene.az_mps2))
-    return scene.ax_mps2, across, up
+    return still
 
 
 def forces(scene: Scene) -> Forces:

@@ -16,6 +16,7 @@ from solver.forces import friction_demand
 from solver.model import InputError, Scene, SlideHistory, SlideResult, Status, coulomb
 from solver.records.record import NO_RECORD
 from solver.sliding import one_axis, two_axes
+from solver.sliding.one_axis import Bounds, bounds_of
 
 
 class Model(IntEnum):
@@ -120,7 +121,7 @@ class Solution:
         return getattr(self, now)
 
 
-def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
+def solve(scene: Scene, settings: Settings = DEFAULT, bounds: Bounds | None = None) -> Solution:
     """Solve a scene with the simplest adequate model; see `solver.sliding.checked.solve`.
 
     If the friction demand never exceeds the coefficient at rest, the block does not slip and no
@@ -129,15 +130,15 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
     more complete models are run for this comparison: the effect of cross-slope shaking accumulates
     along the whole path, so no estimate from one axis alone bounds it. Velocity-dependent friction
     is modeled whenever the scene has it. If the normal force falls below zero no model gives a
-    displacement, not even a forced one. Raises `InputError` for a forced model that the scene does
-    not allow.
+    displacement, not even a forced one. `bounds` are those of the scene, where they are known.
+    Raises `InputError` for a forced model that the scene does not allow.
     """
     demand = friction_demand(scene)
     # N of just zero has no demand either, and yet a motion: only N below zero is uplift.
     if math.isinf(demand) and one_axis.run(scene).status is Status.UPLIFT:
         return _lifted(scene)
     if settings.forced is None:
-        return _climbed(scene, settings, demand)
+        return _climbed(scene, settings, demand, bounds or bounds_of(scene))
     return _forced(scene, settings, settings.forced, demand)
 
 
@@ -149,20 +150,20 @@ def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> S
     return one_axis.run_history(run)
 
 
-def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
+def _climbed(scene: Scene, settings: Settings, demand: float, bounds: Bounds) -> Solution:
     if demand <= scene.friction.mu_static:
-        return _still(scene, demand)
+        return _still(scene, demand, bounds)
     if not scene.friction.is_constant:
         why = "the friction coefficient depends on velocity"
         return _in_plane(scene, settings, Model.SPEED_FRICTION, why, demand)
-    vertical = one_axis.run(scene)
+    vertical = one_axis.run_exact(scene, bounds)
     bound = settings.bound_m(vertical.prd_m)
     # The costly run, once: what each simpler model leaves out is read from it.
-    both = two_axes.run(scene, settings.tolerance) if scene.ay_mps2.any() else vertical
+    both = two_axes.run(scene, settings.tolerance, bounds) if scene.ay_mps2.any() else vertical
     less = lesser = _left_out(vertical, both)
     # Otherwise the level run is farther than the bound from one of both: they are twice it apart.
     if less <= 2.0 * bound:
-        level = one_axis.run(_level(scene)) if scene.az_mps2.size else vertical
+        level = one_axis.run_exact(_level(scene), bounds) if scene.az_mps2.size else vertical
         lesser = _left_out(level, vertical, both)
     if lesser <= bound:
         why = "the motion has no other component"
@@ -203,7 +204,7 @@ def _forced(scene: Scene, settings: Settings, model: Model, demand: float) -> So
             f"{demand:.3g}, exceeds that given, {hold:.3g}; request a more complete model"
         )
     if model is Model.NO_SLIP:
-        return _still(scene, demand)
+        return _still(scene, demand, bounds_of(scene))
     if model >= Model.TWO_AXES:
         return _in_plane(scene, settings, model, why, demand)
     # Unlike `_climbed`: the effect is told even where it is far beyond the bound.
@@ -235,10 +236,10 @@ def _lifted(scene: Scene) -> Solution:
     return _without_next(model, why, one_axis.run(scene), math.inf)
 
 
-def _still(scene: Scene, demand: float) -> Solution:
+def _still(scene: Scene, demand: float, bounds: Bounds) -> Solution:
     hold = scene.friction.mu_static
     why = f"the required friction coefficient, {demand:.2f}, is below that given, {hold:.2f}"
-    result = one_axis.run(as_run(scene, Model.NO_SLIP))
+    result = one_axis.run_exact(as_run(scene, Model.NO_SLIP), bounds)
     return _without_next(Model.NO_SLIP, why, result, demand, effect_m=0.0)
 
 

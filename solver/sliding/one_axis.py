@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import math
 import sys
+from typing import NamedTuple
 
 import numpy as np
 
+from solver.forces import components
 from solver.kernels import one_axis as kernel
 from solver.model import Event, EventKind, Floats, Scene, SlideHistory, SlideResult, Status
 from solver.records.record import NO_RECORD
@@ -29,9 +31,27 @@ EXACT = METHODS["exact"]
 _NO_HISTORY = np.empty((2, 0))
 
 
+class Bounds(NamedTuple):
+    """`kernel.bounds` of the three records of a scene; of any slope, friction and scale."""
+
+    x: Floats
+    y: Floats
+    z: Floats
+
+
+def bounds_of(scene: Scene) -> Bounds:
+    """Return the bounds of the records of a scene; across and up of zeros where there is none."""
+    return Bounds(*map(kernel.bounds, components(scene)))
+
+
 def run(scene: Scene, method: Method = EXACT, /, **parameters: float) -> SlideResult:
     """Slide a checked scene along the slope by a method; cross-slope shaking is neglected."""
     return _run(method, parameters, prepared(scene), _NO_HISTORY)
+
+
+def run_exact(scene: Scene, bounds: Bounds) -> SlideResult:
+    """Return `run` of a scene whose bounds are known."""
+    return _run(EXACT, {}, prepared(scene, bounds), _NO_HISTORY)
 
 
 def run_history(scene: Scene, method: Method = EXACT, /, **parameters: float) -> SlideHistory:
@@ -142,13 +162,13 @@ def sample_times(scene: Scene) -> Floats:
     return np.arange(scene.ax_mps2.size, dtype=np.float64) * scene.dt_s
 
 
-def prepared(scene: Scene) -> AxisScene:
+def prepared(scene: Scene, bounds: Bounds | None = None) -> AxisScene:
     """Return a scene in the notation of the one-axis kernels."""
     return AxisScene(
         ax=scene.ax_mps2,
-        x=kernel.bounds(scene.ax_mps2),
+        x=bounds.x if bounds else kernel.bounds(scene.ax_mps2),
         az=scene.az_mps2,
-        z=kernel.bounds(scene.az_mps2),
+        z=bounds.z if bounds and scene.az_mps2.size else kernel.bounds(scene.az_mps2),
         dt=scene.dt_s,
         sn=math.sin(scene.slope_rad),
         cs=math.cos(scene.slope_rad),

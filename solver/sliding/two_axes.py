@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from solver.forces import components
-from solver.kernels import one_axis
 from solver.kernels import two_axes as kernel
 from solver.model import (
     Event,
@@ -24,7 +23,13 @@ from solver.model import (
     Status,
 )
 from solver.rivals.methods import minimum_normal
-from solver.sliding.one_axis import prepared, sample_times, without_displacement
+from solver.sliding.one_axis import (
+    Bounds,
+    bounds_of,
+    prepared,
+    sample_times,
+    without_displacement,
+)
 
 DEFAULT_TOLERANCE = 1e-6
 # Smallest and largest tolerance that `follow` accepts.
@@ -86,17 +91,24 @@ class TwoAxesOutcome:
         return self.prd_m, self.down_m, self.up_m, self.left_m, self.right_m, *self.end_m
 
 
-def run(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideResult:
-    """Slide a checked scene in two axes, to a tolerance relative to the PRD."""
-    return _run_checked(scene, tolerance)[0]
+def run(
+    scene: Scene, tolerance: float = DEFAULT_TOLERANCE, bounds: Bounds | None = None
+) -> SlideResult:
+    """Slide a checked scene in two axes, to a tolerance relative to the PRD.
+
+    `bounds` are those of the scene, where they are known.
+    """
+    return _run_checked(scene, tolerance, bounds or bounds_of(scene))[0]
 
 
-def _run_checked(scene: Scene, tolerance: float) -> tuple[SlideResult, TwoAxesOutcome | None]:
+def _run_checked(
+    scene: Scene, tolerance: float, bounds: Bounds
+) -> tuple[SlideResult, TwoAxesOutcome | None]:
     """Return the result and the outcome behind it; None if that gives no displacement."""
-    n_min_g, t_uplift = minimum_normal(prepared(scene))
+    n_min_g, t_uplift = minimum_normal(prepared(scene, bounds))
     if n_min_g < 0.0:
         return without_displacement(Status.UPLIFT, n_min_g, t_uplift), None
-    outcome = follow(scene, tolerance)
+    outcome = _followed(scene, tolerance, bounds)
     if outcome.status is not Status.OK:
         return without_displacement(outcome.status, n_min_g, math.nan), None
     speed = math.hypot(*outcome.end_mps)
@@ -121,7 +133,7 @@ def _run_checked(scene: Scene, tolerance: float) -> tuple[SlideResult, TwoAxesOu
 
 def run_history(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideHistory:
     """Return the displacement history of `run`."""
-    result, outcome = _run_checked(scene, tolerance)
+    result, outcome = _run_checked(scene, tolerance, bounds_of(scene))
     samples = np.full((4, scene.ax_mps2.size), np.nan)
     events: tuple[Event, ...] = ()
     if outcome is not None:
@@ -145,15 +157,19 @@ def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> TwoAxesOutcome
     larger: the run is repeated with finer steps until `error_m` is below it or rounding error
     prevents that.
     """
+    return _followed(scene, tolerance, bounds_of(scene))
+
+
+def _followed(scene: Scene, tolerance: float, bounds: Bounds) -> TwoAxesOutcome:
     if scene.friction.is_monotone:
-        return _bounded(scene, tolerance)
+        return _bounded(scene, tolerance, bounds)
     # Not above the default: a block that nearly stops may go on, and two rough runs may agree on
     # the wrong one.
-    motion = _bounded(scene, min(tolerance, DEFAULT_TOLERANCE))
+    motion = _bounded(scene, min(tolerance, DEFAULT_TOLERANCE), bounds)
     if motion.status is not Status.OK:
         return motion
     # Friction that falls by speed lets two near motions part: only a second run tells by how much.
-    finer = _run(scene, _FINER * motion.step_tolerance, _NO_EVENTS, _NO_HISTORY)
+    finer = _run(scene, bounds, _FINER * motion.step_tolerance, _NO_EVENTS, _NO_HISTORY)
     changes = np.subtract(finer.places, motion.places)
     change = _SAFE * float(np.abs(changes).max())
     return replace(finer, error_m=max(change, _rounding_m(scene, finer)))
@@ -178,18 +194,18 @@ def follow_history(scene: Scene, outcome: TwoAxesOutcome) -> tuple[Floats, tuple
     The outcome is that of `follow` for the same scene.
     """
     events, samples = np.empty((outcome.n_events, 4)), np.empty((4, len(scene.ax_mps2)))
-    _run(scene, outcome.step_tolerance, events, samples)
+    _run(scene, bounds_of(scene), outcome.step_tolerance, events, samples)
     cs = math.cos(scene.slope_rad)
     samples[0::2] *= cs
     kinds = {kernel.SLIP: EventKind.SLIP, kernel.STOP: EventKind.STOP}
     return samples, tuple(Event(t, kinds[kind], cs * sx, sy) for t, kind, sx, sy in events.tolist())
 
 
-def _bounded(scene: Scene, tolerance: float) -> TwoAxesOutcome:
+def _bounded(scene: Scene, tolerance: float, bounds: Bounds) -> TwoAxesOutcome:
     """Return the first of successively finer runs whose error bound is within the tolerance."""
     steps, share = 0, _SHARE * tolerance
     for _ in range(_ATTEMPTS):
-        outcome = _run(scene, share, _NO_EVENTS, _NO_HISTORY)
+        outcome = _run(scene, bounds, share, _NO_EVENTS, _NO_HISTORY)
         steps += outcome.n_steps
         wanted = tolerance * max(outcome.prd_m, kernel.SMALL)
         settled = not scene.friction.is_monotone or outcome.error_m <= wanted
@@ -200,7 +216,9 @@ def _bounded(scene: Scene, tolerance: float) -> TwoAxesOutcome:
     return replace(outcome, n_steps=steps)
 
 
-def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> TwoAxesOutcome:
+def _run(
+    scene: Scene, bounds: Bounds, step: float, events: Floats, samples: Floats
+) -> TwoAxesOutcome:
     friction, cs = scene.friction, math.cos(scene.slope_rad)
     law = None
     if not friction.is_constant:
@@ -212,9 +230,7 @@ def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> TwoAxesO
         ax,
         ay,
         az,
-        one_axis.bounds(ax),
-        one_axis.bounds(ay),
-        one_axis.bounds(az),
+        *bounds,
         scene.dt_s,
         math.sin(scene.slope_rad),
         cs,

@@ -18,9 +18,8 @@ from solver.forces import normal_mps2
 from solver.kernels import lives as kernel
 from solver.kernels.compiler import THREADS
 from solver.model import Floats, Status
-from solver.sliding import least_model
 from solver.studies.rates import HazardCurve
-from solver.studies.runs import SETTINGS, Track, scene_of
+from solver.studies.runs import Track, scene_of
 
 Indices = NDArray[np.int64]
 
@@ -68,8 +67,7 @@ def run_levels(
         once, at = np.unique(of_track, return_inverse=True)
         rows = np.full((once.size, len(RESPONSES)), math.nan)
         for row, x in zip(rows, once, strict=True):
-            scene = scene_of(track.scene, np.array([slope_rad, mu, track.scene.scale * x]))
-            result = least_model.solve(scene, SETTINGS).result
+            result = track.solve(np.array([slope_rad, mu, track.scene.scale * x])).result
             if result.status is Status.OK:
                 row[:] = [getattr(result, name) for name in RESPONSES]
         return rows[at]

@@ -23,7 +23,8 @@ from solver.forces import friction_demand
 from solver.kernels import one_axis as kernel
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Motion, Orientation, Scene, Status, coulomb
 from solver.sliding import least_model
-from solver.sliding.least_model import Model, Settings
+from solver.sliding.least_model import Model, Settings, Solution
+from solver.sliding.one_axis import Bounds, bounds_of
 from solver.sliding.sweep import order_alike
 
 # The PRDs of a study differ from motion to motion by far more than by this bound on their error in
@@ -165,8 +166,8 @@ def _track(motion: Motion, orientation: Orientation) -> Track:
     scene = motion.scene(orientation, slope_rad=0.0, friction=coulomb(0.0))
     return Track(
         scene=scene,
-        x=kernel.bounds(scene.ax_mps2),
-        z=kernel.bounds(scene.az_mps2) if motion.has_vertical else None,
+        bounds=bounds_of(scene),
+        has_vertical=motion.has_vertical,
     )
 
 
@@ -175,8 +176,22 @@ class Track:
     """A motion at one orientation, prepared."""
 
     scene: Scene  # with the factor for an intensity of 1
-    x: Floats  # `kernel.bounds` of its horizontal record
-    z: Floats | None  # and of its vertical one
+    bounds: Bounds
+    has_vertical: bool
+
+    @property
+    def x(self) -> Floats:
+        """Bounds of its horizontal record."""
+        return self.bounds.x
+
+    @property
+    def z(self) -> Floats | None:
+        """Bounds of its vertical record; None without one."""
+        return self.bounds.z if self.has_vertical else None
+
+    def solve(self, slope_mu_scale: Floats) -> Solution:
+        """Solve it at a slope [rad], friction coefficient and scale."""
+        return least_model.solve(scene_of(self.scene, slope_mu_scale), SETTINGS, self.bounds)
 
     def fill(self, cases: Cases, chosen: NDArray[np.intp], rows: Rows, column: int) -> None:
         """Run the chosen cases and fill their rows of a column."""
@@ -189,20 +204,17 @@ class Track:
                 length[chosen, column] = values
             rows.status[chosen, column], rows.model[chosen, column] = solved.status, solved.model
         for at in odd:
-            _solve_one(self.scene, scenes[at], rows, (int(chosen[at]), column))
+            place = int(chosen[at]), column
+            solution = self.solve(scenes[at])
+            rows.lengths[:, *place] = [getattr(solution.result, name) for name in LENGTHS]
+            rows.status[place] = STATUSES.index(solution.result.status)
+            rows.model[place] = solution.model
 
 
 def scene_of(scene: Scene, slope_mu_scale: Floats) -> Scene:
     """Return a scene at another slope [rad], friction coefficient and scale."""
     slope, mu, scale = map(float, slope_mu_scale)
     return replace(scene, slope_rad=slope, friction=coulomb(mu), scale=scale)
-
-
-def _solve_one(scene: Scene, slope_mu_scale: Floats, rows: Rows, at: tuple[int, int]) -> None:
-    solution = least_model.solve(scene_of(scene, slope_mu_scale), SETTINGS)
-    rows.lengths[:, *at] = [getattr(solution.result, name) for name in LENGTHS]
-    rows.status[at] = STATUSES.index(solution.result.status)
-    rows.model[at] = solution.model
 
 
 def _solve_along(track: Track, scenes: Floats) -> tuple[Rows, NDArray[np.intp]]:
