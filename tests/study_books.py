@@ -149,7 +149,7 @@ def limit_state(name, capacity, levels, *, words="is so", falls=0, is_censored=F
     x = np.array(capacity)
     found = Capacities(
         intensity=x, is_censored=np.arange(x.size) >= x.size - is_censored,
-        end=np.full(x.size, 2.0), falls=np.arange(x.size) < falls, searched=np.zeros(x.size, int),
+        end=np.full(x.size, 2.0), falls=np.arange(x.size) < falls, runs=np.zeros(x.size, int),
     )  # fmt: skip
     exceeds = x[:, None] < levels
     fitted = fragility(levels, exceeds, np.ones_like(exceeds), found, seed=1)

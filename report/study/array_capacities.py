@@ -52,10 +52,7 @@ def array_capacities(
             around = [_medians(one) for one in beside]
         for effect, median, low, high in zip(effects, medians, *around, strict=True):
             effect[name] = first_order_beta(median, (low, high))
-    # The same intensities are run at every orientation of a motion.
-    orientations = [len(motion.orientations) for motion in runner.campaign.motions[0]]
-    runs = sum(int(one[0].searched @ orientations) for one in searches)
-    return capacities, effects, runs
+    return capacities, effects, sum(int(one[0].runs.sum()) for one in searches)
 
 
 def maximum_runs(plan: StudyPlan, array: ArrayPlan) -> int:

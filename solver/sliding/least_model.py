@@ -156,14 +156,16 @@ def _climbed(scene: Scene, settings: Settings, demand: float, bounds: Bounds) ->
     if not scene.friction.is_constant:
         why = "the friction coefficient depends on velocity"
         return _in_plane(scene, settings, Model.SPEED_FRICTION, why, demand)
-    vertical = one_axis.run_exact(scene, bounds)
+    vertical = one_axis.run_bounded(scene, bounds)
     bound = settings.bound_m(vertical.prd_m)
     # The costly run, once: what each simpler model leaves out is read from it.
-    both = two_axes.run(scene, settings.tolerance, bounds) if scene.ay_mps2.any() else vertical
+    both = (
+        two_axes.run_bounded(scene, settings.tolerance, bounds) if scene.ay_mps2.any() else vertical
+    )
     less = lesser = _left_out(vertical, both)
     # Otherwise the level run is farther than the bound from one of both: they are twice it apart.
     if less <= 2.0 * bound:
-        level = one_axis.run_exact(_level(scene), bounds) if scene.az_mps2.size else vertical
+        level = one_axis.run_bounded(_level(scene), bounds) if scene.az_mps2.size else vertical
         lesser = _left_out(level, vertical, both)
     if lesser <= bound:
         why = "the motion has no other component"
@@ -239,7 +241,7 @@ def _lifted(scene: Scene) -> Solution:
 def _still(scene: Scene, demand: float, bounds: Bounds) -> Solution:
     hold = scene.friction.mu_static
     why = f"the required friction coefficient, {demand:.2f}, is below that given, {hold:.2f}"
-    result = one_axis.run_exact(as_run(scene, Model.NO_SLIP), bounds)
+    result = one_axis.run_bounded(as_run(scene, Model.NO_SLIP), bounds)
     return _without_next(Model.NO_SLIP, why, result, demand, effect_m=0.0)
 
 

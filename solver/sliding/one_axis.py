@@ -49,7 +49,7 @@ def run(scene: Scene, method: Method = EXACT, /, **parameters: float) -> SlideRe
     return _run(method, parameters, prepared(scene), _NO_HISTORY)
 
 
-def run_exact(scene: Scene, bounds: Bounds) -> SlideResult:
+def run_bounded(scene: Scene, bounds: Bounds) -> SlideResult:
     """Return `run` of a scene whose bounds are known."""
     return _run(EXACT, {}, prepared(scene, bounds), _NO_HISTORY)
 

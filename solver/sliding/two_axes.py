@@ -91,14 +91,14 @@ class TwoAxesOutcome:
         return self.prd_m, self.down_m, self.up_m, self.left_m, self.right_m, *self.end_m
 
 
-def run(
-    scene: Scene, tolerance: float = DEFAULT_TOLERANCE, bounds: Bounds | None = None
-) -> SlideResult:
-    """Slide a checked scene in two axes, to a tolerance relative to the PRD.
+def run(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideResult:
+    """Slide a checked scene in two axes, to a tolerance relative to the PRD."""
+    return run_bounded(scene, tolerance, bounds_of(scene))
 
-    `bounds` are those of the scene, where they are known.
-    """
-    return _run_checked(scene, tolerance, bounds or bounds_of(scene))[0]
+
+def run_bounded(scene: Scene, tolerance: float, bounds: Bounds) -> SlideResult:
+    """Return `run` of a scene whose bounds are known."""
+    return _run_checked(scene, tolerance, bounds)[0]
 
 
 def _run_checked(

@@ -7,6 +7,7 @@ nothing (`fragility` does). Read `capacities`.
 from __future__ import annotations
 
 import math
+from bisect import bisect
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
@@ -46,8 +47,7 @@ class Capacities:
     is_censored: Flags
     end: Floats  # intensity above which the motion would be censored
     falls: Flags  # whether the PRD is at or below the limit again at a greater intensity
-    # Intensities run for all limits together, each once by orientation; not those known before.
-    searched: NDArray[np.int64]
+    runs: NDArray[np.int64]  # for all limits together
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,21 +58,56 @@ class Curve:
     slope_rad: float
     mu: float
     known: dict[float, float] = field(default_factory=dict)  # PRD by intensity, of runs so far
+    # PRD by intensity of each orientation; first the one that decided last.
+    _alone: list[tuple[Track, dict[float, float]]] = field(init=False, repr=False)
 
-    def prd_m(self, intensity: Floats) -> Floats:
-        """Return the PRD at intensities, shape (m,) [m]; NaN without a final value."""
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_alone", [(track, {}) for track in self.tracks])
+
+    @property
+    def runs(self) -> int:
+        """How many runs there were so far."""
+        return sum(len(by_intensity) for _, by_intensity in self._alone)
+
+    def prd_m(self, intensity: Floats, limit_m: float = math.inf) -> Floats:
+        """Return the PRD at intensities, shape (m,) [m]; NaN without a final value.
+
+        In two axes with a limit it is that of some orientations, which tells whether the limit is
+        exceeded: up to the first that exceeds it, and none that runs around keep below (`STEEPER`).
+        """
         wanted = intensity.tolist()
         new = [x for x in wanted if x not in self.known]
-        self.known.update(zip(new, self._run(new).tolist(), strict=True))
+        if math.isfinite(limit_m) and any(track.scene.ay_mps2.size for track in self.tracks):
+            decided = {x: self._decided(x, limit_m) for x in new}
+            return np.array([self.known.get(x, decided.get(x)) for x in wanted])
+        for track, by_intensity in self._alone:
+            self._run(track, by_intensity, new)
+        prd_m = np.array([[alone[x] for x in new] for _, alone in self._alone]).max(axis=0)
+        self.known.update(zip(new, prd_m.tolist(), strict=True))
         return np.array([self.known[x] for x in wanted])
 
-    def _run(self, intensity: Sequence[float]) -> Floats:
-        cases = grid(1, [self.slope_rad], [self.mu], intensity)
-        rows = empty_rows((len(cases), len(self.tracks)))
-        for column, track in enumerate(self.tracks):
-            track.fill(cases, np.arange(len(cases)), rows, column)
+    def _run(self, track: Track, by_intensity: dict[float, float], xs: Sequence[float]) -> None:
+        new = [x for x in xs if x not in by_intensity]
+        cases = grid(1, [self.slope_rad], [self.mu], new)
+        rows = empty_rows((len(cases), 1))
+        track.fill(cases, np.arange(len(cases)), rows, 0)
         final = rows.status == STATUSES.index(Status.OK)
-        return np.asarray(np.where(final, rows.lengths[0], np.nan).max(axis=1))
+        prd_m = np.where(final, rows.lengths[0], np.nan)[:, 0]
+        by_intensity.update(zip(new, prd_m.tolist(), strict=True))
+
+    def _decided(self, x: float, limit_m: float) -> float:
+        largest_m = 0.0
+        for place, (track, by_intensity) in enumerate(self._alone):
+            if x not in by_intensity:
+                if not _may_exceed_at(x, by_intensity, limit_m):
+                    continue
+                self._run(track, by_intensity, [x])
+            # Not > : NaN is beyond every limit.
+            if not by_intensity[x] <= limit_m:
+                self._alone.insert(0, self._alone.pop(place))
+                return by_intensity[x]
+            largest_m = max(largest_m, by_intensity[x])
+        return largest_m
 
     def first_slip(self) -> float:
         """Return the intensity above which the block slips; inf for none."""
@@ -144,7 +179,7 @@ def capacities(
             is_censored=values[:, 1] > 0.0,
             end=values[:, 2],
             falls=values[:, 3] > 0.0,
-            searched=values[:, 4].astype(np.int64),
+            runs=values[:, 4].astype(np.int64),
         )
         for values in rows.transpose(1, 0, 2)
     )
@@ -174,25 +209,60 @@ def _of_motion(
         ]
     if not slip:  # the slope alone exceeds friction: a block at rest does not stay at rest
         return [(0.0, is_censoring and limit > 0.0, 0.0, False, 0) for limit in limits_m]
-    before = len(curve.known)
+    before = curve.runs
     x = np.union1d(np.linspace(slip, top, steps + 1), levels[levels > slip])
-    run = curve.prd_m(x[1:]) if to_end else np.array([*_until_beyond(curve, x[1:], max(limits_m))])
-    scan = _Scan(curve, x[: run.size + 1], np.concatenate([[0.0], run]))
+    # Below the first that is beyond all limits every orientation is run: none exceeds it.
+    decisive_m = math.inf if is_censoring else max(limits_m)
+    run = (
+        curve.prd_m(x[1:], decisive_m)
+        if to_end
+        else np.array([*_until_beyond(curve, x[1:], max(limits_m), decisive_m)])
+    )
+    x, prd_m = x[: run.size + 1], np.concatenate([[0.0], run])
     capacities = [
-        scan.capacity(limit, is_censoring) if limit else (slip, False, math.inf, False)
+        _Scan(curve, x, prd_m).capacity(limit, is_censoring)
+        if limit
+        else (slip, False, math.inf, False)
         for limit in limits_m
     ]
-    return [(*capacity, len(curve.known) - before) for capacity in capacities]
+    return [(*capacity, curve.runs - before) for capacity in capacities]
 
 
-def _until_beyond(curve: Curve, intensity: Floats, limit_m: float) -> Iterator[float]:
+def _until_beyond(
+    curve: Curve, intensity: Floats, limit_m: float, decisive_m: float
+) -> Iterator[float]:
     """Yield the PRD at increasing intensities, up to the first that is beyond a limit."""
     for x in intensity:
-        (prd_m,) = curve.prd_m(x[None]).tolist()
+        (prd_m,) = curve.prd_m(x[None], decisive_m).tolist()
         yield prd_m
         # Not > : NaN is beyond every limit.
         if not prd_m <= limit_m:
             return
+
+
+def _may_exceed(x: Floats, prd_m: Floats, limit_m: float) -> Flags:
+    """Return whether a limit may be exceeded in the steps between runs, shape (m - 1,)."""
+    steps = np.diff(x)
+    with np.errstate(invalid="ignore"):
+        steep = np.nan_to_num(np.abs(np.diff(prd_m)) / steps, nan=0.0)
+    padded = np.concatenate([[0.0], steep, [0.0]])
+    around = np.maximum(np.maximum(padded[:-2], padded[2:]), steep)
+    mean = 0.5 * (prd_m[:-1] + prd_m[1:])
+    # Not > : NaN is beyond every limit.
+    return np.asarray(~(mean + 0.5 * STEEPER * around * steps <= limit_m))
+
+
+def _may_exceed_at(x: float, known: dict[float, float], limit_m: float) -> bool:
+    """Return whether the limit may be exceeded at an intensity beside those that are known."""
+    xs = sorted(known)
+    at = bisect(xs, x)
+    if at in (0, len(xs)):
+        return True
+    # The step, with one on each side.
+    start = max(at - 2, 0)
+    near = np.array(xs[start : at + 2])
+    prd_m = np.array([known[each] for each in near.tolist()])
+    return bool(_may_exceed(near, prd_m, limit_m)[at - 1 - start])
 
 
 class _Scan:
@@ -204,10 +274,11 @@ class _Scan:
     def capacity(self, limit_m: float, is_censoring: bool) -> tuple[float, bool, float, bool]:
         """Return the fields of `Capacities` for a limit above 0."""
         most = self._x.size + MOST_CLOSER
-        first = self._first_beyond(limit_m, most)
+        decisive_m = math.inf if is_censoring else limit_m
+        first = self._first_beyond(limit_m, decisive_m, most)
         while (close := self._doubtful(first, limit_m)).size and self._x.size < most:
-            self._add(close[: most - self._x.size])
-            first = self._first_beyond(limit_m, most)
+            self._add(close[: most - self._x.size], decisive_m)
+            first = self._first_beyond(limit_m, decisive_m, most)
         lost = np.flatnonzero(np.isnan(self._prd_m)) if is_censoring else np.array([], dtype=int)
         end = int(lost[0]) - 1 if lost.size else self._x.size - 1
         is_censored = first > end
@@ -217,7 +288,7 @@ class _Scan:
             at = min(at, int(np.searchsorted(self._x, close[0])) - 1)
         return float(self._x[at]), is_censored, float(self._x[end]), falls
 
-    def _first_beyond(self, limit_m: float, maximum: int) -> int:
+    def _first_beyond(self, limit_m: float, decisive_m: float, maximum: int) -> int:
         """Return the index of the first run beyond a limit, bisected; their number for none."""
         while True:
             beyond = np.flatnonzero(~(self._prd_m <= limit_m))
@@ -227,22 +298,16 @@ class _Scan:
             low, high = self._x[first - 1], self._x[first]
             if high - low <= ACCURACY * high or self._x.size >= maximum:
                 return first
-            self._add(np.array([0.5 * (low + high)]))
+            self._add(np.array([0.5 * (low + high)]), decisive_m)
 
     def _doubtful(self, first: int, limit_m: float) -> Floats:
         """Return the middles of the steps before a run between which the limit may be exceeded."""
-        steps = np.diff(self._x)
-        with np.errstate(invalid="ignore"):
-            steep = np.nan_to_num(np.abs(np.diff(self._prd_m)) / steps, nan=0.0)
-        padded = np.concatenate([[0.0], steep, [0.0]])
-        around = np.maximum(np.maximum(padded[:-2], padded[2:]), steep)[: first - 1]
         low, high = self._x[: first - 1], self._x[1:first]
-        mean = 0.5 * (self._prd_m[: first - 1] + self._prd_m[1:first])
-        may = mean + 0.5 * STEEPER * around * (high - low) > limit_m
+        may = _may_exceed(self._x, self._prd_m, limit_m)[: first - 1]
         may &= high - low > ACCURACY * high
         return np.asarray(0.5 * (low + high)[may])
 
-    def _add(self, intensity: Floats) -> None:
+    def _add(self, intensity: Floats, decisive_m: float) -> None:
         at = np.searchsorted(self._x, intensity)
         self._x = np.insert(self._x, at, intensity)
-        self._prd_m = np.insert(self._prd_m, at, self._curve.prd_m(intensity))
+        self._prd_m = np.insert(self._prd_m, at, self._curve.prd_m(intensity, decisive_m))

@@ -93,13 +93,32 @@ def test_two_axes_capacity_is_bracketed_by_single_runs_and_none_before_it_exceed
     assert all(single(one, 2.0, 0.4, x) <= 0.05 for x in np.linspace(0.05, at, 15))
 
 
+@pytest.mark.parametrize("number", by_day(range(4), 1))
+@pytest.mark.parametrize("limit", [0.02, 0.1])
+def test_orientations_that_decide_nothing_are_not_run(number, limit):
+    """With censoring every orientation is run, as one without a value might end the search."""
+    one, levels = motion(number, "xyz"), LEVELS[:-2]  # beyond, a motion lifts the block off
+    few, every = (
+        searched(curve_of(one, 2.0, 0.4), limit, levels, is_censoring=each)
+        for each in (False, True)
+    )
+    assert not np.isnan(curve_of(one, 2.0, 0.4).prd_m(levels)).any()
+    for name in ("intensity", "is_censored", "end", "falls"):
+        assert getattr(few, name) == getattr(every, name)
+    assert few.runs < 0.7 * every.runs
+
+
 class Formula:
     """A curve in closed form whose slip begins at a tenth of an intensity."""
 
     def __init__(self, formula):
         self.known, self.formula = {}, formula
 
-    def prd_m(self, intensity):
+    @property
+    def runs(self):
+        return len(self.known)
+
+    def prd_m(self, intensity, _limit=math.inf):
         self.known.update(zip(intensity.tolist(), self.formula(intensity), strict=True))
         return self.formula(intensity)
 
@@ -179,7 +198,7 @@ def test_a_search_that_may_run_no_more_takes_the_capacity_from_below(monkeypatch
     monkeypatch.setattr("solver.studies.capacity.MOST_CLOSER", most)
     curve, levels = Formula(lambda x: 0.08 * x * x), np.array([3.0])
     (found,) = capacities([curve], [0.5], levels, is_censoring=False, steps=12)
-    assert found.searched[0] == 12 + most
+    assert found.runs[0] == 12 + most
     assert 2.0 < found.intensity[0] < 2.5 * (1.0 - ACCURACY)
     assert not found.falls[0]
 
@@ -197,7 +216,7 @@ def test_a_search_that_ends_at_the_last_limit_finds_the_same_in_fewer_runs(limit
     for whole, ended in zip(*searches, strict=True):
         assert ended.intensity == whole.intensity
         assert ended.is_censored == whole.is_censored
-        assert (ended.searched < whole.searched) == (greatest > 6.0 or limits[-1] < 40.0)
+        assert (ended.runs < whole.runs) == (greatest > 6.0 or limits[-1] < 40.0)
 
 
 def test_intensities_that_were_run_before_are_not_run_again():
@@ -209,7 +228,7 @@ def test_intensities_that_were_run_before_are_not_run_again():
         capacities([one], [0.5], levels, is_censoring=False) for one in (first, again)
     )
     assert after.intensity == alone.intensity
-    assert after.searched == alone.searched - levels.size
+    assert after.runs == alone.runs - levels.size
 
 
 GRID = np.geomspace(0.25, 4.0, 20)
@@ -222,7 +241,7 @@ def known(capacity, end=math.inf):
         is_censored=capacity > end,
         end=np.full(capacity.size, min(end, 1e9)),
         falls=np.zeros(capacity.size, dtype=bool),
-        searched=np.zeros(capacity.size, dtype=int),
+        runs=np.zeros(capacity.size, dtype=int),
     )
 
 
