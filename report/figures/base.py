@@ -41,6 +41,10 @@ T = TypeVar("T")  # what a figure is painted to
 
 # Coordinates in points: the renderer spends time on decimals that print cannot show.
 _DIGITS = re.compile(r"(?<=[\d-])(\.\d\d)\d{4}(?=[\s\"])")
+# The look of an element, and what matplotlib gives to all.
+_DECLARED = re.compile(r'\bstyle="([^"]*)"')
+_RULE = '<style type="text/css">*{stroke-linejoin: round; stroke-linecap: butt}</style>'
+_OF_ALL = '<svg stroke-linejoin="round" stroke-linecap="butt"'
 _STYLE = Path(__file__).with_name("package.mplstyle")
 
 
@@ -67,7 +71,14 @@ def svg_text(figure: Figure) -> str:
     figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
     text = out.getvalue()
     # From <svg> on: the XML declaration and the DOCTYPE before it are errors within HTML.
-    return _DIGITS.sub(r"\1", text[text.index("<svg") :])
+    text = _DIGITS.sub(r"\1", text[text.index("<svg") :])
+    # The renderer parses a style as CSS, and reads an attribute: a sixth of the time of a chart.
+    return _DECLARED.sub(_attributes, text.replace(_RULE, "").replace("<svg", _OF_ALL, 1))
+
+
+def _attributes(declared: re.Match[str]) -> str:
+    pairs = (declaration.split(": ", 1) for declaration in declared[1].split("; "))
+    return " ".join(f'{name}="{value}"' for name, value in pairs)
 
 
 def png_bytes(figure: Figure) -> bytes:

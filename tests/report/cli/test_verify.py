@@ -222,7 +222,7 @@ def test_failed_cells_and_runs_are_counted_and_not_drawn(
     assert count > 0
     assert f"Failed: {count} of {failed.size} cells." in words
     svg = made["charts/stability-1.svg"].decode()
-    assert svg.count("fill: url(#") >= count
+    assert svg.count('fill="url(#') >= count
     for text in ("failed", "1 to 10 %", "more than 10 %", "theoretical limit"):
         assert f">{text}<" in svg
 

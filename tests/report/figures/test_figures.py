@@ -241,7 +241,7 @@ def test_any_number_of_channels_is_drawn_each_with_room_and_a_line_of_its_own(ch
     assert width / 72 == pytest.approx(7.0, abs=0.01)
     assert height / 72 > 3.0 + 0.9 * count
     assert "<text" not in svg  # outlines: no font is needed
-    looks = set(re.findall(r'"fill: none; ([^"]*stroke-width: 1.2[^"]*)"', svg))
+    looks = set(re.findall(r'fill="none" ([^>]*stroke-width="1.2"[^>]*)/>', svg))
     assert len(looks) == count <= records.MOST
 
 
