@@ -176,7 +176,8 @@ def is_of_acceleration(line: str) -> bool:
 def other_quantity(line: str) -> str:
     """What a line of text says that the numbers below it are, if no acceleration; "" for none."""
     quantity = _QUANTITY.match(line)
-    others = (unit for unit in _UNITS_OF.findall(line) if is_other_unit(unit))
+    # A length alone may be a word, or the unit of the site's coordinates.
+    others = (unit for unit in _UNITS_OF.findall(line) if "/" in unit and is_other_unit(unit))
     return quantity[1].lower() if quantity else next(others, "")
 
 

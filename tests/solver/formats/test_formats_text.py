@@ -399,6 +399,7 @@ def test_a_line_above_the_numbers_tells_of_another_quantity(file, remark, named)
         "# peak velocity 30 cm/s, peak displacement 4 cm",
         "# Displacement = 4.1 cm",
         "# velocity pulse at 3 s",
+        "# Units are in sec and g",
         "# velocity and displacement beside this acceleration",
     ],
 )
