@@ -16,7 +16,7 @@ from solver.forces import friction_demand
 from solver.model import InputError, Scene, SlideHistory, SlideResult, Status, coulomb
 from solver.records.record import NO_RECORD
 from solver.sliding import one_axis, two_axes
-from solver.sliding.one_axis import Bounds, bounds_of
+from solver.sliding.one_axis import RecordBounds, bounds_of
 
 
 class Model(IntEnum):
@@ -121,7 +121,9 @@ class Solution:
         return getattr(self, now)
 
 
-def solve(scene: Scene, settings: Settings = DEFAULT, bounds: Bounds | None = None) -> Solution:
+def solve(
+    scene: Scene, settings: Settings = DEFAULT, bounds: RecordBounds | None = None
+) -> Solution:
     """Solve a scene with the simplest adequate model; see `solver.sliding.checked.solve`.
 
     If the friction demand never exceeds the coefficient at rest, the block does not slip and no
@@ -150,7 +152,7 @@ def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> S
     return one_axis.run_history(run)
 
 
-def _climbed(scene: Scene, settings: Settings, demand: float, bounds: Bounds) -> Solution:
+def _climbed(scene: Scene, settings: Settings, demand: float, bounds: RecordBounds) -> Solution:
     if demand <= scene.friction.mu_static:
         return _still(scene, demand, bounds)
     if not scene.friction.is_constant:
@@ -238,7 +240,7 @@ def _lifted(scene: Scene) -> Solution:
     return _without_next(model, why, one_axis.run(scene), math.inf)
 
 
-def _still(scene: Scene, demand: float, bounds: Bounds) -> Solution:
+def _still(scene: Scene, demand: float, bounds: RecordBounds) -> Solution:
     hold = scene.friction.mu_static
     why = f"the required friction coefficient, {demand:.2f}, is below that given, {hold:.2f}"
     result = one_axis.run_bounded(as_run(scene, Model.NO_SLIP), bounds)

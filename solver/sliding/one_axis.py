@@ -31,7 +31,7 @@ EXACT = METHODS["exact"]
 _NO_HISTORY = np.empty((2, 0))
 
 
-class Bounds(NamedTuple):
+class RecordBounds(NamedTuple):
     """`kernel.bounds` of the three records of a scene; of any slope, friction and scale."""
 
     x: Floats
@@ -39,9 +39,9 @@ class Bounds(NamedTuple):
     z: Floats
 
 
-def bounds_of(scene: Scene) -> Bounds:
+def bounds_of(scene: Scene) -> RecordBounds:
     """Return the bounds of the records of a scene; across and up of zeros where there is none."""
-    return Bounds(*map(kernel.bounds, components(scene)))
+    return RecordBounds(*map(kernel.bounds, components(scene)))
 
 
 def run(scene: Scene, method: Method = EXACT, /, **parameters: float) -> SlideResult:
@@ -49,7 +49,7 @@ def run(scene: Scene, method: Method = EXACT, /, **parameters: float) -> SlideRe
     return _run(method, parameters, prepared(scene), _NO_HISTORY)
 
 
-def run_bounded(scene: Scene, bounds: Bounds) -> SlideResult:
+def run_bounded(scene: Scene, bounds: RecordBounds) -> SlideResult:
     """Return `run` of a scene whose bounds are known."""
     return _run(EXACT, {}, prepared(scene, bounds), _NO_HISTORY)
 
@@ -162,7 +162,7 @@ def sample_times(scene: Scene) -> Floats:
     return np.arange(scene.ax_mps2.size, dtype=np.float64) * scene.dt_s
 
 
-def prepared(scene: Scene, bounds: Bounds | None = None) -> AxisScene:
+def prepared(scene: Scene, bounds: RecordBounds | None = None) -> AxisScene:
     """Return a scene in the notation of the one-axis kernels."""
     return AxisScene(
         ax=scene.ax_mps2,

@@ -24,7 +24,7 @@ from solver.model import (
 )
 from solver.rivals.methods import minimum_normal
 from solver.sliding.one_axis import (
-    Bounds,
+    RecordBounds,
     bounds_of,
     prepared,
     sample_times,
@@ -96,13 +96,13 @@ def run(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideResult:
     return run_bounded(scene, tolerance, bounds_of(scene))
 
 
-def run_bounded(scene: Scene, tolerance: float, bounds: Bounds) -> SlideResult:
+def run_bounded(scene: Scene, tolerance: float, bounds: RecordBounds) -> SlideResult:
     """Return `run` of a scene whose bounds are known."""
     return _run_checked(scene, tolerance, bounds)[0]
 
 
 def _run_checked(
-    scene: Scene, tolerance: float, bounds: Bounds
+    scene: Scene, tolerance: float, bounds: RecordBounds
 ) -> tuple[SlideResult, TwoAxesOutcome | None]:
     """Return the result and the outcome behind it; None if that gives no displacement."""
     n_min_g, t_uplift = minimum_normal(prepared(scene, bounds))
@@ -160,7 +160,7 @@ def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> TwoAxesOutcome
     return _followed(scene, tolerance, bounds_of(scene))
 
 
-def _followed(scene: Scene, tolerance: float, bounds: Bounds) -> TwoAxesOutcome:
+def _followed(scene: Scene, tolerance: float, bounds: RecordBounds) -> TwoAxesOutcome:
     if scene.friction.is_monotone:
         return _bounded(scene, tolerance, bounds)
     # Not above the default: a block that nearly stops may go on, and two rough runs may agree on
@@ -201,7 +201,7 @@ def follow_history(scene: Scene, outcome: TwoAxesOutcome) -> tuple[Floats, tuple
     return samples, tuple(Event(t, kinds[kind], cs * sx, sy) for t, kind, sx, sy in events.tolist())
 
 
-def _bounded(scene: Scene, tolerance: float, bounds: Bounds) -> TwoAxesOutcome:
+def _bounded(scene: Scene, tolerance: float, bounds: RecordBounds) -> TwoAxesOutcome:
     """Return the first of successively finer runs whose error bound is within the tolerance."""
     steps, share = 0, _SHARE * tolerance
     for _ in range(_ATTEMPTS):
@@ -217,7 +217,7 @@ def _bounded(scene: Scene, tolerance: float, bounds: Bounds) -> TwoAxesOutcome:
 
 
 def _run(
-    scene: Scene, bounds: Bounds, step: float, events: Floats, samples: Floats
+    scene: Scene, bounds: RecordBounds, step: float, events: Floats, samples: Floats
 ) -> TwoAxesOutcome:
     friction, cs = scene.friction, math.cos(scene.slope_rad)
     law = None

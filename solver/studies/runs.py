@@ -24,7 +24,7 @@ from solver.kernels import one_axis as kernel
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Motion, Orientation, Scene, Status, coulomb
 from solver.sliding import least_model
 from solver.sliding.least_model import Model, Settings, Solution
-from solver.sliding.one_axis import Bounds, bounds_of
+from solver.sliding.one_axis import RecordBounds, bounds_of
 from solver.sliding.sweep import order_alike
 
 # The PRDs of a study differ from motion to motion by far more than by this bound on their error in
@@ -176,7 +176,7 @@ class Track:
     """A motion at one orientation, prepared."""
 
     scene: Scene  # with the factor for an intensity of 1
-    bounds: Bounds
+    bounds: RecordBounds
     has_vertical: bool
 
     @property
