@@ -135,7 +135,6 @@ def example():
     raise AssertionError
 
 
-@pytest.mark.nightly
 def test_no_page_rounds_the_design_displacement_down(example):
     item = example.assessment.governing
     inches = item.design_m / INCH
