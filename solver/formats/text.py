@@ -133,9 +133,10 @@ def _check_remarks(source: Source, table: _Table) -> None:
                 " this is a spectrum, no record; give accelerations by time"
             )
         if not is_said and (other := layout.other_quantity(line)):
+            heading = "acc_g" if table.values.shape[1] == 1 else "time_s,acc_g"
             raise InputError(
                 f"{source.at(index)}: found {other!r}, and no acceleration; give the file of"
-                " acceleration, or a heading such as time_s,acc_g where it is one"
+                f" acceleration, or a heading such as {heading} if the values are accelerations"
             )
 
 

@@ -392,6 +392,13 @@ def test_a_line_above_the_numbers_tells_of_another_quantity(file, remark, named)
     assert read_record(file(f"# {head}\ntime_s acc_g\n{rows}"))
 
 
+def test_what_the_message_on_another_quantity_advises_works_for_one_column(file):
+    (problem,) = problems_of(file("# Velocity history\n0.1\n-0.2\n0.3\n"), dt_s=0.01)
+    heading = problem.partition("a heading such as ")[2].split()[0]
+    advised = file(f"# Velocity history\n{heading}\n0.1\n-0.2\n0.3\n")
+    assert read_record(advised, dt_s=0.01).a_mps2.tolist() == [0.1 * G, -0.2 * G, 0.3 * G]
+
+
 @pytest.mark.parametrize(
     "remark",
     [
