@@ -22,7 +22,9 @@ REPEATS = 1000
 """Realizations from which the band follows."""
 
 _GRID = 4000
-_NODES = 64
+_NODES, _FURTHEST = 257, 9.0
+"""Nodes of the factor, and how many deviations they reach."""
+
 _FAR = 4.0
 """Deviations of the intensity beyond the end of a curve that are looked at."""
 
@@ -41,11 +43,13 @@ class HazardCurve:
 
     @cached_property
     def factors(self) -> tuple[Floats, Floats]:
-        """The factor in Gauss-Hermite nodes, with their probabilities."""
+        """The factor at nodes, with their probabilities."""
         if not self.beta:
             return np.ones(1), np.ones(1)
-        # The logarithm of the factor is normal: Gauss-Hermite nodes, weights that sum to 1.
-        z, weights = np.polynomial.hermite_e.hermegauss(_NODES)
+        # The logarithm of the factor is normal. Nodes at equal steps: Gauss-Hermite nodes are too
+        # far apart for a curve that bends or ends.
+        z = np.linspace(-_FURTHEST, _FURTHEST, _NODES)
+        weights = np.exp(-0.5 * z**2)
         return np.exp(self.beta * z), weights / weights.sum()
 
     def at(self, intensity: Floats) -> Floats:
@@ -56,6 +60,17 @@ class HazardCurve:
         at_site = np.log(np.divide.outer(intensity, factors))
         plain = np.exp(np.interp(at_site, np.log(self.intensity), np.log(self.rate)))
         return np.asarray(plain @ weights)
+
+    def beyond(self, intensity: float) -> HazardCurve:
+        """Return the curve of the events whose intensity, without its factor, is larger."""
+        at = math.log(intensity)
+        rate = math.exp(np.interp(at, np.log(self.intensity), np.log(self.rate)))
+        is_larger = self.intensity > intensity
+        return HazardCurve(
+            intensity=np.append(intensity, self.intensity[is_larger]),
+            rate=np.append(rate, self.rate[is_larger]),
+            beta=self.beta,
+        )
 
     @cached_property
     def _grid(self) -> tuple[Floats, Floats]:
@@ -117,19 +132,17 @@ def exceedance_rates(curve: HazardCurve, levels: Floats, prd_m: Floats, limits_m
 def deaggregated(
     curve: HazardCurve, levels: Floats, prd_m: Floats, limit_m: float, edges: Floats
 ) -> Floats:
-    """Return the shares of a rate of exceedance by the intensity at the site, shape (n,).
+    """Return the shares of a rate of exceedance by the intensity before its factor, shape (n,).
 
-    `edges`, shape (n + 1,), are the bounds of the intensities; the last bin has those beyond. The
-    sum is 1; zeros where the limit is never exceeded.
+    `edges`, shape (n + 1,), are the bounds of the intensities; the first bin has those below, the
+    last those beyond. The sum is 1; zeros where the limit is never exceeded.
     """
-    shares = np.zeros(edges.size - 1)
-    # Geometric, as the levels are spaced in ln.
-    middles = np.append(np.sqrt(levels[..., :-1] * levels[..., 1:]), levels[..., -1:], axis=-1)
-    for factor, weight in zip(*curve.factors, strict=True):
-        shifted = HazardCurve(intensity=factor * curve.intensity, rate=curve.rate)
-        rates = contributions(shifted, levels, shifted.at(levels), prd_m, limit_m)
-        inside = np.broadcast_to(np.clip(middles / factor, edges[0], edges[-1]), rates.shape)
-        shares += weight * np.histogram(inside, edges, weights=rates)[0]
+    total, *above = (
+        exceedance_rates(part, levels, prd_m, np.array([limit_m])).sum()
+        for part in (curve, *map(curve.beyond, edges[1:-1]))
+    )
+    # A bin without events may differ from 0 by the last digit.
+    shares = np.maximum(-np.diff([total, *above, 0.0]), 0.0)
     return shares / (shares.sum() or 1.0)
 
 
