@@ -182,17 +182,16 @@ def distances(draws: Draws, responses: Responses, recenter_m: float) -> Floats:
 class LifeStatistics:
     """Statistics of a distance over lives; one without a distance is beyond all others."""
 
-    mean_m: float  # of the lives that have a distance; inf for none
-    p95_m: float  # of all
+    mean_m: float  # inf for none: of one without a distance no mean is known
+    p95_m: float  # inf for none
     beyond: float  # share of the lives beyond a clearance
     without_value: float  # share of the lives without a distance
 
 
 def life_statistics(distances_m: Floats, clearance_m: float) -> LifeStatistics:
     """Return the statistics of distances of lives; inf for none."""
-    known = distances_m[np.isfinite(distances_m)]
     return LifeStatistics(
-        mean_m=float(known.mean()) if known.size else np.inf,
+        mean_m=float(distances_m.mean()),
         p95_m=float(np.quantile(distances_m, 0.95, method="inverted_cdf")),
         beyond=float((distances_m > clearance_m).mean()),
         without_value=float(np.isinf(distances_m).mean()),

@@ -195,7 +195,7 @@ def test_ratios_need_slip_and_levels_are_round():
         assert all(low < value < high for value in found)
 
 
-DISTANCE = {"mean_m": 0.1, "p95_m": 0.4, "beyond": 0.03, "without_value": 0.001}
+DISTANCE = {"mean_m": 0.1, "p95_m": 0.4, "beyond": 0.03, "without_value": 0.0}
 ARRAY = {
     "array": "a1",
     "building": "roof",
@@ -245,6 +245,14 @@ def test_the_comparison_has_the_years_of_its_own_arrays():
     assert printed(package, "comparison").tables[: len(design)] == design
     text = printed(with_study(YEARS | {"arrays": [ARRAY | {"array": "Z"}]}), "comparison")
     assert "None of its arrays has the name of an array of this package" in text
+
+
+def test_a_former_mean_without_the_lives_that_have_no_distance_is_none():
+    never = DISTANCE | {"without_value": 0.001}
+    text = printed(with_study(YEARS | {"arrays": [ARRAY | {"largest": {"never": never}}]}),
+                   "comparison")  # fmt: skip
+    row = text.table("Beside the design displacement").rows[0]
+    assert (row["Largest distance, mean"], row["95 %"]) == ("none", "15.8 in (400 mm)")
 
 
 @pytest.mark.parametrize(("mu", "is_said"), [(0.4, True), (None, False)])
