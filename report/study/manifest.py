@@ -84,12 +84,11 @@ def machine() -> str:
 def manifest_of(campaign: Campaign, about: Mapping[str, Any]) -> dict[str, Any]:
     """Return the manifest of a campaign before its runs.
 
-    `about` is what else determines the results: intensity measure, limit states, seeds.
+    `about` is what else determines the results: the input, the hazard curve, seeds.
     """
-    content = {
+    runs = {
         "schema_version": SCHEMA_VERSION,
         "program": program(),
-        "about": dict(about),
         "g_mps2": G_MPS2,
         "model": {"matters_m": SETTINGS.matters_m, "matters_share": SETTINGS.matters_share,
                   "tolerance": SETTINGS.tolerance},
@@ -98,9 +97,15 @@ def manifest_of(campaign: Campaign, about: Mapping[str, Any]) -> dict[str, Any]:
         "rows": campaign.rows,
         "parts": [[part.start, part.stop] for part in campaign.parts],
     }  # fmt: skip
+    content = {**runs, "about": dict(about)}
+    # Another hazard or title needs no new runs; the rows have the names of the buildings.
+    of_rows = {**runs, "buildings": about.get("buildings")}
+    return {**content, "runs_identity": _sha256(of_rows), "identity": _sha256(content)}
+
+
+def _sha256(content: Mapping[str, Any]) -> str:
     # Sorted: the identity is that of the content, in any order.
-    text = json.dumps(content, sort_keys=True)
-    return {**content, "identity": hashlib.sha256(text.encode()).hexdigest()}
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
 def _motion(motion: Motion) -> dict[str, Any]:

@@ -53,7 +53,7 @@ def part_name(number: int) -> str:
 class About:
     """What a part says of itself."""
 
-    identity: str  # of the manifest of its study
+    identity: str  # of the runs of its study
     number: int
     models: Mapping[str, int]  # runs by model
     seconds: float  # of processor time
@@ -175,7 +175,7 @@ def peaks(content: bytes, campaign: Campaign) -> tuple[Floats, Flags]:
 
 
 def done_parts(folder: Path, campaign: Campaign, identity: str, key: bytes) -> dict[int, Done]:
-    """Return the parts that are whole and of this manifest, those of other keys included."""
+    """Return the parts that are whole and of these runs, those of other keys included."""
     whole = {}
     for number, part in enumerate(campaign.parts):
         try:

@@ -183,6 +183,11 @@ class StudyPlan:
             "slopes_deg": list(self.input.slopes_deg),
             "mus": list(self.input.mus),
             "intensities": list(self.input.intensities),
+            "input": self.input.model_dump(mode="json"),
+            "hazard_curves": [
+                {"intensity": c.intensity.tolist(), "rate": c.rate.tolist(), "beta": c.beta}
+                for c in self.hazard
+            ],
         }
 
 

@@ -109,7 +109,7 @@ def run_study(
     check_places(out, folder)
     manifest = manifest_of(campaign, plan.about) | {"workbook": {"name": plan.workbook}}
     former, key = check_former(folder, manifest), user_key()
-    identity, names = str(manifest["identity"]), plan.motions.buildings
+    identity, names = str(manifest["runs_identity"]), plan.motions.buildings
     done = done_parts(folder, campaign, identity, key)
     if not trust_parts:
         done = _own(done)

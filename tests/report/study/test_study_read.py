@@ -21,6 +21,7 @@ from report.sheet.reading.read import read
 from report.sheet.schema.choices import UnitsFirst
 from report.study import files
 from report.study.files import study_files, study_html
+from report.study.manifest import manifest_of
 from report.study.read import read_study, write_study
 from report.study.run import planned, run_study
 from report.study.schema import (
@@ -385,6 +386,25 @@ def test_what_a_hazard_lacks_is_said_at_its_cell(tmp_path, changes, lines):
         assert "!" in line.partition(":")[0]
 
 
+def test_what_rates_follow_from_is_in_the_identity_and_needs_no_new_runs(results):
+    study_plan = results.plan
+    former = manifest_of(study_plan.campaign, study_plan.about)
+    runs = yearly().friction_runs
+    others = [
+        {"hazard": hazard(site_factor=1.3, recenter_m=0.05)},
+        {"hazard": hazard(roof_factor=2.6, recenter_m=0.05)},
+        {"hazard": hazard(recenter_m=0.06)},
+        {"friction_runs": (*runs[:-1], runs[-1].model_copy(update={"mu": 0.43}))},
+        {"study_arrays": (results.plan.input.study_arrays[0].model_copy(update={"slope_deg": 1}),)},
+    ]
+    plans = [replace(study_plan, input=study_plan.input.model_copy(update=one)) for one in others]
+    # The content of a file of the curve is in no cell.
+    plans.append(replace(study_plan, hazard=(ended(study_plan.hazard[0]),)))
+    made = [manifest_of(each.campaign, each.about) for each in plans]
+    assert len({former["identity"], *(each["identity"] for each in made)}) == len(plans) + 1
+    assert {each["runs_identity"] for each in made} == {former["runs_identity"]}
+
+
 def test_rates_are_those_of_the_responses(results):
     (one,), (curve,) = results.years, results.plan.hazard
     assert one.change < 0.005
@@ -407,7 +427,9 @@ def test_lives_are_put_back_as_they_say(results):
     (one,) = results.years
     never, above, always = one.statistics.values()
     assert above[1].p95_m <= 0.05 or math.isinf(above[1].p95_m)
-    assert always[1].mean_m == 0.0
+    assert always[1].p95_m == 0.0
+    for found in (*never, *above, *always):
+        assert math.isinf(found.mean_m) is (found.without_value > 0.0)
     assert always[0].p95_m <= never[0].p95_m
     assert never[0].beyond >= never[1].beyond
 
