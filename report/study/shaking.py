@@ -26,12 +26,14 @@ from report.study.read import StudySheet
 from report.study.schema import MOST_SAMPLES, Intensity, StudyBuilding, StudyInput
 from report.text.counts import numbered
 from report.text.units import G_MPS2
+from solver.bounds import ANNUAL_RATE, INTENSITY
 from solver.building.roof import shaking_to_roof
 from solver.building.structure import building_of_periods
+from solver.formats.layout import other_quantity, units_in
 from solver.formats.source import open_source
 from solver.model import Floats, InputError, Motion
 from solver.records.measures import measures
-from solver.records.record import Record, read_only
+from solver.records.record import UNITS, Record, raise_any, read_only, unit_size
 from solver.records.spectrum import response_spectrum
 from solver.studies.rates import HazardCurve
 
@@ -209,14 +211,32 @@ def _intensity(study_input: StudyInput, recorded: Record, at_roof: Record) -> fl
 
 MAX_BYTES = 1_000_000
 
-# Most events a year: a greater number is no annual rate, and lives of as many fill the memory.
-MOST_RATE = 10.0
-
 # By which a file of several curves names PGA and Sa(1 s).
 _NAMES: Mapping[bool, re.Pattern[str]] = {
     False: re.compile(r"\bPGA\b|peak ground", re.IGNORECASE),
     True: re.compile(r"\bSA1P0\b|\b1(\.0{1,4})?[ -]?s(ec|econd)?\b", re.IGNORECASE),
 }
+
+# What the headings of the two columns may say; another word is of another quantity or unit.
+_OF_ANY = set("im iml imls imt intensity measure level levels ground motion acceleration g".split())
+_OF_INTENSITY: Mapping[bool, set[str]] = {
+    False: _OF_ANY | set("pga peak horizontal".split()),
+    True: _OF_ANY | set("sa sa1 sa1p0 spectral response 1 1.0 1.00 s sec second 1s".split()),
+}
+_OF_RATE = set(
+    "annual mean rate rates frequency of exceedance exceedence exceeding afe mafe lambda λ per yr"
+    " year 1/yr 1/year 1/a yr^-1 year^-1".split()
+)
+_WORD = re.compile(r"[^\s_\[\](),;:]+")
+# In a line of text above them.
+_OF_OTHERS = re.compile(
+    r"\bPG[VD]\b|\bprobabilit|\breturn period|\bSa ?\( ?(?!1(?:\.0+)? ?s?\))", re.IGNORECASE
+)
+_MEASURE = {False: "PGA [g]", True: "Sa(1 s) [g]"}
+_RATE_WANTED = (
+    "annual rate [1/year] (of a probability p in n years it is -ln(1 - p) / n, of a return period"
+    " one over it)"
+)
 
 _TWO = "give intensity and annual rate in two columns, or the CSV of the USGS hazard tool"
 
@@ -261,30 +281,59 @@ def points_of(lines: Sequence[str], *, is_spectral: bool) -> list[tuple[float, f
     # A spreadsheet pads the shorter rows with blanks.
     rows = [row[: max(k for k, cell in enumerate(row) if cell) + 1] for row in read if any(row)]
     if curves := list(_saved_curves(rows)):
-        names = [name for name, _ in curves]
-        fits = [points for name, points in curves if _NAMES[is_spectral].search(name)]
+        names = [name for name, _, _ in curves]
+        fits = [saved for saved in curves if _NAMES[is_spectral].search(saved[0])]
         if len(fits) != 1:
             wanted = "Sa(1 s)" if is_spectral else "PGA"
             raise InputError(f"has {len(fits)} curves of {wanted} ({'; '.join(names)}); keep one")
-        return fits[0]
+        _, labels, points = fits[0]
+        raise_any(_wrong_headings(labels, is_spectral))
+        return points
     columns = [_numbers(row) for row in rows]
     first = next((k for k, values in enumerate(columns) if values), len(rows))
-    # What is above the first row of numbers is a heading; below it nothing else may be.
+    # What is above the first row of numbers are headings; below it nothing else may be.
     wrong = [k for k, values in enumerate(columns) if k >= first and len(values) != 2]
     if wrong or first == len(rows):
         shown = mark.join(rows[wrong[0]] if wrong else lines)[:60].strip()
         raise InputError(f"has '{shown}'; {_TWO}")
+    problems: list[str] = []
+    for row in rows[:first]:
+        is_text = len(row) != 2 or row[0].startswith("#")
+        text = f"{mark} ".join(row)
+        problems += _wrong_text(text, is_spectral) if is_text else _wrong_headings(row, is_spectral)
+    raise_any(problems)
     return [(values[0], values[1]) for values in columns[first:]]
 
 
-def _saved_curves(rows: Sequence[Sequence[str]]) -> Iterator[tuple[str, list[tuple[float, float]]]]:
-    """Yield name and points of each curve of the USGS hazard tool."""
+def _wrong_headings(headings: Sequence[str], is_spectral: bool) -> Iterator[str]:
+    """Yield the headings of intensities and of rates that say another quantity or unit."""
+    kinds = ((_OF_INTENSITY[is_spectral], _MEASURE[is_spectral]), (_OF_RATE, _RATE_WANTED))
+    for heading, (known, wanted) in zip(headings, kinds, strict=True):
+        if not known.issuperset(_WORD.findall(heading.casefold())):
+            yield f"has the heading '{heading[:60]}'; give {wanted}"
+
+
+def _wrong_text(text: str, is_spectral: bool) -> Iterator[str]:
+    """Yield a line of text above the columns if it says another quantity or unit."""
+    is_other = any(unit_size(unit) != UNITS["g"] for unit in units_in(text)) or other_quantity(text)
+    named = [name for name, pattern in _NAMES.items() if pattern.search(text)]
+    if is_other or _OF_OTHERS.search(text) or named == [not is_spectral]:
+        wanted = f"give {_MEASURE[is_spectral]} and annual rate [1/year]"
+        yield f"has the heading '{text[:60]}'; {wanted}, or delete a line that is not of the columns"
+
+
+_Saved = tuple[str, tuple[str, str], list[tuple[float, float]]]
+
+
+def _saved_curves(rows: Sequence[Sequence[str]]) -> Iterator[_Saved]:
+    """Yield name, labels and points of each curve of the USGS hazard tool."""
     # It saves for each curve a line with its name, one that begins with a label and has the
     # intensities, and one with the rates (`D3SaveLineData` of nshmp-haz-ws).
     for k in range(1, len(rows) - 1):
         x, y = _numbers(rows[k][1:]), _numbers(rows[k + 1][1:])
         if len(x) > 1 and len(x) == len(y) and not (_numbers(rows[k][:1]) or _numbers(rows[k - 1])):
-            yield ", ".join(rows[k - 1]), list(zip(x, y, strict=True))
+            labels = rows[k][0], rows[k + 1][0]
+            yield ", ".join(rows[k - 1]), labels, list(zip(x, y, strict=True))
 
 
 def _numbers(cells: Sequence[str]) -> list[float]:
@@ -303,7 +352,11 @@ def _checked(points: Sequence[tuple[float, float]]) -> tuple[Floats, Floats]:
         raise InputError(
             f"the curve has {numbered(known, 'point')} with a rate above 0; give two or more"
         )
-    fits = (x > 0.0) & np.isfinite(x) & (rate <= MOST_RATE)
+    is_possible = [
+        INTENSITY.has(at) and (each == 0.0 or ANNUAL_RATE.has(each))
+        for at, each in zip(x.tolist(), rate.tolist(), strict=True)
+    ]
+    fits = np.array(is_possible)
     # Interpolated in logarithms, and the rates of displacements follow from its slope: both need
     # one direction.
     fits[1:] &= np.diff(x) > 0.0
@@ -313,7 +366,7 @@ def _checked(points: Sequence[tuple[float, float]]) -> tuple[Floats, Floats]:
         at = int(np.flatnonzero(~fits)[0])
         raise InputError(
             f"point {at + 1} of the curve is {x[at]:g} at {rate[at]:g} a year; give intensities"
-            f" that increase, and rates of at most {MOST_RATE:g} that decrease, above 0 but for the"
-            " last ones"
+            f" that increase, {INTENSITY.words}, and rates that decrease, {ANNUAL_RATE.words} but"
+            " for the last ones, which may be 0"
         )
     return x[:known], rate[:known]

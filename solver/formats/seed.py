@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from solver.bounds import SENSITIVITY
 from solver.formats.channels import Channel, MotionFile, motion_file, offset_notes
 from solver.formats.source import Source, Stated, waveform_format
 from solver.model import Floats, InputError
@@ -121,9 +122,9 @@ def _sensitivity(source: Source, obspy: Any, trace: Any) -> tuple[float, float]:
         ) from error
     # That of a velocity sensor is per m/s: no factor makes accelerations of its counts.
     size = unit_size(units)
-    if math.isnan(size) or not is_digital or not value > 0.0:
+    if math.isnan(size) or not is_digital or not SENSITIVITY.has(value / size):
         raise InputError(
             f"{path.name}: the sensitivity of {trace.id} is {value:g} {whole.output_units} per"
-            f" {shown(units)}; give that of an accelerometer, in counts"
+            f" {shown(units)}; give that of an accelerometer, {SENSITIVITY.words}"
         )
     return value / size, at_hz

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from solver.bounds import SENSITIVITY
 from solver.files import check_length
 from solver.model import InputError
 from solver.records.record import (
@@ -168,11 +169,15 @@ class Source:
 
     def counts_scale(self, what: str) -> float:
         """Value [m/s2] of a raw count, if the caller gives their number."""
-        if not 0.0 < self.counts_per_mps2 < math.inf:
+        if math.isnan(self.counts_per_mps2):
             raise InputError(
                 f"{what}: raw counts are no acceleration without the response of the instrument;"
                 " give it (motion convert --response), as StationXML for miniSEED and SAC, or as"
                 " counts per m/s2"
+            )
+        if not SENSITIVITY.has(self.counts_per_mps2):
+            raise InputError(
+                f"{what}: the response is {self.response} counts per m/s2; give {SENSITIVITY.words}"
             )
         return 1.0 / self.counts_per_mps2
 

@@ -3,6 +3,7 @@
 import io
 import json
 import math
+import re
 import shutil
 from dataclasses import replace
 from zipfile import ZipFile
@@ -329,6 +330,62 @@ def test_files_of_two_columns_and_of_the_tool_are_read():
 
 
 @pytest.mark.parametrize(
+    ("heading", "is_spectral"),
+    [
+        ("PGA [g],annual rate of exceedance [1/yr]", False),
+        ("Peak ground acceleration (g),Mean annual frequency of exceedence", False),
+        ("# Site 34, -118; Vs30 = 760 m/s\nPGA_g,lambda", False),
+        ("Sa(1.0 s) [g],annual rate", True),
+        ("Los Angeles\nSA1P0,rate\ng,1/year", True),
+        ("iml,AFE", True),
+    ],
+)
+def test_a_heading_of_the_measure_and_the_rate_is_read(heading, is_spectral):
+    lines = f"{heading}\n0.1,0.05\n1,0.0001\n".splitlines()
+    assert points_of(lines, is_spectral=is_spectral) == [(0.1, 0.05), (1.0, 1e-4)]
+
+
+@pytest.mark.parametrize(
+    ("heading", "found", "is_spectral"),
+    by_day([
+        ("Sa(1.0 s) [cm/s2],annual rate", ["Sa(1.0 s) [cm/s2]"], True),
+        ("PGA [g],probability of exceedance in 50 years", ["probability of exceedance"], False),
+        ("PGV [cm/s],return period [years]", ["PGV [cm/s]", "return period [years]"], False),
+        ("PGA [%g],annual rate", ["PGA [%g]"], False),
+        ("Sa(1 s) [g],annual rate", ["Sa(1 s) [g]"], False),
+        ("PGA [g],annual rate", ["PGA [g]"], True),
+        ("Sa(0.2 s) [g],annual rate", ["Sa(0.2 s) [g]"], True),
+        ("Period [s],Sa [g]", ["Period [s]", "Sa [g]"], True),
+        ("PGA,rate\ngal,1/yr", ["gal"], False),
+        ("# intensities in cm/s2\nim,rate", ["# intensities in cm/s2"], False),
+        ("# PGV\n", ["# PGV"], False),
+        ("# Sa(1 s)\n", ["# Sa(1 s)"], False),
+        ("# Sa(0.5 s)\n", ["# Sa(0.5 s)"], True),
+        ("Probabilities in 50 years\n", ["Probabilities in 50 years"], False),
+    ], 3),
+)  # fmt: skip
+def test_a_heading_of_another_quantity_is_refused(heading, found, is_spectral):
+    with pytest.raises(InputError) as caught:
+        points_of(f"{heading}\n0.1,0.05\n1,0.0001\n".splitlines(), is_spectral=is_spectral)
+    assert len(caught.value.problems) == len(found)
+    for problem, text in zip(caught.value.problems, found, strict=True):
+        assert problem.startswith(f"has the heading '{text}")
+        assert ("Sa(1 s) [g]" if is_spectral else "PGA [g]") in problem or "1/year" in problem
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("Ground Motion (g)", "Ground Motion (cm/s2)", "has the heading 'Ground Motion (cm/s2)'"),
+        ("Annual Frequency of", "Probability of", "has the heading 'Probability of Exceedence'"),
+    ],
+)
+def test_labels_of_the_tool_are_read_too(old, new, said):
+    with pytest.raises(InputError, match=re.escape(said)):
+        points_of(SAVED.replace(old, new).splitlines(), is_spectral=False)
+
+
+@pytest.mark.parametrize(
     ("text", "said"),
     [
         ("im,rate\n0.1,0.2\n0.2,low\n", "has '0.2,low'"),
@@ -371,6 +428,9 @@ def test_a_file_is_read_to_the_roof(tmp_path):
         ({"hazard_points": curve((0.1, 0.5), (1.0, 0.6))}, ["point 2 of the curve is 1 at 0.6"]),
         ({"hazard_points": curve((0.1, 0.0), (1.0, 0.6))}, ["has 1 point with a rate above 0"]),
         ({"hazard_points": curve((0.1, 50.0), (1.0, 2.0))}, ["point 1 of the curve is 0.1 at 50"]),
+        ({"hazard_points": curve((10.0, 0.9), (980.0, 0.1))}, ["point 2 of the curve is 980 at"]),
+        ({"hazard_points": curve((1e-320, 0.9), (1.0, 0.1))}, ["point 1 of the curve is 9.99"]),
+        ({"hazard_points": curve((0.1, 0.9), (1.0, 1e-320))}, ["point 2 of the curve is 1 at 9"]),
         ({"friction_runs": (StudyFrictionRun(mat="Z", surface=Surface.DRY, number=1, mu=0.5),)},
          ["mat 'Z' is not on the sheet Mats"]),
         ({"friction_runs": (StudyFrictionRun(mat="A", surface=Surface.DRY, number=1, mu=0.5),)},

@@ -125,6 +125,16 @@ def test_another_response_is_refused(file, old, new, problem):
     assert found.startswith(f"station.xml: {problem}")
 
 
+@pytest.mark.parametrize("told", ["INF", "1e308", "1e-320", "0", "-213740"])
+def test_a_sensitivity_that_no_instrument_has_is_refused(file, told):
+    """Divided by it, counts are a record of zeros, or of no numbers."""
+    station = file(STATION.replace("213740", told), "station.xml")
+    for response, beginning in ((station, "station.xml: the sensitivity"), (told, "x: ")):
+        (found,) = problems_of(file(miniseed(COUNTS), "x"), response=response)
+        assert found.startswith(beginning)
+        assert "0.1 to 1e+12 counts per m/s2" in found
+
+
 @pytest.mark.nightly
 @pytest.mark.parametrize("content", [miniseed(FLOATS), sac(FLOATS)])
 def test_damaged_bytes_are_read_or_refused(file, content):

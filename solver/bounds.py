@@ -1,0 +1,37 @@
+"""Physical bounds of numbers that come from outside.
+
+A number beyond them is in another unit, or damaged: it is refused and never computed with. Read
+`Bounds`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """The least and the most that a quantity can be."""
+
+    least: float
+    most: float
+    unit: str
+
+    def has(self, value: float) -> bool:
+        """Whether a value is within; NaN and infinities are not."""
+        return self.least <= value <= self.most
+
+    @property
+    def words(self) -> str:
+        """Both, as a message shows them."""
+        return f"{self.least:g} to {self.most:g} {self.unit}"
+
+
+# Of a hazard curve at the ground: those of the U.S. Geological Survey have 0.0001 to 7.4 g.
+INTENSITY = Bounds(1e-6, 10.0, "g")
+# A greater number is no annual rate, and lives of as many events fill the memory.
+ANNUAL_RATE = Bounds(1e-30, 10.0, "a year")
+# Of a target spectrum, at a roof too.
+ORDINATE = Bounds(1e-6, 100.0, "g")
+# From 8 bits for 100 g to 32 bits for a thousandth of 1 g.
+SENSITIVITY = Bounds(0.1, 1e12, "counts per m/s2")
