@@ -217,15 +217,15 @@ _NAMES: Mapping[bool, re.Pattern[str]] = {
     True: re.compile(r"\bSA1P0\b|\b1(\.0{1,4})?[ -]?s(ec|econd)?\b", re.IGNORECASE),
 }
 
-# What the headings of the two columns may say; another word is of another quantity or unit.
-_OF_ANY = set("im iml imls imt intensity measure level levels ground motion acceleration g".split())
-_OF_INTENSITY: Mapping[bool, set[str]] = {
-    False: _OF_ANY | set("pga peak horizontal".split()),
-    True: _OF_ANY | set("sa sa1 sa1p0 spectral response 1 1.0 1.00 s sec second 1s".split()),
+# What the headings of the two columns may say: another word is of another quantity or unit.
+_OF_ANY = "im iml imls imt intensity measure level levels ground motion acceleration g"
+_OF_INTENSITY = {
+    False: f"{_OF_ANY} pga peak horizontal",
+    True: f"{_OF_ANY} sa sa1 sa1p0 spectral response 1 1.0 1.00 s sec second 1s 5% damped",
 }
-_OF_RATE = set(
+_OF_RATE = (
     "annual mean rate rates frequency of exceedance exceedence exceeding afe mafe lambda λ per yr"
-    " year 1/yr 1/year 1/a yr^-1 year^-1".split()
+    " year 1/yr 1/year 1/a yr^-1 year^-1 yr-1"
 )
 _WORD = re.compile(r"[^\s_\[\](),;:]+")
 # In a line of text above them.
@@ -309,7 +309,7 @@ def _wrong_headings(headings: Sequence[str], is_spectral: bool) -> Iterator[str]
     """Yield the headings of intensities and of rates that say another quantity or unit."""
     kinds = ((_OF_INTENSITY[is_spectral], _MEASURE[is_spectral]), (_OF_RATE, _RATE_WANTED))
     for heading, (known, wanted) in zip(headings, kinds, strict=True):
-        if not known.issuperset(_WORD.findall(heading.casefold())):
+        if not set(known.split()).issuperset(_WORD.findall(heading.casefold())):
             yield f"has the heading '{heading[:60]}'; give {wanted}"
 
 
@@ -319,7 +319,7 @@ def _wrong_text(text: str, is_spectral: bool) -> Iterator[str]:
     named = [name for name, pattern in _NAMES.items() if pattern.search(text)]
     if is_other or _OF_OTHERS.search(text) or named == [not is_spectral]:
         wanted = f"give {_MEASURE[is_spectral]} and annual rate [1/year]"
-        yield f"has the heading '{text[:60]}'; {wanted}, or delete a line that is not of the columns"
+        yield f"has the heading '{text[:60]}'; {wanted}, or delete the line if it is of others"
 
 
 _Saved = tuple[str, tuple[str, str], list[tuple[float, float]]]
@@ -352,16 +352,12 @@ def _checked(points: Sequence[tuple[float, float]]) -> tuple[Floats, Floats]:
         raise InputError(
             f"the curve has {numbered(known, 'point')} with a rate above 0; give two or more"
         )
-    is_possible = [
-        INTENSITY.has(at) and (each == 0.0 or ANNUAL_RATE.has(each))
-        for at, each in zip(x.tolist(), rate.tolist(), strict=True)
-    ]
-    fits = np.array(is_possible)
+    fits = np.array([INTENSITY.has(each) for each in x])
+    fits[:known] &= [ANNUAL_RATE.has(each) for each in rate[:known]]
     # Interpolated in logarithms, and the rates of displacements follow from its slope: both need
     # one direction.
     fits[1:] &= np.diff(x) > 0.0
     fits[1:known] &= np.diff(rate[:known]) < 0.0
-    fits[:known] &= rate[:known] > 0.0
     if not fits.all():
         at = int(np.flatnonzero(~fits)[0])
         raise InputError(

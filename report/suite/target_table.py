@@ -18,8 +18,11 @@ from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.cells import CellError, Found, check_saved, number
 from report.sheet.reading.positions import CellPosition, found_at
 from report.sheet.reading.typed_text import separator, with_point
+from solver.bounds import ORDINATE
+from solver.formats.layout import other_quantity, units_in
 from solver.formats.source import open_source
 from solver.model import Floats, InputError, Problem
+from solver.records.record import UNITS, unit_size
 from solver.suggestions import meant
 from solver.synthesis.matching import BAND_HZ
 
@@ -33,8 +36,8 @@ _FREQUENCY, _PERIOD, _HORIZONTAL, _VERTICAL = "frequency", "period", "horizontal
 _KINDS = {
     _FREQUENCY: ("frequency freq f", "Hz", 1e-3, 1e3),
     _PERIOD: ("period t", "s", 1e-3, 1e3),
-    _HORIZONTAL: ("horizontal sa", "g", 1e-6, 100.0),
-    _VERTICAL: ("vertical", "g", 1e-6, 100.0),
+    _HORIZONTAL: ("horizontal sa", "g", ORDINATE.least, ORDINATE.most),
+    _VERTICAL: ("vertical", "g", ORDINATE.least, ORDINATE.most),
 }
 
 _NAMES = {name: kind for kind, (names, *_) in _KINDS.items() for name in names.split()}
@@ -161,12 +164,13 @@ def _table(source: str, rows: _Rows) -> TargetTable:
 
 def _headings(source: str, rows: _Rows) -> tuple[int, Mapping[str, int]]:
     """Return the row of the headings and the column of each kind."""
-    # Lines above the headings may say where the spectrum is from.
+    # Lines above the headings may say where the spectrum is from, not that it is of another unit.
     for top, row in enumerate(rows[:HEADING_ROWS]):
         headings = [_heading(cell) for cell in row]
         kinds = {kind for kind, _ in headings}
         if {_FREQUENCY, _PERIOD} & kinds and _HORIZONTAL in kinds:
-            return top, _columns(row, headings)
+            above = [cell for line in rows[:top] for cell in line if not cell.is_blank]
+            return top, _columns(above, row, headings)
     raise InputError(
         f"{source}: no row of headings in the first {HEADING_ROWS} rows; give {_WANTED}"
     )
@@ -178,10 +182,22 @@ def _heading(cell: Found) -> tuple[str, str]:
     return (_NAMES.get(whole[1], ""), whole[2]) if whole else ("", "")
 
 
-def _columns(row: Sequence[Found], headings: Sequence[tuple[str, str]]) -> Mapping[str, int]:
+def _columns(
+    above: Sequence[Found], row: Sequence[Found], headings: Sequence[tuple[str, str]]
+) -> Mapping[str, int]:
     problems, columns = [], {}
+    for cell in above:
+        units = [unit for unit in units_in(cell.shown) if unit_size(unit) != UNITS["g"]]
+        if units or other_quantity(cell.shown):
+            wanted = "give accelerations in g, or delete a line that is not of the columns"
+            problems.append(Problem(f"says '{cell.shown.strip()[:60]}'", wanted, cell.address))
     for column, (cell, (kind, unit)) in enumerate(zip(row, headings, strict=True)):
         if not kind:
+            # Others are ignored, but not one that begins as a column that is read.
+            meant_kind = _NAMES.get(cell.shown.strip().casefold().partition(" ")[0], "")
+            if meant_kind:
+                wanted = f"give {meant_kind} [{_KINDS[meant_kind][1]}], or another name"
+                problems.append(Problem(f"is '{cell.shown.strip()}'", wanted, cell.address))
             continue
         if unit not in ("", _KINDS[kind][1].casefold()):
             wanted = f"give {kind} [{_KINDS[kind][1]}]"

@@ -25,6 +25,7 @@ from report.sheet.schema.choices import (
 )
 from report.sheet.schema.fields import Cell, Frozen
 from report.text.units import G_MPS2, Quantity
+from solver.bounds import ORDINATE
 from solver.friction_tests import MOST_MU
 from solver.rules.hazard import Tail
 
@@ -169,9 +170,11 @@ class SpectrumPoint(Frozen):
 
     period_s: Annotated[float, Field(ge=0.001, le=1000), Cell("Period", 1.0, "s")]
     """Each period once, in any order. Interpolated on log-log axes."""
-    horizontal_g: Annotated[float, Field(gt=0, le=100), Cell("Horizontal", 0.8, "g")]
+    horizontal_g: Annotated[float, Field(gt=0, le=ORDINATE.most), Cell("Horizontal", 0.8, "g")]
     """Pseudo-acceleration, 5 % damping."""
-    vertical_g: Annotated[float | None, Field(gt=0, le=100), Cell("Vertical", 0.4, "g")] = None
+    vertical_g: Annotated[
+        float | None, Field(gt=0, le=ORDINATE.most), Cell("Vertical", 0.4, "g")
+    ] = None
     """In every row, or blank in every row to use AC156."""
 
 

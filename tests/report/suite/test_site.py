@@ -313,6 +313,11 @@ def test_every_invalid_cell_is_reported_by_its_address_or_its_line(tmp_path):
         ("period [s],horizontal [m/s2]", "is 'horizontal [m/s2]'; give horizontal [g]"),
         ("period [s],sa [g],sa [g]", "target.csv:1: a second horizontal column; delete one"),
         ("period,frequency,sa", "both frequency and period; delete one of them"),
+        ("period [s],sa [%g]", "is 'sa [%g]'; give horizontal [g]"),
+        ("period,sa,Vertical PSA (g)", "target.csv:1: is 'Vertical PSA (g)'; give vertical [g]"),
+        ("Sa in cm/s2\nperiod,sa", "target.csv:1: says 'Sa in cm/s2'; give accelerations in g"),
+        ("# Units: mg\nperiod,sa", "target.csv:1: says '# Units: mg'; give accelerations in g"),
+        ("Velocity (cm/s)\nperiod,sa", "target.csv:1: says 'Velocity (cm/s)'; give accelerat"),
         ("a,b", "target.csv: no row of headings in the first 10 rows; give frequency [Hz]"),
     ],
 )
