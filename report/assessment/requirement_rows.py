@@ -106,15 +106,17 @@ def _source(site: Site) -> Requirement:
 def _category(site: Site) -> Requirement:
     # ASCE 7 11.6: the more severe of two tables, by S_DS and S_D1; S_1 from 0.75 g gives E or F.
     lacking = site.sdc_lacks
+    needs_s_d1 = site.s_d1 is not None or "S_D1" in lacking
     missing = " and ".join(lacking)
     stated = f"{missing} {NOT_GIVEN}: SDC {site.sdc} is not confirmed"
     if not lacking:
-        stated = f"S_1 = {site.s_1_g:.3f} g, S_D1 = {site.s_d1:.3f} g"
+        stated = f"S_1 = {site.s_1_g:.3f} g"
+        stated += "" if site.s_d1 is None else f", S_D1 = {site.s_d1:.3f} g"
     return condition(
         id="sdc",
         title="Basis of the seismic design category",
         found=stated,
-        limit="S_DS, S_1 and S_D1",
+        limit="S_DS, S_1 and S_D1" if needs_s_d1 else "S_DS and S_1",
         basis=site.edition.clause("sdc"),
         is_satisfied=not lacking,
         remedy=f"The SDC also depends on {missing}: enter {'both' if len(lacking) > 1 else 'it'}.",

@@ -160,6 +160,7 @@ def _pair(
 LIMITS_SHORT_G = (0.167, 0.33, 0.50)
 LIMITS_1S_G = (0.067, 0.133, 0.20)
 NEAR_FAULT_S_1_G = 0.75
+MOST_BY_TABLES = "D"
 
 
 def design_categories(

@@ -18,6 +18,7 @@ from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
 from report.sheet.schema.motions import coefficients
 from report.sheet.schema.project import (
     categories,
+    category_lacks,
     edition_of_row,
     site_class_or_default,
     site_parameters,
@@ -391,8 +392,7 @@ def _sdc(row: DraftRow) -> Iterator[Finding]:
         return
     sdc, possible = row["sdc"], categories(row)
     if sdc is None:
-        lacking = {"S_1": row["s_1_g"], "S_D1": parameters.s_d1}
-        others = " and ".join(name for name, value in lacking.items() if value is None)
+        others = " and ".join(category_lacks(row))
         yield _fault("sdc", f"{_SDC} is missing", f"choose A, B, C, D, E or F, or give {others}")
         return
     # ASCE 7 11.6: the more severe of two tables; S_1 from 0.75 g on gives E, or F in category IV.

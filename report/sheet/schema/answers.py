@@ -13,7 +13,7 @@ from dataclasses import KW_ONLY, dataclass
 from report.sheet.schema.layout import Tables, literal
 from report.text.units import Quantity, Unit
 from solver.model import INCH_M
-from solver.rules.hazard import LEAST_I_E, HazardBasis
+from solver.rules.hazard import LEAST_I_E, MOST_BY_TABLES, HazardBasis
 from solver.rules.provisions import Neighbor
 
 # Where a rule set applies the importance factor, as written on the sheet Provisions.
@@ -279,9 +279,11 @@ def _design(values: str, maximum: str) -> str:
 _STEPS = 'MID(IF(site_risk_category="IV","ACDD","ABCD"),1+SUMPRODUCT(--({}>={})),1)'
 _BY_S_DS, _BY_S_D1 = (_STEPS.format(f"live_{s}", f"sdc_limits_{s}") for s in ("s_ds", "s_d1"))
 _BY_S_1 = 'IF(N(site_s_1_g)>=sdc_limit_s_1,CODE(IF(site_risk_category="IV","F","E")),0)'
+# As in `category_lacks`: blank where S_1 or S_D1 is not given and may change it.
+_LACKS_S_D1 = f'AND(live_s_d1="",{_BY_S_DS}<>"{MOST_BY_TABLES}",{_BY_S_1}=0)'
 _SDC = (
-    'IF(OR(live_s_ds="",TRIM(site_risk_category)=""),"",'
-    f'CHAR(MAX(CODE({_BY_S_DS}),IF(live_s_d1="",0,CODE({_BY_S_D1})),{_BY_S_1})))'
+    'IF(OR(live_s_ds="",TRIM(site_risk_category)="",NOT(ISNUMBER(site_s_1_g))),"",'
+    f'IF({_LACKS_S_D1},"",CHAR(MAX(CODE({_BY_S_DS}),IF(live_s_d1="",0,CODE({_BY_S_D1})),{_BY_S_1}))))'
 )
 
 _LEAST_I_E = "".join(f'IF(TRIM(site_risk_category)="{c}",{v:g},' for c, v in LEAST_I_E.items())
@@ -319,7 +321,8 @@ PRESCRIPTIVE_IN = _blank_on_error(
 # What governs the prescriptive displacement, in words.
 PRESCRIPTIVE_BASIS = (
     'IF(live_prescriptive_in="","",'
-    f'IF(AND(rule_low_sdc="{ONE_VALUE}",ISNUMBER(FIND(live_sdc_used,"ABC"))),"SDC A, B, C",'
+    f'IF(AND(rule_low_sdc="{ONE_VALUE}",live_sdc_used<>"",ISNUMBER(FIND(live_sdc_used,"ABC"))),'
+    '"SDC A, B, C",'
     'IF(live_prescriptive_formula_in>=rule_prescriptive_minimum_in,"formula","minimum")))'
 )
 

@@ -32,6 +32,7 @@ from solver.friction_tests import MOST_MU, FrictionRun, Surface
 from solver.rules.hazard import (
     EDITIONS,
     LEAST_I_E,
+    MOST_BY_TABLES,
     Edition,
     HazardBasis,
     SeismicParameters,
@@ -127,7 +128,8 @@ class Site(Frozen):
     """At least 1.0 in risk category I or II, 1.25 in III, 1.5 in IV, which a blank cell stands
     for."""
     sdc: Annotated[Sdc, Cell("Seismic design category", "D", need="required, or S_1 and S_D1")]
-    """ASCE 7 section 11.6. Blank: the least by S_DS, S_D1 and S_1, if all are given or computed."""
+    """ASCE 7 section 11.6. Blank: the least by S_DS, S_D1 and S_1, if it follows from those given
+    or computed."""
     hazard: Annotated[HazardBasis, Cell("Hazard basis", "mapped values")] = HazardBasis.MAPPED
     """Site class D with S_1 of 0.2 g or more needs a site-specific analysis or the exception of
     ASCE 7-16 11.4.8. Values below those of its tables need one."""
@@ -189,11 +191,8 @@ class Site(Frozen):
             case "f_a":
                 return _tabulated_f_a(row)
             case "sdc":
-                parameters = site_parameters(row)
-                if parameters is None or parameters.s_d1 is None or row["s_1_g"] is None:
-                    return None
                 least = max(categories(row))
-                return Sdc(least) if least else None
+                return Sdc(least) if least and not category_lacks(row) else None
         return None
 
     @model_validator(mode="after")
@@ -241,13 +240,12 @@ class Site(Frozen):
 
     @property
     def sdc_lacks(self) -> tuple[str, ...]:
-        """What the SDC is not compared with, because it is not given."""
-        values = (("S_1", self.s_1_g), ("S_D1", self.s_d1))
-        return tuple(symbol for symbol, value in values if value is None)
+        """What the SDC depends on and is not given."""
+        return category_lacks(dict(self))
 
     @property
     def sdc_mark(self) -> str:
-        """What follows a printed SDC without S_1 and S_D1, on which it depends too."""
+        """What follows a printed SDC without S_1 or S_D1, where it depends on it."""
         return " (not confirmed)" if self.sdc_lacks else ""
 
     @property
@@ -305,6 +303,15 @@ def categories(row: DraftRow) -> tuple[str, str, str]:
         s_1_g=row["s_1_g"],
         is_essential=risk_category is RiskCategory.IV,
     )
+
+
+def category_lacks(row: DraftRow) -> tuple[str, ...]:
+    """Return the symbols without which the SDC of a draft with S_DS does not follow."""
+    by_s_ds, by_s_d1, by_s_1 = categories(row)
+    # The tables end at D, and S_1 from 0.75 g on leads beyond them: there S_D1 changes nothing.
+    needs_s_d1 = by_s_ds != MOST_BY_TABLES and not by_s_d1 and not by_s_1
+    lacks = {"S_1": row["s_1_g"] is None, "S_D1": needs_s_d1}
+    return tuple(symbol for symbol, is_lacking in lacks.items() if is_lacking)
 
 
 def _tabulated_f_a(row: DraftRow) -> float | None:

@@ -187,12 +187,15 @@ def test_what_is_open_on_the_hazard_is_a_condition(given, conditions):
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({}, "S_1 and S_D1 not given: SDC D is not confirmed"),
+        ({}, "S_1 not given: SDC D is not confirmed"),
+        ({"s_ds_g": 0.4}, "S_1 and S_D1 not given: SDC D is not confirmed"),
+        ({"s_ds_g": 0.4, "s_1_g": 0.5}, "S_D1 not given: SDC D is not confirmed"),
+        ({"s_1_g": 0.5}, "S_1 = 0.500 g"),
         ({"s_d1_g": 0.5}, "S_1 not given: SDC D is not confirmed"),
         ({"s_1_g": 0.5, "f_v": 1.8}, "S_1 = 0.500 g, S_D1 = 0.600 g"),
     ],
 )
-def test_the_sdc_is_confirmed_by_s_1_and_s_d1_only(given, words):
+def test_the_sdc_is_confirmed_by_s_1_and_by_s_d1_where_it_matters(given, words):
     site = S_DS_ALONE | given
     found = hazard(**site)["sdc"]
     assert found.found == words

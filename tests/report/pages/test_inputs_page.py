@@ -233,7 +233,7 @@ def test_the_values_are_those_of_a_permit_sheet_or_category_e_near_a_fault(full)
     assert "not given" not in found.values()
     found = rows(package(s_ds_g=1.5, s_1_g=0.8, sdc="E"))
     assert found[CATEGORY]["Source"] == "largest of D (0.2 s), not given (1 s), S1 E"
-    assert found[CATEGORY]["Value"] == found["SDC"]["Value"] == "E (not confirmed)"
+    assert found[CATEGORY]["Value"] == found["SDC"]["Value"] == "E"
     confirmed = values(package(s_ds_g=1.5, s_1_g=0.8, s_d1_g=0.9, sdc="E"))
     assert confirmed[CATEGORY] == confirmed["SDC"] == "E"
 

@@ -3,12 +3,14 @@
 import importlib
 import itertools
 import math
+import random
+import re
 from dataclasses import dataclass
 from types import SimpleNamespace
 
 import pytest
 from openpyxl import Workbook, load_workbook
-from openpyxl.utils.cell import coordinate_to_tuple
+from openpyxl.utils.cell import coordinate_to_tuple, get_column_letter
 
 from cells import cell
 from inputs import FT, INCH, NO_SIDES
@@ -16,8 +18,12 @@ from places import ROOT
 from recalculated import Cell, Sheets, recalculated_sheets
 from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.sheet.reading.read import read
+from report.sheet.reading.what_if import retyped
 from report.sheet.schema import ProjectInput
+from report.sheet.schema.answers import SITE_ANSWERS
 from report.sheet.schema.choices import SiteClass, UnitsFirst
+from report.sheet.schema.fields import Place, entries
+from report.sheet.schema.project import Site
 from report.sheet.writing.template import write_template
 from report.text.units import PRESSURES, Quantity, number, ratio
 from sheets import formula_cells, project, retitle, same, site, type_into
@@ -26,6 +32,7 @@ from solver.rules.rulesets import RULE_SETS, RuleSet
 from solver.rules.site_coefficients import F_A, F_V, site_coefficient
 
 pytestmark = pytest.mark.nightly
+SITE_LABELS = {entry.name: entry.cell.label for entry in entries(Site)}
 PROJECTS = ("example", "school", "conditions", "campus")
 
 
@@ -254,7 +261,7 @@ def test_seismic_parameters_category_and_floor_are_those_of_the_package(case):
     categories = hazard.design_categories(
         s_ds_g=values.s_ds, s_d1_g=values.s_d1, s_1_g=data.s_1_g, is_essential=is_essential
     )
-    assert case.named("live_sdc") == max(categories)
+    assert (case.named("live_sdc") or "") == ("" if data.sdc_lacks else max(categories))
     floor_m, reviewed_m = (
         provisions.analysis_floor_m(case.rules, case.prescriptive, is_reviewed=reviewed)
         for reviewed in (False, True)
@@ -284,6 +291,77 @@ def test_what_is_used_where_a_cell_is_blank_is_that_of_the_package(filled):
     assert blank.named("live_i_e") == site.i_e
     assert blank.named("live_sdc_used") == site.sdc
     assert blank.named("live_s_ds") == pytest.approx(site.s_ds, rel=1e-12)
+
+
+SHORT = {
+    "s_ds_g": lambda s_ds: {"s_ds_g": s_ds},
+    "s_ms_g": lambda s_ds: {"s_ms_g": 1.51 * s_ds},
+    "s_s_g, f_a": lambda s_ds: {"s_s_g": 0.63 * s_ds, "f_a": 2.4},
+    "s_s_g": lambda s_ds: {"s_s_g": s_ds, "site_class": "C"},
+    "of ASCE 7-22": lambda s_ds: {"s_ms_g": 1.51 * s_ds, "edition_name": "ASCE 7-22"},
+}
+AT_1_S = (
+    {}, {"s_d1_g": 0.0669}, {"s_d1_g": 0.067}, {"s_d1_g": 0.2}, {"s_m1_g": 0.15},
+    *({"s_1_g": s_1} for s_1 in (0.04, 0.3, 0.7499, 0.75, 1.1)),
+    *({"s_1_g": 0.02, "s_d1_g": s_d1} for s_d1 in (0.05, 0.067, 0.1329, 0.133, 0.3)),
+    {"s_1_g": 0.8, "s_d1_g": 0.95},
+)  # fmt: skip
+"""What is given at the short period and at 1 s; S_DS below is at and beside the limits."""
+S_DS_G = (0.1, 0.1669, 0.167, 0.3299, 0.33, 0.49, 0.5, 1.2)
+FORMS = itertools.product(SHORT.values(), S_DS_G, AT_1_S, ("II", "IV"))
+SITES = [
+    {"risk_category": category} | short(s_ds) | at_1_s for short, s_ds, at_1_s, category in FORMS
+]
+
+
+def add_sites(book: Workbook, sites: list[dict[str, object]]) -> None:
+    """Write the formulas of the site once more for each of some sites, the categories first."""
+    sheet = book.create_sheet("Sites")
+    names = [f"site_{field}" for field in SITE_LABELS]
+    formulas = {name: formula for formula, name in SITE_ANSWERS.values()}
+    formulas = {"live_sdc": formulas.pop("live_sdc"), **formulas}
+    columns = {name: get_column_letter(k) for k, name in enumerate([*formulas, *names], start=1)}
+    for row, given in enumerate(sites, start=1):
+        for name, formula in formulas.items():
+            here = formula
+            for known in re.findall(r"\b(?:site|live)_\w+", formula):
+                here = re.sub(rf"\b{known}\b", f"{columns[known]}{row}", here)
+            sheet[f"{columns[name]}{row}"] = f"={here}"
+        for field, value in given.items():
+            sheet[f"{columns[f'site_{field}']}{row}"] = value
+
+
+@pytest.fixture(scope="module")
+def of_sites(tmp_path_factory):
+    """Some of the sites, a workbook without one, and the category that its formula has for each."""
+    folder = tmp_path_factory.mktemp("sites")
+    sites = random.Random(1).sample(SITES, 200)
+    blank = dict.fromkeys(name for name in SITE_ANSWERS if name != "edition_name")
+    path = folder / "input.xlsx"
+    write_template(path, units=UnitsFirst.US, example=project(site=site(**COMPUTED)))
+    fields = {*blank, "s_s_g", "s_1_g", "site_class"}
+    type_into(path, {f"Site/{SITE_LABELS[name]}": None for name in fields})
+    book = load_workbook(path)
+    add_sites(book, sites)
+    book.save(folder / "sites.xlsx")
+    (sheets,) = recalculated_sheets([folder / "sites.xlsx"], folder)
+    return sites, read(path), [row[0] or "" for row in sheets["Sites"]]
+
+
+def test_the_category_that_a_formula_shows_is_that_of_check(of_sites):
+    sites, sheet, shown = of_sites
+    assert len(shown) == len(sites)
+    said = []
+    for given in sites:
+        typed = {Place("site", 0, field): value for field, value in given.items()}
+        tried = retyped(sheet, typed)
+        found = [problem for problem in tried.problems if "category" in str(problem)]
+        assert len(found) == len(tried.problems), tried.problems
+        said.append("" if found else tried.project.site.sdc.value)
+    assert [(given, text) for given, text in zip(sites, shown, strict=True)] == [
+        (given, text) for given, text in zip(sites, said, strict=True)
+    ]
+    assert set(said) == {"", *"ACDEF"} | {"B"}
 
 
 def test_displacement_ratios_and_weight_are_those_of_the_package(case):

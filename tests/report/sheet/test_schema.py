@@ -195,8 +195,9 @@ NO_SDC = "Site/Seismic design category is missing; choose A, B, C, D, E or F, or
     by_day(
         [
             ({"S_1": None, "S_D1": 0.4}, f"{NO_SDC} S_1"),
-            ({"F_v": None}, f"{NO_SDC} S_D1"),
-            ({"S_1": None, "F_v": None}, f"{NO_SDC} S_1 and S_D1"),
+            ({"F_v": None, "S_S": 0.3}, f"{NO_SDC} S_D1"),
+            ({"S_1": None, "F_v": None}, f"{NO_SDC} S_1"),
+            ({"S_1": None, "F_v": None, "S_S": 0.3}, f"{NO_SDC} S_1 and S_D1"),
             ({"Site class": "E", "S_S": 1.2}, NO_F_A),
             ({"Hazard basis": "site-specific analysis"}, NO_F_A),
             ({"Risk category": None}, "Site/Risk category is missing; choose I, II, III or IV"),
@@ -206,6 +207,20 @@ NO_SDC = "Site/Seismic design category is missing; choose A, B, C, D, E or F, or
 )
 def test_what_does_not_follow_is_asked_for(tmp_path, changes, line):
     assert problems(made(tmp_path, **changes)) == said(line)
+
+
+@pytest.mark.parametrize(
+    ("changes", "sdc"),
+    [
+        ({"F_v": None}, "D"),
+        ({"F_v": None, "S_1": 0.7499}, "D"),
+        ({"F_v": None, "S_1": 0.75}, "E"),
+        ({"F_v": None, "S_1": 0.8, "S_S": 0.1, "Risk category": "IV"}, "F"),
+    ],
+)
+def test_a_category_that_s_d1_cannot_change_is_computed_without_it(tmp_path, changes, sdc):
+    site = read(made(tmp_path, **changes)).project.site
+    assert (site.sdc, site.s_d1, site.sdc_text) == (sdc, None, sdc)
 
 
 def test_what_is_computed_follows_other_values_that_are_tried(tmp_path):
