@@ -1,6 +1,7 @@
 """The design curves: each run that of the solver, each statistic and figure of the docs counted."""
 
 import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -16,15 +17,18 @@ from projects.curves.equation import (
     LEAST_PRD_M,
     Equation,
     RoofRuns,
+    Scatter,
     ambraseys_menu_m,
     fit_equation,
     jibson_m,
+    pooled,
     saygili_rathje_m,
     scatter,
 )
 from solver.building.roof import to_roof
 from solver.building.structure import building_of_periods
 from solver.model import STANDARD_GRAVITY_MPS2, InputError
+from solver.sliding.sweep import sweep
 
 TABLES = ROOT / "projects" / "curves"
 
@@ -150,9 +154,77 @@ def test_the_page_states_the_equation_and_what_was_run(page, about):
     for name, tried in about["tried"]["all"].items():
         cells = [f"{tried[key]:.2f}".replace("-", "−") for key in ("mean", "deviation")]
         assert f"| {name} | {' | '.join(cells)} |" in page
+    for place in ("rock", "roofs"):
+        for tried in about["tried"][place].values():
+            shown = f"{tried['mean']:z.2f} ± {tried['deviation']:.2f}".replace("-", "−")
+            assert f"| {shown} |" in page
     for row in about["peaks"]:
         assert f"{row['ppa_per_s_ds']:.2f}" in page
         assert f"{row['ppv_mps_per_s_ds_g']:.2f}" in page
+
+
+def test_the_page_states_the_scatter_of_all_runs_before_that_of_each_half(page, about):
+    halves = [Scatter(**about["fitted"]), Scatter(**about["tried"]["all"]["this formula"])]
+    assert pooled(halves) == Scatter(**about["every_run"])
+    shown = [
+        f"{about['every_run']['deviation']:.3f}",
+        *(f"{half.deviation:.3f}" for half in halves),
+    ]
+    places = [page.index(text) for text in shown]
+    assert places == sorted(places)
+    assert "(1 − r)" in page[: places[0]]
+    assert f"over all {about['every_run']['runs']:,} such runs" in page
+    factor = np.exp(about["every_run"]["deviation"])
+    assert f"a factor of {factor:.2f} for 84 %" in page
+
+
+def test_the_example_is_computed_with_the_numbers_that_are_printed(page, about):
+    text = page.partition("Example: ")[2].partition("\n\n")[0].replace("\n", " ")
+    (row,) = (row for row in about["peaks"] if row["period_s"] == 0.8)
+    a_g, v_mps = round(row["ppa_per_s_ds"], 2), round(row["ppv_mps_per_s_ds_g"], 2)
+    assert f"S_DS = 1.0 g, a slope of 2°, μ = 0.5. A = {a_g:.2f} g, V = {v_mps:.2f} m/s" in text
+    theta = np.radians(2.0)
+    k = np.tan(np.arctan(0.5) - theta)
+    r, length_m = k / a_g, v_mps**2 / (a_g * STANDARD_GRAVITY_MPS2)
+    c, p, s = (about["constants"][name] for name in "cps")
+    root = np.sqrt(theta / r)
+    steep, ratchets = (1.0 - r) ** p, np.exp(s * root)
+    prd_m = c * length_m * steep * ratchets
+    assert f"V² / A = {length_m:.3f} m, k = {k:.3f}, r = {r:.3f}, √(θ / r) = {root:.3f}" in text
+    assert f"PRD = {c} × {length_m:.3f} × {steep:.3f} × {ratchets:.2f} = {prd_m:.3f} m" in text
+    median_m = cases().loc[(0.8, 2.0, 0.5, 1.0), "median_m"]
+    assert (
+        f"({prd_m / make.INCH:.1f} in). The median of the runs is {median_m / make.INCH:.1f}"
+        in text
+    )
+
+
+def cases():
+    return pd.read_parquet(TABLES / "curves.parquet")
+
+
+def test_the_shares_over_the_prescriptive_displacement_are_those_of_the_table(page):
+    share = 100.0 * cases()["share_over_prescriptive"]
+    shown = {
+        at: " and ".join(f"{share.loc[(period, at[0], 0.5, at[1])]:.0f}" for period in (0.8, 1.5))
+        for at in ((2.0, 1.0), (2.0, 1.6), (4.0, 1.0))
+    }
+    assert f"μ = 0.5, a slope of 2° and S_DS = 1.0 g: {shown[2.0, 1.0]} %. At" in page
+    assert f"At 1.6 g it is {shown[2.0, 1.6]} %, and at 4° and 1.0 g {shown[4.0, 1.0]} %:" in page
+
+
+def test_no_value_of_the_tables_or_the_page_is_minus_zero(page):
+    for name in ("curves", "least-friction", "fragility"):
+        text = (TABLES / f"{name}.csv").read_text()
+        assert not re.search(r"(?<![\d.e])-0(?:\.0*)?(?![.\d])", text)
+    assert not re.search(r"[-−]0(?:\.0*)?(?![.\d])", page)
+
+
+@pytest.mark.quick
+def test_a_sweep_in_which_nothing_slips_has_no_minus_zero():
+    swept = sweep(0.1 * pulses(1), 0.01, slopes_rad=np.zeros(1), mus=np.ones(1), scales=np.ones(1))
+    assert (swept.prd_m == 0.0).all()
+    assert not np.signbit(swept.prd_m).any()
 
 
 @pytest.mark.parametrize("name", ["curves", "least-friction", "fragility"])

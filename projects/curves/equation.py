@@ -13,7 +13,7 @@ the same variables. Runs nothing. Read `fit_equation`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -141,6 +141,15 @@ def scatter(computed_m: Floats, by_formula_m: Floats) -> Scatter:
     """Return how computed values lie about those of a formula, both above 0."""
     off = np.log(computed_m / by_formula_m)
     return Scatter(float(off.mean()), float(off.std()), off.size)
+
+
+def pooled(parts: Sequence[Scatter]) -> Scatter:
+    """Return the scatter of all runs from those of their parts."""
+    runs = np.array([part.runs for part in parts])
+    means = np.array([part.mean for part in parts])
+    squares = np.array([part.deviation**2 + part.mean**2 for part in parts])
+    mean = float(runs @ means / runs.sum())
+    return Scatter(mean, math.sqrt(runs @ squares / runs.sum() - mean**2), int(runs.sum()))
 
 
 def ambraseys_menu_m(runs: RoofRuns) -> Floats:

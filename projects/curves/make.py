@@ -25,9 +25,11 @@ import pandas as pd
 
 from projects.curves.equation import (
     RoofRuns,
+    Scatter,
     ambraseys_menu_m,
     fit_equation,
     jibson_m,
+    pooled,
     saygili_rathje_m,
     scatter,
 )
@@ -276,14 +278,16 @@ def equation(responses: Sequence[Response], events: Sequence[str]) -> dict[str, 
         "60 in (S_DS − 0.4)²": lambda runs, s_ds_g: prescriptive_m(s_ds_g),
     }
 
-    def held(half: bool, roofs: Sequence[int], name: str) -> dict[str, float]:
+    def held(half: bool, roofs: Sequence[int], name: str) -> Scatter:
         computed, by_formula = [], []
         for runs, s_ds_g in parts(half, roofs):
             value = formulas[name](runs, s_ds_g)
             computed.append(runs.prd_m[value > 0.0])
             by_formula.append(value[value > 0.0])
-        return asdict(scatter(np.concatenate(computed), np.concatenate(by_formula)))
+        return scatter(np.concatenate(computed), np.concatenate(by_formula))
 
+    of_fitted = held(True, everywhere, "this formula")
+    of_others = held(False, everywhere, "this formula")
     places = {"rock": [0], "roofs": [1, 2, 3], "all": list(everywhere)}
     medians = zip(
         PERIODS_S,
@@ -294,9 +298,10 @@ def equation(responses: Sequence[Response], events: Sequence[str]) -> dict[str, 
     return {
         "constants": asdict(fitted),
         "of_the_other_half": asdict(swapped),
-        "fitted": held(True, everywhere, "this formula"),
+        "every_run": asdict(pooled((of_fitted, of_others))),
+        "fitted": asdict(of_fitted),
         "tried": {
-            place: {name: held(False, roofs, name) for name in formulas}
+            place: {name: asdict(held(False, roofs, name)) for name in formulas}
             for place, roofs in places.items()
         },
         "events_fitted": sorted({e for e, mine in zip(events, is_fitted, strict=True) if mine}),

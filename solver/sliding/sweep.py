@@ -249,7 +249,8 @@ def _run(
         slopes_rad=slopes,
         mus=mus,
         scales=scales,
-        prd_m=cs * np.maximum(s[..., 0], -s[..., 1]),
+        # Not -s, which is -0.0 where nothing slips.
+        prd_m=cs * np.maximum(s[..., 0], 0.0 - s[..., 1]),
         residual_m=cs * s[..., 2],
         status=status.astype(np.uint8),
     )
