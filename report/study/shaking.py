@@ -224,7 +224,7 @@ _OF_INTENSITY = {
     True: f"{_OF_ANY} sa sa1 sa1p0 spectral response 1 1.0 1.00 s sec second 1s 5% damped",
 }
 _OF_RATE = (
-    "annual mean rate rates frequency of exceedance exceedence exceeding afe mafe lambda λ per yr"
+    "annual mean rate rates frequency of exceedance exceedence exceeding lambda λ per yr"
     " year 1/yr 1/year 1/a yr^-1 year^-1 yr-1"
 )
 _WORD = re.compile(r"[^\s_\[\](),;:]+")

@@ -178,8 +178,11 @@ def _headings(source: str, rows: _Rows) -> tuple[int, Mapping[str, int]]:
 
 def _heading(cell: Found) -> tuple[str, str]:
     """Return the kind of a column and its unit in small letters; each empty if there is none."""
-    whole = _HEADING.fullmatch(cell.shown.strip().casefold())
-    return (_NAMES.get(whole[1], ""), whole[2]) if whole else ("", "")
+    text = cell.shown.strip().casefold()
+    if whole := _HEADING.fullmatch(text):
+        return _NAMES.get(whole[1], ""), whole[2]
+    # One that begins as a column that is read is not ignored: what it says is no unit.
+    return _NAMES.get(text.partition(" ")[0], ""), text
 
 
 def _columns(
@@ -193,11 +196,6 @@ def _columns(
             problems.append(Problem(f"says '{cell.shown.strip()[:60]}'", wanted, cell.address))
     for column, (cell, (kind, unit)) in enumerate(zip(row, headings, strict=True)):
         if not kind:
-            # Others are ignored, but not one that begins as a column that is read.
-            meant_kind = _NAMES.get(cell.shown.strip().casefold().partition(" ")[0], "")
-            if meant_kind:
-                wanted = f"give {meant_kind} [{_KINDS[meant_kind][1]}], or another name"
-                problems.append(Problem(f"is '{cell.shown.strip()}'", wanted, cell.address))
             continue
         if unit not in ("", _KINDS[kind][1].casefold()):
             wanted = f"give {kind} [{_KINDS[kind][1]}]"

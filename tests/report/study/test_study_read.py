@@ -337,7 +337,7 @@ def test_files_of_two_columns_and_of_the_tool_are_read():
         ("# Site 34, -118; Vs30 = 760 m/s\nPGA_g,lambda", False),
         ("Sa(1.0 s) [g],annual rate", True),
         ("Los Angeles\nSA1P0,rate\ng,1/year", True),
-        ("iml,AFE", True),
+        ("iml,lambda", True),
     ],
 )
 def test_a_heading_of_the_measure_and_the_rate_is_read(heading, is_spectral):
