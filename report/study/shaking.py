@@ -29,11 +29,11 @@ from report.text.units import G_MPS2
 from solver.bounds import ANNUAL_RATE, INTENSITY
 from solver.building.roof import shaking_to_roof
 from solver.building.structure import building_of_periods
-from solver.formats.layout import other_quantity, units_in
+from solver.formats.layout import is_of_another
 from solver.formats.source import open_source
 from solver.model import Floats, InputError, Motion
 from solver.records.measures import measures
-from solver.records.record import UNITS, Record, raise_any, read_only, unit_size
+from solver.records.record import Record, raise_any, read_only
 from solver.records.spectrum import response_spectrum
 from solver.studies.rates import HazardCurve
 
@@ -284,8 +284,8 @@ def points_of(lines: Sequence[str], *, is_spectral: bool) -> list[tuple[float, f
         names = [name for name, _, _ in curves]
         fits = [saved for saved in curves if _NAMES[is_spectral].search(saved[0])]
         if len(fits) != 1:
-            wanted = "Sa(1 s)" if is_spectral else "PGA"
-            raise InputError(f"has {len(fits)} curves of {wanted} ({'; '.join(names)}); keep one")
+            found = f"has {len(fits)} curves of {_MEASURE[is_spectral]} ({'; '.join(names)})"
+            raise InputError(f"{found}; keep one")
         _, labels, points = fits[0]
         raise_any(_wrong_headings(labels, is_spectral))
         return points
@@ -315,9 +315,8 @@ def _wrong_headings(headings: Sequence[str], is_spectral: bool) -> Iterator[str]
 
 def _wrong_text(text: str, is_spectral: bool) -> Iterator[str]:
     """Yield a line of text above the columns if it says another quantity or unit."""
-    is_other = any(unit_size(unit) != UNITS["g"] for unit in units_in(text)) or other_quantity(text)
     named = [name for name, pattern in _NAMES.items() if pattern.search(text)]
-    if is_other or _OF_OTHERS.search(text) or named == [not is_spectral]:
+    if is_of_another(text) or _OF_OTHERS.search(text) or named == [not is_spectral]:
         wanted = f"give {_MEASURE[is_spectral]} and annual rate [1/year]"
         yield f"has the heading '{text[:60]}'; {wanted}, or delete the line if it is of others"
 

@@ -19,10 +19,9 @@ from report.sheet.reading.cells import CellError, Found, check_saved, number
 from report.sheet.reading.positions import CellPosition, found_at
 from report.sheet.reading.typed_text import separator, with_point
 from solver.bounds import ORDINATE
-from solver.formats.layout import other_quantity, units_in
+from solver.formats.layout import is_of_another
 from solver.formats.source import open_source
 from solver.model import Floats, InputError, Problem
-from solver.records.record import UNITS, unit_size
 from solver.suggestions import meant
 from solver.synthesis.matching import BAND_HZ
 
@@ -190,8 +189,7 @@ def _columns(
 ) -> Mapping[str, int]:
     problems, columns = [], {}
     for cell in above:
-        units = [unit for unit in units_in(cell.shown) if unit_size(unit) != UNITS["g"]]
-        if units or other_quantity(cell.shown):
+        if is_of_another(cell.shown):
             wanted = "give accelerations in g, or delete a line that is not of the columns"
             problems.append(Problem(f"says '{cell.shown.strip()[:60]}'", wanted, cell.address))
     for column, (cell, (kind, unit)) in enumerate(zip(row, headings, strict=True)):

@@ -181,6 +181,12 @@ def other_quantity(line: str) -> str:
     return quantity[1].lower() if quantity else next(others, "")
 
 
+def is_of_another(line: str) -> bool:
+    """Whether a line of text says another quantity than acceleration, or another unit than g."""
+    sizes = {unit_size(unit) for unit in units_in(line)}
+    return bool(sizes - {unit_size("g")} or other_quantity(line))
+
+
 def remark(line: str, separator: str | None, width: int) -> list[Heading]:
     """Headings at the beginning of a comment, without any text after them; empty if none."""
     texts = words(line, separator)[:width]
