@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,7 @@ from report.assessment.friction import mu_words
 from report.motions.components import Components
 from report.motions.prepare import Shaking, read_records, shaking, stiff_links
 from report.sheet.reading.read import Sheet, read
-from report.sheet.reading.what_if import retyped
+from report.sheet.reading.what_if import Typed, retyped
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import Polarity, RuleSetName, UnitsFirst
 from report.sheet.schema.fields import Finding, Place
@@ -31,11 +31,18 @@ from solver.model import InputError, Motion
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Opened:
-    """A workbook, the records of each motion as read, whatever the sliders say, and as run."""
+    """A workbook, the records of each motion as read, whatever the sliders say, and as run.
+
+    Attributes
+    ----------
+    typed : mapping
+        What the values put into cells of the file; the sheet is as if it had been typed there.
+    """
 
     sheet: Sheet
     by_motion: Sequence[Components]
     shaking: Shaking
+    typed: Mapping[Place, Typed] = field(default_factory=dict)
 
     @property
     def scales(self) -> dict[str, float]:
@@ -61,18 +68,25 @@ def opened(path: Path) -> Opened:
     return Opened(sheet=sheet, by_motion=by_motion, shaking=shaking(sheet, by_motion))
 
 
-def with_values(opened: Opened, values: Values) -> Opened:
-    """Return a workbook as if values had been typed into it; refuse those it could not have."""
+def with_values(opened: Opened, values: Values, near: Opened | None = None) -> Opened:
+    """Return a workbook as if values had been typed into it; refuse those it could not have.
+
+    All values are typed at once into the workbook as it is opened. One `near` it, at other values,
+    lends its motions where they are the same.
+    """
     changed = typed(opened.sheet, opened.scales, values)
     if not changed:
         return opened
     sheet = retyped(opened.sheet, changed)
     sheet.refuse(())
+    near = near or opened
     # Records that stay as they are need not be processed again.
-    if _has_motions_of(opened.sheet, sheet):
-        sheet.refuse(stiff_links(sheet.project, opened.shaking.motions))
-        return replace(opened, sheet=sheet)
-    return Opened(sheet=sheet, by_motion=opened.by_motion, shaking=shaking(sheet, opened.by_motion))
+    if _has_motions_of(near.sheet, sheet):
+        sheet.refuse(stiff_links(sheet.project, near.shaking.motions))
+        run = near.shaking
+    else:
+        run = shaking(sheet, opened.by_motion)
+    return Opened(sheet=sheet, by_motion=opened.by_motion, shaking=run, typed=changed)
 
 
 def _has_motions_of(before: Sheet, after: Sheet) -> bool:

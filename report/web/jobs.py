@@ -42,7 +42,7 @@ from report.web import views
 from report.web.answers import answer
 from report.web.controls import Opened, check, controls, opened, shown, with_values
 from report.web.plan import USUAL_PX, stamp
-from report.web.values import Values, typed
+from report.web.values import Values
 from solver.model import InputError
 from solver.records.acceptance import Acceptance
 
@@ -258,10 +258,9 @@ def read_plan(workbook: Path, job: Json) -> Json:
 
 
 def write(workbook: Path, job: Json) -> Json:
-    """Write the workbook with the values in its cells to another path."""
-    opened = _open(workbook)
-    check(opened, job["values"])
-    cells_of = cells(opened.sheet, typed(opened.sheet, opened.scales, job["values"]))
+    """Write the workbook that is assessed at values to another path."""
+    given = _given(workbook, _key(workbook, job["values"]))
+    cells_of = cells(given.sheet, given.typed)
     data = workbook.read_bytes()
     Path(job["to"]).write_bytes(changed(data, cells_of) if cells_of else data)
     return {}
@@ -329,11 +328,10 @@ def _key(workbook: Path, values: Values) -> str:
 @lru_cache(KEPT_ANSWERS)
 def _given(workbook: Path, key: str) -> Opened:
     """Return a project at values, given as JSON."""
-    values = json.loads(key)
-    if _CLEARANCE not in values:
-        return with_values(_open(workbook), values)
-    # Clearances last: values that differ in them alone share what comes before.
-    return with_values(_given(workbook, _wider(values)), {_CLEARANCE: values[_CLEARANCE]})
+    opened, values = _open(workbook), json.loads(key)
+    # Values that differ in clearances alone share the motions.
+    near = _given(workbook, _wider(values)) if _CLEARANCE in values else opened
+    return with_values(opened, values, near)
 
 
 @lru_cache(KEPT_PROJECTS)

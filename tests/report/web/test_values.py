@@ -4,15 +4,15 @@ import json
 import shutil
 from dataclasses import asdict
 from functools import cache
+from itertools import combinations
 
 import pytest
 
 import stand_in
-from nightly import by_day
+from nightly import by_day, nightly
 from places import ROOT
 from report.assessment.assess import anticipate, assess, reference_of
-from report.sheet.reading.parts import changed
-from report.sheet.reading.what_if import cells, retyped
+from report.sheet.reading.what_if import retyped
 from report.sheet.schema.choices import Scaling
 from report.sheet.schema.fields import Place
 from report.web import jobs
@@ -31,14 +31,13 @@ def start(project):
 
 
 def written(project, values, folder):
-    """The project with the values written into the cells of its workbook."""
-    given = start(project)
+    """The project with its workbook as the page saves it at values."""
+    workbook = str(PROJECTS / project / "input.xlsx")
     shutil.copytree(
         PROJECTS / project, folder, dirs_exist_ok=True, ignore=shutil.ignore_patterns("out")
     )
-    new = cells(given.sheet, typed(given.sheet, given.scales, values))
-    data = (PROJECTS / project / "input.xlsx").read_bytes()
-    (folder / "input.xlsx").write_bytes(changed(data, new))
+    job = {"do": "write", "workbook": workbook, "values": values, "to": str(folder / "input.xlsx")}
+    assert jobs.perform(job) == {"answer": {}}
     return opened(folder)
 
 
@@ -114,6 +113,64 @@ def test_at_rest_every_number_and_verdict_is_that_of_the_written_workbook(
     assert json.dumps(found) == json.dumps({**whole, "shown": shown(again)})
     # The values do change what is shown.
     assert found["arrays"] != at_rest(project)["arrays"]
+
+
+OTHERWISE = {
+    "friction": {"friction": 0.9},
+    "slope": {"slope": 0.7},
+    "intensity": {"intensity": 0.94},
+    "s_ds": {"s_ds": 0.9, "together": "no"},
+    "clearance": {"clearance": 25.0},
+    "together": {"together": "no"},
+    "polarity": {"polarity": "reversed"},
+    "rule_set": {"rule_set": "SEAOC PV1-2012"},
+    "units": {"units": "US"},
+}
+"""Each control of the school at another value than it is typed at."""
+
+OTHERWISE_US = OTHERWISE | {
+    "clearance": {"clearance": 6.0},
+    "rule_set": {"rule_set": "ASCE 7-16"},
+    "units": {"units": "SI"},
+}
+PAIRS = [
+    pytest.param(project, {**values[one], **values[other]}, id=f"{project}-{one}-{other}")
+    for project, values in (("school", OTHERWISE), ("example", OTHERWISE_US))
+    for one, other in combinations(values, 2)
+]
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize(("project", "values"), PAIRS)
+def test_at_any_two_controls_the_answer_is_that_of_the_saved_workbook(project, values, tmp_path):
+    items = offered(project) | offered(project, "choices")
+    assert items.keys() == OTHERWISE.keys()
+    assert any(value != items[name]["typed"] for name, value in values.items())
+    again = written(project, values, tmp_path)
+    assert with_values(start(project), values).sheet.project == again.sheet.project
+    job = {"do": "assess", "workbook": str(tmp_path / "input.xlsx"), "values": {}}
+    saved = jobs.perform(job | {"moving": False, "room": 780})["answer"]
+    assert at_rest(project, **values) == saved
+
+
+@pytest.mark.parametrize(
+    ("project", "values"),
+    [
+        ("example", {"clearance": 6.0, "units": "SI"}),
+        nightly(("school", {"clearance": 25.0, "units": "US"})),
+    ],
+)
+def test_sides_move_by_the_unit_of_their_slider_whichever_unit_is_shown(project, values, tmp_path):
+    again, motions = written(project, values, tmp_path), start(project).shaking.motions
+    one_run = {motion.id: [motion.orientations[0].name] for motion in motions}
+    known = {array.id: one_run for array in again.sheet.project.arrays}
+    job = {"do": "assess", "room": 780, "moving": True, "reference": known}
+    page, saved = (
+        jobs.perform(job | {"workbook": str(folder / "input.xlsx"), "values": given})["answer"]
+        for folder, given in ((PROJECTS / project, values), (tmp_path, {}))
+    )
+    assert page == saved
+    assert page["shown"]["clearance"] != shown(start(project))["clearance"]
 
 
 @pytest.mark.nightly
