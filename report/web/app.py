@@ -159,12 +159,11 @@ async def _with_clearances(request: Request, folder: Path) -> Path:
 async def _with_plan(request: Request, folder: Path) -> Path:
     """Store a workbook whose plan is filled in from the drawing that is sent with it."""
     session, workbook = session_of(request), await received(request, folder)
-    session.filled = session.folder / f"filled-{folder.name}" / workbook.name
-    session.filled.parent.mkdir()
+    filled = session.folder / f"filled-{folder.name}" / workbook.name
+    filled.parent.mkdir()
     fields = {name: request.state.fields.get(name, "") for name in ("layers", "unit")}
-    await session.ask(
-        {"do": "read_plan", "workbook": str(workbook), "to": str(session.filled), **fields}
-    )
+    await session.ask({"do": "read_plan", "workbook": str(workbook), "to": str(filled), **fields})
+    session.filled = filled
     return workbook
 
 

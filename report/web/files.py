@@ -288,6 +288,8 @@ async def workbook(request: Request) -> Response:
 
 async def _filled(request: Request) -> Response:
     path = session_of(request).filled
+    if path is None:
+        raise HTTPException(404, "No plan was filled in from a drawing")
     return _attached(FileResponse(path, media_type=TYPES[".xlsx"]), path.name)
 
 

@@ -84,13 +84,13 @@ class Session:
         Of uploads and packages; it ends with the server.
     workbook : Path
         What is open: the example, or the last upload that could be read.
-    filled : Path
+    filled : Path or None
         The last workbook whose plan was filled in from a drawing.
     """
 
     def __init__(self, folder: Path) -> None:
         self.folder, self.workbook, self.packages = folder, EXAMPLE, Packages()
-        self.filled = Path()
+        self.filled: Path | None = None
         self._openings = 0
         self._processes: dict[bool, Executor] = {}
         self._busy: set[bool] = set()

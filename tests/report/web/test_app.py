@@ -18,7 +18,7 @@ from report.sheet.schema.choices import ClearanceSource
 from report.web.access import KEY_HEADER
 from report.web.files import store
 from report.web.worker import State, answered
-from sheets import SECTIONS, at, make, type_into
+from sheets import SECTIONS, at, blank, make, type_into
 
 EXAMPLE = ROOT / "projects" / "example"
 CONDITIONS = ROOT / "projects" / "conditions"
@@ -191,6 +191,22 @@ def test_an_upload_that_cannot_be_read_leaves_open_what_was_open(client, session
     assert state["opened"] == before
     assert state["answer"]["verdict"]["text"] == "OK with conditions"
     assert uploads(session) == [before]
+
+
+NOT_FILLED = "No plan was filled in"
+
+
+def test_before_a_drawing_is_read_there_is_no_workbook_that_was_filled_in(client):
+    assert error_of(client.get("/api/plan"), 404).startswith(NOT_FILLED)
+
+
+@pytest.mark.nightly
+def test_a_drawing_that_is_refused_fills_in_no_workbook(client, tmp_path):
+    book = blank(tmp_path / "input.xlsx").read_bytes()
+    files = [("files", ("input.xlsx", book)), ("files", ("roof.dxf", b"no drawing"))]
+    told = client.post("/api/plan", files=files, data={"layers": "{}", "unit": "ft"})
+    assert error_of(told).startswith("Not a DXF drawing")
+    assert error_of(client.get("/api/plan"), 404).startswith(NOT_FILLED)
 
 
 def test_more_files_than_a_project_has_are_refused_in_the_words_of_the_page(client):
