@@ -1,7 +1,7 @@
 // Starts the page and joins its parts. Read session.js for what happens when a slider moves.
 
 import { createApi, reload } from "./api.js";
-import { changes, fromFragment, toFragment } from "./changes.js";
+import { changes, fromFragment, isSame, toFragment } from "./changes.js";
 import { button, html, replace } from "./make.js";
 import { mountDrawing, mountMotions } from "./offers.js";
 import { mountTakeaway } from "./package.js";
@@ -41,7 +41,10 @@ const plan = mountPlan(part("plan-drawing"), {
 const api = createApi(announce, plan.room);
 const session = createSession(api.assess, show, failAnswer);
 const views = createViews(api);
-const turns = createTurns(api.verdict, (id, found) => controls.turn(id, found));
+const turns = createTurns(api.verdict, (id, found) => {
+  turned[id] = found && { ...found, others: session.values() };
+  drawControls();
+});
 const takeaway = mountTakeaway(
   {
     make: part("make-package"),
@@ -57,8 +60,9 @@ const offerDrawing = mountDrawing(part("drawing"), api, { open: opening, filled:
 
 let dropped = null; // the files of the last upload
 let state = null; // of the project that is open
-let answer = null; // the last that was shown
+let answer = null; // the last that was shown, with the values that it is of
 let controls = null;
+let turned = {}; // where the verdict changes, by slider
 const chosen = { array: null, motion: null };
 let onPlan = null; // the key of what is picked: an array, an object, or # and the number of a clearance
 
@@ -145,6 +149,7 @@ function open(next, isRestored) {
   showProject();
   replace(part("warnings"), warnings(state.warnings));
   fillSelects();
+  controls = mountSliders(part("controls"), state, session);
   history.replaceState({ depth: 0, opened: state.opened }, "", isRestored ? location.href : location.pathname);
   // oxlint-disable-next-line unicorn/require-post-message-target-origin -- a channel has none
   tabs.postMessage({ opened: state.opened, name: state.project.name });
@@ -192,16 +197,13 @@ function warnings(all) {
   return html("details", {}, html("summary", {}, `Warnings and notes: ${all.length}`), html("ul", {}, lines));
 }
 
-// Take values upon those of the workbook; what had the focus keeps it.
+// Take values upon those of the workbook.
 function setAll(others) {
-  const all = [...state.sliders, ...state.choices];
-  const values = { ...Object.fromEntries(all.map(({ id, typed }) => [id, typed])), ...others };
-  const focused = document.activeElement.id;
+  const typed = Object.fromEntries([...state.sliders, ...state.choices].map((one) => [one.id, one.typed]));
+  const values = { ...typed, ...others };
+  turned = {};
   session.load(values);
-  controls = mountSliders(part("controls"), state, values, session);
-  if (focused) part(focused)?.focus();
-  const isAnswered = state.answer && all.every(({ id, typed }) => values[id] === typed);
-  if (isAnswered) show({ phase: "rest", answer: state.answer });
+  if (state.answer && isSame(values, typed)) show({ phase: "rest", answer: state.answer, values });
   else session.rest();
 }
 
@@ -213,27 +215,35 @@ function fillSelects() {
 }
 
 // The session reports: a slider moves, the full model runs, or an answer came.
-function show({ phase, answer: next }) {
+function show({ phase, answer: next, values }) {
   if (phase === "rest") enterValues(); // first: the browser lays out at once what has changed before it
   document.body.dataset.phase = phase;
   part("changed").textContent = `With ${changes(session.values(), state)}`;
   part("changed").title = part("changed").textContent;
   if (next) {
     hideError();
-    showAnswer(next, phase === "rest" ? "final" : "provisional");
+    showAnswer({ ...next, values }, phase === "rest" ? "final" : "provisional");
   } else if (answer?.verdict) {
     announce("");
     keepFormer();
   }
+  drawControls();
   if (phase === "rest") showRest();
   else showMoving(phase, next);
+}
+
+// Beside the controls is what the values of the tables amount to, unless the tables are of other values.
+function drawControls() {
+  const values = session.values();
+  const isFormer = document.body.dataset.values === "former";
+  const isCurrent = !isFormer && Boolean(answer) && isSame(answer.values, values);
+  controls.draw(values, { shown: answer?.shown ?? {}, isCurrent, turned: isFormer ? {} : turned });
 }
 
 // What the values shown are: final, provisional, or former, which are not of what is asked now.
 function showAnswer(next, values) {
   document.body.dataset.values = values;
   answer = next;
-  controls.follow(answer.shown);
   plan.show(answer.plan, answer.tips);
   showPicked();
 }
@@ -301,6 +311,7 @@ function failAnswer(error, moving) {
   const isRefused = reasons.length > 0;
   if (moving && !isRefused) return; // the full model is asked next, and tells
   Object.assign(document.body.dataset, { phase: "failed", values: "former" });
+  drawControls();
   const unanswered = error.isUnreached ? "the server does not answer" : "the server gave no answer";
   showNoVerdict(part("verdict"), isRefused ? "these values have no answer" : unanswered, reasons);
   if (isRefused) announce(`No verdict. ${error.message}`);

@@ -7,8 +7,9 @@ const STEP_MS = 400; // after which a step is answered provisionally, if the ful
  * Return the session's runner of assessments.
  *
  * `assess(moving, values)` promises an answer, or null if it is stale. `show` gets
- * `{phase, answer}`: "moving" (provisional), "settling" (the full model runs; no answer yet, or the
- * provisional one) or "rest". `fail` gets an error, and whether a slider moves.
+ * `{phase, answer, values}`, an answer with the values that it is of: "moving" (provisional), "settling"
+ * (the full model runs; no answer yet, or the provisional one) or "rest". `fail` gets an error, and
+ * whether a slider moves.
  */
 export function createSession(assess, show, fail) {
   let values = {};
@@ -21,10 +22,11 @@ export function createSession(assess, show, fail) {
     const asked = version;
     const isWanted = () => (moving && isMoving) || (asked === version && !(moving && isFull));
     try {
-      const answer = await assess(moving, { ...values }, whole);
+      const of = { ...values };
+      const answer = await assess(moving, of, whole);
       if (!answer || !isWanted()) return;
       isFull = !moving;
-      show({ phase: moving ? provisional(isMoving) : "rest", answer });
+      show({ phase: moving ? provisional(isMoving) : "rest", answer, values: of });
       if (answer.pending) await ask(false, true);
     } catch (error) {
       if (isWanted()) fail(error, moving);

@@ -3,19 +3,22 @@
 import { isSame, own } from "./changes.js";
 import { button, html, replace, words } from "./make.js";
 
-/** Show the controls of a project; returns how to follow its answers, and to mark where the verdict changes. */
-export function mountSliders(element, { sliders, choices }, values, session) {
-  const parts = [...sliders.map((item) => slider(item, values, session)), ...choices.map((item) => choice(item, values, session))];
+/**
+ * Show the controls of a project; returns how to draw them: at values, with what the tables show of
+ * them, by the ID of a control. `shown` is what the values of the tables amount to, `isCurrent` whether
+ * these are the values of the controls, and `turned` where the verdict changes.
+ */
+export function mountSliders(element, { sliders, choices }, session) {
+  const parts = [...sliders.map((item) => slider(item, session)), ...choices.map((item) => choice(item, session))];
   replace(element, parts.map(({ field }) => field));
-  const follow = (shown) => {
-    for (const { id, say } of parts) say(shown[id] ?? "");
-    depend(sliders, parts, session.values());
+  const draw = (values, tables) => {
+    for (const one of parts) one.draw(values, tables);
+    depend(sliders, parts, values);
   };
-  depend(sliders, parts, values);
-  return { follow, turn: (id, found) => parts.find((part) => part.id === id).turn(found) };
+  return { draw };
 }
 
-function slider(item, values, session) {
+function slider(item, session) {
   const id = `slider-${item.id}`;
   const output = html("output", { for: id, class: "numbers" });
   const amount = html("span", { class: "numbers amount" });
@@ -27,17 +30,12 @@ function slider(item, values, session) {
     step: item.step,
     "aria-describedby": item.help ? `${id}-help` : null,
     on: {
-      input: () => {
-        session.move(item.id, input.valueAsNumber, !input.matches(":active"));
-        mark();
-      },
+      input: () => session.move(item.id, input.valueAsNumber, !input.matches(":active")),
       pointerup: session.release,
     },
   });
   const set = (value) => {
-    input.value = value;
     session.set({ [item.id]: value });
-    mark();
     input.focus();
   };
   const back = button("Reset", () => set(item.typed), {
@@ -45,26 +43,22 @@ function slider(item, values, session) {
     title: "Back to the workbook's value",
     "aria-label": `${item.label}: back to the workbook's value`,
   });
-  const { turning, tryIt, turn, markTurn } = turnOf(item, session, set);
-  // `hidden` would move the focus; an untouched slider keeps the button's place.
-  const mark = () => {
-    const value = session.values()[item.id];
+  const { turning, tryIt, drawTurn } = turnOf(item, set);
+  const draw = (values, { shown, isCurrent, turned }) => {
+    const value = values[item.id];
+    const text = shown[item.id] ?? "";
+    // What is the same is not set: while a slider moves, the browser would lay out all of them each time.
+    if (input.valueAsNumber !== value) input.value = value;
+    // `hidden` would move the focus; an untouched slider keeps the button's place.
     back.classList.toggle("is-idle", value === item.typed);
-    amount.textContent = own(item, value);
-    say(said);
+    write(amount, own(item, value));
+    // One line, whatever it says: no control below it moves.
+    const stop = stopOf(item, value);
+    write(output, stop || (Number(text.replace("× ", "")) === value ? "" : text)); // said once
+    output.classList.toggle("is-former", !stop && !isCurrent);
+    input.setAttribute("aria-valuetext", (isCurrent && text) || amount.textContent);
+    drawTurn(values, turned[item.id]);
   };
-  // One line, whatever it says: no control below it moves.
-  let said = "";
-  const say = (text) => {
-    said = text;
-    const value = session.values()[item.id];
-    output.textContent = stopOf(item, value) || (Number(text.replace("× ", "")) === value ? "" : text); // said once
-    output.title = output.textContent;
-    input.setAttribute("aria-valuetext", text);
-    markTurn();
-  };
-  input.value = values[item.id];
-  mark();
   const field = html(
     "div",
     { class: "slider" },
@@ -73,27 +67,24 @@ function slider(item, values, session) {
     html("div", { class: "range" }, input, place(markAt("typed-mark"), item, item.typed), turning),
     item.help ? html("p", { class: "visually-hidden", id: `${id}-help` }, item.help) : null,
   );
-  return { id: item.id, field, say, turn };
+  return { id: item.id, field, draw };
 }
 
 // Where the verdict changes, at the values of the other sliders: a mark, and a button that tries it.
-function turnOf(item, session, set) {
+function turnOf(item, set) {
   const turning = markAt("turn-mark");
-  const tryIt = button("Try it", () => set(turned.value), { id: `turn-${item.id}`, class: "back turn" });
-  let turned = null;
-  const turn = (found) => {
-    turned = found && { ...found, others: session.values() };
-    markTurn();
-  };
-  const markTurn = () => {
-    const stays = turned && isSame({ ...session.values(), [item.id]: null }, { ...turned.others, [item.id]: null });
+  let tried = item.typed;
+  const tryIt = button("Try it", () => set(tried), { id: `turn-${item.id}`, class: "back turn" });
+  const drawTurn = (values, turned) => {
+    const stays = turned && isSame({ ...values, [item.id]: null }, { ...turned.others, [item.id]: null });
     for (const one of [turning, tryIt]) one.classList.toggle("is-idle", !stays);
     if (!stays) return;
-    place(turning, item, turned.value);
-    tryIt.textContent = `${turned.verdict.split(" ")[0]} at ${own(item, turned.value)}`;
-    tryIt.title = `Try it. At ${own(item, turned.value)} the verdict is ${turned.verdict}; at ${own(item, turned.before)} it is not. Values beyond are not tried.`;
+    tried = turned.value;
+    place(turning, item, tried);
+    tryIt.textContent = `${turned.verdict.split(" ")[0]} at ${own(item, tried)}`;
+    tryIt.title = `Try it. At ${own(item, tried)} the verdict is ${turned.verdict}; at ${own(item, turned.before)} it is not. Values beyond are not tried.`;
   };
-  return { turning, tryIt, turn, markTurn };
+  return { turning, tryIt, drawTurn };
 }
 
 // A mark below a slider. No datalist: its values pull the pointer, so that those beside it cannot be
@@ -107,24 +98,30 @@ function place(mark, { least, greatest }, value) {
   return mark;
 }
 
+// A line that is cut is whole in its title.
+function write(element, text) {
+  if (element.textContent === text) return;
+  element.textContent = text;
+  element.title = text;
+}
+
 // Why a slider goes no further, where it is at such an end.
 function stopOf({ least, greatest, stops }, value) {
   if (value <= least) return stops.least ?? "";
   return value >= greatest ? (stops.greatest ?? "") : "";
 }
 
-function choice(item, values, session) {
+function choice(item, session) {
   const name = `choice-${item.id}`;
-  const options = item.options.map(({ value, label, why_not: why }) =>
-    html("option", { value, selected: value === values[item.id], disabled: Boolean(why), title: why }, label),
-  );
+  const options = item.options.map(({ value, label, why_not: why }) => html("option", { value, disabled: Boolean(why), title: why }, label));
   const select = html("select", { id: name, title: item.help, on: { change: () => session.set({ [item.id]: select.value }) } }, options);
   const printed = html("p", { class: "note print-only" });
   const field = html("div", { class: "field" }, html("label", { for: name }, words(item.label)), select, printed);
-  const say = () => {
-    printed.textContent = select.selectedOptions[0].label;
+  const draw = (values) => {
+    if (select.value !== values[item.id]) select.value = values[item.id];
+    write(printed, select.selectedOptions[0].label);
   };
-  return { id: item.id, field, say };
+  return { id: item.id, field, draw };
 }
 
 // Some sliders act only beside a choice.

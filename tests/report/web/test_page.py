@@ -223,6 +223,34 @@ def test_a_mark_on_a_slider_says_where_the_verdict_changes_and_enters_it(page):
 
 
 @pytest.mark.nightly
+def test_beside_the_sliders_is_nothing_of_other_values_while_these_are_computed_or_fail(page):
+    friction = page.locator("#controls .slider").first
+    text, held = friction.locator("output"), []
+
+    def assert_nothing_is_said():
+        text.wait_for(state="hidden")
+        assert friction.locator(".amount").inner_text() == "× 0.79"
+        assert page.locator("#controls output:visible, #controls .turn:visible").count() == 0
+        assert page.locator("#slider-friction").get_attribute("aria-valuetext") == "× 0.79"
+
+    moved(page, "friction", 0.8)
+    at_rest(page)
+    assert text.inner_text().startswith("0.40 (A1, A2)")
+    page.locator("#turn-friction:not(.is-idle)").wait_for(timeout=60_000)
+    page.route("**/api/assess", lambda route: held.append(route))
+    page.locator("#slider-friction").press("ArrowLeft")
+    assert_nothing_is_said()
+    for route in held:
+        route.abort()
+    page.wait_for_selector("body[data-phase=failed]")
+    assert_nothing_is_said()
+    page.unroute("**/api/assess")
+    page.click("text=Try again")
+    at_rest(page)
+    assert text.inner_text().startswith("0.395 (A1, A2)")
+
+
+@pytest.mark.nightly
 def test_units_are_a_choice_of_the_page_and_of_what_is_saved(page):
     page.select_option("#choice-units", "SI")
     page.wait_for_url("**/#units=SI")

@@ -199,11 +199,16 @@ SLIDER = {
 MOUNT = """
     document.body.innerHTML = "<div></div>";
     document.body.firstChild.style.width = "250px";
-    const values = { friction: g.value };
-    const move = (id, value) => (values[id] = value);
-    const session = { values: () => values, move, set() {}, release() {} };
+    const values = { friction: g.value, slope: 0 };
+    const tables = { shown: { friction: "0.45 (A1)" }, isCurrent: true, turned: {}, ...g.tables };
+    const move = (id, value) => {
+      values[id] = value;
+      controls.draw(values, tables);
+    };
+    const session = { move, set() {}, release() {} };
     const state = { sliders: [g.slider], choices: [] };
-    m.mountSliders(document.body.firstChild, state, values, session);
+    const controls = m.mountSliders(document.body.firstChild, state, session);
+    controls.draw(values, tables);
     document.querySelector("input").style.width = "250px";
     const shown = (selector) => document.querySelector(selector).textContent;
 """
@@ -213,9 +218,9 @@ MOUNT = """
     ("value", "shown"),
     [
         (1.01, ["× 1.01", "No value beyond the greatest.", False]),
-        (1, ["× 1.00", "", True]),
-        (0.5, ["× 0.50", "", False]),
-        (1.001, ["× 1.001", "", False]),
+        (1, ["× 1.00", "0.45 (A1)", True]),
+        (0.5, ["× 0.50", "0.45 (A1)", False]),
+        (1.001, ["× 1.001", "0.45 (A1)", False]),
     ],
 )
 def test_a_slider_shows_the_value_that_is_computed_and_why_it_goes_no_further(page, value, shown):
@@ -223,6 +228,31 @@ def test_a_slider_shows_the_value_that_is_computed_and_why_it_goes_no_further(pa
         const isIdle = document.querySelector(".back").classList.contains("is-idle");
         return [shown(".amount"), shown("output"), isIdle];"""
     assert called(page, "sliders", body, {"slider": SLIDER, "value": value}) == shown
+
+
+BESIDE = """
+    const has = (selector, name) => document.querySelector(selector).classList.contains(name);
+    const isMarked = !has(".turn-mark", "is-idle") && !has(".turn", "is-idle");
+    const said = document.querySelector("input").getAttribute("aria-valuetext");
+    return [has("output", "is-former"), said, isMarked && shown(".turn")];"""
+TURNED = {"value": 1.0, "before": 0.99, "verdict": "OK", "others": {"friction": 0.8, "slope": 0}}
+
+
+@pytest.mark.parametrize(
+    ("tables", "beside"),
+    [
+        ({}, [False, "0.45 (A1)", False]),
+        ({"turned": {"friction": TURNED}}, [False, "0.45 (A1)", "OK at × 1.00"]),
+        # What the tables show is of other values, or of no answer.
+        ({"isCurrent": False}, [True, "× 0.90", False]),
+        ({"isCurrent": False, "shown": {}}, [True, "× 0.90", False]),
+        # Found beside another slope.
+        ({"turned": {"friction": TURNED | {"others": {"slope": 1}}}}, [False, "0.45 (A1)", False]),
+    ],
+)
+def test_text_and_mark_beside_a_slider_are_of_the_values_of_the_tables(page, tables, beside):
+    given = {"slider": SLIDER, "value": 0.9, "tables": tables}
+    assert called(page, "sliders", MOUNT + BESIDE, given) == beside
 
 
 @pytest.mark.nightly
