@@ -65,6 +65,7 @@ def made(keys: Keys, folder: Path, hosts: Collection[str]) -> Starlette:
     return Starlette(
         routes=[
             Route("/", _index),
+            Route("/p/{project}/", _index),  # the page compares it with what is open
             Route(ENTRY, _key, methods=["POST"]),
             Route("/api/token", _token, methods=["POST"]),
             Route("/api/state", _state),

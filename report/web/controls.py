@@ -5,6 +5,7 @@ Only those are offered that the cells of the workbook can express. Read `opened`
 
 from __future__ import annotations
 
+import hashlib
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -43,6 +44,12 @@ class Opened:
     by_motion: Sequence[Components]
     shaking: Shaking
     typed: Mapping[Place, Typed] = field(default_factory=dict)
+
+    @property
+    def id(self) -> str:
+        """Name of the project in addresses, which no other workbook or records have."""
+        whole = "\n".join((self.sheet.sha256, *self.shaking.hashes))
+        return hashlib.sha256(whole.encode()).hexdigest()[:12]
 
     @property
     def scales(self) -> dict[str, float]:

@@ -158,6 +158,7 @@ def state(workbook: Path, job: Json) -> Json:
         "project": {
             "name": opened.sheet.project.project.name,
             "sha256": opened.sheet.sha256,
+            "id": opened.id,
         },
         "lacks": ["clearances"] if any(pair.is_missing for pair in near) else [],
         "problems": [],

@@ -17,9 +17,9 @@ const OTHER_PROJECT = 412; // is open
 const UNREACHED = 0;
 const KEY = "roofslip-key";
 
-/** Load the page again, without the values in its address: they belong to the project that was open. */
+/** Load the page again, without the project and the values of its address: another one is open. */
 export function reload() {
-  location.replace(location.pathname);
+  location.replace("/");
 }
 
 const PATIENCE_MS = 20_000; // with a server that says how far a package is

@@ -71,8 +71,12 @@ mountTabs(part("tabs"), (panel) => views.open(panel));
 mountUpload({ zone: part("drop"), files: part("files"), folder: part("folder") }, { begin: showBusy, take, fail });
 part("back").addEventListener("click", showProject);
 part("example").addEventListener("click", () => opening(api.example, { words: "Opening the example …" }));
-part("add-clearances").addEventListener("click", () => opening(api.addClearances, { isRestored: true }));
+part("add-clearances").addEventListener("click", () => opening(api.addClearances, { valuesOf: session.values }));
 for (const key of ["array", "motion"]) part(key).addEventListener("change", ({ target }) => choose({ [key]: target.value }));
+document.querySelector(".skip").addEventListener("click", (event) => {
+  event.preventDefault(); // else it would take the values out of the address
+  part("results").focus();
+});
 part("undo").addEventListener("click", () => history.back());
 part("reset-all").addEventListener("click", () => setAll({}));
 for (const kind of ["png", "svg"]) part(`save-${kind}`).addEventListener("click", () => saveDrawing(document.querySelector("[role=tabpanel]:not([hidden])"), kind, state.project.name).catch(fail));
@@ -84,8 +88,8 @@ addEventListener("keydown", (event) => {
 // Each values at rest are an entry of the history; before the first of the project Back stays in it.
 addEventListener("popstate", ({ state: entry }) => {
   if (!state?.project) return;
-  if (!entry) history.replaceState({ depth: 0, opened: state.opened }, ""); // the address was edited
-  if (entry && (entry.depth < 0 || entry.opened !== state.opened)) history.forward();
+  if (!entry) history.replaceState({ depth: 0 }, ""); // the address was edited
+  if (entry?.depth < 0 || !isOfProject()) history.forward();
   else setAll(fromFragment(location.hash, state.sliders, state.choices));
 });
 history.replaceState({ depth: -1 }, "");
@@ -98,10 +102,8 @@ tabs.addEventListener("message", ({ data: { opened, name } }) => {
   replace(part("error"), html("p", {}, `Another tab has opened ${name}. This page still shows ${state.project.name}, which no longer answers.`), button("Reload", reload));
   part("error").hidden = false;
 });
-opening(() => api.enter().then(api.state), { isRestored: true });
+opening(() => api.enter().then(api.state), { valuesOf: fromAddress });
 
-// Fetch a state and show it: the example, an upload, or what is open. Only what the
-// server holds belongs to the values in the address.
 function take(files) {
   dropped = files;
   // What is offered is for the workbook before.
@@ -121,7 +123,9 @@ function showBusy(text) {
   part("busy").hidden = text === "";
 }
 
-async function opening(fetched, { isRestored = false, words = "" } = {}) {
+// Fetch a state and show it: the example, an upload, or what is open, with values upon those of its
+// workbook where something gives them.
+async function opening(fetched, { valuesOf = () => ({}), words = "" } = {}) {
   showBusy(words);
   document.body.setAttribute("aria-busy", "true");
   hideError();
@@ -129,7 +133,7 @@ async function opening(fetched, { isRestored = false, words = "" } = {}) {
     const next = await fetched();
     if (!next) return; // something else is being opened since, which has its own words
     showBusy("");
-    open(next, isRestored);
+    open(next, valuesOf);
   } catch (error) {
     showBusy("");
     fail(error);
@@ -137,7 +141,7 @@ async function opening(fetched, { isRestored = false, words = "" } = {}) {
   document.body.removeAttribute("aria-busy");
 }
 
-function open(next, isRestored) {
+function open(next, valuesOf) {
   motions.offer(next.lacks[0] === "motions" ? dropped : null);
   offerDrawing(dropped, dropped && next.drawing);
   showSteps(next);
@@ -146,15 +150,36 @@ function open(next, isRestored) {
     return;
   }
   state = next;
+  part("other-project").hidden = true;
+  const values = valuesOf();
   showProject();
   replace(part("warnings"), warnings(state.warnings));
   fillSelects();
   controls = mountSliders(part("controls"), state, session);
-  history.replaceState({ depth: 0, opened: state.opened }, "", isRestored ? location.href : location.pathname);
+  history.replaceState({ depth: 0 }, "", address(values));
   // oxlint-disable-next-line unicorn/require-post-message-target-origin -- a channel has none
   tabs.postMessage({ opened: state.opened, name: state.project.name });
-  setAll(fromFragment(location.hash, state.sliders, state.choices));
+  setAll(values);
   takeaway.open(state.package);
+}
+
+// What an address has belongs to the project that it names. One that names another has nothing to give.
+function fromAddress() {
+  if (isOfProject()) return fromFragment(location.hash, state.sliders, state.choices);
+  if (location.pathname !== "/" || location.hash) {
+    part("other-project-name").textContent = state.project.name;
+    part("other-project").hidden = false;
+  }
+  return {};
+}
+
+function isOfProject() {
+  return location.pathname === `/p/${state.project.id}/`;
+}
+
+function address(values) {
+  const fragment = toFragment(values, [...state.sliders, ...state.choices]);
+  return `/p/${state.project.id}/${fragment && `#${fragment}`}`;
 }
 
 // What a workbook lacks before it has a verdict, in the order in which the page can give it.
@@ -263,6 +288,7 @@ function showPicked() {
 }
 
 function showMoving(phase, next) {
+  part("other-project").hidden = true;
   turns.stop();
   const isFormer = document.body.dataset.values === "former";
   views.moving();
@@ -273,8 +299,8 @@ function showMoving(phase, next) {
 }
 
 function enterValues() {
-  const fragment = toFragment(session.values(), [...state.sliders, ...state.choices]);
-  if (`#${fragment}` !== (location.hash || "#")) history.pushState({ depth: history.state.depth + 1, opened: state.opened }, "", fragment ? `#${fragment}` : location.pathname);
+  const next = address(session.values());
+  if (next !== location.pathname + location.hash) history.pushState({ depth: history.state.depth + 1 }, "", next);
 }
 
 function showRest() {

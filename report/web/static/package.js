@@ -6,7 +6,7 @@ import { save } from "./saving.js";
 
 const POLL_MS = 500;
 const WHAT = "The package and the workbook get the values of the page.";
-const COPIED = "The link is copied. It opens these values once, in another tab, as long as roofslip serve runs.";
+const COPIED = "The link is copied. It opens these values once, in another tab, as long as this project is open in roofslip serve.";
 
 /**
  * Make the buttons work: `values` gives those of the sliders, `words` says what values change, `fail`
@@ -157,7 +157,7 @@ async function saveWorkbook(status, api, values) {
 
 async function copyLink(status, api) {
   const { token } = await api.newToken();
-  const link = `${location.origin}/?token=${token}${location.hash}`;
+  const link = `${location.origin}${location.pathname}?token=${token}${location.hash}`;
   try {
     await navigator.clipboard.writeText(link);
     say(status, api, COPIED);

@@ -62,6 +62,12 @@ def test_a_first_visit_shows_the_example_with_its_answer(client):
     assert [cells[0]["text"] for cells in rows] == state["views"]["arrays"]
 
 
+def test_an_address_that_names_a_project_is_that_of_the_page(client):
+    named = f"/p/{state_of(client)['project']['id']}/"
+    assert client.get(named).content == client.get("/").content
+    assert client.get("/p/").status_code == 404
+
+
 def test_a_value_that_the_workbook_could_not_have_is_refused_with_its_cell(client):
     answer = asked(client, {"rule_set": "ASCE 7-22"})
     assert answer.status_code == 422

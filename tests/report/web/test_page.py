@@ -339,6 +339,12 @@ def test_the_page_works_with_the_keyboard_alone(page):
     tabbed_to("#slider-friction")
     page.keyboard.press("ArrowLeft")
     page.wait_for_url("**/#friction=0.99")
+    page.locator(".skip").press("Enter")
+    assert page.evaluate("document.activeElement.id") == "results"
+    assert (page.url[-14:], page.inner_text("#changed")) == (
+        "#friction=0.99",
+        "With Friction × 0.99",
+    )
     tabbed_to("#tab-plan")
     page.keyboard.press("End")
     assert page.locator("#histories").is_visible()

@@ -234,6 +234,49 @@ def test_a_tab_whose_project_another_tab_has_replaced_shows_none_of_the_other(
 
 
 @pytest.mark.nightly
+def test_values_of_an_address_are_those_of_the_project_that_it_names_or_are_refused(
+    page, address, tmp_path
+):
+    def assert_refused():
+        page.wait_for_selector("#other-project:visible")
+        assert "not of the project that is open" in page.inner_text("#other-project")
+        assert page.inner_text("#changed") == "With the values of the workbook"
+
+    of_the_example = page.url
+    moved(page, "friction", 0.9)
+    page.wait_for_url(f"{of_the_example}#friction=0.9")
+    at_rest(page)
+    sent(page, CONDITIONS, tmp_path / "conditions")
+    page.wait_for_selector("h1:has-text('Small Warehouse')")
+    at_rest(page)
+    of_conditions, as_typed = page.url, numbers(page, "arrays", 2)
+    assert of_conditions != of_the_example
+    # Back to what was entered in the example.
+    page.evaluate("history.back()")
+    page.wait_for_timeout(500)
+    assert (page.url, numbers(page, "arrays", 2)) == (of_conditions, as_typed)
+    # A link; an address that names no project.
+    nameless = address.partition("?")[0]
+    for other in (of_the_example, f"{of_the_example}#friction=0.9", f"{nameless}#slope=1"):
+        page.goto(other)
+        assert_refused()
+        assert (page.url, numbers(page, "arrays", 2)) == (of_conditions, as_typed)
+    # Its own values, also after it is loaded again.
+    page.goto(f"{of_conditions}#slope=1")
+    page.wait_for_selector("#other-project", state="hidden")
+    page.reload()
+    at_rest(page)
+    assert page.locator("#slider-slope").input_value() == "1"
+    assert numbers(page, "arrays", 2) != as_typed
+    # What was open is no longer, as where the server was started again.
+    other = page.context.new_page()
+    opened(other, address)
+    page.reload()
+    assert_refused()
+    assert page.url == of_the_example
+
+
+@pytest.mark.nightly
 def test_clearances_that_the_plan_lacks_are_added_by_a_button(page, tmp_path):
     assert not page.is_visible("#add-clearances")
     make(tmp_path / "roof", clearances=[], objects=SECTIONS["objects"][:1])

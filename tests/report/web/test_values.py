@@ -278,6 +278,17 @@ def test_a_clearance_that_moves_runs_nothing_again(monkeypatch):
         at_rest("example", friction=0.92, clearance=-5.0)
 
 
+def test_a_project_is_named_by_its_workbook_and_records_wherever_they_are(tmp_path):
+    row = {"id": "M1", "record": "records/x.csv", "units": "g", "dt_s": 0.01}
+    make(tmp_path / "a", motions=[row])
+    shutil.copytree(tmp_path / "a", tmp_path / "b")
+    first = opened(tmp_path / "a").id
+    assert opened(tmp_path / "b").id == first
+    record = tmp_path / "b" / "records" / "x.csv"
+    record.write_text(record.read_text().replace("0.1", "0.2", 1))
+    assert opened(tmp_path / "b").id != first
+
+
 def test_values_as_typed_change_no_cell():
     given = start("example")
     items = offered("example") | offered("example", "choices")
