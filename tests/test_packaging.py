@@ -91,6 +91,8 @@ def test_every_dependency_is_locked_with_hashes_and_without_addresses():
     asked = [*PROJECT["project"]["dependencies"], *groups["dev"], *groups["build"], *chain(*extras)]
     named = [name for name in asked if isinstance(name, str)]
     assert {name_of(name).lower() for name in named} <= locked
+    # From there it follows no link, and up to there it removes the file that it locks.
+    assert "filelock>=3.20.3,<3.26" in PROJECT["project"]["dependencies"]
     for entry in re.split(r"^(?=[\w.-]+==)", lock, flags=re.MULTILINE)[1:]:
         assert "--hash=sha256:" in entry, entry.splitlines()[0]
     assert "://" not in lock

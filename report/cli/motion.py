@@ -236,9 +236,9 @@ def rows(
     """
     with input_errors(source), TemporaryDirectory() as temporary:
         from report.motions.sets import sets_of, table
+        from report.motions.stored import unpack
         from report.results.motions import row_cells, set_rows
         from report.sheet.writing.filled import changing
-        from report.web.files import unpack
         from solver.model import InputError
 
         # A default would be wrong in silence: ground motions go through the building.

@@ -13,10 +13,10 @@ import pytest
 from inputs import HEAD
 from nightly import by_day
 from places import ROOT
+from report.motions.stored import store
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import ClearanceSource
 from report.web.access import KEY_HEADER
-from report.web.files import store
 from report.web.worker import State, answered
 from sheets import SECTIONS, at, blank, make, type_into
 

@@ -7,7 +7,7 @@ import zipfile
 import pytest
 
 from nightly import by_day
-from report.web.files import checked, store
+from report.motions.stored import checked, store
 from solver.model import InputError
 
 pytestmark = pytest.mark.quick
@@ -88,7 +88,7 @@ def test_a_link_in_a_zip_is_refused(tmp_path):
 
 
 def test_a_bomb_is_stopped_while_it_is_unpacked(tmp_path, monkeypatch):
-    monkeypatch.setattr("report.web.files.MOST_STORED", 3_000_000)
+    monkeypatch.setattr("report.motions.stored.MOST_STORED", 3_000_000)
     with pytest.raises(InputError, match="more than 3 MB"):
         store(packed([("input.xlsx", bytes(50_000_000))]), tmp_path)
     assert sum(path.stat().st_size for path in tmp_path.rglob("*") if path.is_file()) <= 3_000_000
