@@ -243,10 +243,9 @@ def find_file(book: OpenBook, name: str) -> tuple[Path, str]:
     Raises `InputError` if it does not exist, or is outside the workbook's folder.
     """
     file, _, channel = name.partition(BAR)
-    sheets = (sheet.values for sheet in book.book.worksheets if sheet.title == "Motions")
-    cells = (str(cell) for rows in sheets for row in rows for cell in row if cell)
+    cells = book.cells("Motions") if "Motions" in book.sheets else ()
     # Files that the sheet names are not proposed for one that is missing.
-    taken = (cell.partition(BAR)[0].strip() for cell in cells)
+    taken = (str(cell.value).partition(BAR)[0].strip() for cell in cells if cell.value)
     path = path_beside(book.path.parent, file.strip(), MAX_BYTES, "records/m1-x.csv", taken)
     return path, channel.strip()
 

@@ -13,7 +13,7 @@ import re
 import warnings
 import zipfile
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -76,6 +76,12 @@ class OpenBook:
     def extent(self, title: str) -> Extent:
         """Return the extent of a sheet's values."""
         return self.scans[title].extent
+
+    def cells(self, title: str) -> Iterator[Any]:
+        """Yield the cells of a sheet that its file has, row by row."""
+        # openpyxl's own rows have every cell up to the last one, and make those that are missing.
+        for row, column in sorted(self.scans[title].cells):
+            yield self.sheets[title].cell(row, column)
 
     def formula(self, title: str, cell: str) -> str:
         """Return the formula typed into a cell, empty if there is none."""
@@ -214,6 +220,8 @@ def _scans_by_title(archive: zipfile.ZipFile, scans: Mapping[str, Scan]) -> dict
             raise InputError(
                 f"sheet '{title}': its part {part or '(no name)'} is missing; {REOPEN}"
             )
+        if scans[part].is_beyond:
+            raise InputError(f"damaged at {part}; {REOPEN}")
         by_title[title] = scans[part]
         if cell := scans[part].twice:
             raise InputError(f"{title}!{cell}: the file has this cell twice; {REOPEN}")

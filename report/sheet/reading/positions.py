@@ -17,6 +17,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.cells import Found
+from report.sheet.reading.scan import LAST_COLUMN, LAST_ROW
 from report.sheet.schema import layout
 from report.sheet.schema.fields import Entry, SheetSection, entries
 from solver.model import InputError, Problem
@@ -26,9 +27,6 @@ SCANNED_ROWS = 200
 FRESH = "copy it from a fresh workbook (roofslip new FOLDER)"
 _HEADING = re.compile(r"(.*?) ?(?:\[([^\[\]]*)\])?")
 _AREA = re.compile(r"(?:'((?:[^']|'')+)'|([^'!]+))!(\$?[A-Z]+\$?[0-9]+(?::\$?[A-Z]+\$?[0-9]+)?)")
-
-# Of a sheet of Excel.
-_LAST_COLUMN, _LAST_ROW = 16_384, 1_048_576
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +134,7 @@ def bounds_of(reference: str | None) -> tuple[int, int, int, int] | None:
     # A:C has no rows, and a damaged file may say A0.
     if not (left and top and right and bottom):
         return None
-    is_on_sheet = max(left, right) <= _LAST_COLUMN and max(top, bottom) <= _LAST_ROW
+    is_on_sheet = max(left, right) <= LAST_COLUMN and max(top, bottom) <= LAST_ROW
     return (left, top, right, bottom) if is_on_sheet else None
 
 

@@ -29,6 +29,8 @@ MAX_OTHERS = 100_000
 MAX_SPREAD_CELLS = 100_000
 # As many characters as Excel allows (Excel specifications and limits).
 MAX_FORMULA = 8192
+# Of a sheet of Excel.
+LAST_COLUMN, LAST_ROW = 16_384, 1_048_576
 _VALUES = frozenset(("v", "f", "t", "is", "si"))
 _FORMULAS = frozenset(("f", "definedName", "formula", "formula1", "formula2"))
 # Formulas that fetch from elsewhere: DDE is `app|topic!item`. A bar within quotes is text.
@@ -87,11 +89,13 @@ class Scan(ContentHandler):
     budget: Budget
     extent: Extent = field(default_factory=Extent)
     formulas: dict[str, tuple[str, str]] = field(default_factory=dict)
+    cells: set[tuple[int, int]] = field(default_factory=set)  # that are there: row and column
     # Of the part of the workbook, how it was calculated (ECMA-376-1, 18.2.2).
     calculation: dict[str, str] = field(default_factory=dict)
     outside: list[str] = field(default_factory=list)  # what it takes values or pictures from
     twice: str = ""  # a cell, or a defined name, that is there twice: openpyxl keeps the last
-    _once: set[Any] = field(default_factory=set)
+    is_beyond: bool = False  # whether it has a cell that no sheet has
+    _once: set[tuple[str, str | None]] = field(default_factory=set)
     _shared: dict[str, tuple[str, str]] = field(default_factory=dict)
     _formula: Mapping[str, str] | None = None
     _text: list[str] = field(default_factory=list)
@@ -111,8 +115,12 @@ class Scan(ContentHandler):
                 self._column += 1
                 if reference := attrs.get("r"):
                     self._row, self._column = coordinate_to_tuple(reference)
-                if self._is_again(self._row, self._column):
+                at = self._row, self._column
+                if not (0 < self._row <= LAST_ROW and 0 < self._column <= LAST_COLUMN):
+                    self.is_beyond = True
+                if at in self.cells:
                     self.twice = f"{get_column_letter(self._column)}{self._row}"
+                self.cells.add(at)
             case "v" | "is":
                 self.extent.grow(self._row, self._column)
             case _ if element in _FORMULAS:
@@ -122,8 +130,10 @@ class Scan(ContentHandler):
                 # LibreOffice writes those of Excel's own twice, such as _xlnm.Print_Titles.
                 defined = attrs.get("name", "_xlnm.")
                 is_own = defined.startswith("_xlnm.")
-                if not is_own and self._is_again(defined.casefold(), attrs.get("localSheetId")):
+                key = defined.casefold(), attrs.get("localSheetId")
+                if key in self._once and not is_own:
                     self.twice = defined
+                self._once.add(key)
             case "ddeLink":
                 self.outside.append(f"DDE {attrs.get('ddeService')}|{attrs.get('ddeTopic')}")
             case "connection" if attrs.get("name"):
@@ -135,11 +145,6 @@ class Scan(ContentHandler):
                 self._spread(attrs.get("ref"))
             case "calcPr":
                 self.calculation = dict(attrs)
-
-    def _is_again(self, *key: Any) -> bool:
-        is_again = key in self._once
-        self._once.add(key)
-        return is_again
 
     def characters(self, content: str) -> None:
         """Gather the text of a formula."""
