@@ -1,17 +1,19 @@
 """Writes files whole, one or a set, by one process at a time; follows nothing in their places.
 
-Knows no format. What the files of a package are: `report.results.publish`. Read `write_all`.
+Also reads what a user names, and says where a name from elsewhere leads. Knows no format. What the
+files of a package are: `report.results.publish`. Read `write_all`, `read_file` and `within`.
 """
 
 from __future__ import annotations
 
 import os
+import re
 import secrets
 import shutil
 import stat
 import sys
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
@@ -24,8 +26,93 @@ WAIT_S = 60.0
 LONGEST = 259
 """Letters of the longest path on Windows, where its long paths are not enabled."""
 
+_MOST_NAME, _DEEPEST = 200, 8
+_MOST_BYTES = 255  # of a name, in the file systems of today
+# What Windows allows in no name: a project is taken along to any system.
+_FORBIDDEN = re.compile(r'[\x00-\x1f\x7f<>:"|?*]|[. ]$')
+_DEVICE = re.compile(
+    r"(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[0-9¹²³])\s*(\..*)?", re.IGNORECASE
+)
+
 PAUSES_S = (0.1,) * 10 if sys.platform == "win32" else ()
 """Between tries of what Windows refuses while a scanner or OneDrive has a file open [s]."""
+
+
+def read_file(path: Path, most: int, name: str = "", *, too_large: str = "") -> bytes:
+    """Return the content of a file that a user names, opened and read once.
+
+    Messages begin with `name` where a command is about another file, and say what to do with one
+    that is too large.
+
+    Raises
+    ------
+    InputError
+        If it is no file, has more bytes than `most`, or cannot be read.
+    """
+    begin, content = f"{name}: " if name else "", b""
+    try:
+        status = path.stat()
+        # A pipe would wait for ever, and opening a device may do something to it.
+        if stat.S_ISREG(status.st_mode):
+            with open(path, "rb", opener=_at_once) as file:
+                # It may be another one by now.
+                status = os.fstat(file.fileno())
+                if stat.S_ISREG(status.st_mode) and status.st_size <= most:
+                    # One more tells a file that grows, or that states no size.
+                    content = file.read(most + 1)
+    except (OSError, ValueError) as error:  # ValueError: of a null character
+        close = "close it in other programs, or check its rights"
+        reason = getattr(error, "strerror", error)
+        raise InputError(f"{begin}cannot be read ({reason}); {close}") from error
+    if not stat.S_ISREG(status.st_mode):
+        kind = "a folder" if stat.S_ISDIR(status.st_mode) else "a pipe or a device"
+        raise InputError(f"{begin}is {kind}; give a file")
+    if max(status.st_size, len(content)) > most:
+        raise InputError(f"{begin}larger than {most / 1e6:g} MB{too_large and f'; {too_large}'}")
+    return content
+
+
+def _at_once(path: str, flags: int) -> int:
+    """Open a file without waiting for who writes to it."""
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
+
+
+def within(folder: Path, name: str) -> Path:
+    """Return the path below a folder that a name from elsewhere stands for, on every system.
+
+    Raises
+    ------
+    InputError
+        If it leads out of the folder or to a device, or would be another name on Windows.
+    """
+    parts = name.replace("\\", "/").split("/")
+    if wrong := _wrong(name, parts):
+        raise InputError(f"'{printable(name)}' {wrong}")
+    return folder.joinpath(*parts)
+
+
+def _wrong(name: str, parts: Sequence[str]) -> str:
+    """Return what is wrong with a path and what would do; empty if nothing is."""
+    longest = max(len(part.encode(errors="surrogatepass")) for part in parts)
+    if len(name) > _MOST_NAME or longest > _MOST_BYTES:
+        return "is too long; shorten its name"
+    if len(parts) > _DEEPEST:
+        return f"is more than {_DEEPEST - 1} folders deep; move it up"
+    if any(part in ("", ".", "..") for part in parts):
+        return "is no path within a folder; rename the file"
+    if reserved := [part for part in parts if _DEVICE.fullmatch(part)]:
+        return f"is not allowed: Windows reserves the name '{reserved[0]}'; rename it"
+    if any(_FORBIDDEN.search(part) for part in parts):
+        return (
+            "has a character that Windows does not allow in a name, such as : or ?, or ends with "
+            "a period or a space; rename it"
+        )
+    return ""
+
+
+def printable(name: str) -> str:
+    """Return the beginning of a name from elsewhere as it may be printed."""
+    return _FORBIDDEN.sub("?", name)[:60]
 
 
 def write_whole(path: Path, content: bytes) -> None:

@@ -246,14 +246,14 @@ def rows(
             raise InputError(
                 "--at is missing; give --at roof or --at ground, where the motions were recorded"
             )
-        folder = _in_library(source)
-        if folder.is_file():
-            zipped, folder = folder, Path(temporary, folder.stem)
+        folder, name = _in_library(source), ""
+        if not folder.is_dir():
+            # The name of a zip is that of motions, and never of a folder: it may be "..".
+            zipped, folder, name = folder, Path(temporary), folder.stem
             unpack(zipped, folder)
-            # Some networks send a zip of the zips of each station.
-            for inner in folder.rglob("*.zip"):
-                unpack(inner, inner.with_suffix(""))
-        sets, left = sets_of(folder, units or "", dt_s, without_vertical=without_vertical)
+        sets, left = sets_of(
+            folder, units or "", dt_s, name=name, without_vertical=without_vertical
+        )
         wanted = [name.casefold() for name in only or ("*",)]
         for name in list(sets):
             if not any(fnmatchcase(name.casefold(), each) for each in wanted):

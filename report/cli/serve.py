@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 LOOPBACK, PORT = "127.0.0.1", 8765
 HTTP_PORT = 80
-SHORTEST_TOKEN = 20
+SHORTEST_TOKEN, MOST_TOKEN = 20, 10_000
 
 # What stands in an address without being escaped (RFC 3986, 2.3).
 _TOKEN = re.compile(r"[A-Za-z0-9_~.-]+")
@@ -141,7 +141,10 @@ def names_of(host: str | None, port: int) -> tuple[str, Sequence[str]]:
 
 def _token(file: Path) -> str:
     """Return the token of a file; exit where it is too short, or no part of an address."""
-    token = file.read_text(encoding="utf-8", errors="replace").strip()
+    with input_errors(file):
+        from solver.files import read_file
+
+        token = read_file(file, MOST_TOKEN).decode(errors="replace").strip()
     if len(token) < SHORTEST_TOKEN or not _TOKEN.fullmatch(token):
         wanted = f"{SHORTEST_TOKEN} or more letters, digits, '-', '_', '.' and '~', on one line"
         click.echo(f"{file}: has no token; give {wanted}.", err=True)

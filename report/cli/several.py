@@ -178,7 +178,7 @@ def package(source: Path, is_shared: bool = False) -> ReportOutcome:
     Where its folder is that of others as well, to a folder of its own below out/.
     """
     from report.making import make
-    from report.results.publish import output_folder
+    from report.results.publish import check_of_workbook, output_folder
     from solver.model import InputError
 
     started, lines = time.monotonic(), list[str]()
@@ -187,6 +187,7 @@ def package(source: Path, is_shared: bool = False) -> ReportOutcome:
     try:
         if is_shared:
             out = output_folder(None, workbook.parent, f"out/{workbook.stem}")
+            check_of_workbook(out, "results.json", workbook.name)
         with no_collections():
             made = make(source, out, None, lambda _: None, on_record=lines.append)
         assessment, folder, *_ = made

@@ -233,6 +233,7 @@ def _print(proof: Proof, written: str) -> None:
 
 
 _FILE = Existing(dir_okay=False)
+MOST_KEY = 1_000_000
 
 
 @click.command()
@@ -249,19 +250,21 @@ def sign(file: Path, p12: Path, password: str | None, time_stamp: str, out: Path
 
     The package itself stays as it is, and verifies as before. Nothing is sent anywhere but to URL.
     """
+    from report.proof.package import read_package
     from report.proof.signatures import signed
-    from solver.files import check_plain, write_whole
+    from solver.files import check_plain, read_file, write_whole
     from solver.model import InputError
 
     # The package is evidence: the signed one has a name of its own.
     target = out or file.with_name(f"{file.stem}-signed.pdf")
     with input_errors(file):
+        certificate = read_file(p12, MOST_KEY, p12.name)
         if out is None:
             check_plain(target, file.parent)
         password = _asked() if password is None else password
         if target.exists() and target.samefile(file):
             raise InputError("the signed package needs a name of its own; choose another --out")
-        content = signed(file.read_bytes(), p12.read_bytes(), password, time_stamp)
+        content = signed(read_package(file), certificate, password, time_stamp)
         write_whole(target, content)
     click.echo(target)
 

@@ -21,6 +21,7 @@ from report.sheet.reading.typed_text import number_in, separator, unit_named, wi
 from report.sheet.schema.shapes import Point, Shape, solid
 from report.text.counts import cut
 from report.text.units import LENGTHS
+from solver.files import read_file
 from solver.model import InputError
 
 MAX_BYTES, MAX_ROWS, MAX_BLOCKS = 5 * MB, 20_000, 10_000
@@ -48,11 +49,7 @@ def read_map(path: Path, unit_m: float) -> Any:
 
     Raises `InputError` with every line that is wrong, or if the file is too large or no such CSV.
     """
-    with path.open("rb") as file:
-        # One byte more than allowed tells that there is more, without reading it.
-        data = file.read(MAX_BYTES + 1)
-    if len(data) > MAX_BYTES:
-        raise InputError(f"more than {MAX_BYTES // MB} MB; keep the columns {', '.join(COLUMNS)}")
+    data = read_file(path, MAX_BYTES, too_large=f"keep the columns {', '.join(COLUMNS)}")
     is_utf_16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     try:
         content = data.decode("utf-16" if is_utf_16 else "utf-8-sig").splitlines()

@@ -8,6 +8,7 @@ of text such as `RTU-1, height 42 in` have names and heights.
 from __future__ import annotations
 
 import cmath
+import io
 import logging
 import math
 import re
@@ -22,6 +23,7 @@ from report.sheet.reading.typed_text import plain_marks
 from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.shapes import Point
 from report.text.units import LENGTHS
+from solver.files import read_file
 from solver.model import InputError
 from solver.suggestions import meant
 
@@ -132,18 +134,11 @@ def other_unit(code: int) -> str:
     return f"states {stated}; give --units {unit}{condition}"
 
 
-def _check(path: Path) -> None:
-    """Refuse what is no DXF in text, and what is too large to load."""
-    try:
-        size = path.stat().st_size
-        if size > MAX_BYTES:
-            raise InputError(
-                f"{size / MB:.0f} MB, more than {MAX_BYTES // MB} MB; save the roof plan alone"
-            )
-        data = path.read_bytes()
-    except OSError as error:
-        asked = f"; {near}" if (near := meant(path)) else ""
-        raise InputError(f"cannot be read ({error.strerror}){asked}") from error
+def _read(path: Path) -> bytes:
+    """Return a drawing; refuse what is no DXF in text, and what is too large to load."""
+    if not path.exists():
+        raise InputError(f"no such file; {meant(path) or 'give a DXF drawing'}")
+    data = read_file(path, MAX_BYTES, too_large="save the roof plan alone")
     if data.startswith(b"AC10"):
         raise InputError("a DWG drawing; save it as DXF (R12 to R2018)")
     if data.startswith(b"AutoCAD Binary DXF"):
@@ -154,6 +149,7 @@ def _check(path: Path) -> None:
     limit(sum(1 for _ in _ENTITY.finditer(data)), MAX_ENTITIES, "entities")
     # Names are read once for each entity that has them; formats allow lines of 2,049 letters.
     limit(max(map(len, data.splitlines()), default=0), MAX_LINE, "letters in a line")
+    return data
 
 
 def limit(count: int, most: int, what: str) -> None:
@@ -164,25 +160,31 @@ def limit(count: int, most: int, what: str) -> None:
         )
 
 
+def _strict(data: bytes) -> Document:
+    from ezdxf.filemanagement import dxf_stream_info, read
+
+    info = dxf_stream_info(io.TextIOWrapper(io.BytesIO(data), "utf-8", "ignore"))
+    return read(io.TextIOWrapper(io.BytesIO(data), info.encoding, "surrogateescape"))
+
+
 def loaded(path: Path) -> tuple[Document, str]:
     """Return a drawing, and what to say of its repair if strict reading refuses it.
 
     Raises `InputError` if it is no DXF, damaged, or too large.
     """
-    import ezdxf
     from ezdxf import recover
 
-    _check(path)
+    data = _read(path)
     logging.getLogger("ezdxf").addHandler(logging.NullHandler())
     try:
-        return ezdxf.filemanagement.readfile(str(path)), ""
+        return _strict(data), ""
     except Exception as refused:  # a damaged drawing makes the library raise almost anything
         # What is missing at the end of a drawing that was cut off, no repair would tell.
-        if not _ENDED.search(path.read_bytes()):
+        if not _ENDED.search(data):
             raise InputError(DAMAGED) from refused
     try:
         # Slower, and lenient: it is asked only after the strict reader.
-        document, audit = recover.readfile(str(path))
+        document, audit = recover.read(io.BytesIO(data))
     except Exception as error:
         raise InputError(DAMAGED) from error
     if audit.has_errors:  # such as a coordinate that it has guessed

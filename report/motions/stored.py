@@ -5,16 +5,16 @@ Sizes, names and zips are checked here. Read `store`, then `unpack`.
 
 from __future__ import annotations
 
-import re
+import io
 import stat
 import unicodedata
-import zipfile
-import zlib
 from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
 from typing import IO
 
+from report.sheet.reading.archive import zip_of
 from report.sheet.writing.filled import BEFORE
+from solver.files import printable, read_file, within
 from solver.model import InputError
 
 MB = 1_000_000
@@ -22,11 +22,6 @@ MOST_SENT = 100 * MB
 MOST_STORED = 200 * MB
 MOST_FILES = 500
 
-_MOST_NAME, _DEEPEST = 200, 8
-_MOST_BYTES = 255  # of a name, in the file systems of today
-# What Windows allows in no name: a project is unpacked on any system.
-_FORBIDDEN = re.compile(r'[\x00-\x1f\x7f<>:"|?*]|[. ]$')
-_DEVICE = re.compile(r"(con|prn|aux|nul|com[0-9]|lpt[0-9])(\..*)?", re.IGNORECASE)
 _CHUNK = 1 << 20
 _ENCRYPTED = 0x1
 
@@ -46,19 +41,24 @@ def store(files: Sequence[File], folder: Path) -> Path:
         raise InputError("a zip was sent with other files; drop the zip alone, or the files alone")
     room = _Room(folder)
     if zips:
-        with _opened(zips[0][1]) as archive:
-            _unpack(archive, room)
+        _unpack(zips[0][1], room)
     for name, content in files if not zips else ():
         room.take(name, content)
     return _workbook(room.paths)
 
 
 def unpack(zipped: Path, folder: Path) -> None:
-    """Store the files of a zip in an empty folder, which may hold a part where one is refused."""
-    if zipped.stat().st_size > MOST_SENT:
-        raise InputError(f"more than {MOST_SENT / MB:g} MB; give fewer records")
-    with zipped.open("rb") as content, _opened(content) as archive:
-        _unpack(archive, _Room(folder))
+    """Store the files of a zip, and of the zips in it, in an empty folder.
+
+    All together they may be as many and as large as those of one zip; zips in these stay as they
+    are. The folder may hold a part where one is refused.
+    """
+    room = _Room(folder)
+    _unpack(io.BytesIO(read_file(zipped, MOST_SENT, too_large="give fewer records")), room)
+    # Some networks send a zip of the zips of each station.
+    for inner in [path for path in room.paths if path.suffix.lower() == ".zip"]:
+        below = inner.relative_to(folder).with_suffix("").as_posix()
+        _unpack(io.BytesIO(inner.read_bytes()), room, f"{below}/")
 
 
 class _Room:
@@ -71,14 +71,14 @@ class _Room:
 
     def take(self, name: str, content: IO[bytes]) -> None:
         """Write one file."""
-        path = checked(name)
+        target = within(self._folder, name)
+        path = PurePosixPath(target.relative_to(self._folder).as_posix())
         # Hidden files, the lock of an open workbook, and what it was before a command changed it.
         hidden = any(part.startswith((".", "~$")) or part == "__MACOSX" for part in path.parts)
         if hidden or name.endswith(BEFORE):
             return
         if len(self.paths) >= MOST_FILES:
             raise InputError(f"more than {MOST_FILES} files; drop the workbook and its records")
-        target = self._folder.joinpath(*path.parts)
         self._check_spelling(path, is_written=target in self.paths)
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
@@ -104,59 +104,27 @@ class _Room:
                 raise InputError(f"{path}: the same name as {first} but for capitals; rename one")
 
 
-def checked(name: str) -> PurePosixPath:
-    """Return a relative path that stays within its folder on every system; refuse others."""
-    parts = name.replace("\\", "/").split("/")
-    if wrong := _wrong(name, parts):
-        raise InputError(f"'{_FORBIDDEN.sub('?', name)[:60]}' {wrong}")
-    return PurePosixPath(*parts)
-
-
-def _wrong(name: str, parts: Sequence[str]) -> str:
-    """Return what is wrong with a path and what would do; empty if nothing is."""
-    if len(name) > _MOST_NAME or any(len(part.encode()) > _MOST_BYTES for part in parts):
-        return "is too long; shorten its name"
-    if len(parts) > _DEEPEST:
-        return f"is more than {_DEEPEST - 1} folders deep; move it up"
-    if any(part in ("", ".", "..") for part in parts):
-        return "is no path within a folder; rename the file"
-    if reserved := [part for part in parts if _DEVICE.fullmatch(part)]:
-        return f"is not allowed: Windows reserves the name '{reserved[0]}'; rename it"
-    if any(_FORBIDDEN.search(part) for part in parts):
-        return (
-            "has a character that Windows does not allow in a name, such as : or ?, or ends with "
-            "a period or a space; rename it"
-        )
-    return ""
-
-
-def _opened(content: IO[bytes]) -> zipfile.ZipFile:
-    try:
-        return zipfile.ZipFile(content)
-    except (zipfile.BadZipFile, ValueError, NotImplementedError, OSError) as error:
-        raise InputError("the zip is damaged; make it again") from error
-
-
-def _unpack(archive: zipfile.ZipFile, room: _Room) -> None:
+def _unpack(content: IO[bytes], room: _Room, below: str = "") -> None:
     """Write the files of a zip; refuse a link, and what is encrypted or damaged."""
-    members = [info for info in archive.infolist() if not info.is_dir()]
+    archive = zip_of(content, "the zip is damaged; make it again")
+    members = [info for info in archive.infolist() if not info.filename.endswith("/")]
     for info in members:
         # The upper half is the mode of Unix; 0 where a zip was made elsewhere.
-        kind = stat.S_IFMT(info.external_attr >> 16)
+        kind, name = stat.S_IFMT(info.external_attr >> 16), printable(info.filename)
         if kind not in (0, stat.S_IFREG):
-            raise InputError(f"{_short(info)}: a link, not a file; put the file into the zip")
+            raise InputError(f"{name}: a link, not a file; put the file into the zip")
         if info.flag_bits & _ENCRYPTED:
             raise InputError("the zip has a password; make it without one")
     for info in members:
         try:
-            with archive.open(info) as content:
-                room.take(info.filename, content)
-        except (zipfile.BadZipFile, zlib.error, NotImplementedError, EOFError) as error:
-            raise InputError(f"{_short(info)}: damaged in the zip; make it again") from error
-
-
-def _short(info: zipfile.ZipInfo) -> str:
-    return _FORBIDDEN.sub("?", info.filename)[:60]
+            with archive.open(info) as member:
+                room.take(below + info.filename, member)
+        except Exception as error:  # zlib, lzma and bz2 raise errors of their own
+            # What the system refuses has a number, as on a full disk.
+            if isinstance(error, InputError) or getattr(error, "errno", None):
+                raise
+            name = printable(info.filename)
+            raise InputError(f"{name}: damaged in the zip; make it again") from error
 
 
 def _workbook(paths: Sequence[Path]) -> Path:

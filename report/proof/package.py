@@ -8,7 +8,6 @@ from __future__ import annotations
 import hashlib
 import io
 import logging
-import re
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -28,17 +27,12 @@ from report.proof.contents import differences, first_other_word, guarded, parsed
 from report.proof.signatures import Appended, Signature, appended
 from report.provenance.files import MANIFEST, RESULTS, SCHEMA_VERSION, Listed, Manifest
 from report.sheet.reading.archive import MAX_FILE, MAX_MEMBERS, MAX_TOTAL, MB
+from solver.files import read_file, within
 from solver.model import InputError
 from solver.suggestions import meant
 
 _T = TypeVar("_T")
 _MOST_OTHERS = 20
-
-# No drive, stream, backslash or control character, no "..", and no name of a device of Windows.
-_PART = re.compile(
-    r"(?!\.\.?$)(?!(con|prn|aux|nul|com\d|lpt\d)\s*(\.|$))[^\\:\x00-\x1f\x7f/]{1,255}",
-    re.IGNORECASE,
-)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,12 +52,9 @@ def read_package(path: Path) -> bytes:
 
     Raises `InputError` if there is no such file, or it is larger than any package.
     """
-    if not path.is_file():
+    if not path.exists():
         raise InputError(f"no such file; {meant(path) or 'give a calc-package.pdf'}")
-    # Before it is read: the size of a stranger's file is the first thing that costs.
-    if path.stat().st_size > MAX_FILE:
-        raise InputError(f"larger than {MAX_FILE // MB} MB, which no package is")
-    return path.read_bytes()
+    return read_file(path, MAX_FILE, too_large="no package is")
 
 
 def opened(data: bytes) -> OpenedPackage:
@@ -172,11 +163,12 @@ def take_out(
     for file in package.manifest.files:
         if file.kind == "results":
             continue
-        if not all(map(_PART.fullmatch, file.path.split("/"))):
-            raise InputError(f"the attachment {file.path!r:.80} would lie outside of its folder")
+        try:
+            target = within(folder, file.path)
+        except InputError as error:
+            raise InputError(f"the attachment {error}") from error
         is_held = package.manifest.has_records or file.kind != "record"
         content = package.files[file.name] if is_held else _left_out(file, records)
-        target = folder / file.path
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
             # Exclusive: of names that are equal, or that a disk takes for equal, the second fails.
@@ -202,12 +194,13 @@ def _left_out(file: Listed, records: Path | None) -> bytes:
             " lie beside with --records"
         )
     path = records / file.path
-    if not path.is_file() or path.stat().st_size > MAX_RECORD:
+    try:
+        content = read_file(path, MAX_RECORD)
+    except InputError as error:
         raise RecordsMissingError(
             f"{path}: is missing or too large; the package was computed from it"
-        )
+        ) from error
     # Hashed as it was read: what lies there may be replaced at any time.
-    content = path.read_bytes()
     if hashlib.sha256(content).hexdigest() != file.sha256:
         raise RecordsMissingError(
             f"{path}: is not the file that the package was computed from (SHA-256)"

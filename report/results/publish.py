@@ -8,7 +8,6 @@ from __future__ import annotations
 import hashlib
 import os
 import re
-import stat
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import ExitStack, suppress
@@ -17,7 +16,7 @@ from tempfile import TemporaryFile
 
 from pydantic_core import from_json
 
-from solver.files import add_folder, check_plain, locked, write_all
+from solver.files import add_folder, check_plain, locked, read_file, within, write_all
 from solver.model import InputError
 
 STAMP = "roofslip.sha256"
@@ -72,11 +71,9 @@ def warn_if_mixed(folder: Path, names: Iterable[str]) -> None:
 
 def content(path: Path) -> bytes:
     """Return the content of a file; nothing of what is no file or too large."""
-    with suppress(OSError):
-        # A pipe would wait for ever, and a link may lead to one.
-        status = path.lstat()
-        if stat.S_ISREG(status.st_mode) and status.st_size <= _MOST_BYTES:
-            return path.read_bytes()
+    with suppress(OSError, InputError):
+        if not path.is_symlink():
+            return read_file(path, _MOST_BYTES)
     return b""
 
 
@@ -124,7 +121,7 @@ def output_folder(out: Path | None, home: Path, usual: str, names: Iterable[str]
 
     Raises `InputError` if it cannot be written to.
     """
-    folder = out or home / usual
+    folder = out or (within(home, usual) if usual else home)
     if out is None:
         check_plain(folder, home, is_folder=True)
     existing = next(

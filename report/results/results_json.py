@@ -28,6 +28,7 @@ from report.sheet.schema.fields import Entry, Frozen, Place, SheetSection, YesNo
 from report.text.counts import UNPRINTABLE, cut
 from report.text.formats import finite
 from report.typeset.letters import named, undrawable
+from solver.files import read_file
 from solver.model import InputError
 from solver.suggestions import meant
 
@@ -56,18 +57,9 @@ def read_former(path: Path) -> tuple[Compared, bytes]:
     Raises `InputError` if it cannot be read, is damaged or incomplete, or has another schema
     version.
     """
-    try:
-        # A device is refused here, before it is opened: it may have no end.
-        if path.exists() and not path.is_file():
-            raise InputError(f"{path}: cannot be read (no file); {GIVE}")
-        with path.open("rb") as file:
-            # One more than allowed, so that a file which grows meanwhile is told.
-            content = file.read(MOST_BYTES + 1)
-    except OSError as error:
-        reason = f"cannot be read ({error.strerror}); {meant(path) or GIVE}"
-        raise InputError(f"{path}: {reason}") from error
-    if len(content) > MOST_BYTES:
-        raise InputError(f"{path}: is larger than {MOST_BYTES / 1e6:g} MB; {GIVE}")
+    if not path.exists():
+        raise InputError(f"{path}: no such file; {meant(path) or GIVE}")
+    content = read_file(path, MOST_BYTES, str(path), too_large=GIVE)
     return former_from(content, path), content
 
 

@@ -17,8 +17,9 @@ from typing import Any
 import numpy as np
 
 from solver.bounds import SENSITIVITY
+from solver.files import read_file
 from solver.formats.channels import Channel, MotionFile, motion_file, offset_notes
-from solver.formats.source import Source, Stated, waveform_format
+from solver.formats.source import MAX_BYTES, Source, Stated, waveform_format
 from solver.model import Floats, InputError
 from solver.records.record import shown, unit_size
 
@@ -103,10 +104,11 @@ def _scale(source: Source, obspy: Any, trace: Any, values: Floats) -> tuple[floa
 def _sensitivity(source: Source, obspy: Any, trace: Any) -> tuple[float, float]:
     """Counts per m/s2 of the instrument of a trace, and the frequency [Hz] where it has them."""
     path = Path(source.response)
+    content = read_file(path, MAX_BYTES, path.name)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            inventory = obspy.read_inventory(io.BytesIO(path.read_bytes()))
+            inventory = obspy.read_inventory(io.BytesIO(content))
     except Exception as error:
         raise InputError(
             f"{path.name}: cannot be read as a response; give StationXML, or counts per m/s2"

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from solver.bounds import SENSITIVITY
-from solver.files import check_length
+from solver.files import check_length, read_file
 from solver.model import InputError
 from solver.records.record import (
     UNIT_CHOICES,
@@ -263,14 +263,9 @@ def _bytes(path: Path) -> bytes:
         if not path.exists():
             check_length(path)
             raise InputError(f"{name}: no such file; {meant(path) or 'give the path of a record'}")
-        if not path.is_file():
-            raise InputError(f"{name}: not a file; give the path of a record")
-        size = path.stat().st_size
-        if size > MAX_BYTES:
-            raise InputError(f"{name}: {size / 1e6:.0f} MB; give at most {MAX_BYTES / 1e6:.0f} MB")
-        return path.read_bytes()
     except OSError as error:
         raise InputError(f"{name}: cannot be read ({error.strerror})") from error
+    return read_file(path, MAX_BYTES, name, too_large="give a part of it")
 
 
 def _lines(name: str, data: bytes) -> list[str]:

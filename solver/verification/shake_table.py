@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
+from solver.files import read_file
 from solver.formats import read_record
 from solver.model import Floats, InputError, Scene, Status, coulomb
 from solver.records.record import Record, shown
@@ -143,19 +144,16 @@ def _rows(folder: Path) -> list[_Row]:
 
 def _lines(path: Path) -> list[tuple[int, list[str]]]:
     """Return the rows of a file that are not blank, with their numbers."""
+    if not path.exists():
+        raise InputError(f"{path}: no such file; give a folder with {NAME}")
+    content = read_file(path, MOST_BYTES, str(path), too_large="give fewer tests")
     try:
-        if path.stat().st_size > MOST_BYTES:
-            raise InputError(f"{path}: larger than {MOST_BYTES // 10**6} MB; give fewer tests")
-        text = path.read_text(encoding="utf-8-sig")
+        text = content.decode("utf-8-sig")
         rows = [
             (number, cells)
             for number, cells in enumerate(csv.reader(text.splitlines(), strict=True), start=1)
             if any(cell.strip() for cell in cells)
         ]
-    except OSError as error:
-        raise InputError(
-            f"{path}: cannot be read ({error.strerror}); give a folder with {NAME}"
-        ) from error
     except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{path}: not CSV UTF-8, separated by commas; save it so") from error
     if len(rows) > MOST_TESTS + 1:

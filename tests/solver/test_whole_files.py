@@ -14,7 +14,7 @@ import commands
 from growth import grows_faster
 from places import ROOT
 from report.cli.main import main
-from solver.files import LOCK, locked, write_all, write_whole
+from solver.files import LOCK, locked, within, write_all, write_whole
 from solver.model import InputError
 from solver.suggestions import meant, nearest
 from stranger import LINKS, PIPES, SENTENCES, not_on_windows, occupied
@@ -291,3 +291,23 @@ def test_as_many_wrong_names_as_there_are_names_take_time_as_their_number():
         return [nearest(f"{'ba' * 18}{k}", names) for k in range(count)]
 
     assert not grows_faster(suggested, lambda count: count, 40)
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong"),
+    [
+        ("../x.csv", "'../x.csv' is no path within a folder; rename the file"),
+        ("out/..", "'out/..' is no path within a folder; rename the file"),
+        ("p/con.txt", "'p/con.txt' is not allowed: Windows reserves the name 'con.txt'; rename it"),
+        ("a" * 201, "'aaa.*' is too long; shorten its name"),
+        ("/".join("abcdefghi"), "'a/b.*' is more than 7 folders deep; move it up"),
+        ("a:b.csv", r"'a\?b.csv' has a character that Windows does not allow in a name"),
+    ],
+)
+def test_what_is_wrong_with_a_name_from_elsewhere_is_said(tmp_path, name, wrong):
+    with pytest.raises(InputError, match=f"^{wrong}"):
+        within(tmp_path, name)
+
+
+def test_a_name_from_elsewhere_has_a_place_below_its_folder(tmp_path):
+    assert within(tmp_path, "records\\m1-x.csv") == tmp_path / "records" / "m1-x.csv"

@@ -16,7 +16,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 from xml.etree.ElementTree import ParseError
 
 import defusedxml.ElementTree
@@ -24,7 +24,7 @@ from openpyxl import LXML, Workbook, load_workbook
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.reading.scan import REOPEN, Extent, Scan, scan_parts
-from solver.files import check_length
+from solver.files import check_length, read_file
 from solver.model import DefectError, InputError
 from solver.suggestions import meant
 
@@ -94,7 +94,7 @@ def open_book(path: Path) -> OpenBook:
     Raises `InputError` if there is none, or it is another type of file, damaged, or too large.
     """
     path = located(path)
-    return book_of(path, _read(path))
+    return book_of(path, read_file(path, MAX_FILE, too_large="keep records in files beside it"))
 
 
 def book_of(path: Path, data: bytes) -> OpenBook:
@@ -141,17 +141,6 @@ def located(path: Path) -> Path:
     return path
 
 
-def _read(path: Path) -> bytes:
-    try:
-        if path.stat().st_size > MAX_FILE:
-            raise InputError(f"larger than {MAX_FILE // MB} MB; keep records in files beside it")
-        return path.read_bytes()
-    except OSError as error:
-        raise InputError(
-            f"cannot be read ({error.strerror}); close it in other programs"
-        ) from error
-
-
 def _zip(data: bytes) -> zipfile.ZipFile:
     if not data:
         raise InputError("empty file; start again from a fresh workbook (roofslip new FOLDER)")
@@ -160,10 +149,19 @@ def _zip(data: bytes) -> zipfile.ZipFile:
         if "EncryptedPackage".encode("utf-16-le") in data:
             raise InputError("protected with a password; save it without one")
         raise InputError(f"an old Excel workbook (.xls) by its content; {SAVE_AS}")
+    return zip_of(io.BytesIO(data), f"not a workbook, or truncated; {REOPEN}")
+
+
+def zip_of(content: IO[bytes], damaged: str) -> zipfile.ZipFile:
+    """Return a zip, opened; raises `InputError` for one with too many parts, or damaged."""
+    # The library makes an object of each entry of the directory before anything can be refused,
+    # however many the record at the end states; each begins with these bytes.
+    if (count := content.read().count(b"PK\x01\x02")) > MAX_MEMBERS:
+        raise InputError(f"has {count:,} parts, more than {MAX_MEMBERS:,}; give a smaller one")
     try:
-        return zipfile.ZipFile(io.BytesIO(data))
-    except (zipfile.BadZipFile, ValueError, NotImplementedError, OSError) as error:
-        raise InputError(f"not a workbook, or truncated; {REOPEN}") from error
+        return zipfile.ZipFile(content)
+    except (zipfile.BadZipFile, ArithmeticError, ValueError, RuntimeError, OSError) as error:
+        raise InputError(damaged) from error
 
 
 def _check_sizes(archive: zipfile.ZipFile) -> None:
@@ -172,8 +170,6 @@ def _check_sizes(archive: zipfile.ZipFile) -> None:
     total = sum(m.file_size for m in members)
     largest = max((m.file_size for m in members), default=0)
     packed = sum(m.compress_size for m in members)
-    if len(members) > MAX_MEMBERS:
-        raise InputError(f"has {len(members)} parts, more than {MAX_MEMBERS}; {REOPEN}")
     if total > MAX_TOTAL or largest > MAX_MEMBER:
         raise InputError(
             f"unpacks to {total / MB:.0f} MB, more than {MAX_TOTAL // MB} MB in total or"

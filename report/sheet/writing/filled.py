@@ -13,7 +13,6 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import groupby, starmap
 from pathlib import Path
-from typing import Any
 
 from openpyxl.formula.translate import Translator
 from openpyxl.utils import coordinate_to_tuple
@@ -226,21 +225,13 @@ class Overwritten:
 
 def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
     """Return the blue cells that have lost their formula, by sheet, column and row."""
-    blue = (
-        position
+    # Of earlier workbooks the column Status has no use.
+    lost = [
+        Overwritten(position=position, content=found_at(book, position), title=title)
         for position in _blue(book)
         if not (formula := book.formula(position.sheet, position.cell)) or _BROKEN in formula
-    )
-    texts: dict[str, Mapping[int, Any]] = {}
-    lost = []
-    for position in blue:
-        if position.sheet not in texts:
-            texts[position.sheet] = _first_texts(book, position.sheet)
-        title = _title(book, position, texts[position.sheet])
-        # Of earlier workbooks the column Status has no use.
-        if title != "Status":
-            content = found_at(book, position)
-            lost.append(Overwritten(position=position, content=content, title=title))
+        if (title := _title(book, position)) != "Status"
+    ]
     titles = book.book.sheetnames
     lost.sort(key=lambda o: (titles.index(o.position.sheet), o.position.column, o.position.row))
     return tuple(lost)
@@ -287,24 +278,17 @@ def _text(item: Overwritten, count: int) -> str:
     return f"{title} is {cut(plain(item.content.value))}, typed over its formula; {FRESH}"
 
 
-def _first_texts(book: OpenBook, title: str) -> Mapping[int, Any]:
-    """Return the first cell with a text in each row of a sheet."""
-    first: dict[int, Any] = {}
-    for cell in book.cells(title):
-        if isinstance(cell.value, str) and cell.value:
-            first.setdefault(cell.row, cell)
-    return first
-
-
-def _title(book: OpenBook, position: CellPosition, texts: Mapping[int, Any]) -> str:
+def _title(book: OpenBook, position: CellPosition) -> str:
     """Return what a cell computes: the heading of its column, or else the label of its row."""
     sheet = book.book[position.sheet]
     for section in SECTIONS:
         area = table_area(book, section) if section.is_table else None
         if area and area.sheet == position.sheet and area.header < position.row <= area.last:
             return str(sheet.cell(area.header, position.column).value)
-    label = texts.get(position.row)
-    title = label.value if label and label.column < position.column else "cell"
+    there, row = book.scans[position.sheet].cells, position.row
+    columns = (column for column in range(1, position.column) if (row, column) in there)
+    labels = (sheet.cell(row, column).value for column in columns)
+    title = next((str(label) for label in labels if isinstance(label, str) and label), "cell")
     return f"{title.removesuffix(' *')}, computed," if position.sheet == "Site" else title
 
 

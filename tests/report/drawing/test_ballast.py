@@ -34,7 +34,7 @@ pytestmark = pytest.mark.quick
         (b"x,y,blocks\n\xff\n", ["not a CSV in UTF-8 or UTF-16; save it as one"]),
         ("x,y,blocks\n" + "1,2,3\n" * 20_000, ["20,001 lines, more than 20,000; add up "
                                                "neighboring blocks"]),
-        (b" " * (MAX_BYTES + 1), ["more than 5 MB; keep the columns x, y, blocks"]),
+        (b" " * (MAX_BYTES + 1), ["larger than 5 MB; keep the columns x, y, blocks"]),
     ],
 )  # fmt: skip
 def test_a_wrong_map_is_refused_with_every_line(file, content, wanted):

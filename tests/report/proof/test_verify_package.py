@@ -249,12 +249,12 @@ def test_another_type_of_an_attachment_is_not_the_same(tampered, few_sheets):
 
 
 @pytest.mark.parametrize(
-    "path", by_day(["../x.csv", "/x.csv", "a/../../x", "C:/x.csv", "a\\b.csv", "", "a\n", "x" * 300,
-                    "a//b", "./a", "con", "a/Aux.csv", "NUL", "com1.txt"], 2)
+    "path", by_day(["../x.csv", "/x.csv", "a/../../x", "C:/x.csv", "a\\..\\..\\b", "", "a\n",
+                    "x" * 300, "a//b", "./a", "con", "a/Aux.csv", "NUL", "com1.txt"], 2)
 )  # fmt: skip
 def test_no_attachment_is_taken_out_of_the_folder(tmp_path, given, few_sheets, path):
     change = tampering.of_manifest(lambda manifest: manifest["files"][1].update(path=path))
-    with pytest.raises(InputError, match="outside of its folder"):
+    with pytest.raises(InputError, match=r"^the attachment '.*' (is|has)"):
         take_out(opened(given(few_sheets, change).read_bytes()), tmp_path / "there")
     assert not (tmp_path / "x.csv").exists()
 

@@ -244,11 +244,11 @@ def test_a_known_kind_of_file_is_named_with_what_to_do(file, content, kind):
 
 def test_what_is_no_file_or_too_large_or_long_is_refused(tmp_path, file):
     assert refusals(tmp_path / "none.csv")[0].startswith("none.csv: no such file")
-    assert refusals(tmp_path)[0].startswith(f"{tmp_path.name}: not a file")
+    assert refusals(tmp_path)[0].startswith(f"{tmp_path.name}: is a folder; give a file")
     with (tmp_path / "roof.csv").open("wb") as hollow:
         hollow.truncate(MAX_BYTES + 1)
     (problem,) = refusals(tmp_path / "roof.csv")
-    assert problem.endswith(f"give at most {MAX_BYTES // 1_000_000} MB")
+    assert problem.startswith(f"roof.csv: larger than {MAX_BYTES // 1_000_000} MB")
     assert refusals(file("0 1\n" + "1" * 1200)) == (
         "roof.csv:2: found a line of 1200 characters; give at most 1000",
     )
@@ -262,7 +262,9 @@ def test_what_is_no_file_or_too_large_or_long_is_refused(tmp_path, file):
     reason="a file that gives no bytes, which Wine takes from the system below",
 )
 def test_a_file_that_cannot_be_read_says_why():
-    assert refusals(Path("/proc/self/mem")) == ("mem: cannot be read (Input/output error)",)
+    assert refusals(Path("/proc/self/mem")) == (
+        "mem: cannot be read (Input/output error); close it in other programs, or check its rights",
+    )
 
 
 @pytest.mark.parametrize(
