@@ -267,7 +267,15 @@ end def /CMapName /Other def /CMapType 1 def 1 begincodespacerange <0000> <ffff>
 2 begincidrange <0000> <00ff> 1 <0100> <ffff> 256 endcidrange endcmap
 CMapName currentdict /CMap defineresource pop end end"""
 
-_HALF = [0, 0, 612, 396]
+_HALF, _MOVED = [0, 0, 612, 396], [0, 396, 612, 1188]
+
+
+def _above(pdf: pikepdf.Pdf, **entries: object) -> None:
+    """Give a sheet entries by what is above it."""
+    for name, value in entries.items():
+        del pdf.pages[0].obj[f"/{name}"]
+        pdf.Root.Pages[f"/{name}"] = value
+
 
 REFUSED: dict[str, Callable[[pikepdf.Pdf], object]] = {
     "opens with a script": lambda pdf: _put(pdf.Root, OpenAction=_script(pdf)),
@@ -308,6 +316,15 @@ REFUSED: dict[str, Callable[[pikepdf.Pdf], object]] = {
     "cropped from above": lambda pdf: _put(pdf.Root.Pages, CropBox=_HALF),
     "turned": lambda pdf: _put(pdf.pages[0].obj, Rotate=180),
     "smaller": lambda pdf: _put(pdf.pages[0].obj, MediaBox=_HALF),
+    "moved": lambda pdf: _put(pdf.pages[0].obj, MediaBox=_MOVED),
+    "moved from above": lambda pdf: _above(pdf, MediaBox=_MOVED),
+    "moved, and trimmed with it": lambda pdf: _put(
+        pdf.pages[0].obj, MediaBox=_MOVED, TrimBox=_MOVED, BleedBox=_MOVED
+    ),
+    "turned from above": lambda pdf: _put(pdf.Root.Pages, Rotate=90),
+    "shown to its trim": lambda pdf: _put(pdf.pages[0].obj, TrimBox=_HALF),
+    "shown to its art": lambda pdf: _put(pdf.pages[0].obj, ArtBox=_HALF),
+    "in other units from above": lambda pdf: _put(pdf.Root.Pages, UserUnit=2),
     "in other units": lambda pdf: _put(pdf.pages[0].obj, UserUnit=2),
     "painted by a second stream": lambda pdf: _put(
         pdf.pages[0].obj, Contents=_painted_twice(pdf)

@@ -73,9 +73,11 @@ def refused(pdf: PdfReader) -> Iterator[str]:
         # A second stream paints over the first one, and leaves its words as they were.
         if not isinstance(page["/Contents"], StreamObject):
             yield f"sheet {count}: its content is in several parts"
-        # What is cropped or scaled away keeps its words.
-        if page.rotation or page.user_unit != 1.0 or page.cropbox != page.mediabox:
-            yield f"sheet {count}: rotated, cropped or scaled"
+        # What is cropped or scaled away keeps its words. Readers may be told to show any frame.
+        frames = [page.mediabox, page.cropbox, page.bleedbox, page.trimbox, page.artbox]
+        whole = [0.0, 0.0, page.mediabox.width, page.mediabox.height]
+        if page.rotation or page.user_unit != 1.0 or frames != [whole] * len(frames):
+            yield f"sheet {count}: rotated, cropped, moved or scaled"
     root: Any = pdf.root_object
     own = {id(file.get_object()) for file in root["/Names"]["/EmbeddedFiles"]["/Names"]}
     for place, item in _dictionaries(pdf):
@@ -84,6 +86,8 @@ def refused(pdf: PdfReader) -> Iterator[str]:
         action: Any = item.get("/A")
         if isinstance(action, DictionaryObject) and "/S" in action:  # no tag has it
             yield f"{place}: an action (/A)"
+        if "/Kids" in item and "/UserUnit" in item:
+            yield f"{place}: its sheets are scaled"
         if ("/EF" in item and id(item) not in own) or ("/AF" in item and "/Pages" not in item):
             yield f"{place}: an attachment that is not ours"
 

@@ -319,7 +319,8 @@ def _reasons(
     yield from later.problems
     # Before words: a script may replace them when a reader opens the file.
     yield from refused(package.pdf)
-    if is_same:
+    # What is appended may replace a sheet, where nobody has looked at it.
+    if is_same and later.is_checked:
         return
     theirs, ours = package.manifest, made.manifest
     # Versions differ in which keys they write, and in the words of their pages.

@@ -156,6 +156,7 @@ def zip_of(content: IO[bytes], damaged: str) -> zipfile.ZipFile:
     """Return a zip, opened; raises `InputError` for one with too many parts, or damaged."""
     # The library makes an object of each entry of the directory before anything can be refused,
     # however many the record at the end states; each begins with these bytes.
+    content.seek(0)
     if (count := content.read().count(b"PK\x01\x02")) > MAX_MEMBERS:
         raise InputError(f"has {count:,} parts, more than {MAX_MEMBERS:,}; give a smaller one")
     try:

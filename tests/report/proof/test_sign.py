@@ -30,6 +30,7 @@ import tampering
 from nightly import by_day
 from report.cli.terminal import warn_of_others
 from report.proof.contents import refused
+from report.proof.package import compared, opened
 from report.proof.signatures import Appended, Signature, appended
 from report.typeset.finish import FIELD
 from solver.model import InputError
@@ -333,6 +334,23 @@ def test_a_signature_that_cannot_be_checked_is_said_not_to_be(made, sign, tmp_pa
     said = commands.as_json("verify-package", path)
     assert said["answer"] == "same"
     assert said["signed"] == [{"field": FIELD, "signer": "Jane Doe, S.E."}]
+
+
+@pytest.mark.nightly
+def test_a_smaller_sheet_differs_also_where_no_signature_can_be_checked(
+    data, sign, updated, monkeypatch
+):
+    def change(writer):
+        sheet = writer.root["/Pages"]["/Kids"][3]
+        for frame in ("/MediaBox", "/TrimBox", "/BleedBox"):
+            sheet[frame] = generic.ArrayObject(map(generic.NumberObject, (0, 0, 612, 396)))
+        writer.update_container(sheet)
+
+    content = sign(content=updated(change))[1]
+    monkeypatch.setitem(sys.modules, "pyhanko.sign.validation", None)
+    found = compared(opened(content), opened(data))
+    assert found.answer == "differs"
+    assert found.reasons[0].startswith("size of sheet 4")
 
 
 @pytest.mark.nightly
