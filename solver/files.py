@@ -61,9 +61,10 @@ def read_file(path: Path, most: int, name: str = "", *, too_large: str = "") -> 
                     # One more tells a file that grows, or that states no size.
                     content = file.read(most + 1)
     except (OSError, ValueError) as error:  # ValueError: of a null character
-        close = "close it in other programs, or check its rights"
-        reason = getattr(error, "strerror", error)
-        raise InputError(f"{begin}cannot be read ({reason}); {close}") from error
+        what = f"cannot be read ({getattr(error, 'strerror', error)})"
+        raise InputError(
+            f"{begin}{what}; close it in other programs, or check its rights"
+        ) from error
     if not stat.S_ISREG(status.st_mode):
         kind = "a folder" if stat.S_ISDIR(status.st_mode) else "a pipe or a device"
         raise InputError(f"{begin}is {kind}; give a file")

@@ -246,13 +246,13 @@ def rows(
             raise InputError(
                 "--at is missing; give --at roof or --at ground, where the motions were recorded"
             )
-        folder, name = _in_library(source), ""
+        folder, whole = _in_library(source), ""
         if not folder.is_dir():
             # The name of a zip is that of motions, and never of a folder: it may be "..".
-            zipped, folder, name = folder, Path(temporary), folder.stem
+            zipped, folder, whole = folder, Path(temporary), folder.stem
             unpack(zipped, folder)
         sets, left = sets_of(
-            folder, units or "", dt_s, name=name, without_vertical=without_vertical
+            folder, units or "", dt_s, whole=whole, without_vertical=without_vertical
         )
         wanted = [name.casefold() for name in only or ("*",)]
         for name in list(sets):
@@ -284,6 +284,7 @@ def _in_library(source: Path) -> Path:
     """Return a folder or zip as given, or of that name in the user's library of motions."""
     import tomllib
 
+    from solver.files import read_file
     from solver.model import InputError
     from solver.suggestions import meant
 
@@ -292,7 +293,7 @@ def _in_library(source: Path) -> Path:
     config = Path(click.get_app_dir("roofslip")) / "config.toml"
     wanted = f"write motions = '/folder/of/motions' in {config}"
     try:
-        text = config.read_text(encoding="utf-8") if config.exists() else ""
+        text = read_file(config, 100_000).decode() if config.exists() else ""
         library = str(tomllib.loads(text).get("motions", ""))
         path = Path(library).expanduser() / source
     except (OSError, ValueError, RuntimeError) as error:  # the last of an unknown ~user

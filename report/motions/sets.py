@@ -102,12 +102,12 @@ def sets_of(
     units: str = "",
     dt_s: float = math.nan,
     *,
-    name: str = "",
+    whole: str = "",
     without_vertical: bool = False,
 ) -> tuple[Sets, Sequence[Left]]:
     """Return the sets of three in a folder and the folders in it, and what is left.
 
-    A motion that its files do not name has the name given, or that of the folder. Two horizontal
+    A motion that its files do not name has that of the whole, or of the folder. Two horizontal
     records alone are a set where that is asked. Raises `InputError` if it has more than
     `MOST_FILES` files.
     """
@@ -118,7 +118,6 @@ def sets_of(
     )
     if len(paths) > MOST_FILES:
         raise InputError(f"has {len(paths)} files, more than {MOST_FILES}; name a folder within it")
-    whole = name or folder.resolve().name
     left: list[Left] = []
     groups: dict[tuple[str, ...], list[Candidate]] = {}
     for path in paths:
@@ -141,7 +140,7 @@ def sets_of(
         if why := next(_unclear(group, without_vertical), ""):
             left.append((_listed(group), why))
         else:
-            name = stem or PurePosixPath(parent).name or whole
+            name = stem or PurePosixPath(parent).name or whole or folder.resolve().name
             clear.append((name, f"{name} {rest}".strip(), group))
     clear = list(_corrected(clear, left))
     plain = Counter(name for name, _, _ in clear)
