@@ -36,6 +36,7 @@ from report.cli.terminal import (
     say,
 )
 from report.making import OUTPUTS, STEPS, make
+from report.text.counts import numbered
 
 if TYPE_CHECKING:
     from report.proof.package import Proof
@@ -75,6 +76,9 @@ def verify(out: Path | None, quick: bool, records: Path | None, table: Path | No
     passed = len(verification.checks) - len(failed)
     verdict = "FAIL" if failed else "PASS"
     click.echo(colored(f"{verdict}: {passed} of {len(verification.checks)} checks passed"))
+    if verification.left_out:
+        left_out = numbered(len(verification.left_out), "check")
+        click.echo(f"{left_out} left out: SciPy is not installed; install roofslip[verify]")
     for row in failed:
         click.echo(
             f"  {row.section}: {row.problem}, {row.quantity}: expected {row.expected:.10g}, found "

@@ -132,6 +132,7 @@ class Check:
     computed: float
     tolerance: float = ROUNDING
     of: float = 0.0  # what the error is relative to; 0: `expected`
+    is_run: bool = True  # False where SciPy, which it needs, is not installed
 
     @property
     def section(self) -> str:
@@ -287,6 +288,7 @@ class Verification:
     """The complete result of `verify`."""
 
     checks: tuple[Check, ...]
+    left_out: tuple[Check, ...]  # not run, as SciPy is not installed
     work: pd.DataFrame  # see `solver.verification.workprecision.work_points`
     maps: tuple[StabilityMap, ...]
     # by record, the project's first: see `solver.verification.paper_studies.convergence`

@@ -91,7 +91,8 @@ def verify(
     progress("Other programs, if installed")
     judged = tuple(peers.peer_points(peers.JUDGES, runs, triples, quick=quick))
     return Verification(
-        checks=tuple(rows),
+        checks=tuple(row for row in rows if row.is_run),
+        left_out=tuple(row for row in rows if not row.is_run),
         work=work,
         maps=maps,
         convergence=convergence,

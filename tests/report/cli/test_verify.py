@@ -283,16 +283,20 @@ def test_a_verification_of_two_checks_is_laid_out_and_the_one_that_failed_ends_w
 ):
     of = {"source": "S", "quantity": "PRD", "unit": "m", "problem": "P", "expected": 2.0}
     rows = (Check(id="CF-1", computed=2.0, **of), Check(id="PH-1", computed=1.5, **of))
-    monkeypatch.setattr(solver.verification.run, "verify", lambda *_, **__: only(checks=rows))
+    found = only(checks=rows, left_out=rows[:1] * 7)
+    monkeypatch.setattr(solver.verification.run, "verify", lambda *_, **__: found)
     monkeypatch.setattr(render, "sections", lambda v: (render.summary(v), render.checks(v)))
     done, out = run("verify", "--quick", "--out", tmp_path / "v"), tmp_path / "v"
-    assert (done.exit_code, done.stdout.splitlines()[0]) == (1, "FAIL: 1 of 2 checks passed")
+    first, second, *_ = done.stdout.splitlines()
+    assert (done.exit_code, first) == (1, "FAIL: 1 of 2 checks passed")
+    assert second == "7 checks left out: SciPy is not installed; install roofslip[verify]"
     assert "  Physical checks of the paper: P, PRD: expected 2, found 1.5 m" in done.stdout
     assert not list(out.glob(".roofslip-*"))
     for name in ("verification.pdf", "verification.csv"):
         assert str(out / name) in done.output
     pages = [page.extract_text() for page in PdfReader(out / "verification.pdf").pages]
-    assert "FAIL 1 of 2 checks passed." in " ".join(pages[0].split())
+    told = "FAIL 1 of 2 checks passed. 7 checks left out: SciPy is not installed."
+    assert told in " ".join(pages[0].split())
     assert f"Sheet {len(pages)} of {len(pages)}" in pages[-1]
     assert pd.read_csv(out / "verification.csv")["passed"].tolist() == ["yes", "no"]
 

@@ -14,6 +14,7 @@ from solver.sliding.checked import slide
 from solver.verification import checks, paper_studies, reference, study
 from solver.verification.evidence import ROUNDING, SECTIONS, Check, DesignCurves, percent_off
 from solver.verification.features import FEATURES, statuses
+from solver.verification.model_checks import model_checks
 from solver.verification.reference import (
     half_sine_travel,
     harmonic_travel,
@@ -21,7 +22,14 @@ from solver.verification.reference import (
     slope_pulse,
     yield_accelerations,
 )
-from solver.verification.study import Case, near_fault_pulse, own_records, scale_to, shortened
+from solver.verification.study import (
+    Case,
+    near_fault_pulse,
+    own_records,
+    own_triples,
+    scale_to,
+    shortened,
+)
 
 
 @pytest.fixture(scope="module")
@@ -79,6 +87,27 @@ def test_every_check_that_a_feature_names_ran_and_every_check_belongs_to_one(ver
     assert extra <= ran or not by_scipy.is_installed()
     for status in statuses(verification.checks, ()):
         assert status.is_verified == bool(status.feature.checks), status
+
+
+def of_two_axes():
+    return model_checks(own_triples(quick=True), quick=True)
+
+
+@pytest.mark.parametrize(
+    ("made", "left_out"),
+    [
+        (checks.rivals, ["ME-1"] * 3),
+        pytest.param(of_two_axes, ["TA-13"] * 4, marks=pytest.mark.nightly),
+    ],
+)
+def test_without_scipy_its_checks_are_named_and_left_out(made, left_out, monkeypatch):
+    whole = [row.problem for row in made()]
+    monkeypatch.setattr(by_scipy, "is_installed", lambda: False)
+    rows = list(made())
+    assert [row.problem for row in rows] == whole
+    left = [row for row in rows if not row.is_run]
+    assert [row.id for row in left] == left_out
+    assert not any(row.passed for row in left)
 
 
 def test_a_solver_that_is_a_millionth_off_fails_the_checks_that_see_it(monkeypatch, pulse):
