@@ -272,6 +272,8 @@ def called() -> str:
 
 def quoted(word: object) -> str:
     """Return a word as the shell takes it; on Windows, as both cmd and PowerShell do."""
+    if str(word).startswith("-"):  # a path: it would be taken for options
+        word = os.path.join(".", str(word))
     if sys.platform == "win32":
         return str(word) if _PLAIN.fullmatch(str(word)) else f'"{word}"'
     return shlex.quote(str(word))

@@ -4,7 +4,7 @@ import csv
 import io
 import math
 import sys
-from pathlib import PureWindowsPath
+from pathlib import Path, PureWindowsPath
 
 import numba
 import pytest
@@ -105,6 +105,12 @@ def test_a_path_of_windows_has_the_quotes_of_cmd_and_powershell(monkeypatch):
     assert quoted(PureWindowsPath(r"C:\w\roof-1\input.xlsx")) == r"C:\w\roof-1\input.xlsx"
     for path in (r"C:\My projects\roof", r"C:\R&D\roof (2)", r"C:\it's"):
         assert quoted(PureWindowsPath(path)) == f'"{path}"'
+
+
+def test_a_path_that_begins_with_a_dash_is_taken_for_no_option():
+    assert quoted(Path("-dash")) == "./-dash"
+    assert quoted(Path("-my roof", "input.xlsx")) == "'./-my roof/input.xlsx'"
+    assert quoted(Path("roof-1")) == "roof-1"
 
 
 def fields(*values):
