@@ -19,6 +19,13 @@ rem The program as it can be typed in the current folder.
 set "ROOFSLIP_COMMAND=%here%\roofslip"
 if /i "%CD%"=="%here%" set "ROOFSLIP_COMMAND=.\roofslip"
 
+call :print_help %*
+if not errorlevel 1 exit /b 0
+rem These need more than their name.
+set "alone="
+for %%c in (check report watch new plan motion slide study sign verify-package completion) do if "%~1 %~2"=="%%c " set "alone=yes"
+if defined alone call :print_help %1 --help
+if defined alone exit /b 2
 if "%~1"=="test" goto test
 call :is_set_up test
 if errorlevel 1 call :is_set_up commands
@@ -45,6 +52,55 @@ if "%~2"=="" "%python%" -m pytest --numprocesses 2 --dist worksteal -m "not nigh
 if not "%~2"=="" "%python%" -m pytest %2 %3 %4 %5 %6 %7 %8 %9
 exit /b %errorlevel%
 
+rem The help of a command, or the version, where that is asked for: from files, so that nothing needs to be
+rem installed for it. Without empty lines, which this shell passes over.
+:print_help
+set "asked="
+set "words="
+:next_word
+if "%~1"=="" goto asked
+if "%~1"=="--" goto asked
+if "%~1"=="-h" set "asked=help"
+if "%~1"=="--help" set "asked=help"
+if "%~1"=="--version" if not defined words set "asked=version"
+if defined asked goto asked
+set "word=%~1"
+if not "%word:~0,1%"=="-" set "words=%words% %word%"
+shift
+goto next_word
+
+:asked
+if not defined asked exit /b 1
+if "%asked%"=="version" call :version 2>nul
+if "%asked%"=="version" exit /b 0
+for /f "tokens=1,2" %%a in ("%words% roofslip") do (
+    set "title=## %%a %%b"
+    call :print_section 2>nul
+    if not errorlevel 1 exit /b 0
+    set "title=## %%a"
+)
+call :print_section 2>nul
+exit /b %errorlevel%
+
+:print_section
+set "found="
+set "is_it="
+set "inside="
+for /f "usebackq delims=" %%a in ("%here%\docs\commands.md") do (
+    if "%%a"=="```" set "inside="
+    if defined inside echo %%a
+    if "%%a"=="```text" if defined is_it set "inside=1"
+    if "%%a"=="```text" set "is_it="
+    if "%%a"=="%title%" set "is_it=1"
+    if defined inside set "found=1"
+)
+if defined found exit /b 0
+exit /b 1
+
+:version
+for /f "usebackq tokens=1,3" %%a in ("%here%\pyproject.toml") do if "%%a"=="version" echo roofslip, version %%~b
+exit /b 0
+
 rem A set is kept with the files that it was installed from.
 :is_set_up
 set "same=all(cmp(f'{here}/{name}', f'{here}/.venv/set-up-%1/{name}', False) for name in names)"
@@ -52,29 +108,87 @@ set "same=all(cmp(f'{here}/{name}', f'{here}/.venv/set-up-%1/{name}', False) for
 exit /b %errorlevel%
 
 :set_up
+set "need=%1"
+if exist "%here%\.venv\set-up-test" set "need=test"
+mkdir "%here%\.venv-try" 2>nul
+if not exist "%here%\.venv-try" goto not_written
+rmdir "%here%\.venv-try" 2>nul
+set "lock=%here%\.venv-lock"
+set "ran="
+rem One after the other: the file is open as long as a set-up runs, and no other call can open it.
+:wait
+set "opened="
+call :open 2>nul
+if defined opened call :locked %1 9>"%lock%"
+if defined ran goto unlocked
+echo roofslip: another call is setting up .venv; waiting for it 1>&2
+ping -n 6 127.0.0.1 >nul
+goto wait
+
+:unlocked
+del "%lock%" 2>nul
+exit /b %ran%
+
+:not_written
+echo roofslip: packages go into %here%, which cannot be written: copy it to a folder of your own, or have 1>&2
+echo its owner run this command once. Nothing was changed. 1>&2
+exit /b 1
+
+:open
+call :opened 9>"%lock%"
+exit /b 0
+
+:opened
+set "opened=yes"
+exit /b 0
+
+rem What another call has set up meanwhile is enough.
+:locked
+call :is_set_up %1
+if errorlevel 1 call :install
+set "ran=%errorlevel%"
+exit /b %ran%
+
+rem A new set is made beside the former one, and takes its place once it is whole.
+:install
+rem Where uv and pip install is said here alone.
+for %%v in (UV_SYSTEM_PYTHON UV_BREAK_SYSTEM_PACKAGES UV_PYTHON UV_TARGET UV_PREFIX UV_PROJECT) do set "%%v="
+for %%v in (UV_WORKING_DIR PIP_TARGET PIP_PREFIX PIP_ROOT PIP_PYTHON) do set "%%v="
+set "PIP_USER=0"
+set "PIP_REQUIRE_VIRTUALENV=0"
 call :find_uv
 if errorlevel 1 exit /b 1
-if "%1"=="test" set "megabytes=500"
-if not "%1"=="test" set "megabytes=300"
-echo roofslip: setting up .venv from requirements.lock (once, for %1; downloads about %megabytes% MB) 1>&2
+if "%need%"=="test" set "megabytes=500"
+if not "%need%"=="test" set "megabytes=300"
+echo roofslip: setting up .venv from requirements.lock (once, for %need%; downloads about %megabytes% MB) 1>&2
 rem There: uv takes a path with a space for two.
 pushd "%here%"
-"%uv%" venv --quiet --clear --python 3.11 .venv
+set "new=.venv-new"
+"%uv%" venv --quiet --clear --relocatable --python 3.11 %new%
 if errorlevel 1 goto ask
-if "%1"=="test" "%uv%" pip sync --require-hashes requirements.lock
-if not "%1"=="test" "%uv%" pip install --require-hashes --all-extras -r pyproject.toml --group build -c requirements.lock
+if "%need%"=="test" "%uv%" pip sync --python %new% --require-hashes requirements.lock
+if not "%need%"=="test" "%uv%" pip install --python %new% --require-hashes --all-extras -r pyproject.toml --group build -c requirements.lock
 if errorlevel 1 goto ask
-"%uv%" pip install --quiet --no-deps --no-build-isolation -e .
-if errorlevel 1 exit /b 1
+"%uv%" pip install --python %new% --quiet --no-deps --no-build-isolation -e .
+if errorlevel 1 goto ask
 echo roofslip: compiling the solver (once) 1>&2
 set "NUMBA_OPT=2"
-"%python%" -P -m solver.sliding.checked constant law
+%new%\Scripts\python.exe -P -m solver.sliding.checked constant law
 if errorlevel 1 exit /b 1
 set "NUMBA_OPT="
-mkdir .venv\set-up-%1
-for %%f in (requirements.lock pyproject.toml) do copy /y %%f .venv\set-up-%1 >nul
+mkdir %new%\set-up-%need%
+for %%f in (requirements.lock pyproject.toml) do copy /y %%f %new%\set-up-%need% >nul
+if exist .venv-old rmdir /s /q .venv-old
+if exist .venv ren .venv .venv-old
+if exist .venv goto in_use
+ren %new% .venv
+if exist .venv-old rmdir /s /q .venv-old
 popd
 exit /b 0
+
+:in_use
+echo roofslip: a program uses what is in .venv, as the page does: end it, then run this again. Nothing was changed. 1>&2
+exit /b 1
 
 rem uv from the PATH, else one version from its makers, else the same by pip; both have their SHA-256 checked.
 :find_uv
@@ -107,5 +221,5 @@ if exist "%uv%" exit /b 0
 :ask
 echo roofslip: the set-up is not complete. If a download was refused, ask your IT to allow GitHub and the Python 1>&2
 echo package index, or to install uv (winget install --id astral-sh.uv) with access to both. If a path was too long, 1>&2
-echo move this folder to a shorter one. Then run this again. 1>&2
+echo move this folder to a shorter one. Then run this again. What was set up before works as it did. 1>&2
 exit /b 1

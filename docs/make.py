@@ -2,10 +2,10 @@
 
     .venv/bin/python docs/make.py
 
-`commands.md` is the command line's own help, `workbook-fields*.md` the schema of the input sheets;
-`results-json.md` has the first keys of results.json, `api.md` a table of the public names, and
-`examples.md` the scripts of `docs/examples` with their own first words. A test compares the pages
-with what this would write.
+`commands.md` is the command line's own help and scripts, which the launchers print;
+`workbook-fields*.md` is the schema of the input sheets, `results-json.md` has the first keys of
+results.json, `api.md` a table of the public names, and `examples.md` the scripts of `docs/examples`
+with their own first words. A test compares the pages with what this would write.
 """
 
 from __future__ import annotations
@@ -17,9 +17,10 @@ from pathlib import Path
 from typing import Any
 
 import click
+from click.shell_completion import get_completion_class
 
 import report
-from report.cli.main import main
+from report.cli.main import VARIABLE, main
 from report.entities import results
 from report.sheet.schema import SECTIONS
 from report.sheet.schema.fields import Entry, entries
@@ -53,7 +54,11 @@ def pages() -> Mapping[Path, str]:
     split = [part for part in sheets if part[0].partition(":")[0] in MOTIONS]
     roof = [part for part in sheets if part not in split]
     made = {
-        "commands": _page("Commands", "As `./roofslip COMMAND --help` prints them.", _commands()),
+        "commands": _page(
+            "Commands",
+            "As `./roofslip COMMAND --help` and `./roofslip completion SHELL` print them.",
+            (*_commands(), *_completions()),
+        ),
         "workbook-fields": _page(
             "Fields of the workbook: project and roof",
             "As the reader checks them. Motions, building and options: "
@@ -86,6 +91,12 @@ def _commands() -> Parts:
         settings = main.context_settings | {"terminal_width": 96}
         context = click.Context(command, info_name=" ".join(words), **settings)
         yield " ".join(words[1:]) or "roofslip", f"```text\n{command.get_help(context)}\n```"
+
+
+def _completions() -> Parts:
+    for shell in ("bash", "zsh", "fish"):
+        script = get_completion_class(shell)(main, {}, "roofslip", VARIABLE).source()
+        yield f"Completion in {shell}", f"```text\n{script.rstrip()}\n```"
 
 
 def _named(command: click.Command, words: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Any]]:

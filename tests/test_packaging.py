@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 import tarfile
+import time
 import tomllib
 import zipfile
 from fnmatch import fnmatch
@@ -16,6 +17,7 @@ import pytest
 import report
 import roofslip
 import solver
+from commands import no_override
 from places import ROOT, TESTS
 from report.cli.main import main
 
@@ -145,6 +147,8 @@ def launched(tmp_path):
         (["--help"], "roofslip"),
         (["report", "projects/example", "-h"], "report"),
         (["motion", "suite", "--count", "3", "--help"], "motion suite"),
+        (["test", "tests/solver", "--help"], "test"),
+        (["completion", "zsh"], "Completion in zsh"),
     ],
 )
 def test_help_needs_nothing_installed(launched, words, command):
@@ -207,34 +211,14 @@ def test_a_file_beside_a_notebook_hides_neither_package(tmp_path):
 
 def test_the_launcher_looks_for_no_package_where_it_is_called_and_for_libraries_of_pdfs():
     launcher = (ROOT / "roofslip").read_text()
-    calls = re.findall(r'"\$venv/bin/python" (?:-P )?(?:-m|"\$venv)', launcher)
-    assert len(calls) == 3
-    assert all(" -P " in call for call in calls)
+    run = re.findall(r'"\$(?:venv|new)/bin/python" (?:-P )?(?:-m|"\$venv)', launcher)
+    assert len(run) == 3
+    assert all(" -P " in call for call in run)
     assert '"$venv/bin/roofslip" "$@"' in launcher
     launcher = (ROOT / "roofslip").read_text()
     names = ("report", "watch", "serve", "study", "verify", "verify-package")
     assert set(names) <= set(main.commands)
-    assert f"{' | '.join(names)}) native_libraries" in launcher
-
-
-STUB = """#!/bin/sh
-echo "$PWD: ${PYTHONPATH-no path}" >>"$(dirname -- "$0")/seen"
-exit STATUS
-"""
-
-
-def launcher(tmp_path, name="copy", stamp=""):
-    """A copy of the launcher with tools that only note how they are called."""
-    folder = tmp_path / name
-    bin_ = folder / ".venv" / "bin"
-    bin_.mkdir(parents=True)
-    for file in ("roofslip", "pyproject.toml", "requirements.lock"):
-        shutil.copy(ROOT / file, folder)
-    for tool in TOOLS:
-        (bin_ / tool).write_text(NOTING)
-        (bin_ / tool).chmod(0o755)
-    (folder / ".venv" / ".set-up-from").write_text(stamp)
-    return folder
+    assert f"{' | '.join(names)} | test) native_libraries" in launcher
 
 
 TOOLS = (
@@ -244,25 +228,62 @@ TOOLS = (
 
 
 NOTING = """#!/bin/sh
-echo "$(basename -- "$0") $*" >>"$(dirname -- "$0")/seen"
+for last; do :; done
+echo "$(basename -- "$0") $*" >>"$ROOM/seen"
+echo "$PWD: ${PYTHONPATH-no path} ${UV_SYSTEM_PYTHON-}${UV_PYTHON-}${PIP_TARGET-}" >>"$ROOM/where"
+[ "$(basename -- "$0") $1" != "uv venv" ] || { mkdir -p "$last" && cp -R "$ROOM/bin" "$last"; }
 """
 
 
-def calls_of(folder, program, *words, status=0):
-    path = f"{folder / '.venv' / 'bin'}:{os.environ['PATH']}"
-    command = [program, *(words or ("check", "x"))]
-    done = subprocess.run(command, env={"PATH": path}, capture_output=True, check=False)
+def launcher(tmp_path, name="copy", stamp=""):
+    """A copy of the launcher, in a room with tools that only note how they are called."""
+    folder = tmp_path / name / "checkout"
+    for bin_ in (folder / ".venv" / "bin", folder.parent / "bin"):
+        bin_.mkdir(parents=True)
+        for tool in TOOLS:
+            (bin_ / tool).write_text(NOTING)
+            (bin_ / tool).chmod(0o755)
+    for file in ("roofslip", "pyproject.toml", "requirements.lock", "tests/run.sh"):
+        (folder / file).parent.mkdir(exist_ok=True)
+        shutil.copy(ROOT / file, folder / file)
+    (folder / ".venv" / ".set-up-from").write_text(stamp)
+    return folder
+
+
+def failing(folder, tool, condition="false"):
+    """Have a tool fail, after it has noted how it is called."""
+    for bin_ in (folder / ".venv" / "bin", folder.parent / "bin"):
+        (bin_ / tool).write_text(f"{NOTING}{condition}\n")
+
+
+def called(folder, *words, program=None, **more):
+    """Call the launcher; return how it ends."""
+    path = f"{folder.parent / 'bin'}:{os.environ['PATH']}"
+    env = {"PATH": path, "ROOM": str(folder.parent), **more.pop("env", {})}
+    command = [program or folder / "roofslip", *(words or ("check", "x"))]
+    return subprocess.run(command, env=env, capture_output=True, text=True, check=False, **more)
+
+
+def calls(folder):
+    """What the tools were called with until now."""
+    path = folder.parent / "seen"
+    return path.read_text().splitlines() if path.exists() else []
+
+
+def calls_of(folder, *words, status=0, **more):
+    before = len(calls(folder))
+    done = called(folder, *words, **more)
     assert done.returncode == status, done.stderr
-    return (folder / ".venv" / "bin" / "seen").read_text().splitlines()
+    return calls(folder)[before:]
 
 
 def test_the_launcher_follows_its_own_link(tmp_path):
     folder = launcher(tmp_path)
     (tmp_path / "bin").mkdir()
     (tmp_path / "bin" / "one").symlink_to("two")
-    (tmp_path / "bin" / "two").symlink_to("../copy/roofslip")
-    called = f"python -P {folder}/.venv/bin/roofslip check x"
-    assert calls_of(folder, tmp_path / "bin" / "one")[-1] == called
+    (tmp_path / "bin" / "two").symlink_to("../copy/checkout/roofslip")
+    run = f"python -P {folder}/.venv/bin/roofslip check x"
+    assert calls_of(folder, program=tmp_path / "bin" / "one")[-1] == run
 
 
 @pytest.mark.parametrize(
@@ -271,30 +292,107 @@ def test_the_launcher_follows_its_own_link(tmp_path):
         (["stdy", "x"], 2, "no such command 'stdy'; "),
         (["study", "no.xlsx"], 1, "no.xlsx: no such file or folder"),
         (["report", "projects", "--jbos=2"], 2, "no such option '--jbos'; see "),
+        (["slide"], 2, "RECORD is missing; see "),
+        (["slide", "x", "--mu", "0.4"], 2, "--slope-deg is missing; see "),
+        (["report"], 2, "DIR|WORKBOOK is missing; see "),
+        (["motion"], 2, "'motion' is no command; see "),
+        (["motion", "ifno"], 2, "'motion ifno' is no command; see "),
+        (["completion"], 2, "{bash|zsh|fish} is missing; see "),
+        (["completion", "csh"], 2, "no script for the shell 'csh'; see "),
         (["motion", "rows", "x", "--without"], 0, ""),
+        (["check", "--", "-h"], 0, ""),
     ],
 )
 def test_the_launcher_checks_arguments_before_it_installs_anything(tmp_path, words, status, said):
     folder = launcher(tmp_path)
     shutil.copytree(ROOT / "docs", folder / "docs", ignore=shutil.ignore_patterns("pictures"))
     (folder / "projects").mkdir()
-    path = f"{folder / '.venv' / 'bin'}:{os.environ['PATH']}"
-    command, env = [folder / "roofslip", *words], {"PATH": path}
-    done = subprocess.run(command, cwd=folder, env=env, capture_output=True, text=True, check=False)
+    done = called(folder, *words, cwd=folder)
     assert (done.returncode, said in done.stderr) == (status, True)
-    assert (folder / ".venv" / "bin" / "seen").exists() == (status == 0)
+    assert bool(calls(folder)) == (status == 0)
 
 
-def test_an_environment_that_was_copied_is_made_anew_where_it_is(tmp_path):
+def test_an_environment_that_was_copied_is_made_anew_where_it_is_with_all_of_its_set(tmp_path):
     folder = launcher(tmp_path)
-    first = calls_of(folder, folder / "roofslip")
+    first = calls_of(folder, "study", "x")
     assert any(call.startswith("uv venv --quiet --clear") for call in first)
-    called = f"python -P {folder}/.venv/bin/roofslip check x"
-    assert calls_of(folder, folder / "roofslip")[len(first) :] == [called]
+    assert calls_of(folder) == [f"python -P {folder}/.venv/bin/roofslip check x"]
     other = launcher(tmp_path, "other", stamp=(folder / ".venv" / ".set-up-from").read_text())
-    calls = calls_of(other, other / "roofslip")
-    assert any(call.startswith("uv venv --quiet --clear") for call in calls)
-    assert any(call.endswith(f"-e {other}") for call in calls)
+    again = calls_of(other)
+    assert any(call.startswith("uv venv --quiet --clear") for call in again)
+    assert any("--extra study -r" in call for call in again)
+    assert any(call.endswith(f"-e {other}") for call in again)
+
+
+def test_a_set_up_that_fails_leaves_what_was_set_up(tmp_path):
+    folder = launcher(tmp_path)
+    calls_of(folder)
+    stamp = folder / ".venv" / ".set-up-from"
+    (folder / ".venv" / "own").write_text("of the user")
+    before = stamp.read_text()
+    failing(folder, "uv", '[ "$2" != install ]')
+    done = called(folder, "verify")
+    assert done.returncode == 1
+    assert "the packages for verify could not be installed: connect to the network" in done.stderr
+    assert "check, report and what else was set up work as before" in done.stderr
+    assert stamp.read_text() == before
+    assert sorted(path.name for path in folder.glob(".venv*")) == [".venv"]
+    assert calls_of(folder) == [f"python -P {folder}/.venv/bin/roofslip check x"]
+    failing(folder, "uv", "true")
+    assert not [call for call in calls_of(folder, "verify") if call.startswith("uv venv")]
+    assert stamp.read_text() == before.replace(" report ", " verify ")
+    assert (folder / ".venv" / "own").exists()
+    assert calls_of(folder) == [f"python -P {folder}/.venv/bin/roofslip check x"]
+
+
+def test_settings_of_uv_and_pip_lead_no_package_elsewhere(tmp_path):
+    folder = launcher(tmp_path)
+    env = {"UV_SYSTEM_PYTHON": "1", "UV_PYTHON": "3.9", "PIP_TARGET": "elsewhere"}
+    installed = [call for call in calls_of(folder, env=env) if call.startswith("uv pip ")]
+    assert len(installed) == 2
+    assert all(f"--python {folder}/.venv-new " in call for call in installed)
+    *set_up, _ = (folder.parent / "where").read_text().splitlines()
+    assert set(set_up) == {f"{folder}: no path "}
+
+
+def test_of_two_first_calls_the_second_waits_and_installs_nothing(tmp_path):
+    folder = launcher(tmp_path)
+    failing(folder, "uv", "sleep 0.5")
+    env = {"PATH": f"{folder.parent / 'bin'}:{os.environ['PATH']}", "ROOM": str(folder.parent)}
+    first = subprocess.Popen([folder / "roofslip", "check", "x"], env=env)
+    while not calls(folder):
+        time.sleep(0.01)
+    second = called(folder)
+    assert (first.wait(), second.returncode) == (0, 0)
+    assert "another call is setting up .venv; waiting for it" in second.stderr
+    assert len([call for call in calls(folder) if call.startswith("uv venv")]) == 1
+
+
+def test_a_folder_that_cannot_be_written_is_named_before_anything_is_downloaded(tmp_path):
+    folder = launcher(tmp_path)
+    folder.chmod(0o555)
+    try:
+        done = called(folder, preexec_fn=no_override)
+    finally:
+        folder.chmod(0o755)
+    assert done.returncode == 1
+    assert f"go into {folder}, which cannot be written: have its owner run" in done.stderr
+    assert not calls(folder)
+
+
+def test_the_launchers_install_with_the_same_version_of_uv(tmp_path):
+    lock = (ROOT / "requirements.lock").read_text()
+    (uv,) = re.findall(r"^uv==(\S+)((?: \\\n +--hash=sha256:\w+)+)", lock, re.MULTILINE)
+    windows = (ROOT / "roofslip.cmd").read_text()
+    assert f'set "version={uv[0]}"' in windows
+    assert re.search(r"uv==%version% --hash=(\S+)", windows)[1] in uv[1]
+    folder = launcher(tmp_path)
+    (folder.parent / "bin" / "uv").unlink()
+    (folder.parent / "bin" / "python3").write_text(f'{NOTING}cat >"$ROOM/given"\n')
+    (folder.parent / "bin" / "python3").chmod(0o755)
+    called(folder, stdin=subprocess.DEVNULL, env={"PATH": f"{folder.parent / 'bin'}:/usr/bin:/bin"})
+    assert any("pip install --quiet --require-hashes " in call for call in calls(folder))
+    assert (folder.parent / "given").read_text() == f"uv=={uv[0]}{uv[1]}\n"
 
 
 @pytest.mark.parametrize(
@@ -308,46 +406,31 @@ def test_an_environment_that_was_copied_is_made_anew_where_it_is(tmp_path):
 )
 def test_the_launcher_runs_the_tests_of_a_path_a_day_or_a_minute(tmp_path, words, chosen):
     folder = launcher(tmp_path)
-    called = f"pytest --numprocesses 2 --dist worksteal {chosen}"
-    assert calls_of(folder, folder / "roofslip", "test", *words)[-1] == called
+    run = f"pytest --numprocesses 2 --dist worksteal {chosen}"
+    assert calls_of(folder, "test", *words)[-1] == run
 
 
 @pytest.mark.parametrize("part", ["run", "report", "none"])
 def test_the_night_fails_where_a_test_or_the_coverage_does(tmp_path, part):
     folder = launcher(tmp_path)
-    coverage = folder / ".venv" / "bin" / "coverage"
-    coverage.write_text(f'{NOTING}[ "$1" != {part} ]\n')
-    calls = calls_of(folder, folder / "roofslip", "test", "--nightly", status=int(part != "none"))
-    done = [call.split()[1] for call in calls if call.startswith("coverage ")]
+    failing(folder, "coverage", f'[ "$1" != {part} ]')
+    seen = calls_of(folder, "test", "--nightly", status=int(part != "none"))
+    done = [call.split()[1] for call in seen if call.startswith("coverage ")]
     assert done == ["erase", "run", "run", "combine", "report", "report"]
-    assert calls[-1] == "coverage report"
+    assert seen[-1] == "coverage report"
 
 
 def test_the_launcher_takes_nothing_from_where_it_is_called(tmp_path):
     """Tools of the set-up take modules and settings of the current folder, and so does a path."""
     folder, here = launcher(tmp_path), tmp_path / "here"
     here.mkdir()
-    bin_ = folder / ".venv" / "bin"
-
-    def called(status):
-        for name in ("uv", "python"):
-            (bin_ / name).write_text(STUB.replace("STATUS", str(status)))
-        environment = {"PATH": f"{bin_}:{os.environ['PATH']}", "PYTHONPATH": f"{ROOT}:"}
-        command = [folder / "roofslip", "check", "x"]
-        done = subprocess.run(command, cwd=here, env=environment, capture_output=True, check=False)
-        assert (done.returncode == 0) == (status == 0), done.stderr
-        return (bin_ / "seen").read_text().splitlines()
-
-    assert set(called(1)) == {f"{folder}: no path"}
-    *set_up, last = called(0)
-    assert (set(set_up), last) == ({f"{folder}: no path"}, f"{here}: no path")
+    calls_of(folder, cwd=here, env={"PYTHONPATH": f"{ROOT}:"})
+    *set_up, last = (folder.parent / "where").read_text().splitlines()
+    assert (set(set_up), last) == ({f"{folder}: no path "}, f"{here}: no path ")
 
 
 @pytest.mark.parametrize("tool", ["ruff", "lint-imports"])
 def test_what_a_linter_finds_ends_the_tests(tmp_path, tool):
     folder = launcher(tmp_path)
-    calls_of(folder, folder / "roofslip", "test")
-    failing = folder / ".venv" / "bin" / tool
-    failing.write_text(f"{NOTING}exit 1\n")
-    before = len(calls_of(folder, folder / "roofslip", "test", status=1))
-    assert calls_of(folder, folder / "roofslip", "test", status=1)[before:][-1].startswith(tool)
+    failing(folder, tool)
+    assert calls_of(folder, "test", status=1)[-1].startswith(tool)

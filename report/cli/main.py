@@ -62,6 +62,19 @@ def completion(shell: str) -> None:
 
 
 @click.command()
+@click.option("--quick", is_flag=True, help="The short ones, some of every test file.")
+@click.option("--nightly", is_flag=True, help="All, with the coverage of the program.")
+@click.option("--golden", is_flag=True, help="Accept what changed in the words of the pages.")
+@click.argument("paths", metavar="[PATH]...", nargs=-1)
+def test(**_: object) -> None:
+    """Run the tests of a checkout, after its linters: all of PATH, else what every day runs.
+
+    What pytest takes may follow. The first call installs what tests need, 1.6 GB.
+    """
+    raise click.UsageError("tests are run by the launcher of a checkout: ./roofslip test")
+
+
+@click.command()
 def schema() -> None:
     """Print the JSON schema of results.json."""
     from report.entities import results
@@ -197,4 +210,4 @@ main.add_section("Sheet", new, check, plan)
 main.add_section("Motions", motion, slide)
 main.add_section("Studies", study)
 main.add_section("Trust", verify, verify_package, sign)
-main.add_section("Installation", doctor, completion)
+main.add_section("Installation", doctor, completion, test)

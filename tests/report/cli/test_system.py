@@ -1,6 +1,5 @@
 """What the system refuses, and what a terminal may be shown: exit code 2, never a traceback."""
 
-import ctypes
 import json
 import os
 import resource
@@ -11,7 +10,7 @@ from subprocess import DEVNULL, PIPE
 
 import pytest
 
-from commands import hearing, printed, refused
+from commands import hearing, no_override, printed, refused
 from places import ROOT
 from report.cli.several import package
 from report.cli.terminal import plain
@@ -148,13 +147,6 @@ else:
     ended = [CliRunner().invoke(main, command) for command in commands]
     print(json.dumps([(done.exit_code, done.output) for done in ended]))
 """
-
-
-def no_override():
-    """Give up the right of root to read and write what permissions forbid."""
-    libc, drop_from_bounding_set = ctypes.CDLL(None), 24
-    for override in (1, 2):
-        libc.prctl(drop_from_bounding_set, override, 0, 0, 0)
 
 
 @pytest.mark.nightly
