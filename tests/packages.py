@@ -41,6 +41,16 @@ def once(factory: pytest.TempPathFactory, name: str, fill: Callable[[Path], obje
     return folder
 
 
+def built(factory: pytest.TempPathFactory) -> Path:
+    """Return the folder with the wheel and the sdist, built offline."""
+    return once(factory, "dist", _build)
+
+
+def _build(folder: Path) -> None:
+    command = [sys.executable, "-m", "hatchling", "build", "-d", str(folder)]
+    subprocess.run(command, cwd=ROOT, check=True, capture_output=True, timeout=60)
+
+
 @dataclass(frozen=True)
 class Reported:
     """The folder of a project with its report, and what the command printed; only read it."""

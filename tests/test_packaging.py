@@ -14,6 +14,7 @@ from itertools import chain
 
 import pytest
 
+import packages
 import report
 import roofslip
 import solver
@@ -44,11 +45,8 @@ def tracked():
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
-    """The wheel and the sdist, built offline."""
-    folder = tmp_path_factory.mktemp("dist")
-    command = [sys.executable, "-m", "hatchling", "build", "-d", str(folder)]
-    subprocess.run(command, cwd=ROOT, check=True, capture_output=True, timeout=60)
-    return folder
+    """The wheel and the sdist."""
+    return packages.built(tmp_path_factory)
 
 
 def test_wheel_and_sdist_hold_what_is_theirs_and_no_projects(built):
