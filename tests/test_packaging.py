@@ -19,6 +19,7 @@ import report
 import roofslip
 import solver
 from commands import no_override
+from nightly import by_day
 from places import ROOT, TESTS
 from report.cli.main import main
 
@@ -320,6 +321,26 @@ def test_an_environment_that_was_copied_is_made_anew_where_it_is_with_all_of_its
     assert any(call.startswith("uv venv --quiet --clear") for call in again)
     assert any("--extra study -r" in call for call in again)
     assert any(call.endswith(f"-e {other}") for call in again)
+
+
+SETS = {
+    "report": ["check", "x"], "web": ["serve"], "verify": ["verify"], "sign": ["sign", "x"],
+    "study": ["study", "x"], "seismic": ["motion", "info", "x.mseed"], "test": ["test", "x"],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("had", by_day(SETS, 3))
+def test_a_larger_set_is_enough_and_is_kept_and_a_smaller_one_is_added_to(tmp_path, had):
+    folder = launcher(tmp_path)
+    calls_of(folder, "check", "x")
+    stamp = folder / ".venv" / ".set-up-from"
+    first = stamp.read_text()
+    for need, words in SETS.items():
+        stamp.write_text(first.replace(" report ", f" {had} "))
+        is_more = list(SETS).index(need) > list(SETS).index(had)
+        installed = any(call.startswith("uv pip ") for call in calls_of(folder, *words))
+        assert installed == is_more, need
+        assert f" {need if is_more else had} " in stamp.read_text()
 
 
 def test_a_set_up_that_fails_leaves_what_was_set_up(tmp_path):
