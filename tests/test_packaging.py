@@ -410,7 +410,7 @@ def test_the_launchers_install_with_the_same_version_of_uv(tmp_path):
     (folder.parent / "bin" / "python3").write_text(f'{NOTING}cat >"$ROOM/given"\n')
     (folder.parent / "bin" / "python3").chmod(0o755)
     called(folder, stdin=subprocess.DEVNULL, env={"PATH": f"{folder.parent / 'bin'}:/usr/bin:/bin"})
-    assert any("pip install --quiet --require-hashes " in call for call in calls(folder))
+    assert any("pip install -qq --require-hashes " in call for call in calls(folder))
     assert (folder.parent / "given").read_text() == f"uv=={uv[0]}{uv[1]}\n"
 
 

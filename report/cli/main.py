@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import sys
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -115,9 +116,10 @@ def _checks() -> Iterator[tuple[str, Callable[[str], str | None], str]]:
     yield "cores", lambda _: str(os.cpu_count()), ""
     launcher = os.path.join(".", "roofslip")
     locked = f"install it: {launcher} does so from requirements.lock"
+    yield "roofslip", version, locked
     # Extras have a marker after a semicolon: a package needs none of them.
-    for name in ("roofslip", *(each for each in requires("roofslip") or () if ";" not in each)):
-        yield name, version, locked
+    for requirement in (each for each in requires("roofslip") or () if ";" not in each):
+        yield re.split("[<>=!~]", requirement)[0], version, locked
     for name, package in NATIVE.items():
         debian = f"install it: sudo apt-get install {package}"
         yield name, library, locked if sys.platform == "win32" else debian

@@ -232,6 +232,15 @@ def test_the_command_is_called_as_the_reader_typed_it(tmp_path, monkeypatch, typ
 
 
 @pytest.mark.nightly
+def test_doctor_looks_for_a_package_by_its_name_without_bounds_and_for_no_extra(monkeypatch):
+    wanted = ["numpy>=1.0,<99", "nobody; extra == 'web'"]
+    monkeypatch.setattr("importlib.metadata.requires", lambda _: wanted)
+    told = printed("doctor")
+    assert re.search(r"^numpy +\d", told, re.MULTILINE)
+    assert "nobody" not in told
+
+
+@pytest.mark.nightly
 def test_with_everything_installed_it_says_so():
     told = printed("doctor")
     lines = told.splitlines()
