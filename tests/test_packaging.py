@@ -222,7 +222,7 @@ def test_the_launcher_looks_for_no_package_where_it_is_called_and_for_libraries_
 
 TOOLS = (
     "uv", "python", "apt-get", "ldconfig", "ruff", "codespell", "oxlint", "mypy", "lint-imports",
-    "hadolint", "pytest", "coverage",
+    "hadolint", "pytest", "coverage", "sudo",
 )  # fmt: skip
 
 
@@ -397,6 +397,18 @@ def test_a_folder_that_cannot_be_written_is_named_before_anything_is_downloaded(
     assert done.returncode == 1
     assert f"go into {folder}, which cannot be written: have its owner run" in done.stderr
     assert not calls(folder)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="they are looked up as on Linux")
+def test_system_packages_are_looked_for_before_anything_is_downloaded(tmp_path):
+    folder = launcher(tmp_path)
+    for tool in ("apt-get", "sudo"):
+        failing(folder, tool)
+    done = called(folder, "report", "x")
+    assert done.returncode == 1
+    assert "Run: sudo apt-get install libpango-1.0-0 libpangoft2-1.0-0 " in done.stderr
+    assert "check, slide and motion do without them" in done.stderr
+    assert not [call for call in calls(folder) if call.startswith("uv ")]
 
 
 def test_the_launchers_install_with_the_same_version_of_uv(tmp_path):
