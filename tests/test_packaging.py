@@ -311,6 +311,17 @@ def test_the_launcher_checks_arguments_before_it_installs_anything(tmp_path, wor
     assert bool(calls(folder)) == (status == 0)
 
 
+def test_a_shell_that_completes_a_word_is_answered_by_the_program_once_it_is_set_up(tmp_path):
+    folder = launcher(tmp_path)
+    shutil.copytree(ROOT / "docs", folder / "docs", ignore=shutil.ignore_patterns("pictures"))
+    complete = {"_ROOFSLIP_COMPLETE": "bash_complete"}
+    assert (called(folder, "--help", env=complete).stdout, calls(folder)) == ("", [])
+    calls_of(folder, "schema")
+    run = f"python -P {folder}/.venv/bin/roofslip --help"
+    assert calls_of(folder, "--help", env=complete) == [run]
+    assert calls_of(folder, "--help") == []
+
+
 def test_an_environment_that_was_copied_is_made_anew_where_it_is_with_all_of_its_set(tmp_path):
     folder = launcher(tmp_path)
     first = calls_of(folder, "study", "x")
