@@ -219,6 +219,7 @@ if not exist "%folder%" mkdir "%folder%"
 py -m pip install --quiet --require-hashes --no-deps --only-binary :all: --target "%folder%" -r "%folder%\uv.txt"
 if exist "%uv%" exit /b 0
 :ask
+if exist "%here%\.venv-new" rmdir /s /q "%here%\.venv-new"
 echo roofslip: the set-up is not complete. If a download was refused, ask your IT to allow GitHub and the Python 1>&2
 echo package index, or to install uv (winget install --id astral-sh.uv) with access to both. If a path was too long, 1>&2
 echo move this folder to a shorter one. Then run this again. What was set up before works as it did. 1>&2

@@ -144,10 +144,18 @@ def launched(*about, **more):
 
 def test_the_launcher_says_what_to_ask_for_then_installs_and_runs(windows, checkout):
     """In one test: each step begins with what the one before has left."""
+    code, told = launched(windows, checkout, r".\roofslip motion suite --count 3 --help")
+    assert (code, told.splitlines()[0]) == (0, "Usage: roofslip motion suite [OPTIONS] DIR")
+    assert "--count INTEGER RANGE" in told
+    code, told = launched(windows, checkout, r".\roofslip --version")
+    assert told.splitlines()[0].startswith("roofslip, version ")
+    code, told = launched(windows, checkout, r".\roofslip slide")
+    assert (code, told.splitlines()[0]) == (2, "Usage: roofslip slide [OPTIONS] RECORD")
+
     code, told = launched(windows, checkout, r".\roofslip check projects\example")
     assert code == 1
     assert "ask your IT to allow GitHub and the Python" in told
-    assert not (checkout / ".venv").exists()
+    assert not list(checkout.glob(".venv*"))
 
     # Without uv and PowerShell, but with a Python: pip brings uv, whose hash it checks.
     shutil.copy(windows / "py" / "python.exe", windows / "py" / "py.exe")
