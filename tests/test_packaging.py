@@ -398,16 +398,25 @@ def test_of_two_first_calls_the_second_waits_and_installs_nothing(tmp_path):
     assert len([call for call in calls(folder) if call.startswith("uv venv")]) == 1
 
 
-def test_a_folder_that_cannot_be_written_is_named_before_anything_is_downloaded(tmp_path):
+@pytest.mark.parametrize("name", [".", ".venv"])
+def test_what_cannot_be_written_is_named_before_anything_is_downloaded(tmp_path, name):
     folder = launcher(tmp_path)
-    folder.chmod(0o555)
+    calls_of(folder)
+    before = len(calls(folder))
+    closed = folder / name
+    closed.chmod(0o555)
     try:
-        done = called(folder, preexec_fn=no_override)
+        done = called(folder, "verify", preexec_fn=no_override)
+        ready = called(folder, preexec_fn=no_override)
     finally:
-        folder.chmod(0o755)
+        closed.chmod(0o755)
     assert done.returncode == 1
-    assert f"go into {folder}, which cannot be written: have its owner run" in done.stderr
-    assert not calls(folder)
+    told = f"packages for verify are not installed, and {closed} cannot be written: have its owner"
+    assert told in done.stderr
+    assert done.stderr.endswith("check, report and what else was set up work as before\n")
+    assert ready.returncode == 0
+    run = f"python -P {folder}/.venv/bin/roofslip check x"
+    assert calls(folder)[before:] == [run]
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="they are looked up as on Linux")
