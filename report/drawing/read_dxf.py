@@ -59,6 +59,10 @@ JOIN_M = 0.005
 _TEXTS = ("TEXT", "MTEXT", "ATTRIB")
 _HEIGHTS = ("HT", "HEIGHT", "ELEV")
 
+# A code of a text of lines, with what it stacks: one above the other, with or without a line.
+_STACKED = re.compile(r"\\(?:S((?:\\.|[^;\\])*);?|.)", re.DOTALL)
+_STACKS, _ESCAPED = re.compile(r"(?<!\\)[\^/#]"), re.compile(r"\\([\^/#;])")
+
 
 def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
     """Read a roof drawing; arcs become chords by the size of its unit [m] where it states none.
@@ -350,20 +354,37 @@ class _Reader:
         """Add a text that says something at a place; none is missed that does not."""
         self.letters += len(entity.text if kind == "MTEXT" else entity.dxf.text)
         limit(self.letters, MAX_LETTERS, "letters of texts")
-        if kind == "MTEXT":
-            # What the library calls fast takes a time that grows as the square of the length.
-            texts = entity.plain_text(split=True, fast=False)
-            x, y, _ = entity.dxf.insert
-        else:
-            texts = [entity.plain_text() if kind == "TEXT" else entity.dxf.text]
-            x, y, _ = entity.get_placement()[1] or entity.dxf.insert
-        lines = [words for text in texts if (words := " ".join(_printable(text).split()))]
+        placed = None if kind == "MTEXT" else entity.get_placement()[1]
+        x, y, _ = placed or entity.dxf.insert
+        lines = _lines(entity)
         if lines and math.isfinite(x) and math.isfinite(y):
             self.drawing.texts.append(
                 Words(layer=layer, text=lines[0], at=(float(x), float(y)), others=tuple(lines[1:]),
                       of=_own_name(entity))
             )  # fmt: skip
         return ""
+
+
+def _lines(entity: Any) -> list[str]:
+    """Return the lines of a text or an attribute that say something."""
+    from ezdxf.tools.text import plain_mtext
+
+    if entity.dxftype() == "ATTRIB" and entity.has_embedded_mtext_entity:
+        entity = entity.virtual_mtext_entity()
+    if entity.dxftype() == "MTEXT":
+        # What the library calls fast takes a time that grows as the square of the length.
+        texts = plain_mtext(_STACKED.sub(_fraction, entity.text), split=True)
+    else:
+        texts = [entity.plain_text() if entity.dxftype() == "TEXT" else entity.dxf.text]
+    return [words for text in texts if (words := " ".join(_printable(text).split()))]
+
+
+def _fraction(code: re.Match[str]) -> str:
+    """Return a stacked fraction behind a blank, and any other code as it is."""
+    if code[1] is None:
+        return code[0]
+    parts = (_ESCAPED.sub(r"\1", part).strip() for part in _STACKS.split(code[1], maxsplit=1))
+    return f" {'/'.join(filter(None, parts))}"
 
 
 def _clip(insert: Any) -> _Clip | None:
@@ -381,7 +402,7 @@ def _clip(insert: Any) -> _Clip | None:
 
 def _attributes(insert: Any) -> tuple[str, tuple[str, ...]]:
     """Return what the attributes of a block say: its name, and heights with their tags."""
-    values = {str(a.dxf.tag).casefold(): _printable(a.dxf.text) for a in insert.attribs}
+    values = {str(a.dxf.tag).casefold(): next(iter(_lines(a)), "") for a in insert.attribs}
     texts = [values.pop(tag.casefold(), "") for tag in _HEIGHTS]
     heights = tuple(f"{tag} {text}" for tag, text in zip(_HEIGHTS, texts, strict=True) if text)
     # The only other one is the name, whatever its tag is.

@@ -245,10 +245,10 @@ def drawn_on(drawing: RoofDrawing, layer: str) -> str:
 
 _NUMBER, _SHARE = r"\d{1,6}(?:\.\d{1,6})?", r"\d{1,2}/[1-9]\d?"
 _KEYWORD = re.compile(r"\b(?:(HT|HGT|HEIGHT|ELEV)(?: OF)?[.:= ]*|(H) ?[=:] ?)(?=\d)", re.IGNORECASE)
-_DIGITS = r"\d(?:[\d .'/-]|,(?=\d)){0,16}?"
+_DIGITS = r"\d(?:[\d .'/#^-]|,(?=\d)){0,16}?"
 # As sizes of equipment are written: a number with its unit before a lone H.
 _BEFORE = re.compile(
-    rf"(?<![\w./'\"-])(?P<value>(?:{_DIGITS}(?:ft|feet)\.?[ -]{{0,3}})?"
+    rf"(?<![\w./'\"#^-])(?P<value>(?:{_DIGITS}(?:ft|feet)\.?[ -]{{0,3}})?"
     rf"{_DIGITS}(?:['\"]|(?:ft|feet|inches|inch|in|mm|cm|m)\.?))"
     r"[ -]?(?:H|HT|HIGH|TALL)\b(?![.:= ]*\d)",
     re.IGNORECASE,
@@ -256,11 +256,12 @@ _BEFORE = re.compile(
 _OTHER_SIZES = re.compile(r"(?:[\d.'\"/-]{1,12}+ ?+[WLD]?+ ?+[x×] ?+){1,3}+$", re.IGNORECASE)
 _METRIC = re.compile(r"(?<![\w.,'\"/-])(\d{1,6}),(\d{1,2})(?= ?(?:mm|cm|m)\b)", re.IGNORECASE)
 _VALUE = re.compile(
-    rf"(?:(?P<feet>{_NUMBER})(?: (?P<of_foot>{_SHARE}))?[ -]?(?:'|(?:ft|feet)\b\.?)[ -]{{0,3}})?"
+    rf"(?:(?P<feet>{_NUMBER})(?: (?P<of_foot>{_SHARE}))?[ -]?(?:'|(?:ft|feet)\b\.?)[ -]{{0,3}}"
+    rf"(?:(?P<of_inch>{_SHARE})[ -]?\")?)?"
     rf"(?:(?P<number>{_NUMBER})(?:[ -](?P<share>{_SHARE}))?"
     r"(?:[ -]?(?P<unit>\"|(?:inches|inch|in|mm|cm|m)(?![a-z]))\.?)?)?"
-    # Nothing of the number is left: neither `42x60` nor `42-48` is a height of 42.
-    r"(?![\w./'\"]|,\d|\s{0,3}[-/]\s{0,3}\d)",
+    # Nothing of the number is left: neither `42x60` nor `42-48` nor `42 1/2` is a height of 42.
+    r"(?![\w./'\"#^{\\]|,\d|\s{0,3}[-/]\s{0,3}\d|\s{1,3}\d{1,2}/\d)",
     re.IGNORECASE,
 )
 _HEIGHT_UNITS = LENGTHS | dict.fromkeys(('"', "inch", "inches"), LENGTHS["in"])
@@ -295,6 +296,7 @@ def read_line(text: str, unit_m: float) -> tuple[str, Height | None]:
         float(match[number] or 0.0) + float(Fraction(match[share] or 0))
         for number, share in (("number", "share"), ("feet", "of_foot"))
     )
+    value += float(Fraction(match["of_inch"] or 0))
     value_m = value * _HEIGHT_UNITS.get(unit.lower(), unit_m) + feet * _HEIGHT_UNITS["ft"]
     return name, Height(value_m, said.upper(), bool(unit))
 

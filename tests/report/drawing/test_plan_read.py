@@ -238,6 +238,8 @@ UNIT_M = 1.0
         ("RTU-2 height of 42 inches", "RTU-2", 42 * INCH, True),
         ("RTU HT 1,2 m", "RTU", 1.2, True),
         ('RTU-1,42" HIGH', "RTU-1", 42 * INCH, True),
+        ("HT 4'-1/2\"", "", 48.5 * INCH, True),
+        ("RTU-1 4' 1/2\" HIGH", "RTU-1", 48.5 * INCH, True),
     ],
 )
 def test_a_height_is_read_with_its_unit_or_that_of_the_drawing(text, name, value_m, has_unit):
@@ -250,7 +252,8 @@ def test_a_height_is_read_with_its_unit_or_that_of_the_drawing(text, name, value
 
 @pytest.mark.parametrize(
     "text", ["HT 42x60", "HT 42-48 in", "HT 42.5.1", "HEIGHT 12345678", "HT 42 yd", "HT 1,200 mm",
-             'RTU 1,42" HIGH', "TANK 1,200 mm high"]
+             'RTU 1,42" HIGH', "TANK 1,200 mm high", 'HT 481#2"', 'RTU 481#2" HIGH', 'HT 481^2"',
+             "HT 42a", r'HT 48{\S1#2;}"', 'HT 48" 1/2']
 )  # fmt: skip
 def test_a_number_that_is_not_read_whole_is_no_height(text):
     assert math.isnan(read_line(text, UNIT_M)[1].value_m)
@@ -277,6 +280,40 @@ def test_the_first_line_is_the_name_and_the_first_height_counts(tmp_path):
     (item,) = plan(sketch.saved(tmp_path)).objects
     assert (item.name, item.note) == ("RTU-7", "HT 48.0 in (1219 mm)")
     assert item.height_m == pytest.approx(48 * INCH)
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "inches"),
+    [
+        (r'RTU-1 HT 48{\H0.7x;\S1#2;}"', "RTU-1", 48.5),
+        (r'HT 48\S1/2;"', "", 48.5),
+        (r"HT 48 \A1;{\H0.7x;\S3^4;} in", "", 48.75),
+        (r'RTU-1 48{\S1^ 2;}" HIGH', "RTU-1", 48.5),
+        ("HT 4'-{\\S1#2;}\"", "", 48.5),
+        ("HT 4'-0{\\H0.7x;\\S 1 / 2 ;}\"", "", 48.5),
+        (r"UNIT {\S1#2;}, HT 3{\S1#2;}'", "UNIT 1/2", 42.0),
+        (r"C:\\S1 HT 48 in", r"C:\S1", 48.0),
+    ],
+)
+def test_a_stacked_fraction_is_one_behind_a_blank(tmp_path, text, name, inches):
+    sketch = Sketch()
+    sketch.ring("OBJECT", UNIT_FT)
+    sketch.space.add_mtext(text, dxfattribs={"layer": "OBJECT"}).set_location((69, 60))
+    (item,) = plan(sketch.saved(tmp_path)).objects
+    assert item.height_m == pytest.approx(inches * INCH)
+    assert item.name == (name or "OBJ-1")
+
+
+def test_an_attribute_of_lines_is_read_as_a_text_of_lines(tmp_path):
+    sketch = Sketch()
+    block = sketch.document.blocks.new("UNIT")
+    block.add_lwpolyline([(0, 0), (8, 0), (8, 4), (0, 4)], close=True)
+    put = sketch.space.add_blockref("UNIT", (50, 20), dxfattribs={"layer": "OBJECT"})
+    put.add_attrib("TAG", "RTU-1")
+    height = sketch.space.add_mtext(r'48{\H0.7x;\S1#2;}"')
+    put.add_attrib("HT", "481#2").set_mtext(height)
+    (item,) = plan(sketch.saved(tmp_path)).objects
+    assert (item.name, item.height_m) == ("RTU-1", pytest.approx(48.5 * INCH))
 
 
 def test_a_height_that_is_not_understood_is_listed(tmp_path):
