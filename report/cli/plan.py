@@ -151,7 +151,7 @@ def read(
     workbook is kept. If it has no other errors, the clearances follow as by plan clearances.
     """
     from report.drawing.fill import changes, layers_of, plan_as_rows, unread
-    from report.sheet.checking.plan_checks import us_first
+    from report.sheet.checking.plan_checks import far_off, us_first
     from report.sheet.writing.filled import changing, withdrawn
     from report.text.units import LENGTHS
     from solver.model import InputError
@@ -169,7 +169,9 @@ def read(
             layers = choose(drawn, layers_of(draft), kinds, accept)
             with Progress() as progress:
                 progress("finding the plan in the drawing")
-                roof_plan, told, layers = plan_as_rows(drawn, unit_m, draft, layers, gap_m)
+                roof_plan, told, layers = plan_as_rows(
+                    drawn, unit_m, draft, layers, gap_m, is_unit_given=units is not None
+                )
         change.fill(changes(change.book, told, layers, replace=replace))
         try:
             more = _add_clearances(change)
@@ -191,6 +193,7 @@ def read(
         *(f"layer {name}: {kind.value}" for name, kind in layers.items()),
         f"{change.book.path}: the plan is filled in: {change.areas}",
         *told.lines(replace=replace),
+        *(text for _, text in far_off(told.shapes, roof_plan.roof_shape, is_us)),
         *more,
     )
     for text in lines:

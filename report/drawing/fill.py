@@ -62,9 +62,14 @@ class MatchedPlan:
     rows: Mapping[str, DraftRow]  # as they were
     unit: Unit  # of the table of moves
 
+    @property
+    def shapes(self) -> dict[str, Shape]:
+        """What is drawn, and what stays as typed, by name."""
+        return {name: self.before[name] for name in self.typed} | self.plan.shapes
+
     def lines(self, *, replace: bool) -> Iterator[str]:
         """Yield a table of what moved, is new or is gone with `replace`, and modules not drawn."""
-        now = {place.name: place.shape for place in (*self.plan.arrays, *self.plan.objects)}
+        now = self.plan.shapes
         moves = []
         # At first, when nothing was in plan, there is no table.
         for name in {**self.before, **now} if self.before else ():
@@ -242,19 +247,23 @@ def plan_as_rows(
     draft: Draft,
     layers: Mapping[str, LayerKind],
     joined_m: float = GAP_M,
+    *,
+    is_unit_given: bool,
 ) -> tuple[RoofPlan, MatchedPlan, dict[str, LayerKind]]:
     """Return the plan of a drawing, as rows of a workbook, and what is said of its layers.
 
     `layers` add to the sheet Layers; a layer that nobody says anything of is not read. `joined_m`
     is the largest gap between modules of one array.
 
-    Raises `InputError` if there is nothing to fill in, or its size is not that of a roof.
+    Raises `InputError` if there is nothing to fill in; for sizes that few have, unless somebody
+    has given the unit.
     """
     is_us, said = us_first(draft), {**layers_of(draft), **layers}
     plan, known = plan_of(drawn, unit_m, said, joined_m, is_us), known_layers(said)
     if not (plan.roof or plan.arrays or plan.objects):
         _refuse(plan, drawn)
-    check_size(plan, unit_m, is_us)
+    if not is_unit_given:
+        check_size(plan, drawn.unit, is_us)
     unknown = [line.layer for line in drawn.lines if line.layer.casefold() not in known]
     return plan, matched(plan, draft), {**layers, **dict.fromkeys(unknown, LayerKind.NOT_READ)}
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from report.assessment.neighbors import EDGE_STRIP_M, bare_sides
 from report.drawing.items import Layer
-from report.drawing.modules import GAP_M, MOST_TEXTS, Known, joined
+from report.drawing.modules import GAP_M, MOST_TEXTS, SIDES_M, Known, joined
 from report.drawing.roof_drawing import (
     Drawn,
     RoofDrawing,
@@ -22,6 +22,7 @@ from report.drawing.roof_drawing import (
     read_line,
     turned,
 )
+from report.sheet.checking.findings import listed
 from report.sheet.checking.plan_checks import LEAST_VERTICES
 from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.shapes import (
@@ -56,8 +57,15 @@ ROUNDED_M = 1e-5
 LONG_M = 0.1
 # Largest distance [m] between two outlines that are one drawn twice.
 TWICE_M = 0.005
-# Least and largest length [m] of a roof, and of the largest array.
-ROOF_M, ARRAY_M = (3.0, 3_000.0), (0.9, 1_000.0)
+# Least and largest length [m] that most have: a roof; an array, which fire codes end at 150 ft; a
+# unit on the roof. Least area of an array [m2]: of one module.
+USUAL_M: Mapping[LayerKind, tuple[float, float]] = {
+    LayerKind.ROOF: (20.0 * LENGTHS["ft"], 1_000.0),
+    LayerKind.ARRAY: (LENGTHS["ft"], 100.0),
+    LayerKind.UNLIKE_ARRAY: (LENGTHS["ft"], 100.0),
+    LayerKind.FIXED: (LENGTHS["ft"], 60.0 * LENGTHS["ft"]),
+}
+LEAST_ARRAY_M2 = 2.0
 
 _STEMS = {LayerKind.ARRAY: "A", LayerKind.FIXED: "OBJ-", LayerKind.UNLIKE_ARRAY: "PV-"}
 
@@ -90,6 +98,16 @@ class RoofPlan:
     arrays: tuple[DrawnOutline, ...]
     objects: tuple[DrawnOutline, ...]
     unread: tuple[Unread, ...]
+
+    @property
+    def roof_shape(self) -> Shape | None:
+        """The roof, if it is drawn."""
+        return self.roof[0].shape if self.roof else None
+
+    @property
+    def shapes(self) -> dict[str, Shape]:
+        """The arrays and objects by name."""
+        return {place.name: place.shape for place in (*self.arrays, *self.objects)}
 
 
 def plan_of(
@@ -160,17 +178,41 @@ def _once(known: Sequence[Known], unread: list[Unread]) -> list[Known]:
     return [line for k, line in enumerate(known) if k not in twins]
 
 
-def check_size(plan: RoofPlan, unit_m: float, us_first: bool = True) -> None:
-    """Raise InputError for a roof, or else arrays, of a size that none has, with units that do."""
-    places = plan.roof or plan.arrays
-    boxes = [place.shape.bounds for place in places]
-    long_m = max((max(b.x_to_m - b.x_from_m, b.y_to_m - b.y_from_m) for b in boxes), default=0.0)
-    low_m, high_m = ROOF_M if plan.roof else ARRAY_M
-    if places and not low_m <= long_m <= high_m:
-        units = [u for u, m in LENGTHS.items() if low_m <= long_m * m / unit_m <= high_m]
-        what = "the roof is" if plan.roof else "the largest array is"
-        text = f"{what} {pair(long_m, Quantity.PLAN, us_first)} long, which none is"
-        raise InputError(f"{text}; give --units with that of the drawing, {' or '.join(units)}")
+def check_size(plan: RoofPlan, stated: str, us_first: bool = True) -> None:
+    """Raise InputError for sizes that few roofs, arrays or units have, with units that would do.
+
+    The drawing was read in the unit that it states.
+    """
+    places = (*plan.roof, *plan.arrays, *plan.objects)
+    odd = [place for place in places if not _is_usual(place, 1.0, LEAST_ARRAY_M2)]
+    if not odd:
+        return
+    sizes = []
+    for place in odd:
+        wide, tall = (pair(m, Quantity.PLAN, us_first) for m in own_axes(place.shape)[:2])
+        name = "the roof" if place.kind is LayerKind.ROOF else place.name
+        sizes.append(f"{name} is {wide} by {tall}")
+    # In another unit the smallest may be modules, which are joined.
+    would_do = [
+        unit for unit, unit_m in LENGTHS.items()
+        if unit != stated
+        and all(_is_usual(place, unit_m / LENGTHS[stated], SIDES_M[0] ** 2) for place in places)
+    ]  # fmt: skip
+    others = f"{' or '.join(would_do)}, or " if would_do else ""
+    raise InputError(
+        f"{listed(sizes)}, a size that few have; give --units with that of the drawing,"
+        f" {others}{stated} if it is so, as it states"
+    )
+
+
+def _is_usual(place: DrawnOutline, factor: float, least_array_m2: float) -> bool:
+    """Whether a place has a usual size, taken times a factor."""
+    long_m = factor * max(own_axes(place.shape)[:2])
+    is_array = place.kind in (LayerKind.ARRAY, LayerKind.UNLIKE_ARRAY)
+    if is_array and factor**2 * place.shape.area_m2 < least_array_m2:
+        return False
+    low_m, high_m = USUAL_M.get(place.kind, (0.0, math.inf))
+    return low_m - ROUNDED_M <= long_m <= high_m + ROUNDED_M
 
 
 def known_layers(layers: Mapping[str, LayerKind]) -> dict[str, LayerKind]:

@@ -249,7 +249,9 @@ def read_plan(workbook: Path, job: Json) -> Json:
     change, unit_m = WorkbookChange(open_book(workbook)), LENGTHS[job["unit"]]
     drawn = read_dxf(next(_drawings(workbook)), unit_m)
     layers = {layer: LayerKind(kind) for layer, kind in json.loads(job["layers"]).items()}
-    _, told, layers = plan_as_rows(drawn, unit_m, read_book(change.book).draft, layers)
+    draft = read_book(change.book).draft
+    # The form has asked for the unit.
+    _, told, layers = plan_as_rows(drawn, unit_m, draft, layers, is_unit_given=True)
     change.fill(changes(change.book, told, layers, replace=True))
     withdrawn(change)
     # One is opened, and one stays to be saved when the other has been replaced.

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping
 
 from report.sheet.checking.checks import ROUNDING_OF_COEFFICIENTS, gap_tolerance_m
 from report.sheet.checking.findings import note, spoken, unusual, warning
+from report.sheet.checking.plan_checks import far_off
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import Direction, SlopeUnit
 from report.sheet.schema.fields import Finding, Level, Place
@@ -68,10 +69,20 @@ def _contradictory(data: ProjectInput) -> Iterator[Finding]:
         yield from _weight(index, array, us_first)
         yield from _friction(index, array)
     yield from _overrides(data)
+    yield from _far(data)
     arrays = {array.id: array for array in data.arrays}
     for index, other in _objects_in_plan(data):
         row = data.clearances[index]
         yield from _direction(index, row, arrays[row.array], other)
+
+
+def _far(data: ProjectInput) -> Iterator[Finding]:
+    places = {array.id: Place("arrays", k, "id") for k, array in enumerate(data.arrays)}
+    places |= {item.id: Place("objects", k, "id") for k, item in enumerate(data.objects)}
+    shapes = {array.id: array.shape for array in data.arrays}
+    shapes |= {item.id: item.placed for item in data.objects if item.placed}
+    for name, text in far_off(shapes, data.roof.placed, data.us_first):
+        yield warning(f"far {name}", places[name], text)
 
 
 def _objects_in_plan(data: ProjectInput) -> Iterator[tuple[int, Shape]]:

@@ -3,7 +3,7 @@
 import pytest
 from ezdxf.xclip import XClip
 
-from commands import refused
+from commands import ended, printed, refused
 from nightly import by_day
 from report.drawing.read_dxf import read_dxf
 from report.sheet.schema.choices import UnitsFirst
@@ -183,24 +183,46 @@ def test_a_flat_block_is_read_and_an_outline_over_an_equal_one_counts_once(tmp_p
     ]  # fmt: skip
 
 
+def sized(tmp_path, unit, factor, *, has_roof=True, item=8):
+    """A drawing of a roof, an array and a unit, drawn by a factor too large."""
+    sketch = Sketch(unit=unit)
+    x, y = 110, 110
+    shapes = [("ARRAY", BOX_FT, "A1"),
+              ("OBJECT", ((x, y), (x + item, y), (x + item, y + item), (x, y + item)), "RTU-1")]
+    for layer, points, name in [("ROOF-OUTLINE", ROOF_FT, "")] * has_roof + shapes:
+        sketch.ring(layer, [(x * factor, y * factor) for x, y in points], name)
+    return sketch.saved(tmp_path)
+
+
 @pytest.mark.parametrize(
     ("unit", "factor", "has_roof", "said"),
     by_day([
-        ("in", 0.0254, True, "the roof is 6.10 ft (1.86 m) long, which none is; give --units with"
-         " that of the drawing, ft or m"),
-        ("in", 1 / 200, False, "the largest array is 0.40 ft (0.12 m) long"),
-        ("m", 304.8, True, "the roof is 73152.00 ft (22296.73 m) long, which none is; give --units"
-         " with that of the drawing, in or mm or cm"),
+        ("in", 1 / 12, True, ("RTU-1 is 0.67 ft (0.20 m) by", "ft or m, or in if it is so, as")),
+        ("in", 0.0254, True, ("the roof is 6.10 ft (1.86 m) by", "ft or m, or in if it is so")),
+        ("in", 1 / 200, False, ("A1 is 0.40 ft (0.12 m) by 0.28 ft (0.08 m)", "or in if it is so")),
+        ("ft", 12.0, True, ("A1 is 960.00 ft (292.61 m) by", "in or cm, or ft if it is so")),
+        ("m", 304.8, True, ("the roof is 73152.00 ft (22296.73 m) by", "or m if it is so")),
     ], 1),
 )  # fmt: skip
-def test_a_size_that_no_roof_has_is_refused_with_the_units_that_would_do(
+def test_a_size_that_few_have_is_asked_about_with_the_units_that_would_do(
     tmp_path, unit, factor, has_roof, said
 ):
-    sketch = Sketch(unit=unit)
-    if has_roof:
-        sketch.ring("ROOF-OUTLINE", [(x * factor, y * factor) for x, y in ROOF_FT])
-    sketch.ring("ARRAY", [(x * factor, y * factor) for x, y in BOX_FT], "A1")
     path = blank(tmp_path / "input.xlsx", UnitsFirst.US)
     before = path.read_bytes()
-    assert said in refused("plan", "read", sketch.saved(tmp_path), path)
+    drawing = sized(tmp_path, unit, factor, has_roof=has_roof)
+    output = refused("plan", "read", drawing, path)
+    for part in said:
+        assert part in output
     assert path.read_bytes() == before
+    printed("plan", "read", drawing, path, "--units", unit)
+
+
+@pytest.mark.parametrize(
+    ("item", "is_asked"), [(0.9, True), (1.1, False), (59.0, False), (61.0, True)]
+)
+@pytest.mark.nightly
+def test_a_unit_below_a_foot_or_above_sixty_is_asked_about(tmp_path, item, is_asked):
+    path = blank(tmp_path / "input.xlsx", UnitsFirst.US)
+    drawing = sized(tmp_path, "ft", 1.0, item=item)
+    output = ended("plan", "read", drawing, path, exit_code=2 if is_asked else 0)
+    assert ("a size that few have" in output) is is_asked

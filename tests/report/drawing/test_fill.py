@@ -18,7 +18,7 @@ from report.sheet.schema.scene import SIDES
 from report.sheet.schema.shapes import Polygon
 from report.sheet.writing.filled import overwritten
 from sheets import at, blank, different, edit, make, parts, project, put, same, type_into
-from sketch import BOX_FT, L_FT, ROOF_FT, Sketch
+from sketch import BOX_FT, L_FT, ROOF_FT, UNIT_FT, Sketch
 
 run = partial(ended, "plan", "read")
 
@@ -276,6 +276,15 @@ def test_what_is_not_read_is_said_once_for_each_cause(tmp_path):
         "not read: an open line that closes no outline: 40 on L0, L1, L2 and 5 more (...)",
     ]
     assert all(line.endswith(" and 37 more)") for line in lines)
+
+
+def test_a_rectangle_left_far_from_the_roof_is_asked_about(tmp_path):
+    sketch, east = Sketch(), 6_000_000
+    sketch.ring("ROOF-OUTLINE", [(x + east, y) for x, y in ROOF_FT])
+    sketch.ring("ARRAY", [(x + east, y) for x, y in BOX_FT], "A1")
+    sketch.ring("OBJECT", UNIT_FT)
+    output = run(sketch.saved(tmp_path), new(tmp_path))
+    assert "OBJ-1 is 5999925.00 ft (1828777.14 m) from the roof: is it a leftover? Del" in output
 
 
 @pytest.mark.parametrize("name", ["none.dxf", "."])

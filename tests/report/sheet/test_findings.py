@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 from click.testing import CliRunner
 
-from inputs import FT, INCH, LB
+from inputs import FT, INCH, LB, sides
 from nightly import by_day
 from report.cli.main import main
 from report.sheet.checking.findings import grouped, lines, note, unusual, warning
@@ -75,6 +75,26 @@ def test_an_improbable_value_gives_one_warning(section, index, change, name, tex
     found = warnings(row_changed(section, index, **change))
     assert list(found) == [name]
     assert text in found[name]
+
+
+@pytest.mark.parametrize(
+    ("far_ft", "roof", "text"),
+    [
+        (2_000, {}, "OLD is 1800.00 ft (548.64 m) from A2: is it a leftover? Delete it"),
+        (1_500, {}, ""),
+        (700, sides(0, 300, 0, 121), "OLD is 400.00 ft (121.92 m) from the roof: is it a"),
+        (590, sides(0, 300, 0, 121), ""),
+    ],
+)
+def test_an_object_far_from_the_roof_or_else_from_the_largest_array_is_asked_about(
+    far_ft, roof, text
+):
+    old = {"id": "OLD", "kind": "unlike array"} | sides(far_ft, far_ft + 10, 20, 30)
+    items = [old, *(row for row in project().model_dump()["objects"] if row["id"] != "OLD")]
+    clearances = [row for row in project().model_dump()["clearances"] if row["object"] != "OLD"]
+    found = warnings(project(objects=items, roof=roof, clearances=clearances))
+    assert found.get("far OLD", "").startswith(text)
+    assert ("far OLD" in found) is bool(text)
 
 
 @pytest.mark.parametrize(
