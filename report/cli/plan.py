@@ -172,7 +172,8 @@ def read(
                 roof_plan, told, layers = plan_as_rows(
                     drawn, unit_m, draft, layers, gap_m, is_unit_given=units is not None
                 )
-        change.fill(changes(change.book, told, layers, replace=replace))
+        cells, said = changes(change.book, told, layers, replace=replace)
+        change.fill(cells)
         try:
             more = _add_clearances(change)
         # The plan is filled in all the same: it is what the next errors are corrected on.
@@ -193,6 +194,7 @@ def read(
         *(f"layer {name}: {kind.value}" for name, kind in layers.items()),
         f"{change.book.path}: the plan is filled in: {change.areas}",
         *told.lines(replace=replace),
+        *said,
         *(text for _, text in far_off(told.shapes, roof_plan.roof_shape, is_us)),
         *more,
     )

@@ -12,17 +12,19 @@ from dataclasses import dataclass, field, replace
 from typing import NoReturn
 
 from report.drawing.modules import GAP_M
+from report.drawing.moved import SAME_M, Move, whole_move
 from report.drawing.plan_read import (
     DrawnOutline,
     RoofPlan,
     check_size,
     free_name,
     known_layers,
+    own_axes,
     plan_of,
 )
 from report.drawing.roof_drawing import RoofDrawing
 from report.sheet.checking.findings import listed
-from report.sheet.checking.plan_checks import shapes_of, us_first
+from report.sheet.checking.plan_checks import roof_of, shapes_of, us_first
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.locate import cell_as_column, find_cell, is_absent
 from report.sheet.reading.parts import DIGITS, GrowingTable, Value
@@ -31,18 +33,27 @@ from report.sheet.schema import SECTION
 from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.fields import Draft, DraftRow
 from report.sheet.schema.scene import DRAWING, DRAWN_MODULES, ROOF, SIDES
-from report.sheet.schema.shapes import Polygon, Rectangle, Shape, gap_m, mean, solid
+from report.sheet.schema.shapes import (
+    Point,
+    Polygon,
+    Rectangle,
+    Shape,
+    around,
+    gap_m,
+    mean,
+    solid,
+)
 from report.sheet.writing.filled import MOVE
 from report.text.counts import grouped_by
 from report.text.formats import aligned
-from report.text.units import Quantity, Unit
+from report.text.units import LENGTHS, Quantity, Unit
 from solver.model import InputError
 
 # Common share of two outlines, of all that either covers, by which they may be the same.
 _LEAST_SHARE = 0.05
 _RENAMED_SHARE = 0.9  # the same, of an outline that the drawing calls by a name of its own
 _PLAIN = 2.0  # a row is told from another by this times its share, or its part of the distance
-_SAME_M = 0.05  # sizes that differ by less are the same
+_SAME_WAY = 0.5  # cosine between the directions of two edges of the same side
 # Most outlines of a kind that cannot be told and are named.
 MOST_TOLD = 20
 _STILL_M = 1e-3  # what has moved by less has not
@@ -58,7 +69,9 @@ class MatchedPlan:
     plan: RoofPlan  # as drawn, but for its names
     gone: tuple[str, ...]  # rows with a place from a former drawing that is not in this one
     typed: tuple[str, ...]  # the same with a place that was typed
-    before: Mapping[str, Shape]  # where the rows were
+    move: Move | None  # of the plan as a whole; None where it cannot be told
+    before: Mapping[str, Shape]  # where the rows were, moved with the whole
+    rows_m: Mapping[str, Shape]  # where they were
     rows: Mapping[str, DraftRow]  # as they were
     unit: Unit  # of the table of moves
 
@@ -69,6 +82,15 @@ class MatchedPlan:
 
     def lines(self, *, replace: bool) -> Iterator[str]:
         """Yield a table of what moved, is new or is gone with `replace`, and modules not drawn."""
+        if self.move is None:
+            yield (
+                "the roof is another one, and how the plan has moved cannot be told: its edges are"
+                " new; check the downslope directions, and that of north"
+            )
+        elif not self.move.is_none:
+            check = "" if self.move.is_straight else "; check the direction of north"
+            text = f"the plan as a whole is {self.move.words(self.unit)} since the workbook{check}"
+            yield f"{text}; what was typed and is not drawn is moved with it"
         now = self.plan.shapes
         moves = []
         # At first, when nothing was in plan, there is no table.
@@ -100,27 +122,41 @@ def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
     known = [*draft["arrays"], *draft["objects"]]
     rows = {row["id"]: row for row in known if "id" in row}
     groups = {row["id"]: _group(row.get("kind", "")) for row in draft["objects"] if "id" in row}
-    before = shapes_of(draft)
+    was, roof = shapes_of(draft), roof_of(draft)
     drawn = (*plan.arrays, *plan.objects)
-    by_name = {(groups.get(name, _ARRAY), name.casefold()): name for name in before}
+    by_name = {(groups.get(name, _ARRAY), name.casefold()): name for name in was}
     by_row = {
         number: by_name[key]
         for number, place in enumerate(drawn)
         if (key := (_group(place.kind), place.name.casefold())) in by_name and not place.unnamed
     }
     unit = Quantity.PLAN.us if us_first(draft) else Quantity.PLAN.si
+
+    def agreeing(move: Move) -> int:
+        """Return how many rows are where they would be after a move."""
+        return _agreeing({name: move.of(was[name]) for name in was}, groups, drawn, by_row)
+
+    named = [(was[name], drawn[number].shape) for number, name in by_row.items()]
+    move = whole_move((roof, plan.roof_shape), named, agreeing) if was else Move()
+    before = {name: move.of(was[name]) for name in was} if move else was
+    now = [place.shape for place in drawn]
+    middles = [mean(around(shapes).points) for shapes in (before.values(), now) if shapes]
     unclear: list[str] = []
     for group in (_ARRAY, _OBJECT, _EDGE):
         numbers = [k for k, place in enumerate(drawn) if _group(place.kind) == group]
         names = [name for name in before if groups.get(name, _ARRAY) == group]
+        is_edge = group == _EDGE
         # By what they cover together first: a center alone may be nearer to a neighbor.
-        for score in (_common, _near if group == _EDGE else _same_sized):
+        for score in (_common, _near if is_edge else _same_sized) if move else ():
             pairs = {
                 (k, name): value
                 for k in numbers
                 for name in names
                 if k not in by_row and name not in by_row.values()
                 if (value := score(drawn[k], before[name])) > 0.0
+                if not is_edge
+                or value >= _RENAMED_SHARE
+                or _faces_same(before[name], drawn[k].shape, middles)
             }
             unclear += _tell(pairs, drawn, by_row, unit)
         left = [name for name in names if name not in by_row.values() and _is_drawn(rows[name])]
@@ -135,10 +171,41 @@ def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
         plan=_renamed(plan, by_row, before, rows),
         gone=tuple(name for name in lost if _is_drawn(rows[name])),
         typed=tuple(name for name in lost if not _is_drawn(rows[name])),
+        move=move,
         before=before,
+        rows_m=was,
         rows=rows,
         unit=unit,
     )
+
+
+def _agreeing(
+    rows: Mapping[str, Shape],
+    groups: Mapping[str, str],
+    drawn: Sequence[DrawnOutline],
+    by_row: Mapping[int, str],
+) -> int:
+    """Return how many rows, but for edges, are where they are drawn."""
+    import shapely
+
+    names = [name for name in rows if groups.get(name) != _EDGE]
+    # A row whose name is in the drawing is that outline, and else any of its group.
+    own = [name if name in by_row.values() else groups.get(name, _ARRAY) for name in names]
+    others = [by_row.get(number, _group(place.kind)) for number, place in enumerate(drawn)]
+    shapes, places = [solid(rows[name]) for name in names], [solid(place.shape) for place in drawn]
+    near = shapely.STRtree(places).query(shapes, predicate="intersects").T
+    return len({
+        row for row, number in near.tolist()
+        if own[row] == others[number]
+        and shapes[row].hausdorff_distance(places[number]) <= SAME_M
+    })  # fmt: skip
+
+
+def _faces_same(was: Shape, now: Shape, middles: Sequence[Point]) -> bool:
+    """Whether two edges are on the same side of all that is in plan, given the middle of each."""
+    ends = [complex(*mean(shape.bounds.points)) for shape in (was, now)]
+    ways = [end - complex(*middle) for end, middle in zip(ends, middles, strict=True)]
+    return (ways[0] * ways[1].conjugate()).real > _SAME_WAY * abs(ways[0]) * abs(ways[1])
 
 
 def _group(kind: str) -> str:
@@ -168,7 +235,7 @@ def _same_sized(place: DrawnOutline, row: Shape) -> float:
     """Return the same of an outline of the same size; 0 for another."""
     sizes = ((b.x_to_m - b.x_from_m, b.y_to_m - b.y_from_m)
              for b in (place.shape.bounds, row.bounds))  # fmt: skip
-    is_same = all(abs(a - b) < _SAME_M for a, b in zip(*sizes, strict=True))
+    is_same = all(abs(a - b) < SAME_M for a, b in zip(*sizes, strict=True))
     return _near(place, row) if is_same else 0.0
 
 
@@ -265,7 +332,16 @@ def plan_as_rows(
     if not is_unit_given:
         check_size(plan, drawn.unit, is_us)
     unknown = [line.layer for line in drawn.lines if line.layer.casefold() not in known]
-    return plan, matched(plan, draft), {**layers, **dict.fromkeys(unknown, LayerKind.NOT_READ)}
+    told = matched(plan, draft)
+    if told.move and told.move.factor != 1.0 and not is_unit_given:
+        size_m = LENGTHS[drawn.unit] / told.move.factor
+        others = [u for u, m in LENGTHS.items() if math.isclose(m, size_m, rel_tol=1e-3)]
+        raise InputError(
+            f"the plan is {told.move.factor:.4g} times as large as in the workbook; give --units"
+            f" with that of the drawing, {' or '.join([*others, drawn.unit])} if it is so, as it"
+            " states"
+        )
+    return plan, told, {**layers, **dict.fromkeys(unknown, LayerKind.NOT_READ)}
 
 
 def _refuse(plan: RoofPlan, drawn: RoofDrawing) -> NoReturn:
@@ -303,6 +379,7 @@ class _Fill:
     lacking: list[str] = field(default_factory=list)  # outlines without the sheet for them
     cells: dict[CellPosition, Value] = field(default_factory=dict)
     filled: list[str] = field(default_factory=list)
+    said: list[str] = field(default_factory=list)  # of what was typed
 
     def refuse(self, position: CellPosition, name: str) -> None:
         """Note a place that is filled already."""
@@ -325,8 +402,10 @@ class _Fill:
 
 def changes(
     book: OpenBook, told: MatchedPlan, layers: Mapping[str, LayerKind], *, replace: bool
-) -> dict[CellPosition, Value]:
+) -> tuple[dict[CellPosition, Value], list[str]]:
     """Return the cells to change so that a workbook has the plan, and what its layers are.
+
+    And what to say of what was typed, where it is taken out, changed, or kept on another size.
 
     Raises `InputError` for each place that is filled already, unless it may be replaced.
     """
@@ -334,18 +413,40 @@ def changes(
     # that are to be taken out are emptied wherever they are named.
     outlines = None if is_absent(book, SECTION["outlines"]) else GrowingTable.of(book, "outlines")
     fill = _Fill(book, replace, outlines)
-    _fill_rows(fill, "arrays", told.plan.arrays)
-    _fill_rows(fill, "objects", told.plan.objects)
+    _fill_rows(fill, "arrays", told.plan.arrays, told.rows_m)
+    _fill_rows(fill, "objects", told.plan.objects, {})
     for name in told.gone if replace else ():
         _take_out(fill, name)
+    if replace and told.move and not told.move.is_none:
+        _move_typed(fill, told, told.move)
     for place in told.plan.roof:
-        _fill_roof(fill, place)
+        _fill_roof(fill, place.shape)
     _fill_layers(fill, layers)
     if fill.lacking:
         names = ", ".join(fill.lacking)
         missing = f"Outlines: the sheet is missing, which {names} in the drawing need"
         raise InputError(f"{missing}. {MOVE}, then read the drawing into that")
-    return fill.done()
+    return fill.done(), fill.said
+
+
+def _move_typed(fill: _Fill, told: MatchedPlan, move: Move) -> None:
+    """Move what was typed with the plan as a whole: places, and directions as it is turned."""
+    arrays = GrowingTable.of(fill.book, "arrays")
+    for name in told.typed:
+        table = arrays if arrays.rows("id", name) else GrowingTable.of(fill.book, "objects")
+        shape = told.before[name]
+        _fill_outline(fill, name, shape, "")
+        sides = zip(SIDES, _sides(shape), strict=True)
+        values = {side: None if m is None else table.number(side, m) for side, m in sides}
+        fill.cells |= table.cells(table.rows("id", name)[0], values)
+    for name, row in told.rows.items() if not move.is_straight else ():
+        way_deg = row.get("downslope_deg")
+        if way_deg is None or name in told.gone or move.way_deg(way_deg) == way_deg:
+            continue
+        now_deg = move.way_deg(way_deg)
+        at = arrays.position(arrays.rows("id", name)[0], "downslope_deg")
+        fill.cells[at] = now_deg
+        fill.said.append(f"{name}: downslope direction {way_deg:g}° is {now_deg:g}° now")
 
 
 def ballast_changes(
@@ -360,7 +461,10 @@ def ballast_changes(
     return fill.done()
 
 
-def _fill_rows(fill: _Fill, key: str, places: Sequence[DrawnOutline]) -> None:
+def _fill_rows(
+    fill: _Fill, key: str, places: Sequence[DrawnOutline], before: Mapping[str, Shape]
+) -> None:
+    """Fill in rows; what is typed of one whose size, given as it was, is another is said."""
     if not places:
         return
     table = GrowingTable.of(fill.book, key)
@@ -370,8 +474,11 @@ def _fill_rows(fill: _Fill, key: str, places: Sequence[DrawnOutline]) -> None:
         taken = [side for side in SIDES if not table.cell(row, side).is_blank]
         if rows and taken:
             fill.refuse(table.position(row, taken[0]), f"the place of {place.name}")
-        _fill_outline(fill, place)
+        _fill_outline(fill, place.name, place.shape, DRAWING)
         values: dict[str, Value] = {} if rows else {"id": place.name}
+        if place.name in before and not _is_same_size(before[place.name], place.shape):
+            typed = _typed(table, row, {"modules"} if place.modules else set())
+            fill.said.append(f"{place.name} has another size; stays as typed: {typed}")
         if "place_from" in table.inputs.columns:  # not in earlier workbooks
             values["place_from"] = DRAWN_MODULES if place.modules else DRAWING
             if not place.modules and table.cell(row, "place_from").shown == DRAWN_MODULES:
@@ -383,6 +490,11 @@ def _fill_rows(fill: _Fill, key: str, places: Sequence[DrawnOutline]) -> None:
             values["kind"] = place.kind.value
             if math.isfinite(place.height_m):
                 values["height_m"] = table.number("height_m", place.height_m)
+            for name in ("kind", "height_m") if rows else ():
+                found = table.cell(row, name)
+                if name in values and found.value not in (None, values[name]):
+                    what = f"{place.name}: {_entered(table, row, name)}"
+                    fill.said.append(f"{what} is {values[name]} now, as drawn")
         for side, value in zip(SIDES, _sides(place.shape), strict=True):
             shown = None if value is None else table.number(side, value)
             if shown is not None or side in taken:
@@ -392,12 +504,38 @@ def _fill_rows(fill: _Fill, key: str, places: Sequence[DrawnOutline]) -> None:
 
 def _take_out(fill: _Fill, name: str) -> None:
     """Empty the rows of an array or an object that is not drawn any more, and those beside it."""
+    lost = []
     for key, columns in _NAMED.items():
         if is_absent(fill.book, SECTION[key]):
             continue
         table = GrowingTable.of(fill.book, key)
         for row in {row for column in columns for row in table.rows(column, name)}:
+            has_source = "source" in table.inputs.columns
+            is_drawn = has_source and table.cell(row, "source").shown == DRAWING
+            if key != "outlines" and not is_drawn and (typed := _typed(table, row, set())):
+                lost.append(f"{table.position(row, columns[0]).address}: {typed}")
             fill.cells |= table.cells(row, dict.fromkeys(table.inputs.columns))
+    if lost:
+        fill.said.append(f"taken out with {name}: {'; '.join(lost)}")
+
+
+def _typed(table: GrowingTable, row: int, drawn: set[str]) -> str:
+    """Return what the cells of a row say but for its name, its place and what is drawn."""
+    names = [name for name in table.inputs.columns if not table.cell(row, name).is_blank]
+    passed = {"id", "place_from", *SIDES, *drawn}
+    return ", ".join(_entered(table, row, name) for name in names if name not in passed)
+
+
+def _entered(table: GrowingTable, row: int, name: str) -> str:
+    """Return a cell in words, such as `height 36 in`."""
+    label, unit = table.section.entry(name).spoken, table.inputs.columns[name].unit
+    return f"{label} {table.cell(row, name).shown} {unit}".strip()
+
+
+def _is_same_size(was: Shape, now: Shape) -> bool:
+    sizes = zip(sorted(own_axes(was)[:2]), sorted(own_axes(now)[:2]), strict=True)
+    is_same_area = math.isclose(was.area_m2, now.area_m2, rel_tol=0.01)
+    return is_same_area and all(abs(a - b) < SAME_M for a, b in sizes)
 
 
 def _sides(shape: Shape) -> tuple[float | None, ...]:
@@ -406,12 +544,12 @@ def _sides(shape: Shape) -> tuple[float | None, ...]:
     return (None,) * len(SIDES)
 
 
-def _fill_roof(fill: _Fill, place: DrawnOutline) -> None:
+def _fill_roof(fill: _Fill, shape: Shape) -> None:
     section = SECTION["roof"]
-    _fill_outline(fill, place)
-    if isinstance(place.shape, Polygon) and is_absent(fill.book, section):
+    _fill_outline(fill, ROOF, shape, DRAWING)
+    if isinstance(shape, Polygon) and is_absent(fill.book, section):
         return
-    for side, value in zip(SIDES, _sides(place.shape), strict=True):
+    for side, value in zip(SIDES, _sides(shape), strict=True):
         position = find_cell(fill.book, section, section.entry(side))
         si = cell_as_column(fill.book, section, section.entry(side), position).si
         is_blank = found_at(fill.book, position).is_blank
@@ -430,10 +568,9 @@ def _fill_layers(fill: _Fill, layers: Mapping[str, LayerKind]) -> None:
             fill.cells |= table.cells(row, {"layer": layer, "kind": kind.value})
 
 
-def _fill_outline(fill: _Fill, place: DrawnOutline) -> None:
+def _fill_outline(fill: _Fill, name: str, shape: Shape, whence: str) -> None:
     """Fill in the outline of a place below the others, and clear a former one."""
-    name = ROOF if place.kind.value == ROOF else place.name
-    points = place.shape.points if isinstance(place.shape, Polygon) else ()
+    points = shape.points if isinstance(shape, Polygon) else ()
     table = fill.outlines
     if table is None:
         fill.lacking += [name] if points else []
@@ -444,7 +581,7 @@ def _fill_outline(fill: _Fill, place: DrawnOutline) -> None:
     for row in rows:
         fill.cells |= table.cells(row, dict.fromkeys(table.inputs.columns))
     # Not in earlier workbooks.
-    source = {"source": DRAWING} if "source" in table.inputs.columns else {}
+    source = {"source": whence or None} if "source" in table.inputs.columns else {}
     for x, y in points:
         place_m = {"x_m": table.number("x_m", x), "y_m": table.number("y_m", y)}
         fill.cells |= table.cells(table.added(), {"name": name, **place_m, **source})

@@ -244,7 +244,7 @@ def _shape(line: Drawn, unit_m: float) -> Shape | Unread:
     shape = Polygon(points)
     if shape.area_m2 < LEAST_AREA_M2:
         return _unread(line, "a closed line without an area")
-    return _box(shape) or shape
+    return boxed(shape)
 
 
 def _clear_box(points: Sequence[Point]) -> Rectangle | None:
@@ -254,6 +254,11 @@ def _clear_box(points: Sequence[Point]) -> Rectangle | None:
     if box is None or min(box.x_to_m - box.x_from_m, box.y_to_m - box.y_from_m) < LONG_M:
         return None
     return box if shape.area_m2 > 0.99 * box.area_m2 else None  # else it is folded
+
+
+def boxed(shape: Polygon) -> Shape:
+    """Return a polygon, as a rectangle if it is one that is parallel to the axes."""
+    return _box(shape) or shape
 
 
 def _box(shape: Polygon) -> Rectangle | None:
@@ -401,7 +406,7 @@ def _strip(start: Point, end: Point) -> Shape:
     dx, dy = (EDGE_STRIP_M * (end[1] - start[1]) / long, EDGE_STRIP_M * (start[0] - end[0]) / long)
     (x0, y0), (x1, y1) = start, end
     shape = Polygon(ring([start, end, (x1 + dx, y1 + dy), (x0 + dx, y0 + dy)]))
-    return _box(shape) or shape
+    return boxed(shape)
 
 
 def own_axes(shape: Shape) -> tuple[float, float, float]:

@@ -252,7 +252,7 @@ def read_plan(workbook: Path, job: Json) -> Json:
     draft = read_book(change.book).draft
     # The form has asked for the unit.
     _, told, layers = plan_as_rows(drawn, unit_m, draft, layers, is_unit_given=True)
-    change.fill(changes(change.book, told, layers, replace=True))
+    change.fill(changes(change.book, told, layers, replace=True)[0])
     withdrawn(change)
     # One is opened, and one stays to be saved when the other has been replaced.
     for path in (workbook, Path(job["to"])):

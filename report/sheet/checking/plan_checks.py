@@ -147,6 +147,12 @@ def shapes_of(draft: Draft) -> dict[str, Shape]:
     return {name: shape for name, shape in shapes.items() if shape is not None}
 
 
+def roof_of(draft: Draft) -> Shape | None:
+    """Return the shape of the roof, if it has a valid one."""
+    outline = _outlines(draft).get(ROOF)
+    return next((_shape(row, outline) for row in draft["roof"]), None)
+
+
 def far_off(
     shapes: Mapping[str, Shape], roof: Shape | None, is_us: bool
 ) -> Iterator[tuple[str, str]]:

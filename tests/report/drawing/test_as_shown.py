@@ -187,8 +187,10 @@ def sized(tmp_path, unit, factor, *, has_roof=True, item=8):
     """A drawing of a roof, an array and a unit, drawn by a factor too large."""
     sketch = Sketch(unit=unit)
     x, y = 110, 110
-    shapes = [("ARRAY", BOX_FT, "A1"),
-              ("OBJECT", ((x, y), (x + item, y), (x + item, y + item), (x, y + item)), "RTU-1")]
+    shapes = [
+        ("ARRAY", BOX_FT, "A1"),
+        ("OBJECT", ((x, y), (x + item, y), (x + item, y + item), (x, y + item)), "RTU-1"),
+    ]
     for layer, points, name in [("ROOF-OUTLINE", ROOF_FT, "")] * has_roof + shapes:
         sketch.ring(layer, [(x * factor, y * factor) for x, y in points], name)
     return sketch.saved(tmp_path)

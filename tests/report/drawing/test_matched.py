@@ -103,7 +103,8 @@ def test_of_many_that_cannot_be_told_some_are_named():
 
 @pytest.mark.nightly
 def test_what_the_drawing_no_longer_has_is_taken_out_with_its_clearances(tmp_path):
-    arrays, objects = [((20, 60), "A1"), ((20, 10), "A2")], [((110, 60), "RTU-1")]
+    arrays = [((20, 60), "A1"), ((20, 10), "A2")]
+    objects = [(box(110, 60, (10, 8)), "RTU-1")]
     path = filled(tmp_path, arrays, objects)
     rows = {"Clearances/1/Array": "A1", "Clearances/1/Object": "A2",
             "Clearances/2/Array": "A1", "Clearances/2/Object": "RTU-1"}  # fmt: skip

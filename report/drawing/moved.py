@@ -1,0 +1,143 @@
+"""How a plan as a whole has moved between a workbook and a drawing: shift, turn, factor, mirror.
+
+Knows no cells (`report.drawing.fill`). Read `whole_move` first. Points are complex.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice
+
+import numpy as np
+
+from report.drawing.plan_read import boxed
+from report.sheet.schema.shapes import Polygon, Shape, ring, solid
+from report.text.units import Unit
+
+# Outlines are the same within this [m].
+SAME_M = 0.05
+# Factors between these are no unit that is taken for another: a roof has grown.
+_GROWN = (0.9, 1.1)
+_MUCH = 0.8  # share of two roofs that is common to both
+_MOST_TRIED = 100
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """A point z of the workbook, or its mirror image in the x axis, is at turn z + shift [m]."""
+
+    turn: complex = 1.0
+    shift: complex = 0.0
+    is_mirrored: bool = False
+
+    @property
+    def is_none(self) -> bool:
+        """Whether nothing has moved."""
+        return self.is_straight and abs(self.shift) < SAME_M
+
+    @property
+    def is_straight(self) -> bool:
+        """Whether it is a shift alone."""
+        return self.turn == 1.0 and not self.is_mirrored
+
+    @property
+    def factor(self) -> float:
+        """How many times as large the plan is."""
+        return round(abs(self.turn), 6)
+
+    def of(self, shape: Shape) -> Shape:
+        """Return where a shape of the workbook is."""
+        points = [complex(x, -y if self.is_mirrored else y) for x, y in shape.points]
+        moved = [self.turn * point + self.shift for point in points]
+        return shape if self.is_none else boxed(Polygon(ring([(z.real, z.imag) for z in moved])))
+
+    def way_deg(self, degrees: float) -> float:
+        """Return a direction in plan, counterclockwise from +x, as it is now."""
+        way_deg = math.degrees(cmath.phase(self.turn)) + (-1 if self.is_mirrored else 1) * degrees
+        return round(way_deg, 6) % 360.0
+
+    def words(self, unit: Unit) -> str:
+        """Return what has moved, such as `turned counterclockwise by 90°, moved by x 2, y 0 ft`."""
+        x, y = (f"{m / unit.si:.{unit.decimals}f}" for m in (self.shift.real, self.shift.imag))
+        parts = {
+            "mirrored": self.is_mirrored,
+            f"turned counterclockwise by {self.way_deg(0.0):g}°": self.way_deg(0.0),
+            f"{self.factor:.4g} times as large": self.factor != 1.0,
+            f"moved by x {x}, y {y} {unit.symbol}": abs(self.shift) >= SAME_M,
+        }
+        return ", ".join(part for part, counts in parts.items() if counts)
+
+
+def whole_move(
+    roofs: tuple[Shape | None, Shape | None],
+    named: Sequence[tuple[Shape, Shape]],
+    agreeing: Callable[[Move], int],
+) -> Move | None:
+    """Return how a plan has moved; None if the roof has, and how cannot be told.
+
+    The roof and rows of the same name are given as they were and as they are drawn. `agreeing`
+    returns how many rows a move brings to where they are drawn.
+    """
+    was, now = roofs
+    fits = list(_fits(was, now)) if was and now else []
+    tried = [move for move in fits if move.factor == 1.0]
+    is_same_roof = bool(tried)
+    unclear = None if was and now else Move()
+    if not is_same_roof:
+        # Where the roof is another, rows of the same name tell.
+        of_rows = islice((move for pair in named for move in _fits(*pair)), 2 * _MOST_TRIED)
+        tried = [Move(), *(move for move in (*fits, *of_rows) if not move.is_mirrored)]
+    counts = {move: agreeing(move) for move in tried[:_MOST_TRIED]}
+    if was and now and not is_same_roof:
+        for move in counts:
+            counts[move] += move in fits or (move.is_none and _is_much(was, now))
+    best = max(counts.values())
+    plain = next((move for move in counts if move.is_straight), None)
+    if plain and (best or is_same_roof) and best <= 2 * counts[plain]:
+        return plain
+    winners = [move for move in counts if counts[move] == best]
+    if not is_same_roof:
+        return winners[0] if best > 1 else unclear
+    # A layout that is mirrored is more likely than a sheet, where the roof has other fits.
+    is_told = len(winners) == 1 and (best > 1 or not plain)
+    has_unmirrored = not all(move.is_mirrored for move in counts)
+    return winners[0] if is_told and not (winners[0].is_mirrored and has_unmirrored) else None
+
+
+def _is_much(was: Shape, now: Shape) -> bool:
+    """Whether a roof is where it was, whatever has changed of its outline."""
+    area, other = solid(was), solid(now)
+    return bool(area.intersection(other).area >= _MUCH * area.union(other).area)
+
+
+def _fits(was: Shape, now: Shape) -> Iterator[Move]:
+    """Yield the moves that bring an outline to another one, those that mirror it last."""
+    if len(was.points) != len(now.points):
+        return
+    own, drawn = (np.array(shape.points) @ (1.0, 1.0j) for shape in (was, now))
+    y = drawn - drawn.mean()
+    for is_mirrored in (False, True):
+        points = own.conj()[::-1] if is_mirrored else own
+        x = points - points.mean()
+        # Least squares, with each vertex of the one as the first of the other.
+        size = (abs(x) ** 2).sum()
+        turns = np.fft.ifft(np.fft.fft(y) * np.fft.fft(x).conj()) / size
+        off = (abs(y) ** 2).sum() - abs(turns) ** 2 * size
+        for turn in turns[off <= len(y) * SAME_M**2].tolist():
+            rounded = _rounded(turn, SAME_M / abs(y).max())
+            shift = complex(drawn.mean() - rounded * points.mean())
+            move = Move(rounded, shift, is_mirrored)
+            if move.factor == 1.0 or not _GROWN[0] < move.factor < _GROWN[1]:
+                yield move
+
+
+def _rounded(turn: complex, noise: float) -> complex:
+    """Return a turn as one of quarters and as without a factor, where it is but for noise."""
+    factor, quarters = abs(turn), 2.0 * cmath.phase(turn) / math.pi
+    way = (1.0, 1.0j, -1.0, -1.0j)[round(quarters) % 4]
+    if abs(turn / factor - way) > noise:
+        way = turn / factor
+    return way if abs(factor - 1.0) <= noise else factor * way
