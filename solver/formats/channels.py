@@ -103,7 +103,7 @@ MAX_CHANNELS = 1000
 MOST_G = 1000.0
 
 # Range of time steps [s] of accelerograms, with a wide margin.
-STEPS_S = (1e-6, 10.0)
+STEPS_S = (1e-6, 1.0)
 
 # The peak in a header may be rounded or of other processing; a factor of two means another unit.
 _PEAK_WITHIN = 0.01

@@ -16,19 +16,21 @@ from itertools import islice
 
 import numpy as np
 
+from solver.formats.columns import remedy, rising
 from solver.formats.numbers import DECIMAL_COMMA, NUMBER, field_problems, number_in
 from solver.formats.source import Source
+from solver.formats.times import is_even
 from solver.model import Floats, InputError
 from solver.records.record import is_other_unit, is_raw, raise_any, unit_size
 
 # Also as loggers of other languages head them.
 _TIMES = {"t", "time", "times", "zeit", "tiempo", "temps", "tempo", "sec", "secs", "seconds"}
-_SECONDS = (
+SECONDS = (
     dict.fromkeys(("s", "sec", "secs", "second", "seconds"), 1.0)
-    | dict.fromkeys(("ms", "msec"), 0.001)
+    | dict.fromkeys(("ms", "msec", "msecs", "millisecond", "milliseconds"), 0.001)
     | dict.fromkeys(("min", "mins", "minute", "minutes"), 60.0)
 )
-_OTHER_TIMES = {"us", "µs", "μs", "ns", "usec", "h", "hr", "hrs", "hour", "hours", "day", "days"}
+OTHER_TIMES = {"us", "µs", "μs", "ns", "usec", "h", "hr", "hrs", "hour", "hours", "day", "days"}
 _INDEXES = {
     *("count", "counter", "frame", "i", "idx", "index", "n", "no", "nr", "number"),
     *("point", "points", "pt", "row", "sample", "samples", "step"),
@@ -46,7 +48,7 @@ _MAGNITUDE = re.compile(
     r"|mag|magnitude|norm|modulus|srss)(?![a-z])|\|.*\||(?:at|tgf)$",
     re.IGNORECASE,
 )
-_ACCELERATION = re.compile(r"(?<![a-z])acc", re.IGNORECASE)
+ACCELERATION = re.compile(r"(?<![a-z])acc", re.IGNORECASE)
 
 _ABSCISSAS = re.compile(
     r"(?:freq|frequency|frequencies|periods?|tn)(?![a-z])|.*\bhz\b", re.IGNORECASE
@@ -55,42 +57,9 @@ _SPECTRAL = re.compile(
     r"(?<![a-z])(?:p?s_?[avd]|p?r?s_?acc|spectr(?:al|um)|pseudo|response)(?![a-z])", re.IGNORECASE
 )
 
-# A line of text that says what the numbers below it are. The peak of a velocity, or that of shear
-# waves, tells of the record or the site, as does a quantity with its value.
-_SPECTRUM = re.compile(
-    r"\W*(?:freq|frequency|periods?)(?![a-z])|.*(?<![a-z])(?:spectr(?:al|um|a)|p?s_?a)(?![a-z])",
-    re.IGNORECASE,
-)
-_QUANTITY = re.compile(
-    r"\W*(?:(?!peak|max|wave|shear)\w+\W+){0,3}?(vel|velocity|velocities|disp|displacements?)"
-    r"(?:\W+(?:time|history|histories|series|record|trace|data|in)\b|\W*[\[(,;]|\W*$)",
-    re.IGNORECASE,
-)
-
 _BRACKETED = re.compile(r"([^\[(]*)[\[(]([^\])]*)[\])]\s*")
 _IN = re.compile(r"(.*\S)\s+in\s+(\S+)", re.IGNORECASE)
 _WORD = re.compile(r"[^\s\[(]+(?:\s?[\[(][^\])]*[\])])?")
-_IN_BRACKETS = re.compile(r"[\[(]([^\])]{1,16})[\])]")
-_UNITS_OF = re.compile(
-    r"\bunits?\b[\s:=]*+(?:(?:of|in|are|is)\b[\s:=]*+)?([^\s,;]+)", re.IGNORECASE
-)
-_STATES_UNITS = re.compile(r"\bunits?\b", re.IGNORECASE)
-_IN_PROSE = re.compile(r"\bin\s+([^\s,;]+)", re.IGNORECASE)
-_RATE = re.compile(
-    r"\bsampl(?:ing|e)[ _]?(?:rate|freq(?:uency)?)\s*+[:=]\s*(\d+(?:\.\d+)?)\s*Hz\b",
-    re.ASCII | re.IGNORECASE,
-)
-_STEP = re.compile(
-    r"\b(?:dt|time[ _]step)(?:_s\b|\b)\s*+(?:[\[(]s[\])]\s*+)?[:=]\s*"
-    r"([+-]?[0-9.]+(?:[eE][+-]?\d+)?)\s*(ms\b)?",
-    re.ASCII | re.IGNORECASE,
-)
-
-
-_COUNT = re.compile(
-    r"\b(?:number|no\.?) of (?:points|samples|values)\b\s*+(?:[:=]\s*)?(\d{1,9})\b(?![.,]\d)",
-    re.ASCII | re.IGNORECASE,
-)
 
 
 class Kind(Enum):
@@ -163,30 +132,6 @@ def of_a_spectrum(headings: list[Heading]) -> list[str]:
     return spectral if spectral and len(spectral) == len(others) else []
 
 
-def is_of_a_spectrum(line: str) -> bool:
-    """Whether a line of text says that the numbers below it are a spectrum."""
-    return bool(_SPECTRUM.match(line))
-
-
-def is_of_acceleration(line: str) -> bool:
-    """Whether a line of text names accelerations or a unit of theirs."""
-    return bool(_ACCELERATION.search(line) or units_in(line))
-
-
-def other_quantity(line: str) -> str:
-    """What a line of text says that the numbers below it are, if no acceleration; "" for none."""
-    quantity = _QUANTITY.match(line)
-    # A length alone may be a word, or the unit of the site's coordinates.
-    others = (unit for unit in _UNITS_OF.findall(line) if "/" in unit and is_other_unit(unit))
-    return quantity[1].lower() if quantity else next(others, "")
-
-
-def is_of_another(line: str) -> bool:
-    """Whether a line of text says another quantity than acceleration, or another unit than g."""
-    sizes = {unit_size(unit) for unit in units_in(line)}
-    return bool(sizes - {unit_size("g")} or other_quantity(line))
-
-
 def remark(line: str, separator: str | None, width: int) -> list[Heading]:
     """Headings at the beginning of a comment, without any text after them; empty if none."""
     texts = words(line, separator)[:width]
@@ -197,34 +142,6 @@ def remark(line: str, separator: str | None, width: int) -> list[Heading]:
     if last.kind is Kind.UNSAID and (first_word := _WORD.search(texts[-1])):
         last = parse(first_word[0])
     return [*map(parse, texts[:-1]), last]
-
-
-def units_in(line: str) -> list[str]:
-    """Units of acceleration stated in a line of text."""
-    places = [*_IN_BRACKETS.findall(line), *_UNITS_OF.findall(line), *_IN_PROSE.findall(line)]
-    named = [parse(word) for word in re.split(r"[\s,;]+", line)]
-    places += [heading.unit for heading in named if heading.kind is Kind.ACCELERATION]
-    plain = [place.rstrip(".") for place in places]
-    return [place for place in plain if not math.isnan(unit_size(place))]
-
-
-def stated_units(line: str) -> list[str]:
-    """Units of acceleration in a line of text that says that it states units."""
-    return units_in(line) if _STATES_UNITS.search(line) else []
-
-
-def step_in(line: str) -> tuple[str, float]:
-    """Time step stated in a line of text, as printed ("" for none), and its unit [s]."""
-    if (rate := _RATE.search(line)) and float(rate[1]) > 0.0:
-        return repr(1.0 / float(rate[1])), 1.0
-    match = _STEP.search(line)
-    return (match[1], 0.001 if match[2] else 1.0) if match else ("", 1.0)
-
-
-def count_in(line: str) -> int:
-    """Number of samples stated in a line of text; -1 for none."""
-    match = _COUNT.search(line)
-    return int(match[1]) if match else -1
 
 
 def _split(text: str) -> tuple[str, str]:
@@ -245,7 +162,7 @@ def _split(text: str) -> tuple[str, str]:
 
 def _is_unit(text: str, *, bracketed: bool) -> bool:
     plain = text.strip().lower()
-    if bracketed and (plain in _SECONDS or (len(plain) > 2 and _is_time_unit(plain))):
+    if bracketed and (plain in SECONDS or (len(plain) > 2 and _is_time_unit(plain))):
         return True
     # After an underscore, `in` and `deg` may as well be words.
     other = is_other_unit(text) and (bracketed or "/" in text or text.lower() in ("mm", "cm", "m"))
@@ -257,14 +174,14 @@ def _is_time(name: str) -> bool:
 
 
 def _is_time_unit(text: str) -> bool:
-    return text.strip().lower() in _SECONDS.keys() | _OTHER_TIMES
+    return text.strip().lower() in SECONDS.keys() | OTHER_TIMES
 
 
 def _kind(name: str, unit: str) -> tuple[Kind, float]:
     if _is_time_unit(unit):
-        return Kind.TIME, _SECONDS.get(unit.strip().lower(), math.nan)
+        return Kind.TIME, SECONDS.get(unit.strip().lower(), math.nan)
     # A velocity in g is a velocity or an acceleration: no unit decides what a name denies.
-    if _NOT_ACCELERATIONS.search(name) and not _ACCELERATION.search(name):
+    if _NOT_ACCELERATIONS.search(name) and not ACCELERATION.search(name):
         return Kind.OTHER, 1.0
     if not math.isnan(unit_size(unit)) or is_raw(unit):
         return Kind.ACCELERATION, 1.0
@@ -281,8 +198,6 @@ _GROUPED = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}", re.ASCII)
 _MARKS = ",;\t"
 _SEEN = 200
 _BLANK_BETWEEN = re.compile(r"[^,\s]\s+[^,\s]")
-
-ACROSS = "put one on each line, or give the values per line (--values-per-line {})"
 
 # Index of a line, and its content.
 Row = tuple[int, str]
@@ -423,13 +338,26 @@ def check_shape(source: Source, start: int, separator: str | None) -> None:
     if not is_headed and widths == {width} and left < width:
         raise InputError(
             f"{source.at(last)}: found {left} values after lines of {width}: values across the"
-            f" lines, not in columns; {ACROSS.format(width)}"
+            f" lines, not in columns; {remedy(full_rows(source, start, separator, width))}"
         )
     if len(widths) == 1 and widths != {width} and left <= min(widths):
         raise InputError(
             f"{source.at(first)}: found {width} numbers above rows of {min(widths)}; if they are no"
             " samples, put # before them, and give the time step"
         )
+
+
+def full_rows(source: Source, start: int, separator: str | None, width: int) -> Floats:
+    """Return the rows of so many fields, shape (n, width); NaN where a field is no number."""
+    rows = [row.rstrip(",;").split(separator) for _, row in rows_of(source.lines, start)]
+    return np.array([[_number(field) for field in row] for row in rows if len(row) == width])
+
+
+def _number(field: str) -> float:
+    try:
+        return number_in(field)
+    except ValueError:
+        return math.nan
 
 
 def across(source: Source, start: int, separator: str | None, due: int) -> Floats:
@@ -441,4 +369,17 @@ def across(source: Source, start: int, separator: str | None, due: int) -> Float
         if len(fields) > due or (len(fields) < due and index != rows[-1][0])
     )
     raise_any(problem for i, fields in rows for problem in field_problems(source, i, fields))
+    table = full_rows(source, start, separator, due)
+    if due > 1 and rising(table):
+        raise InputError(f"{source.name}: found no values across the lines; {remedy(table)}")
     return np.array([number_in(field) for _, fields in rows for field in fields]).reshape(-1, 1)
+
+
+def pairs(source: Source, start: int, separator: str | None) -> Floats | None:
+    """Return pairs of time and value across the lines, shape (n, 2); None if they are none."""
+    rows = [row.rstrip(",;").split(separator) for _, row in rows_of(source.lines, start)]
+    numbers = [_number(field) for row in rows for field in row]
+    if len(numbers) % 2:
+        return None
+    table = np.array(numbers).reshape(-1, 2)
+    return table if 0 in rising(table) and is_even(table[:, 0]) else None

@@ -14,8 +14,10 @@ import re
 from collections.abc import Sequence
 
 from solver.formats.channels import Channel, MotionFile, motion_file
+from solver.formats.layout import ACCELERATION
 from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.source import Source
+from solver.formats.stated import other_quantity, stated_units, step_in, units_in
 from solver.model import InputError
 from solver.records.record import shown
 
@@ -25,21 +27,14 @@ from solver.records.record import shown
 
 # The count is in the first lines of a file: the heading has four, or seven and more.
 _HEADING_LINES, _LONGEST_HEADING = 6, 20
-_NUMBER = r"([+-]?\d*(?:\.\d*)?(?:[eE][+-]?\d+)?)"
-_NAMED = re.compile(
-    rf"NPTS\s*=\s*(\d+)(?:\s*+(?:,\s*)?DT\s*=\s*{_NUMBER})?", re.ASCII | re.IGNORECASE
-)
+_NAMED = re.compile(r"NPTS\s*=\s*(\d+)", re.ASCII | re.IGNORECASE)
 _BEHIND = re.compile(
-    rf"\s*(\d+)(?:\s*+,)?\s++{_NUMBER}\s*+(?:,\s*)?NPTS\s*,\s*DT", re.ASCII | re.IGNORECASE
-)
-_COUNT_LINE = re.compile(r"\bNPTS\b", re.IGNORECASE)
-# Possessive: a line of many digits is looked at once, and refused in a time as its length.
-_BARE = re.compile(r"(\d{1,9})[,\s]++(\d*\.\d+(?:[eE]-?\d+)?)(?:[,\s]++\d+)?[,\s]*+", re.ASCII)
-_UNIT = re.compile(
-    r"IN UNITS OF\s+([A-Z/0-9^]+)|\bACC[A-Z]*\b[^()]*\(\s*([A-Z/0-9^]+)(?:'S)?\s*\)",
+    r"\s*(\d+)(?:\s*+,)?\s++(\d*(?:\.\d*)?(?:[eE][+-]?\d+)?)\s*+(?:,\s*)?NPTS\s*,\s*DT",
     re.ASCII | re.IGNORECASE,
 )
-_OTHER = re.compile(r"\b(VELOCITY|DISPLACEMENT)\b", re.IGNORECASE)
+_COUNT_LINE = re.compile(r"(?!\s*#).*\bNPTS\b", re.IGNORECASE)
+# Possessive: a line of many digits is looked at once, and refused in a time as its length.
+_BARE = re.compile(r"(\d{1,9})[,\s]++(\d*\.\d+(?:[eE]-?\d+)?)(?:[,\s]++\d+)?[,\s]*+", re.ASCII)
 
 
 def recognizes(lines: Sequence[str]) -> bool:
@@ -55,20 +50,22 @@ def read(source: Source) -> MotionFile:
         at = _bare_line(source.lines)
     heading = source.lines[:at]
     for index, line in enumerate(heading):
-        # Another line of the heading may mention velocity, for example of the site.
-        if (other := _OTHER.search(line)) and _UNIT.search(line):
-            raise InputError(
-                f"{source.at(index)}: found {other[1].lower()}; give the file of acceleration"
-            )
+        if other := other_quantity(line):
+            raise InputError(f"{source.at(index)}: found {other}; give the file of acceleration")
     counted = _counted(source.lines[at]) or _BARE.fullmatch(source.lines[at].strip())
     if not counted:
         raise InputError(
             f"{source.at(at)}: found {shown(source.lines[at].strip())}; give the count and the step"
             " as in NPTS=  4000, DT=   .0100 SEC"
         )
-    units = [(u[1] or u[2], i) for i, line in enumerate(heading) if (u := _UNIT.search(line))]
+    units: list[tuple[str, int]] = []
+    for index, line in enumerate(source.lines[: at + 1]):
+        # The name of a station may have the letters of a unit in brackets.
+        if ACCELERATION.search(line) or stated_units(line):
+            units += [(unit, index) for unit in units_in(line)]
     scale = source.stated_scale(units)
-    dt_s = source.step(printed(counted[2] or "", at))
+    step = printed(counted[2], at) if counted.re is not _NAMED else None
+    dt_s = source.step(step or step_in(source, at, source.lines[at]))
     block = Block(first=at + 1, stop=len(source.lines), count=int(counted[1]), promised=at)
     values = free_values(source, block) * scale
     # The second line has event, date, station and component.
@@ -86,7 +83,7 @@ def _count_line(lines: Sequence[str]) -> int:
     """Index of the line of the count as NPTS: the last, as an older heading may stand above."""
     near = list(enumerate(lines[:_LONGEST_HEADING]))
     whole = [i for i, line in near if _counted(line) and not line.lstrip().startswith("#")]
-    named = [i for i, line in near[:_HEADING_LINES] if _COUNT_LINE.search(line)]
+    named = [i for i, line in near[:_HEADING_LINES] if _COUNT_LINE.match(line)]
     return max(whole or named[:1], default=-1)
 
 

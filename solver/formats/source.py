@@ -69,7 +69,8 @@ def likely_text(lines: Sequence[str], index: int) -> str:
             return f"this looks like {name}, which is not read; {remedy}"
     return (
         f"found {shown(lines[index].strip())} where numbers are due, and no heading of a format"
-        f" that is read; {_COLUMNS}, with # before every other line of text"
+        f" that is read; {_COLUMNS}, times any factor that the text states, and put # before every"
+        " other line of text"
     )
 
 

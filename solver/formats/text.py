@@ -12,14 +12,14 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
 from solver.formats import layout
 from solver.formats.channels import Channel, MotionFile, motion_file
+from solver.formats.columns import remedy, rising
 from solver.formats.layout import (
-    ACROSS,
     Heading,
     Kind,
     Row,
@@ -28,6 +28,7 @@ from solver.formats.layout import (
     content_of,
     first_row,
     is_heading,
+    pairs,
     plain_lines,
     rows_of,
     separator_of,
@@ -35,12 +36,21 @@ from solver.formats.layout import (
 from solver.formats.numbers import (
     COMPARED,
     DECIMAL_COMMA,
+    NUMBER,
     field_problems,
     is_cut_short,
     number_in,
-    printed,
 )
 from solver.formats.source import Source, Stated, likely_text
+from solver.formats.stated import (
+    count_in,
+    is_of_a_spectrum,
+    is_of_acceleration,
+    other_quantity,
+    stated_units,
+    step_in,
+    units_in,
+)
 from solver.formats.times import Sampled, is_even, sampled
 from solver.model import Floats, InputError
 from solver.records.record import BEYOND, HOLD, raise_any, shown, unit_size
@@ -52,6 +62,8 @@ _MAX_REMARKS = 200
 _MAGNITUDE_WITHIN = 0.01  # of its peak: digits are printed apart
 # Of times without a unit: more are milliseconds or numbers of samples, but in a sketch of a pulse.
 _LONGEST_STEP, _FEW = 1.0, 10
+# As MATLAB prints it, also behind a comment sign.
+_FACTOR = re.compile(rf"{NUMBER.pattern}\s*[*x×]", re.ASCII)
 _CLOCK = re.compile(r"\d+([-/:.])\d+\1\d+(?:[:.,T ].*)?", re.ASCII)
 
 
@@ -64,6 +76,7 @@ class _Table:
     headings: list[Heading]  # one for each column, or none
     heading_index: int  # of their line
     remarks: list[Row]  # the other lines above the first row
+    note: str = ""  # on how they were found
 
 
 def recognizes(lines: Sequence[str]) -> bool:
@@ -109,6 +122,7 @@ def read(source: Source) -> MotionFile:
     notes = [
         f"column {shown(table.headings[i].text)} is ignored: it is {why}" for i, why in left.items()
     ]
+    notes += [table.note] if table.note else []
     if not source.is_ended:
         notes.append(
             "the last line has no line end: if the file was cut there, its last value or further"
@@ -125,19 +139,28 @@ def _check_remarks(source: Source, table: _Table) -> None:
     # A record may be matched to a spectrum: only a spectrum is nowhere below zero.
     is_positive = len(numbers) > _FEW and bool((numbers >= 0.0).all())
     is_headed = any(heading.kind is Kind.ACCELERATION for heading in table.headings)
-    is_said = is_headed or any(layout.is_of_acceleration(line) for _, line in table.remarks)
+    is_said = is_headed or any(is_of_acceleration(line) for _, line in table.remarks)
     for index, line in table.remarks:
-        if is_positive and layout.is_of_a_spectrum(line):
+        _check_factor(source, index, line)
+        if is_positive and is_of_a_spectrum(line):
             raise InputError(
                 f"{source.at(index)}: found {shown(line)} above values of which none is negative:"
                 " this is a spectrum, no record; give accelerations by time"
             )
-        if not is_said and (other := layout.other_quantity(line)):
+        if not is_said and (other := other_quantity(line)):
             heading = "acc_g" if table.values.shape[1] == 1 else "time_s,acc_g"
             raise InputError(
                 f"{source.at(index)}: found {other!r}, and no acceleration; give the file of"
                 f" acceleration, or a heading such as {heading} if the values are accelerations"
             )
+
+
+def _check_factor(source: Source, index: int, line: str) -> None:
+    if _FACTOR.fullmatch(line):
+        raise InputError(
+            f"{source.at(index)}: found {shown(line)}, a factor of the numbers below it; multiply"
+            " them all by it, and delete the line"
+        )
 
 
 def _magnitudes(table: _Table, columns: Sequence[int]) -> list[int]:
@@ -164,7 +187,7 @@ def _check_count(source: Source, table: _Table) -> None:
     """Compare the number of rows with the number of samples that a remark states."""
     samples = len(table.values)
     for index, line in table.remarks:
-        stated = layout.count_in(line)
+        stated = count_in(line)
         if stated not in (-1, samples):
             remedy = "give the whole file" if samples < stated else "correct the count"
             raise InputError(
@@ -205,16 +228,16 @@ def _has_times(source: Source, table: _Table) -> bool:
 
 
 def _evened(source: Source, table: _Table, columns: Floats, timed: bool) -> Sampled:
-    stated = _step_in(table)
+    stated = _stated_step(source, table)
     if not timed:
         if math.isnan(stated.value) and math.isnan(source.dt_s):
             what = "one column," if table.values.shape[1] == 1 else "columns"
             raise InputError(f"{source.name}: found {what} without times; give the time step dt")
         dt_s = source.dt_s if math.isnan(stated.value) else source.step(stated)
         return Sampled(dt_s=dt_s, columns=columns, notes=())
+    _check_is_time(source, table, table.values[:, 0])
     unit_s = _seconds(source, table)
     times = table.values[:, 0] * unit_s
-    _check_is_time(source, table, times)
     _check_decimal_comma(source, table, times)
 
     @cache
@@ -236,11 +259,10 @@ def _check_is_time(source: Source, table: _Table, times: Floats) -> None:
     if table.headings or len(times) <= _FEW:
         return
     falling = int((np.diff(times) <= 0.0).sum())
-    if 4 * falling > len(times):
+    if 4 * falling > len(times) and 0 not in rising(table.values):
         raise InputError(
             f"{source.name}: found {table.values.shape[1]} columns without a heading, and the first"
-            f" is no time: it falls {falling} times; give a heading such as time_s,x_g, or"
-            f" {ACROSS.format(table.values.shape[1])}"
+            f" is no time: it falls {falling} times; {remedy(table.values)}"
         )
     if times[0] == len(times) - 1 and times[1] < times[0]:
         index, first = next(rows_of(source.lines, table.start))
@@ -252,7 +274,13 @@ def _check_is_time(source: Source, table: _Table, times: Floats) -> None:
 
 def _seconds(source: Source, table: _Table) -> float:
     """Value [s] of the unit of the times."""
+    step = float(np.median(np.diff(table.values[:, 0])))
     if not table.headings:
+        if step >= _LONGEST_STEP and len(table.values) > _FEW:
+            raise InputError(
+                f"{source.name}: found steps of {step:g} in the first column; give it a heading"
+                " with its unit, such as time_s or time_ms, or delete it and give the time step dt"
+            )
         return 1.0
     heading = table.headings[0]
     if heading.is_index:
@@ -265,7 +293,6 @@ def _seconds(source: Source, table: _Table) -> float:
             f"{source.at(table.heading_index)}: found times in {shown(heading.unit)}; give them in"
             " s, ms or min, such as time_s"
         )
-    step = float(np.median(np.diff(table.values[:, 0])))
     if not heading.unit and step >= _LONGEST_STEP and len(table.values) > _FEW:
         raise InputError(
             f"{source.at(table.heading_index)}: found {shown(heading.text)} with steps of {step:g};"
@@ -274,22 +301,18 @@ def _seconds(source: Source, table: _Table) -> float:
     return heading.seconds
 
 
-def _step_in(table: _Table) -> Stated:
+def _stated_step(source: Source, table: _Table) -> Stated:
     """Step [s] that a remark states; NaN for none."""
-    for index, line in table.remarks:
-        text, seconds = layout.step_in(line)
-        if text:
-            stated = printed(text, index)
-            value, rounding = stated.value * seconds, stated.rounding * seconds
-            return Stated(value=value, rounding=rounding, index=index)
-    return Stated(value=math.nan, rounding=0.0, index=-1)
+    steps = (step_in(source, index, line) for index, line in table.remarks)
+    none = Stated(value=math.nan, rounding=0.0, index=-1)
+    return next((step for step in steps if not math.isnan(step.value)), none)
 
 
 def _scale(source: Source, table: _Table, column: int) -> float:
     """Value [m/s2] of a column's unit: from its heading, the text above, or the caller."""
     if table.headings and table.headings[column].unit:
         return _heading_scale(source, table, table.headings[column])
-    stated = [(unit, i) for i, line in table.remarks for unit in layout.units_in(line)]
+    stated = [(unit, i) for i, line in table.remarks for unit in units_in(line)]
     return source.stated_scale(stated)
 
 
@@ -297,7 +320,7 @@ def _heading_scale(source: Source, table: _Table, heading: Heading) -> float:
     """Value [m/s2] of a heading's unit; where a comment states another, the caller's decides."""
     size = unit_size(heading.unit)
     for index, line in table.remarks:
-        stated = {unit_size(unit): unit for unit in layout.stated_units(line)}
+        stated = {unit_size(unit): unit for unit in stated_units(line)}
         if not stated or size in stated:
             continue
         # A comment may tell of another file; what the caller says is meant for this one.
@@ -318,6 +341,7 @@ def _table(source: Source) -> _Table:
         raise InputError(f"{source.name}: found no numbers; give one or more columns of them")
     separator = separator_of(first[1])
     fields = first[1].split(separator)
+    _check_factor(source, *first)
     if any(field.strip(" *") and is_heading(field.strip()) for field in fields):
         raise InputError(f"{source.at(first[0])}: {likely_text(source.lines, first[0])}")
     if any(_CLOCK.fullmatch(field.strip()) for field in fields[:2]):
@@ -326,9 +350,13 @@ def _table(source: Source) -> _Table:
             " give seconds from the start in the first column, such as time_s"
         )
     width, remarks = len(fields), _remarks(source.lines, start)
+    heads, place = _headings(source, start, separator, width, remarks)
+    bare = partial(_Table, start=start, headings=[], heading_index=-1, remarks=remarks)
+    found = pairs(source, start, separator) if width > 2 and not heads else None
+    if found is not None:
+        return bare(values=found, note="each line has several pairs of time and value")
     if due := source.values_per_line or _told_across(source, start, separator, remarks):
-        numbers = across(source, start, separator, due)
-        return _Table(values=numbers, start=start, headings=[], heading_index=-1, remarks=remarks)
+        return bare(values=across(source, start, separator, due))
     # numpy reads a sound file at once; one with an error is read row by row, to name its lines.
     values = _parse_fast(source.lines[start:], separator, width)
     if values is None:
@@ -336,11 +364,9 @@ def _table(source: Source) -> _Table:
         values = _parse_slowly(source, start, separator, width)
     if len(values) < 2:
         raise InputError(f"{source.name}: found 1 sample; give at least 2")
-    heads, place = _headings(source, start, separator, width, remarks)
     if width > 2 and not heads:
         raise InputError(
-            f"{source.at(first[0])}: found {width} columns without a heading; give one that names"
-            f" them, such as time_s,x_g,y_g, or {ACROSS.format(width)}"
+            f"{source.at(first[0])}: found {width} columns without a heading; {remedy(values)}"
         )
     remarks = [remark for remark in remarks if remark[0] != place]
     return _Table(values=values, start=start, headings=heads, heading_index=place, remarks=remarks)
@@ -349,7 +375,7 @@ def _table(source: Source) -> _Table:
 def _told_across(source: Source, start: int, separator: str | None, remarks: Sequence[Row]) -> int:
     """Values in the first line, if a remark states as many samples as there are in all lines."""
     # As many lines as samples would be a column.
-    stated = max((layout.count_in(line) for _, line in remarks), default=-1)
+    stated = max((count_in(line) for _, line in remarks), default=-1)
     widths = (
         [len(row.split(separator)) for _, row in rows_of(source.lines, start)] if stated > 0 else []
     )

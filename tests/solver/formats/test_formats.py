@@ -386,6 +386,9 @@ def test_what_is_no_record_is_refused(file, content, expected):
         "NPTS=  3, DT= .01000 SEC,",
         "NPTS = 3 DT = 1.0E-2",
         "3, .01 NPTS, DT",
+        "NPTS=  3, DT=  10 MSEC",
+        "NPTS=  3, DT (ms) = 10",
+        "NPTS=3, SAMPLING RATE= 100 HZ",
         "NPTS = 9, DT = 1.0\nMORE\n\nOLD HEADING ABOVE\nNPTS=  3, DT= .01 SEC , FACTOR= 1.0",
     ],
 )
@@ -396,8 +399,17 @@ def test_count_and_step_are_found_however_they_are_set(file, line):
 
 
 @pytest.mark.parametrize(
+    "line", ["Acceleration in g", "The units are (g)", "Accelerations (in g's)", "# UNITS: G"]
+)
+def test_the_unit_of_a_count_and_step_is_found_however_it_is_said(file, line):
+    content = f"A, B\nX, Y, STATION (MG), 180\n{line}\nNPTS= 3, DT= .01 SEC\n1 2 3\n"
+    assert read_motion_file(file(content)).channel().a_mps2.tolist() == [G, 2.0 * G, 3.0 * G]
+
+
+@pytest.mark.parametrize(
     ("line", "values", "expected"),
     [
+        ("NPTS= 3, DT= 5 USEC", "1 2 3", "4: found a step in usec; give it in s, ms or min"),
         ("NPTS= 4, DT= .01 SEC", "1 2 3", "4: states 4 values, found 3; give the whole file"),
         ("NPTS= 3, DT= SEC", "1 2 3", "4: found no time step; give dt"),
         ("NPTS= 3, DT= 0.0 SEC", "1 2 3", "4: found time step 0 s; give a number above 0"),

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from refused import refused
 from solver.formats import read_motion_file
 from solver.formats.channels import Channel, distinct, motion_file, offset_notes, peak_notes
-from solver.formats.layout import Kind, parse, remark, settled, units_in, words
+from solver.formats.layout import Kind, parse, remark, settled, words
 from solver.formats.numbers import (
     Block,
     FieldFormat,
@@ -23,6 +23,7 @@ from solver.formats.numbers import (
     printed,
 )
 from solver.formats.source import Source
+from solver.formats.stated import units_in
 from solver.model import InputError
 from solver.records.record import UNIT_CHOICES, UNITS, is_other_unit, unit_size
 

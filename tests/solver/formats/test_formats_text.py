@@ -124,6 +124,69 @@ def test_a_line_of_another_number_of_values_is_refused(file, content, due, probl
     assert problems[0] == f"roof.csv{problem}"
 
 
+# Values across the lines, of which no column rises, and what others write between them.
+WAVED = [0.3 * math.sin(0.4 * k * k) for k in range(200)]
+
+
+def lines_of(fields, per_line):
+    rows = [fields[i : i + per_line] for i in range(0, len(fields), per_line)]
+    return [" ".join(f"{field:.5f}" for field in row) for row in rows]
+
+
+CARDS = [f"{line} {k}" for k, line in enumerate(lines_of(WAVED, 8), start=1)]
+TIMED = [f"{0.01 * k:.2f} {line}" for k, line in enumerate(lines_of(WAVED, 3)[:-1])]
+JITTER = [f"{0.01 * k + 2e-3 * (k % 3):.3f} {row}" for k, row in enumerate(lines_of(WAVED, 2))]
+
+
+@pytest.mark.parametrize("last", [0, 1])
+@pytest.mark.parametrize(
+    ("rows", "due", "told"),
+    [
+        (CARDS, 9, "column 9 counts the lines: delete it (if it is times in ms, give them in the"),
+        ([f"{k} {row}" for k, row in enumerate(CARDS)], 10, "column 1 counts the lines: delete"),
+        (TIMED, 4, "the first rises as times do: give a heading such as time_s,x_g,y_g"),
+        (JITTER, 3, "the first rises as times do: give a heading such as time_s,x_g,y_g"),
+        (JITTER[:12], 3, "the first rises as times do: give a heading such as time_s,x_g,y_g"),
+        (TIMED[:5], 4, "the first rises as times do: give a heading such as time_s,x_g,y_g"),
+        ([" ".join(row.split()[::-1]) for row in TIMED], 4,
+         "column 4 rises as times do: put it first, below a heading such as time_s,x_g,y_g"),
+        ([" ".join(row.split()[1::-1]) for row in TIMED], 2,
+         "column 2 rises as times do: put it first, below a heading such as time_s,x_g"),
+        # Pairs at uneven times.
+        ([f"{a} {b}" for a, b in zip(JITTER[::2], JITTER[1::2], strict=True)], 6,
+         "columns 1 and 4 rise as times do: put each time and its values on a line"),
+    ],
+)  # fmt: skip
+def test_where_a_column_rises_no_values_run_across_the_lines(file, rows, due, told, last):
+    # The last line may have fewer, as some programs write it.
+    content = "\n".join([*rows, *(["0.1"] * last)]) + "\n"
+    for how in ({}, {"values_per_line": due}):
+        (problem,) = problems_of(file(content), dt_s=0.01, **how)
+        assert told in problem
+        assert "per line" not in problem
+
+
+def test_what_the_message_on_values_across_the_lines_advises_works(file):
+    without = file("\n".join(" ".join(card.split()[:-1]) for card in CARDS))
+    (problem,) = problems_of(without, dt_s=0.01)
+    due = int(problem.partition("--values-per-line ")[2].rstrip(")"))
+    record = read_record(without, units="g", dt_s=0.01, values_per_line=due)
+    assert record.a_mps2 == pytest.approx([G * value for value in WAVED], abs=1e-4)
+
+
+@pytest.mark.parametrize("how", [{}, {"dt_s": 0.01}, {"values_per_line": 8}])
+@pytest.mark.parametrize("count", [200, 199])
+def test_pairs_of_time_and_value_across_the_lines_are_read_as_pairs(file, how, count):
+    fields = [field for k in range(count) for field in (0.01 * k, WAVED[k])]
+    for lines in (lines_of(fields, 8), [row.replace(" ", ", ") for row in lines_of(fields, 8)]):
+        motion_file = read_motion_file(file("\n".join(lines) + "\n"), units="g", **how)
+        assert motion_file.channel().dt_s == 0.01
+        assert motion_file.channel().a_mps2 == pytest.approx(
+            [G * value for value in WAVED[:count]], abs=1e-4
+        )
+        assert motion_file.notes == ("each line has several pairs of time and value",)
+
+
 @pytest.mark.parametrize("content", ["1\n-2\n3\n", "acc\n1\n-2\n3", "# x\n 1\n\n-2 \n3"])
 def test_one_column_takes_its_step_from_the_argument(file, content):
     record = read_record(file(content), units="m/s2", dt_s=0.005)
@@ -162,8 +225,16 @@ def test_a_comment_that_may_mean_something_else_asks_nothing_where_units_are_sai
     for remark in ("converted from gal", "PGA [cm/s2] 300", "units: g or gal"):
         record = read_record(file(f"# {remark}\ntime_s,acc_g\n0,1\n1,2\n"))
         assert record.a_mps2.tolist() == [G, 2.0 * G]
-    for remark in ("# dt = 0.005 s", "a_g  dt=5 ms", "# DT[s]=.005", "# time step: 5 ms"):
-        assert read_record(file(f"{remark}\n1\n2\n"), units="g").dt_s == 0.005
+
+
+@pytest.mark.parametrize(
+    "remark",
+    ["# dt = 0.005 s", "a_g  dt=5 ms", "# DT[s]=.005", "# time step: 5 ms", "# DT = 5 MSEC",
+     "# dt_ms = 5", "# time step 0.005 s", "# sampling interval (sec) .005", "# fs = 0.2 kHz",
+     "# Sampling rate 200 Hz", "# Sampling Freq(Hz) = 200", "# 2 time steps, dt: 5.0E-3 and more"],
+)  # fmt: skip
+def test_a_remark_gives_the_step_or_the_rate_in_its_unit(file, remark):
+    assert read_record(file(f"{remark}\n1\n2\n"), units="g").dt_s == 0.005
 
 
 CHANNELS = "time_s,NS_g,EW [gal],UD_g,vel_cm/s\n0,1,2,3,9\n0.5,4,5,6,9\n"
@@ -294,6 +365,14 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
          ["1: found '1994 Northridge' where numbers are due, and no"]),
         ("<html>\n<body>\n", ["2: this looks like a web page, which is not read; give the record"]),
         ("TIMESERIES IU_X, 9 samples\n1 2 x\n", ["2: this looks like TSPAIR or SLIST of Earth"]),
+        ("# dt = 5 us\n1\n2\n", ["1: found a step in us; give it in s, ms or min"]),
+        ("# dt = 5\n1\n2\n", [" the time step is 5 s; give a record with steps of 1e-06 to 1 s"]),
+        ("# NPTS: 3\n1\n2\n", ["1: states 3 samples, found 2; give the whole file"]),
+        ("1 0.1\n2 0.2\n3 0.1\n" + "".join(f"{k} 0\n" for k in range(4, 20)),
+         [" found steps of 1 in the first column; give it a heading with its unit, such as"]),
+        *((f"{sign}   1.0e-03 *\n\n 0.1\n 0.2\n",
+           ["1: found '1.0e-03 *', a factor of the numbers below it; multiply them all by it, and"])
+          for sign in ("", "# ")),
         ("1 2 3\n4 5 6\n7\n", ["3: found 1 values after lines of 3: values across the lines, not"]),
         ("60 0.1\n1 2 3\n4 5 6\n7\n", ["1: states 60 values, found 7; give the whole file"]),
         (

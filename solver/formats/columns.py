@@ -1,0 +1,52 @@
+"""What the columns of a table without headings show: which of them rise as times and counts do.
+
+No shaking rises from line to line. Reads no file. Read `rising`, then `remedy`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from solver.model import Floats
+
+# Fewer rows than `_FEW` show nothing; in `_MANY` a column need not rise evenly, as times of loggers
+# do not.
+_FEW, _MANY = 5, 12
+_EVEN_WITHIN = 0.01  # of a step
+
+_ACROSS = (
+    "put one on each line, or give the values per line to motion convert (--values-per-line {})"
+)
+
+
+def rising(table: Floats) -> list[int]:
+    """Indexes of the columns that rise from row to row, evenly where there are few rows."""
+    rows = len(table)
+    if rows < _FEW:
+        return []
+    steps = np.diff(table, axis=0)
+    usual = (table[-1] - table[0]) / (rows - 1)
+    rises = (steps >= 0.0).all(axis=0) & (usual > 0.0)  # rounded times stand twice
+    if rows < _MANY:
+        rises &= np.abs(steps - usual).max(axis=0) <= _EVEN_WITHIN * usual
+    return [int(column) for column in np.flatnonzero(rises)]
+
+
+def remedy(table: Floats) -> str:
+    """Return what would do for a table of two or more columns without headings."""
+    width, columns = table.shape[1], rising(table)
+    heading = "a heading such as time_s,x_g" + ",y_g" * (width > 2)
+    if not columns:
+        return f"give {heading}, or {_ACROSS.format(width)}"
+    for column in columns:
+        if (table[:, column] % 1.0 == 0.0).all():
+            return (
+                f"column {column + 1} counts the lines: delete it (if it is times in ms, give them"
+                " in the first column, as time_ms)"
+            )
+    if columns == [0]:
+        return f"the first rises as times do: give {heading}"
+    if len(columns) > 1:
+        which = " and ".join(str(column + 1) for column in columns)
+        return f"columns {which} rise as times do: put each time and its values on a line"
+    return f"column {columns[0] + 1} rises as times do: put it first, below {heading}"
