@@ -125,7 +125,10 @@ def _check_times(book: OpenBook, heading: CellPosition, count: int, dt_s: float)
     source = _Times(name=at.address, lines=[], units="", dt_s=math.nan, heading=at)
     # Samples, of which there is no need.
     none = np.zeros((1, count))
-    even = sampled(source, t_s, none, lambda index: index, unit_s)
+    with suppress(InputError):
+        sampled(replace(source, dt_s=dt_s), t_s, none, int, unit_s)
+        return [found_at(book, at), *cells]
+    even = sampled(source, t_s, none, int, unit_s)
     if even.notes:
         steps = np.diff(t_s)
         usual = np.median(steps)
@@ -135,14 +138,10 @@ def _check_times(book: OpenBook, heading: CellPosition, count: int, dt_s: float)
             f" but the typical step is {usual:.3g} s; fill in the missing rows, or give the record"
             " as a file, which is resampled"
         )
-    try:
-        sampled(replace(source, dt_s=dt_s), t_s, none, lambda index: index, unit_s)
-    except InputError as error:
-        raise InputError(
-            f"{at.address} has times at a step of {even.dt_s:.6g} s, but the time step is"
-            f" {dt_s:.6g} s; correct one of them"
-        ) from error
-    return [found_at(book, at), *cells]
+    raise InputError(
+        f"{at.address} has times at a step of {even.dt_s:.6g} s, but the time step is"
+        f" {dt_s:.6g} s; correct one of them"
+    )
 
 
 def _heading_of_times(book: OpenBook, heading: CellPosition) -> CellPosition | None:

@@ -25,6 +25,30 @@ LOSS = 0.005
 # A gap is an interval longer than this number of typical steps.
 _GAP_STEPS = 10.0
 _FINEST = 200.0
+
+# Fewer times, or a step nearer to the last digit of the times, show no rounding.
+_MANY, _ROUNDED_WITHIN = 10, 0.9
+# Of instruments and programs, the most usual first.
+_RATES_HZ = (
+    200,
+    100,
+    50,
+    250,
+    500,
+    1000,
+    400,
+    125,
+    128,
+    256,
+    512,
+    80,
+    120,
+    150,
+    75,
+    300,
+    2000,
+    5000,
+)
 _MAX_GAPS = 3
 
 
@@ -55,6 +79,8 @@ def sampled(
     `line_of` gives the index of the line of a time, for those that a message mentions. Raises
     `InputError` if times do not increase, or a step given by the caller does not agree.
     """
+    if _stand_twice(t_s, unit_s):
+        return _rounded(source, t_s, columns, unit_s)
     _check_rising(source, t_s, line_of)
     step, blur = _even_step(t_s, unit_s)
     if not math.isnan(step):
@@ -72,6 +98,37 @@ def is_even(t_s: Floats, unit_s: float = 1.0) -> bool:
     return bool((np.diff(t_s) > 0.0).all()) and not math.isnan(_even_step(t_s, unit_s)[0])
 
 
+def _stand_twice(t_s: Floats, unit_s: float) -> bool:
+    """Whether even times are printed with so few digits that some stand twice."""
+    n, resolution = len(t_s) - 1, _resolution(t_s, unit_s)
+    step = (t_s[-1] - t_s[0]) / n
+    off = t_s - step * np.arange(n + 1)
+    # A time that is there twice by mistake leaves the others at steps of the resolution.
+    return bool(
+        n >= _MANY
+        and np.diff(t_s).min() == 0.0
+        and 0.0 < step < _ROUNDED_WITHIN * resolution
+        and np.ptp(off) <= 2.001 * resolution
+    )
+
+
+def _rounded(source: Source, t_s: Floats, columns: Floats, unit_s: float) -> Sampled:
+    """Columns at the step that the caller gives, which rounded times do not."""
+    n, resolution = len(t_s) - 1, _resolution(t_s, unit_s)
+    step = (t_s[-1] - t_s[0]) / n
+    # The first and the last time may both be off by half of their last digit.
+    blur = 1.001 * resolution / n
+    note = f"the times are rounded to {resolution:g} s"
+    if abs(source.dt_s - step) <= blur:
+        told = f"{note}: the time step is the one given, and a missing sample would not show"
+        return Sampled(dt_s=source.dt_s, columns=columns, notes=(told,))
+    usual = (1.0 / rate for rate in _RATES_HZ if abs(1.0 / rate - step) <= blur)
+    raise InputError(
+        f"{source.name}: {note}, {n} steps over {t_s[-1] - t_s[0]:.6g} s; give the time step dt,"
+        f" such as {next(usual, step):.9g}"
+    )
+
+
 def _check_rising(source: Source, t_s: Floats, line_of: Callable[[int], int]) -> None:
     steps = np.diff(t_s)
     usual = float(np.median(steps))
@@ -87,8 +144,7 @@ def _even_step(t_s: Floats, unit_s: float) -> tuple[float, float]:
     """Step of even times and the error in it from their rounding; NaN if uneven."""
     n = len(t_s) - 1
     step = (t_s[-1] - t_s[0]) / n
-    printed = t_s / unit_s
-    resolution = next((unit_s * 10.0**-k for k in range(10) if fits(printed, 10.0**-k)), 0.0)
+    resolution = _resolution(t_s, unit_s)
     # Each printed time has an error of up to half the resolution. If the resolution is coarser than
     # half a step, no allowance is made: it could hide a missing sample, and times printed in whole
     # steps need none.
@@ -98,6 +154,12 @@ def _even_step(t_s: Floats, unit_s: float) -> tuple[float, float]:
     if max(np.abs(off).max(), np.abs(np.diff(off)).max()) > allowance:
         return math.nan, 0.0
     return float(step), rounding / n
+
+
+def _resolution(t_s: Floats, unit_s: float) -> float:
+    """Value [s] of the last digit of printed times."""
+    printed = t_s / unit_s
+    return next((unit_s * 10.0**-k for k in range(10) if fits(printed, 10.0**-k)), 0.0)
 
 
 def _agreed(source: Source, step: float, blur: float) -> float:

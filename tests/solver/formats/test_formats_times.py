@@ -43,6 +43,31 @@ class TestEvenTimes:
         assert not is_even(np.array([1.0, 0.5, 0.0]))
 
 
+class TestRoundedTimes:
+    @pytest.mark.parametrize(
+        ("dt_s", "places", "n"),
+        [(0.005, 2, 200), (0.005, 2, 4001), (0.004, 2, 77), (1 / 128, 2, 900), (1 / 120, 2, 3000),
+         (0.0002, 3, 5000), (0.0025, 2, 60)],
+    )  # fmt: skip
+    def test_times_that_stand_twice_take_the_step_that_is_said(self, file, dt_s, places, n):
+        text = "".join(f"{i * dt_s:.{places}f},{i % 7 - 3}\n" for i in range(n))
+        (problem,) = refused(read_motion_file, file(text), units="m/s2")
+        told = f"roof.csv: the times are rounded to {10**-places:g} s, {n - 1} steps over "
+        assert problem.startswith(told)
+        advised = float(problem.split("such as ")[1])
+        assert advised == pytest.approx(dt_s, rel=1e-8)
+        motion_file = read_motion_file(file(text), units="m/s2", dt_s=advised)
+        assert motion_file.channel().dt_s == advised
+        assert motion_file.channel().a_mps2.tolist() == [i % 7 - 3 for i in range(n)]
+        assert "a missing sample would not show" in motion_file.notes[0]
+        assert refused(read_motion_file, file(text), units="m/s2", dt_s=1.1 * dt_s) == (problem,)
+
+    def test_one_time_that_is_there_twice_is_a_fault(self, file):
+        text = "".join(f"{0.01 * (i - (i > 50)):.2f},1\n" for i in range(100))
+        (problem,) = refused(read_motion_file, file(text), units="g", dt_s=0.01)
+        assert problem.startswith("roof.csv:52: found time 0.5 s after 0.5 s, with a typical")
+
+
 class TestUnevenTimes:
     def test_coarser_grids_lose_nothing_and_peaks_are_kept_or_their_loss_told(self):
         t = np.array([0.0, 0.02, 0.03, 0.07, 0.08, 0.09])
