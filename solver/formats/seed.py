@@ -28,6 +28,8 @@ from solver.records.record import shown, unit_size
 # FDSN StationXML 1.2 (InstrumentSensitivity: output for one unit of the input).
 _NAMES = {"MSEED": "miniSEED", "SAC": "SAC"}
 _OTHER_SAC = {6: "displacement", 7: "velocity", 50: "volts"}
+_SINGLE = 1e-7  # rounding of a number of 24 bits
+_PLUMB_DEG = 5.0
 _INSTALL = (
     "is read by ObsPy, which is not installed; type the command of ./roofslip motion with a name"
     " that ends with .mseed or .sac (the launcher installs it then), or: pip install"
@@ -46,7 +48,10 @@ def read(source: Source) -> MotionFile:
         raise InputError(f"{source.name}: {_NAMES[form]} {_INSTALL}") from error
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("error")  # so a record whose check fails is not read
+            warnings.simplefilter("ignore")  # such as of what is rounded, and not used here
+            if form == "MSEED":  # so a record whose check of integrity fails is not read
+                damage = import_module("obspy.io.mseed").InternalMSEEDWarning
+                warnings.simplefilter("error", damage)
             traces = list(obspy.read(io.BytesIO(source.content), format=form))
             start = min(trace.stats.starttime for trace in traces).datetime
     except Exception as error:  # its readers raise whatever they meet in a damaged file
@@ -79,13 +84,19 @@ def _channel(source: Source, obspy: Any, trace: Any) -> Channel:
     if not np.isfinite(trace.data).all():
         raise InputError(f"{source.name}: {trace.id} has values that are no numbers")
     values: Floats = trace.data.astype(np.float64)
-    delta_s = float(trace.stats.delta)
-    # SAC has it as a number of 24 bits, which is no multiple of a decimal.
-    step = Stated(value=float(f"{delta_s:.7g}") if sac else delta_s, rounding=0.0, index=0)
+    delta_s = _step_s(float(sac.delta)) if sac else float(trace.stats.delta)
+    step = Stated(value=delta_s, rounding=0.0, index=0)
     scale, notes = _scale(source, obspy, trace, values)
     a_mps2 = values * scale
     notes = (*notes, *(offset_notes(a_mps2) if a_mps2.any() else ()))
     return Channel(name=trace.id, dt_s=source.step(step), a_mps2=a_mps2, notes=notes)
+
+
+def _step_s(delta_s: float) -> float:
+    """Step that SAC has as a number of 24 bits: that of a whole rate, or else of seven digits."""
+    whole = 1.0 / max(round(1.0 / delta_s), 1) if delta_s > 0.0 else math.nan
+    is_whole = abs(whole - delta_s) <= _SINGLE * delta_s
+    return whole if is_whole else float(f"{delta_s:.7g}")
 
 
 def _scale(source: Source, obspy: Any, trace: Any, values: Floats) -> tuple[float, tuple[str, ...]]:
@@ -96,23 +107,43 @@ def _scale(source: Source, obspy: Any, trace: Any, values: Floats) -> tuple[floa
     notes = () if is_whole else ("the samples are no whole numbers, and are read as counts",)
     if not source.response or not math.isnan(source.counts_per_mps2):
         return source.counts_scale(f"{source.name}: found {trace.id}"), notes
-    per_mps2, at_hz = _sensitivity(source, obspy, trace)
+    inventory = _inventory(source, obspy)
+    per_mps2, at_hz = _sensitivity(source, inventory, trace)
     note = f"raw counts / {per_mps2:.6g} per m/s2, the sensitivity at {at_hz:g} Hz"
-    return 1.0 / per_mps2, (*notes, f"{note}; the response at other frequencies is not removed")
+    sign, told = _orientation(inventory, trace)
+    notes = (*notes, f"{note}; the response at other frequencies is not removed", *told)
+    return sign / per_mps2, notes
 
 
-def _sensitivity(source: Source, obspy: Any, trace: Any) -> tuple[float, float]:
-    """Counts per m/s2 of the instrument of a trace, and the frequency [Hz] where it has them."""
+def _orientation(inventory: Any, trace: Any) -> tuple[float, tuple[str, ...]]:
+    """Sign that makes a vertical positive upward, and a note on the direction of other channels."""
+    about = inventory.get_channel_metadata(trace.id, trace.stats.starttime)
+    azimuth, dip = about["azimuth"], about["dip"]
+    if dip is not None and abs(abs(dip) - 90.0) <= _PLUMB_DEG:
+        # FDSN StationXML: the dip is down from the horizontal.
+        note = f"its dip is {dip:g} deg, positive downward: the sign is turned"
+        return (-1.0, (note,)) if dip > 0.0 else (1.0, ())
+    told = ((azimuth, "azimuth"), (dip or None, "dip"))
+    words = [f"its {name} is {value:g} deg" for value, name in told if value is not None]
+    return 1.0, (", ".join(words),) if words else ()
+
+
+def _inventory(source: Source, obspy: Any) -> Any:
     path = Path(source.response)
     content = read_file(path, MAX_BYTES, path.name)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            inventory = obspy.read_inventory(io.BytesIO(content))
+            return obspy.read_inventory(io.BytesIO(content))
     except Exception as error:
         raise InputError(
             f"{path.name}: cannot be read as a response; give StationXML, or counts per m/s2"
         ) from error
+
+
+def _sensitivity(source: Source, inventory: Any, trace: Any) -> tuple[float, float]:
+    """Counts per m/s2 of the instrument of a trace, and the frequency [Hz] where it has them."""
+    path = Path(source.response)
     try:
         whole = inventory.get_response(trace.id, trace.stats.starttime).instrument_sensitivity
         value, at_hz, units = float(whole.value), float(whole.frequency), whole.input_units or ""

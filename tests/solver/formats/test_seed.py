@@ -37,10 +37,10 @@ def miniseed(values, second=0, channel=b"HNE"):
     return (head.ljust(64, b"\0") + values.tobytes()).ljust(512, b"\0")
 
 
-def sac(values, quantity=8):
-    """A SAC file of version 6, big-endian, at 0.01 s."""
+def sac(values, quantity=8, dt_s=0.01):
+    """A SAC file of version 6, big-endian."""
     floats, whole = [-12345.0] * 70, [-12345] * 40
-    floats[0], floats[5], floats[6] = 0.01, 0.0, 0.01 * (len(values) - 1)
+    floats[0], floats[5], floats[6] = dt_s, 0.0, dt_s * (len(values) - 1)
     whole[:6] = 2024, 2, 0, 0, 0, 0
     whole[6], whole[9], whole[15], whole[16], whole[35] = 6, len(values), 1, quantity, 1
     letters = b"ABC".ljust(8) + b"-12345".ljust(16) + b"-12345  " * 21
@@ -79,6 +79,30 @@ def test_samples_that_are_no_counts_are_in_the_unit_that_is_told(file, content):
     told = read_motion_file(path, response="1000")
     assert told.channel().a_mps2 == pytest.approx(FLOATS / 1000.0, rel=1e-7)
     assert told.notes[0] == "the samples are no whole numbers, and are read as counts"
+
+
+@pytest.mark.parametrize("rate_hz", [50, 75, 100, 120, 125, 128, 250, 300, 500, 512, 1000, 200 / 3])
+def test_sac_has_the_step_of_its_heading_at_any_rate(file, rate_hz):
+    path = file(sac(FLOATS, dt_s=1.0 / rate_hz), "x.sac")
+    (record,) = read_motion_file(path, units="cm/s2").channels
+    assert record.dt_s == pytest.approx(1.0 / rate_hz, rel=1e-15 if rate_hz % 1 == 0 else 1e-6)
+
+
+@pytest.mark.parametrize(
+    ("azimuth", "dip", "sign", "told"),
+    [
+        (0, 90, -1, ["its dip is 90 deg, positive downward: the sign is turned"]),
+        (0, -90, 1, []),
+        (270, 0, 1, ["its azimuth is 270 deg"]),
+        (30, 40, 1, ["its azimuth is 30 deg, its dip is 40 deg"]),
+    ],
+)
+def test_the_direction_in_the_stationxml_is_used_or_said(file, azimuth, dip, sign, told):
+    said = f"</Depth><Azimuth>{azimuth}</Azimuth><Dip>{dip}</Dip>"
+    response = file(STATION.replace("</Depth>", said), "station.xml")
+    motion_file = read_motion_file(file(miniseed(COUNTS)), response=response)
+    assert motion_file.channel().a_mps2 == pytest.approx(sign * COUNTS / PER_MPS2, rel=1e-12)
+    assert [note for note in motion_file.notes if "deg" in note] == told
 
 
 def test_each_component_is_a_channel_and_without_obspy_what_to_install_said(file, monkeypatch):
