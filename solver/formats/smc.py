@@ -11,6 +11,9 @@ import itertools
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
 
 from solver.formats.channels import Channel, MotionFile, motion_file, offset_notes, peak_notes
 from solver.formats.numbers import Block, FieldFormat, fixed_rows, fixed_values, header_values
@@ -102,6 +105,7 @@ def _block(source: Source, whole: Sequence[Stated]) -> tuple[Block, tuple[str, .
 
 def _uneven(source: Source, block: Block) -> tuple[float, Floats, tuple[str, ...]]:
     """Pairs of time and acceleration; a line may have fewer than four."""
+    block, notes = _without_last_line(source, block)
     values = fixed_rows(source, block, _VALUES)
     # Files state the number of values; one that states the number of pairs is not truncated.
     if len(values) not in (block.count, 2 * block.count):
@@ -120,8 +124,27 @@ def _uneven(source: Source, block: Block) -> tuple[float, Floats, tuple[str, ...
     pairs = values.reshape(-1, 2)
     if len(pairs) < 2:
         raise InputError(f"{source.at(block.promised)}: found {len(pairs)} pairs; give at least 2")
+    # Five digits print some readings of film at the same time.
+    times, first, count = np.unique(pairs[:, 0], return_index=True, return_counts=True)
+    if len(times) < len(pairs) and (np.diff(pairs[:, 0]) >= 0.0).all():
+        means = np.add.reduceat(pairs[:, 1], first) / count
+        repeated = len(pairs) - len(times)
+        notes += (f"times that stand twice: {repeated}; the mean of their values is taken",)
+        pairs, rows = np.column_stack((times, means)), [rows[i] for i in first]
     even = sampled(source, pairs[:, 0], pairs[:, 1:].T, rows.__getitem__)
-    return even.dt_s, even.columns[0], even.notes
+    return even.dt_s, even.columns[0], (*notes, *even.notes)
+
+
+def _without_last_line(source: Source, block: Block) -> tuple[Block, tuple[str, ...]]:
+    """Leave out a line more than stated, as of many records of film: the rest of another piece."""
+    lines = range(block.first, block.stop)
+    fields = [_VALUES.fields(source.lines[index]) for index in lines]
+    last = max((i for i, number in enumerate(fields) if number), default=0)
+    if not fields or sum(fields) - fields[last] != block.count:
+        return block, ()
+    index = block.first + last
+    note = f"line {index + 1} is beyond the {block.count} values stated, and is left out"
+    return replace(block, stop=index), (note,)
 
 
 def _known(number: Stated) -> float:

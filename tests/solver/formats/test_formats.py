@@ -148,6 +148,27 @@ def test_a_file_gives_its_channels_step_samples_and_notes(name):
         assert record.a_mps2 == pytest.approx(held.channels[record.name], **held.error)
 
 
+LEFT_OVER = " 1.1100E-1 9.5000E+1 1.1200E-1 9.4000E+1 1.1300E-1 9.3000E+1 1.1400E-1 9.2000E+1"
+
+
+@pytest.mark.parametrize(
+    ("changes", "note"),
+    [
+        # As in 16 of 16 public files; the line may go back in time.
+        ([("1.2000E-1 0.0000E+0", f"1.2000E-1 0.0000E+0\n{LEFT_OVER}")],
+         "line 34 is beyond the 26 values stated, and is left out"),
+        ([("        26  ", "        28  "),
+          ("-2.5000E+1 3.3000E-2 4.0000E+1",
+           "-2.4000E+1 2.0000E-2-2.6000E+1 3.3000E-2 4.0000E+1")],
+         "times that stand twice: 1; the mean of their values is taken"),
+    ],
+)  # fmt: skip
+def test_film_may_have_a_line_more_than_stated_and_a_time_twice(altered, changes, note):
+    motion_file = read_motion_file(altered("smc-uneven.smc", *changes))
+    assert motion_file.channel().a_mps2 == pytest.approx(UNEVEN / 10, abs=1e-13)
+    assert motion_file.notes == (note, *HELD["smc-uneven.smc"].notes)
+
+
 START = "2003-01-02 03:04:05"
 
 
@@ -286,7 +307,7 @@ FAULTS = [
     ("smc-corrected.smc", [("         2\r", "         3\r")], ":30: found a line without | am"),
     ("smc-corrected.smc", [("-0.1234600E+03", "-0.9234600E+03")], ":23: the header states a pe"),
     ("smc-corrected.smc", [("2 CORRECTED ACCELEROGRAM", "3 VELOCITY")], ":1: found velocity"),
-    ("smc-uneven.smc", [(" 2.0000E-2", " 1.2000E-2")], ":30: found time 0.012 s after 0.012 s,"),
+    ("smc-uneven.smc", [(" 2.0000E-2", " 1.1000E-2")], ":30: found time 0.011 s after 0.012 s,"),
     ("smc-uneven.smc", [("-6.1250E+1", "          ")], ":14: states 26 values, found 25; g"),
     ("smc-uneven.smc", [("-6.1250E+1", "          "), ("        26  ", "        25  ")],
      ":31: found 1 values; give pairs of time and acceleration"),
