@@ -31,6 +31,7 @@ class Problem:
     found: str
     remedy: str = ""  # what would do; empty where `found` says it
     where: str = ""  # cell or sheet; empty where `found` begins with the location
+    about: str = ""  # argument to change, such as units; empty where it is the file
 
     @classmethod
     def of(cls, line: str) -> Problem:

@@ -106,7 +106,7 @@ def read_components(
                 for component in _read(book, row, field, read):
                     components[field] = component
             except InputError as error:
-                faults += _faults(index, field, error)
+                faults += _faults(index, field, error, row)
     if "record" not in components:
         return faults
     to_s = row.get("to_s")
@@ -122,12 +122,24 @@ def read_components(
     return _processed(index, MotionInput(**row), components, records)
 
 
-def _faults(index: int, field: str, error: InputError) -> list[Finding]:
-    place = Place("motions", index, field)
-    return [
-        Finding.error(place, f"{LABELS[field]} record: {problem.found}", problem.remedy)
-        for problem in error.parts
-    ]
+# What would do where a cell contradicts its file.
+_LEFT_TO_THE_FILE = {
+    "units": f"give the units of the file, or '{AccelUnit.FROM_FILE}'",
+    "dt_s": "give the time step of the file, or leave it blank",
+}
+
+
+def _faults(
+    index: int, field: str, error: InputError, row: Mapping[str, Any] | None = None
+) -> list[Finding]:
+    """Return the faults of a record, each at the cell to change: units and step have their own."""
+    findings = []
+    for problem in error.parts:
+        place = Place("motions", index, problem.about or field)
+        is_given = (row or {}).get(problem.about) not in (None, AccelUnit.FROM_FILE)
+        remedy = _LEFT_TO_THE_FILE[problem.about] if is_given else problem.remedy
+        findings.append(Finding.error(place, f"{LABELS[field]} record: {problem.found}", remedy))
+    return findings
 
 
 def _read(book: OpenBook, row: Mapping[str, Any], field: str, read: Reader) -> Iterator[Component]:

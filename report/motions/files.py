@@ -26,7 +26,7 @@ from solver.formats.layout import Heading, Kind, is_spectral, parse
 from solver.formats.source import Source
 from solver.formats.times import sampled
 from solver.model import InputError, Problem
-from solver.records.record import Record, record_from_values, unit_size
+from solver.records.record import Record, check_peak, record_from_values, unit_size
 
 HEADING_ROWS = 10
 MAX_SAMPLES = 200_000
@@ -79,6 +79,7 @@ def read_column(
     # 1 gal = 1 cm/s2; the solver's table has one name for each unit.
     units = "cm/s2" if units == "gal" else units
     record = record_from_values(name, values, units=units, dt_s=dt_s)
+    check_peak(name, record.a_mps2)
     return record, [found_at(book, heading), *below, *times]
 
 

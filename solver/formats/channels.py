@@ -16,7 +16,15 @@ import numpy as np
 
 from solver.formats.source import Source, Stated
 from solver.model import Floats, InputError
-from solver.records.record import UNITS, Record, check_gaps, has_gravity, read_only, shown
+from solver.records.record import (
+    UNITS,
+    Record,
+    check_gaps,
+    check_peak,
+    has_gravity,
+    read_only,
+    shown,
+)
 from solver.suggestions import nearest
 
 _LISTED = 30
@@ -98,9 +106,6 @@ def _folded(name: str) -> str:
 
 
 MAX_CHANNELS = 1000
-
-# Peak [g] above which a record is refused: ten times as much as any instrument records.
-MOST_G = 1000.0
 
 # Range of time steps [s] of accelerograms, with a wide margin.
 STEPS_S = (1e-6, 1.0)
@@ -218,14 +223,8 @@ def _start(source: Source) -> dt.datetime | None:
 
 def _check_size(source: Source, channel: Channel) -> None:
     """Raise if a step or a value is none of an accelerogram: the units or the scale are wrong."""
-    peak_g = float(np.abs(channel.a_mps2).max()) / UNITS["g"]
-    # Negated, so that NaN is refused.
-    if not peak_g <= MOST_G:
-        raise InputError(
-            f"{source.name}: the values reach {peak_g:.3g} g; give a record of at most {MOST_G:g}"
-            " g, or its units"
-        )
     check_gaps(source.name, channel.a_mps2)
+    check_peak(source.name, channel.a_mps2)
     low, high = STEPS_S
     if not low <= channel.dt_s <= high:
         raise InputError(

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from solver.bounds import SENSITIVITY
 from solver.files import check_length, read_file
-from solver.model import InputError
+from solver.model import InputError, Problem
 from solver.records.record import (
     UNIT_CHOICES,
     is_finite_number,
@@ -154,10 +154,8 @@ class Source:
                 " of raw counts; give the file alone"
             )
         if self.units and not math.isclose(unit_size(self.units), size):
-            raise InputError(
-                f"{self.at(index)}: the file is in {stated} but units are {self.units};"
-                " give the units of the file, or none"
-            )
+            found = f"{self.at(index)}: the file is in {stated} but units are {self.units}"
+            raise InputError(Problem(found, "give the units of the file, or none", about="units"))
         return size
 
     @property
@@ -192,10 +190,9 @@ class Source:
         if self.response and not self.units:
             return self.counts_scale(f"{self.name}: found no unit")
         if not self.units:
-            raise InputError(
-                f"{self.name}: found no unit of acceleration; give units, one of"
-                f" {', '.join(UNIT_CHOICES)}, or a heading such as acc_g"
-            )
+            wanted = f"give units, one of {', '.join(UNIT_CHOICES)}, or a heading such as acc_g"
+            found = f"{self.name}: found no unit of acceleration"
+            raise InputError(Problem(found, wanted, about="units"))
         return unit_size(self.units)
 
     def step(self, stated: Stated) -> float:
@@ -203,7 +200,8 @@ class Source:
         value = stated.value
         if math.isnan(value):
             if math.isnan(self.dt_s):
-                raise InputError(f"{self.at(stated.index)}: found no time step; give dt")
+                found = f"{self.at(stated.index)}: found no time step"
+                raise InputError(Problem(found, "give dt", about="dt_s"))
             return self.dt_s
         if not (is_finite_number(value) and value > 0.0):
             raise InputError(
@@ -212,10 +210,11 @@ class Source:
         if math.isnan(self.dt_s):
             return value
         if abs(value - self.dt_s) > stated.rounding + 1e-4 * value:
-            raise InputError(
+            found = (
                 f"{self.at(stated.index)}: the time step of the file is {value:.6g} s but dt is"
-                f" {self.dt_s:.6g} s; give the dt of the file, or none"
+                f" {self.dt_s:.6g} s"
             )
+            raise InputError(Problem(found, "give the dt of the file, or none", about="dt_s"))
         return self.dt_s
 
 

@@ -52,7 +52,7 @@ from solver.formats.stated import (
     units_in,
 )
 from solver.formats.times import Sampled, is_even, sampled
-from solver.model import Floats, InputError
+from solver.model import Floats, InputError, Problem
 from solver.records.record import BEYOND, HOLD, raise_any, shown, unit_size
 
 _HOLD = re.compile(rf"\b{re.escape(HOLD)} (\d+(?:\.\d+)?) s\b", re.ASCII)
@@ -232,7 +232,8 @@ def _evened(source: Source, table: _Table, columns: Floats, timed: bool) -> Samp
     if not timed:
         if math.isnan(stated.value) and math.isnan(source.dt_s):
             what = "one column," if table.values.shape[1] == 1 else "columns"
-            raise InputError(f"{source.name}: found {what} without times; give the time step dt")
+            found = f"{source.name}: found {what} without times"
+            raise InputError(Problem(found, "give the time step dt", about="dt_s"))
         dt_s = source.dt_s if math.isnan(stated.value) else source.step(stated)
         return Sampled(dt_s=dt_s, columns=columns, notes=())
     _check_is_time(source, table, table.values[:, 0])

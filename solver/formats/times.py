@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.formats.source import Source
-from solver.model import Floats, InputError
+from solver.model import Floats, InputError, Problem
 from solver.records.record import fits, raise_any
 
 # Largest total number of samples in the columns of a file after resampling.
@@ -86,10 +86,8 @@ def sampled(
     if not math.isnan(step):
         return Sampled(dt_s=_agreed(source, step, blur), columns=columns, notes=())
     if not math.isnan(source.dt_s):
-        raise InputError(
-            f"{source.name}: found uneven times but dt is {source.dt_s:.6g} s; omit dt, and the"
-            " record is resampled"
-        )
+        found = f"{source.name}: found uneven times but dt is {source.dt_s:.6g} s"
+        raise InputError(Problem(found, "omit dt, and the record is resampled", about="dt_s"))
     return _resampled(source, t_s, columns, line_of)
 
 
@@ -123,10 +121,9 @@ def _rounded(source: Source, t_s: Floats, columns: Floats, unit_s: float) -> Sam
         told = f"{note}: the time step is the one given, and a missing sample would not show"
         return Sampled(dt_s=source.dt_s, columns=columns, notes=(told,))
     usual = (1.0 / rate for rate in _RATES_HZ if abs(1.0 / rate - step) <= blur)
-    raise InputError(
-        f"{source.name}: {note}, {n} steps over {t_s[-1] - t_s[0]:.6g} s; give the time step dt,"
-        f" such as {next(usual, step):.9g}"
-    )
+    found = f"{source.name}: {note}, {n} steps over {t_s[-1] - t_s[0]:.6g} s"
+    wanted = f"give the time step dt, such as {next(usual, step):.9g}"
+    raise InputError(Problem(found, wanted, about="dt_s"))
 
 
 def _check_rising(source: Source, t_s: Floats, line_of: Callable[[int], int]) -> None:
@@ -167,11 +164,11 @@ def _agreed(source: Source, step: float, blur: float) -> float:
     if math.isnan(source.dt_s):
         return _round_step(step, blur)
     if abs(step - source.dt_s) > blur + 1e-4 * step:
-        text = f"{_round_step(step, blur):.6g}"
-        raise InputError(
-            f"{source.name}: the time step in the file is {text} s but dt is {source.dt_s:.6g} s;"
-            " omit dt, or correct one of them"
+        found = (
+            f"{source.name}: the time step in the file is {_round_step(step, blur):.6g} s but dt is"
+            f" {source.dt_s:.6g} s"
         )
+        raise InputError(Problem(found, "omit dt, or correct one of them", about="dt_s"))
     return source.dt_s
 
 

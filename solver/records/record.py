@@ -24,6 +24,9 @@ _CODES = re.compile(r"-?(?:999+(?:\.9+)?|999\.25|99\.9+|9\.99+|12345|3276[78])")
 _SHORT_CODES = {"99", "-99"}  # where no shaking is as large
 _NO_SHAKING_G = 9.0
 
+# Peak [g] above which a record is refused: more than twice that of any ground, roof or shake table.
+MOST_G = 10.0
+
 # Acceleration units and their value in m/s2.
 UNITS = {"g": STANDARD_GRAVITY_MPS2, "m/s2": 1.0, "cm/s2": 0.01, "mm/s2": 0.001}
 
@@ -210,6 +213,17 @@ def check_gaps(name: str, a_mps2: Floats) -> None:
         raise InputError(
             f"{name}: sample {at + 1:,} is {min(codes, key=len)} where no other exceeds"
             f" {most / UNITS['g']:.3g} g: it is a code for missing data; give a record without gaps"
+        )
+
+
+def check_peak(name: str, a_mps2: Floats) -> None:
+    """Refuse a record beyond `MOST_G`: its units are others than stated."""
+    peak_g = float(np.abs(a_mps2).max()) / UNITS["g"]
+    # Negated, so that NaN is refused.
+    if not peak_g <= MOST_G:
+        raise InputError(
+            f"{name}: the values reach {peak_g:.3g} g, and no ground or roof shakes with"
+            f" {MOST_G:g} g: is it cm/s2? Give the units that they have, or correct them"
         )
 
 

@@ -338,6 +338,9 @@ def test_a_pasted_column_is_shown_in_its_units(paste, cell, code, line):
         (pasted([0.1, -999, 0.2]),
          ["Pasted!North: sample 2 is -999 where no other exceeds 0.2 g: it is a code for missing"
           " data; give a record without gaps"]),
+        (pasted([150.0, -290.0, 0.2]),
+         ["Pasted!North: the values reach 290 g, and no ground or roof shakes with 10 g: is it"
+          " cm/s2? Give the units that they have, or correct them"]),
         (timed([0.0, 0.02, 0.04, 0.06]),
          ["Pasted!A3 has times at a step of 0.02 s, but the time step is 0.01 s; correct one of"
           " them"]),

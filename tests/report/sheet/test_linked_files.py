@@ -123,7 +123,7 @@ def timed(step, count):
 
 
 CHANNELS = "time (s),East (g),North (g),Up (g)\n" + "".join(
-    f"{0.01 * i:.2f},{0.1 * i},{0.2 * i},{0.3 * i}\n" for i in range(101)
+    f"{0.01 * i:.2f},{0.003 * i:.3f},{0.006 * i:.3f},{0.009 * i:.3f}\n" for i in range(101)
 )
 ONE_OF = "give one by name or number: 1 East; 2 North; 3 Up"
 AS_IN_FILE = of("Motions/M1", {"Record units": None, "Time step": None})
@@ -173,10 +173,13 @@ def test_a_record_that_cannot_be_run_is_refused_at_its_cell(tmp_path, number):
     by_day([
         # Units that neither file nor sheet states are requested; those that differ are reported.
         ({"Record units": "from file"},
-         {"Horizontal record": "give units, one of", "Vertical record": "give units, one of"}),
+         {"Record units": "give units, one of", "Record units ": "give units, one of"}),
         ({"Horizontal record": "records/all.csv | 1", "Vertical record": None,
           "Record units": "cm/s2"},
-         {"Horizontal record": "horizontal record: all.csv:1: the file is in g but units"}),
+         {"Record units": "units are cm/s2; give the units of the file, or 'from file'"}),
+        ({"Horizontal record": "records/all.csv | 1", "Vertical record": None, "Time step": 0.02,
+          "Record units": "from file"},
+         {"Time step": "but dt is 0.02 s; give the time step of the file, or leave it blank"}),
         ({"Low-pass corner": 60},
          {"Horizontal record": "horizontal record: x.csv: low-pass corner is 60 Hz; give"}),
         # Records are checked even if their row has other errors.
@@ -187,7 +190,7 @@ def test_a_record_that_cannot_be_run_is_refused_at_its_cell(tmp_path, number):
 def test_what_does_not_suit_a_record_is_reported_at_its_cell(tmp_path, cells, wanted):
     path = type_into(recorded(make(tmp_path), all=CHANNELS), of("Motions/M1", cells))
     for line, (heading, words) in zip(problems(path), wanted.items(), strict=True):
-        assert line.startswith(at(f"<Motions/M1/{heading}>: "))
+        assert line.startswith(at(f"<Motions/M1/{heading.strip()}>: "))
         assert words in line
 
 
@@ -215,7 +218,7 @@ def test_channels_of_one_file_are_components(tmp_path, names):
     cells = {f"Motions/M1/{c} record": f"records/all.csv | {n}" for c, n in channels.items()}
     book = read_workbook(type_into(recorded(make(tmp_path), all=CHANNELS), cells | AS_IN_FILE))
     first = book.motions[0]
-    for a, slope in ((first.ax_mps2, 0.1), (first.ay_mps2, 0.2), (first.az_mps2, 0.3)):
+    for a, slope in ((first.ax_mps2, 0.003), (first.ay_mps2, 0.006), (first.az_mps2, 0.009)):
         assert a == pytest.approx(slope * 9.80665 * np.arange(101))
     assert book.records[1].name == f"records/all.csv | {names[1]}".strip()
     assert book.records[1].format == "text"

@@ -170,7 +170,7 @@ def test_a_value_cut_short_or_a_duration_that_is_not_there_is_refused(
 @pytest.mark.parametrize("name", TEXTS)
 def test_a_text_that_is_cut_within_a_line_says_so(file, name):
     whole = (SAMPLES / name).read_bytes()
-    how = {"units": "g", "dt_s": 0.01} if name == "one.txt" else {}
+    how = {"units": "gal", "dt_s": 0.01} if name == "one.txt" else {}
     usual, tried = {*read_motion_file(SAMPLES / name, **how).notes}, 0
     for left in (whole[:-lost] for lost in range(2, 40)):
         try:

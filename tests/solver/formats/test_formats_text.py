@@ -124,6 +124,18 @@ def test_a_line_of_another_number_of_values_is_refused(file, content, due, probl
     assert problems[0] == f"roof.csv{problem}"
 
 
+@pytest.mark.parametrize("head", ["time_s,acc_g", "# in g\n0,0", "# units: g\n0,0"])
+@pytest.mark.parametrize(("peak", "is_read"), [(10, True), (10.1, False), (571, False)])
+def test_a_peak_that_no_roof_reaches_asks_for_the_unit(file, head, peak, is_read):
+    path = file(f"{head}\n0.01,{-peak}\n0.02,3\n0.03,{0.6 * peak}\n")
+    if is_read:
+        assert read_record(path).a_mps2.min() == pytest.approx(-peak * G)
+        return
+    (problem,) = problems_of(path, units="")
+    assert problem.startswith(f"roof.csv: the values reach {peak:g} g, and no ground or roof")
+    assert problem.endswith("is it cm/s2? Give the units that they have, or correct them")
+
+
 # Values across the lines, of which no column rises, and what others write between them.
 WAVED = [0.3 * math.sin(0.4 * k * k) for k in range(200)]
 

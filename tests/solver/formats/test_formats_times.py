@@ -127,11 +127,11 @@ class TestUnevenTimes:
         )
         assert len(motion_file.notes) == 5
         assert motion_file.notes[-1] == "... and 2 more gaps"
-        text = "".join(f"{0.01 * i + 1e-6 * i * i:.7f},{i}\n" for i in range(200))
+        text = "".join(f"{0.01 * i + 1e-6 * i * i:.7f},{i}\n" for i in range(90))
         record = read_record(file(text), units="m/s2")
         t = record.dt_s * np.arange(len(record.a_mps2))
         i = (-0.01 + np.sqrt(1e-4 + 4e-6 * t)) / 2e-6
-        assert record.a_mps2[:-1] == pytest.approx(i[:-1], abs=1e-4 * 200)
+        assert record.a_mps2[:-1] == pytest.approx(i[:-1], abs=1e-4 * 90)
         motion_file = read_motion_file(file("t_s,x_g,y_g\n0,0,1\n1,1,0\n3,3,2\n"))
         assert [len(record.a_mps2) for record in motion_file.channels] == [4, 4]
         assert motion_file.channel("y").a_mps2.tolist() == pytest.approx(
