@@ -33,5 +33,9 @@ INTENSITY = Bounds(1e-6, 10.0, "g")
 ANNUAL_RATE = Bounds(1e-30, 10.0, "a year")
 # Of a target spectrum, at a roof too.
 ORDINATE = Bounds(1e-6, 100.0, "g")
+# Of a record: more than twice that of any ground, roof or shake table.
+PEAK = Bounds(0.0, 10.0, "g")
+# Of a record, with a wide margin.
+TIME_STEP = Bounds(1e-6, 1.0, "s")
 # From 8 bits for 100 g to 32 bits for a thousandth of 1 g.
 SENSITIVITY = Bounds(0.1, 1e12, "counts per m/s2")

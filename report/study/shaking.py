@@ -29,8 +29,8 @@ from report.text.units import G_MPS2
 from solver.bounds import ANNUAL_RATE, INTENSITY
 from solver.building.roof import shaking_to_roof
 from solver.building.structure import building_of_periods
+from solver.formats.phrases import is_of_another
 from solver.formats.source import open_source
-from solver.formats.stated import is_of_another
 from solver.model import Floats, InputError, Motion
 from solver.records.measures import measures
 from solver.records.record import Record, raise_any, read_only

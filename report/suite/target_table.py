@@ -19,8 +19,8 @@ from report.sheet.reading.cells import CellError, Found, check_saved, number
 from report.sheet.reading.positions import CellPosition, found_at
 from report.sheet.reading.typed_text import separator, with_point
 from solver.bounds import ORDINATE
+from solver.formats.phrases import is_of_another
 from solver.formats.source import open_source
-from solver.formats.stated import is_of_another
 from solver.model import Floats, InputError, Problem
 from solver.suggestions import meant
 from solver.synthesis.matching import BAND_HZ

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from solver.bounds import TIME_STEP
 from solver.formats.source import Source, Stated
 from solver.model import Floats, InputError
 from solver.records.record import (
@@ -106,9 +107,6 @@ def _folded(name: str) -> str:
 
 
 MAX_CHANNELS = 1000
-
-# Range of time steps [s] of accelerograms, with a wide margin.
-STEPS_S = (1e-6, 1.0)
 
 # The peak in a header may be rounded or of other processing; a factor of two means another unit.
 _PEAK_WITHIN = 0.01
@@ -225,11 +223,10 @@ def _check_size(source: Source, channel: Channel) -> None:
     """Raise if a step or a value is none of an accelerogram: the units or the scale are wrong."""
     check_gaps(source.name, channel.a_mps2)
     check_peak(source.name, channel.a_mps2)
-    low, high = STEPS_S
-    if not low <= channel.dt_s <= high:
+    if not TIME_STEP.has(channel.dt_s):
         raise InputError(
             f"{source.name}: the time step is {channel.dt_s:.3g} s; give a record with steps of"
-            f" {low:g} to {high:g} s"
+            f" {TIME_STEP.words}"
         )
 
 

@@ -12,7 +12,7 @@ from solver.model import Floats
 # Fewer rows than `_FEW` show nothing; in `_MANY` a column need not rise evenly, as times of loggers
 # do not.
 _FEW, _MANY = 5, 12
-_EVEN_WITHIN = 0.01  # of a step
+_EVEN_WITHIN, _OFTEN = 0.01, 0.1  # of a step, of all steps
 
 _ACROSS = (
     "put one on each line, or give the values per line to motion convert (--values-per-line {})"
@@ -26,7 +26,8 @@ def rising(table: Floats) -> list[int]:
         return []
     steps = np.diff(table, axis=0)
     usual = (table[-1] - table[0]) / (rows - 1)
-    rises = (steps >= 0.0).all(axis=0) & (usual > 0.0)  # rounded times stand twice
+    # Rounded times stand twice; zeros up to a last pulse are no times.
+    rises = (steps >= 0.0).all(axis=0) & ((steps > 0.0).mean(axis=0) > _OFTEN)
     if rows < _MANY:
         rises &= np.abs(steps - usual).max(axis=0) <= _EVEN_WITHIN * usual
     return [int(column) for column in np.flatnonzero(rises)]

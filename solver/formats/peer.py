@@ -13,11 +13,11 @@ import itertools
 import re
 from collections.abc import Sequence
 
+from solver.formats import phrases
 from solver.formats.channels import Channel, MotionFile, motion_file
 from solver.formats.layout import ACCELERATION
 from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.source import Source
-from solver.formats.stated import other_quantity, stated_units, step_in, units_in
 from solver.model import InputError
 from solver.records.record import shown
 
@@ -50,7 +50,7 @@ def read(source: Source) -> MotionFile:
         at = _bare_line(source.lines)
     heading = source.lines[:at]
     for index, line in enumerate(heading):
-        if other := other_quantity(line):
+        if other := phrases.other_quantity(line):
             raise InputError(f"{source.at(index)}: found {other}; give the file of acceleration")
     counted = _counted(source.lines[at]) or _BARE.fullmatch(source.lines[at].strip())
     if not counted:
@@ -61,11 +61,11 @@ def read(source: Source) -> MotionFile:
     units: list[tuple[str, int]] = []
     for index, line in enumerate(source.lines[: at + 1]):
         # The name of a station may have the letters of a unit in brackets.
-        if ACCELERATION.search(line) or stated_units(line):
-            units += [(unit, index) for unit in units_in(line)]
+        if ACCELERATION.search(line) or phrases.stated_units(line):
+            units += [(unit, index) for unit in phrases.units_in(line)]
     scale = source.stated_scale(units)
     step = printed(counted[2], at) if counted.re is not _NAMED else None
-    dt_s = source.step(step or step_in(source, at, source.lines[at]))
+    dt_s = source.step(step or phrases.step_in(source, at, source.lines[at]))
     block = Block(first=at + 1, stop=len(source.lines), count=int(counted[1]), promised=at)
     values = free_values(source, block) * scale
     # The second line has event, date, station and component.

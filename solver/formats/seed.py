@@ -123,9 +123,8 @@ def _orientation(inventory: Any, trace: Any) -> tuple[float, tuple[str, ...]]:
         # FDSN StationXML: the dip is down from the horizontal.
         note = f"its dip is {dip:g} deg, positive downward: the sign is turned"
         return (-1.0, (note,)) if dip > 0.0 else (1.0, ())
-    told = ((azimuth, "azimuth"), (dip or None, "dip"))
-    words = [f"its {name} is {value:g} deg" for value, name in told if value is not None]
-    return 1.0, (", ".join(words),) if words else ()
+    told = f"its azimuth is {azimuth} deg, its dip {dip} deg"
+    return 1.0, () if azimuth is None and dip is None else (told,)
 
 
 def _inventory(source: Source, obspy: Any) -> Any:

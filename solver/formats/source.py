@@ -40,7 +40,8 @@ _TEXTS = (
     (re.compile(r"(?i)(?:WID[12]|BEGIN GSE2|BEGIN IMS)\b"), "GSE2", _CONVERT),
     (re.compile(r"(?i)(?:\s+-?12345(?:\.0*)?){3}"), "SAC in letters", _CONVERT),
     (re.compile(r"(?i).*(?:MEXICANA|ASA ?2\.0|UNAM\b)"), "a file of UNAM, Mexico", _COLUMNS),
-    (re.compile(r"(?i).*\b(?:BHRC|CSMNC|USC)\b"), "a file of another network", _COLUMNS),
+    (re.compile(r"(?i).*\bCSMNC\b"), "a file of CSMNC, China", _COLUMNS),
+    (re.compile(r"(?i).*\b(?:BHRC|USC)\b"), "a file of another network", _COLUMNS),
     (re.compile(r"(?i)\s*(?:timeSeries|set|function|import|pattern)\b"), "a program", _AS_RECORD),
 )  # fmt: skip
 _LOOKED_AT = 15

@@ -16,7 +16,7 @@ from functools import cache, partial
 
 import numpy as np
 
-from solver.formats import layout
+from solver.formats import layout, phrases
 from solver.formats.channels import Channel, MotionFile, motion_file
 from solver.formats.columns import remedy, rising
 from solver.formats.layout import (
@@ -42,15 +42,6 @@ from solver.formats.numbers import (
     number_in,
 )
 from solver.formats.source import Source, Stated, likely_text
-from solver.formats.stated import (
-    count_in,
-    is_of_a_spectrum,
-    is_of_acceleration,
-    other_quantity,
-    stated_units,
-    step_in,
-    units_in,
-)
 from solver.formats.times import Sampled, is_even, sampled
 from solver.model import Floats, InputError, Problem
 from solver.records.record import BEYOND, HOLD, raise_any, shown, unit_size
@@ -62,6 +53,8 @@ _MAX_REMARKS = 200
 _MAGNITUDE_WITHIN = 0.01  # of its peak: digits are printed apart
 # Of times without a unit: more are milliseconds or numbers of samples, but in a sketch of a pulse.
 _LONGEST_STEP, _FEW = 1.0, 10
+# Of a code such as 065XXX; NaN and D exponents are numbers.
+_LETTERS = re.compile(r"\d+[a-z]{2}", re.ASCII | re.IGNORECASE)
 # As MATLAB prints it, also behind a comment sign.
 _FACTOR = re.compile(rf"{NUMBER.pattern}\s*[*x×]", re.ASCII)
 _CLOCK = re.compile(r"\d+([-/:.])\d+\1\d+(?:[:.,T ].*)?", re.ASCII)
@@ -139,15 +132,15 @@ def _check_remarks(source: Source, table: _Table) -> None:
     # A record may be matched to a spectrum: only a spectrum is nowhere below zero.
     is_positive = len(numbers) > _FEW and bool((numbers >= 0.0).all())
     is_headed = any(heading.kind is Kind.ACCELERATION for heading in table.headings)
-    is_said = is_headed or any(is_of_acceleration(line) for _, line in table.remarks)
+    is_said = is_headed or any(phrases.is_of_acceleration(line) for _, line in table.remarks)
     for index, line in table.remarks:
         _check_factor(source, index, line)
-        if is_positive and is_of_a_spectrum(line):
+        if is_positive and phrases.is_of_a_spectrum(line):
             raise InputError(
                 f"{source.at(index)}: found {shown(line)} above values of which none is negative:"
                 " this is a spectrum, no record; give accelerations by time"
             )
-        if not is_said and (other := other_quantity(line)):
+        if not is_said and (other := phrases.other_quantity(line)):
             heading = "acc_g" if table.values.shape[1] == 1 else "time_s,acc_g"
             raise InputError(
                 f"{source.at(index)}: found {other!r}, and no acceleration; give the file of"
@@ -187,7 +180,7 @@ def _check_count(source: Source, table: _Table) -> None:
     """Compare the number of rows with the number of samples that a remark states."""
     samples = len(table.values)
     for index, line in table.remarks:
-        stated = count_in(line)
+        stated = phrases.count_in(line)
         if stated not in (-1, samples):
             remedy = "give the whole file" if samples < stated else "correct the count"
             raise InputError(
@@ -275,15 +268,7 @@ def _check_is_time(source: Source, table: _Table, times: Floats) -> None:
 
 def _seconds(source: Source, table: _Table) -> float:
     """Value [s] of the unit of the times."""
-    step = float(np.median(np.diff(table.values[:, 0])))
-    if not table.headings:
-        if step >= _LONGEST_STEP and len(table.values) > _FEW:
-            raise InputError(
-                f"{source.name}: found steps of {step:g} in the first column; give it a heading"
-                " with its unit, such as time_s or time_ms, or delete it and give the time step dt"
-            )
-        return 1.0
-    heading = table.headings[0]
+    heading = table.headings[0] if table.headings else layout.parse("")
     if heading.is_index:
         raise InputError(
             f"{source.at(table.heading_index)}: found {shown(heading.text)} over the first column;"
@@ -294,9 +279,11 @@ def _seconds(source: Source, table: _Table) -> float:
             f"{source.at(table.heading_index)}: found times in {shown(heading.unit)}; give them in"
             " s, ms or min, such as time_s"
         )
+    step = float(np.median(np.diff(table.values[:, 0])))
     if not heading.unit and step >= _LONGEST_STEP and len(table.values) > _FEW:
+        what = shown(heading.text) if table.headings else "a first column"
         raise InputError(
-            f"{source.at(table.heading_index)}: found {shown(heading.text)} with steps of {step:g};"
+            f"{source.at(max(table.heading_index, 0))}: found {what} with steps of {step:g};"
             " give the unit of the times, such as time_s or time_ms"
         )
     return heading.seconds
@@ -304,7 +291,7 @@ def _seconds(source: Source, table: _Table) -> float:
 
 def _stated_step(source: Source, table: _Table) -> Stated:
     """Step [s] that a remark states; NaN for none."""
-    steps = (step_in(source, index, line) for index, line in table.remarks)
+    steps = (phrases.step_in(source, index, line) for index, line in table.remarks)
     none = Stated(value=math.nan, rounding=0.0, index=-1)
     return next((step for step in steps if not math.isnan(step.value)), none)
 
@@ -313,7 +300,7 @@ def _scale(source: Source, table: _Table, column: int) -> float:
     """Value [m/s2] of a column's unit: from its heading, the text above, or the caller."""
     if table.headings and table.headings[column].unit:
         return _heading_scale(source, table, table.headings[column])
-    stated = [(unit, i) for i, line in table.remarks for unit in units_in(line)]
+    stated = [(unit, i) for i, line in table.remarks for unit in phrases.units_in(line)]
     return source.stated_scale(stated)
 
 
@@ -321,7 +308,7 @@ def _heading_scale(source: Source, table: _Table, heading: Heading) -> float:
     """Value [m/s2] of a heading's unit; where a comment states another, the caller's decides."""
     size = unit_size(heading.unit)
     for index, line in table.remarks:
-        stated = {unit_size(unit): unit for unit in stated_units(line)}
+        stated = {unit_size(unit): unit for unit in phrases.stated_units(line)}
         if not stated or size in stated:
             continue
         # A comment may tell of another file; what the caller says is meant for this one.
@@ -343,7 +330,7 @@ def _table(source: Source) -> _Table:
     separator = separator_of(first[1])
     fields = first[1].split(separator)
     _check_factor(source, *first)
-    if any(field.strip(" *") and is_heading(field.strip()) for field in fields):
+    if any(field.strip(" *") and _is_text(field.strip()) for field in fields):
         raise InputError(f"{source.at(first[0])}: {likely_text(source.lines, first[0])}")
     if any(_CLOCK.fullmatch(field.strip()) for field in fields[:2]):
         raise InputError(
@@ -353,8 +340,8 @@ def _table(source: Source) -> _Table:
     width, remarks = len(fields), _remarks(source.lines, start)
     heads, place = _headings(source, start, separator, width, remarks)
     bare = partial(_Table, start=start, headings=[], heading_index=-1, remarks=remarks)
-    found = pairs(source, start, separator) if width > 2 and not heads else None
-    if found is not None:
+    is_wide = width > 2 and width % 2 == 0 and not heads
+    if is_wide and (found := pairs(source, start, separator)) is not None:
         return bare(values=found, note="each line has several pairs of time and value")
     if due := source.values_per_line or _told_across(source, start, separator, remarks):
         return bare(values=across(source, start, separator, due))
@@ -373,10 +360,14 @@ def _table(source: Source) -> _Table:
     return _Table(values=values, start=start, headings=heads, heading_index=place, remarks=remarks)
 
 
+def _is_text(field: str) -> bool:
+    return is_heading(field) or bool(_LETTERS.match(field))
+
+
 def _told_across(source: Source, start: int, separator: str | None, remarks: Sequence[Row]) -> int:
     """Values in the first line, if a remark states as many samples as there are in all lines."""
     # As many lines as samples would be a column.
-    stated = max((count_in(line) for _, line in remarks), default=-1)
+    stated = max((phrases.count_in(line) for _, line in remarks), default=-1)
     widths = (
         [len(row.split(separator)) for _, row in rows_of(source.lines, start)] if stated > 0 else []
     )

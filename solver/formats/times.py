@@ -29,26 +29,7 @@ _FINEST = 200.0
 # Fewer times, or a step nearer to the last digit of the times, show no rounding.
 _MANY, _ROUNDED_WITHIN = 10, 0.9
 # Of instruments and programs, the most usual first.
-_RATES_HZ = (
-    200,
-    100,
-    50,
-    250,
-    500,
-    1000,
-    400,
-    125,
-    128,
-    256,
-    512,
-    80,
-    120,
-    150,
-    75,
-    300,
-    2000,
-    5000,
-)
+_RATES_HZ = (200, 100, 50, 250, 500, 1000, 400, 125, 128, 256, 512, 80, 120, 150, 75, 300, 5000)
 _MAX_GAPS = 3
 
 
@@ -79,8 +60,8 @@ def sampled(
     `line_of` gives the index of the line of a time, for those that a message mentions. Raises
     `InputError` if times do not increase, or a step given by the caller does not agree.
     """
-    if _stand_twice(t_s, unit_s):
-        return _rounded(source, t_s, columns, unit_s)
+    if rounded := _rounded(source, t_s, columns, unit_s):
+        return rounded
     _check_rising(source, t_s, line_of)
     step, blur = _even_step(t_s, unit_s)
     if not math.isnan(step):
@@ -96,24 +77,15 @@ def is_even(t_s: Floats, unit_s: float = 1.0) -> bool:
     return bool((np.diff(t_s) > 0.0).all()) and not math.isnan(_even_step(t_s, unit_s)[0])
 
 
-def _stand_twice(t_s: Floats, unit_s: float) -> bool:
-    """Whether even times are printed with so few digits that some stand twice."""
+def _rounded(source: Source, t_s: Floats, columns: Floats, unit_s: float) -> Sampled | None:
+    """Columns at the caller's step where even times are rounded to stand twice; else None."""
     n, resolution = len(t_s) - 1, _resolution(t_s, unit_s)
     step = (t_s[-1] - t_s[0]) / n
-    off = t_s - step * np.arange(n + 1)
     # A time that is there twice by mistake leaves the others at steps of the resolution.
-    return bool(
-        n >= _MANY
-        and np.diff(t_s).min() == 0.0
-        and 0.0 < step < _ROUNDED_WITHIN * resolution
-        and np.ptp(off) <= 2.001 * resolution
-    )
-
-
-def _rounded(source: Source, t_s: Floats, columns: Floats, unit_s: float) -> Sampled:
-    """Columns at the step that the caller gives, which rounded times do not."""
-    n, resolution = len(t_s) - 1, _resolution(t_s, unit_s)
-    step = (t_s[-1] - t_s[0]) / n
+    is_finer = n >= _MANY and 0.0 < step < _ROUNDED_WITHIN * resolution
+    off = np.ptp(t_s - step * np.arange(n + 1))
+    if not is_finer or np.diff(t_s).min() != 0.0 or off > 2.001 * resolution:
+        return None
     # The first and the last time may both be off by half of their last digit.
     blur = 1.001 * resolution / n
     note = f"the times are rounded to {resolution:g} s"

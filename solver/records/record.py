@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
+from solver.bounds import PEAK
 from solver.files import write_whole
 from solver.model import INCH_M, STANDARD_GRAVITY_MPS2, Floats, InputError
 
@@ -23,9 +24,6 @@ _ALONE = 3.0  # a code for missing data / all other samples, at least: shaking r
 _CODES = re.compile(r"-?(?:999+(?:\.9+)?|999\.25|99\.9+|9\.99+|12345|3276[78])")
 _SHORT_CODES = {"99", "-99"}  # where no shaking is as large
 _NO_SHAKING_G = 9.0
-
-# Peak [g] above which a record is refused: more than twice that of any ground, roof or shake table.
-MOST_G = 10.0
 
 # Acceleration units and their value in m/s2.
 UNITS = {"g": STANDARD_GRAVITY_MPS2, "m/s2": 1.0, "cm/s2": 0.01, "mm/s2": 0.001}
@@ -217,13 +215,12 @@ def check_gaps(name: str, a_mps2: Floats) -> None:
 
 
 def check_peak(name: str, a_mps2: Floats) -> None:
-    """Refuse a record beyond `MOST_G`: its units are others than stated."""
+    """Refuse a record beyond `PEAK`: its units are others than stated."""
     peak_g = float(np.abs(a_mps2).max()) / UNITS["g"]
-    # Negated, so that NaN is refused.
-    if not peak_g <= MOST_G:
+    if not PEAK.has(peak_g):
         raise InputError(
             f"{name}: the values reach {peak_g:.3g} g, and no ground or roof shakes with"
-            f" {MOST_G:g} g: is it cm/s2? Give the units that they have, or correct them"
+            f" {PEAK.most:g} g: is it cm/s2? Give the units that they have, or correct them"
         )
 
 

@@ -22,8 +22,8 @@ from solver.formats.numbers import (
     layout_of,
     printed,
 )
+from solver.formats.phrases import units_in
 from solver.formats.source import Source
-from solver.formats.stated import units_in
 from solver.model import InputError
 from solver.records.record import UNIT_CHOICES, UNITS, is_other_unit, unit_size
 

@@ -186,6 +186,11 @@ def test_what_the_message_on_values_across_the_lines_advises_works(file):
     assert record.a_mps2 == pytest.approx([G * value for value in WAVED], abs=1e-4)
 
 
+def test_zeros_before_a_pulse_are_values_across_the_lines(file):
+    content = "0 0 0 0\n" * 30 + "0.1 0.3 0.2 0\n"
+    assert len(read_record(file(content), units="g", dt_s=0.01, values_per_line=4).a_mps2) == 124
+
+
 @pytest.mark.parametrize("how", [{}, {"dt_s": 0.01}, {"values_per_line": 8}])
 @pytest.mark.parametrize("count", [200, 199])
 def test_pairs_of_time_and_value_across_the_lines_are_read_as_pairs(file, how, count):
@@ -371,6 +376,7 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
         ("0,0;0,12\n0.1;2\n", ["1: found '0,0'; give a number with a decimal point", "1: fou"]),
         ("a\n\n# x\n0,12\n0,13\n-0,11", ["4: found '0,12'; give a number with a decimal"]),
         ("2 1\n1 2\n0 3\n", ["2: found time 1 s after 2 s", "3: found time 0 s after 1 s"]),
+        ("065XXX010101\nCSMNC\n\n1 2\n", ["1: this looks like a file of CSMNC, China, which"]),
         ("word\nand some more\nin prose\n",
          ["2: found 'and some more' where numbers are due, and"]),
         ("1994 Northridge\n0.1\n0.2\n",
@@ -381,7 +387,7 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
         ("# dt = 5\n1\n2\n", [" the time step is 5 s; give a record with steps of 1e-06 to 1 s"]),
         ("# NPTS: 3\n1\n2\n", ["1: states 3 samples, found 2; give the whole file"]),
         ("1 0.1\n2 0.2\n3 0.1\n" + "".join(f"{k} 0\n" for k in range(4, 20)),
-         [" found steps of 1 in the first column; give it a heading with its unit, such as"]),
+         ["1: found a first column with steps of 1; give the unit of the times, such as time_s"]),
         *((f"{sign}   1.0e-03 *\n\n 0.1\n 0.2\n",
            ["1: found '1.0e-03 *', a factor of the numbers below it; multiply them all by it, and"])
           for sign in ("", "# ")),

@@ -93,8 +93,8 @@ def test_sac_has_the_step_of_its_heading_at_any_rate(file, rate_hz):
     [
         (0, 90, -1, ["its dip is 90 deg, positive downward: the sign is turned"]),
         (0, -90, 1, []),
-        (270, 0, 1, ["its azimuth is 270 deg"]),
-        (30, 40, 1, ["its azimuth is 30 deg, its dip is 40 deg"]),
+        (270, 0, 1, ["its azimuth is 270.0 deg, its dip 0.0 deg"]),
+        (30, 40, 1, ["its azimuth is 30.0 deg, its dip 40.0 deg"]),
     ],
 )
 def test_the_direction_in_the_stationxml_is_used_or_said(file, azimuth, dip, sign, told):

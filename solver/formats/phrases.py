@@ -32,10 +32,9 @@ _UNITS_OF = re.compile(
 )
 _STATES_UNITS = re.compile(r"\bunits?\b", re.IGNORECASE)
 _IN_PROSE = re.compile(r"\bin\s+([^\s,;()\[\]]+)", re.IGNORECASE)
-_ENDS = re.compile(r"(?:'s)?\.*$", re.IGNORECASE)
 
 _VALUE = r"([+-]?(?:\d++\.?+\d*+|\.\d++)(?:[eE][+-]?\d++)?+)"
-_HERTZ = r"(k?hz|sps|samples?(?: per |/)s(?:ec(?:ond)?)?)\b"
+_HERTZ = r"(k?hz|sps|samples?(?: per |/)s(?:ec|econd)?)\b"
 _RATE = re.compile(
     r"\b(?:sampl(?:ing|e)[ _]?(?:rate|freq(?:uency)?)|fs)\s*+"
     rf"(?:[\[(]\s*+{_HERTZ}\s*+[\])]\s*+)?+([:=]?)\s*+(?:(?:is|of)\b)?\s*+{_VALUE}\s*+(?:{_HERTZ})?+",
@@ -83,7 +82,7 @@ def units_in(line: str) -> list[str]:
     places = [*_IN_BRACKETS.findall(line), *_UNITS_OF.findall(line), *_IN_PROSE.findall(line)]
     named = [parse(word) for word in re.split(r"[\s,;]+", line)]
     places += [heading.unit for heading in named if heading.kind is Kind.ACCELERATION]
-    plain = [_ENDS.sub("", place) for place in places]
+    plain = [place.rstrip(".").removesuffix("'s").removesuffix("'S") for place in places]
     return [place for place in plain if not math.isnan(unit_size(place))]
 
 
@@ -96,9 +95,8 @@ def step_in(source: Source, index: int, line: str) -> Stated:
     """Time step [s] that the line at an index states, as a step or as a rate; NaN for none."""
     rate = _RATE.search(line)
     if rate and (rate[1] or rate[2] or rate[4]) and float(rate[3]) > 0.0:
-        is_thousands = (rate[1] or rate[4] or "").lower() == "khz"
-        per_s = float(rate[3]) * (1000.0 if is_thousands else 1.0)
-        return Stated(value=1.0 / per_s, rounding=0.0, index=index)
+        size = 1000.0 if "khz" in rate[0].lower() else 1.0
+        return Stated(value=1.0 / (size * float(rate[3])), rounding=0.0, index=index)
     none = Stated(value=math.nan, rounding=0.0, index=index)
     match = _STEP.search(line)
     if not match:
