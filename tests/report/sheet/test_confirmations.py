@@ -122,6 +122,21 @@ def test_what_no_confirmation_covers_changes_none(change):
     assert changed(**change) == {}
 
 
+def test_the_order_of_rows_is_no_change_and_a_record_in_the_order_of_rows_holds():
+    rows = {"friction_runs": [RUN, RUN | {"mu": 0.41}, RUN | {"mu": 0.44}]}
+    on_record = recorded(given(**rows))
+    whole = on_record.model_dump()
+    turned = {key: whole[key][::-1] for key in ("arrays", "motions", "clearances", "friction_runs")}
+    again = type(on_record).model_validate(whole | turned)
+    assert outdated(again, RECORDS[::-1]).outdated == {}
+    # As 0.3 put it on record: by the rows in their order.
+    text = "2025-06-12: Friction tests d04a95"
+    tests = scenes.TESTS | {"tests_covered": text}
+    assert outdated(given(**rows, friction_tests=tests), RECORDS).outdated == {}
+    other = outdated(given(friction_runs=rows["friction_runs"][:2], friction_tests=tests), RECORDS)
+    assert other.outdated == {"friction_tests": "sheet Friction tests"}
+
+
 def test_another_date_is_a_new_confirmation():
     arrays = of("arrays", 0, mu=0.42)
     assert changed(**arrays, options={"peer_date": dt.date(2026, 3, 2)}) == {}
