@@ -11,7 +11,8 @@ from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import ClearanceSource, DistanceBasis
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import Array
-from report.text.units import Quantity, compared_pairs, measured, pair
+from report.text.amounts import capacity, compared_pairs, demand, entered
+from report.text.units import Quantity, measured, pair
 from solver.rules.limit import Consequence
 
 if TYPE_CHECKING:
@@ -63,14 +64,11 @@ def _drawing_distances(data: ProjectInput, array: Array) -> Iterator[Requirement
 def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
     """Yield the weight per plan area beside what the engineers of roof and wind state."""
     here_pa, capacity_pa, wind_pa = array.weight_pa, array.roof_capacity_pa, array.wind_weight_pa
-    units = Quantity.PRESSURE, data.us_first
+    units, here = (Quantity.PRESSURE, data.us_first), entered(here_pa)
     unit = Quantity.PRESSURE.us if data.us_first else Quantity.PRESSURE.si
-    printed = measured(here_pa, unit)
     if capacity_pa is not None:
         is_over = here_pa > capacity_pa * (1.0 + _NOISE)
-        # As elsewhere, and rounded up only where that would not show that it is too much.
-        is_hidden = is_over and printed == measured(capacity_pa, unit)
-        weight, most = compared_pairs(here_pa, capacity_pa, *units, up=is_hidden)
+        weight, most = compared_pairs(here, capacity(capacity_pa), *units, is_at_least=False)
         yield Requirement(
             id="roof_capacity",
             title="Weight per plan area",
@@ -85,16 +83,21 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
             places=_places(data, array, "weight_n", "roof_capacity_pa"),
         )
     if wind_pa is not None:
-        weight, here = (pair(value, *units) for value in (wind_pa, here_pa))
+        is_same = measured(wind_pa, unit) == measured(here_pa, unit)  # to the digits printed
+        weight, wanted = (pair(value, *units) for value in (wind_pa, here_pa))
+        if not is_same:
+            weight, wanted = compared_pairs(
+                entered(wind_pa), here, *units, is_at_least=wind_pa < here_pa
+            )
         yield condition(
             id="wind_weight",
             title="Weight in wind design",
             cause="weight differs from the wind design",
             subject=array.id,
             found=weight,
-            limit=f"= {here}",
+            limit=f"= {wanted}",
             basis="wind, by others",
-            is_satisfied=printed == measured(wind_pa, unit),  # to the digits that are printed
+            is_satisfied=is_same,
             remedy="Use one weight with ballast in both: correct it, or the wind design.",
             places=_places(data, array, "weight_n", "wind_weight_pa"),
         )
@@ -138,7 +141,7 @@ def _provided(
 ) -> Mapping[str, Any]:
     """Return what is found and required of a value that a workbook may give, and what follows."""
     provided = math.nan if value is None else value
-    least, had = compared_pairs(required, provided, quantity, us_first)
+    had, least = compared_pairs(capacity(provided), demand(required), quantity, us_first)
     return {
         "found": NOT_GIVEN if value is None else had,
         "limit": NO_DESIGN if math.isnan(required) else f"≥ {least}",

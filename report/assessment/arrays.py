@@ -116,6 +116,12 @@ class ArrayAssessment(RouteLimits):
         return self.route is Route.ANALYSIS and self.analysis.basis is Basis.TOO_FEW
 
     @property
+    def lacks_slack(self) -> bool:
+        """Whether the electrical slack that is given is less than the design displacement."""
+        slack_m = self.array.slack_m
+        return slack_m is not None and slack_m < self.design_m
+
+    @property
     def has_unpermitted_value(self) -> bool:
         """Whether there is a design displacement, by a route that is not permitted."""
         return not math.isnan(self.design_m) and not self.is_permitted

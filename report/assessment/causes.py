@@ -14,8 +14,9 @@ from report.assessment.precheck import lacking_motions, limit_words
 from report.assessment.routes import statistic_basis
 from report.assessment.verdict import Requirement, Verdict, nan_is_worst
 from report.sheet.schema.choices import ModelChoice
+from report.text.amounts import capacity, compared_pairs, demand
 from report.text.counts import ids_by, lowered, ranged
-from report.text.units import Quantity, compared_pairs, ratio
+from report.text.units import Quantity, ratio
 from solver.model import Status
 from solver.rules.provisions import review_lifts_slope
 
@@ -170,7 +171,9 @@ def _models(assessment: Assessment) -> Iterator[str]:
 def short_words(gap: ClearanceCheck, us_first: bool) -> str:
     """Return a clearance that is too small, with what would do."""
     row = gap.clearance
-    required, provided = compared_pairs(gap.required_m, row.provided_m, Quantity.SIZE, us_first)
+    provided, required = compared_pairs(
+        capacity(row.provided_m), demand(gap.required_m), Quantity.SIZE, us_first
+    )
     name = f"clearance {row.array} to {row.object}: {provided} provided"
     if math.isnan(gap.required_m):
         return f"{name}; there is no design displacement of {gap.governing_array} to compare with"

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from functools import partial
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,22 +35,16 @@ from report.sheet.checking.motion_checks import FIELDS
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import SIDES
-from report.text.counts import capitalized, lowered
-from report.text.units import (
-    G_MPS2,
-    Quantity,
-    compared_pairs,
-    digits_up,
-    no_less,
-    number,
-    pair,
-)
-from solver.records.acceptance import POINTS_HZ, Acceptance, spectrum_mps2
-from solver.rules.limit import Consequence, Limit
+from report.text.amounts import capacity, compared_pairs, demand, limit_texts
+from report.text.counts import capitalized, grouped_by, ids_by, lowered, quoted, ranged
+from report.text.units import G_MPS2, Quantity, digits_up, no_less, no_more, number, pair
+from solver.records.acceptance import FULL_RATIO, POINTS_HZ, Acceptance, spectrum_mps2
+from solver.rules.limit import Consequence, Limit, Measure
 from solver.rules.provisions import RULE_SETS, Neighbor, review_lifts_slope
 
 if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment
+    from report.motions.prepare import Shaking
 
 # Final displacement of a record [m] above which it drifts: the block would follow it as slip.
 DRIFT_M = 0.010
@@ -61,6 +56,9 @@ _NOISE = 1e-9  # a width in other units is no more than itself
 
 # Of the rows on limits that the motions miss: `limit_verdict` finds them by it.
 MOTIONS_ID = "motions"
+
+# Above it, records that are scaled to a target are of another intensity than it.
+MOST_FACTOR = 2.0
 
 # Who takes the prescriptive displacement need not meet them.
 _OF_ANALYSIS = (MOTIONS_ID, "drift", "ground_motions", "peer_review", VELOCITY_ROW)
@@ -196,7 +194,13 @@ def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[R
         if drifts(motion):
             ends = {name: abs(m.final_displacement_m) for name, m in motion.measures.items()}
             largest = max(ends.values())
-            drift, most = compared_pairs(largest, DRIFT_M, Quantity.DISPLACEMENT, data.us_first)
+            drift, most = compared_pairs(
+                demand(largest),
+                capacity(DRIFT_M),
+                Quantity.DRIFT,
+                data.us_first,
+                is_at_least=False,
+            )
             yield condition(
                 id="drift",
                 title="Final displacement of the record",
@@ -254,31 +258,64 @@ def noted(rows: Iterable[Requirement], by_runs: Collection[str]) -> Iterator[Req
             yield row.model_copy(update=note)
 
 
-def motion_rows(acceptance: Acceptance, routes: Iterable[Route]) -> tuple[Requirement, ...]:
+def motion_rows(
+    acceptance: Acceptance, routes: Iterable[Route], shaking: Shaking
+) -> tuple[Requirement, ...]:
     """Return the limits on the motions that they miss."""
     takes_analysis = Route.ANALYSIS in routes
-    # Generated motions reach their spectra as they are made: scaling is for records.
-    has_records = any(not motion.is_generated for motion in acceptance.motions)
     # The way out is said once, at the first of the spectral limits.
-    spectral = next((each for each in acceptance.missed if each.is_ratio_to_target), None)
+    spectral = next(filter(_is_spectral, acceptance.missed), None)
     return tuple(
-        _motion_row(missed, takes_analysis, _SCALED if has_records and missed is spectral else "")
+        _motion_row(
+            missed, takes_analysis, _ways(acceptance, shaking) if missed is spectral else ""
+        )
         for missed in acceptance.missed
     )
 
 
-_SCALED = (
-    " To have the spectra of records reach it, set Scaling to target spectrum on the sheet Motions,"
-    " or make motions of them with motion suite --records."
-)
+def _ways(acceptance: Acceptance, shaking: Shaking) -> str:
+    """Return how records reach the target: by a factor, if one does, and by motions of them."""
+    ways, more = "", _factor(acceptance)
+    if more <= MOST_FACTOR:
+        factors = ids_by(shaking.motions, lambda motion: digits_up(motion.scale * more, 4))
+        each = "; ".join(f"{ranged(ids)} {factor}" for factor, ids in factors.items())
+        ways = (
+            f" With {digits_up(more, 3)} times their factors they reach it: set Scaling to factor"
+            f" on the sheet Motions, and the factors {each}."
+        )
+    are_records = not any(motion.is_generated for motion in acceptance.motions)
+    if are_records and all(file.is_file for file in shaking.records):
+        files = grouped_by(shaking.records, attrgetter("motion_id")).values()
+        seeds = " ".join(quoted(",".join(file.name for file in each)) for each in files)
+        ways += (
+            " Or clear their rows on the sheet Motions and make motions of them that reach it, in"
+            f" the folder of the workbook: roofslip motion suite matched --into . --records {seeds}"
+        )
+    return ways
+
+
+def _is_spectral(row: Limit) -> bool:
+    """Whether a limit is on a spectrum over its target, or on how many of its points are below."""
+    return row.is_ratio_to_target or (row.measure is Measure.COUNT and not row.is_at_least)
+
+
+def _factor(acceptance: Acceptance) -> float:
+    """Return a factor of all motions with which they satisfy every limit on their spectra."""
+    ratios = [row for row in acceptance.rows if row.is_ratio_to_target]
+    is_dipping = any(_is_spectral(row) and row not in ratios for row in acceptance.missed)
+    # Points below 1.00 are counted from 1.3 Hz on: a factor with which none is needs no count.
+    return max(
+        (FULL_RATIO if is_dipping and not row.is_program_limit else row.limit) / row.found
+        if row.found > 0.0
+        else math.inf
+        for row in ratios
+    )
 
 
 def _motion_row(missed: Limit, takes_analysis: bool, way: str) -> Requirement:
     # The prescriptive displacement rests on no motion: there a miss is a condition only.
     is_ng = missed.consequence is Consequence.NG
-    measured, least = (
-        f"{v:.4g} {missed.measure.unit}".rstrip() for v in (missed.found, missed.limit)
-    )
+    measured, least = limit_texts(missed, us_first=True)  # none is a length
     return Requirement(
         id=MOTIONS_ID,
         title=missed.title,
@@ -331,16 +368,18 @@ def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Requi
 
 def _found_and_required(neighbor: PlanNeighbor, us_first: bool) -> tuple[str, str]:
     if not neighbor.is_short:
-        gap = pair(neighbor.gap_m, Quantity.SIZE, us_first)
+        gap = pair(neighbor.gap_m, Quantity.SIZE, us_first, no_more)
         if neighbor.is_missing:
             near = "within twice the design displacement"
             return f"{NOT_GIVEN}; {gap} in plan, {near}", "a clearance, as in the plan"
         # Several rows of a pair may give several distances.
         entered = {row.clearance.provided_m for row in neighbor.contradictions}
-        sizes = " and ".join(pair(each, Quantity.SIZE, us_first) for each in sorted(entered))
+        sizes = " and ".join(pair(m, Quantity.SIZE, us_first, no_more) for m in sorted(entered))
         return f"differs from the plan: {sizes} entered, {gap} measured", "as in the plan"
     required_m = neighbor.required_m
-    least, gap = compared_pairs(required_m, neighbor.gap_m, Quantity.SIZE, us_first)
+    gap, least = compared_pairs(
+        capacity(neighbor.gap_m), demand(required_m), Quantity.SIZE, us_first
+    )
     required = NO_DESIGN if math.isnan(required_m) else f"≥ {least}{neighbor.mark}"
     return f"{NOT_GIVEN}; {gap} in plan", required
 
@@ -365,9 +404,9 @@ def pathway_rows(
             slides = [gap.design_m]
         left_m = row.provided_m - math.fsum(slides)
         units = Quantity.SIZE, data.us_first
-        least, left = compared_pairs(row.pathway_m, left_m, *units, up=False)
+        left, least = compared_pairs(capacity(left_m), demand(row.pathway_m), *units)
         slid = (pair(m, *units, no_less) for m in slides)
-        terms = " − ".join((pair(row.provided_m, *units), *slid))
+        terms = " − ".join((pair(row.provided_m, *units, no_more), *slid))
         width = f"{terms} = {left}{gap.design_mark}"
         yield Requirement(
             id="fire_pathway",

@@ -18,8 +18,9 @@ from report.assessment.verdict import NOT_GIVEN, VELOCITY_ROW, Requirement, Verd
 from report.sheet.checking.motion_checks import MU_TOLERANCE
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.scene import Array
+from report.text.amounts import compared_pairs, demand, entered
 from report.text.counts import ids_by, ranged
-from report.text.units import Quantity, no_less, number, pair
+from report.text.units import Quantity, Rounding, no_less, number, pair
 from solver.friction_tests import Series, governing
 from solver.model import Friction
 from solver.rules.provisions import RuleSet
@@ -98,6 +99,16 @@ class VelocityCheck:
         return not self.is_beyond or self.mu_beyond <= self.tests.minimum_mu + MU_TOLERANCE
 
     @property
+    def beyond_words(self) -> str:
+        """Largest friction used beyond the velocities tested, for print."""
+        return Rounding.UP.text(self.mu_beyond, 3)
+
+    @property
+    def minimum_words(self) -> str:
+        """Smallest friction tested, for print."""
+        return Rounding.DOWN.text(self.tests.minimum_mu, 3)
+
+    @property
     def verdict(self) -> Verdict:
         """OK, or OK with conditions."""
         return Verdict.OK if self.is_satisfied else Verdict.CONDITION
@@ -141,7 +152,10 @@ class InputCase:
         )
         if self.array.has_unpermitted_value:
             yield NOT_PERMITTED
-        if failed := [gap.words(us_first) for gap in self.short]:
+        failed = [gap.words(us_first) for gap in self.short]
+        if self.array.lacks_slack:
+            failed.append("electrical slack too short")
+        if failed:
             yield f"NG: {', '.join(failed)}"
         elif self.gaps and all(gap.ok for gap in self.gaps):
             yield "all its clearances OK" if len(self.gaps) > 1 else "its clearance OK"
@@ -219,14 +233,13 @@ def velocity_rows(
 def _row(
     array_id: str, check: VelocityCheck, slow: LowVelocityAssessment, us_first: bool
 ) -> Requirement:
-    least = number(check.tests.minimum_mu, 3)
     case = slow.case_of(array_id)
     return condition(
         id=VELOCITY_ROW,
         title="Friction beyond the velocities tested",
         subject=array_id,
         found="; ".join(_found(check, us_first)),
-        limit=f"slower than tested, or μ beyond ≤ {least}",
+        limit=f"slower than tested, or μ beyond ≤ {check.minimum_words}",
         basis="friction tests",
         is_satisfied=check.is_satisfied,
         # No coefficient is offered but the one that is run: with less friction it may be NG.
@@ -237,15 +250,18 @@ def _row(
 
 def _found(check: VelocityCheck, us_first: bool) -> Iterator[str]:
     fastest_mps, tested_mps = check.fastest_mps, check.tests.velocity_mps
+    slides, most = compared_pairs(
+        demand(fastest_mps), entered(tested_mps), Quantity.VELOCITY, us_first, is_at_least=False
+    )
     if math.isnan(fastest_mps):
         yield "a run gives no velocity"
     elif fastest_mps == 0.0:
         yield "does not slide"
     else:
-        yield f"slides at {pair(fastest_mps, Quantity.VELOCITY, us_first)}"
+        yield f"slides at {slides}"
     if math.isnan(tested_mps):
         yield f"velocities tested {NOT_GIVEN}"
     else:
-        yield f"tested to {pair(tested_mps, Quantity.VELOCITY, us_first)}"
+        yield f"tested to {most}"
     if check.is_beyond:
-        yield f"μ beyond {number(check.mu_beyond, 3)}"
+        yield f"μ beyond {check.beyond_words}"

@@ -20,7 +20,8 @@ from report.sheet.schema.choices import DistanceBasis, ObjectKind
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import Array, Clearance
 from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape, gap_m, sides, spans_near
-from report.text.units import Quantity, beside, no_less, ratio
+from report.text.amounts import capacity, demand, shown_in_order
+from report.text.units import Quantity, ratio
 from solver.model import INCH_M
 
 if TYPE_CHECKING:
@@ -117,7 +118,8 @@ class ComparedGap(ABC):
         """Return what is required beside what is there, such as `A3 to RTU-2 60.4 > 60.0 in`."""
         required_m, had_m = self.required_m, self.provided_m
         unit = Quantity.SIZE.us if us_first else Quantity.SIZE.si
-        required, had = no_less(required_m, unit), beside(required_m, had_m)(had_m, unit)
+        shows = shown_in_order(capacity(had_m), demand(required_m))
+        had, required = (show(math.nan, unit) for show in shows)
         sign = "≤" if required_m <= had_m else ">"
         return f"{' to '.join(self.between)} {required}{self.mark} {sign} {had} {unit.symbol}"
 

@@ -23,7 +23,7 @@ from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import RoofObject
 from report.sheet.schema.shapes import Point, Shape, closest
 from report.text.counts import numbered
-from report.text.units import Quantity, pair, round_down
+from report.text.units import Quantity, Show, no_less, no_more, pair, round_down
 from solver.model import INCH_M
 from solver.rules.provisions import Neighbor
 
@@ -102,7 +102,7 @@ def missing_rows(
           "roof edge as an object" for near in missing if not _has_row(near)),
         f"{numbered(len(new), 'clearance')} added{f', {len(renewed)} renewed' if renewed else ''},"
         f" {len(data.clearances) - len(renewed)} kept; reach"
-        f" {_size(REACH_FACTOR * design_m, us_first)}, twice {basis}",
+        f" {_size(REACH_FACTOR * design_m, us_first, no_less)}, twice {basis}",
     ]  # fmt: skip
     return cells | newer, tuple(lines)
 
@@ -132,8 +132,8 @@ def direction_of(near: PlanNeighbor, downslope_deg: float) -> Direction:
     return Direction.ANY
 
 
-def _size(value_m: float, us_first: bool) -> str:
-    return pair(value_m, Quantity.SIZE, us_first)
+def _size(value_m: float, us_first: bool, show: Show = no_more) -> str:
+    return pair(value_m, Quantity.SIZE, us_first, show)
 
 
 def _written(

@@ -7,7 +7,7 @@ Runs nothing. `report.assessment.project` decides the verdict after the runs. Re
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
 
 from report.assessment.array_rows import rows_before_runs
@@ -27,12 +27,13 @@ from report.sheet.reading.unseen import warnings
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import RecordedAt
 from report.sheet.schema.fields import Finding, Place
+from report.text.amounts import limit_texts
 from report.text.counts import lowered, numbered, quoted
-from report.text.units import Quantity, number, pair, round_down, round_up
+from report.text.units import Quantity, no_less, no_more, pair
 from solver.records.acceptance import POINTS_HZ, Acceptance, SpectraOf, acceptance, one_by_one
 from solver.records.block_spectra import together
 from solver.rules import provisions
-from solver.rules.limit import Limit, Measure
+from solver.rules.limit import Limit
 from solver.rules.provisions import Basis, RuleSet
 
 # The cell that a limit compares, by the key of the limit.
@@ -71,34 +72,9 @@ def building_limits(data: ProjectInput, rules: RuleSet) -> tuple[Limit, ...]:
     )
 
 
-def limit_value(
-    check: Limit, value: float, us_first: bool, rounded: Callable[[float, int], float] = round
-) -> str:
-    """Return a number of a check, rounded, with the units of its measure."""
-
-    def show(value: float, decimals: int) -> str:
-        return number(rounded(value, decimals), decimals)
-
-    match check.measure:
-        case Measure.ANGLE_DEG:
-            percent = 100.0 * math.tan(math.radians(value))
-            return f"{show(value, 2)}° ({show(percent, 1)} %)"
-        case Measure.LENGTH_M:
-            return pair(value, Quantity.SIZE, us_first, lambda m, u: show(m / u.si, u.decimals))
-        case Measure.COUNT:
-            return number(value, 0)
-        case _:
-            return show(value, 3)
-
-
 def limit_words(check: Limit, us_first: bool) -> str:
     """Return a limit that is not satisfied: quantity, value, what would do, clause."""
-    # The limit as printed satisfies it, and the value as printed does not.
-    safe, other = (round_up, round_down) if check.is_at_least else (round_down, round_up)
-    most = limit_value(check, check.limit, us_first, safe)
-    value = limit_value(check, check.found, us_first)
-    if value.split()[0] == most.split()[0]:
-        value = limit_value(check, check.found, us_first, other)
+    value, most = limit_texts(check, us_first)
     wanted = f"at least {most} is required" if check.is_at_least else f"at most {most} is permitted"
     return f"{lowered(check.title)}: {value}; {wanted} ({check.provision.clause})"
 
@@ -144,7 +120,7 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
         yield from _not_run(data)
     pairs = zip(data.arrays, routes, strict=True)
     by_runs = {array.id for array, limits in pairs if limits.route is Route.ANALYSIS}
-    rows = motion_rows(acceptance, (limits.route for limits in routes))
+    rows = motion_rows(acceptance, (limits.route for limits in routes), shaking)
     yield from _requirements(noted((*project_rows(data, shaking.prepared), *rows), by_runs))
     for index, array in enumerate(data.arrays):
         required_n = interconnection_n(data, rules, array)
@@ -176,9 +152,10 @@ def missing_clearances(sheet: Sheet) -> Iterator[Finding]:
     missing = sorted((each for each in near if not each.given), key=lambda each: each.gap_m)
     if not missing:
         return
-    sizes = (f"{each.names} {pair(each.gap_m, Quantity.SIZE, data.us_first)}" for each in missing)
+    units = Quantity.SIZE, data.us_first
+    sizes = (f"{each.names} {pair(each.gap_m, *units, no_more)}" for each in missing)
     named = listed(sizes, MOST_NAMED)
-    reach = pair(REACH_FACTOR * design_before_runs_m(data), Quantity.SIZE, data.us_first)
+    reach = pair(REACH_FACTOR * design_before_runs_m(data), *units, no_less)
     is_bare = any(each.kind is NearbyKind.BARE_EDGE for each in missing)
     text = (
         f"{len(missing)} of {numbered(len(near), 'pair')} within reach have no row: {named}."

@@ -31,7 +31,7 @@ from report.sheet.reading.read import Sheet
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import ModelChoice
 from report.text.counts import grouped_by
-from report.text.units import Quantity, pair
+from report.text.units import Quantity, no_less, pair
 from solver.model import Status
 from solver.records.acceptance import Acceptance
 from solver.rules.limit import Limit
@@ -104,7 +104,7 @@ def _outcome(status: Status, runs: Sequence[OrientedRun], us_first: bool) -> str
     if status is not Status.SLIDING_AT_END:
         return status.sentence
     fastest = max(abs(result.end_speed_mps) for result in results)
-    return f"{status.sentence} (at {pair(fastest, Quantity.VELOCITY, us_first)})"
+    return f"{status.sentence} (at {pair(fastest, Quantity.VELOCITY, us_first, no_less)})"
 
 
 THREADS = 2

@@ -18,8 +18,9 @@ from report.sheet.schema.fields import Place
 from report.sheet.schema.project import Site
 from report.sheet.schema.scene import SIDES, Array
 from report.sheet.schema.shapes import around, gap_m
+from report.text.amounts import capacity, compared_pairs, entered
 from report.text.counts import grouped_by, numbered, ranged
-from report.text.units import Quantity, compared_pairs, measured, pair
+from report.text.units import Quantity, measured, no_less, pair
 from solver.friction_tests import Series, Surface, fit_law, governing, series
 from solver.model import Friction
 from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, REFERENCED, HazardBasis
@@ -356,12 +357,14 @@ def fire_lane_rows(data: ProjectInput) -> Iterator[Requirement]:
     ]
     largest_m = max((m for _, m in groups if m <= _MOST_M), default=0.0)
     units = Quantity.PLAN, data.us_first
-    lane = pair(lane_m, *units)
+    lane = pair(lane_m, *units, no_less)
     for group, dimension_m in groups:
         fits = dimension_m <= _MOST_M
         # Of arrays that only lack the section the same is said: they share a condition.
         shown_m = largest_m if fits and not section else dimension_m
-        distance, limit = compared_pairs(shown_m, FIRE_LANE_M, *units, up=not fits)
+        distance, limit = compared_pairs(
+            entered(shown_m), capacity(FIRE_LANE_M), *units, is_at_least=False
+        )
         if fits and not section:
             distance = f"at most {distance}"
         elif len(group) > 1:

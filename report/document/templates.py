@@ -41,7 +41,16 @@ _SHARED = {
 }
 
 # Filters that are methods of the data of a package.
-OF_PACKAGE = ("both", "both_up", "clause", "friction_basis", "mark", "of_check", "rule_length")
+OF_PACKAGE = (
+    "both",
+    "both_up",
+    "clause",
+    "found_of",
+    "friction_basis",
+    "limit_of",
+    "mark",
+    "rule_length",
+)
 
 
 def rendered(folder: Path, name: str, context: Mapping[str, Any]) -> str:
@@ -88,7 +97,12 @@ def _environment(folder: Path) -> Environment:
         "stamp": stamp,
     }
     environment.tests |= {"infinite": math.isinf, "nan": math.isnan}
-    environment.globals |= {"fraction": equations.fraction, "headed": headed, "rows": _rows}
+    environment.globals |= {
+        "fraction": equations.fraction,
+        "headed": headed,
+        "no_less": units.no_less,
+        "rows": _rows,
+    }
     return environment
 
 

@@ -15,8 +15,9 @@ from report.drawing.placer import Frame, Placer, centered
 from report.drawing.sheet import BASE_IN, LINE_IN, Gap, Paper, PlanSheet
 from report.entities.shown import UnitFormat
 from report.sheet.schema.shapes import Point, Rectangle, between
+from report.text.amounts import capacity, demand, shown_in_order
 from report.text.counts import grouped_by
-from report.text.units import Quantity, beside, no_less, round_below
+from report.text.units import Quantity, round_below
 
 RADIUS_IN = 0.1
 NG_TALL_IN = TYPE_PT / 72.0 + 0.03
@@ -134,19 +135,21 @@ def _slid(placer: Placer, lane: Lane, long: float, tall: float) -> float | None:
     return None
 
 
-def provided_words(of: PlanGap, fmt: UnitFormat) -> str:
-    """Return what is provided, in the preferred unit."""
-    return fmt.short(of.provided_m, show=beside(of.required_m, of.provided_m))
+def gap_texts(of: PlanGap, fmt: UnitFormat) -> tuple[str, str]:
+    """Return what is provided and what is required, in the preferred unit."""
+    shows = shown_in_order(capacity(of.provided_m), demand(of.required_m))
+    values = of.provided_m, of.required_m
+    provided, required = (fmt.short(v, show=show) for v, show in zip(values, shows, strict=True))
+    return provided, required
 
 
 def _provided(plan: PlanSheet, gap: Gap) -> str:
     of, fmt = gap.of, plan.fmt
-    provided = provided_words(of, fmt)
+    provided, required = gap_texts(of, fmt)
     if of.is_given:
         return provided
     # It is in no table.
     mark = "" if math.isnan(of.required_m) else of.mark
-    required = fmt.short(of.required_m, show=no_less)
     return f"not given; in plan {provided}, required {required}{mark}"
 
 

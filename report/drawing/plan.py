@@ -23,7 +23,7 @@ from report.assessment.plan_clearances import PlanGap, parapet_note, plan_gaps
 from report.assessment.project import Assessment
 from report.assessment.routes import NOT_PERMITTED
 from report.assessment.verdict import Verdict
-from report.drawing.dimensions import alongside, lane_of, provided_words
+from report.drawing.dimensions import alongside, gap_texts, lane_of
 from report.drawing.items import (
     TYPE_PT,
     Layer,
@@ -39,7 +39,8 @@ from report.drawing.sheet import LINE_IN, PAD_IN, Gap, Paper, Scale, unit_format
 from report.sheet.schema.choices import ObjectKind
 from report.sheet.schema.scene import ROOF
 from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape, around, room, sides
-from report.text.units import Quantity, compared_pairs, no_less, number, pair
+from report.text.amounts import capacity, compared_pairs, demand
+from report.text.units import Quantity, no_less, number, pair
 
 _CAP_IN = 0.66 * TYPE_PT / 72.0  # height of a capital
 _WIDER = 1.2  # than in the font of the pictures: a CAD program may replace its own one
@@ -233,7 +234,7 @@ def _place(assessment: Assessment, placed: PlacedTexts, extent: Rectangle) -> No
     for gap in gaps:
         name = f"{gap.of.array} to {gap.of.other}"
         number = gap.of.number or "not given"
-        words = f"{number}: {provided_words(gap.of, fmt)}" + (" NG" if gap.of.is_ng else "")
+        words = f"{number}: {gap_texts(gap.of, fmt)[0]}" + (" NG" if gap.of.is_ng else "")
         placed.dimension(_LAYERS[gap.of.verdict], name, words, gap)
     for item in sorted(assessment.project.objects, key=lambda item: item.kind not in EDGES):
         if item.placed is None:
@@ -267,7 +268,9 @@ def _listed(
 
 def gap_words(gap: PlanGap, us_first: bool) -> str:
     """Return what a gap says, numbered as in the workbook, in both systems of units."""
-    required, provided = compared_pairs(gap.required_m, gap.provided_m, Quantity.SIZE, us_first)
+    provided, required = compared_pairs(
+        capacity(gap.provided_m), demand(gap.required_m), Quantity.SIZE, us_first
+    )
     required = "no value" if math.isnan(gap.required_m) else required + _by(gap.mark)
     verdict = "no verdict" if gap.verdict is Verdict.NONE else gap.verdict.value
     between = f"{gap.array} to {gap.other}"

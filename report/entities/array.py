@@ -29,15 +29,17 @@ from report.entities.shown import (
     Told,
     at,
     centered,
-    length,
     plain,
     printed,
+    provided,
     required,
     unwritten,
+    up_column,
     words,
 )
 from report.sheet.schema.choices import Direction, ModelChoice
-from report.text.units import Quantity, Show, beside, measured, no_less, ratio
+from report.text.amounts import capacity, demand, shown_in_order
+from report.text.units import Quantity, Show, measured, no_less, no_more, ratio
 from solver.model import Friction
 from solver.rules.provisions import Basis, PrescriptiveBasis
 
@@ -53,7 +55,6 @@ _TOWARD = f"={{factor}}*IF({TAKES_LARGEST},{{largest_m}},{{mean_m}})"
 _PRESCRIPTIVE = "=MAX({factor_m}*{importance}*MAX({s_ds_g}-0.4,0)^2,{minimum_m})"
 # In Excel MAX takes no text: without the question, no value would become the floor.
 _DESIGN = '=IF(ISTEXT({computed_m}),"none",MAX({computed_m},{floor_m}))'
-_DESIGN_MM = '=IF(ISTEXT({design_m}),"none",{design_m}*25.4)'
 # PV1-2012 section 6: the larger of 0.133 S_DS W1 and 0.1 W1, with W1 half of the weight.
 _STRENGTH = (
     "=MAX({inputs[interconnection_sds]}*{s_ds_g},{inputs[interconnection_min]})*{weight_n}/2"
@@ -71,7 +72,7 @@ class Displacements(Entity):
         Number,
         at("analysis.value_m"),
         required("Analysis"),
-        Column("Computed [in]", 2, _COMPUTED, is_always=True),
+        up_column("Computed [in]", 1, _COMPUTED, is_always=True),
         Told(),
     ]
     computed_basis: Annotated[Basis, at("analysis.basis")]
@@ -79,15 +80,15 @@ class Displacements(Entity):
     mean_prd_m: Annotated[
         Number,
         at("analysis.mean_m"),
-        length("Mean"),
-        Column("Mean PRD [in]", 2, "=AVERAGE({peaks})"),
+        required("Mean"),
+        up_column("Mean PRD [in]", 1, "=AVERAGE({peaks})"),
         Told(),
     ]
     largest_prd_m: Annotated[
         Number,
         at("analysis.largest_m"),
-        length("Largest"),
-        Column("Largest PRD [in]", 2, "=MAX({peaks})"),
+        required("Largest"),
+        up_column("Largest PRD [in]", 1, "=MAX({peaks})"),
         Told(),
     ]
     prd_variation: Annotated[Number, at("variation")]
@@ -96,20 +97,23 @@ class Displacements(Entity):
         float,
         at("prescriptive.value_m"),
         required("Prescriptive"),
-        Column("[in]", 1, _PRESCRIPTIVE),
+        up_column("[in]", 1, _PRESCRIPTIVE),
         Told(),
     ]
     prescriptive_governs: Annotated[PrescriptiveBasis, at("prescriptive.governs")]
     """What gives the prescriptive displacement: formula, minimum or SDC."""
     floor_m: Annotated[
-        float, required("Floor"), Column("[in]", 2, "={floor_share}*{prescriptive_m}"), Told()
+        float,
+        required("Floor"),
+        up_column("[in]", 1, "={floor_share}*{prescriptive_m}"),
+        Told(),
     ]
     """Least design displacement after an analysis; 0 where peer review removes it."""
     design_m: Annotated[
         Number,
         required("Design"),
-        Column("[in]", 2, _DESIGN, is_always=True),
-        Column("[mm]", 1, _DESIGN_MM),
+        up_column("[in]", 1, _DESIGN, is_always=True),
+        up_column("[mm]", 0),
         Told(ChangeKind.DESIGN, "Array {row.id}"),
     ]
     """Design displacement; null where no permitted route gives one."""
@@ -154,11 +158,14 @@ class LowVelocityResult(Displacements):
 class DirectionResult(Entity):
     """The displacements of an array in a direction."""
 
-    mean_m: Annotated[Number, Column("Mean of peaks [in]", 2, "=AVERAGE({peaks})")]
-    largest_m: Annotated[Number, Column("Largest peak [in]", 2, "=MAX({peaks})")]
-    computed_m: Annotated[Number, at("value_m"), Column("Computed [in]", 2, _TOWARD)]
+    mean_m: Annotated[Number, up_column("Mean of peaks [in]", 1, "=AVERAGE({peaks})")]
+    largest_m: Annotated[Number, up_column("Largest peak [in]", 1, "=MAX({peaks})")]
+    computed_m: Annotated[Number, at("value_m"), up_column("Computed [in]", 1, _TOWARD)]
     """Displacement by analysis in this direction."""
-    design_m: Annotated[Number, Column("In this direction [in]", 2, "=MAX({computed_m},{floor_m})")]
+    design_m: Annotated[
+        Number,
+        up_column("In this direction [in]", 1, "=MAX({computed_m},{floor_m})"),
+    ]
     """Design displacement in this direction, with its floor."""
     design_by_chosen_model_m: Number
     """The same, by the model that the workbook chooses for the array."""
@@ -235,7 +242,9 @@ class ArrayResult(ArrayRow):
     peak_speed_mps: Annotated[Number, at("fastest_mps")]
     """Largest sliding velocity of all runs."""
     interconnection_n: Annotated[
-        float, _weight("Required", no_less), Column("Interconnection required [lb]", 0, _STRENGTH)
+        float,
+        _weight("Required", no_less),
+        up_column("Interconnection required [lb]", 0, _STRENGTH),
     ]
     """Strength required of the connections within the array."""
     tipping: TippingResult
@@ -255,20 +264,20 @@ class ArrayResult(ArrayRow):
     governing_gap: Annotated[str, words("Clearance to", 1.4)] = printed("none given")
     largest_dc: Annotated[str, Shown(head="D/C", share=0.8)] = printed("—")
     gap_required_m: Annotated[Number, required("Required", 0.8)] = printed(math.nan)
-    gap_provided_m: Annotated[Number, length("Provided", 0.8)] = printed(math.nan)
+    gap_provided_m: Annotated[Number, provided("Provided", 0.8)] = printed(math.nan)
     keep_clear: Annotated[str, Shown(head="Keep clear", share=0.9)] = printed("")
     weight_n: Annotated[
-        float, at("array.weight_n"), _weight("Weight W"), Column("Weight [lb]", 0, is_input=True)
+        float, at("array.weight_n"), _weight("Weight W"), Column("Weight [lb]", is_input=True)
     ] = printed(math.nan)
     given_n: Annotated[
         float | None,
         at("array.interconnection_n"),
-        Column("Interconnection provided [lb]", 0, is_input=True),
+        Column("Interconnection provided [lb]", is_input=True),
     ] = printed(None)
     clause: Annotated[str, words("Clause", 1.9)] = printed("")
     seaoc_m: Annotated[float, required("PV1")] = printed(math.nan)
     model: Annotated[str, Shown(head="Model", share=0.7)] = printed("")
-    residual_m: Annotated[float, length("Residual", 0.9)] = printed(math.nan)
+    residual_m: Annotated[float, required("Residual", 0.9)] = printed(math.nan)
 
     cause: str = printed("")
     """Of a verdict that the D/C beside it does not show."""
@@ -289,7 +298,7 @@ class ArrayResult(ArrayRow):
         # Of any section the lighter side has at most half: what is required there covers all.
         return self.weight_n / 2.0
 
-    @unwritten(_weight("Provided"))
+    @unwritten(_weight("Provided", no_more))
     def provided_n(self) -> float | str:
         """Interconnection strength provided [N]."""
         return "not given" if self.given_n is None else self.given_n
@@ -313,8 +322,8 @@ def array_result(
     """Return an array with its limits, and with its runs and directions if asked for, marked."""
     motions = item.motions if has_runs else ()
     strength = math.nan if item.array.interconnection_n is None else item.array.interconnection_n
-    # Rounded so that the smaller of two numbers never prints as the larger one.
-    rounds = {"provided_n": beside(item.interconnection_n, strength)}
+    shows = shown_in_order(capacity(strength), demand(item.interconnection_n))
+    rounds = dict(zip(("provided_n", "interconnection_n"), shows, strict=True))
     gap = assessment.governing_gap(item.id)
     # Without a clearance the defaults hold: none given, and a dash for D/C.
     near: dict[str, object] = {}
@@ -327,7 +336,8 @@ def array_result(
             "gap_required_m": gap.required_m,
             "gap_provided_m": gap.provided_m,
         }
-        rounds["gap_provided_m"] = beside(gap.required_m, gap.provided_m)
+        shows = shown_in_order(capacity(gap.provided_m), demand(gap.required_m))
+        rounds |= zip(("gap_provided_m", "gap_required_m"), shows, strict=True)
         marks["gap_required_m"] = gap.mark
     return ArrayResult.of(
         item,

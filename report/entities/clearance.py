@@ -23,19 +23,20 @@ from report.entities.shown import (
     Told,
     at,
     centered,
-    length,
     plain,
     printed,
+    provided,
     required,
     unwritten,
+    up_column,
     words,
 )
 from report.sheet.schema.choices import Direction, DistanceBasis
-from report.text.units import beside, ratio
+from report.text.amounts import capacity, demand, shown_in_order
+from report.text.units import ratio
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
 _REQUIRED = '=IF(ISTEXT({design_m}),"none",MAX({design_m}*{factor},{minimum_m}))'
-_REQUIRED_MM = '=IF(ISTEXT({required_m}),"none",{required_m}*25.4)'
 # Rounded up as `ratio` does, so that 1.00 never hides a failure.
 _UP = "MAX(0,ROUNDUP({required_m}/{provided_m}-0.000000001,2))"
 _RATIO = f'=IF(ISTEXT({{required_m}}),"none",IF({{provided_m}}>0,{_UP},"none"))'
@@ -61,7 +62,9 @@ class ClearanceResult(Entity):
     governing_direction: Annotated[Direction, words("Direction", 1.05)]
     """Direction of its displacement that governs."""
     design_m: Annotated[
-        Number, required("Displ.", 0.8), Column("Design [in]", 2, "={largest}", is_always=True)
+        Number,
+        required("Displ.", 0.8),
+        up_column("Design [in]", 1, "={largest}", is_always=True),
     ]
     importance: Annotated[float, Column("Importance factor", 2, "={inputs[i_e]}", is_input=True)]
     """Importance factor in the required separation."""
@@ -72,8 +75,8 @@ class ClearanceResult(Entity):
     required_m: Annotated[
         Number,
         required("Required", 0.8),
-        Column("[in]", 2, _REQUIRED, is_always=True),
-        Column("[mm]", 1, _REQUIRED_MM, is_always=True),
+        up_column("[in]", 1, _REQUIRED, is_always=True),
+        up_column("[mm]", 0, is_always=True),
         # Of a new clearance the verdict is told, which says as much.
         Told(
             ChangeKind.CLEARANCE, "{row.array} to {row.object}{row.toward}, required", of_new=False
@@ -84,8 +87,8 @@ class ClearanceResult(Entity):
     provided_m: Annotated[
         float,
         at("clearance.provided_m"),
-        length("Provided", 0.8),
-        Column("[in]", 1, is_input=True),
+        provided("Provided", 0.8),
+        Column("[in]", is_input=True),
         Told(),
     ]
     basis: Annotated[DistanceBasis, Column("Distance from")] = DistanceBasis.ENTERED
@@ -140,6 +143,7 @@ def clearance_results(
         key = SEPARATION_KEYS[gap.neighbor]
         # Where the minimum governs, the number that is marked is the minimum.
         least = marked.mark("separation_edge_min_in") if gap.is_minimum_value else ""
+        had, needed = shown_in_order(capacity(gap.clearance.provided_m), demand(gap.required_m))
         yield ClearanceResult.of(
             gap,
             count=count,
@@ -150,5 +154,5 @@ def clearance_results(
                 **dict.fromkeys(("required_m", "least_m"), joined(least, gap.mark)),
                 "demand_capacity": gap.mark,
             },
-            rounds={"provided_m": beside(gap.required_m, gap.clearance.provided_m)},
+            rounds={"provided_m": had, "required_m": needed, "least_m": needed},
         )

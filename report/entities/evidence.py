@@ -30,16 +30,17 @@ from report.entities.shown import (
     Shown,
     at,
     centered,
-    length,
     plain,
     printed,
+    provided,
     required,
     text,
     unwritten,
+    up_column,
     words,
 )
 from report.sheet.schema.motions import BuildingInput
-from report.text.units import Quantity, no_less, number
+from report.text.units import Quantity, Rounding, number
 from solver.model import INCH_M, Status
 from solver.rules.provisions import AnalysisValue
 
@@ -112,10 +113,14 @@ class NeighborResult(Entity):
     """Id of the array or object across the gap; words for an edge."""
     kind: NearbyKind
     """What is across the gap."""
-    gap_m: Annotated[float, length("In plan", 0.8), Column("Distance in plan [in]")]
+    gap_m: Annotated[
+        float, provided("In plan", 0.8), Column("Distance in plan [in]", 1, rounding=Rounding.DOWN)
+    ]
     """Least distance in plan; negative if they overlap."""
     reach_m: Annotated[
-        Number, length("Twice displ.", 0.8, no_less), Column("Twice the design displacement [in]")
+        Number,
+        required("Twice displ.", 0.8),
+        up_column("Twice the design displacement [in]", 1),
     ]
     """Distance within which a clearance is needed."""
     is_missing: bool
@@ -300,22 +305,29 @@ class LinkedResult(Entity):
         float, at("links.damping_ratio"), plain("Damping", 3, unit="of critical", share=1.2)
     ]
     rigid_one_axis_m: Annotated[
-        Number, at("rigid.value_m"), length("Rigid, one axis"), Column("Rigid [in]", 3, _RIGID)
+        Number,
+        at("rigid.value_m"),
+        required("Rigid, one axis"),
+        up_column("Rigid [in]", 1, _RIGID),
     ]
     linked_one_axis_m: Annotated[
-        Number, at("linked.value_m"), length("Row, one axis"), Column("Row [in]", 3, _ROW)
+        Number, at("linked.value_m"), required("Row, one axis"), up_column("Row [in]", 1, _ROW)
     ]
     ratio: Annotated[
         Number,
         Shown(head="Ratio r", text=ratio_up, share=0.9),
-        Column("Ratio", 3, "={linked_one_axis_m}/{rigid_one_axis_m}"),
+        up_column("Ratio", 3, "={linked_one_axis_m}/{rigid_one_axis_m}"),
     ]
     design_m: Annotated[
-        Number, at("design.design_m"), Column("Design used [in]", 3, "={design.design_m}")
+        Number,
+        at("design.design_m"),
+        up_column("Design used [in]", 1, "={design.design_m}"),
     ]
     """Design displacement of the array as one rigid block."""
     estimated_m: Annotated[
-        Number, required("Design, with links"), Column("Design with links [in]", 3, _DESIGN)
+        Number,
+        required("Design, with links"),
+        up_column("Design with links [in]", 1, _DESIGN),
     ]
     link_force_n: Annotated[Number, Shown(head="Link force", quantity=Quantity.WEIGHT, share=0.9)]
     rigid_is_enough: Annotated[bool, at("is_rigid_enough")]
@@ -325,8 +337,8 @@ class LinkedResult(Entity):
     permitted_m: Annotated[Number, at("design.permitted_m"), required("Design, used")] = printed(
         math.nan
     )
-    rigid_prd_m: Annotated[Number, length("PRD, rigid", 0.8)] = printed(math.nan)
-    prd_m: Annotated[Number, at("farthest.prd_m"), length("PRD, row", 0.8)] = printed(math.nan)
+    rigid_prd_m: Annotated[Number, required("PRD, rigid", 0.8)] = printed(math.nan)
+    prd_m: Annotated[Number, at("farthest.prd_m"), required("PRD, row", 0.8)] = printed(math.nan)
     block: Annotated[Number, plain("Block", 0, share=0.8)] = printed(math.nan)
 
     @unwritten(text("Blocks", share=0.9))

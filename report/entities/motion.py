@@ -10,7 +10,7 @@ from operator import attrgetter
 from typing import Annotated, ClassVar
 
 from report.assessment.runs import MotionRun, OrientedRun
-from report.entities.shown import Column, Entity, Number, at
+from report.entities.shown import Column, Entity, Number, at, up_column
 from report.motions.history import PreparedMotion
 from report.sheet.schema.choices import Direction, RecordedAt
 from solver.model import Motion, Status
@@ -87,10 +87,10 @@ class PeakResult(Entity):
     """The largest displacements of an array in all runs of a motion, by direction."""
 
     motion: Annotated[str, Column("Motion")]
-    down_m: Annotated[Number, Column("Downslope [in]", 2, "=MAX({runs.down_m})")]
-    up_m: Annotated[Number, Column("Upslope [in]", 2, "=MAX({runs.up_m})")]
-    across_m: Annotated[Number, Column("Cross-slope [in]", 2, "=MAX({runs.across_m})")]
-    any_m: Annotated[Number, Column("Any direction [in]", 2, "=MAX({runs.prd_m})")]
+    down_m: Annotated[Number, up_column("Downslope [in]", 1, "=MAX({runs.down_m})")]
+    up_m: Annotated[Number, up_column("Upslope [in]", 1, "=MAX({runs.up_m})")]
+    across_m: Annotated[Number, up_column("Cross-slope [in]", 1, "=MAX({runs.across_m})")]
+    any_m: Annotated[Number, up_column("Any direction [in]", 1, "=MAX({runs.prd_m})")]
 
 
 class OrientedResult(Entity):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from typing import Annotated, Any, ClassVar, Self, TypeVar
 
@@ -28,11 +28,14 @@ from report.assessment.project import ChangeKind
 from report.sheet.schema.fields import Cell, docstrings
 from report.text.units import (
     NEWTONS_PER_POUND,
+    NOISE,
     Quantity,
+    Rounding,
     Show,
     Unit,
     measured,
     no_less,
+    no_more,
     number,
     pair,
 )
@@ -99,6 +102,12 @@ _FROM_SI: Mapping[str, Callable[[Any], Any]] = {
 }
 
 
+# A cell as the package prints it; in Excel ROUNDUP rounds away from zero.
+_ROUNDED_UP = (
+    '=IF(ISTEXT({{{name}}}),"none",MAX(0,ROUNDUP({{{name}}}{times}-{noise:.0e},{decimals})))'
+)
+
+
 @dataclass(frozen=True, slots=True)
 class Column:
     """A column of a sheet; a field may have several."""
@@ -111,6 +120,8 @@ class Column:
     value: Callable[[Any], Any] | None = None
     is_always: bool = False  # whether the formula is written also where it gives no value
     is_input: bool = False  # whether what has no formula may be changed there
+    # of what is shown: formulas take the exact value, from a column at the end of the row
+    rounding: Rounding = Rounding.NEAREST
 
     def heading(self, of_field: str) -> str:
         """Return the heading, from that of the field where it has none of its own."""
@@ -120,8 +131,32 @@ class Column:
     def held(self, value: Any) -> Any:
         """Return what a cell holds of the value of the field."""
         # By the unit in the heading, so that heading and number cannot differ.
-        convert = self.value or _FROM_SI.get(self.head.partition("[")[2].rstrip("]"))
-        return convert(value) if convert else value
+        convert = self.value or _FROM_SI.get(self.unit)
+        held = convert(value) if convert else value
+        is_rounded = self.rounding is not Rounding.NEAREST
+        return self.rounding.of(held, self.decimals or 0) if is_rounded else held
+
+    @property
+    def unit(self) -> str:
+        """The unit in the heading."""
+        return self.head.partition("[")[2].rstrip("]")
+
+    def shown(self, name: str) -> Column:
+        """Return it as a column that is rounded from the exact one of its field."""
+        noise = NOISE / 10.0 ** (self.decimals or 0)
+        times = "*25.4" if self.unit == "mm" else ""
+        formula = _ROUNDED_UP.format(name=name, times=times, noise=noise, decimals=self.decimals)
+        return replace(self, formula=formula)
+
+    def exact(self, heading: str) -> Column:
+        """Return the exact column of its field."""
+        head, _, unit = heading.partition(" [")
+        head = f"{head}, unrounded [{unit}" if unit else f"{head}, unrounded"
+        return replace(self, head=head, decimals=None, rounding=Rounding.NEAREST)
+
+
+up_column = partial(Column, rounding=Rounding.UP)
+"""A column of a demand, or of what is required: rounded up."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -204,6 +239,9 @@ def length(head: str, share: float = 1.0, show: Show = measured) -> Shown:
 
 required = partial(length, show=no_less)
 """How a length is shown that is required, or that a requirement follows from: rounded up."""
+
+provided = partial(length, show=no_more)
+"""How a length is shown that is provided: rounded down."""
 
 
 def text(head: str, unit: str = "", share: float = 1.0) -> Shown:
@@ -365,8 +403,18 @@ def marks_of(model: type[Entity], kind: type[_Mark]) -> tuple[tuple[str, _Mark],
 
 
 @cache
-def columns_of(model: type[Entity]) -> tuple[tuple[str, str, Column], ...]:
+def columns_of(
+    model: type[Entity], *, has_formulas: bool = True
+) -> tuple[tuple[str, str, Column], ...]:
     """Return the columns of a model on a sheet of results.xlsx: field, heading and the rest."""
     heads = {name: shown.head for name, shown in marks_of(model, Shown)}
-    columns = marks_of(model, Column)
-    return tuple((name, item.heading(heads.get(name, "")), item) for name, item in columns)
+    columns: list[tuple[str, str, Column]] = []
+    exact: dict[str, tuple[str, str, Column]] = {}
+    for name, item in marks_of(model, Column):
+        heading = item.heading(heads.get(name, ""))
+        if has_formulas and item.rounding is Rounding.UP:
+            beside = item.exact(heading)
+            exact.setdefault(name, (name, beside.head, beside))
+            item = item.shown(name)
+        columns.append((name, heading, item))
+    return *columns, *exact.values()

@@ -30,7 +30,7 @@ from report.figures.base import (
     svg_text,
 )
 from report.text.counts import cut
-from report.text.units import Unit, number, round_below
+from report.text.units import Unit, no_less, number, round_below
 from solver.model import Floats, SlideHistory
 
 # In a history: a panel is 150 pt wide.
@@ -168,14 +168,14 @@ def _titles(
     show, room_in = UnitFormat(us_first), 0.92 * WIDTH_IN / (1.1 * grid.columns)
     names = [_name(panel, printed) for panel in panels]
     peaks = [panel.motion.governing.prd_m for panel in panels]
-    prds = [show.both(prd_m) for prd_m in peaks]
+    prds = [show.both(prd_m, show=no_less) for prd_m in peaks]
 
     def fits(text: str, prd: str) -> bool:
         return width_in(text, is_bold=True) + width_in(prd) < room_in
 
     # The second unit of the PRDs gives way to the names, in all panels alike.
     if not all(map(fits, map("".join, names), prds)):
-        prds = [show.short(prd_m) for prd_m in peaks]
+        prds = [show.short(prd_m, show=no_less) for prd_m in peaks]
     for index, ((array, run), prd) in enumerate(zip(names, prds, strict=True)):
         # Then the names of the arrays: motion, orientation and PRD are printed in full.
         room = (n for n in range(len(array), 3, -1) if fits(cut(array, n) + run, prd))

@@ -22,38 +22,27 @@ from report.provenance.files import SHORT, holds_records, record_bytes, record_p
 from report.sheet.schema.motions import MotionInput
 from report.text.units import number
 from solver.records.acceptance import Acceptance, MotionStrength
-from solver.rules.limit import Limit, Measure
+from solver.rules.limit import Limit
 
 _COMPONENTS = ("x", "y", "z")
 _PAIRS = ("x-y", "x-z", "y-z")
 _STRENGTHS = (("Arias intensity, m/s", 2, "arias_mps"), ("D5-95, s", 1, "d5_95_s"))
-_PLACES = {Measure.COUNT: 0, Measure.TIME_S: 1, Measure.PLAIN: 2}
 
 
 def acceptance_table(package: PackageData) -> Table:
     """Return every limit on the motions: found, limit, where, OK or what follows."""
+
+    def limit(row: Limit) -> str:
+        return f"{row.sign} {package.limit_of(row)}{dagger(row.provision)}"
+
     columns = (
         (words("Limit", 4.75), lambda row: f"{row.title} *" if row.is_program_limit else row.title),
-        (text("Found", share=0.7), _found),
-        (text("Limit value", share=0.95), _limit),
+        (text("Found", share=0.7), package.found_of),
+        (text("Limit value", share=0.95), limit),
         (words("Worst", 1.5), lambda row: row.worst or "—"),
         (words("Verdict", 1.05), lambda row: stamp(package.assessment.limit_verdict(row))),
     )
     return listed(package.assessment.acceptance.rows, columns, package.fmt, kind="compact")
-
-
-def _limit(row: Limit) -> str:
-    shown = f"{row.sign} {number(row.limit, _PLACES[row.measure])} {row.measure.unit}".rstrip()
-    return shown + dagger(row.provision)
-
-
-def _found(row: Limit) -> str:
-    """Return the value found."""
-    # With decimals enough that a miss never rounds onto its limit.
-    least = _PLACES[row.measure]
-    apart = (k for k in range(least, 9) if round(row.found, k) != round(row.limit, k))
-    shown = number(row.found, least if row.ok else next(apart, 9))
-    return f"{shown} {row.measure.unit}".rstrip()
 
 
 def lowest_between(

@@ -22,7 +22,7 @@ from report.sheet.schema import ProjectInput
 from report.sheet.schema.project import FrictionTests
 from report.sheet.schema.scene import Array
 from report.text.counts import ids_by, numbered
-from report.text.units import Quantity, number
+from report.text.units import Quantity, no_less, number
 from solver.friction_tests import FittedLaw, Series, Surface, fit_law, governing
 
 _STATED = (
@@ -126,7 +126,7 @@ def _velocities(package: PackageData) -> Table:
     columns = by_place(
         words("Array", 0.6),
         text("μ", "as run", package.mu_share),
-        Shown(head="Largest velocity", quantity=Quantity.VELOCITY, share=0.8),
+        Shown(head="Largest velocity", quantity=Quantity.VELOCITY, share=0.8, show=no_less),
         Shown(head="Tested to", quantity=Quantity.VELOCITY, share=0.8),
         text("μ beyond", "largest", 0.9),
         text("μ tested", "smallest", 0.9),
@@ -149,8 +149,8 @@ def _velocity(
     return (
         *about,
         "not given" if math.isnan(tested_mps) else tested_mps,
-        number(check.mu_beyond, 3),
-        number(check.tests.minimum_mu, 3),
+        check.beyond_words,
+        check.minimum_words,
         stamp(verdicts.get(item.id, check.verdict)),
     )
 

@@ -26,7 +26,7 @@ from report.drawing.sheet import unit_format
 from report.entities.array import array_results
 from report.entities.evidence import NeighborResult
 from report.entities.requirement import UNVERIFIED, dagger, requirement_rows
-from report.entities.shown import Shown, centered, length, text, words
+from report.entities.shown import Shown, centered, length, provided, text, words
 from report.pages.model import link_troubles, model_troubles
 from report.pages.parts import NG, OK, PackageData, verdict
 from report.pages.symbols import with_symbols
@@ -109,12 +109,12 @@ def check_table(
     """Return limits and values of the project; `outcomes` are satisfied and not satisfied."""
 
     def limit(check: Limit) -> str:
-        return package.of_check(check.limit, check) + dagger(check.provision)
+        return package.limit_of(check) + dagger(check.provision)
 
     columns = (
         (words("Item", 0.9), lambda row: row[0]),
         (words("Quantity", 3.9), lambda row: row[1].title),
-        (text("Value", share=1.45), lambda row: package.of_check(row[1].found, row[1])),
+        (text("Value", share=1.45), lambda row: package.found_of(row[1])),
         # A value beyond its limit that the rule set permits: the sign of the limit would be false.
         (centered("", 0.3), lambda row: ">" if row[1].passes_by_exception else row[1].sign),
         (text("Limit", share=1.6), lambda row: limit(row[1])),
@@ -212,7 +212,7 @@ def _parapets(package: PackageData) -> Table:
         (words("Beside"), lambda row: row[0].array),
         (length("Top above the roof"), lambda row: row[1]),
         (length("Center of gravity"), lambda row: row[2]),
-        (length("Top above it"), lambda row: row[1] - row[2]),
+        (provided("Top above it"), lambda row: row[1] - row[2]),
         (words("Result", 1.3), lambda row: row[3]),
     )
     rows = [

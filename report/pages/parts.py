@@ -14,7 +14,6 @@ from markupsafe import Markup
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.causes import reasons
 from report.assessment.evidence import Saving, saving
-from report.assessment.precheck import limit_value
 from report.assessment.project import NO_FORMER, Changes
 from report.assessment.requirement_rows import basis_words
 from report.assessment.verdict import Verdict
@@ -25,9 +24,12 @@ from report.entities.requirement import Marked
 from report.provenance.files import fingerprint
 from report.sheet.schema.choices import PackageEdition, RecordedAt
 from report.sheet.schema.scene import Array
+from report.text.amounts import limit_texts
 from report.text.counts import ids_by
+from report.text.units import no_less, no_more
 from solver.rules.limit import Limit
 from solver.rules.provisions import Basis
+from solver.rules.rulesets import ALLOWED
 
 BAR = "changed"
 """Style of what changed since a former revision: a bar in the margin."""
@@ -148,11 +150,17 @@ class PackageData(Marked):
 
     def rule_length(self, key: str) -> str:
         """Return a length of the rule set in both systems of units, with its marks."""
-        return self.fmt.both(self.assessment.rules.length_m(key)) + self.mark(key)
+        show = no_more if ALLOWED[key].is_maximum else no_less
+        length = self.fmt.both(self.assessment.rules.length_m(key), show=show)
+        return length + self.mark(key)
 
-    def of_check(self, value: float, check: Limit) -> str:
-        """Return a number of a check with the units of its measure."""
-        return limit_value(check, value, self.fmt.us_first)
+    def found_of(self, check: Limit) -> str:
+        """Return what a limit finds, with the units of its measure."""
+        return limit_texts(check, self.fmt.us_first)[0]
+
+    def limit_of(self, check: Limit) -> str:
+        """Return the limit itself."""
+        return limit_texts(check, self.fmt.us_first)[1]
 
     def friction_basis(self, array: Array) -> str:
         """Return where the friction of an array comes from."""

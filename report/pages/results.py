@@ -20,11 +20,11 @@ from report.assessment.runs import MotionRun
 from report.assessment.verdict import nan_is_worst
 from report.document.tables import Column, Table, TableRow, Wide, listed, table_of
 from report.drawing.items import drawn_slope_deg
-from report.entities.shown import Shown, UnitFormat, length, text, words
+from report.entities.shown import Shown, UnitFormat, required, text, words
 from report.pages.parts import PackageData, statistic
 from report.sheet.schema.choices import Direction
 from report.text.counts import named
-from report.text.units import Quantity, measured, no_less, number
+from report.text.units import Quantity, no_less, number
 from solver.model import Orientation, Status
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
@@ -99,7 +99,7 @@ def _peaks(package: PackageData, group: _Alike, orientations: Sequence[Orientati
 
     def in_first(head: str, below: str) -> Shown:
         """Return how a length is shown in the preferred system alone."""
-        return Shown(head=f"{head}, {unit}", unit=below, text=fmt.first)
+        return Shown(head=f"{head}, {unit}", unit=below, text=partial(fmt.first, show=no_less))
 
     columns: list[Column] = [
         (words("Motion"), attrgetter("motion.id")),
@@ -110,7 +110,7 @@ def _peaks(package: PackageData, group: _Alike, orientations: Sequence[Orientati
             )
             for orientation in orientations
         ),
-        (length("Governing PRD", 1.08), attrgetter("governing.prd_m")),
+        (required("Governing PRD", 1.08), attrgetter("governing.prd_m")),
         *((in_first("Largest of all runs", d.value), methodcaller("peak_m", d)) for d in _WAYS),
         (in_first("Residual", "down"), attrgetter("governing.result.residual_m")),
         (in_first("Residual", "across"), attrgetter("governing.result.residual_across_m")),
@@ -136,7 +136,7 @@ def _peak(fmt: UnitFormat, orientation: Orientation, motion: MotionRun) -> str:
     """Return the PRD of one run in the first unit; blank where the motion has no such run."""
     for run in motion.runs:
         if run.orientation == orientation:
-            peak = fmt.first(run.prd_m)
+            peak = fmt.first(run.prd_m, show=no_less)
             return Markup("<b>{}</b>").format(peak) if run is motion.governing else peak
     return ""
 
@@ -158,10 +158,8 @@ def _statistics(package: PackageData, group: _Alike, runs: int) -> Iterator[Tabl
     ):
         field = name.replace("floor", "floor_m")
         is_changed = any((item.id, field) in package.changes.values for item in group)
-        # What is measured is rounded to the nearest; what a requirement follows from, up.
-        show = measured if name.endswith("_prd_m") else no_less
         pairs = zip(excursions, after, strict=True)
-        toward_cells = (fmt.first(m, mark=mark, show=show) for m, mark in pairs)
+        toward_cells = (fmt.first(m, mark=mark, show=no_less) for m, mark in pairs)
         yield TableRow(
             cells=(
                 Wide(label, 1 + runs),

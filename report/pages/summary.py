@@ -29,9 +29,10 @@ from report.pages.parts import PackageData
 from report.sheet.checking.findings import lines
 from report.sheet.schema.fields import Level
 from report.sheet.writing.filled import what_is_new
+from report.text.amounts import capacity, compared_pairs, demand
 from report.text.counts import grouped_by
 from report.text.formats import aligned, finite
-from report.text.units import Quantity, beside, no_less, pair
+from report.text.units import Quantity, no_less, pair
 from report.typeset.pdf import TEMPLATES
 from solver.rules.limit import Consequence
 
@@ -92,10 +93,11 @@ def _answer(assessment: Assessment, remedy: Remedy) -> PrintedRemedy:
         mus = (entered, value) if remedy.exists else (entered, entered)
         texts = [mu_words(with_mu(array, mu).friction) for mu in mus]
     else:
-        # As the clearances print them.
-        had = no_less if remedy.kind is RemedyKind.REVIEW else beside(value, entered)
-        shows = ((entered, had), (value, no_less))
-        texts = [pair(length_m, Quantity.SIZE, us_first, show) for length_m, show in shows]
+        # As the clearances print them; two design displacements are compared with nothing.
+        units = Quantity.SIZE, us_first
+        texts = [pair(length_m, *units, no_less) for length_m in (entered, value)]
+        if remedy.kind is RemedyKind.SEPARATION:
+            texts = [*compared_pairs(capacity(entered), demand(value), *units)]
     return PrintedRemedy(
         remedy=remedy,
         given=texts[0],

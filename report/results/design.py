@@ -18,7 +18,7 @@ from report.assessment.routes import Route
 from report.assessment.verdict import MEANING, OVERRIDDEN, Verdict, worst
 from report.entities.array import ArrayResult, DirectionResult, array_result, direction_result
 from report.entities.motion import PeakResult, peak_result
-from report.entities.shown import Column, Number
+from report.entities.shown import Column, Number, up_column
 from report.results.lists import RunRow
 from report.results.sheets import TOP, Cells, Pages, SheetRow, typed, write_live
 from report.sheet.schema.choices import Direction
@@ -50,8 +50,8 @@ class DirectionRow(SheetRow, DirectionResult):
     array: Annotated[str, Column("Array")]
     direction: Annotated[Direction, Column("Direction")]
     factor: Annotated[float, Column("Analysis factor", 2, "={design.analysis_factor}")]
-    floor_m: Annotated[float, Column("Floor [in]", 2, "={design.floor_m}")]
-    by_roofslip_m: Annotated[Number, Column("By Roofslip [in]", 2)]
+    floor_m: Annotated[float, up_column("Floor [in]", 1, "={design.floor_m}")]
+    by_roofslip_m: Annotated[Number, up_column("By Roofslip [in]", 1)]
     difference: Annotated[float, Column("Difference [in]", 4, "={design_m}-{by_roofslip_m}")] = 0.0
 
 
@@ -229,18 +229,18 @@ class DesignRow(SheetRow, ArrayResult):
     )
 
     s_ds_g: Annotated[float, Column("S_DS [g]", 4, "={inputs[s_ds_g]}")]
-    factor_m: Annotated[float, Column("Factor [in]", 1, is_input=True)]
+    factor_m: Annotated[float, Column("Factor [in]", is_input=True)]
     importance: Annotated[float, Column("I_e in displacement", 2, "={inputs[i_e]}")]
-    minimum_m: Annotated[float, Column("Minimum [in]", 1, is_input=True)]
+    minimum_m: Annotated[float, Column("Minimum [in]", is_input=True)]
     n_motions: Annotated[int, Column("Number of motions", 0, "=COUNT({peaks})")]
     analysis_factor: Annotated[float, Column("Analysis factor", 2, _FACTOR)]
     floor_share: Annotated[float, Column("Floor / prescriptive", 2, _FLOOR_SHARE)]
     over_prescriptive: Annotated[Number, Column("Design / prescriptive", 3, _RATIO)]
-    by_roofslip_m: Annotated[Number, Column("Design by Roofslip [in]", 2)]
+    by_roofslip_m: Annotated[Number, up_column("Design by Roofslip [in]", 1)]
     difference: Annotated[float, Column("Difference [in]", 4, _DIFFERENCE)] = 0.0
     statistic: Annotated[Basis, Column("Statistic", formula=_STATISTIC)]
     others: Annotated[Verdict, Column("Other requirements")]
-    slack_m: Annotated[float | None, Column("Electrical slack [in]", 1, is_input=True)]
+    slack_m: Annotated[float | None, Column("Electrical slack [in]", is_input=True)]
 
 
 # What the sheet follows from, with motions and without.

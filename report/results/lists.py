@@ -11,14 +11,13 @@ from dataclasses import asdict
 from typing import Annotated, ClassVar
 
 from report.assessment.links import LinkedArray
-from report.assessment.precheck import limit_value
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra
 from report.assessment.verdict import OVERRIDDEN
 from report.entities.evidence import LinkedResult, LinkedRunResult, NeighborResult, linked_result
 from report.entities.motion import MotionResult, RecordResult, RunResult, motion_result, run_result
 from report.entities.requirement import RequirementRow, requirement_rows
-from report.entities.shown import Column, Number, columns_of
+from report.entities.shown import Column, Number, columns_of, up_column
 from report.motions.prepare import Shaking
 from report.results.sheets import (
     LINE_PT,
@@ -33,9 +32,10 @@ from report.results.sheets import (
     write_table,
 )
 from report.sheet.schema.choices import Direction
+from report.text.amounts import limit_texts
 from report.text.units import G_MPS2
 from solver.model import INCH_M
-from solver.rules.limit import Limit, Measure
+from solver.rules.limit import Limit
 from solver.sliding.least_model import DEFAULT
 
 
@@ -142,12 +142,7 @@ def _rows(assessment: Assessment) -> Iterator[RequirementRow]:
 
 
 def _limit(assessment: Assessment, item: str, row: Limit) -> RequirementRow:
-    shown, limit = (
-        limit_value(row, value, assessment.project.us_first)
-        if row.measure is Measure.LENGTH_M
-        else f"{value:.6g} {row.measure.unit}".rstrip()
-        for value in (row.found, row.limit)
-    )
+    shown, limit = limit_texts(row, assessment.project.us_first)
     is_excepted = row.passes_by_exception
     return RequirementRow(
         subject=item,
@@ -216,11 +211,11 @@ class LinkRow(SheetRow, LinkedResult):
     row_mean_m: Annotated[Number, Column("Mean, row [in]", 3, "=AVERAGE({peaks.row_m})")]
     row_largest_m: Annotated[Number, Column("Largest, row [in]", 3, "=MAX({peaks.row_m})")]
     factor: Annotated[float, Column("Analysis factor", 3, "={design.analysis_factor}")]
-    computed_m: Annotated[Number, Column("Computed [in]", 3, "={design.computed_m}")]
-    floor_m: Annotated[float, Column("Floor [in]", 3, "={design.floor_m}")]
+    computed_m: Annotated[Number, up_column("Computed [in]", 1, "={design.computed_m}")]
+    floor_m: Annotated[float, up_column("Floor [in]", 1, "={design.floor_m}")]
     tolerance_m: Annotated[Number, Column("Tolerance [in]", 3, _TOLERANCE)]
     result: Annotated[str, Column("Verdict", formula=_RESULT)]
-    by_roofslip_m: Annotated[Number, Column("With links by Roofslip [in]", 3)]
+    by_roofslip_m: Annotated[Number, up_column("With links by Roofslip [in]", 1)]
     difference: Annotated[float, Column("Difference [in]", 4, _DIFFERENCE)] = 0.0
 
 

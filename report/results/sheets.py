@@ -20,6 +20,7 @@ from xlsxwriter.worksheet import Worksheet
 
 from report.assessment.verdict import OVERRIDDEN
 from report.entities.shown import NO_VALUE, Column, Entity, columns_of
+from report.text.units import Rounding
 
 # First row below the headings of a sheet with a title.
 TOP = 5
@@ -81,7 +82,10 @@ def fixed(model: type[SheetRow], name: str, row: int) -> str:
 def _letters(model: type[SheetRow]) -> Mapping[str, str]:
     """Return the letter of the first column of each field."""
     names = [name for name, _, _ in columns_of(model)]
-    return {name: xl_col_to_name(names.index(name)) for name in names}
+    # Of a value that is shown rounded up, that of its exact column, the last.
+    exact = {name for name, _, column in columns_of(model) if column.rounding is Rounding.UP}
+    at = {name: place for place, name in enumerate(names) if name in exact}
+    return {name: xl_col_to_name(at.get(name, names.index(name))) for name in names}
 
 
 def typed(value: float) -> float:
@@ -251,18 +255,28 @@ def _write(
 def write_list(pages: Pages, name: str, rows: Sequence[Entity]) -> None:
     """Write entities as a sheet without formulas."""
     model = type(rows[0])
-    columns = [
-        [_value(row, field, column) for row in rows] for field, _, column in columns_of(model)
-    ]
-    write_table(pages, name, dict(zip(_headings(model), columns, strict=True)), model.key_columns)
+    columns = columns_of(model, has_formulas=False)
+    table = {
+        heading: [_value(row, field, column) for row in rows] for field, heading, column in columns
+    }
+    decimals = {heading: column.decimals for _, heading, column in columns}
+    write_table(pages, name, table, model.key_columns, decimals)
 
 
-def write_table(pages: Pages, name: str, table: Mapping[str, Sequence[Any]], keys: int = 1) -> None:
+def write_table(
+    pages: Pages,
+    name: str,
+    table: Mapping[str, Sequence[Any]],
+    keys: int = 1,
+    own_decimals: Mapping[str, int | None] = {},
+) -> None:
     """Write columns by heading as a sheet."""
     sheet: Worksheet = pages.workbook.get_worksheet_by_name(name)
     decimals = [
-        3 if all(isinstance(value, float) for value in values) else None
-        for values in table.values()
+        (own_decimals.get(heading) or 3)
+        if all(isinstance(value, float) for value in values)
+        else None
+        for heading, values in table.items()
     ]
     shown = [list(map(_shown, row, decimals)) for row in zip(*table.values(), strict=True)]
     lay_out(pages, sheet, 0, list(table), shown, keys)

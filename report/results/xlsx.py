@@ -16,7 +16,7 @@ from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra
 from report.assessment.verdict import MEANING, Verdict
 from report.entities.clearance import ClearanceResult
-from report.entities.shown import Column, Number
+from report.entities.shown import Column, Number, up_column
 from report.results.design import (
     DesignRow,
     DirectionRow,
@@ -62,8 +62,8 @@ class GapRow(SheetRow, ClearanceResult):
 
     count: Annotated[int, Column("No.")]
     governing: Annotated[str, Column("Governing array, direction")]
-    minimum_m: Annotated[float, Column("Minimum [in]", 1, is_input=True)]
-    by_roofslip_m: Annotated[Number, Column("Required by Roofslip [in]", 2)]
+    minimum_m: Annotated[float, Column("Minimum [in]", is_input=True)]
+    by_roofslip_m: Annotated[Number, up_column("Required by Roofslip [in]", 1)]
     difference: Annotated[float, Column("Difference [in]", 4, _DIFFERENCE)] = 0.0
     rule_factor: Annotated[float, Column("Separation / displacement", 2, is_input=True)]
 

@@ -26,6 +26,7 @@ from report.figures.base import png_bytes
 from report.figures.spectra import spectra
 from report.motions.history import TargetSpectrum
 from report.suite.inputs import Seeds, SuiteTargets
+from report.text.amounts import limit_texts
 from report.text.formats import aligned
 from report.text.units import G_MPS2
 from solver.model import Floats
@@ -54,12 +55,11 @@ def acceptance_lines(rows: Sequence[Limit]) -> list[str]:
     """Return a line for each row: OK or what follows, title, value found, limit, where."""
     return [
         f"{'OK' if row.ok else row.consequence.value}: {row.title}: "
-        f"{row.found:.4g} {row.measure.unit}".rstrip()
-        + f", {'at least' if row.is_at_least else 'at most'} "
-        + f"{row.limit:.4g} {row.measure.unit}".rstrip()
-        + f"{f' ({row.worst})' if row.worst else ''}"
+        f"{found}, {'at least' if row.is_at_least else 'at most'} {limit}"
+        f"{f' ({row.worst})' if row.worst else ''}"
         f"{'; not a code requirement, limit set by this program' if row.is_program_limit else ''}"
         for row in rows
+        for found, limit in (limit_texts(row, us_first=True),)  # none is a length
     ]
 
 

@@ -6,6 +6,7 @@ Values are in SI everywhere else; values that a user reads or enters are convert
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import Enum
@@ -54,7 +55,7 @@ class Unit:
 
 Show = Callable[[float, Unit], str]
 # Of the last digit printed: 36 in from meters is not 36.1 in.
-_NOISE = 1e-6
+NOISE = 1e-6
 
 
 class Quantity(Enum):
@@ -68,6 +69,8 @@ class Quantity(Enum):
     STIFFNESS = (Unit("lb/in", NEWTONS_PER_POUND / INCH_M, 0), Unit("kN/m", 1e3, 1))
     VELOCITY = (Unit("in/s", INCH_M, 2), Unit("mm/s", 1e-3, 1))
     PRESSURE = (Unit("psf", PRESSURES["psf"], 1), Unit("kPa", 1e3, 2))
+    # At the end of a record, where a limit is as small as 10 mm.
+    DRIFT = (Unit("in", INCH_M, 2), Unit("mm", 1e-3, 1))
 
     @property
     def accepted(self) -> Mapping[str, float]:
@@ -102,14 +105,36 @@ def number(value: float, decimals: int) -> str:
     return text.replace("-", "−").replace("inf", "∞")
 
 
+class Rounding(Enum):
+    """How a quantity is rounded wherever it is printed."""
+
+    NEAREST = "nearest"  # what is entered or measured, and what follows from it such as a weight
+    UP = "up"  # what is required, and a demand
+    DOWN = "down"  # what is provided, and a capacity
+
+    def of(self, value: float, decimals: int) -> float:
+        """Return a number rounded so."""
+        rounded = {Rounding.UP: round_up, Rounding.DOWN: round_down}
+        return rounded.get(self, round)(value, decimals)
+
+    def text(self, value: float, decimals: int) -> str:
+        """Return a number rounded so, for print."""
+        return number(self.of(value, decimals), decimals)
+
+
 def measured(value_si: float, unit: Unit) -> str:
     """Return a value in a unit, for print, without the symbol."""
-    return number(value_si / unit.si, unit.decimals)
+    return Rounding.NEAREST.text(value_si / unit.si, unit.decimals)
 
 
 def no_less(value_si: float, unit: Unit) -> str:
     """Return a value in a unit, rounded up."""
-    return number(round_up(value_si / unit.si, unit.decimals), unit.decimals)
+    return Rounding.UP.text(value_si / unit.si, unit.decimals)
+
+
+def no_more(value_si: float, unit: Unit) -> str:
+    """Return a value in a unit, rounded down."""
+    return Rounding.DOWN.text(value_si / unit.si, unit.decimals)
 
 
 def digits_up(value: float, digits: int) -> str:
@@ -133,13 +158,13 @@ def _decimals(value: float, digits: int) -> int:
 def round_up(value: float, decimals: int) -> float:
     """Return a number rounded up, but for rounding error."""
     per_digit = 10.0**decimals
-    return math.ceil(value * per_digit - _NOISE) / per_digit if math.isfinite(value) else value
+    return math.ceil(value * per_digit - NOISE) / per_digit if math.isfinite(value) else value
 
 
 def round_down(value: float, decimals: int) -> float:
     """Return a number rounded down, but for rounding error."""
     per_digit = 10.0**decimals
-    return math.floor(value * per_digit + _NOISE) / per_digit if math.isfinite(value) else value
+    return math.floor(value * per_digit + NOISE) / per_digit if math.isfinite(value) else value
 
 
 def pair(value_si: float, quantity: Quantity, us_first: bool = True, show: Show = measured) -> str:
@@ -151,34 +176,19 @@ def pair(value_si: float, quantity: Quantity, us_first: bool = True, show: Show 
     return f"{first} ({second})"
 
 
-def beside(required_si: float, provided_si: float, *, up: bool = True) -> Show:
-    """Return how a provided value prints beside a required one, which is rounded, usually up.
-
-    Rounded, unless that would show the other order: then up where it is enough, and else down.
-    """
-
-    def show(value_si: float, unit: Unit) -> str:
-        value, decimals = value_si / unit.si, unit.decimals
-        required, provided = required_si / unit.si, round(value, decimals)
-        # Compared as printed, in each unit by itself: inches and millimeters round differently.
-        required = round_up(required, decimals) if up else round(required, decimals)
-        if required_si > provided_si and provided >= required:
-            value = round_down(value, decimals)
-        elif required_si <= provided_si and provided < required:
-            value = round_up(value, decimals)
-        return number(value, decimals)
-
-    return show
+_SYMBOLS = "|".join(unit.symbol for quantity in Quantity for unit in quantity.value)
+_BOTH = re.compile(rf"(\S+) ({_SYMBOLS}) \((\S+) ({_SYMBOLS})\)")
 
 
-def compared_pairs(
-    required_si: float, provided_si: float, quantity: Quantity, us_first: bool, *, up: bool = True
-) -> tuple[str, str]:
-    """Return a required value, rounded up or as entered, and one `beside` it, in both systems."""
-    provided = provided_si, beside(required_si, provided_si, up=up)
-    shows = ((required_si, no_less if up else measured), provided)
-    first, second = (pair(value, quantity, us_first, show) for value, show in shows)
-    return first, second
+def in_us_order(text: str) -> str:
+    """Return a text with what it says in both systems in one order, whichever is preferred."""
+    return _BOTH.sub(_in_us_order, text)
+
+
+def _in_us_order(both: re.Match[str]) -> str:
+    first, unit, second, other = both.groups()
+    is_us = any(unit == quantity.us.symbol for quantity in Quantity)
+    return both[0] if is_us else f"{second} {other} ({first} {unit})"
 
 
 def ratio(value: float) -> str:

@@ -24,7 +24,8 @@ from report.entities.requirement import Marked
 from report.entities.shown import UnitFormat
 from report.pages.registry import package_data
 from report.pages.summary import attention
-from report.text.units import beside, no_less
+from report.text.amounts import capacity, demand, shown_in_order
+from report.text.units import no_less, no_more
 from report.typeset.pdf import TEMPLATES
 from report.web.plan import USUAL_PX, Cell, ShowVerdict, cells, described, heads, plan, stamp
 from solver.rules.limit import Consequence
@@ -121,7 +122,7 @@ def _reasons(assessment: Assessment, fmt: UnitFormat) -> list[dict[str, Any]]:
     grouped = {
         "level": Consequence.NG.value,
         "text": f"{len(short)} clearances under {fmt.short(most_m, show=no_less)}; worst "
-        f"{worst.array} to {worst.object}, {fmt.short(worst.provided_m)}",
+        f"{worst.array} to {worst.object}, {fmt.short(worst.provided_m, show=no_more)}",
         "parts": parts,
     }
     others = [reason for reason in reasons if reason["text"] not in parts]
@@ -153,8 +154,8 @@ def _rows(
 
 
 def _missing(near: PlanNeighbor, fmt: UnitFormat, verdict: ShowVerdict) -> list[Cell | None]:
-    had = beside(near.required_m, near.gap_m)
-    lengths = ((near.gap_m, had, ""), (near.required_m, no_less, near.mark))
+    had, needed = shown_in_order(capacity(near.gap_m), demand(near.required_m))
+    lengths = ((near.gap_m, had, ""), (near.required_m, needed, near.mark))
     missing_cells = (
         {"text": fmt.short(value_m, show=show) + mark, "title": fmt.both(value_m, show=show)}
         for value_m, show, mark in lengths
@@ -208,7 +209,11 @@ def _bars(
             for name, (value_m, text) in lines.items()
         ],
         "rows": [
-            {"motion": run.motion.id, "prd_m": finite(prd_m), "text": fmt.short(prd_m)}
+            {
+                "motion": run.motion.id,
+                "prd_m": finite(prd_m),
+                "text": fmt.short(prd_m, show=no_less),
+            }
             for run, prd_m in ((run, run.governing.prd_m) for run in motions)
         ],
     }

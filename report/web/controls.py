@@ -23,7 +23,7 @@ from report.sheet.schema.choices import Polarity, RuleSetName, UnitsFirst
 from report.sheet.schema.fields import Finding, Place
 from report.sheet.schema.scene import Array
 from report.text.counts import cut, ids_by, ranged
-from report.text.units import Quantity, number, pair
+from report.text.units import Quantity, no_more, number, pair
 from report.typeset.letters import check_letters
 from report.web.values import MUS, UNITS_FIRST, Values, typed
 from solver.friction_tests import MOST_MU
@@ -292,5 +292,5 @@ def _clearances(data: ProjectInput) -> str:
     if not data.clearances:
         return ""
     row = min(data.clearances, key=lambda row: row.provided_m)
-    text = pair(row.provided_m, Quantity.SIZE, data.us_first)
+    text = pair(row.provided_m, Quantity.SIZE, data.us_first, no_more)
     return f"smallest {text}, {row.array} to {row.object}"

@@ -29,7 +29,7 @@ from report.drawing.on_paper import plan_on_paper
 from report.drawing.sheet import Paper, PlanSize
 from report.entities.clearance import ClearanceResult
 from report.entities.shown import Entity, UnitFormat, shown_by
-from report.text.units import beside, no_less
+from report.text.amounts import capacity, demand, shown_in_order
 
 Cell = Mapping[str, str]
 ShowVerdict = Callable[[Verdict], Cell | None]
@@ -108,12 +108,7 @@ def plan(
         "described": [
             *({"text": described(row, fmt), "verdict": verdict(row.verdict)} for row in shown),
             *(
-                {
-                    "text": f"{near.array} to {near.other}: no clearance given, "
-                    f"{fmt.both(near.gap_m, show=beside(near.required_m, near.gap_m))} in plan, "
-                    f"required {fmt.both(near.required_m, show=no_less)}",
-                    "verdict": verdict(near.verdict),
-                }
+                {"text": _without_clearance(near, fmt), "verdict": verdict(near.verdict)}
                 for near in missing
             ),
         ],
@@ -128,6 +123,14 @@ def _sheet_px(room_px: int) -> tuple[int, int]:
     # In steps: while a window is resized the page keeps its sheet.
     steps = max(room_px - _LEAST_PX, 0) // _STEP_PX
     return _LEAST_PX + steps * _STEP_PX, _LEAST_PX + (steps + 1) * _STEP_PX
+
+
+def _without_clearance(near: PlanNeighbor, fmt: UnitFormat) -> str:
+    """Return a pair of the plan in words that has no clearance."""
+    shows = shown_in_order(capacity(near.gap_m), demand(near.required_m))
+    values = near.gap_m, near.required_m
+    gap, required = (fmt.both(v, show=show) for v, show in zip(values, shows, strict=True))
+    return f"{near.array} to {near.other}: no clearance given, {gap} in plan, required {required}"
 
 
 def described(row: ClearanceResult, fmt: UnitFormat) -> str:

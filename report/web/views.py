@@ -22,7 +22,7 @@ from report.document.templates import sentence
 from report.drawing.sheet import unit_format
 from report.entities.shown import UnitFormat
 from report.text.counts import cut, ids_by, ranged
-from report.text.units import G_MPS2, Unit, number
+from report.text.units import G_MPS2, Unit, no_less, number
 from report.typeset.pdf import TEMPLATES
 from report.web.answers import finite
 from report.web.run_forces import Slip, run_forces, slips_of, with_jumps
@@ -191,8 +191,8 @@ def _orientation(motion: MotionRun, run: OrientedRun) -> str:
     return run.orientation.name if motion.motion.has_transverse else run.orientation.name[-1]
 
 
-def _prd(prd_m: float, said: Callable[[float], str]) -> str:
-    return "no PRD" if math.isnan(prd_m) else f"PRD {said(prd_m)}"
+def _prd(prd_m: float, said: Callable[..., str]) -> str:
+    return "no PRD" if math.isnan(prd_m) else f"PRD {said(prd_m, show=no_less)}"
 
 
 def _roof(scene: Scene) -> tuple[Record, ...]:
@@ -305,7 +305,8 @@ def _contour_texts(contours: ResponseSurface, here_m: float, fmt: UnitFormat) ->
     return {
         "title": f"Mean PRD of {runs} motion{'s' if runs > 1 else ''} over friction and slope, "
         f"array {array.id}",
-        "here": f"{array.id}: {'' if math.isnan(here_m) else 'mean PRD '}{fmt.both(here_m)}",
+        "here": f"{array.id}: {'' if math.isnan(here_m) else 'mean PRD '}"
+        f"{fmt.both(here_m, show=no_less)}",
         "notes": notes,
     }
 

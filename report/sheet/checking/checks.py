@@ -26,7 +26,7 @@ from report.sheet.schema.project import (
 from report.sheet.schema.scene import slope_rad
 from report.sheet.schema.shapes import Rectangle, Shape, gap_m
 from report.text.counts import cut, foreign_letters, looks
-from report.text.units import Quantity, pair
+from report.text.units import Quantity, no_more, pair
 from solver.model import INCH_M
 from solver.rules import hazard
 from solver.rules.hazard import LEAST_I_E, Edition, HazardBasis
@@ -159,7 +159,9 @@ def _room(
         return
     boxes = isinstance(a, Rectangle) and isinstance(b, Rectangle)
     noun = "rectangles" if boxes else "outlines"
-    stated, most = (pair(max(m, 0.0), Quantity.SIZE, us_first(draft)) for m in (provided, gap))
+    stated, most = (
+        pair(max(m, 0.0), Quantity.SIZE, us_first(draft), no_more) for m in (provided, gap)
+    )
     at, text = places_of(draft, (str(array), str(other)), where), f"provided clearance is {stated}"
     if gap < -1e-9:
         text += f", but {array} and {other} overlap in plan"

@@ -18,7 +18,13 @@ from report.sheet.schema.project import Site
 from report.sheet.schema.scene import Array, Clearance
 from report.sheet.schema.shapes import Shape, closest, gap_m
 from report.text.counts import counted, numbered
-from report.text.units import LENGTHS, PRESSURES, Quantity, pair
+from report.text.units import (
+    LENGTHS,
+    PRESSURES,
+    Quantity,
+    no_more,
+    pair,
+)
 from solver.rules.provisions import OVERRIDABLE
 from solver.rules.rulesets import usual
 from solver.rules.site_coefficients import F_A, F_V, site_coefficient
@@ -243,7 +249,7 @@ def _provided(data: ProjectInput, short: Mapping[int, float]) -> Iterator[Findin
         for index in rows:
             row, place = data.clearances[index], Place("clearances", index, "provided_m")
             stated, plan = (
-                pair(value, Quantity.SIZE, us_first) for value in (row.provided_m, short[index])
+                pair(m, Quantity.SIZE, us_first, no_more) for m in (row.provided_m, short[index])
             )
             text = f"provided clearance is {stated}, but {row.array} and {row.object} are {plan}"
             text += " apart in plan; correct it or the plan"

@@ -283,7 +283,7 @@ def test_a_short_gap_without_a_row_is_ng_in_the_drawing_the_picture_and_on_the_p
     missing = gaps[-1]
     assert missing.provided_m == pytest.approx(0.3048)  # from x = 100 to 101 ft
     assert missing.required_m == unlisted.arrays[0].design_m
-    gap = "no clearance given: 12.0 in (305 mm) in plan, required 40.8 in (1036 mm), NG"
+    gap = "no clearance given: 12.0 in (304 mm) in plan, required 40.8 in (1036 mm), NG"
     words = f"A1 to RTU-9: {gap}"
     assert [t.layer for t in plan_drawing(unlisted).texts if t.words == words] == [
         Layer.CLEARANCE_NG

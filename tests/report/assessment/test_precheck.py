@@ -1,6 +1,7 @@
 """What `check` says without a run is what the report finds, at the cells to fill in."""
 
 import datetime as dt
+from dataclasses import replace
 
 import pytest
 
@@ -9,8 +10,9 @@ import scenes
 import sheets
 import stand_in
 from commands import printed
-from report.assessment.precheck import limits_before_runs
+from report.assessment.precheck import limits_before_runs, shaking_acceptance
 from report.assessment.routes import Route
+from report.motions.history import targets
 from report.sheet.schema.fields import Level, Place
 from report.sheet.schema.scene import SIDES
 
@@ -192,3 +194,27 @@ def test_cells_of_a_drift_and_of_several_values_are_printed(tmp_path):
     line = next(line for line in printed("check", path).splitlines() if "basis of the se" in line)
     cells = f"{sheets.at('Site/S_1')}, {sheets.at('Site/S_D1')}"
     assert line.startswith(f"warning: {cells}: basis of the seismic design category: S_1 and S_D1")
+
+
+def scaled(factor):
+    return tuple(replace(motion, scale=factor * motion.scale) for motion in SEVEN)
+
+
+def spectral(motions):
+    # A slope that only analysis permits: what the motions miss is NG.
+    return [f.text for f in findings(stand_in.steep(), motions) if "target" in f.text]
+
+
+def test_a_factor_is_advised_where_one_reaches_the_target_and_then_it_does():
+    book = stand_in.book(stand_in.project(), SEVEN)
+    rows = shaking_acceptance(book.shaking, targets(book.sheet.project)).rows
+    just = max(row.limit / row.found for row in rows if row.is_ratio_to_target)
+    assert spectral(scaled(1.001 * just)) == []
+    text = next(text for text in spectral(scaled(0.7 * just)) if "times their factors" in text)
+    assert "set Scaling to factor on the sheet Motions, and the factors M1 to M7 " in text
+    factor = float(text.partition(" M1 to M7 ")[2].split()[0].rstrip("."))
+    assert just <= factor < 1.2 * just
+    assert spectral(scaled(factor)) == []
+    texts = spectral(scaled(0.3 * just))  # of another intensity than the target
+    assert texts
+    assert not any("times their factors" in text for text in texts)

@@ -52,7 +52,7 @@ def test_arrays_closer_than_a_lane_by_their_shapes_are_one():
     assert found["A1"].places[0] == Place("arrays", 0, "x_from_m")
     # Through a neighbor, in any order.
     found = rows((0, 60), (126, 186), (63, 123))
-    assert {row.found for row in found.values()} == {"A1 to A3 together: 186.00 ft (56.70 m)"}
+    assert {row.found for row in found.values()} == {"A1 to A3 together: 186.00 ft (56.69 m)"}
     # A ring of an outline around another array is one with it only where it is near.
     ring = [(0, 0), (140, 0), (140, 140), (130, 140), (130, 10), (10, 10), (10, 140), (0, 140)]
     outlines = [{"name": "A1", "x_m": x * FOOT, "y_m": y * FOOT} for x, y in ring]

@@ -149,7 +149,7 @@ def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_cl
     assert said.count("A1: design displacement: not permitted") == 1
     assert sum("keep clear" in words for words in said) == 1  # of A2
     (first, *_) = [words for words in said if words.startswith("1: ")]
-    assert first == "1: A1 to RTU-1: provided 84.0 in (2134 mm), required no value, no verdict"
+    assert first == "1: A1 to RTU-1: provided 84.0 in (2133 mm), required no value, no verdict"
     layers = {gap.name: gap.layer for gap in plan.dimensions}
     assert layers == {
         "A1 to RTU-1": Layer.CLEARANCE_NONE,

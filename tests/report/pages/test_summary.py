@@ -224,7 +224,7 @@ def test_the_smallest_margin_is_of_a_satisfied_clearance_and_a_drift_over_its_li
     first = replace(book.shaking.prepared[0], measures={"horizontal": drifting})
     rows = project_rows(book.sheet.project, [first])
     (row,) = [row for row in rows if row.id == "drift"]
-    numbers = [float(re.search(r"\((\d+) mm\)", text)[1]) for text in (row.found, row.limit)]
+    numbers = [float(re.search(r"\(([\d.]+) mm\)", text)[1]) for text in (row.found, row.limit)]
     assert numbers[0] > numbers[1]
 
 

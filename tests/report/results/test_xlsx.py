@@ -117,17 +117,20 @@ def test_the_effect_of_links_follows_from_their_runs():
     wanted = (("A1", first.estimated_m, "NG"), ("A3", second.design.design_m, "OK"))
     for n, (name, linked_m, result) in enumerate(wanted, start=1):
         row = f"Links/{n}"
-        linked = cell(values, f"{row}/Design with links").value
+        linked = cell(values, f"{row}/Design with links, unrounded").value
         assert linked == pytest.approx(linked_m / 0.0254)
         assert valued(values, row, "Array", "Verdict") == [name, result]
-        ratio, used = valued(formulas, row, "Ratio", "Design used")
-        assert ratio == f"={of(formulas, f'{row}/Row')}/{of(formulas, f'{row}/Rigid')}"
-        assert used == f"={address(formulas, f'Design/{name}/Design [in]')}"
+        ratio, used = valued(formulas, row, "Ratio, unrounded", "Design used, unrounded")
+        assert (
+            ratio
+            == f"={of(formulas, f'{row}/Row, unrounded')}/{of(formulas, f'{row}/Rigid, unrounded')}"
+        )
+        assert used == f"={address(formulas, f'Design/{name}/Design, unrounded')}"
 
 
 def test_values_runs_and_clearances_are_live_and_listed(usual):
     formulas, values = usual
-    name = "Design/A1/Prescriptive"
+    name = "Design/A1/Prescriptive, unrounded"
     s_ds, factor, i_e, minimum = (
         of(formulas, f"Design/A1/{head}")
         for head in ("S_DS", "Factor", "I_e in displacement", "Minimum")
@@ -136,9 +139,10 @@ def test_values_runs_and_clearances_are_live_and_listed(usual):
     assert cell(values, name).value == pytest.approx(81.573, abs=5e-4)
     gap = scenes.usual().clearances[3]
     assert cell(values, f"Clearances/4/{GOVERNING}").value == "A3, any"
-    source = cell(formulas, "Clearances/4/Design").value
-    assert source.replace("$", "") == f"={address(formulas, 'Design/A3/Design [in]')}"
-    assert cell(values, "Design/A3/Design [in]").value == pytest.approx(gap.design_m / 0.0254)
+    source = cell(formulas, "Clearances/4/Design, unrounded").value
+    assert source.replace("$", "") == f"={address(formulas, 'Design/A3/Design, unrounded')}"
+    design = cell(values, "Design/A3/Design, unrounded").value
+    assert design == pytest.approx(gap.design_m / 0.0254)
     rows = rows_of(usual[1]["Runs"])
     assert len(rows) == 3 * 7 * 4
     assert sum(row["Governs"] == "yes" for row in rows) == 3 * 7
@@ -168,14 +172,17 @@ def test_a_clearance_follows_from_the_runs_through_its_direction():
     assert (gap.governing_array, gap.governing_direction) == ("A3", Direction.UP)
     assert cell(values, f"Clearances/4/{GOVERNING}").value == "A3, up"
     own = "Directions/10"  # the third array's second
-    source = cell(formulas, "Clearances/4/Design").value
-    assert source.replace("$", "") == f"={address(formulas, f'{own}/In this direction')}"
+    source = cell(formulas, "Clearances/4/Design, unrounded").value
+    own_design = address(formulas, f"{own}/In this direction, unrounded")
+    assert source.replace("$", "") == f"={own_design}"
     assert valued(values, own, "Array", "Direction") == ["A3", "up"]
-    design = cell(values, f"{own}/In this direction").value
+    design = cell(values, f"{own}/In this direction, unrounded").value
     assert design == pytest.approx(gap.design_m / 0.0254)
-    first, last = (of(formulas, f"Peaks/{n}/Upslope") for n in (15, 21))  # of the third array
-    assert cell(formulas, f"{own}/Mean of peaks").value == f"=AVERAGE(Peaks!{first}:{last})"
-    assert cell(formulas, "Peaks/15/Upslope").value.startswith("=MAX(Runs!")
+    upslope = "Upslope, unrounded"
+    first, last = (of(formulas, f"Peaks/{n}/{upslope}") for n in (15, 21))  # of the third array
+    mean = cell(formulas, f"{own}/Mean of peaks, unrounded").value
+    assert mean == f"=AVERAGE(Peaks!{first}:{last})"
+    assert cell(formulas, f"Peaks/15/{upslope}").value.startswith("=MAX(Runs!")
 
 
 def test_without_a_value_or_a_route_the_workbook_has_no_verdict():
@@ -253,8 +260,9 @@ def test_a_column_is_one_field_with_its_heading_unit_digits_and_formula():
         write_live(Pages(workbook), WiderRow, [row], "Peaks", "")
     formulas, values = opened(content.getvalue())
     head = next(line for line in values["Peaks"].iter_rows(values_only=True) if "Motion" in line)
-    assert head[-3:] == ("Any direction [in]", "Twice [in]", "Note")
+    assert head[5:8] == ("Any direction [in]", "Twice [in]", "Note")
+    assert head[-1] == "Any direction, unrounded [in]"
     twice, name = (cell(formulas, f"Peaks/1/{heading}") for heading in ("Twice", "Note"))
-    assert twice.value == f"=2*{of(formulas, 'Peaks/1/Any direction')}"
+    assert twice.value == f"=2*{of(formulas, 'Peaks/1/Any direction, unrounded')}"
     assert (twice.number_format, name.value, name.data_type) == ("0.0", "=1", "s")
     assert cell(values, "Peaks/1/Twice").value == pytest.approx(20.0)

@@ -4,6 +4,7 @@ import csv
 import io
 import math
 import sys
+from functools import partial
 from pathlib import Path, PureWindowsPath
 
 import numba
@@ -13,9 +14,18 @@ from hypothesis import strategies as st
 
 import tables
 from report.text import units
+from report.text.amounts import (
+    capacity,
+    compared_pairs,
+    demand,
+    entered,
+    limit_texts,
+    shown_in_order,
+)
 from report.text.counts import Names, capitalized, counted, named, quoted, ranged, spelled, trimmed
 from report.text.formats import NOT_VALIDATED, csv_text, explained, validation
-from report.text.units import Quantity, beside, digits_down, digits_up, measured, no_less, number
+from report.text.units import Quantity, digits_down, digits_up, measured, no_less, no_more
+from solver.rules.limit import Limit, Measure
 from solver.verification.shake_table import compare, table_tests
 
 pytestmark = pytest.mark.quick
@@ -162,32 +172,86 @@ LENGTHS_M = st.floats(0.01, 20.0)
 @example(36.04 * 0.0254, 35.96 * 0.0254)
 @example(1.0361, 1.0359)
 @example(0.9153, 0.9154)
-def test_a_required_value_is_rounded_up_and_a_provided_one_shows_the_order(required_m, provided_m):
-    assume(abs(required_m - provided_m) > 1e-8)
-    ok = required_m <= provided_m
+@example(1.2192, 1.2192)
+@example(1.2, 1.2)
+def test_what_is_required_is_rounded_up_what_is_provided_down_and_their_order_shows(
+    required_m, provided_m
+):
+    assume(required_m == provided_m or abs(required_m - provided_m) > 1e-7)
+    shows = shown_in_order(capacity(provided_m), demand(required_m))
     for unit in Quantity.DISPLACEMENT.value:
-        required = float(no_less(required_m, unit))
-        provided = float(beside(required_m, provided_m)(provided_m, unit))
-        assert (required <= provided) is ok
-        assert required >= required_m / unit.si - 1e-5
-        for printed, value_m in ((required, required_m), (provided, provided_m)):
-            assert printed == pytest.approx(value_m / unit.si, abs=1.001 * 10.0**-unit.decimals)
+        provided, required = (float(show(math.nan, unit)) for show in shows)
+        assert (required <= provided) is (required_m <= provided_m)
+        # Equal values that have no end in a unit, such as 1200 mm in inches, have one digit more.
+        slack = (0.051 if required_m == provided_m else 1e-4) * 10.0**-unit.decimals
+        assert required >= required_m / unit.si - slack
+        assert provided <= provided_m / unit.si + slack
+        digit = 1.001 * 10.0**-unit.decimals
+        assert required == pytest.approx(required_m / unit.si, abs=digit)
+        assert provided == pytest.approx(provided_m / unit.si, abs=digit)
 
 
-def test_provided_values_and_rounding_up_keep_what_is_exact_zero_and_no_value():
-    _, mm = Quantity.SIZE.value
-    for required_m, shown in ((0.5486, "305"), (0.2, "305"), (0.3049, "304"), (math.nan, "305")):
-        assert beside(required_m, 12.0 * 0.0254)(12.0 * 0.0254, mm) == shown
-    pairs = units.compared_pairs(0.3041, 0.3042, Quantity.SIZE, us_first=False)
-    assert pairs == ("305 mm (12.0 in)", "305 mm (12.0 in)")
+SIZE, PRESSURE, PSF = Quantity.SIZE, Quantity.PRESSURE, 47.880258980335
+
+
+@pytest.mark.parametrize(
+    ("found", "limit", "quantity", "is_at_least", "texts"),
+    [
+        (capacity(0.3048), demand(0.3041), SIZE, True,
+         ("12.0 in (304.8 mm)", "12.0 in (304.1 mm)")),
+        (entered(8.76 * PSF), capacity(8.76 * PSF), PRESSURE, False,
+         ("8.76 psf (0.419 kPa)", "8.76 psf (0.419 kPa)")),
+        (capacity(1.2192), demand(1.2192), SIZE, True,
+         ("48.0 in (1219.2 mm)", "48.0 in (1219.2 mm)")),
+        (capacity(1.2), demand(1.2), SIZE, True, ("47.24 in (1200 mm)", "47.24 in (1200 mm)")),
+        (capacity(1.8288), demand(1.2192), SIZE, True, ("72.0 in (1828 mm)", "48.0 in (1220 mm)")),
+        (capacity(math.nan), demand(1.2192), SIZE, True, ("— in (— mm)", "48.0 in (1220 mm)")),
+        (entered(3.7 * PSF), entered(3.8 * PSF), PRESSURE, True,
+         ("3.7 psf (0.177 kPa)", "3.8 psf (0.182 kPa)")),
+        (entered(6.24 * PSF), capacity(6.2 * PSF), PRESSURE, False,
+         ("6.24 psf (0.30 kPa)", "6.20 psf (0.29 kPa)")),
+        (demand(0.0104), capacity(0.01), Quantity.DRIFT, False,
+         ("0.41 in (10.4 mm)", "0.39 in (10.0 mm)")),
+    ],
+)  # fmt: skip
+def test_more_digits_are_printed_where_the_usual_ones_would_not_show_the_order(
+    found, limit, quantity, is_at_least, texts
+):
+    assert compared_pairs(found, limit, quantity, us_first=True, is_at_least=is_at_least) == texts
+
+
+def a_limit(found, limit, measure=Measure.PLAIN, *, is_at_least=False, key=""):
+    check = Limit(
+        title="", found=found, limit=limit, measure=measure, is_at_least=is_at_least, key=key
+    )
+    return limit_texts(check, us_first=True)
+
+
+def test_a_limit_is_rounded_to_the_safe_side_and_what_is_computed_to_the_other():
+    angle = partial(a_limit, measure=Measure.ANGLE_DEG, key="analysis_max_slope_deg")
+    assert angle(3.0, 7.0) == ("3.00° (5.2 %)", "7.00° (12.2 %)")
+    assert angle(7.004, 7.0) == ("7.004° (12.3 %)", "7.000° (12.2 %)")
+    assert angle(7.0, 7.0) == ("7.00° (12.278 %)", "7.00° (12.278 %)")
+    assert angle(7.00001, 7.0) == ("7.01° (12.3 %)", "7.00° (12.2 %)")
+    assert a_limit(0.3001, 0.3) == ("0.31", "0.30")
+    assert a_limit(0.8999, 0.9, is_at_least=True) == ("0.89", "0.90")
+    assert a_limit(0.399, 0.4, is_at_least=True, key="prescriptive_min_mu") == ("0.399", "0.400")
+    assert a_limit(5, 7, Measure.COUNT, is_at_least=True) == ("5", "7")
+    assert a_limit(19.96, 20.0, Measure.TIME_S, is_at_least=True) == ("19.9 s", "20.0 s")
+    length = a_limit(0.9143, 0.9144, Measure.LENGTH_M, key="low_profile_in")
+    assert length == ("36.0 in (914 mm)", "36.0 in (914 mm)")
+
+
+def test_rounding_up_and_down_keep_what_is_exact_zero_and_no_value():
     inch, mm = Quantity.SIZE.value
     assert no_less(1.00001, mm) == "1001"
+    assert no_more(1.00099, mm) == "1000"
     assert no_less(40.8001 * 0.0254, inch) == "40.9"
     for tenths in range(1, 2000):
         length_m, text = tenths / 10 * 0.0254, f"{tenths / 10:.1f}"
-        assert no_less(length_m, inch) == number(units.round_down(length_m / inch.si, 1), 1) == text
+        assert no_less(length_m, inch) == no_more(length_m, inch) == text
     assert digits_up(0.0, 2) == digits_down(0.0, 2) == "0"
-    for show in (measured, no_less):
+    for show in (measured, no_less, no_more):
         assert show(math.nan, Quantity.SIZE.si) == "—"
         assert show(math.inf, Quantity.SIZE.si) == "∞"
     assert math.isnan(units.round_down(math.nan, 1))

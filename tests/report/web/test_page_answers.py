@@ -83,7 +83,7 @@ def test_many_short_clearances_are_one_cause_with_its_parts(assessed, monkeypatc
     monkeypatch.setattr(answers, "MOST_SHORT", 0)
     grouped = answer(assessed, is_provisional=False)["reasons"]
     (cause,) = (reason for reason in grouped if "parts" in reason)
-    assert cause["text"].endswith("; worst A1 to A2, 0.4 in")
+    assert cause["text"].endswith("; worst A1 to A2, 0.3 in")
     assert cause["text"].startswith("1 clearances under ")
     assert [reason["text"] for reason in single["reasons"]] == [
         text for reason in grouped for text in reason.get("parts", [reason["text"]])

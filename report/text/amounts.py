@@ -1,0 +1,119 @@
+"""Amounts: what is found beside what is required of it, rounded as they are everywhere.
+
+What is required and a demand are rounded up, what is provided and a capacity down. Read `Amount`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from report.text.units import Quantity, Rounding, Show, Unit, pair
+from solver.rules.limit import Limit, Measure, at_least
+
+# Decimals beyond those of a unit that are tried to show the order of two values.
+_MOST_MORE = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Amount:
+    """A value in SI, and how it is rounded."""
+
+    value: float
+    rounding: Rounding
+
+    def text(self, size: float, decimals: int) -> str:
+        """Return it in a unit of a size, for print."""
+        return self.rounding.text(self.value / size, decimals)
+
+
+def entered(value: float) -> Amount:
+    """Return what is entered or measured."""
+    return Amount(value, Rounding.NEAREST)
+
+
+def demand(value: float) -> Amount:
+    """Return what is required, or a demand."""
+    return Amount(value, Rounding.UP)
+
+
+def capacity(value: float) -> Amount:
+    """Return what is provided, or a capacity."""
+    return Amount(value, Rounding.DOWN)
+
+
+def in_order(
+    found: Amount, limit: Amount, decimals: int, *, is_at_least: bool, size: float = 1.0
+) -> tuple[str, str]:
+    """Return a value found and its limit for print, in the order in which they are.
+
+    Two that are near each other have more digits: what is not met never reads as met, nor the
+    reverse.
+    """
+    is_met = _is_met(found.value, limit.value, is_at_least=is_at_least)
+    ways = [((found, limit), decimals + more) for more in range(_MOST_MORE + 1)]
+    safe, other = (demand, capacity) if is_at_least else (capacity, demand)
+    # At the last, rounded so that it shows, whatever the digits: equal values alike.
+    as_they_are = (entered(found.value), entered(limit.value)), decimals + 1
+    apart = (other(found.value), safe(limit.value)), decimals
+    for both, digits in (*ways, as_they_are if is_met else apart):
+        rounded = (amount.rounding.of(amount.value / size, digits) for amount in both)
+        if _is_met(*rounded, is_at_least=is_at_least) is is_met:
+            break
+    first, second = (amount.text(size, digits) for amount in both)
+    return first, second
+
+
+def _is_met(found: float, limit: float, *, is_at_least: bool) -> bool:
+    return at_least(found, limit) if is_at_least else at_least(limit, found)
+
+
+def shown_in_order(found: Amount, limit: Amount, *, is_at_least: bool = True) -> tuple[Show, Show]:
+    """Return how a value found and its limit are shown beside each other, in any unit."""
+
+    def texts(unit: Unit) -> tuple[str, str]:
+        return in_order(found, limit, unit.decimals, is_at_least=is_at_least, size=unit.si)
+
+    def show_found(_: float, unit: Unit) -> str:
+        return texts(unit)[0]
+
+    def show_limit(_: float, unit: Unit) -> str:
+        return texts(unit)[1]
+
+    return show_found, show_limit
+
+
+def compared_pairs(
+    found: Amount, limit: Amount, quantity: Quantity, us_first: bool, *, is_at_least: bool = True
+) -> tuple[str, str]:
+    """Return a value found and its limit in both systems, in the order in which they are."""
+    shows = shown_in_order(found, limit, is_at_least=is_at_least)
+    first, second = (pair(math.nan, quantity, us_first, show) for show in shows)
+    return first, second
+
+
+_DECIMALS = {Measure.COUNT: 0, Measure.TIME_S: 1, Measure.PLAIN: 2}
+
+
+def limit_texts(check: Limit, us_first: bool) -> tuple[str, str]:
+    """Return what a limit finds and the limit, with the units of its measure."""
+    is_at_least = check.is_at_least
+    found, limit = entered(check.found), (demand if is_at_least else capacity)(check.limit)
+    # A limit of the rule set looks at what was entered, one on the motions at what is computed.
+    if not check.key:
+        found = (capacity if is_at_least else demand)(check.found)
+    if check.measure is Measure.LENGTH_M:
+        return compared_pairs(found, limit, Quantity.SIZE, us_first, is_at_least=is_at_least)
+    if check.measure is Measure.ANGLE_DEG:
+        degrees = in_order(found, limit, 2, is_at_least=is_at_least)
+        slope, most = (
+            replace(each, value=100.0 * math.tan(math.radians(each.value)))
+            for each in (found, limit)
+        )
+        percents = in_order(slope, most, 1, is_at_least=is_at_least)
+        first, second = (f"{a}° ({b} %)" for a, b in zip(degrees, percents, strict=True))
+        return first, second
+    decimals = _DECIMALS[check.measure] + bool(check.key and check.measure is Measure.PLAIN)
+    texts = in_order(found, limit, decimals, is_at_least=is_at_least)
+    first, second = (f"{text} {check.measure.unit}".rstrip() for text in texts)
+    return first, second
