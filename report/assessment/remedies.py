@@ -44,6 +44,7 @@ from solver.friction_tests import MOST_MU
 
 _NOISE_M = 1e-8  # a length that is rounded up is no less than what it is rounded from
 _MOST_HUNDREDTHS = round(100.0 * MOST_MU)
+_NORTH_UP_DEG = 90.0  # counterclockwise from +x
 _MOST_TRIES = 10  # of the length of a move: more only where it goes past the other shape
 
 
@@ -70,13 +71,21 @@ def moves(
             continue
         done = entered(assessment, _moved(data, shapes, array, by))
         if done is not None and done.clearances[number - 1].ok and _failed(done) <= before:
-            toward = compass(math.degrees(math.atan2(dy, dx)), data.roof.north_deg)
+            toward = _toward(dx, dy, data.roof.north_deg)
             length = pair(length_m - _NOISE_M, Quantity.SIZE, data.us_first, no_less)
             return done, f"{array.id} moved {length} {toward}"
     return None, (
         f"{more} more is needed, and no move of one array along an axis of the plan gives it and "
         "leaves all else sufficient"
     )
+
+
+def _toward(dx: float, dy: float, north_deg: float) -> str:
+    """Return a direction along an axis of the plan in words, by the compass where north is up."""
+    if north_deg == _NORTH_UP_DEG:
+        return compass(math.degrees(math.atan2(dy, dx)), north_deg)
+    axis, along = ("x", dx) if dx else ("y", dy)
+    return f"toward {'−' if along < 0.0 else '+'}{axis} of the plan"
 
 
 def _has_room(assessment: Assessment, array: Array, moved: Shape) -> bool:

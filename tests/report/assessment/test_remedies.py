@@ -212,6 +212,12 @@ def test_an_array_is_moved_where_the_plan_has_room_and_everything_is_checked_aga
     assert outcome(done).words(us_first=True) == words
 
 
+@pytest.mark.quick
+def test_where_north_is_turned_a_move_is_along_an_axis_of_the_plan():
+    (found,) = of_kind(beside(roof={"north_deg": 60.0}), RemedyKind.SEPARATION)
+    assert found.basis.endswith(") toward −x of the plan")
+
+
 def test_no_move_makes_something_else_ng_or_leaves_the_roof():
     west = unit(18.0, "RTU-2", width=1.0)  # a foot from the other side of the array
     north = unit(20.0, "RTU-3", width=60.0) | {"y_from_m": 76 * FOOT, "y_to_m": 80 * FOOT}
