@@ -27,6 +27,7 @@ from report.sheet.schema import SECTIONS
 from report.sheet.schema.fields import Entry, Frozen, Place, SheetSection, YesNo, entries
 from report.text.counts import UNPRINTABLE, cut
 from report.text.formats import finite
+from report.text.units import in_us_order
 from report.typeset.letters import named, undrawable
 from solver.files import read_file
 from solver.model import InputError
@@ -333,10 +334,12 @@ def _rows(
     kind: ChangeKind, before: Iterable[_Row], now: Iterable[_Row], title: str, text: str
 ) -> Iterator[Change]:
     """Yield the rows whose text changed, by title; both are of a `row` in braces."""
-    pairs = _paired(before, now, lambda row: (title.format(row=row).removeprefix(", "),))
+    pairs = _paired(before, now, lambda row: (in_us_order(title.format(row=row)),))
     for (name, _), pair in pairs.items():
-        shown = (text.format(row=row) if row else NOT_THERE for row in pair)
-        yield from _one(kind, name, *shown)
+        first, second = (text.format(row=row) if row else NOT_THERE for row in pair)
+        # With other primary units a text says the same in another order.
+        if in_us_order(first) != in_us_order(second):
+            yield from _one(kind, name.removeprefix(", "), first, second)
 
 
 def _differing(row: Entity | None, old: Entity | None) -> Iterator[tuple[str, Told]]:

@@ -150,6 +150,12 @@ def test_rows_records_and_digits_that_differ_are_named(assessment, document):
     assert item.now == f"{design:.7g} m"
 
 
+def test_other_primary_units_are_one_change(assessment, document):
+    head = parts_of.HEAD | {"units_first": "SI"}
+    (found,) = changes(former(document), made(project=head)).items
+    assert (found.title, found.before, found.now) == ("Primary units", "US", "SI")
+
+
 def test_a_record_with_another_hash_the_rule_set_and_the_version_are_found(assessment, document):
     document["records"][0]["sha256"] = "00" * 32
     document["rule_set"] = "another"
