@@ -149,7 +149,8 @@ def cases(assessment: Assessment, variations: Variations) -> Iterator[InputCase]
     for case in filter(None, (*by_velocity, building_case(assessment, variations))):
         now = by_id(assessment.arrays, case.array.id)
         most_m = case.array.prescriptive.value_m
-        is_short = any(gap.ok for gap in assessment.gaps_of(now.id)) and case.short
+        is_short = bool(case.short) and any(gap.ok for gap in assessment.gaps_of(now.id))
+        is_short = is_short or (case.array.lacks_slack and not now.lacks_slack)
         if is_short or now.design_m <= most_m < nan_is_worst(case.array.design_m):
             yield case
 

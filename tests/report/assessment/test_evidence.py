@@ -179,6 +179,15 @@ def alone_m():
     return assessed(9.0, arrays=[stand_in.array("A1", 2.0, mu=0.20)]).arrays[0].design_m
 
 
+def test_the_low_velocity_coefficient_is_a_case_where_the_slack_is_then_too_short(alone_m):
+    def by_velocity_with(slack_m):
+        return support(assessed(9.0, arrays=[stand_in.array("A1", 2.0, slack_m=slack_m, **LAW)]))
+
+    (case,) = by_velocity_with(0.99 * alone_m).cases
+    assert case.words(us_first=True).endswith(", NG: electrical slack too short.")
+    assert by_velocity_with(1.01 * alone_m).cases == ()
+
+
 @pytest.mark.quick
 def test_the_low_velocity_coefficient_is_a_case_only_where_it_changes_something(alone_m):
     done = by_velocity(0.99 * alone_m)
