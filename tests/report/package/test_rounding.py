@@ -40,7 +40,7 @@ SHEETS = (
 )  # fmt: skip
 
 
-OF_RUNS = ("comparison", "results", "accuracy")
+OF_RUNS = ("comparison", "model", "results", "accuracy")
 
 
 def number(value, decimals, way):
@@ -91,12 +91,18 @@ def amounts(done):
         values = item.permitted_m, analysis.value_m, given.value_m, given.minimum_m, item.floor_m
         peaks = analysis.mean_m, analysis.largest_m, *(run.prd_m for run in item.runs)
         yield from ((value, size, "up") for value in (*values, *peaks))
+        for way in item.directions if item.runs else ():
+            of_way = item.directions[way]
+            values = item.design_toward_m(way), of_way.mean_m, of_way.largest_m, of_way.value_m
+            yield from ((value, size, "up") for value in values)
         yield item.interconnection_n, weight, "up"
         yield item.fastest_mps, velocity, "up"
         yield array.slack_m, size, "down"
         yield array.interconnection_n, weight, "down"
         yield array.weight_n, weight, "nearest"
         yield array.weight_pa, Quantity.PRESSURE, "nearest"
+    for key in ("parapet_height_in", "parapet_over_cg_in"):
+        yield done.rules.length_m(key), size, "up"
     for gap in done.clearances:
         yield gap.required_m, size, "up"
         yield gap.clearance.provided_m, size, "down"
