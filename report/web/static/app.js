@@ -2,11 +2,11 @@
 
 import { createApi, reload } from "./api.js";
 import { changes, fromFragment, isSame, toFragment } from "./changes.js";
+import { named, showErrors, showSteps, warnings } from "./heading.js";
 import { button, html, replace } from "./make.js";
 import { mountDrawing, mountMotions } from "./offers.js";
 import { mountTakeaway } from "./package.js";
 import { mountPlan } from "./plan.js";
-import { showProblems } from "./problems.js";
 import { mountCauses, showBars, showNoVerdict, showProvisional, showTable, showVerdict } from "./results.js";
 import { saveDrawing } from "./saving.js";
 import { createSession } from "./session.js";
@@ -16,15 +16,6 @@ import { createTurns } from "./turns.js";
 import { mountUpload } from "./upload.js";
 import { createViews } from "./views.js";
 
-const ALONE =
-  "The workbook came alone. Drop its folder on this page, or a zip of it, so that its records come with it. A cell below that names a record has no error of its own.";
-const CORRECT =
-  "Correct these cells in the workbook and save it. Then open its folder, or a zip of it: records are found by their path from the workbook.";
-const NEXT = {
-  arrays: "Next: plan. List the arrays on the sheet Arrays, or drop a drawing (DXF) beside the workbook: they are read from it.",
-  motions: "Next: motions. List your own on the sheet Motions, or let the page make them for this site.",
-  clearances: "Next: clearances. Pairs within reach have none; add them at their distances in plan, then confirm these.",
-};
 const FORMER = "The values below are those before the change.";
 
 const part = (id) => document.getElementById(id);
@@ -146,7 +137,7 @@ function open(next, valuesOf) {
   offerDrawing(dropped, dropped && next.drawing);
   showSteps(next);
   if (next.problems.length > 0) {
-    showErrors(next);
+    showErrors(next, state);
     return;
   }
   state = next;
@@ -182,25 +173,6 @@ function address(values) {
   return `/p/${state.project.id}/${fragment && `#${fragment}`}`;
 }
 
-// What a workbook lacks before it has a verdict, in the order in which the page can give it.
-function showSteps({ lacks: [step] }) {
-  part("steps").hidden = !step;
-  part("next-step").textContent = NEXT[step] ?? "";
-  part("add-clearances").hidden = step !== "clearances";
-  for (const name of Object.keys(NEXT)) part(`step-${name}`).ariaCurrent = name === step ? "step" : null;
-}
-
-// A workbook with errors is not opened: what was open stays so.
-function showErrors({ problems, is_alone: isAlone, lacks }) {
-  const isLost = isAlone && !lacks.includes("motions") && problems.some(({ cell }) => cell); // a workbook, but no records
-  showProblems(part("problems"), problems, isLost ? "The records were not sent" : "Errors in the workbook", isLost ? ALONE : CORRECT);
-  part("back").hidden = !state;
-  if (state) part("back").textContent = `Back to ${state.project.name}`;
-  part("workspace").hidden = true;
-  part("welcome").hidden = true;
-  named("This workbook has errors");
-}
-
 function showProject() {
   onPlan = null;
   const { name, file, sha256, is_example: isExample } = state.project;
@@ -208,18 +180,6 @@ function showProject() {
   part("workspace").hidden = false;
   part("welcome").hidden = !isExample;
   named(name, file, html("span", { class: "screen-only", title: sha256 }, `, SHA-256 ${sha256.slice(0, 12)}`), html("span", { class: "print-only" }, `, SHA-256 ${sha256}`));
-}
-
-function named(name, ...file) {
-  part("project-name").textContent = name;
-  replace(part("project-file"), file);
-  document.title = `${name} – Roofslip`;
-}
-
-function warnings(all) {
-  if (all.length === 0) return null;
-  const lines = all.map((text) => html("li", {}, text));
-  return html("details", {}, html("summary", {}, `Warnings and notes: ${all.length}`), html("ul", {}, lines));
 }
 
 // Take values upon those of the workbook.

@@ -22,11 +22,11 @@ export function createSession(assess, show, fail) {
     const asked = version;
     const isWanted = () => (moving && isMoving) || (asked === version && !(moving && isFull));
     try {
-      const of = { ...values };
-      const answer = await assess(moving, of, whole);
+      const sent = values; // replaced, never written to
+      const answer = await assess(moving, sent, whole);
       if (!answer || !isWanted()) return;
       isFull = !moving;
-      show({ phase: moving ? provisional(isMoving) : "rest", answer, values: of });
+      show({ phase: moving ? provisional(isMoving) : "rest", answer, values: sent });
       if (answer.pending) await ask(false, true);
     } catch (error) {
       if (isWanted()) fail(error, moving);
@@ -70,8 +70,7 @@ export function createSession(assess, show, fail) {
       askMoving();
       timer = setTimeout(rest, REST_MS);
     },
-    /** The pointer let the slider go: it rests. */
-    release: () => isMoving && rest(),
+    release: () => isMoving && rest(), // the pointer let the slider go
     /** A choice was made: answer in full at once. */
     set(next) {
       changed(next, false);

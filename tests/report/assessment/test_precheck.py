@@ -123,9 +123,9 @@ def site(**changes):
 
 
 CASES = {
-    "S_1 and S_D1": (
+    "S_1 that decides on the design category": (
         site(s_1_g=None, f_v=None), "basis of the seismic design category",
-        [("site", 0, "s_1_g"), ("site", 0, "s_d1_g")]),
+        [("site", 0, "s_1_g")]),
     "report number of the hazard": (
         site(**HAZARD, hazard="site-specific analysis"),
         "report on the site-specific hazard analysis", [("site", 0, "hazard_report")]),
@@ -190,10 +190,10 @@ def test_cells_of_a_drift_and_of_several_values_are_printed(tmp_path):
     (tmp_path / "records" / "z.csv").write_text(drift)
     found = [line for line in printed("check", path).splitlines() if "M1, final displ" in line]
     assert [line.split(": ")[1] for line in found] == [sheets.at("Motions/M1/Vertical record")]
-    path = sheets.make(tmp_path, site=sheets.site(s_1_g=None))
-    line = next(line for line in printed("check", path).splitlines() if "basis of the se" in line)
-    cells = f"{sheets.at('Site/S_1')}, {sheets.at('Site/S_D1')}"
-    assert line.startswith(f"warning: {cells}: basis of the seismic design category: S_1 and S_D1")
+    path = sheets.make(tmp_path, site=sheets.site(hazard_source="Tool"))
+    line = next(line for line in printed("check", path).splitlines() if "date and printout" in line)
+    cells = f"{sheets.at('Site/Date of hazard')}, {sheets.at('Site/Hazard printout')}"
+    assert line.startswith(f"warning: {cells}: source, date and printout of the seismic parameters")
 
 
 def scaled(factor):
