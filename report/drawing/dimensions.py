@@ -240,7 +240,7 @@ def key_on_paper(plan: PlanSheet) -> Paper:
             y = frame.tall - (count + 0.5) * _ROW_IN
             _sample(key, look, centered(x + _SAMPLE_IN / 2, y, _SAMPLE_IN, 0.11))
             key.text(x + _SAMPLE_IN + 0.06, y - BASE_IN, _MEANINGS[look])
-        x += max(width_in(_MEANINGS[look]) for look in column) + _SAMPLE_IN + 0.18
+        x += max(width_in(_MEANINGS[look]) for look in column) + _SAMPLE_IN + 0.16
     return key
 
 

@@ -74,16 +74,23 @@ def _is_on_machine(letter: str) -> bool:
     return bool(fonts.stdout.strip())
 
 
-_PX = 144  # to an em: widths are rounded to pixels
+_PX = 144  # to an em
 
 
 @cache
 def width_em(text: str, *, is_bold: bool = False) -> float:
     """Return the width of a text in the font of a package, in its type size."""
-    font = _font("Semibold" if is_bold else "Regular")
-    font.set_text(text, 0.0)
-    wide: float = font.get_width_height()[0] / 64.0
-    return wide / _PX
+    # Letter by letter, without kerning: a report of 300 arrays measures thousands of texts, and
+    # laying each of them out took a fifth of its time.
+    weight = "Semibold" if is_bold else "Regular"
+    return sum(_advance_em(weight, letter) for letter in text)
+
+
+@cache
+def _advance_em(weight: str, letter: str) -> float:
+    """Return how far a letter moves the next one, in the type size."""
+    advance: float = _font(weight).load_char(ord(letter)).linearHoriAdvance
+    return advance / 65536.0 / _PX
 
 
 @cache
