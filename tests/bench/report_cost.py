@@ -8,6 +8,7 @@ and motions of the example, the motions in reverse, or one after the other where
 import gc
 import itertools
 import json
+import math
 import statistics
 import sys
 import tempfile
@@ -30,7 +31,8 @@ EXAMPLE = ROOT / "projects" / "example"
 REPEATS = 1 if SMOKE else 2
 COMPONENTS = ("record", "transverse", "vertical")
 # Arrays, motions, and the length of the motions as a multiple of 30 s.
-SIZES = ((3, 7, 1), (12, 14, 1), (3, 7, 4))[: 1 if SMOKE else None]
+SIZES = ((3, 7, 1), (12, 14, 1), (3, 7, 4), (100, 7, 1), (300, 7, 1), (1000, 7, 1))
+SIZES = SIZES[: 1 if SMOKE else None]
 
 
 def stages() -> Iterator[str]:
@@ -90,14 +92,15 @@ def make(folder: Path, arrays: int, motions: int, length: int) -> None:
             lines = (f"{k * record.dt_s:.4f},{a:.6f}\n" for k, a in enumerate(samples))
             (folder / "records" / name).write_text("time_s,acceleration_g\n" + "".join(lines))
     data = example.project().model_dump()
-    corners = [(60.0 * (k % 5), 60.0 * (k // 5)) for k in range(arrays)]
+    columns = max(5, math.ceil(math.sqrt(arrays)))
+    corners = [(60.0 * (k % columns), 60.0 * (k // columns)) for k in range(arrays)]
     data["arrays"] = [
         data["arrays"][k % 3]
         | {"id": f"A{k + 1}", "x_from_m": x, "x_to_m": x + 20.0, "y_from_m": y, "y_to_m": y + 20.0}
         for k, (x, y) in enumerate(corners)
     ]
     data |= {"objects": [], "clearances": []}
-    data["roof"] |= {"x_to_m": 300.0, "y_to_m": 300.0}
+    data["roof"] |= {"x_to_m": 60.0 * columns, "y_to_m": 60.0 * columns}
     given = data["motions"]
     backward = [row | {name: _back(row[name]) for name in COMPONENTS} for row in given]
     rows = [*given, *backward][:motions]

@@ -243,6 +243,24 @@ def test_a_label_is_not_farther_than_it_may_be(placer):
 
 
 @pytest.mark.quick
+def test_after_many_labels_without_room_the_next_are_sought_near_alone():
+    placer, shut, open_side = Placer(Frame(0.0, 0.0, 8.0, 4.0)), (2.0, 2.0), (6.0, 2.0)
+    for x, y in (open_side, shut):
+        for row in range(-10, 11):
+            placer.take_segment((x - 1.0, y + 0.1 * row), (x + 1.0, y + 0.1 * row))
+    for side in ((x, y + 1.1, 2.2, 0.01), (x, y - 1.1, 2.2, 0.01)):
+        placer.wall(centered(*side))
+    for side in ((x + 1.1, y, 0.01, 2.2), (x - 1.1, y, 0.01, 2.2)):
+        placer.wall(centered(*side))
+    assert placer.place(0.1, 0.1, open_side) is not None
+    assert [placer.place(0.1, 0.1, shut) for _ in range(20)] == [None] * 20
+    assert placer.place(0.1, 0.1, open_side) is None
+    assert placer.place(0.1, 0.1, open_side, may_cross=True) is not None
+    # The label above ended the row of those without room.
+    assert placer.place(0.1, 0.1, open_side) is not None
+
+
+@pytest.mark.quick
 def test_a_line_is_covered_only_where_there_is_no_other_room(placer):
     placer.avoid(centered(*NEAR, 0.1, 0.1))
     assert apart(placer.place(0.6, 0.3, NEAR), centered(*NEAR, 0.1, 0.1)) > 0.0
