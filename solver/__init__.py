@@ -12,6 +12,7 @@ Runs:
     solve               Solve a scene with the simplest adequate model.
     history             Return the motion of a solved scene at the samples, by the same model.
     sweep               Run all combinations of slope, friction coefficient and scale of a record.
+    sweep_all           Run all combinations for each of several records or motions.
     study               Run every slope, friction and intensity under every motion.
 
 What they take:

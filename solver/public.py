@@ -23,7 +23,7 @@ from solver.rivals.methods import METHODS, Method, Outcome
 from solver.rules.hazard import EDITIONS, RequiredSpectrum, ac156_horizontal, ac156_vertical
 from solver.sliding.checked import history, motion, scene, slide, slide_history, solve
 from solver.sliding.least_model import Model, Settings, Solution
-from solver.sliding.sweep import Sweep, sweep
+from solver.sliding.sweep import Sweep, sweep, sweep_all
 from solver.studies.study import StudyRuns, study
 from solver.synthesis.suite import SuiteMotion, make_suite
 
@@ -76,5 +76,6 @@ __all__ = [
     "spectrum",
     "study",
     "sweep",
+    "sweep_all",
     "write_record",
 ]

@@ -17,15 +17,7 @@ import numpy as np
 from solver.bounds import TIME_STEP
 from solver.formats.source import Source, Stated
 from solver.model import Floats, InputError
-from solver.records.record import (
-    UNITS,
-    Record,
-    check_gaps,
-    check_peak,
-    has_gravity,
-    read_only,
-    shown,
-)
+from solver.records.record import UNITS, Record, check_gaps, check_peak, has_gravity, own, shown
 from solver.suggestions import nearest
 
 _LISTED = 30
@@ -172,7 +164,7 @@ def motion_file(
             samples = "1 sample" if count == 1 else f"{count} samples"
             raise InputError(f"{source.name}: found {samples}; give at least 2")
         _check_size(source, channel)
-        a_mps2 = read_only(channel.a_mps2)
+        a_mps2 = own(channel.a_mps2)
         # A constant is no shaking with gravity in it.
         shakes = has_gravity(a_mps2) and np.ptp(a_mps2) > 0.0
         gravity = ("the mean is about 1 g: gravity is in it",) if shakes else ()

@@ -368,6 +368,21 @@ def fill_history(ax, az, dt, sn, cs, mu, g, scale, events, history):
             history[0, i:] = events[k + 1, 2]
 
 
+@njit(cache=KEPT)
+def slide_checked(ax, az, x, z, dt, slope, mu, g, scale):
+    """Run one scene of a slope [rad]; N is looked at first.
+
+    Returns the least N / (m g), the cosine of the slope, and the first seven of `slide_exact`,
+    which mean nothing if N falls below zero.
+    """
+    sn, cs = math.sin(slope), math.cos(slope)
+    least, _ = minimum_normal(ax, az, x, z, dt, sn, cs, g, scale)
+    if least < 0.0:
+        return least, cs, np.nan, np.nan, np.nan, np.nan, np.nan, 0, np.nan
+    slide = slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, None)
+    return least, cs, slide[0], slide[1], slide[2], slide[3], slide[4], slide[5], slide[6]
+
+
 @njit(cache=KEPT, nogil=True)
 def sweep_exact(ax, az, x, z, dt, g, scenes, out):
     """Run many scenes under one record on one core; other threads go on.
@@ -377,9 +392,5 @@ def sweep_exact(ax, az, x, z, dt, g, scenes, out):
     """
     for k in range(scenes.shape[0]):
         slope, mu, scale = scenes[k]
-        sn, cs = math.sin(slope), math.cos(slope)
-        least, _ = minimum_normal(ax, az, x, z, dt, sn, cs, g, scale)
-        out[k] = np.nan
-        if least >= 0.0:
-            slide = slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, None)
-            out[k, 0], out[k, 1], out[k, 2], out[k, 3] = slide[:4]
+        run = slide_checked(ax, az, x, z, dt, slope, mu, g, scale)
+        out[k, 0], out[k, 1], out[k, 2], out[k, 3] = run[2], run[3], run[4], run[5]

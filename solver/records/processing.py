@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.model import Floats, InputError
-from solver.records.record import Record, raise_any, read_only
+from solver.records.record import Record, own, raise_any
 
 MAX_DEGREE = 8
 MAX_ORDER = 12
@@ -130,7 +130,7 @@ def process(record: Record, processing: Processing) -> Record:
     a = _resampled(_filtered(a, record.dt_s, processing), record.dt_s, processing.dt_s)
     dt_s = processing.dt_s or record.dt_s
     a = np.concatenate([a, np.zeros(_steps(processing.pad_s, dt_s))])
-    return Record(name=record.name, dt_s=dt_s, a_mps2=read_only(a))
+    return Record(name=record.name, dt_s=dt_s, a_mps2=own(a))
 
 
 def process_together(records: Sequence[Record], processing: Processing) -> tuple[Record, ...]:

@@ -114,7 +114,7 @@ def record_from_values(
     raise_any(problems)
     a = np.asarray(values, dtype=np.float64) * UNITS[units]
     check_gaps(name, a)
-    return Record(name=name, dt_s=float(dt_s), a_mps2=read_only(a))
+    return Record(name=name, dt_s=float(dt_s), a_mps2=own(a))
 
 
 def write_record(
@@ -235,6 +235,13 @@ def read_only(values: ArrayLike) -> Floats:
     array = np.ascontiguousarray(values, dtype=np.float64).view()
     array.setflags(write=False)
     return array
+
+
+def own(values: ArrayLike) -> Floats:
+    """Return a read-only copy of the values: nobody can write to it, so that bounds are kept."""
+    copied = np.array(values, dtype=np.float64)
+    copied.setflags(write=False)
+    return copied
 
 
 NO_RECORD = read_only(np.empty(0))

@@ -203,16 +203,20 @@ def overflow(scene: Scene) -> list[str]:
     peak = scene.scale * max(float(np.abs(record).max()) for record in records if record.size)
     lasts = scene.dt_s * (scene.ax_mps2.size - 1)
     mus = scene.friction.mu_slow, scene.friction.mu_fast, scene.friction.mu_static
-    # Kernels square accelerations and rates, a / dt, and sum distances a t^2.
     push = (abs(peak) + scene.g_mps2) * (1.0 + max(mus))
-    rate = scene.dt_s * _LARGEST
-    if push < min(_LARGEST, rate) and push * lasts * lasts < _LARGEST:
+    if is_in_range(push, scene.dt_s, lasts):
         return []
     return [
         f"accelerations of {push:.2g} m/s2, scaled and with gravity and friction, over {lasts:.2g} "
         f"s in steps of {scene.dt_s:.2g} s exceed the floating-point range; change scale, dt_s, mu "
         "or g_mps2"
     ]
+
+
+def is_in_range(push_mps2: float, dt_s: float, lasts_s: float) -> bool:
+    """Whether kernels can square accelerations and rates, a / dt, and sum distances a t^2."""
+    is_squared = push_mps2 < min(_LARGEST, dt_s * _LARGEST)
+    return is_squared and push_mps2 * lasts_s * lasts_s < _LARGEST
 
 
 def checked_number(

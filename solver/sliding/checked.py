@@ -29,6 +29,7 @@ from solver.rivals.methods import Method
 from solver.sliding import least_model, one_axis, two_axes
 from solver.sliding.arguments import Given, checked_scene, method_of, shown
 from solver.sliding.least_model import DEFAULT, Settings, Solution
+from solver.sliding.quick import quick_slide
 
 
 def slide(
@@ -100,6 +101,12 @@ def slide(
     >>> slide(pulse, 0.1, slope_rad=0.0, mu=0.2)
     SlideResult: PRD 4.9 mm at 0.17 s, +1.6 mm at the end, 2 stops, ok
     """
+    # A sweep of one's own calls this many thousand times: 6 to 14 us, and 33 with all checks.
+    is_alone = ay_mps2 is None and az_mps2 is None and dt_s is None and units is None
+    if type(ax_mps2) is Record and is_alone and method == "exact" and not parameters:
+        result = quick_slide(ax_mps2, slope_rad, mu, scale, g_mps2)
+        if result is not None:
+            return result
     components = ax_mps2, ay_mps2, az_mps2
     run = checked_scene(
         *components, dt_s, slope_rad, mu, scale, g_mps2, method, units, **parameters

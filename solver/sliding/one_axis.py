@@ -71,19 +71,26 @@ def run_history(scene: Scene, method: Method = EXACT, /, **parameters: float) ->
 
 
 def rounding(scene: AxisScene) -> float:
+    """Return `rounding_m` of a scene."""
+    # The last column of the bounds is that of the whole record: no pass over its samples.
+    c, up = scene, abs(scene.scale) * float(max(-scene.z[0, -1], scene.z[1, -1], 0.0))
+    along = abs(c.scale) * float(max(-c.x[0, -1], c.x[1, -1]))
+    return rounding_m(c.sn, c.cs, c.mu, c.g + up, along, (c.ax.size - 1) * c.dt)
+
+
+def rounding_m(
+    sn: float, cs: float, mu: float, up_mps2: float, along_mps2: float, lasts_s: float
+) -> float:
     """Return the allowance for rounding error in a displacement by the method `exact` [m].
 
     The drive and friction are computed to 4 units in the last place of their terms. Friction is
     monotone, so an error d in the acceleration makes an error of at most d t in velocity after a
     time t, and d t^2 / 2 in displacement. Here t is the whole record, and the result is doubled to
-    cover rounding of the sums.
+    cover rounding of the sums. `up_mps2` and `along_mps2` are the largest accelerations, gravity
+    included.
     """
-    # The last column of the bounds is that of the whole record: no pass over its samples.
-    c, up = scene, abs(scene.scale) * float(max(-scene.z[0, -1], scene.z[1, -1], 0.0))
-    along = abs(c.scale) * float(max(-c.x[0, -1], c.x[1, -1]))
-    terms = (abs(c.sn) + c.mu * c.cs) * (c.g + up) + (c.cs + c.mu * abs(c.sn)) * along
-    lasts = (c.ax.size - 1) * c.dt
-    return 4.0 * sys.float_info.epsilon * terms * lasts * lasts
+    terms = (abs(sn) + mu * cs) * up_mps2 + (cs + mu * abs(sn)) * along_mps2
+    return 4.0 * sys.float_info.epsilon * terms * lasts_s * lasts_s
 
 
 def _run(method: Method, parameters: Parameters, scene: AxisScene, samples: Floats) -> SlideResult:
@@ -99,7 +106,7 @@ def _run(method: Method, parameters: Parameters, scene: AxisScene, samples: Floa
     # Methods give s and s' along the slope; displacements are horizontal, u = s cos(theta).
     samples *= scene.cs
     error_m = rounding(scene) if method is EXACT else math.nan
-    return _result(outcome, scene.cs, n_min_g, error_m)
+    return result_of(outcome, scene.cs, n_min_g, error_m)
 
 
 def _events(scene: AxisScene, result: SlideResult) -> tuple[Event, ...]:
@@ -117,7 +124,8 @@ def _events(scene: AxisScene, result: SlideResult) -> tuple[Event, ...]:
     )
 
 
-def _result(outcome: Outcome, cs: float, n_min_g: float, error_m: float) -> SlideResult:
+def result_of(outcome: Outcome, cs: float, n_min_g: float, error_m: float) -> SlideResult:
+    """Return the result of a run that has a displacement; an outcome is along the slope."""
     return SlideResult(
         # Exactly zero: methods set the speed at a stop.
         status=Status.OK if outcome.w_end == 0.0 else Status.SLIDING_AT_END,

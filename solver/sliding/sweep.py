@@ -7,11 +7,11 @@ Read `solver.sliding.checked` for a single run.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,6 +21,7 @@ from solver.kernels.compiler import THREADS
 from solver.model import (
     STANDARD_GRAVITY_MPS2,
     Floats,
+    Motion,
     Scene,
     SlideResult,
     Status,
@@ -33,12 +34,15 @@ from solver.sliding.arguments import (
     checked_number,
     checked_records,
     overflow,
+    shown,
     unit_size,
     unpacked,
 )
 
 if TYPE_CHECKING:
     import pandas as pd
+
+_MANY = 200  # runs in one axis for which threads are started
 
 # Meaning of the numbers in `Sweep.status`.
 STATUSES = (
@@ -140,41 +144,154 @@ def sweep(
     0.3 1.0    0.0007  0.0030
     """
     problems: list[str] = []
-    names = "ax_mps2", "ay_mps2", "az_mps2"
-    components = dict(zip(names, (ax_mps2, ay_mps2, az_mps2), strict=True))
+    axes = _checked_axes(slopes_rad, mus, scales, problems)
+    g = _above_zero("g_mps2", g_mps2, problems)
+    given = _components(ax_mps2, ay_mps2, az_mps2, dt_s, units, problems)
+    raise_any(problems)
+    (swept,) = _swept([given], axes, g, progress or _told_nobody)
+    return swept
+
+
+def sweep_all(
+    records: Sequence[Record | Motion],
+    *,
+    slopes_rad: ArrayLike,
+    mus: ArrayLike,
+    scales: ArrayLike,
+    g_mps2: float = STANDARD_GRAVITY_MPS2,
+    progress: Callable[[float], None] | None = None,
+) -> list[Sweep]:
+    """Run all combinations for each of several records or motions.
+
+    Parameters
+    ----------
+    records : sequence of Record or Motion
+    slopes_rad, mus, scales, g_mps2
+        As in `sweep`, for all of them.
+    progress : callable, optional
+        Called with the fraction of the work that is done.
+
+    Returns
+    -------
+    list of Sweep
+        In the order of the records; each as `sweep` would give it.
+
+    Raises
+    ------
+    InputError
+        As in `sweep`.
+
+    Examples
+    --------
+    >>> from solver import read_record
+    >>> records = [read_record(f"projects/example/records/RM{n}-x.csv") for n in (1, 2)]
+    >>> swept = sweep_all(records, slopes_rad=[0.0], mus=[0.3, 0.4], scales=[1.0])
+    >>> [bool(each.prd_m[0, 0, 0] > each.prd_m[0, 1, 0]) for each in swept]
+    [True, True]
+    """
+    problems: list[str] = []
+    axes = _checked_axes(slopes_rad, mus, scales, problems)
+    g = _above_zero("g_mps2", g_mps2, problems)
+    given = []
+    for n, record in enumerate(records, start=1):
+        if isinstance(record, Record | Motion):
+            given.append(_components(record, None, None, None, None, problems))
+        else:
+            problems.append(f"record {n} is {shown(record)}; give records or motions")
+    raise_any(problems)
+    return _swept(given, axes, g, progress or _told_nobody)
+
+
+class _Given(NamedTuple):
+    """The components that a sweep is given [m/s2], their step, and the factor of a motion."""
+
+    ax: Floats
+    ay: Floats
+    az: Floats
+    dt_s: float
+    factor: float
+
+
+def _components(
+    ax_mps2: Given,
+    ay_mps2: ArrayLike | Record | None,
+    az_mps2: ArrayLike | Record | None,
+    dt_s: float | None,
+    units: str | None,
+    problems: list[str],
+) -> _Given:
+    components = {"ax_mps2": ax_mps2, "ay_mps2": ay_mps2, "az_mps2": az_mps2}
     records, step_s, factor = unpacked(components, dt_s, problems)
-    ax, ay, az = checked_records(records, problems, unit_size(components, units, problems))
-    axes = [
+    size = unit_size(components, units, problems)
+    ax, ay, az = checked_records(records, problems, size)
+    return _Given(ax, ay, az, _above_zero("dt_s", step_s, problems), factor)
+
+
+def _checked_axes(
+    slopes_rad: ArrayLike, mus: ArrayLike, scales: ArrayLike, problems: list[str]
+) -> list[Floats]:
+    return [
         axis("slopes_rad", slopes_rad, -math.pi / 2, math.pi / 2, problems),
         # The limits are not within: zero is a coefficient.
         axis("mus", mus, -math.ulp(0.0), math.inf, problems),
         axis("scales", scales, -math.inf, math.inf, problems),
     ]
-    dt, g = (
-        checked_number(name, value, "a number above 0", lambda v: 0.0 < v < math.inf, problems)
-        for name, value in (("dt_s", step_s), ("g_mps2", g_mps2))
-    )
-    raise_any(problems)
+
+
+def _above_zero(name: str, value: float | None, problems: list[str]) -> float:
+    return checked_number(name, value, "a number above 0", lambda v: 0.0 < v < math.inf, problems)
+
+
+def _told_nobody(share: float) -> None:
+    pass
+
+
+def _swept(
+    given: Sequence[_Given], axes: list[Floats], g_mps2: float, progress: Callable[[float], None]
+) -> list[Sweep]:
+    """Run all combinations for each of the records."""
     _, mu, scale = (float(np.abs(axis).max()) for axis in axes)
-    scale *= abs(factor)
-    # The scene of the largest values: if it does not overflow, none does.
-    largest = Scene(
-        ax_mps2=ax,
-        ay_mps2=ay,
-        az_mps2=az,
-        dt_s=dt,
-        slope_rad=0.0,
-        friction=coulomb(mu),
-        scale=scale,
-        g_mps2=g,
-    )
-    raise_any(overflow(largest))
-    follow = _run_in_plane if ay.size else _run
-    return follow(largest, axes, factor, progress or (lambda share: None))
+    # The scenes of the largest values: if these do not overflow, none does.
+    largest = [
+        Scene(
+            ax_mps2=each.ax,
+            ay_mps2=each.ay,
+            az_mps2=each.az,
+            dt_s=each.dt_s,
+            slope_rad=0.0,
+            friction=coulomb(mu),
+            scale=scale * abs(each.factor),
+            g_mps2=g_mps2,
+        )
+        for each in given
+    ]
+    raise_any([fault for scene in largest for fault in overflow(scene)])
+    count = len(given) * math.prod(axis.size for axis in axes)
+    in_plane = any(each.ay.size for each in given)
+    # To start the threads takes as long as some 200 runs in one axis.
+    threads = ThreadPoolExecutor(THREADS) if in_plane or count >= _MANY else None
+    swept = []
+    try:
+        for n, (each, scene) in enumerate(zip(given, largest, strict=True)):
+            follow = _run_in_plane if each.ay.size else _run
+            swept.append(follow(scene, axes, each.factor, threads, _share(progress, n, len(given))))
+    finally:
+        if threads:
+            threads.shutdown(cancel_futures=True)
+    return swept
+
+
+def _share(progress: Callable[[float], None], n: int, count: int) -> Callable[[float], None]:
+    """Return what is told the progress within record n of some."""
+    return lambda share: progress((n + share) / count)
 
 
 def _run_in_plane(
-    scene: Scene, axes: list[Floats], factor: float, progress: Callable[[float], None]
+    scene: Scene,
+    axes: list[Floats],
+    factor: float,
+    threads: ThreadPoolExecutor | None,
+    progress: Callable[[float], None],
 ) -> Sweep:
     slopes, mus, scales = axes
 
@@ -185,10 +302,10 @@ def _run_in_plane(
         )
 
     results: list[SlideResult] = []
-    with ThreadPoolExecutor(THREADS) as pool:
-        for k, slope in enumerate(slopes):
-            results += pool.map(run, product([slope], mus, scales))
-            progress((k + 1) / slopes.size)
+    assert threads is not None
+    for k, slope in enumerate(slopes):
+        results += threads.map(run, product([slope], mus, scales))
+        progress((k + 1) / slopes.size)
     shape = slopes.size, mus.size, scales.size
     return Sweep(
         slopes_rad=slopes,
@@ -219,7 +336,11 @@ def axis(name: str, values: ArrayLike, above: float, below: float, problems: lis
 
 
 def _run(
-    scene: Scene, axes: list[Floats], factor: float, progress: Callable[[float], None]
+    scene: Scene,
+    axes: list[Floats],
+    factor: float,
+    threads: ThreadPoolExecutor | None,
+    progress: Callable[[float], None],
 ) -> Sweep:
     slopes, mus, scales = axes
     ax, az = scene.ax_mps2, scene.az_mps2
@@ -234,12 +355,14 @@ def _run(
         one_axis.sweep_exact(ax, up, x, z, scene.dt_s, scene.g_mps2, scenes[chosen], out)
         outcomes[chosen] = out
 
-    # The kernel lets go of the lock of Python, so threads run side by side.
-    with ThreadPoolExecutor(THREADS) as pool:
-        for k, part in enumerate(np.array_split(order_alike(scenes), slopes.size)):
-            # Dealt out, so that the threads take about equal time.
-            list(pool.map(run, (part[at::THREADS] for at in range(THREADS))))
-            progress((k + 1) / slopes.size)
+    for k, part in enumerate(np.array_split(order_alike(scenes), slopes.size)):
+        if threads is None:
+            run(part)
+        else:
+            # The kernel lets go of the lock of Python, so threads run side by side; dealt out, so
+            # that they take about equal time.
+            list(threads.map(run, (part[first::THREADS] for first in range(THREADS))))
+        progress((k + 1) / slopes.size)
     s = outcomes.reshape(slopes.size, mus.size, scales.size, 4)
     # The same product as in a single run, so that both results agree to the last bit.
     cs = np.array([math.cos(slope) for slope in slopes])[:, None, None]

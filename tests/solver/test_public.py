@@ -36,7 +36,7 @@ def test_public_names_are_those_of_the_solver_and_no_others():
     listed = dict(re.findall(r"^ {8}(\w+) +(\S.*\.)$", told.partition("PACKAGE CONTENTS")[0], re.M))
     functions = {name: FUNCTIONS[name] for name in public.__all__ if name in FUNCTIONS}
     assert listed == {name: inspect.getdoc(f).partition("\n")[0] for name, f in functions.items()}
-    assert len(listed) == 23
+    assert len(listed) == 24
     assert set(re.findall(r"^ {4}(\w+)\(", told.partition("\nFUNCTIONS\n")[2], re.M)) == {*listed}
     with pytest.raises(AttributeError):
         _ = solver.slope
