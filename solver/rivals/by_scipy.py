@@ -25,6 +25,9 @@ BEGINNING = 2e-5
 # Part of a step after which the end of a slip is sought that begins with the step.
 LATER = 1e-9
 
+# Tolerances of the time of an event [s]; those that SciPy has unless told cost five digits.
+_NEAR = {"xtol": 1e-18, "rtol": 1e-15}
+
 # Steps in a sampling interval after which a regularized run counts as stalled.
 STEPS = 20_000
 
@@ -68,8 +71,7 @@ class _Interval:
         # Convex: at or below zero at both ends, it is so between them.
         if self.excess(self.dt) <= 0.0:
             return self.dt
-        root = _scipy("optimize").brentq(self.excess, t, self.dt, xtol=1e-18, rtol=1e-15)
-        return float(root)
+        return float(_scipy("optimize").brentq(self.excess, t, self.dt, **_NEAR))
 
     def gained(self, t: float, h: float) -> float:
         """Return the velocity that a block gains in h from rest, by Simpson's rule."""
@@ -117,18 +119,22 @@ def line(drive: Floats, cap: Floats, dt: float, solver: str, history: Floats) ->
                 lambda t, y, push=push, rise=rise: rivals.line_rate(t, y, push, rise),
                 t, np.array((s, w)), dt, first_step=dt - t, rtol=1e-6, atol=1e-9,
             )  # fmt: skip
-            while run.status == "running" and (run.t == t or sign * run.y[1] > 0.0):
-                run.step()
-            if sign * run.y[1] > 0.0:
-                (s, w), t = run.y.tolist(), dt
+            run.step()
+            way, first, last = run.dense_output(), t, run.t
+            # The speed may reach zero between samples and rise again: it is least where the net
+            # acceleration turns along it. One that begins with the slip rises, and then falls.
+            turn = -push / rise if sign * rise > 0.0 else last
+            if not begins and first < turn < last and sign * way(turn)[1] <= 0.0:
+                last = turn
+            elif sign * run.y[1] > 0.0:
+                (s, w), t = run.y.tolist(), last
                 continue
-            way, first = run.dense_output(), run.t_old
             # w is zero where the slip begins: its end is the next zero.
-            if begins and first == t:
-                first += LATER * (run.t - first)
+            if begins:
+                first += LATER * (last - first)
             ends = sign * way(first)[1] > 0.0
-            t = float(root(lambda u, way=way: way(u)[1], first, run.t)) if ends else first
-            s, w = float(way(t)[0]), 0.0
+            stop = root(lambda u, way=way: way(u)[1], first, last, **_NEAR) if ends else first
+            s, w, t = float(way(stop)[0]), 0.0, max(float(stop), math.nextafter(t, math.inf))
             seen.append((s, i * dt + t))
             n_stops += 1
     if history.size:

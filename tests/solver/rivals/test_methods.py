@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import oracle
 import solver
 from blocks import block, readonly, trapezoid
 from nightly import by_day
@@ -149,6 +150,35 @@ def test_a_frozen_normal_force_is_off_by_its_closed_form(degrees, mu, amplitude,
     result = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, method="frozen-normal")
     assert result.down_m == pytest.approx(frozen, rel=1e-12)
     assert result.down_m / true - 1 == pytest.approx(off, abs=0.01)
+
+
+# Events: stops within a sampling interval, against 40 digits
+
+EXACT_BY_EVENTS = [name for name, m in METHODS.items() if m.invalid_when.startswith("Never")]
+
+
+@pytest.mark.parametrize("name", EXACT_BY_EVENTS)
+@pytest.mark.quick
+def test_a_speed_that_dips_to_zero_between_two_samples_is_a_stop(name):
+    ax = [1.2, -4.4, 1.3, -5.2, 0.6, -1.6]
+    result = slide(ax, 0.01, slope_rad=0.0, mu=0.2, method=name)
+    exact = oracle.slide(ax, 0.01, slope_rad=0.0, mu=0.2)
+    assert result.n_stops == exact.n_stops == 2
+    assert result.prd_m == pytest.approx(float(exact.prd), rel=1e-12)
+
+
+@pytest.mark.parametrize("name", EXACT_BY_EVENTS)
+def test_random_records_of_few_samples_are_followed_to_rounding(name):
+    rng, off = np.random.default_rng(7), []
+    for k in range(200):
+        ax, az = rng.normal(0.0, 5.0, 6).round(1), rng.normal(0.0, 1.0, 6).round(1) * (k % 2)
+        scene = {"slope_rad": math.radians(rng.integers(-4, 8)), "mu": 0.1 * rng.integers(1, 6)}
+        exact = oracle.slide(ax, 0.01, az=az, **scene)
+        result = slide(ax, 0.01, az_mps2=az, method=name, units="m/s2", **scene)
+        far = max(abs(result.prd_m - exact.prd), abs(result.residual_m - exact.residual))
+        off.append(float(far / max(exact.prd, 1e-6)))
+    assert np.median(off) < 1e-14
+    assert max(off) < 1e-11
 
 
 # Formal orders
