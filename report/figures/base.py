@@ -242,6 +242,8 @@ _STYLES = (
     ("^", DASHDOT, ACCENT, ACCENT),
     ("v", DOTTED, INK, INK),
     ("D", _LONG, GRAY, GRAY),
+    ("<", "none", ACROSS, ACROSS),
+    (">", "none", ACROSS, "white"),
     ("h", "none", ACCENT, ACCENT),
     ("p", "none", ACCENT, "white"),
     ("X", DASHED, GRAY, GRAY),

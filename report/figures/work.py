@@ -49,8 +49,8 @@ def overview(
     same runs, which know the PRD alone.
     """
     with style():
-        margins = {"left": 0.085, "right": 0.99, "above": 0.221, "below": 1.9, "wspace": 0.08}
-        figure, grid = panels(1, 2, 4.3, **margins, sharey=True)
+        margins = {"left": 0.085, "right": 0.99, "above": 0.221, "below": 2.1, "wspace": 0.08}
+        figure, grid = panels(1, 2, 4.5, **margins, sharey=True)
         for axes, measure in zip(grid.flat, MEASURES, strict=True):
             points = medians(runs, f"{measure} error [%]", floor)
             for name in points.index.unique("method"):

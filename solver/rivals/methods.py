@@ -2,7 +2,7 @@
 
 Checks no input (`solver.sliding.arguments`), builds no results (`solver.sliding.one_axis`) and
 integrates nothing itself (`solver.kernels.one_axis`, `solver.kernels.rivals`,
-`solver.rivals.by_scipy`). Read `METHODS` first.
+`solver.kernels.runge_kutta`, `solver.rivals.by_scipy`). Read `METHODS` first.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solver.kernels import one_axis, rivals
+from solver.kernels import one_axis, rivals, runge_kutta
 from solver.model import Floats
 from solver.records.record import NO_RECORD, read_only
 from solver.rivals import by_scipy
@@ -196,6 +196,10 @@ def _link(scene: AxisScene, parameters: Parameters, samples: Floats, *, implicit
     return _outcome(rivals.slide_link(*_letters(scene), p, k, implicit, samples))
 
 
+def _compiled(scene: AxisScene, _: Parameters, samples: Floats, *, order: int) -> Outcome:
+    return Outcome(*runge_kutta.slide_line(*_letters(scene), order, samples))
+
+
 def _by_events(scene: AxisScene, _: Parameters, samples: Floats, *, solver: str) -> Outcome:
     return Outcome(*by_scipy.line(*drive_and_cap(scene), scene.dt, solver, samples))
 
@@ -234,6 +238,7 @@ def _outcome(computed: tuple[int, float, float, float, float, float, int]) -> Ou
     return Outcome(computed[0] == rivals.FOLLOWED, *computed[1:])
 
 
+_AS_ACCURATE = "Never, as the exact method: restarted at each sample and event it is as accurate. "
 _PAPER = "Predicted Slip of Ballasted Solar Arrays on Angled Roofs due to Seismic Motion"
 _SUBSTEPS: Parameters = MappingProxyType({"substeps": 64})
 _LINK: Parameters = MappingProxyType({"stiffness_per_m": 1e5, "substeps": 20})
@@ -346,13 +351,27 @@ _ALL = (
     ),
     *(
         _without_setting(
+            name=f"compiled-{name.lower()}",
+            title=f"Coulomb friction, {name} with events, compiled whole",
+            label=f"{name}, events (compiled)",
+            ceiling=1e-12,
+            invalid_when=f"{_AS_ACCURATE}Its steps are compiled with what restarts them.",
+            source=f"solver.kernels.runge_kutta.slide_line: {authors}",
+            follow=partial(_compiled, order=order),
+        )
+        for name, order, authors in (
+            ("DOP853", 8, "Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I"),
+            ("RK45", 5, "Dormand, Prince, J. Comput. Appl. Math. 6 (1980)"),
+        )
+    ),
+    *(
+        _without_setting(
             name=f"events-{solver.lower()}",
             title=f"Coulomb friction, SciPy's {solver} with events",
             label=f"SciPy {solver}, events (interpreted)",
-            ceiling=1e-11,
+            ceiling=1e-12,
             invalid_when=(
-                "Never, as the exact method: restarted at each sample and event it is as accurate. "
-                "Its steps run in Python; the right-hand side is compiled."
+                f"{_AS_ACCURATE}Its steps run in Python; the right-hand side is compiled."
             ),
             source=f"scipy.integrate.{solver}, scipy.optimize.brentq",
             follow=partial(_by_events, solver=solver),
