@@ -72,8 +72,10 @@ E3 = B8.copy()
 E3[[0, 8, 11]] -= 0.2440944881889764, 0.7338466882816118, 0.022058823529411766
 C8 = A8.sum(axis=1)
 
-# As in `solver.rivals.by_scipy`.
+# Velocity from which a slip in two axes is integrated, as a share of what the interval gives.
 BEGINNING = 2e-5
+
+# Part of a step after which the end of a slip is sought that begins with the step.
 LATER = 1e-9
 
 # Halvings after which a bracketed root is known to rounding error, and a part that is rounding.
@@ -213,25 +215,19 @@ def slide_line(ax, az, dt, sn, cs, mu, g, scale, order, history):
 
 
 @njit(cache=KEPT)
-def _pull(row):
-    """The largest acceleration of a block under G and mu N."""
-    return math.hypot(row[0], row[1]) + row[2]
-
-
-@njit(cache=KEPT)
-def _excess(p, t):
+def excess(p, t):
     """Drive in excess of the friction capacity, which is convex in t."""
     x, y = p[0] + p[3] * t, p[1] + p[4] * t
     return math.sqrt(x * x + y * y) - (p[2] + p[5] * t)
 
 
 @njit(cache=KEPT)
-def _onset(p, low, high):
+def _crossing(p, low, high):
     """The time at which the excess changes its sign, bracketed."""
-    is_over = _excess(p, low) > 0.0
+    is_over = excess(p, low) > 0.0
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        if (_excess(p, middle) > 0.0) == is_over:
+        if (excess(p, middle) > 0.0) == is_over:
             low = middle
         else:
             high = middle
@@ -239,30 +235,46 @@ def _onset(p, low, high):
 
 
 @njit(cache=KEPT)
-def _gained(p, t, h):
-    """The velocity that a block gains in h from rest, by Simpson's rule."""
-    ends = max(_excess(p, t), 0.0) + _excess(p, t + h)
-    return h * (ends + 4.0 * _excess(p, t + 0.5 * h)) / 6.0
+def onset(p, t, dt):
+    """Onset of slip of a block at rest at t; dt, the end of the interval, if there is none."""
+    if excess(p, t) > 0.0:
+        return t
+    # Convex: at or below zero at both ends, it is so between them.
+    return _crossing(p, t, dt) if excess(p, dt) > 0.0 else dt
 
 
 @njit(cache=KEPT)
-def _begun(p, t, dt, allowed, y):
+def largest(p, dt):
+    """The largest velocity that an interval may give, twice where it is reached."""
+    first = math.hypot(p[0], p[1]) + p[2]
+    return dt * max(first, math.hypot(p[0] + p[3] * dt, p[1] + p[4] * dt) + p[2] + p[5] * dt)
+
+
+@njit(cache=KEPT)
+def _gained(p, t, h):
+    """The velocity that a block gains in h from rest, by Simpson's rule."""
+    ends = max(excess(p, t), 0.0) + excess(p, t + h)
+    return h * (ends + 4.0 * excess(p, t + 0.5 * h)) / 6.0
+
+
+@njit(cache=KEPT)
+def begun(p, t, dt, rtol, top, y):
     """Start a slip along G: fill y, and return the time that it took.
 
-    At the share of `solver.rivals.by_scipy` of the velocity that the interval gives, or later where
-    the turn of G until then makes no error in velocity that counts: an onset near the next sample
-    gives so little that the steps would be as many as it is late.
+    At a share of the velocity that the interval gives, or later where the turn of G until then
+    makes no error that counts: an onset just before a sample gives so little that steps, of w / |G|
+    at most, would be without number. `top` is the largest velocity that an interval may give.
     """
     high = dt - t
-    if _excess(p, dt) < 0.0 < _excess(p, t):  # the block gains no more after that
-        high = _onset(p, t, dt) - t
+    if excess(p, dt) < 0.0 < excess(p, t):  # the block gains no more after that
+        high = _crossing(p, t, dt) - t
     low, wanted = 0.0, BEGINNING * _gained(p, t, high)
     gx, gy = p[0] + p[3] * t, p[1] + p[4] * t
     turn = abs(gx * p[4] - gy * p[3]) / (gx * gx + gy * gy)
     for _ in range(HALVINGS):
         h = 0.5 * (low + high)
         speed = _gained(p, t, h)
-        if speed < wanted or speed * turn * h < allowed:
+        if speed < wanted or speed * turn * h < 1e-7 * rtol * top:
             low = h
         else:
             high = h
@@ -271,7 +283,7 @@ def _begun(p, t, dt, allowed, y):
     # The direction follows that of G behind by its turn in w / |G| (the singularity at w = 0).
     lag = speed * (gx * p[4] - gy * p[3]) / (drive * drive) / (2.0 * drive - c)
     angle = math.atan2(gy, gx) - lag
-    way = h * h * (max(_excess(p, t), 0.0) / 3.0 + _excess(p, t + h) / 6.0)
+    way = h * h * (max(excess(p, t), 0.0) / 3.0 + excess(p, t + h) / 6.0)
     y[0], y[1] = y[0] + way * math.cos(angle), y[1] + way * math.sin(angle)
     y[2], y[3] = speed * math.cos(angle), speed * math.sin(angle)
     return h
@@ -308,15 +320,13 @@ def slide_plane(rows, dt, cs, order, rtol):
     moving, prd, h = False, 0.0, dt
     for i in range(rows.shape[0] - 1):
         p[:3], p[3:] = rows[i], (rows[i + 1] - rows[i]) / dt
-        top = dt * max(_pull(rows[i]), _pull(rows[i + 1]))
-        t = 0.0
-        # |G| - mu N is convex: at or below zero at both samples, it is so between them.
-        while t < dt and (moving or _excess(p, t) > 0.0 or _excess(p, dt) > 0.0):
+        top, t = largest(p, dt), 0.0
+        while t < dt:
             if not moving:
-                t = t if _excess(p, t) > 0.0 else _onset(p, t, dt)
+                t = onset(p, t, dt)
                 if not t < dt:
                     break
-                h = _begun(p, t, dt, 1e-7 * rtol * top, y)
+                h = begun(p, t, dt, rtol, top, y)
                 t, moving = t + h, True
             speed = max(math.hypot(y[2], y[3]), 1e-5 * top)
             floor = rtol * (0.1 * speed + 0.01 * top)

@@ -13,6 +13,7 @@ from functools import partial
 import numpy as np
 
 from solver.forces import friction_demand
+from solver.kernels import runge_kutta
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Motion, Scene, Status, coulomb
 from solver.records.record import read_only
 from solver.rivals import by_scipy
@@ -291,3 +292,8 @@ def _against_scipy(triple: Motion, samples: int) -> Iterator[Check]:
         history = two_axes.run_history(scene, tolerance)
         off = float(np.hypot(history.u_m - x, history.across_m - y).max()) / history.result.prd_m
         yield row(name, 0.0, off, tolerance)
+    for solver, order in (("DOP853", 8), ("RK45", 5)):
+        rows, cosine = samples_of(scene), math.cos(scene.slope_rad)
+        prd, *end, _ = runge_kutta.slide_plane(rows, scene.dt_s, cosine, order, 1e-9)
+        name = f"{solver}, compiled, relative tolerance 10⁻⁹: {part.id}, {case}"
+        yield row(name, 0.0, math.dist(end, (x[-1], y[-1])) / prd, 1e-8)
