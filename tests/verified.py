@@ -22,20 +22,22 @@ from report.cli.terminal import Progress
 from report.manual.render import manual_html
 from solver.verification.evidence import Verification
 from solver.verification.run import verify
+from solver.verification.workprecision import SINGLE, TIME
 
 DATE = dt.date(2026, 3, 5)
 
 
 _ERRORS = [f"{what} error [{unit}]" for what in ("PRD", "residual") for unit in ("m", "%")]
 NO_RUNS = pd.DataFrame(
-    columns=["method", "setting", "record", "case", "time per run [s]", *_ERRORS, "status"]
+    columns=["method", "setting", "record", "case", TIME, SINGLE, *_ERRORS, "status"]
 )
+NO_ERRORS = pd.DataFrame(columns=["method", "motions", "error [%]"])
 
 
 def only(**found: object) -> Verification:
     """Return a verification that has found nothing but this."""
     nothing = dict.fromkeys((field.name for field in fields(Verification)), ())
-    some = {"work": NO_RUNS, "quick": True, "seconds": 1.0}
+    some = {"rivals": NO_ERRORS, "work": NO_RUNS, "quick": True, "seconds": 1.0}
     return Verification(**{**nothing, **some, **found})
 
 

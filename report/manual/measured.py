@@ -15,7 +15,6 @@ from report.document.tables import Column, Table, compared_with, grouped, listed
 from report.document.templates import Section, section
 from report.entities.shown import plain, text, words
 from report.figures import manual as figures
-from report.figures.work import work
 from report.text.counts import capitalized, grouped_by, joined
 from report.text.formats import NOT_VALIDATED, explained, scientific, slug, ten_digits
 from report.text.units import G_MPS2, number
@@ -55,7 +54,6 @@ def models(verification: Verification) -> Section:
         evidence=evidence,
         changes=listed(evidence.study.changes, _CHANGE, kind="compact"),
         pushed=listed(evidence.pushed.itertuples(), _PUSHED, kind="compact"),
-        charts={"rungs-work": work(evidence.work)},
     )
 
 

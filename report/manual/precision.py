@@ -18,11 +18,14 @@ from report.entities.shown import text, words
 from report.figures import manual, paper
 from report.figures import work as figures
 from report.figures.base import power_of_ten
-from report.text.counts import grouped_by, lettered
+from report.text.counts import capitalized, grouped_by, lettered
 from report.text.formats import percent, seconds, slug
 from solver.rivals.methods import METHODS
+from solver.sliding.two_axes import DEFAULT_TOLERANCE
 from solver.verification import paper_studies
+from solver.verification.checks import RANDOM, ROOF
 from solver.verification.evidence import DesignCurves, LinkComparison, Verification
+from solver.verification.workprecision import OURS, RUN, SINGLE, TIME, times_longer
 
 
 def floor(verification: Verification) -> float:
@@ -32,22 +35,65 @@ def floor(verification: Verification) -> float:
     return max([1e-16, *errors])
 
 
+def methods(verification: Verification) -> Section:
+    """Return what each method is, and its errors against 50 digits."""
+    errors = verification.rivals
+    name = (words("Method", 3.6), lambda row: lettered(METHODS[row[0]].title))
+    return section(
+        "manual/methods",
+        "Methods compared",
+        methods=tuple(METHODS.values()),
+        errors=listed(
+            errors.groupby("method", sort=False),
+            (name, *(_of(kind, *of) for kind in (RANDOM, ROOF) for of in _SHOWN)),
+            kind="compact",
+        ),
+    )
+
+
+_SHOWN = (("median", "median"), ("largest", "max"))
+
+
+def _of(kind: str, words: str, of: str) -> Column:
+    """Return the column of an error under motions of a kind."""
+
+    def found(row: tuple[str, pd.DataFrame]) -> str:
+        return percent(row[1].loc[row[1]["motions"] == kind, "error [%]"].agg(of))
+
+    return (text(capitalized(kind), words, 1.2), found)
+
+
 def work(verification: Verification) -> Section:
     """Return accuracy against run time."""
     runs, least = verification.work, floor(verification)
+    plane = verification.models[0].work if verification.models else runs[:0]
     lost = runs[runs[["time per run [s]", "PRD error [m]"]].isna().any(axis=1)]
-    events = runs[runs["method"].str.startswith("events-")]
+    exact = runs[runs["method"] == "exact"]
+    ours = plane[(plane["method"] == OURS) & (plane["setting"] == DEFAULT_TOLERANCE)]
     return section(
         "manual/work",
         "Accuracy against run time",
-        cases=len(runs[["record", "case"]].drop_duplicates()),
+        cases=len(runs[RUN].drop_duplicates()),
         is_own=set(runs["record"]) <= set(verification.records),
         lost=lost.groupby("method", sort=False).size().to_dict(),
         floor_percent=100.0 * least,
-        events_percent=events["PRD error [%]"].max() if len(events) else None,
+        plane=plane,
+        ours=ours,
+        prepared=(exact[SINGLE] / exact[TIME]).median(),
+        longer={
+            METHODS[name].label: [times_longer(own, exact, "PRD error [%]", t) for t in _TIMES]
+            for name, own in runs.groupby("method", sort=False)
+            if name != "exact" and METHODS[name].invalid_when.startswith("Never")
+        },
+        in_plane=times_longer(
+            plane[plane["method"].str.endswith("(compiled)")], ours, "residual error [%]"
+        ),
         medians=_medians(runs),
-        charts={"work-percent": figures.overview(runs, 100.0 * least, verification.peers)},
+        charts={"work-percent": figures.overview(runs, plane, 100.0 * least, verification.peers)},
     )
+
+
+_TIMES = (TIME, SINGLE)
 
 
 def _medians(runs: pd.DataFrame) -> Table:

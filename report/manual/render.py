@@ -23,7 +23,16 @@ from report.document.templates import Section, filled, rendered, section
 from report.entities.shown import centered, text, words
 from report.manual import precision
 from report.manual.measured import building, models, shake_table
-from report.manual.precision import conditioning, convergence, curves, floor, links, stability, work
+from report.manual.precision import (
+    conditioning,
+    convergence,
+    curves,
+    floor,
+    links,
+    methods,
+    stability,
+    work,
+)
 from report.pages.parts import verdict
 from report.pages.symbols import with_symbols
 from report.provenance.files import installed, processor
@@ -38,14 +47,12 @@ from report.text.formats import (
     validation,
 )
 from report.typeset.pdf import TEMPLATES, lay_out
-from solver.rivals.methods import METHODS
 from solver.verification import evidence, model_study
 from solver.verification import shake_table as accepted
 from solver.verification.building import BY_HEIGHT
 from solver.verification.evidence import Check, PeerPoint, Verification
 from solver.verification.features import statuses
-
-_TIME = "time per run [s]"
+from solver.verification.workprecision import RUN, SINGLE, TIME
 
 
 def judged(is_passed: bool) -> Markup:
@@ -64,10 +71,10 @@ def summary(verification: Verification) -> Section:
         "manual/summary",
         "Summary",
         floor=floor(verification),
-        exact_s=work.loc[work["method"] == "exact", _TIME].median(),
-        times_longer=(beside[f"{_TIME}_x"] / beside[f"{_TIME}_y"]).median(),
+        exact_s=work.loc[work["method"] == "exact", TIME].median(),
+        times_longer=(beside[f"{TIME}_x"] / beside[f"{TIME}_y"]).median(),
         paper_percent=paper["PRD error [%]"].max(),
-        failed_runs=work[_TIME].isna().sum(),
+        failed_runs=work[TIME].isna().sum(),
         failed_cells=sum(int(sweep.failed.sum()) for sweep in maps),
         cells=sum(sweep.failed.size for sweep in maps),
         worst=worst,
@@ -166,7 +173,7 @@ _CHECK = (
     "id", "section", "problem", "source", "quantity", "unit", "expected", "computed", "error",
     "tolerance",
 )  # fmt: skip
-_OF_TWO_AXES = ["method", "parameters", "case", "time per run [s]", "residual error [%]"]
+_OF_TWO_AXES = ["method", "parameters", *RUN, TIME, SINGLE, "residual error [%]"]
 
 
 def files(
@@ -217,7 +224,7 @@ def sections(verification: Verification) -> tuple[Section, ...]:
         summary(verification),
         section("manual/scope", "Scope and terms"),
         checks(verification),
-        section("manual/methods", "Methods compared", methods=tuple(METHODS.values())),
+        methods(verification),
         work(verification),
         stability(verification),
         convergence(verification),

@@ -7,17 +7,19 @@ against 50-digit arithmetic, and every rival. Calls only `solver.slide` and `sli
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
 
 from solver.model import STANDARD_GRAVITY_MPS2, EventKind, Floats, SlideResult
 from solver.records.record import Record
 from solver.rivals.methods import METHODS, Method, link_frequency
 from solver.sliding.checked import slide, slide_history
 from solver.verification import reference, study
-from solver.verification.evidence import ROUNDING, Check
+from solver.verification.evidence import ROUNDING, Check, percent_of
 from solver.verification.reference import Reference
 from solver.verification.study import Case, run, runnable_methods, scale_to
 
@@ -218,25 +220,81 @@ CASES = (*study.CASES[:4], Case(-7.0, 0.05, 1.0), Case(0.0, 0.0, 0.2))
 """Compared with 50 digits; the second and the fourth also with vertical shaking."""
 
 
-def fifty_digits(record: Record) -> Iterator[Check]:
-    """Compare PRD and residual with `reference`."""
-    source = "Decimal arithmetic, Eqs. 12-18 of the paper; shares no code with the solver"
-    ax, dt = record.a_mps2, record.dt_s
+class Block(NamedTuple):
+    """A block whose motion is known to 50 digits."""
+
+    name: str
+    given: Mapping[str, Any]  # what `slide` takes
+    exact: Reference
+
+
+RANDOM, ROOF = "random records", "records of section 2"
+"""The kinds of `rival_errors`."""
+
+
+def _block(name: str, ax: Floats, az: Floats | None, **given: float) -> Block:
+    vertical = None if az is None else az.tolist()
+    known = {"g_mps2": STANDARD_GRAVITY_MPS2} | given
+    exact = reference.slide(ax.tolist(), az_mps2=vertical, **known)
+    return Block(name, {"ax_mps2": ax, "az_mps2": az, "units": "m/s2"} | known, exact)
+
+
+def roof_blocks(record: Record) -> Iterator[Block]:
+    """Yield `CASES` of a record."""
+    ax = record.a_mps2
     for k, case in enumerate(CASES):
-        slope, mu, scale = case.slope_rad, case.mu, scale_to(record, case.ppa_g)
+        place = {"dt_s": record.dt_s, "slope_rad": case.slope_rad, "mu": case.mu}
         shaken = [("", None), (", with vertical shaking", 0.3 * ax[::-1])]
         for more, az in shaken if k in (1, 3) else shaken[:1]:
-            exact = reference.slide(
-                ax.tolist(),
-                dt,
-                slope_rad=slope,
-                mu=mu,
-                az_mps2=None if az is None else az.tolist(),
-                scale=scale,
-                g_mps2=STANDARD_GRAVITY_MPS2,
-            )
-            result = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, scale=scale)
-            yield from slip_checks("DA-1", source, f"{record.name}, {case}{more}", exact, result)
+            scale = scale_to(record, case.ppa_g)
+            yield _block(f"{record.name}, {case}{more}", ax, az, scale=scale, **place)
+
+
+def random_blocks() -> Iterator[Block]:
+    """Yield blocks under noise of few samples, which stops and reverses them between samples."""
+    rng = np.random.default_rng(2003)
+    for k in range(200):
+        ax, az = rng.normal(0.0, 5.0, 8).round(1), rng.normal(0.0, 1.0, 8).round(1)
+        place = {"slope_rad": math.radians(rng.integers(-4, 8)), "mu": 0.1 * rng.integers(1, 6)}
+        yield _block(f"Random record {k}", ax, az if k % 2 else None, dt_s=0.02, **place)
+
+
+def fifty_digits(blocks: Iterable[Block]) -> Iterator[Check]:
+    """Compare PRD and residual of the exact method with `reference`."""
+    source = "Decimal arithmetic, Eqs. 12-18 of the paper; shares no code with the solver"
+    for block in blocks:
+        yield from slip_checks("DA-1", source, block.name, block.exact, slide(**block.given))
+
+
+def rival_errors(kinds: Mapping[str, Sequence[Block]]) -> pd.DataFrame:
+    """Run every method on every block that it takes, beside `reference`.
+
+    Returns
+    -------
+    DataFrame
+        A row for each run: `method`, `motions`, which is the kind of the block, and `error [%]`,
+        the larger of those of PRD and residual, see `percent_of`.
+    """
+    rows = []
+    for method in runnable_methods():
+        for kind, blocks in kinds.items():
+            for _, given, exact in blocks:
+                if given["az_mps2"] is None or method.takes_vertical:
+                    found = slide(**given, method=method.name)
+                    off = abs(found.prd_m - exact.prd_m), abs(found.residual_m - exact.residual_m)
+                    error = float(percent_of(np.max(off), exact.prd_m))
+                    rows.append({"method": method.name, "motions": kind, "error [%]": error})
+    return pd.DataFrame(rows)
+
+
+def claims(errors: pd.DataFrame) -> Iterator[Check]:
+    """Check that methods which are said never to be invalid have no error but rounding."""
+    source = "Decimal arithmetic, as DA-1: what section 4 says, never invalid, and as accurate"
+    row = partial(Check, "ME-2", source, "Largest error of PRD and residual", "1")
+    for (name, kind), own in errors.groupby(["method", "motions"], sort=False):
+        if METHODS[name].invalid_when.startswith("Never"):
+            largest = 0.01 * own["error [%]"].max(skipna=False)
+            yield row(f"{METHODS[name].title}: {kind}", 0.0, largest)
 
 
 def rivals() -> Iterator[Check]:

@@ -289,6 +289,7 @@ class Verification:
 
     checks: tuple[Check, ...]
     left_out: tuple[Check, ...]  # not run, as SciPy is not installed
+    rivals: pd.DataFrame  # see `solver.verification.checks.rival_errors`
     work: pd.DataFrame  # see `solver.verification.workprecision.work_points`
     maps: tuple[StabilityMap, ...]
     # by record, the project's first: see `solver.verification.paper_studies.convergence`

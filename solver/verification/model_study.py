@@ -107,7 +107,7 @@ def model_evidence(triples: Sequence[Motion], *, quick: bool) -> ModelEvidence:
     return ModelEvidence(
         study=study(triples, quick=quick),
         pushed=pushed(),
-        work=workprecision.work(triples[0], quick=quick),
+        work=workprecision.work(triples[:1], quick=quick),
     )
 
 

@@ -62,7 +62,10 @@ def verify(
     progress("Generating the project's records")
     records = own_records(quick)
     progress("Checks: closed forms, 50-digit arithmetic, physical checks of the paper")
-    rows = list(_rows(records))
+    roof = [block for record in records for block in checks.roof_blocks(record)]
+    rows = list(_rows(records[0], roof))
+    rivals = checks.rival_errors({checks.RANDOM: [*checks.random_blocks()], checks.ROOF: roof})
+    rows += checks.claims(rivals)
     progress("Roof motion from ground motion: modes, model building, recorded buildings if given")
     made = building_checks.made_building(records[0])
     roofs = tuple(building.compare(floors) for floors in (made, *buildings))
@@ -93,6 +96,7 @@ def verify(
     return Verification(
         checks=tuple(row for row in rows if row.is_run),
         left_out=tuple(row for row in rows if not row.is_run),
+        rivals=rivals,
         work=work,
         maps=maps,
         convergence=convergence,
@@ -109,10 +113,9 @@ def verify(
     )
 
 
-def _rows(records: Sequence[Record]) -> Iterator[Check]:
+def _rows(record: Record, roof: Sequence[checks.Block]) -> Iterator[Check]:
     yield from checks.closed_forms()
-    yield from checks.physical_checks(records[0])
-    for record in records:
-        yield from checks.fifty_digits(record)
+    yield from checks.physical_checks(record)
+    yield from checks.fifty_digits(roof)
     yield from checks.rivals()
     yield from design_checks.design_checks()

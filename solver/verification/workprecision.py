@@ -1,32 +1,37 @@
 """Accuracy against run time: every method with each setting, timed and compared with the exact one.
 
-Times are for one thread, warm, the least of several repeats, after the record is prepared and the
-input checked. See `solver.rivals.methods` for the methods and their settings.
+Times are for one thread, warm, the least of several repeats, after the input is checked: `TIME`
+with the record prepared, as one of many runs of it, and `SINGLE` with what the method prepares. See
+`solver.rivals.methods` for the methods and their settings.
 
-Two axes: the same on one scene.
+Two axes: the same against the tightest tolerance.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from solver.kernels import rivals
+from solver.kernels import rivals, runge_kutta
+from solver.kernels.one_axis import bounds
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Motion, Scene, SlideResult, Status, coulomb
 from solver.records.record import Record
 from solver.rivals import by_scipy
 from solver.rivals.methods import METHODS, AxisScene, Method
 from solver.sliding import two_axes
+from solver.sliding.one_axis import RecordBounds, bounds_of
 from solver.verification.evidence import percent_off
 from solver.verification.study import (
     MODEL_CASES,
     TIGHT,
     Case,
+    clocked,
     cut,
     minimum_seconds,
     prepared,
@@ -37,6 +42,11 @@ from solver.verification.study import (
 )
 
 NO_SAMPLES = np.empty((2, 0))
+TIME, SINGLE = "time per run [s]", "time of a single run [s]"
+RUN = ["record", "case"]
+
+ROUNDING_PERCENT = 1e-10
+"""Errors that rounding explains: a method with no more is as accurate as any."""
 
 
 def work_points(runs: Iterable[tuple[Record, Case]], *, quick: bool) -> pd.DataFrame:
@@ -84,11 +94,16 @@ def _measured(
     record: Record, case: Case, method: Method, parameters: Mapping[str, float], exact: SlideResult
 ) -> dict[str, Any]:
     result, seconds = run(record, case, method.name, **parameters), math.nan
+    prepares_s = 0.0
     # A run that gave up has taken a time that says nothing.
     if result.status not in (Status.DIVERGED, Status.UPLIFT):
-        seconds = timed(method, prepared(record, case), parameters)
+        scene = prepared(record, case)
+        seconds = timed(method, scene, parameters)
+        if method.name == "exact":  # bounds of the record, and those of no vertical one
+            prepares_s = sum(minimum_seconds(partial(bounds, a)) for a in (scene.ax, scene.az))
     return {
-        "time per run [s]": seconds,
+        TIME: seconds,
+        SINGLE: seconds + prepares_s,
         "PRD error [m]": abs(result.prd_m - exact.prd_m),
         "PRD error [%]": float(percent_off(result.prd_m, exact.prd_m)),
         "residual error [m]": abs(result.residual_m - exact.residual_m),
@@ -97,78 +112,101 @@ def _measured(
     }
 
 
-OURS = "Power series, event by event"
-HOLDING = "Fixed steps, stick at velocity reversal"
-CHATTERING = "Fixed steps, no stick"
+def times_longer(runs: pd.DataFrame, ours: pd.DataFrame, error: str, time: str = TIME) -> float:
+    """Return the least time of runs as accurate as ours, over that of ours: median of the cases."""
+    both = runs.merge(ours, on=RUN, suffixes=("", " of ours"))
+    near = both[both[error] <= both[f"{error} of ours"].clip(ROUNDING_PERCENT)]
+    ratios = near[time] / near[f"{time} of ours"]
+    return float(ratios.groupby([near[name] for name in RUN]).min().median())
+
+
+OURS = "power series, by events"
+HOLDING = "fixed steps, stick at reversal"
+CHATTERING = "fixed steps, no stick"
 REGULARIZED = METHODS["regularized"]
 
-CASE = MODEL_CASES[1]
-# Samples of the part of a motion, quick and full: SciPy takes up to a second per run.
-SAMPLES = (101, 151)
+# Samples of the part of a motion if quick: SciPy takes seconds for a whole one.
+SAMPLES = 101
 
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
 OF_EVENTS = (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)
-"""Tolerances of SciPy's solvers with events."""
+"""Tolerances of the compiled solvers with events."""
+OF_SCIPY = 1e-7
+"""That of SciPy's."""
 SUBSTEPS = (1, 4, 16, 64, 256, 1024)
 
 _End = Callable[[], tuple[float, float]]
 """Runs a method and returns the final position, x and y [m]."""
 
 
-def work(triple: Motion, *, quick: bool) -> pd.DataFrame:
-    """Run every method with each of its settings on the strongest part of a motion.
+def work(triples: Iterable[Motion], *, quick: bool) -> pd.DataFrame:
+    """Run every method with each of its settings on every motion, or its strongest part if quick.
 
     Returns
     -------
     DataFrame
-        A row for each run, with columns as in verification.csv; the residual error is that of the
-        position, in percent of the PRD. A failed run has no time and no error: NaN.
+        A row for each run, as those of `work_points`; the residual error is that of the position,
+        in percent of the PRD. A failed run has no time and no error: NaN.
     """
-    part = cut(triple, SAMPLES[not quick])
-    scene = scene_of(part, CASE, coulomb(CASE.mu))
-    truth = two_axes.run(scene, TIGHT)
     rows = []
-    for method, setting, solve in _runs_in_plane(scene, OF_EVENTS[::2] if quick else OF_EVENTS):
-        off_m = math.dist(solve(), (truth.residual_m, truth.residual_across_m))
-        rows.append(
-            {
-                "method": method,
-                "parameters": setting,
-                "case": f"{part.id}, {CASE}",
-                "time per run [s]": math.nan if math.isnan(off_m) else minimum_seconds(solve),
-                "residual error [%]": 100.0 * off_m / truth.prd_m,
-            }
-        )
+    for triple, case in itertools.product(triples, MODEL_CASES):
+        part = cut(triple, SAMPLES) if quick else triple
+        scene = scene_of(part, case, coulomb(case.mu))
+        truth = two_axes.run(scene, TIGHT)
+        bounds_s, rows_s = (minimum_seconds(partial(f, scene)) for f in (bounds_of, samples_of))
+        for method, setting, words, solve in _runs_in_plane(scene):
+            end, seconds = clocked(solve)
+            off_m = math.dist(end, (truth.residual_m, truth.residual_across_m))
+            # One run is enough where it takes seconds.
+            if method != SCIPY:
+                seconds = math.nan if math.isnan(off_m) else minimum_seconds(solve)
+            rows.append(
+                {
+                    "method": method,
+                    "setting": setting,
+                    "parameters": words,
+                    "record": part.id,
+                    "case": str(case),
+                    TIME: seconds,
+                    SINGLE: seconds + (bounds_s if method == OURS else rows_s),
+                    "residual error [%]": 100.0 * off_m / truth.prd_m,
+                }
+            )
     return pd.DataFrame(rows)
 
 
-def _runs_in_plane(scene: Scene, of_events: Sequence[float]) -> Iterator[tuple[str, str, _End]]:
-    """Yield the name of a method and its setting with what runs it."""
+SCIPY = METHODS["events-dop853"].label
+
+
+def _runs_in_plane(scene: Scene) -> Iterator[tuple[str, float, str, _End]]:
+    """Yield the name of a method and its setting with what runs it, once prepared."""
+    bounds, rows = bounds_of(scene), samples_of(scene)
+    dt, cosine = scene.dt_s, math.cos(scene.slope_rad)
     for tolerance in TOLERANCES:
-        yield OURS, f"tol. {tolerance:g}", partial(_series, scene, tolerance)
-    # Prepared before the clock starts, as the scene of our own method is.
-    rows, dt, cosine = samples_of(scene), scene.dt_s, math.cos(scene.slope_rad)
+        yield OURS, tolerance, f"tol. {tolerance:g}", partial(_series, scene, tolerance, bounds)
     for method, holds in ((HOLDING, True), (CHATTERING, False)):
         for count in SUBSTEPS:
             fixed = partial(rivals.slide_fixed, rows, dt, cosine, count, holds)
-            yield method, f"P = {count}", partial(_fixed, fixed)
+            yield method, count, f"P = {count}", partial(_place, fixed)
+    for name, order in (("compiled-dop853", 8), ("compiled-rk45", 5)):
+        for tolerance in OF_EVENTS:
+            steps = partial(runge_kutta.slide_plane, rows, dt, cosine, order, tolerance)
+            yield METHODS[name].label, tolerance, f"tol. {tolerance:g}", partial(_place, steps)
     if not by_scipy.is_installed():
         return
     for v0 in REGULARIZED.sweep:
         smooth = partial(by_scipy.regularized, rows, dt, v0, REGULARIZED.parameters["tolerance"])
-        yield REGULARIZED.label, f"{1e3 * v0:g} mm/s", partial(_end, smooth, cosine)
-    for solver in ("DOP853", "RK45"):
-        label = METHODS[f"events-{solver.lower()}"].label
-        for tolerance in of_events:
-            run = partial(by_scipy.plane, rows, dt, solver, tolerance)
-            yield label, f"tol. {tolerance:g}", partial(_end, run, cosine)
+        yield REGULARIZED.label, v0, f"{1e3 * v0:g} mm/s", partial(_end, smooth, cosine)
+    plane = partial(by_scipy.plane, rows, dt, "DOP853", OF_SCIPY)
+    yield SCIPY, OF_SCIPY, f"tol. {OF_SCIPY:g}", partial(_end, plane, cosine)
 
 
-def _series(scene: Scene, tolerance: float) -> tuple[float, float]:
-    return two_axes.follow(scene, tolerance).end_m
+def _series(scene: Scene, tolerance: float, bounds: RecordBounds) -> tuple[float, float]:
+    result = two_axes.run_bounded(scene, tolerance, bounds)
+    return result.residual_m, result.residual_across_m
 
 
-def _fixed(run: Callable[[], tuple[float, float, float, float]]) -> tuple[float, float]:
+def _place(run: Callable[[], tuple[float, float, float, float]]) -> tuple[float, float]:
     _, x, y, _ = run()
     return x, y
 

@@ -14,15 +14,17 @@ import commands
 import printed
 from places import RECORDS
 from report.manual.measured import building, models
+from report.manual.precision import work
 from report.manual.render import summary, verification_csv
 from solver.building.roof import absolute_accelerations, roof_motion
 from solver.building.structure import beam_modes, building_of_periods
 from solver.model import InputError
 from solver.records.record import Record, write_record
 from solver.records.spectrum import response_spectrum
+from solver.rivals.methods import METHODS
 from solver.sliding.checked import slide
 from solver.verification import building_checks as checks
-from solver.verification import model_study
+from solver.verification import model_study, workprecision
 from solver.verification.building import (
     BY_HEIGHT,
     SPECTRUM_S,
@@ -31,7 +33,13 @@ from solver.verification.building import (
     recorded_buildings,
 )
 from solver.verification.evidence import HELD, SECOND
-from solver.verification.study import own_records, own_triples
+from solver.verification.study import (
+    CASES,
+    near_fault_pulse,
+    own_records,
+    own_triples,
+    shortened,
+)
 from verified import only
 
 pytestmark = pytest.mark.skipif(
@@ -265,17 +273,11 @@ def nothing_slides(evidence):
     return replace(evidence, study=replace(evidence.study, changes=changes))
 
 
-def without_scipy(evidence):
-    is_ours = ~evidence.work["method"].str.contains("SciPy")
-    return replace(evidence, work=evidence.work[is_ours])
-
-
 @pytest.mark.parametrize(
     ("changed", "wanted", "unsaid"),
     [
         (recorded_and_lifted, "1 recorded in earthquakes", "No records of three"),
         (nothing_slides, "No run slides 5 mm or more", TWO_AXES),
-        (without_scipy, "SciPy is not installed here", "SciPy's DOP853"),
     ],
 )
 def test_what_differs_in_another_run_is_told(evidence, changed, wanted, unsaid):
@@ -284,8 +286,34 @@ def test_what_differs_in_another_run_is_told(evidence, changed, wanted, unsaid):
     assert unsaid not in said
 
 
-def test_the_charts_are_the_same_every_time_and_the_runs_are_in_the_table(evidence):
-    first, other = (models(only(models=(evidence,))).charts for _ in range(2))
+@pytest.fixture(scope="module")
+def runs():
+    part = shortened(near_fault_pulse(), 5.0)
+    return workprecision.work_points([(part, CASES[1])], quick=True)
+
+
+def test_both_axes_are_compared_by_time_and_errors(evidence, runs):
+    said = page(work, work=runs, models=(evidence,), records=("",))
+    assert "motion-01, strongest 1 s, generated roof motion" in said
+    exact = runs[runs["method"] == "exact"].iloc[0]
+    single = exact[workprecision.SINGLE] / exact[workprecision.TIME]
+    assert f"a single run takes {single:.1f} times the time of one of many" in said
+    for method in ("compiled-rk45", "events-rk45"):
+        (other,) = runs.loc[runs["method"] == method, workprecision.TIME]
+        many, one = other / exact[workprecision.TIME], other / exact[workprecision.SINGLE]
+        assert f"{METHODS[method].label} {many:.0f} and {one:.1f} times" in said
+    ours = evidence.work[evidence.work["method"] == workprecision.OURS]
+    ours = ours[ours["setting"] == 1e-6]
+    compiled = evidence.work[evidence.work["method"].str.endswith("(compiled)")]
+    longer = workprecision.times_longer(compiled, ours, "residual error [%]")
+    assert f"takes {longer:.0f} times as long (median)" in said
+    assert "nan" not in said
+    one_axis = page(work, work=runs, records=("",))
+    assert "power series" not in one_axis
+
+
+def test_the_charts_are_the_same_every_time_and_the_runs_are_in_the_table(evidence, runs):
+    first, other = (work(only(models=(evidence,), work=runs)).charts for _ in range(2))
     assert first == other
     assert len(first) == 1
     table = pd.read_csv(io.BytesIO(verification_csv(only(models=(evidence,)))))

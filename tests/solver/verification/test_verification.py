@@ -50,6 +50,7 @@ def test_a_quick_verification_passes_and_fills_every_part(verification):
     assert verification.records == ("motion-01-x", "near-fault-pulse")
     parts = [
         "checks",
+        "rivals",
         "work",
         "maps",
         "convergence",
@@ -117,11 +118,12 @@ def test_a_solver_that_is_a_millionth_off_fails_the_checks_that_see_it(monkeypat
         off = {name: (1.0 + 1e-6) * getattr(right, name) for name in names}
         return dataclasses.replace(right, **off)
 
+    blocks = [*checks.roof_blocks(pulse)]
     monkeypatch.setattr(checks, "slide", wrong)
     closed = [row for row in checks.closed_forms() if row.tolerance == ROUNDING]
     assert closed
     assert not any(row.passed for row in closed)
-    assert not any(row.passed for row in checks.fifty_digits(pulse) if row.expected != 0.0)
+    assert not any(row.passed for row in checks.fifty_digits(blocks) if row.expected != 0.0)
 
 
 def test_a_method_without_a_number_fails_its_check_and_a_link_leaves_holes(monkeypatch, pulse):
@@ -135,6 +137,22 @@ def test_a_method_without_a_number_fails_its_check_and_a_link_leaves_holes(monke
     monkeypatch.setattr(paper_studies, "LINK_PER_M", 1e9)
     link = paper_studies.link_comparison(pulse, 4.0)
     assert np.isnan([*link.runs_m["PRD, link"], link.worst_percent, link.mean_percent]).all()
+
+
+def test_a_method_that_is_said_to_be_as_accurate_and_is_not_fails_its_check(monkeypatch):
+    names, blocks = ("exact", "compiled-rk45", "linear"), [*checks.random_blocks()]
+    monkeypatch.setattr(checks, "runnable_methods", lambda: [METHODS[name] for name in names])
+    found = checks.rival_errors({checks.RANDOM: blocks})
+    assert found.groupby("method").size().tolist() == [200] * 3
+    assert [row.passed for row in checks.claims(found)] == [True, True]
+
+    def passes_over_a_stop(*args, method, **kwargs):
+        is_one = kwargs["ax_mps2"] is blocks[7].given["ax_mps2"] and method == "compiled-rk45"
+        return slide(*args, method="linear" if is_one else method, **kwargs)
+
+    monkeypatch.setattr(checks, "slide", passes_over_a_stop)
+    found = checks.rival_errors({checks.RANDOM: blocks})
+    assert [row.passed for row in checks.claims(found)] == [True, False]
 
 
 def test_closed_forms_and_the_physical_checks_of_the_paper_pass(pulse):
