@@ -131,7 +131,7 @@ SAMPLES = 101
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
 OF_EVENTS = (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)
 """Tolerances of the compiled solvers with events."""
-OF_SCIPY = 1e-7
+OF_SCIPY = 1e-9
 """That of SciPy's."""
 SUBSTEPS = (1, 4, 16, 64, 256, 1024)
 
