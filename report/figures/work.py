@@ -58,9 +58,7 @@ def overview(
         _, single, error, _ = points.loc["exact"].iloc[0]
         right.plot(single, error, **LOOKS["exact"] | _LARGE | _SINGLE)
         _peers(right, peers, floor)
-        labeled(
-            left, "Time per run [s]", "Error [%]", "Two axes, roof motions: position at the end"
-        )
+        labeled(left, "Time per run [s]", "Error [%]", "Two axes, roof motions: position")
         labeled(right, "Time per run [s]", title="One axis: PRD")
         for axes in (left, right):
             logarithmic(axes, 9, 12)

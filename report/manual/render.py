@@ -23,16 +23,7 @@ from report.document.templates import Section, filled, rendered, section
 from report.entities.shown import centered, text, words
 from report.manual import precision
 from report.manual.measured import building, models, shake_table
-from report.manual.precision import (
-    conditioning,
-    convergence,
-    curves,
-    floor,
-    links,
-    methods,
-    stability,
-    work,
-)
+from report.manual.precision import conditioning, convergence, curves, floor, links, stability, work
 from report.pages.parts import verdict
 from report.pages.symbols import with_symbols
 from report.provenance.files import installed, processor
@@ -224,7 +215,7 @@ def sections(verification: Verification) -> tuple[Section, ...]:
         summary(verification),
         section("manual/scope", "Scope and terms"),
         checks(verification),
-        methods(verification),
+        precision.methods(verification),
         work(verification),
         stability(verification),
         convergence(verification),

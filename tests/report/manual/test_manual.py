@@ -14,16 +14,17 @@ import commands
 import printed
 from places import RECORDS
 from report.manual.measured import building, models
-from report.manual.precision import work
+from report.manual.precision import methods, work
 from report.manual.render import summary, verification_csv
+from report.text.formats import percent
 from solver.building.roof import absolute_accelerations, roof_motion
 from solver.building.structure import beam_modes, building_of_periods
 from solver.model import InputError
 from solver.records.record import Record, write_record
 from solver.records.spectrum import response_spectrum
-from solver.rivals.methods import METHODS
 from solver.sliding.checked import slide
 from solver.verification import building_checks as checks
+from solver.verification import checks as checks_by_digits
 from solver.verification import model_study, workprecision
 from solver.verification.building import (
     BY_HEIGHT,
@@ -292,16 +293,27 @@ def runs():
     return workprecision.work_points([(part, CASES[1])], quick=True)
 
 
+def test_every_method_stands_with_its_errors_against_50_digits():
+    blocks = [*checks_by_digits.random_blocks()][:4]
+    kinds = {checks_by_digits.RANDOM: blocks, checks_by_digits.ROOF: blocks[:1]}
+    errors = checks_by_digits.rival_errors(kinds)
+    said = page(methods, rivals=errors)
+    (table,) = [table for table in said.tables if "50-digit" in table.title]
+    assert len(table.cells) == errors["method"].nunique()
+    (linear,) = [row for row in table.cells if row[0] == "Linear acceleration"]
+    assert list(linear[1:]) == [
+        percent(own["error [%]"].agg(of))
+        for _, own in errors[errors["method"] == "linear"].groupby("motions", sort=False)
+        for of in ("median", "max")
+    ]
+
+
 def test_both_axes_are_compared_by_time_and_errors(evidence, runs):
     said = page(work, work=runs, models=(evidence,), records=("",))
     assert "motion-01, strongest 1 s, generated roof motion" in said
-    exact = runs[runs["method"] == "exact"].iloc[0]
-    single = exact[workprecision.SINGLE] / exact[workprecision.TIME]
-    assert f"a single run takes {single:.1f} times the time of one of many" in said
-    for method in ("compiled-rk45", "events-rk45"):
-        (other,) = runs.loc[runs["method"] == method, workprecision.TIME]
-        many, one = other / exact[workprecision.TIME], other / exact[workprecision.SINGLE]
-        assert f"{METHODS[method].label} {many:.0f} and {one:.1f} times" in said
+    (table,) = [table for table in said.tables if "Median times" in table.title]
+    exact = table.row("Exact, event by event")
+    assert exact["Time per run"] != exact["Single run"]
     ours = evidence.work[evidence.work["method"] == workprecision.OURS]
     ours = ours[ours["setting"] == 1e-6]
     compiled = evidence.work[evidence.work["method"].str.endswith("(compiled)")]
