@@ -74,7 +74,7 @@ def overview(
         return painted(figure)
 
 
-def _drawn(axes: Axes, points: pd.DataFrame, looks: Mapping[str, Mapping[str, Any]]) -> None:
+def _drawn(axes: Axes, points: pd.DataFrame, looks: Mapping[str, dict[str, Any]]) -> None:
     """Draw the median error of each method over its time, and from it a line to the largest."""
     for name in points.index.unique("method"):
         seconds, _, median, largest = points.loc[name].to_numpy().T

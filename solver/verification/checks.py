@@ -292,9 +292,10 @@ def claims(errors: pd.DataFrame) -> Iterator[Check]:
     source = "Decimal arithmetic, as DA-1: what section 4 says, never invalid, and as accurate"
     row = partial(Check, "ME-2", source, "Largest error of PRD and residual", "1")
     for (name, kind), own in errors.groupby(["method", "motions"], sort=False):
-        if METHODS[name].invalid_when.startswith("Never"):
+        method = METHODS[str(name)]
+        if method.invalid_when.startswith("Never"):
             largest = 0.01 * own["error [%]"].max(skipna=False)
-            yield row(f"{METHODS[name].title}: {kind}", 0.0, largest)
+            yield row(f"{method.title}: {kind}", 0.0, largest)
 
 
 def rivals() -> Iterator[Check]:
