@@ -10,6 +10,7 @@ import importlib
 import importlib.metadata
 import importlib.util
 import math
+import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -86,7 +87,7 @@ def _point(peer: Peer, model: str, record: str, case: Case, scene: Scene) -> Pee
     note, seconds = peer.note, math.nan
     try:
         importlib.import_module(peer.module)
-        prd_m, seconds = clocked(partial(peer.prd_m, scene))
+        prd_m, seconds = clocked(partial(peer.prd_m, scene), time.process_time)
         if not math.isfinite(prd_m):
             seconds, note = math.nan, f"{note}; did not converge"
     except Exception as error:  # another program may raise anything

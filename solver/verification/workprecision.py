@@ -1,6 +1,6 @@
 """Accuracy against run time: every method with each setting, timed and compared with the exact one.
 
-Times are for one thread, warm, the least of several repeats, after the input is checked: `TIME`
+Times are of the processor, warm, the least of several repeats, after the input is checked: `TIME`
 with the record prepared, as one of many runs of it, and `SINGLE` with what the method prepares. See
 `solver.rivals.methods` for the methods and their settings.
 
@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from typing import Any
@@ -33,8 +34,8 @@ from solver.verification.study import (
     Case,
     clocked,
     cut,
-    minimum_seconds,
     prepared,
+    processor_seconds,
     run,
     runnable_methods,
     samples_of,
@@ -87,7 +88,7 @@ def settings(
 
 def timed(method: Method, scene: AxisScene, parameters: Mapping[str, float]) -> float:
     """Return the least time of a run by a method on a prepared scene [s]."""
-    return minimum_seconds(partial(method.follow, scene, parameters, NO_SAMPLES))
+    return processor_seconds(partial(method.follow, scene, parameters, NO_SAMPLES))
 
 
 def _measured(
@@ -100,7 +101,7 @@ def _measured(
         scene = prepared(record, case)
         seconds = timed(method, scene, parameters)
         if method.name == "exact":  # bounds of the record, and those of no vertical one
-            prepares_s = sum(minimum_seconds(partial(bounds, a)) for a in (scene.ax, scene.az))
+            prepares_s = sum(processor_seconds(partial(bounds, a)) for a in (scene.ax, scene.az))
     return {
         TIME: seconds,
         SINGLE: seconds + prepares_s,
@@ -153,15 +154,15 @@ def work(triples: Iterable[Motion], *, quick: bool) -> pd.DataFrame:
         part = cut(triple, SAMPLES) if quick else triple
         scene = scene_of(part, case, coulomb(case.mu))
         truth = two_axes.run(scene, TIGHT)
-        bounds_s, rows_s = (minimum_seconds(partial(f, scene)) for f in (bounds_of, samples_of))
+        bounds_s, rows_s = (processor_seconds(partial(f, scene)) for f in (bounds_of, samples_of))
         # Interpreted steps take half a minute for a whole motion: they are run in one case of it.
         interpreted = quick or case == MODEL_CASES[0]
         for method, setting, words, solve in _runs_in_plane(scene, interpreted=interpreted):
-            end, seconds = clocked(solve)
+            end, seconds = clocked(solve, time.process_time)
             off_m = math.dist(end, (truth.residual_m, truth.residual_across_m))
             # One run is enough where it takes seconds.
             if method != SCIPY:
-                seconds = math.nan if math.isnan(off_m) else minimum_seconds(solve)
+                seconds = math.nan if math.isnan(off_m) else processor_seconds(solve)
             rows.append(
                 {
                     "method": method,
