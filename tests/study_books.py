@@ -1,5 +1,6 @@
 """Study workbooks of tests: written, read, run, and their results altered."""
 
+import csv
 import datetime as dt
 import io
 import math
@@ -16,6 +17,7 @@ from openpyxl import load_workbook
 from cells import addressed
 from report.cli.main import main
 from report.sheet.schema.choices import UnitsFirst
+from report.study.exports import export_files
 from report.study.plan import plan_study
 from report.study.read import read_study, write_study
 from report.study.results import LimitState
@@ -76,6 +78,12 @@ def sheet_rows(results, sheet):
     """The rows of a sheet of study.xlsx, each cell by its heading."""
     heads, *rows = load_workbook(io.BytesIO(study_xlsx(results)))[sheet].values
     return [dict(zip(heads, row, strict=True)) for row in rows]
+
+
+def library(results):
+    """The rows of fragility.csv by the ID of their component."""
+    content = export_files(results)["fragility.csv"].decode()
+    return {row["ID"]: row for row in csv.DictReader(io.StringIO(content))}
 
 
 def plan(folder):

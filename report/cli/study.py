@@ -35,8 +35,8 @@ if TYPE_CHECKING:
 @click.option("--scheduler", metavar="tcp://HOST:PORT", default="",
               help="Run on an existing Dask cluster instead of this machine.")  # fmt: skip
 @click.option("--allow-matched", is_flag=True,
-              help="Export fragilities of motions matched to one spectrum, with a warning in each"
-              " file.")  # fmt: skip
+              help="Export fragilities of motions matched to one spectrum, with a warning in"
+              " fragility.csv.")  # fmt: skip
 @click.option("--trust-parts", is_flag=True,
               help="Take over parts that are not signed with your key, of another user or machine;"
               " the results say how many.")  # fmt: skip
@@ -61,14 +61,14 @@ def study(
             extra(name)
 
     from report.results.publish import check_apart, check_of_workbook, output_folder
-    from report.study.exports import EXPORTS
+    from report.study.exports import LIBRARY
     from report.study.files import TABLE
     from report.study.manifest import NAME
     from report.study.run import estimate, planned
 
     folder = out or workbook_of(source).parent / "out/study"
     outputs = (
-        () if dry_run else [folder / name for name in ("study.pdf", "curves.csv", TABLE, *EXPORTS)]
+        () if dry_run else [folder / name for name in ("study.pdf", "curves.csv", TABLE, LIBRARY)]
     )
     with input_errors(source, outputs=outputs):
         plan, beside = planned(source)
@@ -103,7 +103,7 @@ def make(
     """
     from report.results.publish import publish
     from report.sheet.reading.linked_files import YEARS
-    from report.study.exports import EXPORTS
+    from report.study.exports import LIBRARY
     from report.study.files import study_files
     from report.study.run import RUNS, run_study
     from solver.files import add_folder, check_plain, locked
@@ -119,7 +119,7 @@ def make(
             files = study_files(results)
             publish(files, folder)
             # A former study may have had them: left there, they would pass for results of this one.
-            for name in (*EXPORTS, YEARS):
+            for name in (LIBRARY, YEARS):
                 if name not in files:
                     (folder / name).unlink(missing_ok=True)
         undo.pop_all()

@@ -16,7 +16,6 @@ from report.entities.shown import text, words
 from report.sheet.reading.linked_files import SUPPORTING, Distance, StudyYears, YearsOfArray
 from report.study import figures
 from report.study import years as rates
-from report.study.exports import has_probabilities
 from report.study.page_parts import axis, design_length
 from report.study.plan import SLOPE
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
@@ -48,7 +47,6 @@ def fragility(results: StudyResults, result: ArrayStudyResult) -> Section:
         f"Fragility of {name}",
         id=f"array-{slug(name)}",
         one=result,
-        is_left_out=is_exportable(results) and not has_probabilities(result),
         exported=_exported(results, result, known),
         MASS=MASS,
         capacity=capacity,

@@ -88,7 +88,7 @@ def exported(results: StudyResults, result: ArrayStudyResult, state: LimitState)
 
 
 def is_exportable(results: StudyResults) -> bool:
-    """Whether any format has the measure of intensity."""
+    """Whether pelicun has the measure of intensity."""
     return results.plan.input.study.intensity is not Intensity.S_DS
 
 
@@ -99,7 +99,7 @@ def lacks_record_spread(results: StudyResults) -> bool:
 
 
 def is_refused(results: StudyResults) -> bool:
-    """Whether no fragility is exported, although a format has the measure of intensity."""
+    """Whether no fragility is exported, although pelicun has the measure of intensity."""
     is_wanted = bool(results.arrays) and is_exportable(results)
     return is_wanted and lacks_record_spread(results) and not results.allow_matched
 

@@ -1,14 +1,9 @@
 """Spread of the motions' spectra and goodness of fit: what is said and exported of both."""
 
-import csv
 import dataclasses
-import io
-import json
 import math
 import re
-from statistics import NormalDist
 
-import defusedxml.ElementTree
 import numpy as np
 import pytest
 
@@ -27,7 +22,16 @@ from report.text.units import digits_down
 from solver.studies.fragility import Lognormal
 from solver.studies.uncertainty import Spread
 from studied import motion
-from study_books import command, given, limit_state, sheet_rows, with_fit, with_study, write
+from study_books import (
+    command,
+    given,
+    library,
+    limit_state,
+    sheet_rows,
+    with_fit,
+    with_study,
+    write,
+)
 
 
 def like(number, factor):
@@ -86,7 +90,6 @@ def test_the_limits_name_the_spread_and_call_it_small_only_where_it_is(results):
     assert "spectra of the" not in said(results, [motion(1)])
 
 
-FILES = {"fragility.csv", "fragility.json", "placement.csv", "fragility.xml"}
 LEVELS = np.array([0.5, 1.0, 1.5, 2.0])
 
 
@@ -115,50 +118,41 @@ UNMATCHED = [motion(k) for k in range(4)]
 def test_a_fragility_without_record_to_record_dispersion_is_not_exported(results, motions):
     found = with_state(results, motions)
     assert export_files(found) == {}
-    assert "The fragility files are not written: the " in headline(found)[-1]
-    assert headline(found)[-1].endswith("or write the files with --allow-matched")
+    assert "fragility.csv is not written: the " in headline(found)[-1]
+    assert headline(found)[-1].endswith("or write it with --allow-matched")
     assert printed.study(found).table("Dispersions").column("β exported") == ["not exported"]
 
 
-def test_allow_matched_writes_the_warning_in_each_file(results):
+def test_allow_matched_writes_the_warning_in_the_comments(results):
     found = with_state(results, MATCHED, allow_matched=True)
-    made = export_files(found)
-    assert made.keys() == FILES
     wanted = (
         "Warning: the spectra of the 3 motions differ by a standard deviation of ln Sa of 0.021 in "
         "the median, as motions matched to one spectrum do, and β does not contain the "
         "record-to-record dispersion of earthquakes. Written with --allow-matched."
     )
     assert sentence(found, "warnings") == wanted
-    assert all(wanted in content.decode() for content in made.values())
+    assert f" {wanted} Study " in library(found)["BSA.S1"]["Comments"]
     assert headline(found)[-1] == wanted.rstrip(".")
 
 
 def test_motions_that_differ_are_exported_without_a_warning(results):
     for allow in (False, True):
-        made = export_files(with_state(results, UNMATCHED, allow_matched=allow))
-        assert made.keys() == FILES
-        assert not any("Warning" in content.decode() for content in made.values())
+        (row,) = library(with_state(results, UNMATCHED, allow_matched=allow)).values()
+        assert "Warning" not in row["Comments"]
 
 
-def test_an_entered_record_to_record_value_replaces_that_of_the_motions_in_each_file(results):
+def test_an_entered_record_to_record_value_replaces_that_of_the_motions(results):
     entered = {"record_beta": 0.3, "record_source": "Site & hazard"}
     found = with_state(results, MATCHED, modeling_beta=0.4, **entered)
-    made = export_files(found)
-    assert made.keys() == FILES
-    (row,) = csv.DictReader(io.StringIO(made["fragility.csv"].decode()))
+    row = library(found)["BSA.S1"]
     assert (row["LS1-Theta_0"], row["LS1-Theta_1"]) == ("1.20000", "0.500000")
-    chances = defusedxml.ElementTree.fromstring(made["fragility.xml"])[0][2][1].text.split()
-    wanted = [NormalDist(math.log(1.2), 0.5).cdf(math.log(x)) for x in LEVELS]
-    assert [float(p) for p in chances] == pytest.approx(wanted, abs=1.01e-6)
     said = (
         "Dispersions of LS1: record-to-record 0.30 (Site & hazard), modeling 0.40 (entered), "
         "quality of data not included (not given), friction not included (mat A has no tests), "
         "slope not included (no tolerance is given). Mass has no effect: each array is one rigid "
         "block with Coulomb friction."
     )
-    assert said in json.loads(made["fragility.json"])["BSA.S1"]["Comments"]
-    assert said in defusedxml.ElementTree.fromstring(made["fragility.xml"])[0][0].text
+    assert said in row["Comments"]
     page = printed.study(found)
     assert "the dispersions β of the fits do not contain how much the spectra" in page
     assert "contains the record-to-record dispersion that is entered" in page
@@ -177,13 +171,13 @@ def test_a_run_that_exports_nothing_leaves_no_export_of_a_former_one(tmp_path, m
     folder = write(tmp_path, given(intensities="0.2 to 2.4 by 0.2"), motions=1)
     first = command(folder, "--allow-matched")
     assert first.exit_code == 0, first.output
-    out = folder / "out" / "study"
-    assert (out / "fragility.xml").exists()
     assert "Warning: the record-to-record spread of 1 motion cannot be measured" in first.output
+    former = folder / "out" / "study" / "fragility.csv"
+    former.write_text("of two motions")
     again = command(folder)
     assert again.exit_code == 0, again.output
-    assert "The fragility files are not written" in again.output
-    assert not FILES & {path.name for path in out.iterdir()}
+    assert "fragility.csv is not written" in again.output
+    assert not former.exists()
 
 
 @pytest.fixture(scope="module")
