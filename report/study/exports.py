@@ -16,7 +16,6 @@ from report.study.schema import Intensity
 from report.study.tables import Row
 from report.study.wording import (
     MASS,
-    NOT_DETERMINED,
     context,
     dispersions,
     exported,
@@ -80,22 +79,18 @@ def _component(results: StudyResults, result: ArrayStudyResult) -> Row:
     demand, unit, _ = DEMANDS[results.plan.input.study.intensity]
     comments = _comments(results, result)
     row = [component_id(results, result), 0, demand, unit, 0, 0, comments]
-    for state in result.states:
-        row += _limit_state(results, result, state)
+    # Those that are known, without a gap: pelicun fails where the first state is blank, and counts
+    # its damage states without the others that are.
+    states = known_states(result)
+    for state in states:
+        lognormal = exported(results, result, state)
+        # A reader takes the digits as they are: a lower median and a larger dispersion err on the
+        # safe side.
+        theta, beta = digits_down(lognormal.theta, 6), digits_up(lognormal.beta, 6)
+        row += ["lognormal", theta, beta, "", f"{capitalized(state.words)}."]
     # Every row has the columns of four states, blank beyond its own.
-    blank = [""] * (len(_OF_STATE) * (MOST_STATES - len(result.states)))
+    blank = [""] * (len(_OF_STATE) * (MOST_STATES - len(states)))
     return [*row, *blank]
-
-
-def _limit_state(results: StudyResults, result: ArrayStudyResult, state: LimitState) -> list[str]:
-    """Return the columns of a limit state; an undetermined one has its description alone."""
-    f = exported(results, result, state)
-    words = f"{capitalized(state.words)}."
-    if not f.is_known:
-        return ["", "", "", "", f"{words} {capitalized(NOT_DETERMINED)}."]
-    # A reader takes the digits as they are: a lower median and a larger dispersion err on the safe
-    # side.
-    return ["lognormal", digits_down(f.theta, 6), digits_up(f.beta, 6), "", words]
 
 
 def _comments(results: StudyResults, result: ArrayStudyResult) -> str:
@@ -110,6 +105,7 @@ def _comments(results: StudyResults, result: ArrayStudyResult) -> str:
         "is_roof": is_roof,
         "dispersions": partial(dispersions, results, result),
         "known_states": known_states(result),
+        "others": [state.words for state in result.states if not state.fragility.fitted.is_known],
         "MASS": MASS,
     }
     return said(TEMPLATES, "study/exports.html", "comments", context(results) | words)

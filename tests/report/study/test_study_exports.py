@@ -5,7 +5,6 @@ import json
 import math
 
 import numpy as np
-import pandas as pd
 import pytest
 from dlml import get_fragility, vocabulary
 from dlml._tabular import load_tabular
@@ -41,8 +40,8 @@ def test_pelicun_reads_the_library(made, results, tmp_path):
     assert row["Demand", "Type"] in vocabulary.EDP_TYPES
     assert row["Demand", "Unit"] == "g"
     array = min(known, key=lambda one: component_id(results, one))  # the reader sorts
-    for state in known_states(array):
-        name, fitted = state.name, state.fragility.fitted
+    for k, state in enumerate(known_states(array), start=1):
+        name, fitted = f"LS{k}", state.fragility.fitted
         assert row[name, "Family"] == "lognormal"
         assert float(row[name, "Theta_0"]) == pytest.approx(fitted.theta, rel=1e-5)
         assert float(row[name, "Theta_0"]) <= fitted.theta * (1 + 1e-9)
@@ -51,22 +50,21 @@ def test_pelicun_reads_the_library(made, results, tmp_path):
         assert float(row[name, "Theta_1"]) >= total * (1 - 1e-9)
 
 
-# The reader sets an option that its pandas no longer needs.
-@pytest.mark.filterwarnings("ignore::pandas.errors.Pandas4Warning")
 @pytest.mark.nightly
-def test_an_undetermined_state_leaves_the_others_their_names(results, tmp_path):
-    fits = Lognormal(theta=0.5, beta=0.1), UNKNOWN, Lognormal(theta=1.5, beta=0.2)
-    states = one, _, three = tuple(map(with_fit, results.arrays[0].states, fits))
-    made = export_files(having(results, dataclasses.replace(results.arrays[0], states=states)))
-    (tmp_path / "fragility.csv").write_bytes(made["fragility.csv"])
-    row = load_tabular(tmp_path / "fragility.csv").iloc[0]
-    for state in (one, three):
-        theta = float(row[state.name, "Theta_0"])
-        assert theta == pytest.approx(state.fragility.fitted.theta, rel=1e-5)
-        assert row[state.name, "Description"] == f"{state.words[:1].upper()}{state.words[1:]}."
-    assert pd.isna(row["LS2", "Family"])
-    assert pd.isna(row["LS2", "Theta_0"])
-    assert row["LS2", "Description"] == "Half the clearance is used. Not determined."
+def test_states_that_are_not_determined_leave_no_gap_where_pelicun_would_stop(results):
+    """It takes the k-th state that has a median as damage state k, and fails without the first."""
+    fits = UNKNOWN, Lognormal(theta=1.0, beta=0.1), UNKNOWN
+    states = tuple(map(with_fit, results.arrays[0].states, fits))
+    one = dataclasses.replace(results.arrays[0], states=states)
+    row = library(having(results, one))["BSA.S1"]
+    assert (row["LS1-Family"], row["LS1-Theta_0"]) == ("lognormal", "1.00000")
+    assert row["LS1-Description"] == "Half the clearance is used."
+    assert {row[f"LS{k}-{name}"] for k in (2, 3, 4) for name in ("Theta_0", "Description")} == {""}
+    assert "Dispersions of LS1 (half the clearance is used): record" in row["Comments"]
+    assert ". Not determined: slip begins and RTU & co is reached. Mass" in row["Comments"]
+    assert library(having(results, one)).keys() == {"BSA.S1"}
+    none = dataclasses.replace(one, states=states[:1])
+    assert export_files(having(results, none)) == {}
 
 
 P58 = "seismic/building/component/FEMA P-58 2nd Edition"

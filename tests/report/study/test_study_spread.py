@@ -147,10 +147,10 @@ def test_an_entered_record_to_record_value_replaces_that_of_the_motions(results)
     row = library(found)["BSA.S1"]
     assert (row["LS1-Theta_0"], row["LS1-Theta_1"]) == ("1.20000", "0.500000")
     said = (
-        "Dispersions of LS1: record-to-record 0.30 (Site & hazard), modeling 0.40 (entered), "
-        "quality of data not included (not given), friction not included (mat A has no tests), "
-        "slope not included (no tolerance is given). Mass has no effect: each array is one rigid "
-        "block with Coulomb friction."
+        "Dispersions of LS1 (slip begins): record-to-record 0.30 (Site & hazard), modeling 0.40 "
+        "(entered), quality of data not included (not given), friction not included (mat A has no "
+        "tests), slope not included (no tolerance is given). Mass has no effect: each array is one "
+        "rigid block with Coulomb friction."
     )
     assert said in row["Comments"]
     page = printed.study(found)
