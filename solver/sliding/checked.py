@@ -103,7 +103,14 @@ def slide(
     """
     # A sweep of one's own calls this many thousand times: 6 to 14 us, and 33 with all checks.
     is_alone = ay_mps2 is None and az_mps2 is None and dt_s is None and units is None
-    if type(ax_mps2) is Record and is_alone and method == "exact" and not parameters:
+    is_constant = not isinstance(mu, Friction)
+    if (
+        type(ax_mps2) is Record
+        and is_alone
+        and is_constant
+        and method == "exact"
+        and not parameters
+    ):
         result = quick_slide(ax_mps2, slope_rad, mu, scale, g_mps2)
         if result is not None:
             return result
