@@ -764,10 +764,10 @@ def friction_demand(ax, ay, az, sn, cs, g, scale):
         if not normal > 0.0:
             return np.inf
         down, across = weight * sn - along * cs, scale * ay[i]
-        square = (down / normal) * (down / normal) + (across / normal) * (across / normal)
-        # The ratio itself is needed only where its square, which is faster, may be the largest.
-        if square >= NEARLY * most:
-            demand, most = max(demand, math.hypot(down, across) / normal), max(most, square)
+        # The ratio is needed only where it may be the largest: products, which are faster, tell.
+        if down * down + across * across >= most * (normal * normal):
+            demand = max(demand, math.hypot(down, across) / normal)
+            most = NEARLY * (demand * demand)
     return demand
 
 

@@ -8,11 +8,14 @@ from __future__ import annotations
 
 import math
 import warnings
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
+from functools import cached_property, partial
 from typing import Any
 
-from solver.forces import friction_demand
+from solver.forces import components, friction_demand
+from solver.kernels import cross_slope as kernel
 from solver.model import InputError, Scene, SlideHistory, SlideResult, Status, coulomb
 from solver.records.record import NO_RECORD
 from solver.sliding import one_axis, two_axes
@@ -73,33 +76,48 @@ DEFAULT = Settings()
 _LENGTHS = ("prd_m", "down_m", "up_m", "across_m", "residual_m", "residual_across_m")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Solution:
     """Result of a scene, the model used, and the effect of a more complete model.
+
+    Where a bound known beforehand decided the model, `reason` and `next_effect_m` take the runs
+    that were not needed: they are made once, when either is first asked for.
 
     Attributes
     ----------
     model : Model
-    reason : str
-        Why this model was used, as a clause.
     result : SlideResult
     next_model : Model
         The first more complete model that was not used; the model itself if there is none.
-    next_effect_m : float
-        Largest change of the PRD, an excursion or a residual by the more complete models [m], from
-        runs of them and including their errors; inf if such a run gives no displacement, NaN if the
-        input has no data for a more complete model.
     friction_demand : float
         Largest ratio of shear to normal force with no slip. The block slips if this exceeds the
         friction coefficient. inf if the normal force is zero or negative at a sample.
     """
 
     model: Model
-    reason: str
     result: SlideResult
     next_model: Model
-    next_effect_m: float
     friction_demand: float
+    # The reason and the effect, or what returns them.
+    told: tuple[str, float] | Callable[[], tuple[str, float]] = field(repr=False, compare=False)
+
+    @property
+    def reason(self) -> str:
+        """Why this model was used, as a clause."""
+        return self._told[0]
+
+    @property
+    def next_effect_m(self) -> float:
+        """Largest change of the PRD, an excursion or a residual by the more complete models [m].
+
+        From runs of them, and including their errors; inf if such a run gives no displacement, NaN
+        if the input has no data for a more complete model.
+        """
+        return self._told[1]
+
+    @cached_property
+    def _told(self) -> tuple[str, float]:
+        return self.told if isinstance(self.told, tuple) else self.told()
 
     def __repr__(self) -> str:
         return f"Solution: {self.model.title}; {self.reason}\n{self.result}\n{self._beyond}"
@@ -129,10 +147,11 @@ def solve(
     If the friction demand never exceeds the coefficient at rest, the block does not slip and no
     models are compared. Otherwise the simplest model is used whose PRD, excursions and residuals
     agree within `Settings.bound_m` with those of all more complete ones, error bounds included. The
-    more complete models are run for this comparison: the effect of cross-slope shaking accumulates
-    along the whole path, so no estimate from one axis alone bounds it. Velocity-dependent friction
-    is modeled whenever the scene has it. If the normal force falls below zero no model gives a
-    displacement, not even a forced one. `bounds` are those of the scene, where they are known.
+    run in two axes is left out where the record alone shows that cross-slope shaking changes less
+    (`solver.kernels.cross_slope`); the runs in one axis, where that in two goes farther across than
+    may be neglected. Velocity-dependent friction is modeled whenever the scene has it. If the
+    normal force falls below zero no model gives a displacement, not even a forced one. `bounds` are
+    those of the scene, where they are known.
     Raises `InputError` for a forced model that the scene does not allow.
     """
     demand = friction_demand(scene)
@@ -140,7 +159,7 @@ def solve(
     if math.isinf(demand) and one_axis.run(scene).status is Status.UPLIFT:
         return _lifted(scene)
     if settings.forced is None:
-        return _climbed(scene, settings, demand, bounds or bounds_of(scene))
+        return _climbed(scene, settings, demand, bounds)
     return _forced(scene, settings, settings.forced, demand)
 
 
@@ -152,39 +171,95 @@ def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> S
     return one_axis.run_history(run)
 
 
-def _climbed(scene: Scene, settings: Settings, demand: float, bounds: RecordBounds) -> Solution:
+def _climbed(
+    scene: Scene, settings: Settings, demand: float, bounds: RecordBounds | None
+) -> Solution:
     if demand <= scene.friction.mu_static:
         return _still(scene, demand, bounds)
     if not scene.friction.is_constant:
         why = "the friction coefficient depends on velocity"
         return _in_plane(scene, settings, Model.SPEED_FRICTION, why, demand)
-    vertical = one_axis.run_bounded(scene, bounds)
-    bound = settings.bound_m(vertical.prd_m)
-    # The costly run, once: what each simpler model leaves out is read from it.
-    both = (
-        two_axes.run_bounded(scene, settings.tolerance, bounds) if scene.ay_mps2.any() else vertical
-    )
-    less = lesser = _left_out(vertical, both)
-    # Otherwise the level run is farther than the bound from one of both: they are twice it apart.
-    if less <= 2.0 * bound:
-        level = one_axis.run_bounded(_level(scene), bounds) if scene.az_mps2.size else vertical
-        lesser = _left_out(level, vertical, both)
+    model, result, both = _chosen(scene, settings, bounds)
+    tell = partial(_told, scene, settings, model, both)
+    return _solution(scene, model, result, demand, tell)
+
+
+def _chosen(
+    scene: Scene, settings: Settings, bounds: RecordBounds | None
+) -> tuple[Model, SlideResult, SlideResult | None]:
+    """Return the simplest adequate model, its result, and that in two axes where it was needed."""
+    both, at_most = None, 0.0
+    if scene.ay_mps2.any():
+        bounds = bounds or bounds_of(scene)
+        at_most = _second_axis_at_most(scene, settings)
+        # The costly run: once, and only where no bound shows that it is not needed.
+        if math.isinf(at_most):
+            both = two_axes.run_bounded(scene, settings.tolerance, bounds)
+            if _is_far_across(both, settings):
+                return Model.TWO_AXES, both, both
+    vertical = _run_along(scene, bounds)
+    level = _run_along(_level(scene), bounds) if scene.az_mps2.size else vertical
+    bound, lesser = settings.bound_m(vertical.prd_m), _left_out(level, vertical)
+    at_most += vertical.error_m if at_most else 0.0
+    if not at_most <= bound or lesser <= bound < lesser + at_most:
+        both = both or two_axes.run_bounded(scene, settings.tolerance, bounds or bounds_of(scene))
+        at_most, lesser = _left_out(vertical, both), _left_out(level, vertical, both)
     if lesser <= bound:
-        why = "the motion has no other component"
-        if scene.az_mps2.size or scene.ay_mps2.size:
-            why = f"no other component changes a displacement by more than {_mm(bound)}"
-        return _along(scene, Model.ONE_AXIS, level, lesser, why, demand)
-    if less <= bound:
-        why = (
-            f"neglecting the vertical component changes a displacement by {_mm(lesser)}, more than "
-            f"{_mm(bound)}"
-        )
-        return _along(scene, Model.ONE_AXIS_VERTICAL, vertical, less, why, demand)
-    why = (
-        f"neglecting the second horizontal component changes a displacement by {_mm(less)}, "
-        f"more than {_mm(bound)}"
+        return Model.ONE_AXIS, level, both
+    if both is None or at_most <= bound:
+        return Model.ONE_AXIS_VERTICAL, vertical, both
+    return Model.TWO_AXES, both, both
+
+
+def _second_axis_at_most(scene: Scene, settings: Settings) -> float:
+    """Return what the second horizontal component changes at most [m]; inf if not known."""
+    effect: float = kernel.cross_slope_effect(
+        *components(scene),
+        scene.dt_s,
+        math.sin(scene.slope_rad),
+        math.cos(scene.slope_rad),
+        scene.friction.mu_slow,
+        scene.g_mps2,
+        scene.scale,
+        settings.matters_m,
+        settings.matters_share,
     )
-    return _without_next(Model.TWO_AXES, why, both, demand)
+    return effect
+
+
+def _is_far_across(both: SlideResult, settings: Settings) -> bool:
+    """Whether a run in two axes goes farther across than may be neglected beside any other PRD."""
+    # Where one axis would do, its PRD less that share of it is at most the PRD in two.
+    left = 1.0 - settings.matters_share
+    return left > 0.0 and both.across_m > settings.bound_m(both.prd_m / left)
+
+
+def _run_along(scene: Scene, bounds: RecordBounds | None) -> SlideResult:
+    return one_axis.run_bounded(scene, bounds) if bounds else one_axis.run(scene)
+
+
+def _told(
+    scene: Scene, settings: Settings, model: Model, both: SlideResult | None
+) -> tuple[str, float]:
+    """Return why a model is used and what it neglects [m], from runs of all of them."""
+    if not (scene.ay_mps2.size or scene.az_mps2.size):
+        return "the motion has no other component", math.nan
+    vertical = level = one_axis.run(scene)
+    if scene.az_mps2.size:
+        level = one_axis.run(_level(scene))
+    if both is None:
+        has_second = scene.ay_mps2.any()
+        both = two_axes.run(scene, settings.tolerance) if has_second else vertical
+    less, lesser = _left_out(vertical, both), _left_out(level, vertical, both)
+    bound = _mm(settings.bound_m(vertical.prd_m))
+    if model is Model.ONE_AXIS:
+        return f"no other component changes a displacement by more than {bound}", lesser
+    if model is Model.ONE_AXIS_VERTICAL:
+        neglecting, changed = "neglecting the vertical component", lesser
+    else:
+        neglecting, changed = "neglecting the second horizontal component", less
+    why = f"{neglecting} changes a displacement by {_mm(changed)}, more than {bound}"
+    return why, less if scene.ay_mps2.size and model is Model.ONE_AXIS_VERTICAL else math.nan
 
 
 def _left_out(chosen: SlideResult, *fuller: SlideResult) -> float:
@@ -208,16 +283,42 @@ def _forced(scene: Scene, settings: Settings, model: Model, demand: float) -> So
             f"{demand:.3g}, exceeds that given, {hold:.3g}; request a more complete model"
         )
     if model is Model.NO_SLIP:
-        return _still(scene, demand, bounds_of(scene))
+        return _still(scene, demand, None)
     if model >= Model.TWO_AXES:
         return _in_plane(scene, settings, model, why, demand)
-    # Unlike `_climbed`: the effect is told even where it is far beyond the bound.
-    result, fuller = one_axis.run(as_run(scene, model)), []
+    result = one_axis.run(as_run(scene, model))
+    tell = partial(_told_requested, scene, settings, model, result, why)
+    return _solution(scene, model, result, demand, tell)
+
+
+def _told_requested(
+    scene: Scene, settings: Settings, model: Model, result: SlideResult, why: str
+) -> tuple[str, float]:
+    """Return what `_told` returns, for a model in one axis that was requested."""
+    fuller = []
     if scene.ay_mps2.any():
         fuller.append(two_axes.run(as_run(scene, Model.TWO_AXES), settings.tolerance))
     if model is Model.ONE_AXIS and scene.az_mps2.size:
         fuller.append(one_axis.run(scene))
-    return _along(scene, model, result, _left_out(result, *fuller), why, demand)
+    return why, _left_out(result, *fuller)
+
+
+def _solution(
+    scene: Scene,
+    model: Model,
+    result: SlideResult,
+    demand: float,
+    tell: Callable[[], tuple[str, float]],
+) -> Solution:
+    """Return a solution with the next model that the records of the scene are enough for."""
+    following = model
+    if model is Model.ONE_AXIS and scene.az_mps2.size:
+        following = Model.ONE_AXIS_VERTICAL
+    elif model < Model.TWO_AXES and scene.ay_mps2.size:
+        following = Model.TWO_AXES
+    return Solution(
+        model=model, result=result, next_model=following, friction_demand=demand, told=tell
+    )
 
 
 def _without_next(
@@ -226,11 +327,10 @@ def _without_next(
     """Return a solution by the most complete model that applies."""
     return Solution(
         model=model,
-        reason=why,
         result=result,
         next_model=model,
-        next_effect_m=effect_m,
         friction_demand=demand,
+        told=(why, effect_m),
     )
 
 
@@ -240,23 +340,11 @@ def _lifted(scene: Scene) -> Solution:
     return _without_next(model, why, one_axis.run(scene), math.inf)
 
 
-def _still(scene: Scene, demand: float, bounds: RecordBounds) -> Solution:
+def _still(scene: Scene, demand: float, bounds: RecordBounds | None) -> Solution:
     hold = scene.friction.mu_static
     why = f"the required friction coefficient, {demand:.2f}, is below that given, {hold:.2f}"
-    result = one_axis.run_bounded(as_run(scene, Model.NO_SLIP), bounds)
+    result = _run_along(as_run(scene, Model.NO_SLIP), bounds)
     return _without_next(Model.NO_SLIP, why, result, demand, effect_m=0.0)
-
-
-def _along(
-    scene: Scene, model: Model, result: SlideResult, effect: float, why: str, demand: float
-) -> Solution:
-    """Return a solution in one axis, with the effect of the components neglected."""
-    alone = _without_next(model, why, result, demand)
-    if model is Model.ONE_AXIS and scene.az_mps2.size:
-        return replace(alone, next_model=Model.ONE_AXIS_VERTICAL, next_effect_m=effect)
-    if scene.ay_mps2.size:
-        return replace(alone, next_model=Model.TWO_AXES, next_effect_m=effect)
-    return alone
 
 
 def _in_plane(scene: Scene, settings: Settings, model: Model, why: str, demand: float) -> Solution:
@@ -266,7 +354,7 @@ def _in_plane(scene: Scene, settings: Settings, model: Model, why: str, demand: 
         return solution
     # Constant friction was asked for where the scene has a law: what that changes is told.
     effect = _left_out(result, two_axes.run(scene, settings.tolerance))
-    return replace(solution, next_model=Model.SPEED_FRICTION, next_effect_m=effect)
+    return replace(solution, next_model=Model.SPEED_FRICTION, told=(why, effect))
 
 
 def as_run(scene: Scene, model: Model) -> Scene:

@@ -1,6 +1,7 @@
 """The choice of a model, and sweeps: as single runs are, to the last bit."""
 
 import math
+import pickle
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from itertools import product
@@ -104,6 +105,45 @@ def test_what_is_left_out_changes_less_than_is_said_and_than_may_be(share, mu, s
         assert off(true, solution.result) <= solution.next_effect_m <= allowed
         fuller = {Model.ONE_AXIS: Model.ONE_AXIS_VERTICAL, Model.ONE_AXIS_VERTICAL: Model.TWO_AXES}
         assert solution.next_model is fuller[solution.model]
+
+
+@pytest.mark.parametrize(
+    ("ay", "az", "model"),
+    [
+        (1e-5, 1e-3, Model.ONE_AXIS),
+        (1e-5, 1.0, Model.ONE_AXIS_VERTICAL),
+        (0.05, 1.0, Model.TWO_AXES),
+    ],
+)
+def test_runs_that_are_not_needed_are_made_once_and_only_to_be_told(monkeypatch, ay, az, model):
+    needed, runs = scene(AX, ay * AY, az * AZ), []
+
+    def counted(run):
+        def run_counted(*about):
+            runs.append(run)
+            return run(*about)
+
+        return run_counted
+
+    for module in (one_axis, two_axes):
+        for name in ("run", "run_bounded"):
+            monkeypatch.setattr(module, name, counted(getattr(module, name)))
+    solution = solve(needed)
+    assert solution.model is model
+    assert {run.__module__ for run in runs} == {
+        (two_axes if model is Model.TWO_AXES else one_axis).__name__
+    }
+    told, again = (pickle.loads(pickle.dumps(solution)) for _ in range(2))
+    assert f"more than {1e3 * Settings().bound_m(one_axis.run(needed).prd_m):.2g} mm" in told.reason
+    made = len(runs)
+    assert (told.reason, str(told.next_effect_m)) == (again.reason, str(again.next_effect_m))
+    assert len(runs) > made
+    made = len(runs)
+    assert repr(told) == repr(again)
+    assert len(runs) == made
+    if model is not Model.TWO_AXES:
+        true = off(two_axes.run(needed, 1e-9), solution.result)
+        assert true <= told.next_effect_m <= Settings().bound_m(solution.result.prd_m)
 
 
 def test_a_faint_push_that_stays_is_carried_along_the_path_and_is_not_left_out():

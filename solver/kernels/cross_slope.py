@@ -1,0 +1,50 @@
+"""What cross-slope shaking can change, bounded in one pass over the record, jitted.
+
+Follows no motion (`one_axis` and `two_axes` do). Never raises, knows no units but SI; numpy and
+numba only. Letters as in `two_axes`.
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from solver.kernels.compiler import KEPT
+
+SIXTH = 1.0 / 6.0
+
+# An effect of this many times the share of the path so far does not come below it any more: the
+# rest of the record is not read. Only the time that is spared depends on it.
+HOPELESS = 10.0
+
+
+@njit(cache=KEPT, nogil=True, error_model="numpy")
+def cross_slope_effect(ax, ay, az, dt, sn, cs, mu, g, scale, matters, share):
+    """Bound the change of any displacement by ay [m]; inf where the bound would not be small.
+
+    Small is at most `matters` [m], or `share` of the farthest that the block can slide.
+    Friction is monotone, so two blocks of one normal force under the drives G and (Gx, 0) differ in
+    velocity by v with d|v|/dt <= |ay|, and by no more than the sum of their speeds. The speed of
+    either is at most w with dw/dt = |G| - mu N, and not below zero: both rest where w is zero.
+    """
+    effect = travel = apart = w = 0.0
+    push = side = 0.0
+    sixth = dt * dt * SIXTH
+    for i in range(ax.size):
+        along, weight = scale * ax[i], g + scale * az[i]
+        down, across = weight * sn - along * cs, abs(scale * ay[i])
+        before, before_side, side = push, side, across
+        push = math.sqrt(down * down + across * across) - mu * (weight * cs + along * sn)
+        if i == 0 or (w == 0.0 and push <= 0.0 and before <= 0.0):
+            continue
+        # Both rates are convex between samples, so no more than linear. What a rate below zero
+        # takes away counts at the end of the interval, and slip that begins within it as at once.
+        rise, rise_before = max(push, 0.0), max(before, 0.0)
+        way = dt * w + sixth * (2.0 * rise_before + rise)
+        effect += min(dt * apart + sixth * (2.0 * before_side + side), 2.0 * way)
+        travel += way
+        w = max(w + 0.5 * dt * (before + push), 0.5 * dt * rise)
+        apart = min(apart + 0.5 * dt * (before_side + side), 2.0 * w)
+        if effect > max(matters, HOPELESS * share * travel):
+            return np.inf
+    return effect if effect <= max(matters, share * travel) else np.inf
