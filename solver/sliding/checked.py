@@ -103,7 +103,7 @@ def slide(
     """
     # A sweep of one's own calls this many thousand times: 6 to 14 us, and 33 with all checks.
     is_alone = ay_mps2 is None and az_mps2 is None and dt_s is None and units is None
-    is_exact = method == "exact" and not parameters
+    is_exact = isinstance(method, str) and method == "exact" and not parameters
     if type(ax_mps2) is Record and is_alone and is_exact and not isinstance(mu, Friction):
         result = quick_slide(ax_mps2, slope_rad, mu, scale, g_mps2)
         if result is not None:
