@@ -1,4 +1,4 @@
-"""A worker: another process that runs functions, beside a command or for the page.
+"""A worker: another process that runs functions for the page.
 
 Owns what passes between the two, and that a worker ends with the block that started it, whatever
 happens in either process. Knows nothing of packages. Read `WorkerProcess`.
@@ -10,7 +10,6 @@ import json
 import os
 import signal
 import tempfile
-import traceback
 from collections.abc import Callable
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from functools import partial
@@ -27,23 +26,20 @@ _P = ParamSpec("_P")
 _R = TypeVar("_R")
 
 _MOST_JSON = 1 << 27
-_TOLD, _RAISED, _RETURNED = "told", "raised", "returned"
+_TOLD, _RETURNED = "told", "returned"
 
 
 class WorkerProcess(Executor):
     """Runs functions in a process of its own, in order.
 
     Functions are named by their module, and arguments are pickled beside what is done here next:
-    they must not change, nor cache anything. What comes back is pickled as well, and an exception
-    is raised where the result is asked for.
+    they must not change, nor cache anything. It reads untrusted files: what comes back is JSON and
+    is never unpickled, and an exception ends the process.
 
     Parameters
     ----------
     prepare : callable
         What the process calls first, such as for its limits.
-    is_trusted : bool
-        Whether what comes back may be unpickled. From a process that reads untrusted files it
-        may not: results are then JSON, and an exception ends the process.
     told : callable
         Gets what a function tells (`tell`) before its result, in a thread of its own.
     within : Path, optional
@@ -59,15 +55,14 @@ class WorkerProcess(Executor):
         self,
         prepare: Callable[[], object],
         *,
-        is_trusted: bool = True,
         told: Callable[[Any], object] = lambda _: None,
         within: Path | None = None,
     ) -> None:
         context = get_context("spawn")
         self._pipe, there = context.Pipe()
         self._folder = TemporaryDirectory("", "roofslip-", within, ignore_cleanup_errors=True)
-        self._is_trusted, self._told = is_trusted, told
-        about = (there, os.getcwd(), self._folder.name, prepare, is_trusted)
+        self._told = told
+        about = (there, os.getcwd(), self._folder.name, prepare)
         self._process = context.Process(target=_serve, args=about)
         with apart():  # its Python would import a file multiprocessing.py of the current folder
             self._process.start()
@@ -93,8 +88,6 @@ class WorkerProcess(Executor):
             raise DefectError(
                 f"the process beside this one ended (exit code {self._process.exitcode})"
             ) from error
-        if kind == _RAISED:
-            raise value
         return value
 
     def _message(self) -> Any:
@@ -102,8 +95,6 @@ class WorkerProcess(Executor):
         wait([self._pipe, self._process.sentinel])
         if not self._pipe.poll():
             raise EOFError
-        if self._is_trusted:
-            return self._pipe.recv()
         return json.loads(self._pipe.recv_bytes(_MOST_JSON))
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = True) -> None:
@@ -126,13 +117,11 @@ _send: Callable[[str, Any], None]
 """Sends a message to the process that asks; there is none in that process."""
 
 
-def _serve(
-    pipe: Connection, here: str, folder: str, prepare: Callable[[], object], is_trusted: bool
-) -> None:
+def _serve(pipe: Connection, here: str, folder: str, prepare: Callable[[], object]) -> None:
     """Run the functions that arrive until the other end closes."""
     global _send
     os.chdir(here)
-    _send = partial(_sent, pipe, is_trusted)
+    _send = partial(_sent, pipe)
     tempfile.tempdir = folder  # what a killed process leaves there is removed by the other one
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # which decides what an interrupt ends
     Thread(target=_end_with_parent, daemon=True).start()
@@ -140,16 +129,14 @@ def _serve(
     prepare()
     try:
         while True:
-            _send(*_result(pipe, is_trusted))
+            function, arguments, named = pipe.recv()
+            _send(_RETURNED, function(*arguments, **named))
     except (EOFError, ConnectionError):
         return
 
 
-def _sent(pipe: Connection, is_trusted: bool, kind: str, value: Any) -> None:
-    if is_trusted:
-        pipe.send((kind, value))
-    else:
-        pipe.send_bytes(json.dumps((kind, value), allow_nan=False).encode())
+def _sent(pipe: Connection, kind: str, value: Any) -> None:
+    pipe.send_bytes(json.dumps((kind, value), allow_nan=False).encode())
 
 
 def _end_with_parent() -> None:
@@ -157,17 +144,3 @@ def _end_with_parent() -> None:
     if (parent := parent_process()) is not None:
         parent.join()
         os._exit(1)
-
-
-def _result(pipe: Connection, is_trusted: bool) -> tuple[str, Any]:
-    """Return what became of the next function, with its result or exception."""
-    try:
-        function, arguments, named = pipe.recv()
-        return _RETURNED, function(*arguments, **named)
-    except EOFError:
-        raise
-    except Exception as error:
-        if not is_trusted:
-            raise
-        error.add_note(f"in the worker:\n{traceback.format_exc()}")
-        return _RAISED, error

@@ -11,12 +11,10 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-import report.web.worker  # takes WorkerProcess as it is, before a fixture replaces it
-import report.workers  # before any test loads openpyxl: the package decides what that reads with
+import report  # noqa: F401 - before any test loads openpyxl: the package decides what that reads with
 import solver.kernels  # noqa: F401 - on Windows it adds a library that numba needs
 from browsing import chromium
 from places import RECORDS, SAMPLES
-from processes import SameProcess
 
 G = 9.80665
 
@@ -34,18 +32,6 @@ def pytest_collection_finish(session):
     gc.collect()
     gc.freeze()
     gc.set_threshold(100_000, 20, 100)
-
-
-@pytest.fixture(scope="session", autouse=True)
-def one_process():
-    """Commands called in this process start none beside them: the other worker has that core.
-
-    `tests/report/test_worker_process.py` tests it, and scripts in other tests start it.
-    """
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(report.workers, "WorkerProcess", lambda _: SameProcess())
-        yield
 
 
 @pytest.fixture(scope="session", autouse=True)

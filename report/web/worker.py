@@ -38,7 +38,7 @@ PROJECT = "project.zip"
 
 def begun(folder: Path, told: Callable[[str], object] = lambda _: None) -> WorkerProcess:
     """Start a process, with what it leaves behind in a folder."""
-    return WorkerProcess(_prepare, is_trusted=False, told=told, within=folder)
+    return WorkerProcess(_prepare, told=told, within=folder)
 
 
 def _prepare() -> None:

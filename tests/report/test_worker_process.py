@@ -2,6 +2,7 @@
 
 import gc
 import os
+import pickle
 import subprocess
 import sys
 import tempfile
@@ -24,8 +25,8 @@ def refuse(cell):
     raise InputError(f"{cell}: not a number")
 
 
-def unpicklable():
-    return lambda: 0
+def no_json():
+    return {1, 2}
 
 
 @pytest.fixture
@@ -35,21 +36,13 @@ def worker():
 
 
 @pytest.mark.quick
-def test_results_come_back_in_order_and_an_exception_says_where_it_was_raised(worker):
+def test_results_come_back_in_order_from_another_process(worker):
     asked = [worker.submit(divmod, 7, 2), worker.submit(os.getpid)]
-    assert asked[0].result(timeout=60) == (3, 1)
+    assert asked[0].result(timeout=60) == [3, 1]
     assert asked[1].result(timeout=60) != os.getpid()
-    with pytest.raises(InputError) as caught:
-        worker.submit(refuse, "Arrays!B7").result(timeout=60)
-    assert caught.value.problems == ("Arrays!B7: not a number",)
-    assert "in the worker" in caught.value.__notes__[0]
-    assert "refuse" in caught.value.__notes__[0]
-    with pytest.raises(ZeroDivisionError):
-        worker.submit(truediv, 1, 0).result(timeout=60)
-    assert worker.submit(truediv, 1, 2).result(timeout=60) == 0.5
 
 
-@pytest.mark.parametrize("last_act", [(os._exit, 3), (unpicklable,)])
+@pytest.mark.parametrize("last_act", [(os._exit, 3), (no_json,), (truediv, 1, 0)])
 def test_a_process_that_ends_too_soon_is_an_internal_error_and_no_endless_wait(worker, last_act):
     asked = [worker.submit(*last_act), worker.submit(os.getpid)]
     for result in asked:
@@ -103,13 +96,11 @@ def tell_twice():
     return {"done": True}
 
 
-def test_a_process_that_is_not_trusted_answers_in_json_and_tells_how_far_it_is():
+def test_a_process_tells_how_far_it_is():
     heard = []
-    with WorkerProcess(gc.disable, is_trusted=False, told=heard.append) as process:
+    with WorkerProcess(gc.disable, told=heard.append) as process:
         assert process.submit(tell_twice).result(timeout=60) == {"done": True}
         assert heard == ["one", 2]
-        with pytest.raises(DefectError, match="ended"):
-            process.submit(refuse, "Site!B5").result(timeout=60)
 
 
 class MakesFolder:
@@ -129,14 +120,13 @@ def send_pickle(folder):
     next(each for each in pipes if each.writable).send(MakesFolder(folder))
 
 
-def test_nothing_of_a_process_that_is_not_trusted_is_unpickled_and_what_it_leaves_goes(tmp_path):
+def test_nothing_of_a_process_is_unpickled_and_what_it_leaves_goes(worker, tmp_path):
     folder = tmp_path / "unpickled"
-    with WorkerProcess(gc.disable, is_trusted=False) as process:
-        with pytest.raises(ValueError, match="decode"):
-            process.submit(send_pickle, str(folder)).result(timeout=60)
-        assert not folder.exists()
-    with WorkerProcess(gc.disable) as process, pytest.raises(TypeError):
-        process.submit(send_pickle, str(folder)).result(timeout=60)
+    with pytest.raises(ValueError, match="decode"):
+        worker.submit(send_pickle, str(folder)).result(timeout=60)
+    assert not folder.exists()
+    # It would have been made.
+    pickle.loads(pickle.dumps(MakesFolder(str(folder))))
     assert folder.exists()
     with WorkerProcess(gc.disable) as process:
         name = process.submit(left_file).result()

@@ -1,7 +1,6 @@
 """`roofslip report`: of several projects, what it puts on record, its progress on a terminal."""
 
 import datetime as dt
-import errno
 import json
 import math
 import os
@@ -13,7 +12,6 @@ from pathlib import Path
 
 import pytest
 
-import report.workers
 import scenes
 from cells import address
 from commands import printed, refused, run
@@ -30,18 +28,11 @@ from report.proof.package import opened
 from report.sheet.checking.covered import outdated, to_record
 from report.sheet.reading.archive import open_book
 from report.sheet.reading.read import read
-from report.workers import WorkerProcess
 from sheets import at, edit, make, type_into
 
 
-@pytest.fixture
-def processes(monkeypatch):
-    """Have commands start processes, as they do outside the tests."""
-    monkeypatch.setattr(report.workers, "WorkerProcess", WorkerProcess)
-
-
 @pytest.mark.nightly
-def test_a_project_that_fails_stops_no_other(tmp_path, processes):
+def test_a_project_that_fails_stops_no_other(tmp_path):
     for name in ("one", "two"):
         make(tmp_path / name)
     (tmp_path / "two" / "records" / "x.csv").write_text("0.1\nabc\n0.2\n")
@@ -55,30 +46,16 @@ def test_a_project_that_fails_stops_no_other(tmp_path, processes):
     assert (tmp_path / "one" / "out" / "calc-package.pdf").is_file()
     assert not (tmp_path / "two" / "out").exists()
     record = at("Motions/M1/Horizontal record")
-    assert f"{tmp_path / 'two'}: {record}: horizontal record: x.csv:2: found 'abc'" in done.stderr
-    assert f"{tmp_path / 'none'}: no such file" in done.stderr
+    assert f"{tmp_path / 'two'}: 1 problem found.\n  {record}: horizontal record: " in done.stderr
+    assert "x.csv:2: found 'abc'" in done.stderr
+    assert f"{tmp_path / 'none'}: 1 problem found.\n  no such file" in done.stderr
     as_json = run("report", tmp_path / "none", tmp_path / "none", "--json")
     assert (as_json.exit_code, as_json.stderr) == (2, "")
     assert "no such file" in json.loads(as_json.stdout)["projects"][0]["errors"][0]
 
 
 def outcome(**about):
-    return ReportOutcome(source=Path("a"), **about)
-
-
-def made_or_killed(source, _):
-    if source.name == "killed":
-        os._exit(9)
-    return ReportOutcome(source=source, verdict="OK")
-
-
-@pytest.mark.nightly
-def test_a_process_that_is_killed_takes_no_other_project_with_it(processes, monkeypatch):
-    monkeypatch.setattr(several, "package", made_or_killed)
-    monkeypatch.setattr(os, "cpu_count", lambda: 1)
-    first, killed, last = several.run([Path("a"), Path("killed"), Path("b")], quiet=True)
-    assert (first.word, killed.word, last.word) == ("OK", "internal error", "OK")
-    assert killed.internal.endswith("ended (exit code 9)")
+    return ReportOutcome(source="a", **about)
 
 
 @pytest.mark.parametrize("option", ["--out", "--since"])
@@ -88,24 +65,14 @@ def test_an_option_of_one_project_is_refused_for_several(option, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-def test_where_no_process_can_be_started_one_project_at_a_time_is_advised(tmp_path, monkeypatch):
-    def full(_):
-        raise BlockingIOError(errno.EAGAIN, "Resource temporarily unavailable")
-
-    monkeypatch.setattr(report.workers, "WorkerProcess", full)
-    told = " ".join(refused("report", tmp_path / "a", tmp_path / "b").split())
-    assert "(Resource temporarily unavailable)" in told
-    assert "give one project at a time" in told
-
-
 @pytest.mark.parametrize(
     ("outcomes", "fail_on_ng", "code"),
     [
         ([outcome(verdict="OK"), outcome(verdict="NG")], False, 0),
         ([outcome(verdict="OK"), outcome(verdict="NG")], True, 3),
         ([outcome(verdict="OK with conditions")], True, 3),
-        ([outcome(verdict="NG"), outcome(problems=("wrong",))], True, 2),
-        ([outcome(problems=("wrong",)), outcome(internal="Traceback")], False, 1),
+        ([outcome(verdict="NG"), outcome(errors=("wrong",))], True, 2),
+        ([outcome(errors=("wrong",)), outcome(is_internal_error=True)], False, 1),
     ],
 )
 def test_the_exit_code_is_that_of_the_worst(outcomes, fail_on_ng, code):
@@ -115,9 +82,14 @@ def test_the_exit_code_is_that_of_the_worst(outcomes, fail_on_ng, code):
 def test_json_has_a_schema_version_and_an_entry_for_each_project():
     wrong = "Arrays!C8: slope is 'x'; give a number"
     outcomes = [
-        outcome(verdict="NG", ratios=(0.5, 1.25), package="a/out/calc-package.pdf", seconds=2.5),
-        outcome(verdict="NG", ratios=(0.5, math.nan)),
-        outcome(problems=(wrong,)),
+        outcome(
+            verdict="NG",
+            demand_capacity=several.largest((0.5, 1.25)),
+            package="a/out/calc-package.pdf",
+            seconds=2.5,
+        ),
+        outcome(verdict="NG", demand_capacity=several.largest((0.5, math.nan, 2.0))),
+        outcome(errors=(wrong,)),
     ]
     document = json.loads(json.dumps(several.document(outcomes)))
     first, second, third = document["projects"]
@@ -132,9 +104,13 @@ def test_json_has_a_schema_version_and_an_entry_for_each_project():
 
 def test_an_internal_error_in_one_project_is_printed_with_its_traceback(monkeypatch):
     monkeypatch.setattr("report.making.make", lambda *_, **__: 1 / 0)
-    done = several.package(Path("a"))
-    assert done.word == "internal error"
-    assert "ZeroDivisionError: division by zero" in done.internal
+    done = run("report", "a", "b", "--json")
+    assert done.exit_code == 1
+    projects = json.loads(done.stdout)["projects"]
+    assert [project["is_internal_error"] for project in projects] == [True, True]
+    for name in ("a", "b"):
+        assert f"{name}: Traceback " in done.stderr
+    assert done.stderr.count("ZeroDivisionError: division by zero") == 2
 
 
 @pytest.mark.nightly

@@ -35,7 +35,7 @@ class Echoing(WorkerProcess):
 @pytest.fixture
 def done(tmp_path, monkeypatch):
     """A function that runs a script at a session, whose processes are all ended after it."""
-    monkeypatch.setattr(sessions, "begun", lambda _: Echoing(nothing, is_trusted=False))
+    monkeypatch.setattr(sessions, "begun", lambda _: Echoing(nothing))
 
     def run(script):
         others = processes()
