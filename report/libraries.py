@@ -62,8 +62,6 @@ def library(name: str) -> str | None:
 
 def load_renderer() -> None:
     """Import the renderer; on Windows with the libraries of the package, whatever else is there."""
-    import ctypes.util
-
     if sys.platform == "win32":
         folder, usual = str(_shipped() / "bin"), os.environ["PATH"]
         os.environ["WEASYPRINT_DLL_DIRECTORIES"] = folder  # where they find each other
@@ -73,14 +71,8 @@ def load_renderer() -> None:
             import weasyprint
         finally:
             os.environ["PATH"] = usual
-    elif sys.platform == "linux":
-        # Of the names that the renderer tries, the loader knows one; for each of the others a
-        # compiler would be started, which takes longer than all other imports of the renderer.
-        asked, ctypes.util.find_library = ctypes.util.find_library, lambda name: None
-        try:
-            import weasyprint  # noqa: F401
-        finally:
-            ctypes.util.find_library = asked
+    else:
+        import weasyprint  # noqa: F401
 
 
 def has_font_on_windows(letter: str) -> bool:

@@ -55,7 +55,7 @@ def test_a_picture_is_drawn_with_its_words_and_broken_markup_is_an_error():
 PROGRAM = """
 import gc, sys
 from report.typeset.pdf import lay_out
-gc.disable()  # as commands do
+gc.disable()  # files of fonts do not wait for a collection
 assert lay_out(sys.argv[1]).startswith(b"%PDF")
 gc.freeze()
 """
@@ -153,22 +153,6 @@ def test_a_file_name_that_cannot_be_printed_is_refused_before_the_runs(tmp_path,
     told = refused(command, book)
     assert "the file name: no font of this machine has" in told
     assert "rename the workbook" in told
-
-
-IMPORTED = """
-import ctypes.util, subprocess, sys
-usual = ctypes.util.find_library
-subprocess.Popen = None  # what looks for a library starts other programs
-from report.libraries import load_renderer
-load_renderer()
-assert "weasyprint" in sys.modules and ctypes.util.find_library is usual
-"""
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="other systems look in other ways")
-def test_the_renderer_is_loaded_without_a_compiler_or_linker():
-    run = subprocess.run([sys.executable, "-c", IMPORTED], capture_output=True, text=True)
-    assert (run.returncode, run.stderr) == (0, "")
 
 
 KEPT = re.compile(r'<span style="white-space: nowrap">(.*?)</span>')
