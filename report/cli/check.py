@@ -19,7 +19,6 @@ from report.cli.terminal import (
     Progress,
     document,
     input_errors,
-    no_collections,
     print_json,
     say,
 )
@@ -46,7 +45,6 @@ def check(source: Path, quiet: bool, as_json: bool) -> None:
     with (
         input_errors(source, as_json=as_json),
         Progress(3, quiet=quiet or as_json) as progress,
-        no_collections(),
     ):
         sheet, shaking, findings = checked(source, progress)
     if as_json:

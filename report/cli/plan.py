@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import click
 
 from report.cli.options import Number, SectionedGroup
-from report.cli.terminal import SOURCE, Progress, input_errors, no_collections, plain, say_next
+from report.cli.terminal import SOURCE, Progress, input_errors, plain, say_next
 from report.text.counts import command, numbered
 
 if TYPE_CHECKING:
@@ -157,7 +157,7 @@ def read(
     from solver.model import InputError
 
     gap_m = gap[0] * LENGTHS[gap[1]]
-    with input_errors(project), no_collections(), changing(project) as change:
+    with input_errors(project), changing(project) as change:
         draft = change.sheet_before.draft
         is_us = us_first(draft)
         with input_errors(drawing):
@@ -215,7 +215,7 @@ def clearances(project: Path) -> None:
     """
     from report.sheet.writing.filled import changing, withdrawn
 
-    with input_errors(project), no_collections(), changing(project) as change:
+    with input_errors(project), changing(project) as change:
         lines = [*_add_clearances(change), *withdrawn(change)]
     for line in lines:
         click.echo(plain(line))

@@ -5,6 +5,7 @@ Parse and print; `report.making` goes from workbook to package.
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 import time
@@ -23,10 +24,8 @@ from report.cli.terminal import (
     QUIET,
     SOURCE,
     Progress,
-    collect,
     document,
     input_errors,
-    no_collections,
     outputs_of,
     plain,
     print_json,
@@ -154,7 +153,6 @@ def package(
     with (
         input_errors(source, as_json=as_json, outputs=outputs_of(source, out)),
         Progress(STEPS, quiet=quiet) as progress,
-        no_collections(),
     ):
         made = make(source, out, since, progress, on_record)
     warn_of_others(made[1] / "calc-package.pdf")
@@ -223,7 +221,7 @@ def watch(source: Path, out: Path | None) -> None:
         # After an error the next save is waited for as well.
         with suppress(SystemExit):
             results = report_again(workbook, out, results)
-        collect()
+        gc.collect()  # a package leaves much that refers to itself
         click.echo(f"watching {workbook.parent}; end with Ctrl+C")
         while stamps(workbook.parent) == seen:
             time.sleep(POLL_S)

@@ -5,6 +5,7 @@ A project that fails stops no other. Read `report.making` first.
 
 from __future__ import annotations
 
+import gc
 import math
 import os
 import sys
@@ -69,6 +70,7 @@ def report_several(
     for workbook, source in distinct.items():
         is_shared = homes[workbook.parent] > 1
         outcomes.append(package(source, is_shared, quiet=quiet, as_json=as_json))
+        gc.collect()  # a package leaves much that refers to itself
     for home, count in homes.items():
         if count > 1:
             say_former(outputs_of(home, None))

@@ -17,7 +17,6 @@ from report.cli.terminal import (
     SOURCE,
     Progress,
     input_errors,
-    no_collections,
     plain,
     workbook_of,
 )
@@ -82,7 +81,7 @@ def study(
         if out is None:
             check_of_workbook(folder, NAME, plan.workbook)
         check_apart([TABLE], folder, [source, source / "input.xlsx"])
-        with Progress(quiet=quiet) as progress, no_collections():
+        with Progress(quiet=quiet) as progress:
             results, files = make(plan, folder, progress, **options)
     if not quiet:
         for line in summary(results):

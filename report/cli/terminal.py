@@ -7,7 +7,6 @@ next.
 from __future__ import annotations
 
 import datetime as dt
-import gc
 import json
 import os
 import re
@@ -312,28 +311,6 @@ def show_warnings() -> None:
             usual(message, category, *place, **more)
 
     warnings.showwarning = shown
-
-
-@contextmanager
-def no_collections() -> Iterator[None]:
-    """Suspend the cyclic garbage collector."""
-    # It searches all that is alive, and finds little.
-    gc.disable()
-    try:
-        yield
-    finally:
-        # What is left is exempt from later collections, that at the exit of the process included.
-        gc.freeze()
-        gc.enable()
-
-
-def collect() -> None:
-    """Free what `no_collections` has exempted."""
-    gc.unfreeze()
-    # In another thread: within a finalizer the main one would lose Ctrl+C.
-    collection = Thread(target=gc.collect)
-    collection.start()
-    collection.join()
 
 
 class Progress:

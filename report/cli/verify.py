@@ -30,7 +30,6 @@ from report.cli.terminal import (
     Progress,
     colored,
     input_errors,
-    no_collections,
     plain,
     print_json,
     say,
@@ -67,7 +66,7 @@ def verify(out: Path | None, quick: bool, records: Path | None, table: Path | No
     from report.results.publish import output_folder, publish
 
     source = table or records or out or Path(_USUAL)
-    with input_errors(source), Progress(VERIFY_STEPS) as progress, no_collections():
+    with input_errors(source), Progress(VERIFY_STEPS) as progress:
         out = output_folder(out, Path(), _USUAL)
         verification, files = _verification(quick, records, table, progress)
         progress("writing the files")
@@ -156,7 +155,7 @@ def verify_package(
         # Before the work, and a dangling link as well.
         if os.path.lexists(again):
             raise InputError(f"{again}: already exists; give another --out, or move the file")
-        with Progress((*STEPS, COMPARING), quiet=quiet) as progress, no_collections():
+        with Progress((*STEPS, COMPARING), quiet=quiet) as progress:
             proof, made = _proof(file, data, records, progress)
         if proof.is_to_be_read:
             write_whole(again, made)

@@ -3,7 +3,6 @@
 Every process and thread that a test starts is ended by it.
 """
 
-import gc
 import os
 import shutil
 import signal
@@ -21,7 +20,7 @@ from nightly import by_day
 from packages import unlaid
 from places import ROOT, TESTS
 from report.cli.report import report_again, settled, stamps
-from report.cli.terminal import INTERRUPTED, collect
+from report.cli.terminal import INTERRUPTED
 from report.making import OUTPUTS
 from sheets import make, type_into
 
@@ -173,27 +172,6 @@ def watching(folder):
             process.kill()
 
 
-class Interrupting:
-    """A cycle whose collection has Ctrl+C come within a finalizer, where Python drops it."""
-
-    def __init__(self):
-        self.itself = self
-
-    def __del__(self):
-        os.kill(os.getpid(), signal.SIGINT)
-
-
-@pytest.mark.nightly
-def test_ctrl_c_while_memory_is_freed_ends_the_watch():
-    gc.disable()
-    try:
-        Interrupting()
-        with pytest.raises(KeyboardInterrupt):
-            collect()
-    finally:
-        gc.enable()
-
-
 @pytest.mark.nightly
 def test_each_save_gives_a_round_that_says_what_changed(tmp_path):
     path, record = make(tmp_path), tmp_path / "records" / "z.csv"
@@ -225,7 +203,6 @@ def test_a_later_round_gives_the_files_of_a_fresh_process(tmp_path):
         report_again(path, None, b"")
     type_into(path, {FRICTION: 0.5})
     shutil.copytree(tmp_path / "warm", copy, ignore=shutil.ignore_patterns("out"))
-    collect()
     report_again(path, None, b"")
     command = [sys.executable, "-m", "report.cli", "report", copy, "--quiet"]
     subprocess.run(command, check=True, env=SCRIPT, timeout=WAIT_S)
