@@ -22,7 +22,8 @@ from report.motions.prepare import prepare
 from report.pages.summary import summary
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import SIDES
-from report.text.units import LENGTHS, PRESSURES, WEIGHTS, Quantity, compared_pairs
+from report.text.amounts import compared_pairs
+from report.text.units import LENGTHS, PRESSURES, WEIGHTS, Quantity
 from sheets import arrays, at, make, project, read_workbook
 
 REASON = {"warning": "weight A1", "reason": "Frames alone, ballast by others"}
