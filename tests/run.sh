@@ -44,6 +44,13 @@ oxlint --deny-warnings --config tests/oxlint.json report/web/static
 mypy
 lint-imports
 hadolint Dockerfile
+# Two processes of tests would compile the same kernels at once. As set-up does, at a level of
+# optimization that takes three quarters of the time.
+if ! ls solver/kernels/__pycache__/row.slide_row-*.nbi >/dev/null 2>&1; then
+    NUMBA_OPT=2 python -P tests/compiled.py axis &
+    NUMBA_OPT=2 python -P tests/compiled.py more
+    wait "$!"
+fi
 # --quick: the inner loop; --nightly: all, with coverage; --golden: what changed in the words of
 # pages, taken over. With a path, all tests there, or those that --quick or --nightly names.
 case ${1-} in
