@@ -140,7 +140,7 @@ def test_a_package_with_a_document_verifies_and_with_another_one_differs(tmp_pat
 
 
 @pytest.mark.nightly
-def test_this_process_alone_writes_every_file_as_two_do(whole, tmp_path_factory):
+def test_this_process_writes_every_file_as_a_script_does(whole, tmp_path_factory):
     alone = packages.reported(tmp_path_factory, whole.name).out
     for name in OUTPUTS:
         assert (alone / name).read_bytes() == (whole / "out" / name).read_bytes(), name
