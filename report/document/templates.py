@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cache
+from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,9 +26,11 @@ from report.text import counts, formats, units
 from report.typeset import equations
 
 if TYPE_CHECKING:
-    from jinja2 import Environment
+    from jinja2 import BytecodeCache, Environment
     from jinja2.runtime import Context
 
+
+_HERE = Path(__file__).resolve().parents[2]
 
 # Functions that are filters by their names.
 _SHARED = {
@@ -74,6 +78,7 @@ def _environment(folder: Path) -> Environment:
 
     environment = Environment(
         loader=FileSystemLoader(folder),
+        bytecode_cache=_kept(folder / "__pycache__"),
         # A name that is missing is an error: an empty place would go unseen under a seal.
         undefined=StrictUndefined,
         autoescape=True,
@@ -99,6 +104,32 @@ def _environment(folder: Path) -> Environment:
         "rows": _rows,
     }
     return environment
+
+
+def _kept(folder: Path) -> BytecodeCache:
+    """Return where compiled templates are kept, as Python keeps what it compiles."""
+    from jinja2 import FileSystemBytecodeCache
+    from jinja2.bccache import Bucket
+
+    # What a filter makes of a constant is part of a compiled template.
+    code = f"{version('jinja2')} {state_of(_HERE / 'report', _HERE / 'solver')}"
+
+    class Kept(FileSystemBytecodeCache):
+        def get_source_checksum(self, source: str) -> str:
+            return super().get_source_checksum(code + source)
+
+        def dump_bytecode(self, bucket: Bucket) -> None:
+            with suppress(OSError):  # another user's folder, or a full disk
+                folder.mkdir(exist_ok=True)
+                super().dump_bytecode(bucket)
+
+    return Kept(str(folder))
+
+
+def state_of(*folders: Path) -> str:
+    """Return what changes with any module in folders: names, sizes, and when they were written."""
+    modules = sorted((str(path), path.stat()) for top in folders for path in top.rglob("*.py"))
+    return str([(name, stat.st_size, stat.st_mtime_ns) for name, stat in modules])
 
 
 # Length of numbers that fit beside an equation.

@@ -5,6 +5,7 @@ from operator import itemgetter
 import pytest
 
 from report.document.tables import Wide, listed, merged
+from report.document.templates import rendered, state_of
 from report.entities.shown import text, words
 
 pytestmark = pytest.mark.quick
@@ -45,3 +46,26 @@ def test_rows_that_differ_in_names_alone_are_one_and_their_column_is_wider():
     (narrow, *others), (wide, *same) = rows_of(two)[1], rows_of(many)[1]
     assert others == same == [1.0, 0.5]
     assert 0.8 == narrow < wide < 2.0
+
+
+def template(folder):
+    (folder / "a.html").write_text("{{ 1.5 | number(2) }}")
+    return rendered(folder, "a.html", {})
+
+
+def test_a_template_is_kept_compiled_until_the_state_of_code_changes(tmp_path):
+    assert template(tmp_path) == "1.50"
+    (kept,) = (tmp_path / "__pycache__").iterdir()
+    assert kept.stat().st_size
+    module = tmp_path / "below" / "filters.py"
+    module.parent.mkdir()
+    states = [state_of(tmp_path)]
+    for code in ("a = 1", "a = 22"):
+        module.write_text(code)
+        states.append(state_of(tmp_path))
+    assert len({*states}) == 3
+
+
+def test_where_nothing_can_be_kept_a_template_is_compiled(tmp_path):
+    (tmp_path / "__pycache__").symlink_to(tmp_path / "gone" / "away")
+    assert template(tmp_path) == "1.50"
