@@ -40,11 +40,6 @@ CONFIRMED = {
 SHIPPED = sorted(
     {path.parent.name for path in (ROOT / "projects").glob("*/make.py")} - {"curves", "study"}
 )
-DEPARTURE = {
-    "directional": True, "directional_reason": "Agreed on 2026-02-10",
-    "directional_reviewer": "Reviewer of record", "directional_license": "CA S0000",
-    "directional_date": dt.date(2026, 3, 1),
-}  # fmt: skip
 TESTS = {
     "laboratory": "Example Laboratories", "accreditation": "ISO/IEC 17025, no. 1234.01",
     "standard": "ASTM G115-10", "report": "FT-118", "date": dt.date(2025, 6, 12),
@@ -195,8 +190,8 @@ def unpermitted() -> Assessment:
 def departing() -> PackageData:
     """Return a project with every departure, and with what changed since its first revision.
 
-    Peer review, overrides, directional displacements, friction by velocity with its tests, smaller
-    events, a requested model, and clearances that are NG.
+    Peer review, overrides, friction by velocity with its tests, smaller events, a requested model,
+    and clearances that are NG.
     """
     law = stand_in.array("A3", 3.0, mu=0.30, mu_fast=0.46, mu_rate_s_per_m=20.0, mu_static=0.48,
                          y=90)  # fmt: skip
@@ -222,7 +217,7 @@ def departing() -> PackageData:
     first = stand_in.assess_input(project(options=REVIEW), motions())
     second = stand_in.assess_input(
         project(
-            options=REVIEW | DEPARTURE | {"smaller_events": "0.50, 0.25"},
+            options=REVIEW | {"smaller_events": "0.50, 0.25"},
             overrides=[
                 {"provision": "separation_fixed", "value": 0.5, "reason": "Agreed on 2026-02-10"},
                 {"provision": "analysis_factor", "value": 1.0, "reason": "Agreed on 2026-02-11"},

@@ -7,7 +7,7 @@ Computes no physics (`report.assessment.runs`) and reads no code rule itself
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from enum import StrEnum
 
@@ -23,7 +23,6 @@ from report.assessment.routes import (
 from report.assessment.runs import REQUESTED_MODELS, MotionRun, OrientedRun
 from report.assessment.verdict import OVERRIDDEN, as_adopted, mark_of, nan_is_worst
 from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import Direction
 from report.sheet.schema.scene import Array
 from solver.rules import provisions
 from solver.rules.provisions import AnalysisValue, Basis, Prescriptive, RuleSet
@@ -49,11 +48,10 @@ class ArrayAssessment(RouteLimits):
 
     array: Array  # its row of the workbook
     motions: tuple[MotionRun, ...]  # the runs under each motion
-    analysis: AnalysisValue  # of the excursions in any direction
-    directions: Mapping[Direction, AnalysisValue]  # of those in each
+    analysis: AnalysisValue  # of the PRDs
     # the same with the adequate models, which differs from it where a model is requested, and the
     # runs for it, in the order of `motions`
-    chosen: Mapping[Direction, AnalysisValue]
+    chosen: AnalysisValue
     needed: tuple[MotionRun, ...]
     prescriptive: Prescriptive
     floor_m: float  # minimum design displacement without peer review [m]; 0 with it
@@ -62,7 +60,6 @@ class ArrayAssessment(RouteLimits):
     # the prescriptive route: the prescriptive value, not less than the largest PRD of any runs. NaN
     # where a run has no final displacement, or neither route gives a value.
     design_m: float
-    by_direction: bool  # whether clearances take the displacement toward them, a departure
     # of the run nearest to tipping, and of that with the smallest normal force; without runs, by
     # the most that friction transmits, and no uplift
     tipping: Tipping
@@ -131,33 +128,13 @@ class ArrayAssessment(RouteLimits):
         """Design displacement that may be used [m]; NaN where no route is permitted."""
         return self.design_m if self.is_permitted else math.nan
 
-    def permitted_toward_m(self, direction: Direction) -> float:
-        """Return the same for a clearance in a direction [m]."""
-        return self.design_toward_m(direction) if self.is_permitted else math.nan
-
-    def design_toward_m(self, direction: Direction) -> float:
-        """Return the design displacement for a clearance in a direction [m].
-
-        The full one, unless the workbook departs from the rule sets and takes the value from
-        analysis in the direction, not less than the floor.
-        """
-        return self.directional_m(direction) if self.by_direction else self.design_m
-
-    def chosen_toward_m(self, direction: Direction) -> float:
-        """Return the same with the adequate models [m]."""
-        return self._floored(self.chosen[direction if self.by_direction else Direction.ANY])
-
-    def directional_m(self, direction: Direction) -> float:
-        """Return the design displacement in a direction [m].
-
-        The value from analysis, not less than the floor; a prescriptive value has no direction.
-        """
-        return self._floored(self.directions[direction])
-
-    def _floored(self, analysis: AnalysisValue) -> float:
+    @property
+    def chosen_m(self) -> float:
+        """The design displacement with the adequate models [m]."""
         if self.route is Route.PRESCRIPTIVE:
             return self.design_m
-        return math.nan if math.isnan(analysis.value_m) else max(analysis.value_m, self.floor_m)
+        value_m = self.chosen.value_m
+        return math.nan if math.isnan(value_m) else max(value_m, self.floor_m)
 
     def mark(self, value: Callable[[ArrayAssessment], float]) -> str:
         """Return the mark of a number of the array that an override or a departure changes."""
@@ -179,10 +156,6 @@ class ArrayAssessment(RouteLimits):
         """The mark of the design displacement."""
         return self.mark(lambda array: array.design_m) or self.opened_mark
 
-    def toward_mark(self, direction: Direction) -> str:
-        """Return the mark of the design displacement for a clearance in a direction."""
-        return self.mark(lambda array: array.design_toward_m(direction)) or self.opened_mark
-
     @property
     def is_model_requested(self) -> bool:
         """Whether the workbook requests a model."""
@@ -190,10 +163,10 @@ class ArrayAssessment(RouteLimits):
 
     @property
     def is_model_enough(self) -> bool:
-        """Whether the adequate models require no larger displacement in any direction."""
-        pairs = ((self.chosen_toward_m(d), self.design_toward_m(d)) for d in Direction)
+        """Whether the adequate models require no larger displacement."""
         # A design without a value is NG for that, whatever its model.
-        return all(math.isnan(b) or a <= b + least_model.DEFAULT.bound_m(b) for a, b in pairs)
+        most_m = self.design_m + least_model.DEFAULT.bound_m(self.design_m)
+        return math.isnan(most_m) or self.chosen_m <= most_m
 
     @property
     def ratio(self) -> float:
@@ -240,8 +213,7 @@ def assess_array(
     """Return an array checked against the rule set, by its runs and those of adequate models."""
     adopted, prescriptive = as_adopted(data), prescriptive_of(data, rules)
     basis = statistic_basis(data)
-    directions = _by_direction(rules, runs, basis)
-    analysis = directions[Direction.ANY]
+    analysis = _analysis(rules, runs, basis)
     floor_m = provisions.analysis_floor_m(rules, prescriptive, is_reviewed=data.is_peer_reviewed)
     has_value = motions_qualify and analysis.basis is not Basis.TOO_FEW
     limits = limits_of(data, rules, array, n_motions=len(runs), has_value=has_value)
@@ -249,9 +221,8 @@ def assess_array(
         array=array,
         motions=runs,
         analysis=analysis,
-        directions=directions,
         # One object where no model is requested: most arrays need the statistics once.
-        chosen=directions if needed is runs else _by_direction(rules, needed, basis),
+        chosen=analysis if needed is runs else _analysis(rules, needed, basis),
         needed=needed,
         prescriptive=prescriptive,
         floor_m=floor_m,
@@ -259,7 +230,6 @@ def assess_array(
         is_permitted=(motions_qualify or limits.route is Route.PRESCRIPTIVE)
         and all(check.ok for check in limits.of_route),
         design_m=_design_m(limits.route, runs, analysis, prescriptive, floor_m),
-        by_direction=data.options.directional,
         tipping=_nearest_to_tipping(array, runs),
         uplift=min(
             (motion.uplift for motion in runs),
@@ -307,10 +277,5 @@ def _design_m(
     return max(analysis.value_m, floor_m)
 
 
-def _by_direction(
-    rules: RuleSet, runs: Sequence[MotionRun], basis: Basis | None
-) -> Mapping[Direction, AnalysisValue]:
-    return {
-        direction: provisions.analysis_value(rules, [run.peak_m(direction) for run in runs], basis)
-        for direction in Direction
-    }
+def _analysis(rules: RuleSet, runs: Sequence[MotionRun], basis: Basis | None) -> AnalysisValue:
+    return provisions.analysis_value(rules, [run.governing.prd_m for run in runs], basis)

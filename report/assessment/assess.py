@@ -143,19 +143,15 @@ def anticipate(
 
     The limits on the motions are those of `acceptance`, where it is known for these motions.
     """
+
     # As long as these two stay the largest, with the displacements of all.
-    has_all = sheet.project.options.directional  # each direction may have another largest one
-
-    def names_of(array: Array) -> Mapping[str, Sequence[str]]:
-        return {} if has_all else known.get(array.id, {})
-
     def run(array: Array, motion: Motion) -> MotionRun:
-        names = names_of(array).get(motion.id, ())
+        names = known.get(array.id, {}).get(motion.id, ())
         return run_motion(array, motion, names=names, tolerance=_PASSING)
 
     def key(array: Array) -> Hashable:
         # Arrays that are alike now may have had others at the reference.
-        return scene_key(array), json.dumps(names_of(array))
+        return scene_key(array), json.dumps(known.get(array.id, {}))
 
     data = outdated(sheet.project, shaking.hashes)
     acceptance = acceptance or shaking_acceptance(shaking, targets(data))

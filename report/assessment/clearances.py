@@ -34,7 +34,6 @@ _KINDS = {
     ObjectKind.UNLIKE_ARRAY: Neighbor.UNLIKE,
     ObjectKind.EDGE_WITHOUT_PARAPET: Neighbor.EDGE,
 }
-_OPPOSITE = {Direction.DOWN: Direction.UP, Direction.UP: Direction.DOWN}
 
 
 def by_id(arrays: Sequence[ArrayAssessment], wanted: str) -> ArrayAssessment:
@@ -50,9 +49,7 @@ class ClearanceCheck(ComparedGap):
     basis: DistanceBasis  # of its distance
     neighbor: Neighbor  # what is across it
     importance: float  # I_e or I_p, as the rule set takes it; 1 where the displacement includes it
-    # of the governing design displacement: the larger of the two between arrays
-    governing_array: str
-    governing_direction: Direction
+    governing_array: str  # between arrays that with the larger design displacement
     design_m: float  # governing design displacement [m]; NaN without a permitted one
     factor: float  # separation / design displacement, with the importance factor
     minimum_m: float  # minimum separation of the rule set for this neighbor [m]; 0 for none
@@ -104,9 +101,9 @@ def check_clearance(
 ) -> ClearanceCheck:
     """Return a clearance with its required separation, the larger of the two between arrays."""
     # Either array may move toward the other: the larger displacement of both governs.
-    sides = facing(data, arrays, row)
-    governing, direction = max(sides, key=lambda a: nan_is_worst(a[0].permitted_toward_m(a[1])))
-    design_m = governing.permitted_toward_m(direction)
+    sides = beside(arrays, row)
+    governing = max(sides, key=lambda array: nan_is_worst(array.permitted_m))
+    design_m = governing.permitted_m
     # As entered: a trial with other friction on one side does not make them unlike.
     near = next(array for array in data.arrays if array.id == row.array)
     rows: Sequence[Array | RoofObject] = (*data.arrays, *data.objects)
@@ -118,7 +115,6 @@ def check_clearance(
         neighbor=neighbor,
         importance=importance,
         governing_array=governing.id,
-        governing_direction=direction,
         design_m=design_m,
         # PV1-2012 has the importance factor here, ASCE 7 in the displacement; never both.
         factor=rules[provisions.SEPARATION_KEYS[neighbor]] * importance,
@@ -126,7 +122,7 @@ def check_clearance(
         required_m=provisions.required_separation(
             rules, neighbor, design_m=design_m, importance=importance
         ),
-        is_permitted=all(array.is_permitted for array, _ in sides),
+        is_permitted=all(array.is_permitted for array in sides),
         design_mark="",
         mark="",
     )
@@ -203,23 +199,9 @@ def separation_m(
     return provisions.required_separation(rules, neighbor, design_m=design_m, importance=importance)
 
 
-def facing(
-    data: ProjectInput, arrays: Sequence[ArrayAssessment], row: Clearance
-) -> Sequence[tuple[ArrayAssessment, Direction]]:
-    """Return the arrays on either side of a clearance, each with the direction toward it."""
-    near = by_id(arrays, row.array)
-    sides = [(near, row.direction)]
-    # The direction is that of the first array: from the other it is the opposite one, and any where
-    # downslope of the one is no axis of the other.
-    opposite = _OPPOSITE.get(row.direction, row.direction)
-    sides += [
-        (other, opposite if _is_parallel(near.array, other.array) else Direction.ANY)
-        for other in arrays
-        if other.id == row.object
-    ]
-    if not data.options.directional:  # the rule sets know no direction
-        return [(array, Direction.ANY) for array, _ in sides]
-    return sides
+def beside(arrays: Sequence[ArrayAssessment], row: Clearance) -> Sequence[ArrayAssessment]:
+    """Return the arrays on either side of a clearance, that of its row first."""
+    return [by_id(arrays, row.array), *(other for other in arrays if other.id == row.object)]
 
 
 def _importance(rules: RuleSet, neighbor: Neighbor, *, i_e: float, i_p: float) -> float:
@@ -261,7 +243,7 @@ def largest_separation_m(
     data: ProjectInput, rules: RuleSet, arrays: Sequence[ArrayAssessment]
 ) -> float:
     """Return a length [m] that no separation of a project exceeds, whatever is across it."""
-    designs = [array.permitted_toward_m(Direction.ANY) for array in arrays]
+    designs = [array.permitted_m for array in arrays]
     i_ps = *(array.i_p for array in data.arrays), *(item.i_p for item in data.objects)
     importance = max(data.site.i_e, *i_ps)
     return max(

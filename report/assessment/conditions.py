@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from report.assessment.clearances import ClearanceCheck, facing
+from report.assessment.clearances import ClearanceCheck, beside
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.requirement_rows import fire_lane_rows, friction_rows, hazard_rows
 from report.assessment.routes import Route
@@ -398,7 +398,7 @@ def pathway_rows(
         if row.pathway_m is None:
             continue
         # Arrays that are unlike may slide toward each other: both displacements are subtracted.
-        slides = [array.permitted_toward_m(toward) for array, toward in facing(data, arrays, row)]
+        slides = [array.permitted_m for array in beside(arrays, row)]
         # Arrays that are alike slide the same way: the gap loses one displacement at most.
         if gap.neighbor is Neighbor.LIKE:
             slides = [gap.design_m]

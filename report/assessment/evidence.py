@@ -122,7 +122,7 @@ def building_case(assessment: Assessment, variations: Variations) -> InputCase |
     """Return the governing array with the period or damping that lets it slide farthest, if any."""
     array = assessment.governing
     # Such a design displacement does not follow from one value of the analysis.
-    if not variations or array.route is not Route.ANALYSIS or array.by_direction:
+    if not variations or array.route is not Route.ANALYSIS:
         return None
     (used, _), *others = variations
     building, value = max(others, key=lambda pair: nan_is_worst(pair[1].value_m))

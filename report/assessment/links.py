@@ -13,7 +13,6 @@ from functools import partial
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.verdict import nan_is_worst
-from report.sheet.schema.choices import Direction
 from report.sheet.schema.motions import Links
 from report.sheet.schema.scene import Array
 from solver.model import Motion, Orientation, SlideResult, Status
@@ -102,7 +101,7 @@ class LinkedArray:
         """The value from analysis that is multiplied by the ratio [m]."""
         # Of the adequate model if that gives more than the one requested: the floor may cover
         # what the latter neglects, but not necessarily together with links.
-        return max(self.design.analysis.value_m, self.design.chosen[Direction.ANY].value_m)
+        return max(self.design.analysis.value_m, self.design.chosen.value_m)
 
     @property
     def estimated_m(self) -> float:

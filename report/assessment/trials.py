@@ -159,14 +159,8 @@ def single_array_check(
 
 def resting(array: ArrayAssessment, floor_m: float = 0.0) -> ArrayAssessment:
     """Return an array that does not slide in any run, with a floor [m]."""
-    ways = {way: replace(value, value_m=0.0) for way, value in array.directions.items()}
-    return replace(
-        array,
-        analysis=replace(array.analysis, value_m=0.0),
-        directions=ways,
-        floor_m=floor_m,
-        design_m=floor_m,
-    )
+    analysis = replace(array.analysis, value_m=0.0)
+    return replace(array, analysis=analysis, floor_m=floor_m, design_m=floor_m)
 
 
 def involved(assessment: Assessment, row: Clearance) -> Sequence[ArrayAssessment]:

@@ -181,7 +181,7 @@ MEANING = f"{OVERRIDDEN}: changed by an override or a departure"
 
 OVERRIDE_ID = "override"
 # Ids of the rows here.
-LOWERING = (OVERRIDE_ID, "directional", "statistic")
+LOWERING = (OVERRIDE_ID, "statistic")
 
 CONSENT = f"Obtain the consent of the authority having jurisdiction. {STAYS}"
 
@@ -214,9 +214,9 @@ def as_adopted(data: ProjectInput) -> ProjectInput:
     chosen = data.options
     # PV1-2012 states 1.1 x the mean or the largest; ASCE 7 states no statistic to depart from.
     statistic = Statistic.RULE_SET if _takes_plain_mean(data) else chosen.statistic
-    if not (data.overrides or chosen.directional or statistic is not chosen.statistic):
+    if not data.overrides and statistic is chosen.statistic:
         return data
-    options = chosen.model_copy(update={"directional": False, "statistic": statistic})
+    options = chosen.model_copy(update={"statistic": statistic})
     return data.model_copy(update={"overrides": (), "options": options})
 
 
@@ -257,21 +257,11 @@ def _override(rules: RuleSet, index: int, row: Override) -> Requirement:
 
 
 def _departures(data: ProjectInput, rules: RuleSet) -> Iterator[Requirement]:
-    options = data.options
-    if options.directional:
-        yield _row(
-            id="directional",
-            title="Displacement by direction",
-            found=f"displacement toward each clearance{OVERRIDDEN}, {options.directional_reason}",
-            limit="design displacement in full in every direction",
-            basis=rules.name,
-            places=(Place("options", 0, "directional"),),
-        )
     if _takes_plain_mean(data):
         yield _row(
             id="statistic",
             title="Design value statistic",
-            found=f"{options.statistic}{OVERRIDDEN}",
+            found=f"{data.options.statistic}{OVERRIDDEN}",
             limit="statistic of the rule set, with its factor",
             basis=rules.values["analysis_factor"].clause,
             places=(Place("options", 0, "statistic"),),

@@ -6,7 +6,7 @@ Computes nothing: see `report.assessment.arrays`. Read `ArrayResult`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Annotated, ClassVar
 
 from pydantic import BeforeValidator
@@ -37,7 +37,7 @@ from report.entities.shown import (
     up_column,
     words,
 )
-from report.sheet.schema.choices import Direction, ModelChoice
+from report.sheet.schema.choices import ModelChoice
 from report.text.amounts import capacity, demand, shown_in_order
 from report.text.units import Quantity, Show, measured, no_less, no_more, ratio
 from solver.model import Friction
@@ -50,7 +50,6 @@ _COMPUTED = (
     f'=IF({{statistic}}="{Basis.TOO_FEW.value}","none",{{analysis_factor}}'
     f'*IF({{statistic}}="{Basis.LARGEST_FACTORED.value}",{{largest_prd_m}},{{mean_prd_m}}))'
 )
-_TOWARD = f"={{factor}}*IF({TAKES_LARGEST},{{largest_m}},{{mean_m}})"
 # PV1-2012: 60 in (S_DS - 0.4)^2, at least 6 in; ASCE 7-16 13.6.12: 5 ft I_e (S_DS - 0.4)^2, 24 in.
 _PRESCRIPTIVE = "=MAX({factor_m}*{importance}*MAX({s_ds_g}-0.4,0)^2,{minimum_m})"
 # In Excel MAX takes no text: without the question, no value would become the floor.
@@ -155,22 +154,6 @@ class LowVelocityResult(Displacements):
     """Friction coefficient at low velocity."""
 
 
-class DirectionResult(Entity):
-    """The displacements of an array in a direction."""
-
-    mean_m: Annotated[Number, up_column("Mean of peaks [in]", 1, "=AVERAGE({peaks})")]
-    largest_m: Annotated[Number, up_column("Largest peak [in]", 1, "=MAX({peaks})")]
-    computed_m: Annotated[Number, at("value_m"), up_column("Computed [in]", 1, _TOWARD)]
-    """Displacement by analysis in this direction."""
-    design_m: Annotated[
-        Number,
-        up_column("In this direction [in]", 1, "=MAX({computed_m},{floor_m})"),
-    ]
-    """Design displacement in this direction, with its floor."""
-    design_by_chosen_model_m: Number
-    """The same, by the model that the workbook chooses for the array."""
-
-
 class TippingResult(Entity):
     """Tipping of an array, for the run nearest to it."""
 
@@ -214,7 +197,7 @@ class ArrayRow(LowVelocityResult):
 
 
 class ArrayResult(ArrayRow):
-    """An array: what it is, its displacements by direction, motion and run, its limits."""
+    """An array: what it is, its displacements by motion and run, its limits."""
 
     first: ClassVar[tuple[str, ...]] = (
         "id",
@@ -235,8 +218,6 @@ class ArrayResult(ArrayRow):
     """Model that the workbook chooses."""
     model_is_enough: Annotated[bool, at("is_model_enough")]
     """Whether the adequate models require no larger displacement than that model."""
-    directions: Mapping[Direction, DirectionResult]
-    """Displacements by direction."""
     peaks: tuple[PeakResult, ...]
     """Largest displacements by motion."""
     peak_speed_mps: Annotated[Number, at("fastest_mps")]
@@ -319,7 +300,7 @@ def array_result(
     has_runs: bool = True,
     **marks: str,
 ) -> ArrayResult:
-    """Return an array with its limits, and with its runs and directions if asked for, marked."""
+    """Return an array with its limits, and with its runs if asked for, marked."""
     motions = item.motions if has_runs else ()
     strength = math.nan if item.array.interconnection_n is None else item.array.interconnection_n
     shows = shown_in_order(capacity(strength), demand(item.interconnection_n))
@@ -354,7 +335,6 @@ def array_result(
             row.verdict for row in assessment.rows_of(item.id) if row.id == STRENGTH_ROW
         ),
         seaoc_m=prescriptive_of(assessment.project, SEAOC).value_m,
-        directions={way: direction_result(item, way) for way in item.directions if has_runs},
         peaks=tuple(map(peak_result, motions)),
         runs=tuple(run_result(motion, run) for motion in motions for run in motion.runs),
     )
@@ -400,12 +380,3 @@ def short_rows(marked: Marked) -> Iterator[ArrayRow]:
             "design_m": marked.design_mark(item),
         }
         yield ArrayRow.of(item, verdict=marked.assessment.array_verdict(item), marks=marks)
-
-
-def direction_result(item: ArrayAssessment, direction: Direction) -> DirectionResult:
-    """Return the displacements of an array in a direction."""
-    return DirectionResult.of(
-        item.directions[direction],
-        design_m=item.directional_m(direction),
-        design_by_chosen_model_m=item.chosen_toward_m(direction),
-    )

@@ -57,15 +57,9 @@ class ClearanceResult(Entity):
     """Direction of the clearance from the array; any where none is entered."""
     neighbor: Annotated[Neighbor, Column("Kind")]
     """Kind of neighbor, which gives the separation factor."""
-    governing_array: Annotated[str, words("Array", 0.75)]
+    governing_array: str
     """Array whose displacement governs."""
-    governing_direction: Annotated[Direction, words("Direction", 1.05)]
-    """Direction of its displacement that governs."""
-    design_m: Annotated[
-        Number,
-        required("Displ.", 0.8),
-        up_column("Design [in]", 1, "={largest}", is_always=True),
-    ]
+    design_m: Annotated[Number, up_column("Design [in]", 1, "={largest}", is_always=True)]
     importance: Annotated[float, Column("Importance factor", 2, "={inputs[i_e]}", is_input=True)]
     """Importance factor in the required separation."""
     factor: Annotated[
@@ -107,7 +101,7 @@ class ClearanceResult(Entity):
     ]
     """OK, NG, or none where the required separation is not known."""
     count: Annotated[int, Shown(head="No.", share=0.42)] = printed(0)
-    clause: Annotated[str, words("Clause", 2.1)] = printed("")
+    clause: str = printed("")
 
     @property
     def toward(self) -> str:
@@ -149,7 +143,6 @@ def clearance_results(
             count=count,
             clause=marked.clause(key),
             marks={
-                "design_m": gap.design_mark,
                 "factor": marked.mark(key),
                 **dict.fromkeys(("required_m", "least_m"), joined(least, gap.mark)),
                 "demand_capacity": gap.mark,

@@ -30,7 +30,6 @@ from report.entities.shown import (
 )
 from report.sheet.checking.findings import located
 from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import Direction
 from report.sheet.schema.fields import Finding, Level, Place
 from report.text.units import Quantity, no_less
 from solver.rules.limit import Consequence, Limit
@@ -226,11 +225,3 @@ class Marked:
         if self.data.is_peer_reviewed:
             return ""
         return joined(self.mark("analysis_floor"), array.mark(lambda item: item.floor_m))
-
-    def direction_mark(self, array: ArrayAssessment, direction: Direction) -> str:
-        """Return the marks of a design displacement in a direction."""
-        value = array.directions[direction].value_m
-        key = "analysis_floor" if array.floor_m > value else "analysis_factor"
-        if math.isnan(value):
-            return ""
-        return joined(self.mark(key), array.toward_mark(direction))

@@ -67,7 +67,7 @@ def troubles(package: PackageData) -> Mapping[str, Sequence[object]]:
         "warnings": package.assessment.warnings,
         "few": [array for array in arrays if array.lacks_motions],
         "refused": [array for array in arrays if is_refused and array.route is Route.ANALYSIS],
-        "models": tuple(model_troubles(package)),
+        "models": model_troubles(package),
         "tipping": [array for array in arrays if not array.tipping.is_ok],
         "links": tuple(link_troubles(package)),
         "limits": [(place, check) for place, check in package.checks if not check.ok],

@@ -19,7 +19,6 @@ from report.document.tables import Table, Wide, by_place, listed
 from report.entities.evidence import linked_result
 from report.entities.shown import NO_VALUE, centered, length, plain, text, words
 from report.pages.parts import PackageData, statistic, verdict
-from report.sheet.schema.choices import Direction
 from report.text.counts import below_mm, grouped_by
 from report.text.units import number, ratio
 from solver.model import INCH_M, Status
@@ -86,18 +85,14 @@ def page(package: PackageData) -> Mapping[str, object]:
         "table": _table(package),
         "neglected": _neglected_table(package),
         "stability": _stability_table(package),
-        "troubles": tuple(model_troubles(package)),
+        "troubles": model_troubles(package),
         "links": part(package),
     }
 
 
-def model_troubles(package: PackageData) -> Iterator[tuple[ArrayAssessment, Direction]]:
-    """Yield the arrays whose requested model is not adequate, and the worst direction."""
-    for array in package.assessment.arrays:
-        if not array.is_model_enough:
-            # A displacement toward one side may be short where that in any direction is not.
-            lack = {d: array.chosen_toward_m(d) - array.design_toward_m(d) for d in Direction}
-            yield array, max(Direction, key=lack.__getitem__)
+def model_troubles(package: PackageData) -> Sequence[ArrayAssessment]:
+    """Return the arrays whose requested model is not adequate."""
+    return [array for array in package.assessment.arrays if not array.is_model_enough]
 
 
 def _limited(demand: float) -> str:
@@ -242,7 +237,7 @@ def _effect(array: ArrayAssessment, model: Model, group: Sequence[Solution]) -> 
 
 def _requested(array: ArrayAssessment) -> _Neglected:
     """Return the change that the adequate models make to the requested one."""
-    other = array.chosen[Direction.ANY]
+    other = array.chosen
     # The adequate models differ from run to run: the most complete one names the effects.
     model = max(run.solution.model for motion in array.needed for run in motion.runs)
     name = f"Effects of {model.title}" if model > REQUESTED_MODELS[array.array.model] else "None"
@@ -253,7 +248,7 @@ def _requested(array: ArrayAssessment) -> _Neglected:
         # Motion by motion: the governing run of the requested model need not be that of the other.
         for run, more in zip(array.motions, array.needed, strict=True)
     )
-    change = abs(array.chosen_toward_m(Direction.ANY) - array.design_m)
+    change = abs(array.chosen_m - array.design_m)
     # Then no change of the runs reaches the design displacement.
     floor = array.floor_m >= max(other.value_m, array.analysis.value_m)
     basis = "exact: both models run" + ("; the floor governs both" if floor else "")

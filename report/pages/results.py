@@ -144,29 +144,22 @@ def _peak(fmt: UnitFormat, orientation: Orientation, motion: MotionRun) -> str:
 def _statistics(package: PackageData, group: _Alike, runs: int) -> Iterator[TableRow]:
     array, fmt = group[0], package.fmt
     row = next(row for row in package.arrays if row.id == array.id)
-    ways = [array.directions[direction] for direction in _WAYS]
-    toward = [array.design_toward_m(direction) for direction in _WAYS]
     factor = f"{statistic(array.analysis.basis)}, {package.clause('analysis_factor')}"
-    of_motions, blank = "of the motions", [""] * len(ways)
-    marks = [array.toward_mark(direction) for direction in _WAYS]
-    for name, label, excursions, after, about in (
-        ("mean_prd_m", "Mean", [way.mean_m for way in ways], blank, of_motions),
-        ("largest_prd_m", "Largest", [way.largest_m for way in ways], blank, of_motions),
-        ("computed_m", f"Analysis: {factor}", [way.value_m for way in ways], blank, ""),
-        ("floor", f"Floor: {_floor_words(package)}", [row.floor] * len(ways), blank, ""),
-        ("design_m", "Design", toward, marks, f"governed by: {array.source}"),
+    for name, label, about in (
+        ("mean_prd_m", "Mean", "of the motions"),
+        ("largest_prd_m", "Largest", "of the motions"),
+        ("computed_m", f"Analysis: {factor}", ""),
+        ("floor", f"Floor: {_floor_words(package)}", ""),
+        ("design_m", "Design", f"governed by: {array.source}"),
     ):
         field = name.replace("floor", "floor_m")
         is_changed = any((item.id, field) in package.changes.values for item in group)
-        pairs = zip(excursions, after, strict=True)
-        toward_cells = (fmt.first(m, mark=mark, show=no_less) for m, mark in pairs)
         yield TableRow(
             cells=(
                 Wide(label, 1 + runs),
                 # The same field as in the table of arrays, with its marks: both print one text.
                 *table_of([row], name, fmt).rows[0].cells,
-                *toward_cells,
-                Wide(about, 5),
+                Wide(about, len(_WAYS) + 5),
             ),
             kind=package.bar(is_changed, "total"),
         )
@@ -242,7 +235,6 @@ def _design(package: PackageData) -> Mapping[str, object]:
         "statistic": statistic(array.analysis.basis),
         "analysis_mark": array.mark(lambda item: item.analysis.value_m),
         "interconnection_mark": array.mark(lambda item: item.interconnection_n),
-        "ways": _WAYS,
     }
 
 

@@ -1,7 +1,7 @@
 """The sheet Design of results.xlsx: from the peaks to the design displacement and the verdicts.
 
 Live formulas, each written with the value from `report.assessment.project`: with the sheets Peaks,
-Directions and Inputs that Design follows from. Read `DesignRow`.
+and Inputs that Design follows from. Read `DesignRow`.
 """
 
 from __future__ import annotations
@@ -16,18 +16,17 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.project import Assessment
 from report.assessment.routes import Route
 from report.assessment.verdict import MEANING, OVERRIDDEN, Verdict, worst
-from report.entities.array import ArrayResult, DirectionResult, array_result, direction_result
+from report.entities.array import ArrayResult, array_result
 from report.entities.motion import PeakResult, peak_result
 from report.entities.shown import Column, Number, up_column
 from report.results.lists import RunRow
 from report.results.sheets import TOP, Cells, Pages, SheetRow, typed, write_live
-from report.sheet.schema.choices import Direction
 from report.sheet.schema.fields import YesNo
 from solver.model import INCH_M
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, Basis, PrescriptiveBasis
 
-# Cells of the peaks of an array in a direction, one for each motion.
-PeakRanges = Mapping[tuple[str, Direction], str]
+# Cells of the PRDs of an array, one for each motion.
+PeakRanges = Mapping[str, str]
 
 
 class PeakRow(SheetRow, PeakResult):
@@ -39,26 +38,10 @@ class PeakRow(SheetRow, PeakResult):
     array: Annotated[str, Column("Array")]
 
 
-class DirectionRow(SheetRow, DirectionResult):
-    """The displacement of an array in a direction."""
-
-    sheet: ClassVar[str] = "Directions"
-    across: ClassVar[str] = (
-        "array direction mean_m largest_m factor computed_m floor_m design_m by_roofslip_m"
-    )
-
-    array: Annotated[str, Column("Array")]
-    direction: Annotated[Direction, Column("Direction")]
-    factor: Annotated[float, Column("Analysis factor", 2, "={design.analysis_factor}")]
-    floor_m: Annotated[float, up_column("Floor [in]", 1, "={design.floor_m}")]
-    by_roofslip_m: Annotated[Number, up_column("By Roofslip [in]", 1)]
-    difference: Annotated[float, Column("Difference [in]", 4, "={design_m}-{by_roofslip_m}")] = 0.0
-
-
 def write_peaks(pages: Pages, assessment: Assessment) -> PeakRanges:
-    """Write the largest excursion of all runs of each motion, by direction; return its cells."""
+    """Write the largest excursion of all runs of each motion, by direction; return the PRDs."""
     rows: list[PeakRow] = []
-    ranges: dict[tuple[str, Direction], str] = {}
+    ranges: dict[str, str] = {}
     # Below the one row of headings of the sheet Runs, in the order in which it lists them.
     first_run = 2
     for item in assessment.arrays:
@@ -67,55 +50,10 @@ def write_peaks(pages: Pages, assessment: Assessment) -> PeakRanges:
             runs = Cells(RunRow, first_run, first_run + len(motion.runs) - 1)
             first_run += len(motion.runs)
             rows.append(PeakRow.beside(peak_result(motion), array=item.id, refs={"runs": runs}))
-        peaks = Cells(PeakRow, first, TOP + len(rows) - 1)
-        ranges |= {(item.id, way): getattr(peaks, f"{way.value}_m") for way in Direction}
+        ranges[item.id] = Cells(PeakRow, first, TOP + len(rows) - 1).any_m
     note = "Largest of all runs of each motion, by direction, from the sheet Runs."
     write_live(pages, PeakRow, rows, "Peaks", note)
     return ranges
-
-
-def write_directions(
-    pages: Pages, assessment: Assessment, peaks: PeakRanges, designs: Mapping[str, Cells]
-) -> None:
-    """Write the displacement of each array in each direction."""
-    use = (
-        "Each clearance uses the displacement in its own direction, a departure from the rule set."
-        if assessment.project.options.directional
-        else "For information: each clearance uses the full design displacement."
-    )
-    rows = [
-        _direction_row(item, way, {"peaks": peaks[item.id, way], "design": designs[item.id]})
-        for item in assessment.arrays
-        for way in Direction
-    ]
-    note = f"{use} From the sheets Peaks and Design."
-    write_live(pages, DirectionRow, rows, "Design displacement by direction", note)
-
-
-def _direction_row(
-    item: ArrayAssessment, way: Direction, refs: Mapping[str, object]
-) -> DirectionRow:
-    analysis, design_m = item.directions[way], item.directional_m(way)
-    values: dict[str, float] = {"floor_m": item.floor_m, "by_roofslip_m": design_m}
-    blanks = set()
-    if math.isnan(analysis.value_m):
-        values |= {"mean_m": math.nan, "largest_m": math.nan}
-        blanks |= {"factor", "floor_m"}
-    if math.isnan(design_m):
-        blanks |= {"by_roofslip_m", "difference"}
-    # The prescriptive displacement has no direction: it is that of the sheet Design.
-    is_prescriptive = item.route is Route.PRESCRIPTIVE
-    return DirectionRow.beside(
-        direction_result(item, way),
-        refs=refs,
-        formulas={"design_m": "={design.design_m}"} if is_prescriptive else {},
-        blanks=blanks,
-        marks=dict.fromkeys(("design_m", "by_roofslip_m"), item.toward_mark(way)),
-        array=item.id,
-        direction=way,
-        factor=analysis.factor,
-        **values,
-    )
 
 
 # Cell of each input, by its key.
@@ -263,7 +201,7 @@ def write_design(
     """
     rows = []
     for item in assessment.arrays:
-        refs = {"inputs": inputs, "peaks": peaks.get((item.id, Direction.ANY), "")}
+        refs = {"inputs": inputs, "peaks": peaks.get(item.id, "")}
         rows.append(_row(assessment, item, refs, results[item.id]))
     sheet = write_live(
         pages,

@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from typing import Annotated, ClassVar
 
-from report.assessment.clearances import ClearanceCheck, facing
+from report.assessment.clearances import ClearanceCheck, beside
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra
 from report.assessment.verdict import MEANING, Verdict
@@ -19,10 +19,8 @@ from report.entities.clearance import ClearanceResult
 from report.entities.shown import Column, Number, up_column
 from report.results.design import (
     DesignRow,
-    DirectionRow,
     InputCells,
     write_design,
-    write_directions,
     write_inputs,
     write_peaks,
 )
@@ -44,7 +42,6 @@ from report.results.sheets import (
     write_list,
     write_live,
 )
-from report.sheet.schema.choices import Direction
 from solver.rules.provisions import SEPARATION_KEYS
 
 _DIFFERENCE = '=IF(ISTEXT({required_m}),"none",{required_m}-{by_roofslip_m})'
@@ -61,7 +58,7 @@ class GapRow(SheetRow, ClearanceResult):
     key_columns: ClassVar[int] = 3
 
     count: Annotated[int, Column("No.")]
-    governing: Annotated[str, Column("Governing array, direction")]
+    governing: Annotated[str, Column("Governing array")]
     minimum_m: Annotated[float, Column("Minimum [in]", is_input=True)]
     by_roofslip_m: Annotated[Number, up_column("Required by Roofslip [in]", 1)]
     difference: Annotated[float, Column("Difference [in]", 4, _DIFFERENCE)] = 0.0
@@ -114,7 +111,7 @@ def _row(assessment: Assessment, gap: ClearanceCheck, inputs: InputCells, count:
             **dict.fromkeys(("required_m", "demand_capacity", "by_roofslip_m"), gap.mark),
         },
         count=count,
-        governing=f"{gap.governing_array}, {gap.governing_direction.value}",
+        governing=gap.governing_array,
         minimum_m=gap.minimum_m,
         by_roofslip_m=gap.required_m,
         rule_factor=factor.value,
@@ -123,12 +120,10 @@ def _row(assessment: Assessment, gap: ClearanceCheck, inputs: InputCells, count:
 
 def _sides(assessment: Assessment, gap: ClearanceCheck) -> tuple[str, str]:
     """Return the formulas of the larger displacement on either side, and of whose it is."""
-    sides = facing(assessment.project, assessment.arrays, gap.clearance)
     rows = {array.id: row for row, array in enumerate(assessment.arrays, start=TOP)}
-    cells = [_displacement(assessment, rows[array.id], toward) for array, toward in sides]
-    names = [
-        f'{fixed(DesignRow, "id", rows[array.id])}&", {toward.value}"' for array, toward in sides
-    ]
+    sides = [rows[array.id] for array in beside(assessment.arrays, gap.clearance)]
+    cells = [fixed(DesignRow, "design_m", row) for row in sides]
+    names = [fixed(DesignRow, "id", row) for row in sides]
     if len(cells) == 1:
         return cells[0], names[0]
     # Text, "none", is larger than any number: an array without a value governs.
@@ -139,22 +134,14 @@ def _sides(assessment: Assessment, gap: ClearanceCheck) -> tuple[str, str]:
     )
 
 
-def _displacement(assessment: Assessment, row: int, toward: Direction) -> str:
-    """Return the cell of the displacement of an array that a clearance takes."""
-    if not (assessment.project.options.directional and assessment.has_motions):
-        return fixed(DesignRow, "design_m", row)
-    ways = list(Direction)
-    return fixed(DirectionRow, "design_m", TOP + len(ways) * (row - TOP) + ways.index(toward))
-
-
 # The sheets in the order of the package.
 _ORDER = (
     "Design", "Clearances", "Neighbors", "Requirements", "Inputs", "Motions", "Records", "Spectra",
-    "Directions", "Peaks", "Runs", "Links", "LinkRuns",
+    "Peaks", "Runs", "Links", "LinkRuns",
 )  # fmt: skip
 
 # The sheets that a workbook without motions has not.
-OF_MOTIONS = {"Motions", "Records", "Spectra", "Directions", "Peaks", "Runs"}
+OF_MOTIONS = {"Motions", "Records", "Spectra", "Peaks", "Runs"}
 
 
 def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
@@ -188,6 +175,4 @@ def _write_live(pages: Pages, assessment: Assessment) -> None:
     if assessment.linked:
         write_list(pages, LinkRunRow.sheet, list(link_run_rows(assessment)))
         write_links(pages, assessment, designs)
-    if assessment.has_motions:
-        write_directions(pages, assessment, peaks, designs)
     write_clearances(pages, assessment, inputs)

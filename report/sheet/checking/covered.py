@@ -49,7 +49,7 @@ CONFIRMATIONS: Sequence[tuple[str, str, str, _Covers]] = (
                "s_ds_g", "s_d1_g", "hazard", "sdc"}}),
     ("friction_tests", "date", "tests_covered", _all_but(friction_runs="")),
     ("options", "peer_date", "peer_covered",
-     {**_ANALYSIS, "options": {"statistic", "directional"}}),
+     {**_ANALYSIS, "options": {"statistic"}}),
     ("confirmation", "date", "covered",
      {"site": {"rule_set", "edition_name", "building_code", "building_code_year"},
       **_all_but(confirmation="date covered", overrides="")}),

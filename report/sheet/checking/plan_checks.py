@@ -35,7 +35,7 @@ def _filled(*fields: str) -> Condition:
     return lambda row, _: any(row.get(field) not in (None, "") for field in fields)
 
 
-def _chosen(field: str, *choices: str | bool) -> Condition:
+def _chosen(field: str, *choices: str) -> Condition:
     return lambda row, _: row.get(field) in choices
 
 
@@ -49,7 +49,6 @@ _LAW = "give high-velocity friction and friction rate, or neither"
 _CODE = "give building code and year, or neither"
 _CONFIRMED = "give who confirmed the drawing distances and when, or neither"
 _ALL_FIVE = "give all five cells of the confirmation, or none"
-_OR_NO = "give it, or answer No to displacement by direction"
 _CONFIRMATION = ("by", "date", "rule_set", "edition", "code")
 
 # Optional cells that are required where others say so: when, and what would do.
@@ -76,10 +75,6 @@ REQUIRED: Mapping[tuple[str, str], tuple[Condition, str]] = {
         lambda row, draft: row.get("structure", "") is None
         and any(motion.get("recorded_at") is RecordedAt.GROUND for motion in draft["motions"]),
         "give it, or a structure type: a motion is recorded at the ground"),
-    **{
-        ("options", f"directional_{field}"): (_chosen("directional", True), _OR_NO)
-        for field in ("reason", "reviewer", "license", "date")
-    },
 }  # fmt: skip
 
 # Tables whose ids differ from each other, without regard to capitals.

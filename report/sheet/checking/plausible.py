@@ -124,7 +124,6 @@ def _dates(data: ProjectInput) -> Iterator[Finding]:
         ("site", "hazard_date", "date of hazard", data.site.hazard_date),
         ("friction_tests", "date", "date of the test report", data.friction_tests.date),
         ("options", "peer_date", "date of review", data.options.peer_date),
-        ("options", "directional_date", "date for direction", data.options.directional_date),
     ):
         if dated is not None and dated > issue.date:
             text = f"{noun} is {dated}, later than the package, {issue.date}; correct one of them"

@@ -5,7 +5,7 @@ Never uses positions or styles, which users change. `cells` converts the content
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 
 from openpyxl.utils import get_column_letter
@@ -303,13 +303,28 @@ def _named(book: OpenBook, names: Iterable[str]) -> CellPosition | None:
 
 
 def _position(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition | None:
-    named = _named(book, map(section.cell_name, _fields(section, entry)))
-    if named:
+    return _found(book, section, _fields(section, entry), labels_of(section, entry))
+
+
+def _found(
+    book: OpenBook, section: SheetSection, fields: Iterable[str], wanted: Set[str]
+) -> CellPosition | None:
+    """Return the cell that has the name of one of some fields, or else is beside a label."""
+    if named := _named(book, map(section.cell_name, fields)):
         return named
-    wanted = labels_of(section, entry)
     places = (position for position, label in _labels(book, section) if label in wanted)
     at = next(places, None)
     return replace(at, column=at.column + 1) if at else None
+
+
+def gone_cells(
+    book: OpenBook, section: SheetSection
+) -> Iterator[tuple[layout.GoneInput, CellPosition]]:
+    """Yield the cells that a block of an earlier workbook has for inputs that are no more."""
+    for gone in layout.GONE.get(section.key, ()):
+        position = _found(book, section, [gone.field], {label_key(gone.label)})
+        if position:
+            yield gone, position
 
 
 def _labels(book: OpenBook, section: SheetSection) -> Iterator[tuple[CellPosition, str]]:

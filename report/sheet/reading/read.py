@@ -47,7 +47,8 @@ from report.sheet.schema.fields import (
     entries,
     sections_of,
 )
-from report.text.counts import quoted
+from report.sheet.schema.layout import GoneInput
+from report.text.counts import cut, lowered, quoted, trimmed
 from solver.model import InputError, Problem
 
 
@@ -337,12 +338,22 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
         if not cell.is_blank and column.heading != position:
             gathered.use(place, found_at(book, column.heading))
         cells_read.append((entry, place, cell, column))
+    for gone, position in locate.gone_cells(book, section):
+        _refuse_gone(gone, Place(section.key), found_at(book, position), gathered)
     # What a blank cell is computed from must have been read.
     last = section.model.computed_last
     for entry, place, cell, column in sorted(
         cells_read, key=lambda read: read[2].is_blank and read[0].name in last
     ):
         _read_field(entry, place, cell, column, stated_unit(entry, row, {}), row, gathered)
+
+
+def _refuse_gone(gone: GoneInput, place: Place, cell: Found, gathered: Gathered) -> None:
+    """Add a problem for an input that is no more, unless its cell asks for nothing."""
+    answer = trimmed(cell.shown)
+    if not cell.is_blank and answer.casefold() not in gone.defaults:
+        found = f"{lowered(gone.label)} is '{cut(answer)}'"
+        gathered.add(place, [Problem(found, gone.remedy, cell.address)])
 
 
 def _read_table(

@@ -93,18 +93,6 @@ class Options(Frozen):
     """Filled in by roofslip report: date, and a hash of each sheet that the analysis rests on."""
     peer_letter: Annotated[Text, Cell("Letter of review", "peer-review.pdf")] = ""
     """PDF in the workbook's folder. Required with peer review."""
-    directional: Annotated[bool, Cell("Displacement by direction", "No")] = False
-    """Yes: displacement toward each clearance, a departure."""
-    directional_reason: Annotated[Text, Cell("Reason for direction", "Agreed 2026-02-10")] = ""
-    """Required with displacement by direction."""
-    directional_reviewer: Annotated[Text, Cell("Reviewer of direction", "Reviewer of record")] = ""
-    """Required with displacement by direction."""
-    directional_license: Annotated[Text, Cell("License for direction", "CA S0000")] = ""
-    """State and number. Required likewise."""
-    directional_date: Annotated[dt.date | None, Cell("Date for direction", dt.date(2026, 3, 1))] = (
-        None
-    )
-    """Required with displacement by direction."""
     smaller_events: Annotated[Text, Cell("Smaller events", "0.50, 0.50")] = ""
     """Up to 20 factors on the motions, above 0.0 up to 1.0, with commas: events that are added, for
     information."""

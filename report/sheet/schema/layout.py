@@ -101,6 +101,33 @@ LABELS: Mapping[tuple[str, str], tuple[str, ...]] = {
     ("target", "to_s"): ("Scaling periods to",),
 }
 
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GoneInput:
+    """An input that earlier workbooks have: it is no more, and refused where it asks for something.
+
+    A blank cell asks for nothing, nor does a default.
+    """
+
+    field: str  # with which its defined name ends
+    label: str
+    defaults: tuple[str, ...]  # lowercase
+    remedy: str
+
+
+# By section.
+GONE: Mapping[str, tuple[GoneInput, ...]] = {
+    "options": (
+        GoneInput(
+            field="directional",
+            label="Displacement by direction",
+            defaults=("no", "false"),
+            remedy="answer No: a clearance takes the design displacement in full, as the rule sets"
+            " state no direction",
+        ),
+    ),
+}
+
 # Headings of formulas that every table had, lowercase: what a row lacks, which `check` says.
 ANSWERS = frozenset({"status"})
 
@@ -124,8 +151,7 @@ ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(
     for section, fields in (
         ("site", "edition_name s_ms_g s_m1_g s_d1_g hazard hazard_source hazard_date force_factor"
                  " force_divisor"),
-        ("options", "peer_reviewer peer_license peer_date directional directional_reason"
-                    " directional_reviewer directional_license directional_date smaller_events"),
+        ("options", "peer_reviewer peer_license peer_date smaller_events"),
         ("site", "hazard_report"),
         ("site", "building_code building_code_year jurisdiction"),
         ("friction_tests", "report_file"),

@@ -120,7 +120,7 @@ def test_the_floor_and_the_model_that_the_motions_need_bear_on_links():
     assert item.estimated_m == item.design.floor_m == item.design.design_m
     assert done.verdict.is_permitted
     _, item = assessed("0.40, 0.50", 50, array={"model": "one axis"})
-    fuller = item.design.chosen["any"].value_m
+    fuller = item.design.chosen.value_m
     assert fuller > item.design.analysis.value_m
     assert item.estimated_m == pytest.approx(item.ratio * fuller)
 

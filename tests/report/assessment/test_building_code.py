@@ -87,15 +87,12 @@ def test_both_conditions_say_what_an_assessment_by_the_rule_set_of_the_code_give
         )
 
 
-def test_the_outcome_says_other_reasons_and_takes_no_departure_over():
+def test_the_outcome_says_other_reasons_and_takes_no_override_over():
     sections = {"overrides": [{"provision": "max_stories", "value": 9, "reason": "Agreed"}]}
     done = assessed("2022 CBC", sections=sections, stories=8)
     outcome = listed(done.conditions)["rule_set"].outcome
     assert "S_DS, without overrides and departures: NG, " in outcome
     assert "; number of stories" in outcome
-    options = stand_in.project().options.model_dump() | scenes.DEPARTURE
-    done = assessed("2022 CBC", sections={"options": options})
-    assert "without overrides and departures" in listed(done.conditions)["rule_set"].outcome
 
 
 def test_a_row_of_linked_blocks_counts_under_the_other_rule_set_too():

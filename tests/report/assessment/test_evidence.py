@@ -245,8 +245,6 @@ def test_the_building_case_is_the_farthest_or_one_without_a_value_where_it_matte
         assert ": no design displacement" in case.words(us_first=True)
     assert building_case(done, ()) is None
     assert building_case(done, (used, used)) is None
-    directional = replace(done, arrays=(replace(done.arrays[0], by_direction=True),))
-    assert building_case(directional, evidence.building) is None
 
 
 row = partial(Requirement, id="x", title="Friction", limit="tests", basis="tests",

@@ -63,7 +63,7 @@ def references(node):
 def gap(**changes):
     row = {
         "array": "A1", "object": "RTU-1", "direction": "any", "neighbor": "fixed object",
-        "governing_array": "A1", "governing_direction": "any", "design_m": 0.5, "importance": 1.0,
+        "governing_array": "A1", "design_m": 0.5, "importance": 1.0,
         "factor": 1.0, "required_m": 0.5, "required_is_overridden": False, "provided_m": 1.0,
         "demand_capacity": 0.5, "verdict": "OK",
     }  # fmt: skip

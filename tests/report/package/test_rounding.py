@@ -13,7 +13,7 @@ import scenes
 import stand_in
 from nightly import by_day
 from printed import printed
-from report.assessment.clearances import facing
+from report.assessment.clearances import beside
 from report.assessment.evidence import support
 from report.assessment.spectra import spectra
 from report.drawing.plan import plan_drawing
@@ -91,10 +91,6 @@ def amounts(done):
         values = item.permitted_m, analysis.value_m, given.value_m, given.minimum_m, item.floor_m
         peaks = analysis.mean_m, analysis.largest_m, *(run.prd_m for run in item.runs)
         yield from ((value, size, "up") for value in (*values, *peaks))
-        for way in item.directions if item.runs else ():
-            of_way = item.directions[way]
-            values = item.design_toward_m(way), of_way.mean_m, of_way.largest_m, of_way.value_m
-            yield from ((value, size, "up") for value in values)
         yield item.interconnection_n, weight, "up"
         yield item.fastest_mps, velocity, "up"
         yield array.slack_m, size, "down"
@@ -107,8 +103,8 @@ def amounts(done):
         yield gap.required_m, size, "up"
         yield gap.clearance.provided_m, size, "down"
         yield gap.clearance.pathway_m, size, "up"
-        for array, toward in facing(done.project, done.arrays, gap.clearance):
-            yield array.permitted_toward_m(toward), size, "up"
+        for array in beside(done.arrays, gap.clearance):
+            yield array.permitted_m, size, "up"
     for near in done.neighbors:
         yield near.required_m, size, "up"
         yield near.gap_m, size, "down"
@@ -155,7 +151,7 @@ def rows_of(sheet):
 def test_a_required_value_of_results_xlsx_shows_what_the_package_shows_and_its_ratio_is_exact(done):
     book = openpyxl.load_workbook(io.BytesIO(results_xlsx(done, spectra(done))), data_only=True)
     rounded = 0
-    for sheet in ("Design", "Clearances", "Directions"):
+    for sheet in ("Design", "Clearances"):
         for row in rows_of(book[sheet]) if sheet in book.sheetnames else ():
             for head, value in row.items():
                 exact = row.get(head.replace(" [", ", unrounded [").replace("[mm]", "[in]"))

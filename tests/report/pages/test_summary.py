@@ -15,7 +15,7 @@ from report.assessment.conditions import project_rows
 from report.assessment.routes import Route
 from report.pages.summary import document, summary
 from report.web.controls import opened, with_values
-from scenes import DEPARTURE, FOOT, REVIEW
+from scenes import FOOT, REVIEW
 from stand_in import INCH
 
 
@@ -239,15 +239,9 @@ def test_a_low_parapet_does_not_qualify_by_the_heights_of_the_package():
     assert float(row["Top above it [in]"]) == pytest.approx(20.0 - of_center, abs=0.05)
 
 
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        ({}, "the factor ×, importance included, times Δ, of two"),
-        (DEPARTURE, "importance included, times the displacement toward it, of"),
-    ],
-)
-def test_the_plan_says_which_displacement_a_separation_takes(options, words):
-    assert words in printed(scenes.package(options=REVIEW | options), "plan")
+def test_the_plan_says_which_displacement_a_separation_takes():
+    words = "the factor ×, importance included, times Δ, of two"
+    assert words in printed(scenes.package(options=REVIEW), "plan")
 
 
 @pytest.mark.quick

@@ -115,7 +115,7 @@ class Filled:
     def checks(self, design_m: float) -> list[ClearanceCheck]:
         """Return the clearances for a design displacement of every array."""
         same = {"adopted": None, "opened_mark": "", "is_permitted": True,
-                "permitted_toward_m": lambda direction: design_m}  # fmt: skip
+                "permitted_m": design_m}  # fmt: skip
         arrays = [SimpleNamespace(id=each.id, array=each, **same) for each in self.data.arrays]
         rows = self.data.clearances
         return [check_clearance(self.data, self.rules, arrays, row) for row in rows]

@@ -6,7 +6,7 @@ import shutil
 import pytest
 from click.testing import CliRunner
 
-from cells import cell
+from cells import address, cell
 from nightly import by_day
 from packages import undrawn, unlaid
 from places import DATA, ROOT
@@ -142,6 +142,33 @@ def earlier_labels(book):
 
 def test_every_earlier_label_is_read_as_the_present_one(tmp_path):
     assert same(read(edit(make(tmp_path), earlier_labels)).project, project())
+
+
+@pytest.mark.parametrize("renamed", [False, True])
+def test_displacement_by_direction_of_an_earlier_workbook_is_refused_with_its_cell(
+    tmp_path, renamed
+):
+    label = "Options/Displacement by direction"
+    told = {"Options/Reason for direction": "Agreed", label: "Yes"}
+    path = type_into(beside(tmp_path / "example", "example", "example"), told)
+    where = address(path, label)
+
+    def rename(book):
+        cell(book, label).offset(column=-1).value = "By direction"
+
+    if renamed:  # the cell has its name still
+        edit(path, rename)
+    ((_, problem),) = read(path).problems
+    assert str(problem).startswith(f"{where}: displacement by direction is 'Yes'; answer No: ")
+
+
+@pytest.mark.quick
+@pytest.mark.parametrize("answer", ["No", "no ", False, None])
+def test_an_earlier_workbook_that_asks_for_nothing_that_is_gone_is_read_as_it_was(tmp_path, answer):
+    told = {"Options/Displacement by direction": answer}
+    path = type_into(beside(tmp_path / "example", "example", "example"), told)
+    wanted = ProjectInput.model_validate(RECORDED["example"]["input"])
+    assert same(read(path).project, wanted)
 
 
 def without(section, *fields):

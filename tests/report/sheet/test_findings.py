@@ -100,8 +100,7 @@ def test_an_object_far_from_the_roof_or_else_from_the_largest_array_is_asked_abo
 @pytest.mark.parametrize(
     ("section", "field", "noun"),
     [("options", "peer_date", "date of review"), ("site", "hazard_date", "date of hazard"),
-     ("friction_tests", "date", "date of the test report"),
-     ("options", "directional_date", "date for direction")],
+     ("friction_tests", "date", "date of the test report")],
 )  # fmt: skip
 def test_a_source_later_than_the_package_gives_a_warning(section, field, noun):
     assert warnings(row_changed(section, None, **{field: dt.date(2026, 3, 5)})) == {}
