@@ -166,7 +166,7 @@ def unpermitted() -> Assessment:
         site=base.site.model_dump() | {"rule_set": "ASCE 7-16", "force_factor": 1.0,
                                        "force_divisor": 1.5, "hazard_source": "Hazard Tool",
                                        "hazard_date": "2026-02-20"},
-        arrays=[stand_in.array("A1", 0.5, mu=0.3, slack_m=0.1, model="one axis"),
+        arrays=[stand_in.array("A1", 0.5, mu=0.3, slack_m=0.1),
                 stand_in.array("A2", 0.5, mu=0.41, x=120, interconnection_n=1.0)],
         objects=[stand_in.roof_object("RTU-1", "fixed object", 107, 112, 35, 42, height=1.0),
                  stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=0.5)],
@@ -190,8 +190,8 @@ def unpermitted() -> Assessment:
 def departing() -> PackageData:
     """Return a project with every departure, and with what changed since its first revision.
 
-    Peer review, overrides, friction by velocity with its tests, smaller events, a requested model,
-    and clearances that are NG.
+    Peer review, overrides, friction by velocity with its tests, smaller events, and clearances that
+    are NG.
     """
     law = stand_in.array("A3", 3.0, mu=0.30, mu_fast=0.46, mu_rate_s_per_m=20.0, mu_static=0.48,
                          y=90)  # fmt: skip
@@ -204,8 +204,7 @@ def departing() -> PackageData:
 
     def project(**given):
         return stand_in.project(
-            arrays=[stand_in.array("A1", 2.0, model="one axis"),
-                    stand_in.array("A2", 2.0, mu=0.40, x=120), law],
+            arrays=[stand_in.array("A1", 2.0), stand_in.array("A2", 2.0, mu=0.40, x=120), law],
             clearances=[stand_in.clearance("A1", "A3", 15 * FOOT),
                         stand_in.clearance("A1", "RTU-1", 0.1 * FOOT, "across"),
                         stand_in.clearance("A3", "T-1", 7 * FOOT),

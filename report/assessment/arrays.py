@@ -20,13 +20,12 @@ from report.assessment.routes import (
     prescriptive_of,
     statistic_basis,
 )
-from report.assessment.runs import REQUESTED_MODELS, MotionRun, OrientedRun
+from report.assessment.runs import MotionRun, OrientedRun
 from report.assessment.verdict import OVERRIDDEN, as_adopted, mark_of, nan_is_worst
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.scene import Array
 from solver.rules import provisions
 from solver.rules.provisions import AnalysisValue, Basis, Prescriptive, RuleSet
-from solver.sliding import least_model
 from solver.sliding.uplift import Supports, Tipping, Uplift, tipping_at
 
 # Of an array without runs: nothing is known of its normal force.
@@ -49,10 +48,6 @@ class ArrayAssessment(RouteLimits):
     array: Array  # its row of the workbook
     motions: tuple[MotionRun, ...]  # the runs under each motion
     analysis: AnalysisValue  # of the PRDs
-    # the same with the adequate models, which differs from it where a model is requested, and the
-    # runs for it, in the order of `motions`
-    chosen: AnalysisValue
-    needed: tuple[MotionRun, ...]
     prescriptive: Prescriptive
     floor_m: float  # minimum design displacement without peer review [m]; 0 with it
     is_permitted: bool  # by the limits of the route, and by analysis those on the motions
@@ -128,14 +123,6 @@ class ArrayAssessment(RouteLimits):
         """Design displacement that may be used [m]; NaN where no route is permitted."""
         return self.design_m if self.is_permitted else math.nan
 
-    @property
-    def chosen_m(self) -> float:
-        """The design displacement with the adequate models [m]."""
-        if self.route is Route.PRESCRIPTIVE:
-            return self.design_m
-        value_m = self.chosen.value_m
-        return math.nan if math.isnan(value_m) else max(value_m, self.floor_m)
-
     def mark(self, value: Callable[[ArrayAssessment], float]) -> str:
         """Return the mark of a number of the array that an override or a departure changes."""
         return "" if self.adopted is None else mark_of(value(self), value(self.adopted))
@@ -155,18 +142,6 @@ class ArrayAssessment(RouteLimits):
     def design_mark(self) -> str:
         """The mark of the design displacement."""
         return self.mark(lambda array: array.design_m) or self.opened_mark
-
-    @property
-    def is_model_requested(self) -> bool:
-        """Whether the workbook requests a model."""
-        return self.array.model in REQUESTED_MODELS
-
-    @property
-    def is_model_enough(self) -> bool:
-        """Whether the adequate models require no larger displacement."""
-        # A design without a value is NG for that, whatever its model.
-        most_m = self.design_m + least_model.DEFAULT.bound_m(self.design_m)
-        return math.isnan(most_m) or self.chosen_m <= most_m
 
     @property
     def ratio(self) -> float:
@@ -206,14 +181,13 @@ def assess_array(
     rules: RuleSet,
     array: Array,
     runs: tuple[MotionRun, ...],
-    needed: tuple[MotionRun, ...],
     *,
     motions_qualify: bool,
 ) -> ArrayAssessment:
-    """Return an array checked against the rule set, by its runs and those of adequate models."""
+    """Return an array checked against the rule set."""
     adopted, prescriptive = as_adopted(data), prescriptive_of(data, rules)
-    basis = statistic_basis(data)
-    analysis = _analysis(rules, runs, basis)
+    peaks_m = [run.governing.prd_m for run in runs]
+    analysis = provisions.analysis_value(rules, peaks_m, statistic_basis(data))
     floor_m = provisions.analysis_floor_m(rules, prescriptive, is_reviewed=data.is_peer_reviewed)
     has_value = motions_qualify and analysis.basis is not Basis.TOO_FEW
     limits = limits_of(data, rules, array, n_motions=len(runs), has_value=has_value)
@@ -221,9 +195,6 @@ def assess_array(
         array=array,
         motions=runs,
         analysis=analysis,
-        # One object where no model is requested: most arrays need the statistics once.
-        chosen=analysis if needed is runs else _analysis(rules, needed, basis),
-        needed=needed,
         prescriptive=prescriptive,
         floor_m=floor_m,
         **{field.name: getattr(limits, field.name) for field in fields(limits)},
@@ -245,7 +216,6 @@ def assess_array(
             provisions.RULE_SETS[data.site.rule_set],
             array,
             runs,
-            needed,
             motions_qualify=motions_qualify,
         ),
     )
@@ -275,7 +245,3 @@ def _design_m(
         return max(prescriptive.value_m, largest_m)
     # NaN first: max would drop it.
     return max(analysis.value_m, floor_m)
-
-
-def _analysis(rules: RuleSet, runs: Sequence[MotionRun], basis: Basis | None) -> AnalysisValue:
-    return provisions.analysis_value(rules, [run.governing.prd_m for run in runs], basis)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import replace
 from functools import cache, partial
 from typing import Any
@@ -42,7 +42,6 @@ from report.assessment.runs import (
     MotionRun,
     PendingRuns,
     RunMotion,
-    Runs,
     largest_two,
     run_motion,
     scene_key,
@@ -54,7 +53,6 @@ from report.sheet.checking.checks import faults
 from report.sheet.checking.covered import outdated
 from report.sheet.reading.read import Sheet
 from report.sheet.schema import SECTIONS, ProjectInput
-from report.sheet.schema.choices import ModelChoice
 from report.sheet.schema.fields import Draft, Finding
 from report.sheet.schema.scene import Array
 from solver.model import Motion
@@ -76,7 +74,7 @@ def assess(
     """Run every array under every motion and check every limit and clearance.
 
     From a `former` assessment of the same motions and targets come the limits on them, and the runs
-    of arrays with the same slope, friction and model. A `project` is assessed in place of that of
+    of arrays with the same slope and friction. A `project` is assessed in place of that of
     the sheet, without what the building code's rule set gives. Unless it is whole, that is left out
     too, and less friction, half of the runs: an OK may still be one with conditions. Raises as
     `rule_set_of`.
@@ -84,15 +82,15 @@ def assess(
     data = outdated(project or sheet.project, shaking.hashes)
     with ThreadPoolExecutor(THREADS) as pool:
         begin = partial(begin_runs, pool, motions=shaking.motions)
-        begun = begin(run_motion, data, check_models=True, former=former.arrays if former else ())
+        begun = begin(run_motion, data, former=former.arrays if former else ())
         # The runs with less friction follow without a pause, while motions and arrays are checked.
         reduced = with_friction(data, 1.0 - SHIFT)
         less: PendingRuns = ()
         known = former.at_reduced_friction.arrays if former and former.at_reduced_friction else ()
         if is_whole:
-            less = begin(run_motion, reduced, check_models=False, former=known)
+            less = begin(run_motion, reduced, former=known)
         known = former.low_velocity.arrays if former else ()
-        slow = begin(run_motion, with_low_velocity(data), check_models=False, former=known)
+        slow = begin(run_motion, with_low_velocity(data), former=known)
         acceptance = former.acceptance if former else shaking_acceptance(shaking, targets(data))
         whole = partial(_assess, sheet, shaking, acceptance=acceptance, pool=pool)
 
@@ -126,10 +124,8 @@ def _beside(other: Assessment, assessment: Assessment) -> Assessment:
 
 
 def reassess(assessment: Assessment, project: ProjectInput) -> Assessment:
-    """Assess another input under the same motions, with its own models only."""
-    return _by_own_models(
-        assessment.sheet, assessment.shaking, project, assessment.acceptance, run_motion
-    )
+    """Assess another input under the same motions, without variations of it."""
+    return _alone(assessment.sheet, assessment.shaking, project, assessment.acceptance, run_motion)
 
 
 # Of the PRD. Far less than is printed changes, and runs take three quarters of the time.
@@ -155,7 +151,7 @@ def anticipate(
 
     data = outdated(sheet.project, shaking.hashes)
     acceptance = acceptance or shaking_acceptance(shaking, targets(data))
-    return _by_own_models(sheet, shaking, data, acceptance, run, key)
+    return _alone(sheet, shaking, data, acceptance, run, key)
 
 
 def reference_of(done: Assessment) -> Reference:
@@ -165,7 +161,7 @@ def reference_of(done: Assessment) -> Reference:
     }
 
 
-def _by_own_models(
+def _alone(
     sheet: Sheet,
     shaking: Shaking,
     data: ProjectInput,
@@ -174,7 +170,7 @@ def _by_own_models(
     key: Callable[[Array], Hashable] = scene_key,
 ) -> Assessment:
     with ThreadPoolExecutor(THREADS) as pool:
-        begun = begin_runs(pool, run, data, shaking.motions, check_models=False, key=key)
+        begun = begin_runs(pool, run, data, shaking.motions, key=key)
         return _assess(sheet, shaking, data, acceptance=acceptance, pool=pool, begun=begun)
 
 
@@ -195,7 +191,7 @@ def _assess(
     # Of a variation neither its own variations nor its rows of linked blocks are asked for.
     has_runs = bool(reduced_friction and shaking.motions)
     arrays = tuple(
-        assess_array(data, rules, array, *wait(), motions_qualify=acceptance.qualifies)
+        assess_array(data, rules, array, wait(), motions_qualify=acceptance.qualifies)
         for array, wait in zip(data.arrays, begun, strict=True)
     )
     links = data.links if has_runs else ()
@@ -288,30 +284,21 @@ def begin_runs(
     data: ProjectInput,
     motions: Sequence[Motion],
     *,
-    check_models: bool,
     key: Callable[[Array], Hashable] = scene_key,
     former: Sequence[ArrayAssessment] = (),
 ) -> PendingRuns:
-    """Begin the runs of an input; `check_models` compares requested models with adequate ones."""
+    """Begin the runs of an input."""
     # Arrays with one key share their runs: those of a former assessment have them already.
-    known = {key(item.array): (item.motions, item.needed) for item in former}
+    known = {key(item.array): item.motions for item in former}
 
-    def begun(array: Array) -> Callable[[], Runs]:
+    def begun(array: Array) -> Callable[[], tuple[MotionRun, ...]]:
         if (runs_of := known.get(key(array))) is not None:
             return lambda: runs_of
         # Runs in two axes and of rows release the GIL: two proceed in parallel.
         runs = [pool.submit(run, array, motion) for motion in motions]
-        if array.model is ModelChoice.CHOOSE or not check_models:
-            return partial(_done, runs, runs)
-        chosen = partial(run_motion, array, model=ModelChoice.CHOOSE)
-        return partial(_done, runs, [pool.submit(chosen, motion) for motion in motions])
+        return lambda: tuple(each.result() for each in runs)
 
     by_key = {key(array): array for array in data.arrays}
     # One result for all arrays of a key: what follows from the runs alone is computed once.
     runs = {each: cache(begun(array)) for each, array in by_key.items()}
     return [runs[key(array)] for array in data.arrays]
-
-
-def _done(runs: Sequence[Future[MotionRun]], needed: Sequence[Future[MotionRun]]) -> Runs:
-    done = tuple(run.result() for run in runs)
-    return done, done if needed is runs else tuple(run.result() for run in needed)

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 from report.assessment.precheck import lacking_motions, limit_words
 from report.assessment.routes import statistic_basis
 from report.assessment.verdict import Requirement, Verdict, nan_is_worst
-from report.sheet.schema.choices import ModelChoice
 from report.text.amounts import capacity, compared_pairs, demand
 from report.text.counts import ids_by, lowered, ranged
 from report.text.units import Quantity, ratio
@@ -87,7 +86,6 @@ def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
         *(s.sentence.split(":")[0] for s in Status if s in statuses and s is not Status.OK),
         *(_limit(check) for check in item.limits if not check.ok),
         *(["limits on the motions"] if on_motions and not assessment.acceptance.qualifies else []),
-        *([] if item.is_model_enough else ["requested model"]),
         *([] if item.tipping.is_ok else ["tipping"]),
         *([] if assessment.is_rigid_enough(item) else ["one rigid block"]),
         *(
@@ -152,7 +150,7 @@ def row_words(row: Requirement, subjects: Sequence[str]) -> str:
 
 
 def _models(assessment: Assessment) -> Iterator[str]:
-    """Yield arrays that tip, and whose model is not adequate."""
+    """Yield arrays that tip, and those that one rigid block may not stand for."""
     for item in assessment.arrays:
         if not item.tipping.is_ok:
             tips = "starts to tip" if item.runs else "may start to tip"
@@ -161,9 +159,6 @@ def _models(assessment: Assessment) -> Iterator[str]:
                 f"array {item.id} {tips}: {tipping} required, with a lower center of gravity or"
                 " wider supports"
             )
-        if not item.is_model_enough:
-            text = f"array {item.id}, requested model '{item.array.model}' is not adequate; select"
-            yield f"{text} '{ModelChoice.CHOOSE}' on the sheet Arrays"
     for name in (row.design.id for row in assessment.linked if not row.is_rigid_enough):
         yield f"one rigid block has not been shown to be adequate for array {name}"
 

@@ -205,7 +205,7 @@ def low_velocity(
 ) -> LowVelocityAssessment:
     """Assess the arrays of `with_low_velocity`, whose runs have begun, beside the others."""
     changed = {
-        array.id: assess_array(data, rules, array, *wait(), motions_qualify=motions_qualify)
+        array.id: assess_array(data, rules, array, wait(), motions_qualify=motions_qualify)
         for array, wait in zip(with_low_velocity(data).arrays, begun, strict=True)
     }
     every = [changed.get(item.id, item) for item in arrays]

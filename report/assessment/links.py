@@ -97,13 +97,6 @@ class LinkedArray:
         return linked / rigid if rigid != 0.0 else math.nan
 
     @property
-    def value_m(self) -> float:
-        """The value from analysis that is multiplied by the ratio [m]."""
-        # Of the adequate model if that gives more than the one requested: the floor may cover
-        # what the latter neglects, but not necessarily together with links.
-        return max(self.design.analysis.value_m, self.design.chosen.value_m)
-
-    @property
     def estimated_m(self) -> float:
         """Design displacement with links [m], an estimate; NaN without a value."""
         ratio, design = self.ratio, self.design
@@ -111,7 +104,7 @@ class LinkedArray:
             return math.nan
         if math.isinf(ratio):  # also where the design uses 0
             return ratio
-        return max(max(1.0, ratio) * self.value_m, design.floor_m)
+        return max(max(1.0, ratio) * design.analysis.value_m, design.floor_m)
 
     @property
     def is_rigid_enough(self) -> bool:

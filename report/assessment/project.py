@@ -29,7 +29,6 @@ from report.motions.history import Targets
 from report.motions.prepare import Shaking
 from report.sheet.reading.read import Sheet
 from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import ModelChoice
 from report.text.counts import grouped_by
 from report.text.units import Quantity, no_less, pair
 from solver.model import Status
@@ -43,8 +42,8 @@ _MOST_NAMED = 4  # motions in a sentence; more are counted, and the results have
 _WHAT_WOULD_DO = {
     Status.SLIDING_AT_END: "give a longer record, or Zero padding on the sheet Motions",
     Status.UPLIFT: "anchor the array, or replace the motion",
-    Status.DIVERGED: f"select the model '{ModelChoice.CHOOSE}' on the sheet Arrays",
-    Status.STEP_LIMIT: f"select the model '{ModelChoice.CHOOSE}' on the sheet Arrays",
+    Status.DIVERGED: "replace the motion",
+    Status.STEP_LIMIT: "replace the motion",
 }
 
 
@@ -210,10 +209,9 @@ class Assessment:
         return Verdict.OK if limit.ok else missed
 
     def is_sound(self, item: ArrayAssessment) -> bool:
-        """Whether an array satisfies its limits, and its motions, model and runs are adequate."""
+        """Whether an array satisfies its limits, and its runs are final."""
         return (
-            item.is_model_enough
-            and item.tipping.is_ok
+            item.tipping.is_ok
             and item.satisfies_limits
             and all(run.result.status is Status.OK for run in item.runs)
         )

@@ -12,19 +12,12 @@ from dataclasses import dataclass, field
 from operator import attrgetter
 
 from report.assessment.verdict import nan_is_worst
-from report.sheet.schema.choices import Direction, ModelChoice
+from report.sheet.schema.choices import Direction
 from report.sheet.schema.scene import Array
 from solver.model import Motion, Orientation, Scene, SlideHistory, SlideResult, Status
 from solver.sliding import least_model
 from solver.sliding.least_model import DEFAULT, Model, Settings, Solution
 from solver.sliding.uplift import Uplift, uplift
-
-# The models that a workbook can request.
-REQUESTED_MODELS: Mapping[ModelChoice, Model] = {
-    ModelChoice.ONE_AXIS: Model.ONE_AXIS,
-    ModelChoice.ONE_AXIS_VERTICAL: Model.ONE_AXIS_VERTICAL,
-    ModelChoice.TWO_AXES: Model.TWO_AXES,
-}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -106,23 +99,22 @@ class MotionRun:
 
 def scene_key(array: Array) -> Hashable:
     """Return what the runs of an array under a motion follow from: equal ones have equal runs."""
-    return array.slope_rad, array.friction, array.model
+    return array.slope_rad, array.friction
 
 
 def run_motion(
     array: Array,
     motion: Motion,
-    model: ModelChoice | None = None,
     names: Collection[str] = (),
     tolerance: float = DEFAULT.tolerance,
 ) -> MotionRun:
     """Run one array under one motion in all of its runs.
 
-    `model` replaces that of the array. Of the orientations those in `names` are run alone, if the
-    motion has them, which is not for design; nor is a larger tolerance.
+    Of the orientations those in `names` are run alone, if the motion has them, which is not for
+    design; nor is a larger tolerance.
     """
     wanted = [each for each in motion.orientations if each.name in names] or motion.orientations
-    runs = [run_oriented(array, motion, each, model, tolerance) for each in wanted]
+    runs = [run_oriented(array, motion, each, tolerance) for each in wanted]
     return motion_run(motion, runs)
 
 
@@ -142,22 +134,16 @@ def run_oriented(
     array: Array,
     motion: Motion,
     orientation: Orientation,
-    model: ModelChoice | None = None,
     tolerance: float = DEFAULT.tolerance,
 ) -> OrientedRun:
     """Run one array under one motion at one orientation; the rest as in `run_motion`."""
-    forced = REQUESTED_MODELS.get(array.model if model is None else model)
     scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
-    solution = least_model.solve(scene, Settings(forced=forced, tolerance=tolerance))
+    solution = least_model.solve(scene, Settings(tolerance=tolerance))
     return OrientedRun(orientation=orientation, scene=scene, solution=solution)
 
 
 RunMotion = Callable[[Array, Motion], MotionRun]
 
 
-# Runs of an array, and those with the adequate models; one object twice if they are the same.
-Runs = tuple[tuple[MotionRun, ...], tuple[MotionRun, ...]]
-
-
 # Wait for the runs of each array.
-PendingRuns = Sequence[Callable[[], Runs]]
+PendingRuns = Sequence[Callable[[], tuple[MotionRun, ...]]]

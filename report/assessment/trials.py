@@ -73,7 +73,7 @@ class Trials:
         self.assessment = assessment
         self.array = array
         self._pool = pool
-        self._runs = runs  # arrays with one slope, friction and model share them
+        self._runs = runs  # arrays with one slope and friction share them
         # Several clearances of an array ask for the same ones.
         self._done: dict[tuple[int, bool], ArrayAssessment] = {}
 
@@ -115,7 +115,6 @@ class Trials:
                 self.assessment.project,
                 self.assessment.rules,
                 array,
-                self._runs[key],
                 self._runs[key],
                 motions_qualify=self.assessment.acceptance.qualifies,
             )

@@ -37,7 +37,6 @@ from report.entities.shown import (
     up_column,
     words,
 )
-from report.sheet.schema.choices import ModelChoice
 from report.text.amounts import capacity, demand, shown_in_order
 from report.text.units import Quantity, Show, measured, no_less, no_more, ratio
 from solver.model import Friction
@@ -214,10 +213,6 @@ class ArrayResult(ArrayRow):
     """Friction law as entered."""
     friction_as_run: Annotated[str, Shown(head="μ")]
     """Friction coefficient in words, as printed."""
-    model_asked_for: Annotated[ModelChoice, at("array.model")]
-    """Model that the workbook chooses."""
-    model_is_enough: Annotated[bool, at("is_model_enough")]
-    """Whether the adequate models require no larger displacement than that model."""
     peaks: tuple[PeakResult, ...]
     """Largest displacements by motion."""
     peak_speed_mps: Annotated[Number, at("fastest_mps")]

@@ -11,7 +11,6 @@ from functools import partial
 
 from report.assessment.friction import mu_words
 from report.assessment.project import Assessment
-from report.assessment.runs import REQUESTED_MODELS
 from report.document.tables import Table, listed
 from report.entities.shown import Shown, length, plain, text, words
 from report.motions.history import ac156
@@ -124,7 +123,6 @@ def inputs(package: PackageData) -> Mapping[str, object]:
         "site": site(package),
         "s_ds": unused_s_ds(data.site),
         "arrays": _arrays(package),
-        "asked": [array.id for array in data.arrays if array.model in REQUESTED_MODELS],
         "takes_base": package.assessment.rules.low_profile_length is LowProfileLength.BASE,
         "made": ids_by(data.arrays, lambda array: (array.construction, array.mu_report)),
         "links": _links(package),

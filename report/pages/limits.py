@@ -27,7 +27,7 @@ from report.entities.array import array_results
 from report.entities.evidence import NeighborResult
 from report.entities.requirement import UNVERIFIED, dagger, requirement_rows
 from report.entities.shown import Shown, centered, length, provided, text, words
-from report.pages.model import link_troubles, model_troubles
+from report.pages.model import link_troubles
 from report.pages.parts import NG, OK, PackageData, verdict
 from report.pages.symbols import with_symbols
 from report.sheet.checking.findings import lines
@@ -67,7 +67,6 @@ def troubles(package: PackageData) -> Mapping[str, Sequence[object]]:
         "warnings": package.assessment.warnings,
         "few": [array for array in arrays if array.lacks_motions],
         "refused": [array for array in arrays if is_refused and array.route is Route.ANALYSIS],
-        "models": model_troubles(package),
         "tipping": [array for array in arrays if not array.tipping.is_ok],
         "links": tuple(link_troubles(package)),
         "limits": [(place, check) for place, check in package.checks if not check.ok],

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.links import LinkedArray
-from report.assessment.runs import REQUESTED_MODELS, OrientedRun
+from report.assessment.runs import OrientedRun
 from report.assessment.verdict import nan_is_worst
 from report.document.tables import Table, Wide, by_place, listed
 from report.entities.evidence import linked_result
@@ -85,14 +85,8 @@ def page(package: PackageData) -> Mapping[str, object]:
         "table": _table(package),
         "neglected": _neglected_table(package),
         "stability": _stability_table(package),
-        "troubles": model_troubles(package),
         "links": part(package),
     }
-
-
-def model_troubles(package: PackageData) -> Sequence[ArrayAssessment]:
-    """Return the arrays whose requested model is not adequate."""
-    return [array for array in package.assessment.arrays if not array.is_model_enough]
 
 
 def _limited(demand: float) -> str:
@@ -143,8 +137,6 @@ class _Group:
     @property
     def reason(self) -> str:
         """Why the run with the largest PRD, and of these with the largest demand, has it."""
-        if self.array.is_model_requested:
-            return "requested in the workbook"
 
         def worst(run: OrientedRun) -> tuple[float, float]:
             return nan_is_worst(run.prd_m), run.solution.friction_demand
@@ -197,9 +189,6 @@ def _neglected_table(package: PackageData) -> Table:
 
 
 def _neglected(array: ArrayAssessment) -> Iterator[_Neglected]:
-    if array.is_model_requested:
-        yield _requested(array)
-        return
     solutions = [run.solution for run in array.runs]
     neglected = sorted(
         {solution.next_model for solution in solutions if solution.next_model > solution.model}
@@ -233,23 +222,3 @@ def _effect(array: ArrayAssessment, model: Model, group: Sequence[Solution]) -> 
     # Upper bound: all motions take the largest effect, so that mean and largest rise by it alike.
     raised = max(array.analysis.value_m + array.analysis.factor * effect, array.floor_m)
     return array.id, _NEGLECTED[model], effect, raised - array.design_m, basis
-
-
-def _requested(array: ArrayAssessment) -> _Neglected:
-    """Return the change that the adequate models make to the requested one."""
-    other = array.chosen
-    # The adequate models differ from run to run: the most complete one names the effects.
-    model = max(run.solution.model for motion in array.needed for run in motion.runs)
-    name = f"Effects of {model.title}" if model > REQUESTED_MODELS[array.array.model] else "None"
-    if math.isnan(array.design_m) or math.isnan(other.value_m):
-        return array.id, name, Wide(NO_VALUE, 4), "", "no value from analysis"
-    effect = max(
-        abs(more.governing.prd_m - run.governing.prd_m)
-        # Motion by motion: the governing run of the requested model need not be that of the other.
-        for run, more in zip(array.motions, array.needed, strict=True)
-    )
-    change = abs(array.chosen_m - array.design_m)
-    # Then no change of the runs reaches the design displacement.
-    floor = array.floor_m >= max(other.value_m, array.analysis.value_m)
-    basis = "exact: both models run" + ("; the floor governs both" if floor else "")
-    return array.id, name, effect, change, basis

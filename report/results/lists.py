@@ -290,9 +290,6 @@ def _row(linked: LinkedArray, refs: Mapping[str, Cells]) -> LinkRow:
     # A row that rests beside a block that rests: the ratio is 1, not 0 / 0.
     if not rigid.value_m > 0.0:
         formulas["ratio"] = "=1"
-    if linked.value_m != design.analysis.value_m:
-        # Not that of the design: the adequate model gives more than the one that is requested.
-        formulas["computed_m"] = f"={linked.value_m / INCH_M!r}"
     if not (has_value and linked.is_final and design.is_permitted):
         formulas["result"] = ""
     names = {name for name, _, _ in columns_of(LinkRow)}
@@ -308,7 +305,7 @@ def _row(linked: LinkedArray, refs: Mapping[str, Cells]) -> LinkRow:
         row_mean_m=row.mean_m,
         row_largest_m=row.largest_m,
         factor=rigid.factor,
-        computed_m=linked.value_m,
+        computed_m=design.analysis.value_m,
         floor_m=design.floor_m,
         tolerance_m=DEFAULT.bound_m(design.design_m),
         result="OK" if is_enough else "NG",

@@ -13,7 +13,7 @@ from report.sheet.checking.findings import column, repeated, suggestion
 from report.sheet.checking.motion_checks import friction_faults, motion_faults
 from report.sheet.checking.plan_checks import MAX_SLOPE_DEG, places_of, us_first
 from report.sheet.schema import factors, provision_name
-from report.sheet.schema.choices import ModelChoice, SlopeUnit
+from report.sheet.schema.choices import SlopeUnit
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
 from report.sheet.schema.motions import coefficients
 from report.sheet.schema.project import (
@@ -97,17 +97,13 @@ def _slope(index: int, row: DraftRow) -> Iterator[Finding]:
 
 def _friction(index: int, row: DraftRow) -> Iterator[Finding]:
     # A cell that could not be read is absent, and has an error of its own.
-    if not row.keys() >= {"mu", "mu_fast", "mu_static", "model"}:
+    if not row.keys() >= {"mu", "mu_static"}:
         return
-    mu, static, model = row["mu"], row["mu_static"], row["model"]
+    mu, static = row["mu"], row["mu_static"]
     if static is not None and static < mu:
         text = f"static friction is {static:g}"
         wanted = f"give the friction coefficient, {mu:g}, or more"
         yield Finding.error(Place("arrays", index, "mu_static"), text, wanted)
-    if _by_speed(row) and model is not ModelChoice.CHOOSE:
-        text = f"model is '{model}', which neglects velocity-dependent and static friction"
-        wanted = f"select '{ModelChoice.CHOOSE}', or leave high-velocity and static friction blank"
-        yield Finding.error(Place("arrays", index, "model"), text, wanted)
 
 
 def _by_speed(array: DraftRow) -> list[str]:

@@ -57,6 +57,7 @@ class TableFound:
     columns: Mapping[str, FieldColumn]  # by field, of headings that are present and readable
     rows: Sequence[int]  # those that may contain inputs
     others: tuple[CellPosition, ...]  # headings that belong to no field
+    gone: tuple[tuple[layout.GoneInput, CellPosition], ...]  # headings of inputs that are no more
     absent: tuple[str, ...]  # optional fields without a column, as in earlier workbooks
     problems: tuple[Problem, ...]  # of headings and merged cells
 
@@ -74,7 +75,13 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
     positions = [CellPosition(sheet.title, top, column) for column in range(left, right + 1)]
     # Formulas are not read.
     answers = ANSWER_HEADINGS.get(section.key, frozenset()) | layout.ANSWERS
-    headings = [p for p in positions if label_key(sheet.cell(top, p.column).value) not in answers]
+    gone = tuple(_gone_headings(book, section, positions))
+    passed = {position for _, position in gone}
+    headings = [
+        p
+        for p in positions
+        if p not in passed and label_key(sheet.cell(top, p.column).value) not in answers
+    ]
     columns, others, absent, problems = _columns(book, section, headings)
     used = [column.number for column in columns.values()]
     # Tables may lie below each other on one sheet.
@@ -85,9 +92,19 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
         columns=columns,
         rows=[row for row in range(top + 1, last_row + 1) if row not in below],
         others=tuple(others),
+        gone=gone,
         absent=tuple(absent),
         problems=tuple(problems),
     )
+
+
+def _gone_headings(
+    book: OpenBook, section: SheetSection, headings: Sequence[CellPosition]
+) -> Iterator[tuple[layout.GoneInput, CellPosition]]:
+    for gone in layout.GONE.get(section.key, ()):
+        for position in headings:
+            if label_key(found_at(book, position).value) == label_key(gone.label):
+                yield gone, position
 
 
 def _table_named(book: OpenBook, section: SheetSection) -> _Place | None:

@@ -375,6 +375,9 @@ def _read_table(
         }
         if not all(cell.is_blank for cell in cells.values()):
             _read_row(section, table, cells, gathered)
+        for gone, heading in table.gone:
+            at = CellPosition(sheet, number, heading.column)
+            _refuse_gone(gone, Place(section.key), found_at(book, at), gathered)
     read = {place.field for place, _ in gathered.used if place.section == section.key}
     for name, column in table.columns.items():
         if name in read:

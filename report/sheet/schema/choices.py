@@ -144,15 +144,6 @@ class ObjectKind(StrEnum):
     EDGE_WITHOUT_PARAPET = "edge without parapet"
 
 
-class ModelChoice(StrEnum):
-    """Model of an array's motion: the simplest adequate one, or one that is requested."""
-
-    CHOOSE = "choose"
-    ONE_AXIS = "one axis"
-    ONE_AXIS_VERTICAL = "one axis with vertical"
-    TWO_AXES = "two axes with vertical"
-
-
 class Direction(StrEnum):
     """Direction of a clearance from the array: downslope, upslope, cross-slope, or any."""
 

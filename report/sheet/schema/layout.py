@@ -126,6 +126,15 @@ GONE: Mapping[str, tuple[GoneInput, ...]] = {
             " state no direction",
         ),
     ),
+    "arrays": (
+        GoneInput(
+            field="model",
+            label="Model",
+            defaults=("choose",),
+            remedy="select 'choose': each run has the simplest adequate model. From Python,"
+            " solver.solve runs any",
+        ),
+    ),
 }
 
 # Headings of formulas that every table had, lowercase: what a row lacks, which `check` says.

@@ -18,7 +18,6 @@ from report.sheet.schema.choices import (
     Direction,
     Id,
     LayerKind,
-    ModelChoice,
     NotNegative,
     ObjectKind,
     Positive,
@@ -195,9 +194,6 @@ class Array(Placed):
     ] = None
     """Only if tests give it: the coefficient at which slip starts. Blank: the friction
     coefficient."""
-    model: Annotated[ModelChoice, Cell("Model", "choose", is_rare=True)] = ModelChoice.CHOOSE
-    """Choose: the simplest adequate model for each motion. Any other model is run as requested, and
-    the package states what the automatic choice would give."""
 
     i_p: Annotated[ImportanceCell, Cell("Importance factor I_p", 1.0, is_rare=True)] = 1.0
     """Of the component. Separations of PV1-2012 take the larger I_p of array and neighbor."""

@@ -66,25 +66,6 @@ def test_each_motion_and_direction_has_the_farthest_of_all_runs(done):
         assert [m.peak_m(Direction(direction)) for m in item.motions] == peaks
 
 
-def test_a_requested_model_is_run_and_compared_with_the_adequate_one():
-    arrays = [
-        stand_in.array("A1", 2.0, model="one axis with vertical"),
-        stand_in.array("A2", 2.0, x=120),
-    ]
-    for reviewed in (False, True):
-        done = alone(arrays=arrays, options={"peer_reviewed": reviewed})
-        asked, free = done.arrays
-        assert {r.solution.model for m in asked.motions for r in m.runs} == {
-            Model.ONE_AXIS_VERTICAL
-        }
-        assert asked.chosen == free.analysis
-        assert asked.analysis.value_m < free.analysis.value_m
-        assert free.is_model_enough
-        enough = free.design_m <= asked.design_m
-        assert asked.is_model_enough is enough
-        assert done.verdict.is_permitted is enough
-
-
 def test_the_floor_governs_unless_reviewed_and_friction_by_speed_is_solved():
     law = {"mu_fast": 0.5, "mu_rate_s_per_m": 20.0}
     by_speed, constant = (
@@ -143,9 +124,7 @@ def test_a_run_without_a_final_displacement_withholds_that_of_its_array(done, st
     result = replace(run.result, status=status)
     lost = replace(run, solution=replace(run.solution, result=result))
     runs = (motion_run(first.motion, [lost, *rest]), *others)
-    item = assess_array(
-        done.project, done.rules, done.arrays[0].array, runs, runs, motions_qualify=True
-    )
+    item = assess_array(done.project, done.rules, done.arrays[0].array, runs, motions_qualify=True)
     assert item.worst.governing is lost
     assert math.isnan(item.design_m)
     assert done.is_sound(done.arrays[0])
@@ -212,7 +191,7 @@ def test_arrays_of_one_slope_friction_and_model_share_their_runs(monkeypatch):
     first, second = both.arrays
     assert first.motions == second.motions
     assert runs_of(both) == runs_of(found(one))
-    for changes in ({"mu": 0.44}, {"slope_value": 3.9}, {"model": "one axis"}, {"mu_fast": 0.5}):
+    for changes in ({"mu": 0.44}, {"slope_value": 3.9}, {"mu_fast": 0.5}):
         apart, (single,) = found(one, other | changes), found(other | changes).arrays
         assert apart.arrays[1].design_m == single.design_m
 

@@ -76,11 +76,6 @@ CASES = {
         "options": {"peer_reviewed": True},
     },
     "prescriptive": {"site": SITE | {"s_ds_g": 1.0}, "options": {"statistic": "mean"}},
-    "a row beside a model that is requested": {
-        "arrays": [stand_in.array("A1", 0.5, model="one axis")],
-        "clearances": [],
-        "links": [stand_in.links("A1", "0.40, 0.50", 50)],
-    },
 }
 
 

@@ -162,10 +162,22 @@ def test_displacement_by_direction_of_an_earlier_workbook_is_refused_with_its_ce
     assert str(problem).startswith(f"{where}: displacement by direction is 'Yes'; answer No: ")
 
 
+def test_a_model_that_an_earlier_workbook_requests_is_refused_with_its_cell(tmp_path):
+    told = {"Arrays/A1/Model": "choose", "Arrays/A2/Model": "one axis", "Arrays/A3/Model": None}
+    path = type_into(beside(tmp_path / "example", "example", "example"), told)
+    ((_, problem),) = read(path).problems
+    assert str(problem).startswith(
+        f"{address(path, 'Arrays/A2/Model')}: model is 'one axis'; select 'choose': "
+    )
+
+
 @pytest.mark.quick
 @pytest.mark.parametrize("answer", ["No", "no ", False, None])
 def test_an_earlier_workbook_that_asks_for_nothing_that_is_gone_is_read_as_it_was(tmp_path, answer):
-    told = {"Options/Displacement by direction": answer}
+    told = {
+        "Options/Displacement by direction": answer,
+        "Arrays/A1/Model": "Choose" if answer else None,
+    }
     path = type_into(beside(tmp_path / "example", "example", "example"), told)
     wanted = ProjectInput.model_validate(RECORDED["example"]["input"])
     assert same(read(path).project, wanted)

@@ -162,9 +162,6 @@ CONTRADICTIONS = [
      "Arrays/A2/High-velocity friction is missing; give high-velocity friction and friction rate,"
      " or neither",
      "Arrays/A2/Static friction is 0.4; give the friction coefficient, 0.45, or more"),
-    (of("Arrays/A1", {"High-velocity friction": 0.5, "Friction rate": 20, "Model": "one axis"}),
-     "Arrays/A1/Model is 'one axis', which neglects velocity-dependent and static friction; select"
-     " 'choose', or leave high-velocity and static friction blank"),
     ({"Objects/N/Height": None},
      "Objects/N/Height is missing; give the parapet's height above the roof"),
     ({"Objects/RTU-1/x to": None},
