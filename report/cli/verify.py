@@ -55,20 +55,17 @@ _USUAL = "out"
 @click.option("--records", type=_FOLDER, help="Folder of recorded motions. Files with three "
               "components are run with every model; roof_575_market (ground and floor records of "
               "575 Market Street) is compared with the building model.")  # fmt: skip
-@click.option("--table", type=_FOLDER, help="Folder of shake-table tests: tests.csv and the "
-              "table accelerations. Measured slip is compared with the computed one.")  # fmt: skip
-def verify(out: Path | None, quick: bool, records: Path | None, table: Path | None) -> None:
+def verify(out: Path | None, quick: bool, records: Path | None) -> None:
     """Check the solver and the comparison methods; write verification.pdf, its table and charts.
 
-    The exit code is 1 if a check fails, or if the tests of a shake table are not accepted; the
-    outputs are written in any case.
+    The exit code is 1 if a check fails; the outputs are written in any case.
     """
     from report.results.publish import output_folder, publish
 
-    source = table or records or out or Path(_USUAL)
+    source = records or out or Path(_USUAL)
     with input_errors(source), Progress(VERIFY_STEPS) as progress:
         out = output_folder(out, Path(), _USUAL)
-        verification, files = _verification(quick, records, table, progress)
+        verification, files = _verification(quick, records, progress)
         progress("writing the files")
         publish(files, out)
     failed = [row for row in verification.checks if not row.passed]
@@ -84,35 +81,25 @@ def verify(out: Path | None, quick: bool, records: Path | None, table: Path | No
             f"{row.computed:.10g} {row.unit}, error {row.error:.1e} exceeds "
             f"{row.tolerance:.1e}"
         )
-    from report.manual.measured import result
-
-    for tests in verification.tables:
-        median = f"{len(tests.runs)} tests, median ratio {tests.median:.3f}"
-        click.echo(f"shake table: {median}. {result(tests)}")
     for name in files:
         click.echo(out / name)
-    is_refuted = not all(tests.is_accepted for tests in verification.tables)
     # Without any check nothing passed either.
-    if failed or is_refuted or not verification.checks:
+    if failed or not verification.checks:
         sys.exit(1)
 
 
 def _verification(
-    quick: bool, records: Path | None, table: Path | None, progress: Callable[[str], None]
+    quick: bool, records: Path | None, progress: Callable[[str], None]
 ) -> tuple[Verification, Mapping[str, bytes]]:
     """Return the verification, and every output as finished bytes by file name."""
     from report.manual.render import files
     from solver.verification.building import recorded_buildings
     from solver.verification.run import verify
-    from solver.verification.shake_table import table_tests
     from solver.verification.study import recorded_triples
 
-    tests = table_tests(table) if table else ()
     buildings = recorded_buildings(records) if records else ()
     motions = recorded_triples(records) if records else ()
-    verification = verify(
-        quick=quick, progress=progress, buildings=buildings, motions=motions, tests=tests
-    )
+    verification = verify(quick=quick, progress=progress, buildings=buildings, motions=motions)
     return verification, files(verification, dt.date.today(), progress)
 
 

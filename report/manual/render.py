@@ -22,24 +22,24 @@ from report.document.tables import grouped
 from report.document.templates import Section, filled, rendered, section
 from report.entities.shown import centered, text, words
 from report.manual import precision
-from report.manual.measured import building, models, shake_table
+from report.manual.measured import building, models
 from report.manual.precision import conditioning, convergence, curves, floor, links, stability, work
 from report.pages.parts import verdict
 from report.pages.symbols import with_symbols
 from report.provenance.files import installed, processor
 from report.text.counts import grouped_by, lettered
 from report.text.formats import (
+    NOT_VALIDATED,
+    VALIDATION,
     csv_text,
     percent,
     scientific,
     seconds,
     ten_digits,
     unbroken,
-    validation,
 )
 from report.typeset.pdf import TEMPLATES, lay_out
 from solver.verification import evidence, model_study
-from solver.verification import shake_table as accepted
 from solver.verification.building import BY_HEIGHT
 from solver.verification.evidence import Check, PeerPoint, Verification
 from solver.verification.features import statuses
@@ -156,7 +156,6 @@ _CONSTANTS = {
     "building_rules": solver.building.roof,
     "model_evidence": evidence,
     "model_study": model_study,
-    "shake_table": accepted,
 }
 
 # Columns of the table: of a check, and of a run in two axes.
@@ -196,8 +195,9 @@ def manual_html(
         # Without checks none failed, which is no pass.
         "verdict": judged(verification.passed and len(verification.checks) > 0),
         "n_passed": sum(row.passed for row in verification.checks),
-        "features": statuses(verification.checks, verification.tables),
-        "validation": validation(verification.tables),
+        "features": statuses(verification.checks),
+        "not_validated": NOT_VALIDATED,
+        "validation": VALIDATION,
         "machine": machine,
         "version": machine["Roofslip"],
     }
@@ -224,7 +224,6 @@ def sections(verification: Verification) -> tuple[Section, ...]:
         conditioning(verification),
         building(verification),
         *((models(verification),) if verification.models else ()),
-        shake_table(verification),
         section("manual/features", "Status of each feature"),
         section("manual/known-errors", "Known errors of released versions"),
         *((peers(verification.peers),) if verification.peers else ()),

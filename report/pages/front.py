@@ -30,8 +30,7 @@ from report.pages.symbols import friction_standard
 from report.sheet.reading.linked_files import StudyYears, YearsOfArray
 from report.sheet.schema import SECTION
 from report.sheet.schema.project import Revision
-from report.text.formats import explained
-from solver.verification.shake_table import SHIPPED
+from report.text.formats import VALIDATION
 
 # Clearances of the summary, where all are OK: the complete schedule stands in their part.
 N_WORST = 3
@@ -126,7 +125,7 @@ def basis(package: PackageData) -> Mapping[str, object]:
     return {
         "motions": [run.motion for run in package.governing.motions],
         "is_tested": bool(tested(package.data)),
-        "validation": explained(SHIPPED),
+        "validation": VALIDATION,
     }
 
 

@@ -24,7 +24,7 @@ from report.study.results import StudyResults
 from report.study.tables import length_unit
 from report.study.wording import on_building
 from report.text.counts import capitalized, joined
-from report.text.formats import explained
+from report.text.formats import VALIDATION
 from report.text.units import (
     digits_down,
     digits_up,
@@ -36,7 +36,6 @@ from report.text.units import (
 )
 from solver.model import Floats
 from solver.studies.curves import DIGITS, Fit
-from solver.verification.shake_table import SHIPPED
 
 # Lines of a chart.
 MOST_LINES = 8
@@ -115,7 +114,7 @@ def limits(results: StudyResults) -> Section:
         "Limits",
         has_probabilities=any(result.exceedances for result in results.arrays),
         FREQ_HZ=FREQ_HZ,
-        validation=explained(SHIPPED),
+        validation=VALIDATION,
     )
 
 

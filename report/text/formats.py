@@ -1,4 +1,4 @@
-"""Errors, shares and times of a verification for print, and whether tests validate the solution;
+"""Errors, shares and times of a verification for print, and that no test validates the solution;
 names for files; data for JSON and CSV; tables for a terminal.
 
 An em dash is NaN.
@@ -11,13 +11,10 @@ import io
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from report.text.counts import power_of_ten
 from report.text.units import number
-
-if TYPE_CHECKING:
-    from solver.verification.shake_table import ShakeTable
 
 
 def scientific(value: float) -> str:
@@ -130,25 +127,9 @@ NOT_VALIDATED = (
     "The sliding solution has not been validated against shake-table tests of ballasted arrays."
 )
 
-
-def validation(tables: Sequence[ShakeTable]) -> str:
-    """Return in a sentence whether tests of a shake table validate the sliding solution."""
-    for table in tables:
-        if table.validates:
-            return (
-                f"{len(table.runs)} tests of a shake table satisfy the acceptance of the "
-                "verification manual. They validate the sliding solution for slopes, friction "
-                "coefficients and motions like theirs, as far as the stated source is right."
-            )
-    return NOT_VALIDATED
-
-
-def explained(tables: Sequence[ShakeTable]) -> str:
-    """Return the same, with what remains unknown where nothing is validated."""
-    if any(table.validates for table in tables):
-        return validation(tables)
-    return (
-        f"{NOT_VALIDATED} The checks of the verification manual show that the equations are "
-        "solved correctly. They do not show how well friction between a ballasted array and a "
-        "roof membrane follows them."
-    )
+VALIDATION = (
+    f"{NOT_VALIDATED} The checks of the verification manual show that the equations are solved "
+    "correctly. They do not show how well friction between a ballasted array and a roof membrane "
+    "follows them."
+)
+"""The same, with what remains unknown."""

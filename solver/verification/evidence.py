@@ -17,7 +17,6 @@ import pandas as pd
 from solver.model import Floats
 from solver.studies.curves import first_allowed
 from solver.verification.reference import DIGITS
-from solver.verification.shake_table import ShakeTable
 
 # Least PRD of both models for which their ratio is reported [m]; smaller ones are not telling.
 LEAST_M = 5e-3
@@ -300,7 +299,6 @@ class Verification:
     # the model building first, then those whose records were given
     roofs: tuple[RoofComparison, ...]
     models: tuple[ModelEvidence, ...]  # one
-    tables: tuple[ShakeTable, ...]  # one if tests of a shake table were given, otherwise empty
     peers: tuple[PeerPoint, ...]  # empty if none is installed
     records: tuple[str, ...]  # names of the records, the project's first
     quick: bool

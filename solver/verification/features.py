@@ -1,36 +1,14 @@
-"""Every feature of the program, the checks that verify it, and the table tests that would validate.
+"""Every feature of the program, and the checks that verify it.
 
 The status of a feature is computed from the checks that ran. Read `FEATURES`, then `statuses`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from solver.verification.evidence import Check
-from solver.verification.shake_table import ShakeTable, TableTest
-
-
-# Named functions, so that a feature can be pickled.
-def _no_test(_: TableTest) -> bool:
-    return False
-
-
-def _one_axis(test: TableTest) -> bool:
-    return test.scene.friction.is_constant and not test.scene.ay_mps2.size
-
-
-def _vertical(test: TableTest) -> bool:
-    return _one_axis(test) and bool(test.scene.az_mps2.size)
-
-
-def _two_axes(test: TableTest) -> bool:
-    return test.scene.friction.is_constant and bool(test.scene.ay_mps2.size)
-
-
-def _static(test: TableTest) -> bool:
-    return not test.scene.friction.is_constant
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,8 +19,6 @@ class Feature:
     # ids of checks that verify it; empty if no check of the manual does
     checks: tuple[str, ...] = ()
     extra: tuple[str, ...] = ()  # ids of checks that count where they can run: they need SciPy
-    # which tests of a shake table would validate it
-    validated_by: Callable[[TableTest], bool] = _no_test
     only: str = ""  # what the checks do not cover, or what covers it instead
 
 
@@ -53,11 +29,9 @@ def _ids(letters: str, last: int, first: int = 1) -> tuple[str, ...]:
 _TESTS_ONLY = "Automatic tests only"
 
 FEATURES = (
-    Feature(
-        "Sliding in one axis", (*_ids("CF", 9), *_ids("PH", 4), "DA-1"), validated_by=_one_axis
-    ),
-    Feature("Sliding in one axis with vertical shaking", ("CF-3", "DA-1"), validated_by=_vertical),
-    Feature("Sliding in two axes", _ids("TA", 5), extra=("TA-13",), validated_by=_two_axes),
+    Feature("Sliding in one axis", (*_ids("CF", 9), *_ids("PH", 4), "DA-1")),
+    Feature("Sliding in one axis with vertical shaking", ("CF-3", "DA-1")),
+    Feature("Sliding in two axes", _ids("TA", 5), extra=("TA-13",)),
     Feature("Error bound in two axes, one coefficient", ("TA-11",), extra=("TA-13",)),
     Feature(
         "Velocity-dependent friction",
@@ -67,7 +41,6 @@ FEATURES = (
     Feature(
         "Static friction above kinetic",
         ("TA-7", "TA-8"),
-        validated_by=_static,
         only="Small difference; no closed form",
     ),
     Feature(
@@ -111,15 +84,13 @@ FEATURES = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FeatureStatus:
-    """What the checks and the tests of one verification show of a feature."""
+    """What the checks of one verification show of a feature."""
 
     feature: Feature
     ids: tuple[str, ...]  # checks that ran, by id
     n_checks: int
     n_passed: int
     missing: tuple[str, ...]  # ids of checks that verify it and did not run
-    n_tests: int  # measured tests of a shake table that belong to it
-    is_validated: bool  # whether those tests satisfy the acceptance
 
     @property
     def is_verified(self) -> bool:
@@ -127,24 +98,19 @@ class FeatureStatus:
         return bool(self.ids) and not self.missing and self.n_passed == self.n_checks
 
 
-def statuses(checks: Sequence[Check], tables: Sequence[ShakeTable]) -> tuple[FeatureStatus, ...]:
-    """Return the status of every feature, of the checks that ran and the tests that were given."""
-    return tuple(_status(feature, checks, tables) for feature in FEATURES)
+def statuses(checks: Sequence[Check]) -> tuple[FeatureStatus, ...]:
+    """Return the status of every feature, of the checks that ran."""
+    return tuple(_status(feature, checks) for feature in FEATURES)
 
 
-def _status(
-    feature: Feature, checks: Sequence[Check], tables: Sequence[ShakeTable]
-) -> FeatureStatus:
+def _status(feature: Feature, checks: Sequence[Check]) -> FeatureStatus:
     ran = {row.id for row in checks}
     wanted = (*feature.checks, *(id for id in feature.extra if id in ran))
     rows = [row for row in checks if row.id in wanted]
-    own = [table.of(feature.validated_by) for table in tables]
     return FeatureStatus(
         feature=feature,
         ids=tuple(id for id in wanted if id in ran),
         n_checks=len(rows),
         n_passed=sum(row.passed for row in rows),
         missing=tuple(id for id in wanted if id not in ran),
-        n_tests=sum(len(table.runs) for table in own if table.is_measured),
-        is_validated=any(table.validates for table in own),
     )

@@ -24,7 +24,6 @@ from solver.verification import (
 )
 from solver.verification.building import FloorRecords
 from solver.verification.evidence import Check, Verification
-from solver.verification.shake_table import SHIPPED, TableTest, compare
 from solver.verification.study import compared_runs, own_records, own_triples
 
 
@@ -34,7 +33,6 @@ def verify(
     progress: Callable[[str], None],
     buildings: Sequence[FloorRecords] = (),
     motions: Sequence[Motion] = (),
-    tests: Sequence[TableTest] = (),
 ) -> Verification:
     """Check the solver and measure every method on the project's records and on given ones.
 
@@ -49,8 +47,6 @@ def verify(
     motions : sequence of Motion
         Recorded motions of three components, see `recorded_triples`, for the comparison of models;
         the project's motions always run. If quick, only the first is used.
-    tests : sequence of TableTest
-        Tests of a shake table, see `table_tests`; all of them always run.
 
     Returns
     -------
@@ -105,7 +101,6 @@ def verify(
         conditioning=conditioning,
         roofs=roofs,
         models=(models,),
-        tables=(*SHIPPED, *((compare(tests),) if tests else ())),
         peers=judged,
         records=tuple(record.name for record in records),
         quick=quick,

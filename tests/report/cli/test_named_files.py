@@ -48,7 +48,6 @@ READ = {
     "slide transverse": ("slide", "x.csv", "--transverse", "it.csv", *SLID),
     "slide vertical": ("slide", "x.csv", "--vertical", "it.csv", *SLID),
     "verify records": ("verify", "--records", "it"),
-    "verify table": ("verify", "--table", "it"),
     "verify-package file": ("verify-package", "it.pdf"),
     "sign file": ("sign", "it.pdf", "--p12", "x.csv", "--password", "x"),
     "sign p12": (*SIGNED, "--p12", "it.p12"),

@@ -14,18 +14,15 @@ import pytest
 from pypdf import PdfReader
 
 import solver.verification.run
-import tables
 import verified
 from commands import refused, run
 from report.figures import work
 from report.manual import render
 from report.text import formats
 from report.text.counts import lettered
-from report.text.formats import NOT_VALIDATED
 from solver.model import Status
 from solver.rivals.methods import METHODS
 from solver.verification.evidence import Check, PeerPoint
-from solver.verification.shake_table import compare
 from verified import only
 
 pytestmark = pytest.mark.skipif(
@@ -234,7 +231,7 @@ def test_failed_checks_are_said_and_exit_1(verification, words_of_broken, words,
     row = verification.checks[1]
     assert f"FAIL: {row.section}, {row.problem}, {row.quantity}" in words_of_broken
     assert re.search(r" 1\.5 2\.5 × 10⁻¹ [^A-Z]* FAIL", words_of_broken)
-    assert "16 Other programs" in words_of_broken
+    assert "15 Other programs" in words_of_broken
     assert "Other 1.2: one axis; as its example motion-01-x flat 500 ms 1.25 %" in words_of_broken
     assert "Other 1.2: one axis; did not converge motion-01-x flat — failed" in words_of_broken
     assert "Other programs" not in words
@@ -246,36 +243,6 @@ def test_failed_checks_are_said_and_exit_1(verification, words_of_broken, words,
     assert "found 1.5 m, error 2.5e-01 exceeds" in done.output
     table = pd.read_csv(out / "verification.csv")
     assert (table["passed"] == "no").sum() == 1
-
-
-@pytest.mark.nightly
-def test_tests_of_a_shake_table_go_into_the_manual_and_decide_the_exit_code(
-    tmp_path, quick, verification
-):
-    """The charts of the other sections are not drawn again."""
-    given = []
-
-    def kept(*_, tests, **__):
-        given.append(tests)
-        return replace(verification, tables=(compare(tests),))
-
-    folder, out = tmp_path / "tests", tmp_path / "v"
-    folder.mkdir()
-    drawn = ("work", "stability", "convergence", "links", "curves", "models")
-    for factor, code in ((1.0, 0), (1.5, 1)):
-        tables.write_folder(folder, [factor] * 5)
-        with verifying(kept) as patch:
-            for name in drawn:
-                part = quick.parts[name]
-                patch.setattr(render, name, lambda _, part=part: part)
-            done = run("verify", "--table", folder, "--out", out)
-        assert done.exit_code == code, done.output
-        assert f"shake table: 5 tests, median ratio {factor:.3f}. The acceptance is" in done.stdout
-        assert NOT_VALIDATED in done.stdout
-        words = said((out / "verification.pdf").read_text())
-        assert "13 Comparison with a shake table" in words
-        assert tables.MADE in words
-    assert [len(tests) for tests in given] == [5, 5]
 
 
 def test_a_verification_of_two_checks_is_laid_out_and_the_one_that_failed_ends_with_1(
@@ -302,13 +269,10 @@ def test_a_verification_of_two_checks_is_laid_out_and_the_one_that_failed_ends_w
 
 
 @pytest.mark.quick
-def test_a_folder_or_tests_of_a_shake_table_at_fault_are_refused_before_any_run(tmp_path):
+def test_a_folder_at_fault_is_refused_before_any_run(tmp_path):
     (tmp_path / "v").write_text("a file")
-    (tmp_path / "tests.csv").write_text("Test,Data\n")
     with verifying(lambda *_, **__: 1 / 0):
         assert "choose another folder" in refused("verify", "--out", tmp_path / "v")
-        told = refused("verify", "--table", tmp_path)
-    assert "tests.csv, row 1: has no heading Source" in told
 
 
 @pytest.mark.parametrize(

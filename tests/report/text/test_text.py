@@ -7,12 +7,10 @@ import sys
 from functools import partial
 from pathlib import Path, PureWindowsPath
 
-import numba
 import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-import tables
 from report.text import units
 from report.text.amounts import (
     capacity,
@@ -23,10 +21,9 @@ from report.text.amounts import (
     shown_in_order,
 )
 from report.text.counts import Names, capitalized, counted, named, quoted, ranged, spelled, trimmed
-from report.text.formats import NOT_VALIDATED, csv_text, explained, validation
+from report.text.formats import csv_text
 from report.text.units import Quantity, digits_down, digits_up, measured, no_less, no_more
 from solver.rules.limit import Limit, Measure
-from solver.verification.shake_table import compare, table_tests
 
 pytestmark = pytest.mark.quick
 
@@ -146,23 +143,6 @@ def test_numbers_and_other_texts_are_as_they_were(text):
 @given(st.floats() | st.integers() | st.none())
 def test_a_value_that_is_no_text_is_as_python_prints_it(value):
     assert fields("a", value) == ["a", "" if value is None else str(value)]
-
-
-def test_without_tests_nothing_is_validated_and_the_text_says_what_that_means():
-    assert validation(()) == NOT_VALIDATED
-    assert explained(()).startswith(f"{NOT_VALIDATED} The checks of the verification manual")
-
-
-@pytest.mark.skipif(numba.config.DISABLE_JIT, reason="runs of whole records")
-@pytest.mark.parametrize(
-    ("ratio", "data", "is_validated"),
-    [(1.02, "measured", True), (1.02, "computed", False), (1.6, "measured", False)],
-)
-def test_only_accepted_measured_tests_validate(tmp_path, ratio, data, is_validated):
-    tables.write_folder(tmp_path, [ratio] * 5, data=data)
-    found = compare(table_tests(tmp_path))
-    assert (NOT_VALIDATED not in explained((found,))) is is_validated
-    assert validation((found,)) == explained((found,)) or not is_validated
 
 
 LENGTHS_M = st.floats(0.01, 20.0)

@@ -86,7 +86,7 @@ def test_every_check_that_a_feature_names_ran_and_every_check_belongs_to_one(ver
     assert named <= ran
     assert ran <= named | extra
     assert extra <= ran or not by_scipy.is_installed()
-    for status in statuses(verification.checks, ()):
+    for status in statuses(verification.checks):
         assert status.is_verified == bool(status.feature.checks), status
 
 
