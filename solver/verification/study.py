@@ -1,6 +1,6 @@
 """What the studies share: records, cases, scenes and their variants, runs, times and misfits.
 
-A study chooses its variants and counts the results. Read `grid`, `scenes_of`, `minimum_seconds`.
+A study chooses its variants and counts the results. Read `grid`, `scenes_of`, `processor_seconds`.
 
 Motions of three components for the comparison of models: generated, or recorded in a folder.
 """
@@ -330,8 +330,7 @@ def clocked(
 def processor_seconds(work: Callable[[], object]) -> float:
     """Return the processor time of a run, the least of several repeats, fewer if they are long [s].
 
-    Unlike `minimum_seconds` it leaves out what other programs take while a long run lasts, and
-    counts all threads.
+    Leaves out what other programs take while a long run lasts, and counts all threads.
     """
     _, once_s = clocked(work, time.process_time)
     # A short run many times: reading the clock takes about as long as one.
@@ -344,18 +343,6 @@ def processor_seconds(work: Callable[[], object]) -> float:
     if once_s > ENOUGH_S:
         return once_s
     return min(clocked(batch, time.process_time)[1] for _ in range(REPEATS)) / count
-
-
-def minimum_seconds(work: Callable[[], object], enough_s: float = ENOUGH_S) -> float:
-    """Return the least time of several repeats, fewer if they take long [s]."""
-    total, least = 0.0, math.inf
-    for _ in range(REPEATS):
-        _, seconds = clocked(work)
-        # The least, not the mean: whatever else runs on the machine only adds time.
-        total, least = total + seconds, min(least, seconds)
-        if total > enough_s:
-            break
-    return least
 
 
 def unexplained(computed: Floats, recorded: Floats) -> float:

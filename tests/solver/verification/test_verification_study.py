@@ -78,15 +78,19 @@ def test_runs_are_those_of_a_slide_and_of_the_law_of_their_own_friction():
 
 
 @pytest.mark.quick
-def test_repeats_end_early_the_least_time_and_the_first_of_the_least_count(monkeypatch):
-    calls = []
-    study.minimum_seconds(lambda: calls.append(0), enough_s=0.0)
-    study.minimum_seconds(lambda: calls.append(0), enough_s=60.0)
-    assert len(calls) == 1 + study.REPEATS
+def test_a_long_run_is_timed_once_and_the_least_of_the_repeats_of_a_short_one_counts(monkeypatch):
+    calls, ticks = [], iter([0.0, 3.0])
+    monkeypatch.setattr(study.time, "process_time", lambda: next(ticks))
+    assert study.processor_seconds(lambda: calls.append(0)) == 3.0
+    assert len(calls) == 1
+    ticks = iter([0.0, 0.01, 1.0, 1.03, 2.0, 2.02, 3.0, 3.04, 4.0, 4.05, 5.0, 5.06])
+    assert study.processor_seconds(lambda: calls.append(0)) == pytest.approx(0.02)
+    assert len(calls) == 1 + 1 + study.REPEATS
+
+
+@pytest.mark.quick
+def test_the_best_point_is_the_first_of_the_least():
     assert study.best_of(lambda x: (x - 1) ** 2, [3, 2, 0, 5]) == (1, 2)
-    ticks = iter([0.0, 3.0, 10.0, 11.0, 20.0, 22.0, 30.0, 34.0, 40.0, 45.0])
-    monkeypatch.setattr(study.time, "perf_counter", lambda: next(ticks))
-    assert study.minimum_seconds(lambda: None, enough_s=60.0) == 1.0
 
 
 # Motions of three components
