@@ -71,8 +71,6 @@ class Method:
     ----------
     name, title, label : str
         Key, title, and label in a legend.
-    ceiling : float
-        Largest relative error allowed for a ramped pulse on a flat roof, with fine settings.
     parameters : mapping
         Its parameters with their defaults.
     knob : str
@@ -96,7 +94,6 @@ class Method:
     name: str
     title: str
     label: str
-    ceiling: float
     parameters: Parameters
     knob: str
     sweep: tuple[float, ...]
@@ -265,7 +262,6 @@ _without_setting = partial(
 _by_substeps = partial(Method, parameters=_SUBSTEPS, knob="substeps", sweep=_POWERS_OF_TWO)
 _by_link = partial(
     Method,
-    ceiling=0.005,
     parameters=_LINK,
     knob="stiffness_per_m",
     sweep=(1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8),
@@ -279,7 +275,6 @@ _ALL = (
         name="exact",
         title="Exact, event by event",
         label="exact",
-        ceiling=1e-12,
         invalid_when="Never, if the model is one rigid block with one friction coefficient.",
         source="solver.kernels.one_axis.slide_exact: roots of the cubic motion between samples",
         follow=_exact,
@@ -288,7 +283,6 @@ _ALL = (
         name="paper",
         title="The paper's, constant acceleration",
         label="paper's, constant acceleration",
-        ceiling=0.01,
         order=1.0,
         takes_vertical=False,
         invalid_when=(
@@ -302,7 +296,6 @@ _ALL = (
         name="linear",
         title="Linear acceleration",
         label="linear acceleration",
-        ceiling=1e-4,
         order=2.0,
         takes_vertical=True,
         invalid_when=(
@@ -316,7 +309,6 @@ _ALL = (
         name="adaptive",
         title="The paper's, sub-steps during slip only",
         label="paper's, sub-steps in slip only",
-        ceiling=0.01,
         order=1.0,
         takes_vertical=True,
         invalid_when=(
@@ -354,7 +346,6 @@ _ALL = (
             name=f"compiled-{name.lower()}",
             title=f"Coulomb friction, {name} with events, compiled whole",
             label=f"{name}, events (compiled)",
-            ceiling=1e-12,
             invalid_when=f"{_AS_ACCURATE}Its steps are compiled with what restarts them.",
             source=f"solver.kernels.runge_kutta.slide_line: {authors}",
             follow=partial(_compiled, order=order),
@@ -369,7 +360,6 @@ _ALL = (
             name=f"events-{solver.lower()}",
             title=f"Coulomb friction, SciPy's {solver} with events",
             label=f"SciPy {solver}, events (interpreted)",
-            ceiling=1e-12,
             invalid_when=(
                 f"{_AS_ACCURATE}Its steps run in Python; the right-hand side is compiled."
             ),
@@ -382,7 +372,6 @@ _ALL = (
         name="regularized",
         title="Friction mu N tanh(v / v0), SciPy's LSODA",
         label="SciPy LSODA, regularized (by steps)",
-        ceiling=0.01,
         parameters=MappingProxyType({"velocity_mps": 1e-4, "tolerance": 1e-4}),
         knob="velocity_mps",
         sweep=(1e-2, 1e-3, 1e-4, 1e-5),
@@ -401,7 +390,6 @@ _ALL = (
         name="frozen-normal",
         title="Constant normal force, m g cos(theta)",
         label="normal force frozen",
-        ceiling=1e-12,
         invalid_when="On any slope and with vertical shaking: both change the normal force.",
         source="As in SLAMMER's dual-slope analysis and with an elastic-plastic spring",
         follow=_frozen,

@@ -16,7 +16,7 @@ import pandas as pd
 
 from solver.model import STANDARD_GRAVITY_MPS2, EventKind, Floats, SlideResult
 from solver.records.record import Record
-from solver.rivals.methods import METHODS, Method, link_frequency
+from solver.rivals.methods import METHODS
 from solver.sliding.checked import slide, slide_history
 from solver.verification import reference, study
 from solver.verification.evidence import ROUNDING, Check, percent_of
@@ -298,34 +298,3 @@ def claims(errors: pd.DataFrame) -> Iterator[Check]:
             largest = 0.01 * own["error [%]"].max(skipna=False)
             name, is_run = f"{method.title}: {kind}", method in runnable
             yield row(name, 0.0, largest if is_run else math.nan, is_run=is_run)
-
-
-def rivals() -> Iterator[Check]:
-    """Compare every method with one closed form, each within its own tolerance."""
-    dt, plateau, a, mu = 0.01, 20, 0.4, 0.1
-    expected = reference.pulse_travel(a * G, mu * G, plateau * dt, dt)
-    ax = trapezoid(a * G, plateau, 150)
-    runnable = runnable_methods()
-    for method in METHODS.values():
-        name = f"{method.title}: pulse A = {a:g} g for 0.2 s, mu = {mu:g}, flat roof"
-        row = partial(Check, "ME-1", PIECEWISE, "PRD", "m", name, expected)
-        if method not in runnable:
-            yield row(math.nan, is_run=False)
-            continue
-        result = slide(
-            ax, dt, slope_rad=0.0, mu=mu, g_mps2=G, method=method.name, units="m/s2",
-            **_fine(method, dt),
-        )  # fmt: skip
-        yield row(result.prd_m, method.ceiling)
-
-
-def _fine(method: Method, dt_s: float) -> Mapping[str, float]:
-    """Return fine settings; those of a link lie well within its stability limit."""
-    if method.link_steps_per_radian:
-        substeps = 100
-        omega = 0.5 * substeps / dt_s
-        stiffness = (omega / link_frequency(1.0, G)) ** 2
-        return {"stiffness_per_m": stiffness, "substeps": substeps}
-    if method.name == "regularized":
-        return {"velocity_mps": 1e-5, "tolerance": 1e-6}
-    return {}

@@ -69,7 +69,11 @@ FEATURES = (
         ("DV-8",),
         only="ASCE 7-16; 7-22 has the same numbers, not compared with its text",
     ),
-    Feature("Comparison methods", _ids("ME", 2)),
+    Feature(
+        "Comparison methods",
+        ("ME-2",),
+        only="Those restarted at each sample and event; others: automatic tests",
+    ),
     Feature("Formats of records", only=_TESTS_ONLY),
     Feature("Scaling and acceptance of motions", only=_TESTS_ONLY),
     Feature("Generated suites of motions", only=_TESTS_ONLY),

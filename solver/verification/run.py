@@ -112,5 +112,4 @@ def _rows(record: Record, roof: Sequence[checks.Block]) -> Iterator[Check]:
     yield from checks.closed_forms()
     yield from checks.physical_checks(record)
     yield from checks.fifty_digits(roof)
-    yield from checks.rivals()
     yield from design_checks.design_checks()
