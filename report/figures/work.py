@@ -10,10 +10,10 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from report.figures.base import GRAY, INK, LOOKS, T, labeled, logarithmic, panels, style, svg_text
+from report.figures.base import INK, LOOKS, T, labeled, logarithmic, panels, style, svg_text
 from solver.verification.evidence import PeerPoint
 from solver.verification.peers import ONE_AXIS
-from solver.verification.workprecision import CHATTERING, HOLDING, OURS, SINGLE, TIME
+from solver.verification.workprecision import FIXED, OURS, SINGLE, TIME
 
 _LARGE = {"markersize": 10}
 _SINGLE = {"markerfacecolor": "white", "label": "exact, a single run"}
@@ -21,8 +21,7 @@ _SINGLE = {"markerfacecolor": "white", "label": "exact, a single run"}
 # The methods in two axes by their labels; those that are not in one axis have looks of their own.
 _PLANE = {look["label"]: look for look in LOOKS.values()} | {
     OURS: LOOKS["exact"] | {"linestyle": "-", "label": OURS},
-    HOLDING: LOOKS["paper"] | {"marker": "d", "label": HOLDING},
-    CHATTERING: LOOKS["paper"] | {"marker": "d", "color": GRAY, "label": CHATTERING},
+    FIXED: LOOKS["paper"] | {"marker": "d", "label": FIXED},
 }
 
 

@@ -316,13 +316,13 @@ def regularized_jacobian(t, y, rows, dt, v0):
 
 
 @njit(cache=KEPT)
-def slide_fixed(g, dt, cs, substeps, holds):
+def slide_fixed(g, dt, cs, substeps):
     """Solve the motion under G and mu N with `substeps` steps in each interval.
 
     g has shape (n, 3): Gx, Gy and mu N at the samples [m/s2]. Friction is mu N v / |v| at the
-    beginning of a step, and zero at rest. With `holds`, a block comes to rest if its velocity turns
-    by 90 deg or more in a step while mu N >= |G|, and stays at rest until |G| > mu N at the
-    beginning of a step, as the paper does in one axis.
+    beginning of a step. A block comes to rest if its velocity turns by 90 deg or more in a step
+    while mu N >= |G|, and stays at rest until |G| > mu N at the beginning of a step, as the paper
+    does in one axis.
 
     Returns PRD at the ends of steps, position in plan at the end (x, y), speed at the end.
     """
@@ -337,15 +337,13 @@ def slide_fixed(g, dt, cs, substeps, holds):
             w, pull = math.sqrt(vx * vx + vy * vy), math.sqrt(gx * gx + gy * gy)
             if w > 0.0:
                 ax, ay = gx - c * vx / w, gy - c * vy / w
-            elif not holds:
-                ax, ay = gx, gy
             elif pull > c:
                 ax, ay = gx * (1.0 - c / pull), gy * (1.0 - c / pull)
             else:
                 continue
             nx, ny = vx + ax * h, vy + ay * h
             sx, sy = sx + 0.5 * (vx + nx) * h, sy + 0.5 * (vy + ny) * h
-            stops = holds and w > 0.0 and nx * vx + ny * vy <= 0.0 and pull <= c
+            stops = w > 0.0 and nx * vx + ny * vy <= 0.0 and pull <= c
             vx, vy = (0.0, 0.0) if stops else (nx, ny)
             prd = max(prd, math.sqrt(cs * cs * sx * sx + sy * sy))
     return prd, cs * sx, sy, math.sqrt(cs * cs * vx * vx + vy * vy)

@@ -122,8 +122,7 @@ def times_longer(runs: pd.DataFrame, ours: pd.DataFrame, error: str, time: str =
 
 
 OURS = "power series, by events"
-HOLDING = "fixed steps, stick at reversal"
-CHATTERING = "fixed steps, no stick"
+FIXED = "fixed steps, stick at reversal"
 REGULARIZED = METHODS["regularized"]
 
 # Samples of the part of a motion if quick: SciPy takes seconds for a whole one.
@@ -187,10 +186,9 @@ def _runs_in_plane(scene: Scene, *, interpreted: bool) -> Iterator[tuple[str, fl
     dt, cosine = scene.dt_s, math.cos(scene.slope_rad)
     for tolerance in TOLERANCES:
         yield OURS, tolerance, f"tol. {tolerance:g}", partial(_series, scene, tolerance, bounds)
-    for method, holds in ((HOLDING, True), (CHATTERING, False)):
-        for count in SUBSTEPS:
-            fixed = partial(rivals.slide_fixed, rows, dt, cosine, count, holds)
-            yield method, count, f"P = {count}", partial(_place, fixed)
+    for count in SUBSTEPS:
+        fixed = partial(rivals.slide_fixed, rows, dt, cosine, count)
+        yield FIXED, count, f"P = {count}", partial(_place, fixed)
     for name, order in (("compiled-dop853", 8), ("compiled-rk45", 5)):
         for tolerance in OF_EVENTS:
             steps = partial(runge_kutta.slide_plane, rows, dt, cosine, order, tolerance)

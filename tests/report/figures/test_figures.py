@@ -372,7 +372,7 @@ def test_in_the_accuracy_of_every_method_against_run_time(drawn):
     times = {"setting": 1.0, workprecision.TIME: 1e-5, workprecision.SINGLE: 2e-5}
     runs = pd.DataFrame({"method": [*METHODS], "PRD error [%]": 0.5} | times)
     labels = [each.label for each in METHODS.values()]
-    ours = [workprecision.OURS, workprecision.HOLDING, workprecision.CHATTERING]
+    ours = [workprecision.OURS, workprecision.FIXED]
     plane = pd.DataFrame({"method": ours + labels[6:9], "residual error [%]": 0.5} | times)
     work.overview(runs, plane, 1e-12, judges())
     assert not list(faults(drawn))
