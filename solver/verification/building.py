@@ -215,7 +215,6 @@ def compare(records: FloorRecords) -> RoofComparison:
         is_recorded=records.is_recorded,
         dt_s=dt,
         roof_mps2=roof,
-        ground_peak_mps2=float(np.abs(ground).max()),
         periods_s=SPECTRUM_S,
         ground_sa_mps2=response_spectrum(ground, dt, SPECTRUM_S),
         roof_sa_mps2=response_spectrum(roof, dt, SPECTRUM_S),

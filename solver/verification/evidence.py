@@ -269,7 +269,6 @@ class RoofComparison:
     is_recorded: bool  # in an earthquake; otherwise the model building
     dt_s: float
     roof_mps2: Floats  # shape (n,): recorded [m/s2]
-    ground_peak_mps2: float
     periods_s: Floats  # shape (m,)
     # shape (m,): recorded, 5 % damping [m/s2]
     ground_sa_mps2: Floats
