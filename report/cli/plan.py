@@ -151,7 +151,7 @@ def read(
     workbook is kept. If it has no other errors, the clearances follow as by plan clearances.
     """
     from report.drawing.fill import changes, layers_of, plan_as_rows, unread
-    from report.sheet.checking.plan_checks import far_off, us_first
+    from report.sheet.checking.plan_checks import us_first
     from report.sheet.writing.filled import changing, withdrawn
     from report.text.units import LENGTHS
     from solver.model import InputError
@@ -172,7 +172,7 @@ def read(
                 roof_plan, told, layers = plan_as_rows(
                     drawn, unit_m, draft, layers, gap_m, is_unit_given=units is not None
                 )
-        cells, said = changes(change.book, told, layers, replace=replace)
+        cells, told_lines = changes(change.book, told, layers, replace=replace)
         change.fill(cells)
         try:
             more = _add_clearances(change)
@@ -193,9 +193,7 @@ def read(
         *unread(roof_plan),
         *(f"layer {name}: {kind.value}" for name, kind in layers.items()),
         f"{change.book.path}: the plan is filled in: {change.areas}",
-        *told.lines(replace=replace),
-        *said,
-        *(text for _, text in far_off(told.shapes, roof_plan.roof_shape, is_us)),
+        *told_lines,
         *more,
     )
     for text in lines:

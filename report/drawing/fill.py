@@ -21,10 +21,11 @@ from report.drawing.plan_read import (
     known_layers,
     own_axes,
     plan_of,
+    unit_asked,
 )
 from report.drawing.roof_drawing import RoofDrawing
 from report.sheet.checking.findings import listed
-from report.sheet.checking.plan_checks import roof_of, shapes_of, us_first
+from report.sheet.checking.plan_checks import far_off, roof_of, shapes_of, us_first
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.locate import cell_as_column, find_cell, is_absent
 from report.sheet.reading.parts import DIGITS, GrowingTable, Value
@@ -73,7 +74,7 @@ class MatchedPlan:
     before: Mapping[str, Shape]  # where the rows were, moved with the whole
     rows_m: Mapping[str, Shape]  # where they were
     rows: Mapping[str, DraftRow]  # as they were
-    unit: Unit  # of the table of moves
+    is_us: bool  # whether US units come first
 
     @property
     def shapes(self) -> dict[str, Shape]:
@@ -82,6 +83,7 @@ class MatchedPlan:
 
     def lines(self, *, replace: bool) -> Iterator[str]:
         """Yield a table of what moved, is new or is gone with `replace`, and modules not drawn."""
+        unit = Quantity.PLAN.us if self.is_us else Quantity.PLAN.si
         if self.move is None:
             yield (
                 "the roof is another one, and how the plan has moved cannot be told: its edges are"
@@ -89,7 +91,7 @@ class MatchedPlan:
             )
         elif not self.move.is_none:
             check = "" if self.move.is_straight else "; check the direction of north"
-            text = f"the plan as a whole is {self.move.words(self.unit)} since the workbook{check}"
+            text = f"the plan as a whole is {self.move.words(unit)} since the workbook{check}"
             yield f"{text}; what was typed and is not drawn is moved with it"
         now = self.plan.shapes
         moves = []
@@ -100,7 +102,7 @@ class MatchedPlan:
                 continue
             stays = "stays as typed" if name in self.typed else "stays without --replace"
             gone = f"not in the drawing; {'taken out' if replace and name in self.gone else stays}"
-            from_, to = (_place(each, self.unit) if each else "" for each in (was, shape))
+            from_, to = (_place(each, unit) if each else "" for each in (was, shape))
             moves.append((name, from_ or "new", to or gone))
         yield from aligned([("name", "from", "to"), *moves]) if moves else ()
         for place in self.plan.arrays:
@@ -130,7 +132,8 @@ def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
         for number, place in enumerate(drawn)
         if (key := (_group(place.kind), place.name.casefold())) in by_name and not place.unnamed
     }
-    unit = Quantity.PLAN.us if us_first(draft) else Quantity.PLAN.si
+    is_us = us_first(draft)
+    unit = Quantity.PLAN.us if is_us else Quantity.PLAN.si
 
     def agreeing(move: Move) -> int:
         """Return how many rows are where they would be after a move."""
@@ -175,7 +178,7 @@ def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
         before=before,
         rows_m=was,
         rows=rows,
-        unit=unit,
+        is_us=is_us,
     )
 
 
@@ -337,9 +340,8 @@ def plan_as_rows(
         size_m = LENGTHS[drawn.unit] / told.move.factor
         others = [u for u, m in LENGTHS.items() if math.isclose(m, size_m, rel_tol=1e-3)]
         raise InputError(
-            f"the plan is {told.move.factor:.4g} times as large as in the workbook; give --units"
-            f" with that of the drawing, {' or '.join([*others, drawn.unit])} if it is so, as it"
-            " states"
+            f"the plan is {told.move.factor:.4g} times as large as in the workbook;"
+            f" {unit_asked(others, drawn.unit)}"
         )
     return plan, told, {**layers, **dict.fromkeys(unknown, LayerKind.NOT_READ)}
 
@@ -405,7 +407,7 @@ def changes(
 ) -> tuple[dict[CellPosition, Value], list[str]]:
     """Return the cells to change so that a workbook has the plan, and what its layers are.
 
-    And what to say of what was typed, where it is taken out, changed, or kept on another size.
+    And what to say of what moved, what was typed and is lost, and what lies far off.
 
     Raises `InputError` for each place that is filled already, unless it may be replaced.
     """
@@ -426,7 +428,8 @@ def changes(
         names = ", ".join(fill.lacking)
         missing = f"Outlines: the sheet is missing, which {names} in the drawing need"
         raise InputError(f"{missing}. {MOVE}, then read the drawing into that")
-    return fill.done(), fill.said
+    far = far_off(told.shapes, told.plan.roof_shape, told.is_us)
+    return fill.done(), [*told.lines(replace=replace), *fill.said, *(text for _, text in far)]
 
 
 def _move_typed(fill: _Fill, told: MatchedPlan, move: Move) -> None:

@@ -198,10 +198,15 @@ def check_size(plan: RoofPlan, stated: str, us_first: bool = True) -> None:
         if unit != stated
         and all(_is_usual(place, unit_m / LENGTHS[stated], SIDES_M[0] ** 2) for place in places)
     ]  # fmt: skip
+    raise InputError(f"{listed(sizes)}, a size that few have; {unit_asked(would_do, stated)}")
+
+
+def unit_asked(would_do: Sequence[str], stated: str) -> str:
+    """Return a question of the unit of a drawing: those that would do, or that which it states."""
     others = f"{' or '.join(would_do)}, or " if would_do else ""
-    raise InputError(
-        f"{listed(sizes)}, a size that few have; give --units with that of the drawing,"
-        f" {others}{stated} if it is so, as it states"
+    return (
+        f"give the unit of the drawing (--units, or Unit on the page): {others}{stated} if it is"
+        " so, as it states"
     )
 
 

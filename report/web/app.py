@@ -163,7 +163,8 @@ async def _with_plan(request: Request, folder: Path) -> Path:
     filled = session.folder / f"filled-{folder.name}" / workbook.name
     filled.parent.mkdir()
     fields = {name: request.state.fields.get(name, "") for name in ("layers", "unit")}
-    await session.ask({"do": "read_plan", "workbook": str(workbook), "to": str(filled), **fields})
+    job = {"do": "read_plan", "workbook": str(workbook), "to": str(filled), **fields}
+    request.state.lines = (await session.ask(job))["lines"]
     session.filled = filled
     return workbook
 
@@ -191,7 +192,8 @@ async def _open_new(
         await run_in_threadpool(shutil.rmtree, folder, ignore_errors=True)
     else:
         session.open(workbook)
-    return JSONResponse(state | {"opened": session.opened, "package": None})
+    lines = getattr(request.state, "lines", [])
+    return JSONResponse(state | {"opened": session.opened, "package": None, "lines": lines})
 
 
 async def _whole_state(request: Request, workbook: Path) -> dict[str, Any]:

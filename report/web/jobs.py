@@ -21,7 +21,7 @@ from report.assessment.plan_clearances import missing_rows
 from report.assessment.precheck import shaking_acceptance
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
-from report.drawing.fill import changes, layers_of, plan_as_rows
+from report.drawing.fill import changes, layers_of, plan_as_rows, unread
 from report.drawing.plan_read import known_layers
 from report.drawing.read_dxf import read_dxf
 from report.drawing.roof_drawing import drawn_on, proposed
@@ -242,22 +242,27 @@ def _drawings(workbook: Path) -> Iterator[Path]:
 def read_plan(workbook: Path, job: Json) -> Json:
     """Fill in the plan of a workbook from the drawing beside it; keep a copy at another path.
 
-    Places that are filled are replaced: what was sent stays as it is where it came from.
+    Places that are filled are replaced: what was sent stays as it is where it came from. Without a
+    unit the drawing is read in the one that it states, which may be asked about. Answers with the
+    lines of `plan read` on what moved, what is lost and what was not read.
     """
-    if job["unit"] not in LENGTHS:
+    drawn = read_dxf(next(_drawings(workbook)), LENGTHS.get(job["unit"]))
+    unit = job["unit"] or drawn.unit
+    if unit not in LENGTHS:
         raise InputError("nobody says the unit of the drawing; choose it")
-    change, unit_m = WorkbookChange(open_book(workbook)), LENGTHS[job["unit"]]
-    drawn = read_dxf(next(_drawings(workbook)), unit_m)
+    change = WorkbookChange(open_book(workbook))
     layers = {layer: LayerKind(kind) for layer, kind in json.loads(job["layers"]).items()}
     draft = read_book(change.book).draft
-    # The form has asked for the unit.
-    _, told, layers = plan_as_rows(drawn, unit_m, draft, layers, is_unit_given=True)
-    change.fill(changes(change.book, told, layers, replace=True)[0])
-    withdrawn(change)
+    plan, told, layers = plan_as_rows(
+        drawn, LENGTHS[unit], draft, layers, is_unit_given=job["unit"] != ""
+    )
+    cells, lines = changes(change.book, told, layers, replace=True)
+    change.fill(cells)
+    lines = [*filter(None, (drawn.repairs,)), *unread(plan), *lines, *withdrawn(change)]
     # One is opened, and one stays to be saved when the other has been replaced.
     for path in (workbook, Path(job["to"])):
         path.write_bytes(change.book.data)
-    return {}
+    return {"lines": lines}
 
 
 def write(workbook: Path, job: Json) -> Json:

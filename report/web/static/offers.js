@@ -13,17 +13,17 @@ const BASIS = "Their target is AC156 with S_DS, z/h and the rule set of the shee
  */
 export function mountDrawing(element, api, { open, filled, fail }) {
   async function read(files, name, fields) {
-    let isRead = false;
+    let state = null;
     await open(async () => {
-      const state = await api.readPlan(files, fields);
-      isRead = Boolean(state);
+      state = await api.readPlan(files, fields);
       return state;
     });
-    if (!isRead) return;
+    if (!state) return;
     const workbook = await api.filledWorkbook();
     filled(workbook);
     say(element, api, `The plan is filled in from ${name}; the file that you dropped stays as it is.`);
-    element.append(button("Save filled workbook", () => save(workbook.blob, workbook.name)));
+    const lines = state.lines.map((line) => html("li", {}, line));
+    element.append(html("ul", { class: "printed" }, lines), button("Save filled workbook", () => save(workbook.blob, workbook.name)));
     element.hidden = false;
   }
 
@@ -37,7 +37,7 @@ export function mountDrawing(element, api, { open, filled, fail }) {
       return;
     }
     const chosen = layers.map(({ layer, kind }) => select(kinds, kind, layer));
-    const unitOf = select(unit ? units : ["", ...units], unit, "Unit of the drawing");
+    const unitOf = select(["", ...units], "", "Unit of the drawing", unit ? `${unit}, as the drawing states` : "choose");
     const fields = () => ({ unit: unitOf.value, layers: JSON.stringify(Object.fromEntries(layers.map(({ layer }, k) => [layer, chosen[k].value]))) });
     const rows = layers.map(({ layer, drawn }, k) => html("tr", {}, html("th", { scope: "row" }, layer), html("td", {}, drawn), html("td", {}, chosen[k])));
     replace(
@@ -51,8 +51,9 @@ export function mountDrawing(element, api, { open, filled, fail }) {
   };
 }
 
-function select(options, chosen, label) {
-  return html("select", { "aria-label": label }, options.map((value) => html("option", { value, selected: value === chosen }, value || "choose")));
+// `none` is what to show for no value.
+function select(options, chosen, label, none = "") {
+  return html("select", { "aria-label": label }, options.map((value) => html("option", { value, selected: value === chosen }, value || none)));
 }
 
 /** Offer motions in an element; `open` opens what a promise gives, `fail` gets an error. */

@@ -14,6 +14,7 @@ from pypdf import PdfReader
 
 import cells
 from browsing import DESKTOP, PHONE, TABLET, at_rest, moved, numbers, opened, quiet_page, saved
+from commands import printed
 from inputs import FT
 from places import ROOT
 from report.sheet.reading.read import read
@@ -174,6 +175,31 @@ def test_the_plan_is_read_from_a_drawing_beside_the_workbook(page, tmp_path):
     assert [row["id"] for row in draft["arrays"]] == ["A2"]
     assert draft["roof"][0]["x_to_m"] == pytest.approx(240 * FT, abs=1e-6)
     assert {row["layer"]: row["kind"] for row in draft["layers"]}["X-9"] == "roof"
+
+
+@pytest.mark.nightly
+def test_a_second_drawing_is_asked_for_its_unit_and_what_it_moved_is_listed(page, tmp_path):
+    folder = tmp_path / "revised"
+    folder.mkdir()
+    book = blank(folder / "input.xlsx")
+    printed("plan", "read", plan_of(tmp_path, FT), book)
+    plan_of(folder, INCH_M, unit="in")
+    page.set_input_files("#folder", folder)
+    page.wait_for_selector("#drawing .field")
+    page.click("text=Fill in the plan")
+    page.wait_for_selector("#error:has-text('Unit on the page): ft')")
+    page.get_by_label("Unit of the drawing").select_option("in")
+    page.click("text=Fill in the plan")
+    page.wait_for_selector("text=The plan is filled in from")
+    assert "times as large" in page.locator("#drawing .printed li").first.inner_text()
+
+
+def plan_of(folder, unit_m, unit="ft"):
+    """A drawing of a roof and an array of numbers that are of a unit [m]."""
+    sketch = Sketch(unit=unit)
+    for layer, points, name in (("ROOF-OUTLINE", ROOF_FT, ""), ("ARRAY", BOX_FT, "A1")):
+        sketch.ring(layer, [(x * unit_m / FT, y * unit_m / FT) for x, y in points], name)
+    return sketch.saved(folder)
 
 
 @pytest.mark.nightly
