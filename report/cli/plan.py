@@ -169,7 +169,7 @@ def read(
             layers = choose(drawn, layers_of(draft), kinds, accept)
             with Progress() as progress:
                 progress("finding the plan in the drawing")
-                roof_plan, told, layers = plan_as_rows(
+                told, layers = plan_as_rows(
                     drawn, unit_m, draft, layers, gap_m, is_unit_given=units is not None
                 )
         cells, told_lines = changes(change.book, told, layers, replace=replace)
@@ -188,9 +188,9 @@ def read(
         *turn,
         *(
             _line(place, gap_m, is_us)
-            for place in (*roof_plan.roof, *told.plan.arrays, *told.plan.objects)
+            for place in (*told.plan.roof, *told.plan.arrays, *told.plan.objects)
         ),
-        *unread(roof_plan),
+        *unread(told.plan),
         *(f"layer {name}: {kind.value}" for name, kind in layers.items()),
         f"{change.book.path}: the plan is filled in: {change.areas}",
         *told_lines,

@@ -74,16 +74,10 @@ class MatchedPlan:
     before: Mapping[str, Shape]  # where the rows were, moved with the whole
     rows_m: Mapping[str, Shape]  # where they were
     rows: Mapping[str, DraftRow]  # as they were
-    is_us: bool  # whether US units come first
-
-    @property
-    def shapes(self) -> dict[str, Shape]:
-        """What is drawn, and what stays as typed, by name."""
-        return {name: self.before[name] for name in self.typed} | self.plan.shapes
+    unit: Unit  # of places in what is said
 
     def lines(self, *, replace: bool) -> Iterator[str]:
         """Yield a table of what moved, is new or is gone with `replace`, and modules not drawn."""
-        unit = Quantity.PLAN.us if self.is_us else Quantity.PLAN.si
         if self.move is None:
             yield (
                 "the roof is another one, and how the plan has moved cannot be told: its edges are"
@@ -91,7 +85,7 @@ class MatchedPlan:
             )
         elif not self.move.is_none:
             check = "" if self.move.is_straight else "; check the direction of north"
-            text = f"the plan as a whole is {self.move.words(unit)} since the workbook{check}"
+            text = f"the plan as a whole is {self.move.words(self.unit)} since the workbook{check}"
             yield f"{text}; what was typed and is not drawn is moved with it"
         now = self.plan.shapes
         moves = []
@@ -102,7 +96,7 @@ class MatchedPlan:
                 continue
             stays = "stays as typed" if name in self.typed else "stays without --replace"
             gone = f"not in the drawing; {'taken out' if replace and name in self.gone else stays}"
-            from_, to = (_place(each, unit) if each else "" for each in (was, shape))
+            from_, to = (_place(each, self.unit) if each else "" for each in (was, shape))
             moves.append((name, from_ or "new", to or gone))
         yield from aligned([("name", "from", "to"), *moves]) if moves else ()
         for place in self.plan.arrays:
@@ -124,7 +118,8 @@ def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
     known = [*draft["arrays"], *draft["objects"]]
     rows = {row["id"]: row for row in known if "id" in row}
     groups = {row["id"]: _group(row.get("kind", "")) for row in draft["objects"] if "id" in row}
-    was, roof = shapes_of(draft), roof_of(draft)
+    was = shapes_of(draft)
+    unit = Quantity.PLAN.us if us_first(draft) else Quantity.PLAN.si
     drawn = (*plan.arrays, *plan.objects)
     by_name = {(groups.get(name, _ARRAY), name.casefold()): name for name in was}
     by_row = {
@@ -132,18 +127,19 @@ def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
         for number, place in enumerate(drawn)
         if (key := (_group(place.kind), place.name.casefold())) in by_name and not place.unnamed
     }
-    is_us = us_first(draft)
-    unit = Quantity.PLAN.us if is_us else Quantity.PLAN.si
-
-    def agreeing(move: Move) -> int:
-        """Return how many rows are where they would be after a move."""
-        return _agreeing({name: move.of(was[name]) for name in was}, groups, drawn, by_row)
-
+    # Of a row whose name is not in the drawing only its group is known. Edges follow the roof.
+    keyed = [
+        (name if name in by_row.values() else groups.get(name, _ARRAY), shape)
+        for name, shape in was.items()
+        if groups.get(name) != _EDGE
+    ]
+    now = [(by_row.get(k, _group(place.kind)), place.shape) for k, place in enumerate(drawn)]
     named = [(was[name], drawn[number].shape) for number, name in by_row.items()]
-    move = whole_move((roof, plan.roof_shape), named, agreeing) if was else Move()
-    before = {name: move.of(was[name]) for name in was} if move else was
-    now = [place.shape for place in drawn]
-    middles = [mean(around(shapes).points) for shapes in (before.values(), now) if shapes]
+    move = whole_move((roof_of(draft), plan.roof_shape), keyed, now, named)
+    before = {name: (move or Move()).of(shape) for name, shape in was.items()}
+    middles = [
+        mean(around(shapes).points) for shapes in (before.values(), plan.shapes.values()) if shapes
+    ]
     unclear: list[str] = []
     for group in (_ARRAY, _OBJECT, _EDGE):
         numbers = [k for k, place in enumerate(drawn) if _group(place.kind) == group]
@@ -178,30 +174,8 @@ def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
         before=before,
         rows_m=was,
         rows=rows,
-        is_us=is_us,
+        unit=unit,
     )
-
-
-def _agreeing(
-    rows: Mapping[str, Shape],
-    groups: Mapping[str, str],
-    drawn: Sequence[DrawnOutline],
-    by_row: Mapping[int, str],
-) -> int:
-    """Return how many rows, but for edges, are where they are drawn."""
-    import shapely
-
-    names = [name for name in rows if groups.get(name) != _EDGE]
-    # A row whose name is in the drawing is that outline, and else any of its group.
-    own = [name if name in by_row.values() else groups.get(name, _ARRAY) for name in names]
-    others = [by_row.get(number, _group(place.kind)) for number, place in enumerate(drawn)]
-    shapes, places = [solid(rows[name]) for name in names], [solid(place.shape) for place in drawn]
-    near = shapely.STRtree(places).query(shapes, predicate="intersects").T
-    return len({
-        row for row, number in near.tolist()
-        if own[row] == others[number]
-        and shapes[row].hausdorff_distance(places[number]) <= SAME_M
-    })  # fmt: skip
 
 
 def _faces_same(was: Shape, now: Shape, middles: Sequence[Point]) -> bool:
@@ -319,7 +293,7 @@ def plan_as_rows(
     joined_m: float = GAP_M,
     *,
     is_unit_given: bool,
-) -> tuple[RoofPlan, MatchedPlan, dict[str, LayerKind]]:
+) -> tuple[MatchedPlan, dict[str, LayerKind]]:
     """Return the plan of a drawing, as rows of a workbook, and what is said of its layers.
 
     `layers` add to the sheet Layers; a layer that nobody says anything of is not read. `joined_m`
@@ -343,7 +317,7 @@ def plan_as_rows(
             f"the plan is {told.move.factor:.4g} times as large as in the workbook;"
             f" {unit_asked(others, drawn.unit)}"
         )
-    return plan, told, {**layers, **dict.fromkeys(unknown, LayerKind.NOT_READ)}
+    return told, {**layers, **dict.fromkeys(unknown, LayerKind.NOT_READ)}
 
 
 def _refuse(plan: RoofPlan, drawn: RoofDrawing) -> NoReturn:
@@ -428,7 +402,8 @@ def changes(
         names = ", ".join(fill.lacking)
         missing = f"Outlines: the sheet is missing, which {names} in the drawing need"
         raise InputError(f"{missing}. {MOVE}, then read the drawing into that")
-    far = far_off(told.shapes, told.plan.roof_shape, told.is_us)
+    shapes = {name: told.before[name] for name in told.typed} | told.plan.shapes
+    far = far_off(shapes, told.plan.roof_shape, is_us=told.unit == Quantity.PLAN.us)
     return fill.done(), [*told.lines(replace=replace), *fill.said, *(text for _, text in far)]
 
 
@@ -437,16 +412,14 @@ def _move_typed(fill: _Fill, told: MatchedPlan, move: Move) -> None:
     arrays = GrowingTable.of(fill.book, "arrays")
     for name in told.typed:
         table = arrays if arrays.rows("id", name) else GrowingTable.of(fill.book, "objects")
-        shape = told.before[name]
-        _fill_outline(fill, name, shape, "")
-        sides = zip(SIDES, _sides(shape), strict=True)
-        values = {side: None if m is None else table.number(side, m) for side, m in sides}
-        fill.cells |= table.cells(table.rows("id", name)[0], values)
-    for name, row in told.rows.items() if not move.is_straight else ():
+        _fill_place(fill, table, table.rows("id", name)[0], name, told.before[name], "")
+    for name, row in told.rows.items():
         way_deg = row.get("downslope_deg")
-        if way_deg is None or name in told.gone or move.way_deg(way_deg) == way_deg:
+        if way_deg is None or name in told.gone:
             continue
         now_deg = move.way_deg(way_deg)
+        if now_deg == way_deg % 360.0:
+            continue
         at = arrays.position(arrays.rows("id", name)[0], "downslope_deg")
         fill.cells[at] = now_deg
         fill.said.append(f"{name}: downslope direction {way_deg:g}° is {now_deg:g}° now")
@@ -474,19 +447,15 @@ def _fill_rows(
     for place in places:
         rows = table.rows("id", place.name)
         row = rows[0] if rows else table.added()
-        taken = [side for side in SIDES if not table.cell(row, side).is_blank]
-        if rows and taken:
-            fill.refuse(table.position(row, taken[0]), f"the place of {place.name}")
-        _fill_outline(fill, place.name, place.shape, DRAWING)
+        _fill_place(fill, table, row, place.name, place.shape, DRAWING)
         values: dict[str, Value] = {} if rows else {"id": place.name}
         if place.name in before and not _is_same_size(before[place.name], place.shape):
             typed = _typed(table, row, {"modules"} if place.modules else set())
             fill.said.append(f"{place.name} has another size; stays as typed: {typed}")
-        if "place_from" in table.inputs.columns:  # not in earlier workbooks
-            values["place_from"] = DRAWN_MODULES if place.modules else DRAWING
-            if not place.modules and table.cell(row, "place_from").shown == DRAWN_MODULES:
-                values["modules"] = None
-        if key == "arrays" and place.modules and "modules" in table.inputs.columns:
+        values["place_from"] = DRAWN_MODULES if place.modules else DRAWING
+        if not place.modules and table.cell(row, "place_from").shown == DRAWN_MODULES:
+            values["modules"] = None
+        if key == "arrays" and place.modules:
             count = f"the number of modules of {place.name}"
             fill.put(table.position(row, "modules"), place.modules, count)
         if key == "objects" and (not rows or fill.replace):
@@ -498,11 +467,21 @@ def _fill_rows(
                 if name in values and found.value not in (None, values[name]):
                     what = f"{place.name}: {_entered(table, row, name)}"
                     fill.said.append(f"{what} is {values[name]} now, as drawn")
-        for side, value in zip(SIDES, _sides(place.shape), strict=True):
-            shown = None if value is None else table.number(side, value)
-            if shown is not None or side in taken:
-                values[side] = shown
         fill.cells |= table.cells(row, values)
+
+
+def _fill_place(
+    fill: _Fill, table: GrowingTable, row: int, name: str, shape: Shape, source: str
+) -> None:
+    """Fill in the sides of a rectangle or the outline of a polygon, and clear a former place."""
+    taken = [side for side in SIDES if not table.cell(row, side).is_blank]
+    if taken:
+        fill.refuse(table.position(row, taken[0]), f"the place of {name}")
+    _fill_outline(fill, name, shape, source)
+    for side, value in zip(SIDES, _sides(shape), strict=True):
+        if value is not None or side in taken:
+            shown = None if value is None else table.number(side, value)
+            fill.cells |= table.cells(row, {side: shown})
 
 
 def _take_out(fill: _Fill, name: str) -> None:
@@ -513,9 +492,9 @@ def _take_out(fill: _Fill, name: str) -> None:
             continue
         table = GrowingTable.of(fill.book, key)
         for row in {row for column in columns for row in table.rows(column, name)}:
-            has_source = "source" in table.inputs.columns
-            is_drawn = has_source and table.cell(row, "source").shown == DRAWING
-            if key != "outlines" and not is_drawn and (typed := _typed(table, row, set())):
+            is_drawn = key == "clearances" and table.cell(row, "source").shown == DRAWING
+            typed = "" if key == "outlines" or is_drawn else _typed(table, row, set())
+            if typed:
                 lost.append(f"{table.position(row, columns[0]).address}: {typed}")
             fill.cells |= table.cells(row, dict.fromkeys(table.inputs.columns))
     if lost:
@@ -571,7 +550,7 @@ def _fill_layers(fill: _Fill, layers: Mapping[str, LayerKind]) -> None:
             fill.cells |= table.cells(row, {"layer": layer, "kind": kind.value})
 
 
-def _fill_outline(fill: _Fill, name: str, shape: Shape, whence: str) -> None:
+def _fill_outline(fill: _Fill, name: str, shape: Shape, source: str) -> None:
     """Fill in the outline of a place below the others, and clear a former one."""
     points = shape.points if isinstance(shape, Polygon) else ()
     table = fill.outlines
@@ -583,8 +562,7 @@ def _fill_outline(fill: _Fill, name: str, shape: Shape, whence: str) -> None:
         fill.refuse(table.position(rows[0], "name"), f"the place of {name}")
     for row in rows:
         fill.cells |= table.cells(row, dict.fromkeys(table.inputs.columns))
-    # Not in earlier workbooks.
-    source = {"source": whence or None} if "source" in table.inputs.columns else {}
     for x, y in points:
         place_m = {"x_m": table.number("x_m", x), "y_m": table.number("y_m", y)}
-        fill.cells |= table.cells(table.added(), {"name": name, **place_m, **source})
+        values = {"name": name, **place_m, "source": source or None}
+        fill.cells |= table.cells(table.added(), values)

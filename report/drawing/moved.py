@@ -7,9 +7,8 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import islice
 
 import numpy as np
 
@@ -21,8 +20,10 @@ from report.text.units import Unit
 SAME_M = 0.05
 # Factors between these are no unit that is taken for another: a roof has grown.
 _GROWN = (0.9, 1.1)
-_MUCH = 0.8  # share of two roofs that is common to both
 _MOST_TRIED = 100
+
+# A row or an outline: its name where rows and drawing have it, else what kind of place it is.
+Keyed = tuple[str, Shape]
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,44 +74,58 @@ class Move:
 
 def whole_move(
     roofs: tuple[Shape | None, Shape | None],
-    named: Sequence[tuple[Shape, Shape]],
-    agreeing: Callable[[Move], int],
+    rows: Sequence[Keyed],
+    drawn: Sequence[Keyed],
+    named: Iterable[tuple[Shape, Shape]],
 ) -> Move | None:
     """Return how a plan has moved; None if the roof has, and how cannot be told.
 
-    The roof and rows of the same name are given as they were and as they are drawn. `agreeing`
-    returns how many rows a move brings to where they are drawn.
+    The roof and rows of the same name are given as they were and as they are drawn.
     """
     was, now = roofs
-    fits = list(_fits(was, now)) if was and now else []
-    tried = [move for move in fits if move.factor == 1.0]
-    is_same_roof = bool(tried)
-    unclear = None if was and now else Move()
-    if not is_same_roof:
+    of_roof = list(_fits(was, now)) if was and now else []
+    is_same_roof = any(move.factor == 1.0 for move in of_roof)
+    if is_same_roof:
+        tried = [move for move in of_roof if move.factor == 1.0]
+    else:
         # Where the roof is another, rows of the same name tell.
-        of_rows = islice((move for pair in named for move in _fits(*pair)), 2 * _MOST_TRIED)
-        tried = [Move(), *(move for move in (*fits, *of_rows) if not move.is_mirrored)]
-    counts = {move: agreeing(move) for move in tried[:_MOST_TRIED]}
-    if was and now and not is_same_roof:
-        for move in counts:
-            counts[move] += move in fits or (move.is_none and _is_much(was, now))
-    best = max(counts.values())
-    plain = next((move for move in counts if move.is_straight), None)
-    if plain and (best or is_same_roof) and best <= 2 * counts[plain]:
-        return plain
-    winners = [move for move in counts if counts[move] == best]
+        every = (*of_roof, *(move for pair in named for move in _fits(*pair)))
+        tried = [Move(), *(move for move in every if not move.is_mirrored)]
+    counts = {move: _agreeing(move, rows, drawn) for move in tried[:_MOST_TRIED]}
+
+    def likely(move: Move) -> tuple[int, bool]:
+        # A plan is seldom turned: that is told by more than twice as many rows.
+        return counts[move] * (2 if move.is_straight else 1), move.is_straight
+
+    best = max(counts, key=likely)
+    count = counts[best]
     if not is_same_roof:
-        return winners[0] if best > 1 else unclear
+        is_told = count > 1 or (count == 1 and (best.is_none or best in of_roof))
+        return best if is_told else None if was and now and rows else Move()
+    if best.is_straight:
+        return best
+    others = [move for move in counts if move != best]
+    is_told = all(counts[move] < count for move in others)
     # A layout that is mirrored is more likely than a sheet, where the roof has other fits.
-    is_told = len(winners) == 1 and (best > 1 or not plain)
-    has_unmirrored = not all(move.is_mirrored for move in counts)
-    return winners[0] if is_told and not (winners[0].is_mirrored and has_unmirrored) else None
+    if best.is_mirrored:
+        is_told &= all(move.is_mirrored for move in others)
+    return best if is_told and (count > 1 or not any(m.is_straight for m in others)) else None
 
 
-def _is_much(was: Shape, now: Shape) -> bool:
-    """Whether a roof is where it was, whatever has changed of its outline."""
-    area, other = solid(was), solid(now)
-    return bool(area.intersection(other).area >= _MUCH * area.union(other).area)
+def _agreeing(move: Move, rows: Sequence[Keyed], drawn: Sequence[Keyed]) -> int:
+    """Return how many rows are where they are drawn after a move."""
+    import shapely
+
+    if not rows:
+        return 0
+    shapes = [solid(move.of(shape)) for _, shape in rows]
+    places = [solid(shape) for _, shape in drawn]
+    near = shapely.STRtree(places).query(shapes, predicate="intersects").T.tolist()
+    return len({
+        row for row, number in near
+        if rows[row][0] == drawn[number][0]
+        and shapes[row].hausdorff_distance(places[number]) <= SAME_M
+    })  # fmt: skip
 
 
 def _fits(was: Shape, now: Shape) -> Iterator[Move]:

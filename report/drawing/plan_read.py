@@ -184,14 +184,14 @@ def check_size(plan: RoofPlan, stated: str, us_first: bool = True) -> None:
     The drawing was read in the unit that it states.
     """
     places = (*plan.roof, *plan.arrays, *plan.objects)
-    odd = [place for place in places if not _is_usual(place, 1.0, LEAST_ARRAY_M2)]
-    if not odd:
-        return
     sizes = []
-    for place in odd:
-        wide, tall = (pair(m, Quantity.PLAN, us_first) for m in own_axes(place.shape)[:2])
-        name = "the roof" if place.kind is LayerKind.ROOF else place.name
-        sizes.append(f"{name} is {wide} by {tall}")
+    for place in places:
+        if not _is_usual(place, 1.0, LEAST_ARRAY_M2):
+            wide, tall = (pair(m, Quantity.PLAN, us_first) for m in own_axes(place.shape)[:2])
+            name = "the roof" if place.kind is LayerKind.ROOF else place.name
+            sizes.append(f"{name} is {wide} by {tall}")
+    if not sizes:
+        return
     # In another unit the smallest may be modules, which are joined.
     would_do = [
         unit for unit, unit_m in LENGTHS.items()

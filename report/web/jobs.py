@@ -253,12 +253,11 @@ def read_plan(workbook: Path, job: Json) -> Json:
     change = WorkbookChange(open_book(workbook))
     layers = {layer: LayerKind(kind) for layer, kind in json.loads(job["layers"]).items()}
     draft = read_book(change.book).draft
-    plan, told, layers = plan_as_rows(
-        drawn, LENGTHS[unit], draft, layers, is_unit_given=job["unit"] != ""
-    )
+    is_given = job["unit"] != ""
+    told, layers = plan_as_rows(drawn, LENGTHS[unit], draft, layers, is_unit_given=is_given)
     cells, lines = changes(change.book, told, layers, replace=True)
     change.fill(cells)
-    lines = [*filter(None, (drawn.repairs,)), *unread(plan), *lines, *withdrawn(change)]
+    lines = [*filter(None, (drawn.repairs,)), *unread(told.plan), *lines, *withdrawn(change)]
     # One is opened, and one stays to be saved when the other has been replaced.
     for path in (workbook, Path(job["to"])):
         path.write_bytes(change.book.data)

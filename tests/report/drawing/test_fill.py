@@ -287,6 +287,9 @@ def test_a_rectangle_left_far_from_the_roof_is_asked_about(tmp_path):
     assert "OBJ-1 is 5999925.00 ft (1828777.14 m) from the roof: is it a leftover? Del" in output
 
 
-@pytest.mark.parametrize("name", ["none.dxf", "."])
-def test_a_drawing_that_is_not_there_is_told(tmp_path, name):
-    assert "cannot be read" in run(tmp_path / name, new(tmp_path), exit_code=2)
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("none.dxf", "no such file; give a DXF drawing"), (".", "is a folder; give a file")],
+)
+def test_a_drawing_that_is_not_there_is_told(tmp_path, name, said):
+    assert said in run(tmp_path / name, new(tmp_path), exit_code=2)
