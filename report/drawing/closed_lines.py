@@ -282,16 +282,13 @@ def _curves(path: Any) -> Iterator[Any]:
 
 def faces(entity: Any) -> list[Any] | str:
     """Return the faces of a 3DFACE or a mesh as polygons, without vertical ones; or why none."""
-    from ezdxf.render.mesh import MeshBuilder
+    from ezdxf.disassemble import make_primitive
 
     kind = entity.dxftype()
-    match kind:
-        case "3DFACE":
-            rings = [entity.wcs_vertices()]
-        case "MESH":
-            rings = list(MeshBuilder.from_mesh(entity).faces_as_vertices())
-        case _:
-            rings = list(MeshBuilder.from_polyface(entity).faces_as_vertices())
+    if kind == "3DFACE":
+        rings = [entity.wcs_vertices()]
+    else:
+        rings = list(make_primitive(entity).mesh.faces_as_vertices())
     if sum(map(len, rings)) > 4 * MAX_POINTS:
         return f"a {kind} of more than {4 * MAX_POINTS} points"
     if any(not abs(value) <= MAX_COORDINATE for ring in rings for p in ring for value in p):
