@@ -35,13 +35,13 @@ from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.fields import Draft, DraftRow
 from report.sheet.schema.scene import DRAWING, DRAWN_MODULES, ROOF, SIDES
 from report.sheet.schema.shapes import (
-    Point,
     Polygon,
     Rectangle,
     Shape,
     around,
     gap_m,
     mean,
+    sides,
     solid,
 )
 from report.sheet.writing.filled import MOVE
@@ -54,7 +54,7 @@ from solver.model import InputError
 _LEAST_SHARE = 0.05
 _RENAMED_SHARE = 0.9  # the same, of an outline that the drawing calls by a name of its own
 _PLAIN = 2.0  # a row is told from another by this times its share, or its part of the distance
-_SAME_WAY = 0.5  # cosine between the directions of two edges of the same side
+_SAME_WAY = 0.9  # cosine between the outward directions of two edges of the same side
 # Most outlines of a kind that cannot be told and are named.
 MOST_TOLD = 20
 _STILL_M = 1e-3  # what has moved by less has not
@@ -135,11 +135,21 @@ def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
     ]
     now = [(by_row.get(k, _group(place.kind)), place.shape) for k, place in enumerate(drawn)]
     named = [(was[name], drawn[number].shape) for number, name in by_row.items()]
-    move = whole_move((roof_of(draft), plan.roof_shape), keyed, now, named)
-    before = {name: (move or Move()).of(shape) for name, shape in was.items()}
-    middles = [
-        mean(around(shapes).points) for shapes in (before.values(), plan.shapes.values()) if shapes
-    ]
+    roof = roof_of(draft)
+    move = whole_move((roof, plan.roof_shape), keyed, now, named)
+    moved = move or Move()
+    before = {name: moved.of(shape) for name, shape in was.items()}
+    # An edge stays on its side of the roof, or of all that is in plan where no roof is.
+    ways_before = {
+        name: _outward(shape, moved.of(roof) if roof else around(before.values()))
+        for name, shape in before.items()
+        if groups.get(name) == _EDGE
+    }
+    ways = {
+        k: _outward(place.shape, plan.roof_shape or around(plan.shapes.values()))
+        for k, place in enumerate(drawn)
+        if _group(place.kind) == _EDGE
+    }
     unclear: list[str] = []
     for group in (_ARRAY, _OBJECT, _EDGE):
         numbers = [k for k, place in enumerate(drawn) if _group(place.kind) == group]
@@ -153,9 +163,7 @@ def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
                 for name in names
                 if k not in by_row and name not in by_row.values()
                 if (value := score(drawn[k], before[name])) > 0.0
-                if not is_edge
-                or value >= _RENAMED_SHARE
-                or _faces_same(before[name], drawn[k].shape, middles)
+                if not is_edge or (ways_before[name] * ways[k].conjugate()).real > _SAME_WAY
             }
             unclear += _tell(pairs, drawn, by_row, unit)
         left = [name for name in names if name not in by_row.values() and _is_drawn(rows[name])]
@@ -178,11 +186,18 @@ def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
     )
 
 
-def _faces_same(was: Shape, now: Shape, middles: Sequence[Point]) -> bool:
-    """Whether two edges are on the same side of all that is in plan, given the middle of each."""
-    ends = [complex(*mean(shape.bounds.points)) for shape in (was, now)]
-    ways = [end - complex(*middle) for end, middle in zip(ends, middles, strict=True)]
-    return (ways[0] * ways[1].conjugate()).real > _SAME_WAY * abs(ways[0]) * abs(ways[1])
+def _outward(edge: Shape, roof: Shape) -> complex:
+    """Return the direction across an edge, as a number of length 1, that leads away from a roof."""
+    import shapely
+
+    start, end = max(sides(edge.points), key=lambda side: math.dist(*side))
+    across = complex(end[1] - start[1], start[0] - end[0]) / math.dist(start, end)
+    middle = complex(*mean(edge.bounds.points))
+    far, near = (
+        solid(roof).distance(shapely.Point(at.real, at.imag))
+        for at in (middle + across, middle - across)
+    )
+    return across if far >= near else -across
 
 
 def _group(kind: str) -> str:
@@ -274,8 +289,8 @@ def _renamed(
 
 def _place(shape: Shape, unit: Unit) -> str:
     box = shape.bounds
-    sides = ((box.x_from_m, box.x_to_m), (box.y_from_m, box.y_to_m))
-    x, y = (" to ".join(f"{end / unit.si:.{unit.decimals}f}" for end in side) for side in sides)
+    ends = ((box.x_from_m, box.x_to_m), (box.y_from_m, box.y_to_m))
+    x, y = (" to ".join(f"{end / unit.si:.{unit.decimals}f}" for end in pair) for pair in ends)
     return f"x {x}, y {y} {unit.symbol}"
 
 

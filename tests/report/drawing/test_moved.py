@@ -164,6 +164,32 @@ def test_no_edge_takes_what_was_typed_of_another(data, roof, move, is_named):
     assert not astray
 
 
+_ROOF = st.tuples(
+    st.sampled_from([-20, 0, 10]), st.sampled_from([-15, 0, 8]),
+    st.sampled_from([40, 60, 80]), st.sampled_from([30, 45, 90]),
+)  # fmt: skip
+
+
+def faces(plan):
+    """To which side of a rectangular roof each edge lies: in x, and in y."""
+    roof = plan.roof_shape
+    return {
+        name: ((x > roof.x_to_m) - (x < roof.x_from_m), (y > roof.y_to_m) - (y < roof.y_from_m))
+        for name, (x, y) in edges(plan).items()
+    }
+
+
+@pytest.mark.quick
+@settings(max_examples=60)
+@given(first=_ROOF, second=_ROOF)
+def test_an_edge_keeps_its_side_where_the_roof_is_another_one_around_the_same_arrays(first, second):
+    was, now = (drawn(box(*roof), NAMED) for roof in (first, second))
+    told = matched(now, draft_of(was))
+    before, after = faces(was), faces(told.plan)
+    kept = before.keys() & after.keys()
+    assert {name: after[name] for name in kept} == {name: before[name] for name in kept}
+
+
 FEET = [
     ("ARRAY", "A1", box(20, 20, 80, 40)),
     ("ARRAY", "A2", box(120, 20, 80, 40)),
