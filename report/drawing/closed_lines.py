@@ -288,7 +288,8 @@ def faces(entity: Any) -> list[Any] | str:
     if kind == "3DFACE":
         rings = [entity.wcs_vertices()]
     else:
-        rings = list(make_primitive(entity).mesh.faces_as_vertices())
+        shown: Any = make_primitive(entity)
+        rings = list(shown.mesh.faces_as_vertices())
     if sum(map(len, rings)) > 4 * MAX_POINTS:
         return f"a {kind} of more than {4 * MAX_POINTS} points"
     if any(not abs(value) <= MAX_COORDINATE for ring in rings for p in ring for value in p):
