@@ -74,7 +74,7 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
         right += 1
     positions = [CellPosition(sheet.title, top, column) for column in range(left, right + 1)]
     # Formulas are not read.
-    answers = ANSWER_HEADINGS.get(section.key, frozenset()) | layout.ANSWERS
+    answers = ANSWER_HEADINGS.get(section.key, frozenset())
     gone = tuple(_gone_headings(book, section, positions))
     passed = {position for _, position in gone}
     headings = [

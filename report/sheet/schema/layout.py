@@ -34,38 +34,30 @@ class TablePlace:
     headings: Mapping[str, str]
     letters: Mapping[str, str]
 
-    def this(self, name: str) -> str:
-        """Return the reference to a column in the row of the formula."""
-        # Files have this form of what Excel shows as [@Name].
-        return f"{self.section.table_name}[[#This Row],{self._column(name)}]"
-
-    def head(self, name: str) -> str:
-        """Return the reference to a heading."""
-        return f"{self.section.table_name}[[#Headers],{self._column(name)}]"
+    def heading_cell(self, name: str, *, is_own: bool) -> str:
+        """Return the reference to a heading, on its own sheet without the name of it."""
+        cell = f"${self.letters[name]}${self.header}"
+        return cell if is_own else f"{quote_sheetname(self.sheet)}!{cell}"
 
     def all(self, name: str) -> str:
         """Return the reference to a whole column."""
-        return f"{self.section.table_name}[{self._column(name)}]"
+        column = _SPECIAL.sub(_ESCAPED, self.headings[name])
+        # Files have this form of what Excel shows as table[column].
+        return f"{self.section.table_name}[[{column}]]"
 
     def cells(self, name: str) -> str:
         """Return the range of a column, beyond the prepared rows."""
         letter = self.letters[name]
         return f"{letter}{self.header + 1}:{letter}{LAST_ROW}"
 
-    def _column(self, name: str) -> str:
-        return f"[{_SPECIAL.sub(_ESCAPED, self.headings[name])}]"
+    def area(self, name: str) -> str:
+        """Return the same range with absolute references."""
+        letter = self.letters[name]
+        return f"${letter}${self.header + 1}:${letter}${LAST_ROW}"
 
 
 # The tables of a workbook by section.
 Tables = Mapping[str, TablePlace]
-
-
-def literal(name: str) -> str:
-    """Return a name without the meaning that wildcards have for MATCH and COUNTIF."""
-    name = f"TRIM({name})"
-    for wildcard in "~*?":
-        name = f'SUBSTITUTE({name},"{wildcard}","~{wildcard}")'
-    return name
 
 
 def name_cell(name: str, sheet: Worksheet, row: int, column: int) -> None:
@@ -137,8 +129,12 @@ GONE: Mapping[str, tuple[GoneInput, ...]] = {
     ),
 }
 
-# Headings of formulas that every table had, lowercase: what a row lacks, which `check` says.
-ANSWERS = frozenset({"status"})
+# Headings of formulas of earlier workbooks by section, lowercase and without unit.
+FORMER_ANSWERS: Mapping[str, frozenset[str]] = {
+    "arrays": frozenset({"slope in degrees", "weight per area"}),
+    "clearances": frozenset({"d/c, floor", "row of array", "row of other array", "row of object"}),
+    "outlines": frozenset({"twice the area"}),
+}
 
 # Earlier names of a field, which defined names of cells end with.
 FIELDS: Mapping[tuple[str, str], tuple[str, ...]] = {("site", "stories"): ("storeys",)}

@@ -204,7 +204,7 @@ def _drawn(sheet: Sheet) -> list[DraftRow]:
     return [row for row in rows if row.get("source") is ClearanceSource.DRAWING]
 
 
-_PANEL = "live_prescriptive_in"
+_PANEL = "live_sdc_used"
 # In a formula that refers to a column which the workbook lacks.
 _BROKEN = "#REF!"
 

@@ -43,9 +43,9 @@ DATA_LINES = 5
 # Names of the ranges that supply the dropdowns of columns.
 _SOURCES = {
     ("overrides", "provision"): "rule_names",
-    ("clearances", "array"): "live_array_names",
-    ("clearances", "object"): "live_names",
-    ("links", "array"): "live_array_names",
+    ("clearances", "array"): "array_names",
+    ("clearances", "object"): "object_names",
+    ("links", "array"): "array_names",
 }
 
 
@@ -98,6 +98,7 @@ def _write_block_row(
     style.validate(sheet, f"B{row}", entry, 1.0)
     if section.key == "site" and entry.name in SITE_ANSWERS:
         formula, name = SITE_ANSWERS[entry.name]
+        formula = formula.format(row=row, above=row - 2)
         style.put_answer(sheet.cell(row, 4), formula, SITE_FORMAT)
         name_cell(name, sheet, row, 4)
     if entry.quantity is None or unit is None:
@@ -123,7 +124,7 @@ class GridColumn:
     def is_folded(self) -> bool:
         """Whether it is folded at the right."""
         is_rare = self.entry is not None and self.entry.cell.is_rare
-        return is_rare or (self.answer is not None and self.answer.is_helper)
+        return is_rare or (self.answer is not None and self.answer.is_rare)
 
 
 def columns_of(section: SheetSection, units: UnitsFirst) -> list[GridColumn]:
@@ -287,10 +288,13 @@ def write_answers(book: Workbook, tables: Tables, place: TablePlace, *, is_us: b
     for count, name in enumerate(place.letters):
         if name not in answers:
             continue
-        formula = answers[name].written(tables, place.section.key)
-        columns[count].calculatedColumnFormula = TableFormula(attr_text=formula)
-        for row in range(place.header + 1, place.header + 1 + place.size):
+        first = place.header + 1
+        for row in range(first, first + place.size):
+            formula = answers[name].written(tables, place.section.key, row)
             style.put_answer(sheet.cell(row, count + FIRST), formula, answers[name].number_format)
+        # Its references to cells are those of the first row.
+        formula = answers[name].written(tables, place.section.key, first)
+        columns[count].calculatedColumnFormula = TableFormula(attr_text=formula)
 
 
 def _allowed(entry: Entry, unit: Unit | None) -> str:

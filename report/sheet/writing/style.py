@@ -79,14 +79,8 @@ def put(
     return cell
 
 
-class Answer(str):
-    """A formula to write, without its equals sign."""
-
-    __slots__ = ()
-
-
 # What a row of a static sheet has in a cell.
-Value = Answer | str | float
+Value = str | float
 
 
 def put_values(
@@ -95,8 +89,6 @@ def put_values(
     """Write the cells of a row of a static sheet; NaN where a table has no number."""
     for column, value in enumerate(values, start=1):
         match value:
-            case Answer():
-                put_answer(sheet.cell(row, column), value)
             case str():
                 put(sheet, row, column, value, bold=are_heads).border = LINE
             case _ if math.isnan(value):

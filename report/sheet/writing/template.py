@@ -8,9 +8,8 @@ formulas. The example comes with its records.
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
-from typing import NamedTuple
 
 from openpyxl import Workbook
 from openpyxl.drawing.image import Image
@@ -29,8 +28,7 @@ from report.sheet.writing.grids import write_answers, write_block, write_table
 from report.sheet.writing.lookups import write_lookups, write_rules
 from report.text.units import LENGTHS, STIFFNESSES, VELOCITIES, WEIGHTS, Quantity
 from solver.files import write_whole
-from solver.model import INCH_M
-from solver.rules.provisions import SEPARATION_KEYS, Neighbor
+from solver.rules.provisions import Neighbor
 
 
 def write_template(path: Path, *, units: UnitsFirst, example: ProjectInput | None = None) -> None:
@@ -80,15 +78,14 @@ def saved(book: Workbook, units: UnitsFirst) -> bytes:
 
 
 _ANSWERS_HINT = (
-    "Computed from the other sheets. † verify against the adopted code, ‡ overridden: see the sheet"
-    " Provisions."
+    "Computed from the other sheets; the numbers of the rule set are on the sheet Provisions."
 )
-_HEADS = ("", "", "Value", "", "Governs", "Clause", "Worst D/C", "From, to", "Note")
+_HEADS = ("", "", "Value", "Separation", "", "", "Worst D/C", "", "Note")
 _SEPARATIONS = {
-    Neighbor.LIKE: ("Separation, like arrays", "live_largest_i_p"),
-    Neighbor.FIXED: ("Separation, fixed object or unlike array", "live_largest_i_p"),
-    Neighbor.PARAPET: ("Separation, edge with qualifying parapet", "live_i_e"),
-    Neighbor.EDGE: ("Separation, edge without qualifying parapet", "live_i_e"),
+    Neighbor.LIKE: "Separation, like arrays",
+    Neighbor.FIXED: "Separation, fixed object or unlike array",
+    Neighbor.PARAPET: "Separation, edge with qualifying parapet",
+    Neighbor.EDGE: "Separation, edge without qualifying parapet",
 }
 
 
@@ -96,89 +93,35 @@ def write_panel(sheet: Worksheet, top: int, tables: Tables, *, is_us: bool) -> i
     """Write the answers from a row on; return the row below them and one more."""
     style.put_heading(sheet, top, "Before any analysis", _ANSWERS_HINT)
     style.put_values(sheet, top + 2, _HEADS, are_heads=True)
+    unit = Quantity.DISPLACEMENT.value[0 if is_us else 1]
+    lengths = f'{answers.decimals_format(unit)}" {unit.symbol}"'
     row = top + 3
-    style.put(sheet, row, 2, "Category used").border = style.LINE
-    used = 'IF(TRIM(site_sdc)<>"",UPPER(TRIM(site_sdc)),live_sdc)'
-    style.put_answer(sheet.cell(row, 3), used)
+    note = "As given; where blank, the least category by S_DS, S_D1 and S_1."
+    _write_line(sheet, row, ("Category used", answers.CATEGORY_USED, note), "General")
     name_cell("live_sdc_used", sheet, row, 3)
-    _write_note(sheet, row, "", "As given; where blank, the least category by S_DS, S_D1 and S_1.")
-    lines = _lines(row + 2)
-    for at, line in enumerate(lines, start=row + 1):
-        _write_line(sheet, at, line, tables, is_us=is_us)
-    return row + len(lines) + 2
+    note = "The formula, or the minimum of the rule set."
+    prescriptive = ("Prescriptive displacement", answers.prescriptive(unit), note)
+    _write_line(sheet, row + 1, prescriptive, lengths)
+    name_cell("live_prescriptive", sheet, row + 1, 3)
+    worst = answers.written(answers.WORST, tables, "clearances", row + 1)
+    style.put_answer(sheet.cell(row + 1, 7), worst, "0.00")
+    note = "Least design displacement by analysis without peer review."
+    _write_line(sheet, row + 2, ("Floor of the value from analysis", answers.FLOOR, note), lengths)
+    for neighbor, label in _SEPARATIONS.items():
+        number = answers.SEPARATION_ROWS[neighbor]
+        at = row + 2 + number
+        factor = "I_e of the building" if neighbor.is_edge else "the largest I_p"
+        note = f"With PV1-2012 times {factor}."
+        _write_line(sheet, at, (label, answers.separation(unit, at), note), lengths)
+        style.put(sheet, at, 4, "", color=style.GRAY).value = number
+    return row + 3 + len(_SEPARATIONS) + 1
 
 
-class _Line(NamedTuple):
-    """A length of the panel: formulas, each without its equals sign, and words."""
-
-    label: str
-    inches: str
-    clause: str
-    note: str
-    name: str = ""  # of the cell with inches
-    governs: str = ""
-    ratios: str = ""  # column of the clearances
-
-
-def _lines(row: int) -> Sequence[_Line]:
-    """Return the lengths of the panel; the prescriptive displacement is in a given row."""
-    clause = (
-        f'IF($E{row}="SDC A, B, C",rule_prescriptive_low_sdc_in_clause,IF($E{row}="minimum",'
-        "rule_prescriptive_minimum_in_clause,rule_prescriptive_factor_in_clause))"
-    )
-    return (
-        _Line("Prescriptive displacement, formula", answers.PRESCRIPTIVE_FORMULA_IN,
-              "rule_prescriptive_factor_in_clause", "Factor x (S_DS - 0.4)^2, before its minimum.",
-              "live_prescriptive_formula_in"),
-        _Line("Prescriptive displacement", answers.PRESCRIPTIVE_IN, clause,
-              "The formula, or the minimum of the rule set.", "live_prescriptive_in",
-              answers.PRESCRIPTIVE_BASIS, "demand_capacity"),
-        _Line("Floor of the value from analysis", answers.FLOOR_IN, "rule_analysis_floor_clause",
-              "Least design displacement by analysis without peer review.", "live_floor_in",
-              ratios="floor_ratio"),
-        _Line("Peer review of the analysis saves, at most", "live_floor_in",
-              "rule_analysis_floor_clause",
-              "With it there is no floor: the value from analysis is used."),
-        *map(_separation, _SEPARATIONS),
-    )  # fmt: skip
-
-
-def _separation(neighbor: Neighbor) -> _Line:
-    label, importance = _SEPARATIONS[neighbor]
-    at = f'MATCH("{neighbor}",live_neighbors,0)'
-    inside = f'IF(rule_importance="{answers.IN_SEPARATION}",{importance},1)'
-    formula = (
-        f"IFERROR(MAX(INDEX(live_separation_factors,{at})*{inside}*live_prescriptive_in,"
-        f'INDEX(live_separation_minima_in,{at})),"")'
-    )
-    factor = "I_e of the building" if neighbor.is_edge else "the largest I_p of arrays and objects"
-    clause = f"rule_{SEPARATION_KEYS[neighbor]}_clause"
-    return _Line(label, formula, clause, f"With PV1-2012 times {factor}.")
-
-
-def _write_line(sheet: Worksheet, row: int, line: _Line, tables: Tables, *, is_us: bool) -> None:
-    """Write a length in both systems, the primary one first."""
-    style.put(sheet, row, 2, line.label).border = style.LINE
-    us, si = Quantity.DISPLACEMENT.value
-    inches, other = (3, 4) if is_us else (4, 3)
-    letter = get_column_letter(inches)
-    in_si = f'IF(ISNUMBER({letter}{row}),{letter}{row}*{INCH_M!r}/{si.si!r},"")'
-    for column, formula, unit in ((inches, line.inches, us), (other, in_si, si)):
-        number_format = f'{answers.decimals_format(unit)}" {unit.symbol}"'
-        style.put_answer(sheet.cell(row, column), formula, number_format)
-    if line.name:
-        name_cell(line.name, sheet, row, inches)
-    if line.governs:
-        style.put_answer(sheet.cell(row, 5), line.governs)
-    for column, formula in enumerate(answers.worst(line.ratios) if line.ratios else (), start=7):
-        written = answers.written(formula, tables, tables["clearances"].this)
-        style.put_answer(sheet.cell(row, column), written, "0.00")
-    _write_note(sheet, row, f"={line.clause}", line.note)
-
-
-def _write_note(sheet: Worksheet, row: int, clause: str, note: str) -> None:
-    style.put(sheet, row, 6, "", color=style.GRAY).border = style.LINE
-    sheet.cell(row, 6).value = clause or None
+def _write_line(sheet: Worksheet, row: int, line: tuple[str, str, str], number_format: str) -> None:
+    """Write label, formula and note."""
+    label, formula, note = line
+    style.put(sheet, row, 2, label).border = style.LINE
+    style.put_answer(sheet.cell(row, 3), formula, number_format)
     style.put(sheet, row, 9, note, color=style.GRAY)
     sheet.row_dimensions[row].height = 28
 
@@ -228,7 +171,8 @@ _SAMPLES = (
     ("heading, tab", style.WHITE, style.OPTIONAL_FILL, "Optional column or sheet."),
     ("tab", style.INK, style.RARE_FILL, "Sheet that is rarely needed, hidden while empty."),
     ("tab", style.WHITE, style.HELP_FILL, "Sheet without input cells."),
-    ("1.566", style.INK, style.ANSWER_FILL, "Computed cell: a formula, not read as input."),
+    ("heading", style.INK, style.ANSWER_HEAD_FILL,
+     "Of computed cells: formulas, not read as input."),
     ("example", style.GRAY, style.HINT_FILL, "Allowed range and example; not read as input."),
 )  # fmt: skip
 
@@ -305,8 +249,6 @@ def _write_colors(sheet: Worksheet, row: int) -> int:
     for at, (sample, color, fill, meaning) in enumerate(_SAMPLES, start=row):
         cell = style.put(sheet, at, COLORS_COLUMN, sample, color=color, bold=color != "000000")
         cell.fill, cell.border = fill, style.BOX
-        if fill is style.ANSWER_FILL:
-            cell.value = f"={sample}"
         style.put(sheet, at, COLORS_COLUMN + 1, meaning, color=style.GRAY)
         sheet.row_dimensions[at].height = 20
     return row + len(_SAMPLES) + 1

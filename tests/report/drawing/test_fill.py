@@ -151,8 +151,8 @@ def test_rows_that_a_table_grows_by_have_its_formulas_and_formats(tmp_path, unit
                range(table[0], table[2] + 1)]  # fmt: skip
     assert formats == ["0.0000"] * len(formats)
     assert overwritten(sheet.book) == ()
-    last = cell(load_workbook(sheet.path), "Arrays/A29/Slope in degrees")
-    assert str(last.value).startswith("=IFERROR(")
+    last = cell(load_workbook(sheet.path), "Arrays/A29/Kind of array")
+    assert str(last.value).startswith("=IF(")
 
 
 def test_a_drawing_without_a_unit_and_polygons_without_their_sheet_are_refused(tmp_path):
