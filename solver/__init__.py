@@ -38,24 +38,17 @@ Targets, suites and buildings:
     at_roof             Return a ground motion as the roof of an elastic building has it.
 """
 
-import warnings
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from solver.public import *  # noqa: F403
 
-FORMER = {"Rung": "Model"}
-"""Public names of 0.2, which this version still knows."""
-
 
 def __getattr__(name: str) -> Any:
     """Return a public name. All are loaded with the first: with the kernels that takes 0.4 s."""
-    if name in FORMER:
-        text = f"solver.{name} is solver.{FORMER[name]} now, and the next version has that alone"
-        warnings.warn(text, DeprecationWarning, stacklevel=2)
     # Not `from solver import public`, which would ask here whether there is such a name.
-    return getattr(import_module("solver.public"), FORMER.get(name, name))
+    return getattr(import_module("solver.public"), name)
 
 
 def __dir__() -> list[str]:

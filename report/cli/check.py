@@ -70,7 +70,7 @@ def checked(
     from report.results.motions import other_sources
     from report.sheet.checking.findings import in_order
     from report.sheet.writing.filled import findings as formula_findings
-    from report.sheet.writing.filled import overwritten, what_is_new
+    from report.sheet.writing.filled import overwritten
     from report.typeset.letters import check_letters
 
     # A letter that the font of the package lacks is an error of the input, found before any run.
@@ -79,7 +79,6 @@ def checked(
     shaking = prepare(sheet)
     progress("comparing with the limits")
     told = [
-        *what_is_new(sheet.book),
         *formula_findings(overwritten(sheet.book)),
         *limits_before_runs(sheet.project, shaking),
         *missing_clearances(sheet),

@@ -44,11 +44,12 @@ from report.sheet.schema.shapes import (
     sides,
     solid,
 )
-from report.sheet.writing.filled import MOVE
 from report.text.counts import grouped_by
 from report.text.formats import aligned
 from report.text.units import LENGTHS, Quantity, Unit
 from solver.model import InputError
+
+_MOVE = "Run roofslip new FOLDER and copy your cells into the new workbook"
 
 # Common share of two outlines, of all that either covers, by which they may be the same.
 _LEAST_SHARE = 0.05
@@ -416,7 +417,7 @@ def changes(
     if fill.lacking:
         names = ", ".join(fill.lacking)
         missing = f"Outlines: the sheet is missing, which {names} in the drawing need"
-        raise InputError(f"{missing}. {MOVE}, then read the drawing into that")
+        raise InputError(f"{missing}. {_MOVE}, then read the drawing into that")
     shapes = {name: told.before[name] for name in told.typed} | told.plan.shapes
     far = far_off(shapes, told.plan.roof_shape, is_us=told.unit == Quantity.PLAN.us)
     return fill.done(), [*told.lines(replace=replace), *fill.said, *(text for _, text in far)]

@@ -28,7 +28,6 @@ from report.pages.inputs import attachment
 from report.pages.parts import PackageData
 from report.sheet.checking.findings import lines
 from report.sheet.schema.fields import Level
-from report.sheet.writing.filled import what_is_new
 from report.text.amounts import capacity, compared_pairs, demand
 from report.text.counts import grouped_by
 from report.text.formats import aligned, finite
@@ -218,9 +217,6 @@ def attention(assessment: Assessment, *, may_run: bool = True) -> Iterator[Conce
         yield Concern(Consequence.NOTE.value, without_motions(assessment))
     for row in assessment.notes:
         yield Concern(row.consequence.value, row_words(row, [row.subject]))
-    # On the file, not on the project: a workbook of a former version lacks newer cells.
-    for finding in what_is_new(assessment.sheet.book):
-        yield Concern(finding.level.value, finding.text)
     listed = findings(assessment.sheet, assessment.shaking)
     for line in lines(listed, assessment.sheet.addresses):
         if line.finding.level is Level.WARNING:

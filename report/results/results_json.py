@@ -84,7 +84,7 @@ def former_from(content: bytes, path: Path) -> Compared:
     version = document.get("schema_version")
     # True equals 1, and 2.0 equals 2: only a whole number is a version.
     if type(version) is not int or version != SCHEMA_VERSION:
-        stated = f"{version!r:.40}" if version is not None else "missing, as in version 0.1"
+        stated = f"{version!r:.40}" if version is not None else "missing"
         raise InputError(
             f"{path}: schema_version is {stated}; this version reads {SCHEMA_VERSION}; {AGAIN}"
         )

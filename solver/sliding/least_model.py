@@ -7,12 +7,10 @@ code rules. Read `Model`, then `solve`.
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from functools import cached_property, partial
-from typing import Any
 
 from solver.forces import components, friction_demand
 from solver.kernels import cross_slope as kernel
@@ -129,14 +127,6 @@ class Solution:
             return f"{required}; no more complete model applies"
         effect = f"changes no displacement by more than {1e3 * self.next_effect_m:.2g} mm"
         return f"{required}; the model '{self.next_model.title}' {effect}"
-
-    def __getattr__(self, name: str) -> Any:
-        """Return a value by its name of 0.2, which this version still knows."""
-        if name not in ("rung", "next_rung"):
-            raise AttributeError(name)
-        now = name.replace("rung", "model")
-        warnings.warn(f"Solution.{name} is Solution.{now} now", DeprecationWarning, stacklevel=2)
-        return getattr(self, now)
 
 
 def solve(

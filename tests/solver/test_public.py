@@ -7,7 +7,6 @@ import re
 import subprocess
 import sys
 
-import numpy as np
 import pytest
 
 import report
@@ -93,11 +92,3 @@ def test_kernels_are_loaded_with_the_first_name_and_scipy_is_not():
         "assert not {'scipy.integrate', 'scipy.stats', 'pandas', 'xarray'} & sys.modules.keys()"
     )
     subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
-
-
-def test_names_of_the_former_version_are_known_with_a_warning():
-    with pytest.warns(DeprecationWarning, match="solver.Model"):
-        assert solver.Rung is solver.Model
-    solution = solver.solve(solver.scene(np.zeros(3), 0.01, slope_rad=0.0, mu=0.4))
-    with pytest.warns(DeprecationWarning, match="Solution.model"):
-        assert solution.rung is solution.model

@@ -5,7 +5,7 @@ Never uses positions or styles, which users change. `cells` converts the content
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 
 from openpyxl.utils import get_column_letter
@@ -279,7 +279,7 @@ def cell_as_column(
     if entry.kind not in (int, float):
         check_uncovered(book, position)
         return FieldColumn(number=position.column, unit="", si=1.0, heading=position)
-    named = _named(book, map(section.unit_name, _fields(section, entry)))
+    named = _named(book, section.unit_name(entry.name))
     at = named or replace(position, column=position.column + 1)
     check_uncovered(book, position, at)
     unit, si = unit_size(entry, found_at(book, at).shown.strip(), at.address)
@@ -288,46 +288,39 @@ def cell_as_column(
 
 def added_later(book: OpenBook, section: SheetSection) -> tuple[Entry, ...]:
     """Return the fields that a block lacks because its workbook is of a version before them."""
-    # A workbook that has some of those that came together has lost the others.
-    groups = (
-        [entry for entry in entries(section.model) if (section.key, entry.name) in added]
-        for added in layout.ADDED
+    return tuple(
+        entry
+        for entry in entries(section.model)
+        if (section.key, entry.name) in layout.ADDED and not _position(book, section, entry)
     )
-    return tuple(entry for group in groups if not _has_any(book, section, group) for entry in group)
-
-
-def _has_any(book: OpenBook, section: SheetSection, fields: Sequence[Entry]) -> bool:
-    return any(_position(book, section, entry) for entry in fields)
 
 
 def is_absent(book: OpenBook, section: SheetSection) -> bool:
     """Whether a workbook has neither names nor labels of a section."""
     if section.is_table:
         return sheet_titled(book, section.sheet) is None and table_area(book, section) is None
-    return not _has_any(book, section, entries(section.model))
+    return not any(_position(book, section, entry) for entry in entries(section.model))
 
 
-def _fields(section: SheetSection, entry: Entry) -> tuple[str, ...]:
-    return entry.name, *layout.FIELDS.get((section.key, entry.name), ())
-
-
-def _named(book: OpenBook, names: Iterable[str]) -> CellPosition | None:
-    """Return the first of named ranges that is a single cell."""
-    for title, (left, top, *end) in filter(None, (area_named(book.book, name) for name in names)):
-        if [left, top] == end:
-            return CellPosition(title, top, left)
-    return None
+def _named(book: OpenBook, name: str) -> CellPosition | None:
+    """Return a named range that is a single cell."""
+    area = area_named(book.book, name)
+    if area is None:
+        return None
+    title, (left, top, *end) = area
+    return CellPosition(title, top, left) if [left, top] == end else None
 
 
 def _position(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition | None:
-    return _found(book, section, _fields(section, entry), labels_of(section, entry))
+    return _found(book, section, entry.name, labels_of(section, entry))
 
 
 def _found(
-    book: OpenBook, section: SheetSection, fields: Iterable[str], wanted: Set[str]
+    book: OpenBook, section: SheetSection, field: str, wanted: Set[str]
 ) -> CellPosition | None:
-    """Return the cell that has the name of one of some fields, or else is beside a label."""
-    if named := _named(book, map(section.cell_name, fields)):
+    """Return the cell that has the name of a field, or else is beside one of some labels."""
+    named = _named(book, section.cell_name(field))
+    if named:
         return named
     places = (position for position, label in _labels(book, section) if label in wanted)
     at = next(places, None)
@@ -339,15 +332,14 @@ def gone_cells(
 ) -> Iterator[tuple[layout.GoneInput, CellPosition]]:
     """Yield the cells that a block of an earlier workbook has for inputs that are no more."""
     for gone in layout.GONE.get(section.key, ()):
-        position = _found(book, section, [gone.field], {label_key(gone.label)})
+        position = _found(book, section, gone.field, {label_key(gone.label)})
         if position:
             yield gone, position
 
 
 def _labels(book: OpenBook, section: SheetSection) -> Iterator[tuple[CellPosition, str]]:
-    """Yield what may be a label of a block, from its sheets and the one of earlier workbooks."""
+    """Yield what may be a label of a block, from its sheets."""
     titles = [section.sheet_of(entry.name) for entry in entries(section.model)]
-    earlier = layout.SHEETS.get(section.key, section.sheet)
-    for title in dict.fromkeys((*titles, earlier)):
+    for title in dict.fromkeys(titles):
         if sheet := sheet_titled(book, title):
             yield from labels(book, sheet)

@@ -24,7 +24,6 @@ from report.sheet.schema.choices import (
     decimals,
 )
 from report.sheet.schema.fields import Cell, Frozen, OnSheet, SheetSection, sections_of
-from report.sheet.schema.layout import PROVISIONS
 from report.sheet.schema.motions import (
     BuildingInput,
     Links,
@@ -57,9 +56,9 @@ _KEYS_BY_NAME = {provision_name(key).casefold(): key for key in OVERRIDABLE}
 
 
 def _provision_key(text: str) -> str:
-    """Return the key of a provision given by its name, its key or an earlier key."""
+    """Return the key of a provision given by its name or its key."""
     name = " ".join(text.partition(" [")[0].split()).casefold()
-    return PROVISIONS.get(text, _KEYS_BY_NAME.get(name, text))
+    return _KEYS_BY_NAME.get(name, text)
 
 
 def factors(text: str) -> tuple[float, ...]:

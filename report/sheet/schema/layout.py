@@ -1,6 +1,6 @@
 """Where the template has put the fields and the answers, and how formulas refer to them.
 
-Also labels, keys and sheets of earlier workbooks, which can still be read.
+Also labels and headings of earlier workbooks, which can still be read.
 """
 
 from __future__ import annotations
@@ -136,11 +136,7 @@ FORMER_ANSWERS: Mapping[str, frozenset[str]] = {
     "outlines": frozenset({"twice the area"}),
 }
 
-# Earlier names of a field, which defined names of cells end with.
-FIELDS: Mapping[tuple[str, str], tuple[str, ...]] = {("site", "stories"): ("storeys",)}
-
-# Earlier sheet of a block: its labels are sought there, too, and records of what a confirmation
-# covers name it.
+# Earlier sheet of a block, which records of what a confirmation covers name.
 SHEETS: Mapping[str, str] = {"roof": "Site", "target": "Options"}
 
 # Earlier order of the first fields of a block, in which confirmations are hashed.
@@ -149,31 +145,5 @@ ORDERS: Mapping[str, str] = {
     " structure_height_m roof_height_m edition_name s_ms_g s_m1_g s_d1_g",
 }
 
-# Single cells that earlier workbooks do not have, those of one version together; a workbook
-# without any of a group is of an earlier version.
-ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(
-    frozenset((section, field) for field in fields.split())
-    for section, fields in (
-        ("site", "edition_name s_ms_g s_m1_g s_d1_g hazard hazard_source hazard_date force_factor"
-                 " force_divisor"),
-        ("options", "peer_reviewer peer_license peer_date smaller_events"),
-        ("site", "hazard_report"),
-        ("site", "building_code building_code_year jurisdiction"),
-        ("friction_tests", "report_file"),
-        ("options", "peer_letter"),
-        ("options", "study_years"),
-        ("options", "plan_paper"),
-        ("project", "drawing_confirmed_by drawing_confirmed_date"),
-        ("site", "fire_code_section fire_lane_m"),
-        ("project", "drawing_covered"),
-        ("site", "hazard_covered"),
-        ("friction_tests", "tests_covered"),
-        ("options", "peer_covered"),
-        ("options", "package_edition letter"),
-        ("site", "hazard_printout"),
-    )
-)  # fmt: skip
-
-# Earlier keys of provisions to override, with the present ones: a former workbook has them in its
-# cells.
-PROVISIONS: Mapping[str, str] = {"max_storeys": "max_stories"}
+# Single cells that workbooks of 0.3.0 do not have.
+ADDED: frozenset[tuple[str, str]] = frozenset({("options", "study_years")})

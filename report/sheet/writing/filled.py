@@ -1,6 +1,6 @@
 """Fills cells of a workbook, and is the one way in which a command changes one.
 
-Read `changing`; then `overwritten` for blue cells whose formula is gone, and `what_is_new`.
+Read `changing`; then `overwritten` for blue cells whose formula is gone.
 """
 
 from __future__ import annotations
@@ -17,10 +17,9 @@ from pathlib import Path
 from openpyxl.formula.translate import Translator
 from openpyxl.utils import coordinate_to_tuple
 
-from report.sheet.checking.findings import note
 from report.sheet.reading.archive import OpenBook, book_of, located, open_book
 from report.sheet.reading.cells import Found, plain
-from report.sheet.reading.locate import find_table, is_absent, table_area
+from report.sheet.reading.locate import table_area
 from report.sheet.reading.parts import Formula, Value, changed
 from report.sheet.reading.positions import FRESH, CellPosition, area_named, bounds_of, found_at
 from report.sheet.reading.read import Sheet, read_book
@@ -225,12 +224,12 @@ class Overwritten:
 
 def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
     """Return the blue cells that have lost their formula, by sheet, column and row."""
-    # Of earlier workbooks the column Status has no use.
     lost = [
-        Overwritten(position=position, content=found_at(book, position), title=title)
+        Overwritten(
+            position=position, content=found_at(book, position), title=_title(book, position)
+        )
         for position in _blue(book)
         if not (formula := book.formula(position.sheet, position.cell)) or _BROKEN in formula
-        if (title := _title(book, position)) != "Status"
     ]
     titles = book.book.sheetnames
     lost.sort(key=lambda o: (titles.index(o.position.sheet), o.position.column, o.position.row))
@@ -290,26 +289,3 @@ def _title(book: OpenBook, position: CellPosition) -> str:
     labels = (sheet.cell(row, column).value for column in columns)
     title = next((str(label) for label in labels if isinstance(label, str) and label), "cell")
     return f"{title.removesuffix(' *')}, computed," if position.sheet == "Site" else title
-
-
-MOVE = "Run roofslip new FOLDER and copy your cells into the new workbook"
-
-
-def what_is_new(book: OpenBook) -> Iterator[Finding]:
-    """Yield one note on a workbook of 0.1: its missing parts, and how to gain them."""
-    # Those since compute while they are filled in.
-    if area_named(book.book, _PANEL) is not None:
-        return
-    absent = [section for section in SECTIONS if is_absent(book, section)]
-    titles = {title.casefold() for title in book.book.sheetnames}
-    sheets = dict.fromkeys(s.sheet for s in absent if s.sheet.casefold() not in titles)
-    columns = sum(
-        len(find_table(book, section).absent)
-        for section in SECTIONS
-        if section.is_table and section not in absent
-    )
-    text = (
-        "this workbook is of version 0.1 and is read as it is. It does not compute while it is"
-        f" filled in, and lacks {columns} columns and the sheets {', '.join(sheets)}. {MOVE}"
-    )
-    yield note(Place(SECTIONS[0].key), text)

@@ -29,11 +29,6 @@ BARE = {"arrays": [ARRAY("A1", 0.5, interconnection_n=1.0), WIDE["arrays"][1]]}
 NEAR = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42, height=1.0)
 
 
-@pytest.fixture(autouse=True)
-def _without_a_workbook(monkeypatch):
-    monkeypatch.setattr("report.pages.summary.what_is_new", lambda book: [])
-
-
 CASES = {
     "risk category": (None, {"site": stand_in.site(risk_category="IV", i_e=1.5)}, "Building, risk"),
     "stories": (None, {"site": stand_in.site(stories=7)}, "Building, number of stories: 7"),

@@ -303,8 +303,7 @@ def test_a_later_review_is_offered_anew_and_the_best_remedy_is_not_ng():
     assert best_remedy(beside(x=150.0)) == ()
 
 
-def test_terminal_and_page_name_it_after_the_reasons(monkeypatch):
-    monkeypatch.setattr("report.pages.summary.what_is_new", lambda book: [])
+def test_terminal_and_page_name_it_after_the_reasons():
     given = beside()
     lines = list(summary(given))
     at = next(k for k, line in enumerate(lines) if line.startswith("remedy: "))
