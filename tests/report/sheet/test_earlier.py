@@ -18,7 +18,7 @@ from report.sheet.schema.fields import entries
 from report.sheet.writing.filled import overwritten
 from report.study.read import read_study
 from report.study.schema import StudyInput
-from sheets import edit, make, project, read_workbook, same
+from sheets import edit, make, project, read_workbook, same, type_into
 
 EARLIER = DATA / "0.3.0"
 CONFIRMED = DATA / "c9c3a2cf" / "confirmed"  # the example, with every confirmation on record
