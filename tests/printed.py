@@ -246,7 +246,7 @@ def _close(own: Element, element: Element, lines: list[str]) -> None:
 
 def _words(element: Element) -> str:
     """Return the words of an element; a line break in it ends a line."""
-    text = re.sub(r"[ \t\r\n]+", " ", "".join(_pieces(element)))
+    text = re.sub(r"[ \u00a0\t\r\n]+", " ", "".join(_pieces(element)))
     return "\n".join(line.strip() for line in text.split("\x00"))
 
 

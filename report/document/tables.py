@@ -7,8 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
-from itertools import groupby, islice
+from itertools import groupby
 from operator import itemgetter
 from typing import Any
 
@@ -16,10 +15,8 @@ from markupsafe import Markup
 
 from report.assessment.verdict import Verdict
 from report.entities.shown import Entity, Shown, TableColumn, UnitFormat, shown_by
-from report.text.counts import LONGEST, grouped_by, joined, name_order, ranged
+from report.text.counts import grouped_by, joined, name_order, ranged
 from report.text.units import Unit
-from report.typeset.letters import width_em
-from report.typeset.pdf import pieces
 from solver.model import DefectError
 
 # The format of a table without quantities in two systems of units.
@@ -27,9 +24,8 @@ PLAIN = UnitFormat(us_first=True, none="—")
 
 # Of a column of names.
 MOST_SHARE = 1.9
-# Of the package, as its style sheet has them: width of a text, and type size of its tables.
-TEXT_IN, TYPE_PT = 7.0, 8.5
-_ROUNDING = 1.03  # the renderer sets letters a little wider than they are measured
+# Letters of a word that is never broken, also in the narrow table beside a plan.
+WHOLE_WORD, NARROW_WORD = 16, 8
 # Longer tables may break across pages, with the heading repeated.
 WHOLE_ROWS = 6
 
@@ -58,74 +54,30 @@ class Table:
     rows: tuple[TableRow, ...]
     kind: str = ""
     whole_rows: int = WHOLE_ROWS
-    wide_in: float = TEXT_IN
+    is_narrow: bool = False
 
     @property
     def heads(self) -> tuple[tuple[str, int, str, str], ...]:
         """Headings, with number of columns spanned, alignment and width."""
-        widths = iter(self._widths)
+        whole = sum(column.share for column in self.columns)
         groups = [list(group) for _, group in groupby(self.columns, key=lambda c: c.head)]
         return tuple(
             (
                 group[0].head,
                 len(group),
                 "center" if len(group) > 1 else group[0].align,
-                f"{100.0 * sum(islice(widths, len(group))):.2f}%",
+                # The renderer widens a column to its longest word.
+                f"{100.0 * sum(column.share for column in group) / whole:.2f}%",
             )
             for group in groups
         )
 
     @property
-    def fits(self) -> bool:
-        """Whether no column is narrower than its widest word."""
-        return sum(self._least) <= 1.0
-
-    @property
-    def _widths(self) -> list[float]:
-        """Widths of the columns, of 1 in all: by their shares, but each as wide as its words."""
-        shares = [column.share for column in self.columns]
-        least = self._least if self.fits else [0.0] * len(shares)
-        widened: set[int] = set()
-        while True:
-            others = sum(share for k, share in enumerate(shares) if k not in widened)
-            room = (1.0 - sum(least[k] for k in widened)) / (others or 1.0)
-            more = {k for k, share in enumerate(shares) if room * share < least[k]} - widened
-            if not more:
-                return [least[k] if k in widened else room * x for k, x in enumerate(shares)]
-            widened |= more
-
-    @cached_property
-    def _least(self) -> list[float]:
-        """Least width of each column, of 1 in all: of its widest word with its padding."""
-        words: list[set[str]] = [set() for _ in self.columns]
-        for _, cells in self.body:
-            at = 0
-            for text, _, span, _ in cells:
-                if span == 1:
-                    words[at].update(pieces(text))
-                at += span
-        whole = sum(column.share for column in self.columns)
-        # A mark may hang out of the column before one of words.
-        inner_pt, outer_pt = (9.0, 5.0) if "compact" in self.kind else (11.0, 6.0)
-        least = []
-        for k, (column, own) in enumerate(zip(self.columns, words, strict=True)):
-            padding_pt = inner_pt if k and column.align == "left" else outer_pt
-            # A key stands for a longer name; one more letter is the comma after one.
-            wide_em = max((width_em(word) for word in own if len(word) <= LONGEST + 1), default=0.0)
-            head_em = max(width_em(word, is_bold=True) for word in pieces(column.head))
-            of_words, of_head = (
-                (_ROUNDING * TYPE_PT * em + padding_pt) / (72.0 * self.wide_in)
-                for em in (wide_em, head_em)
-            )
-            # A heading may stand out of its column, but no farther than it does by its share.
-            least.append(max(of_words, min(of_head, column.share / whole)))
-        return least
-
-    @property
     def body(self) -> Sequence[tuple[str, Sequence[tuple[str, str, int, str]]]]:
-        """Rows as style and cells: text, marks after it, columns spanned, alignment."""
+        """Rows as style and cells: text, marks after it, columns spanned, style."""
         aligns = [column.align for column in self.columns]
-        return [(row.kind, _placed(row.cells, aligns)) for row in self.rows]
+        whole = NARROW_WORD if self.is_narrow else WHOLE_WORD
+        return [(row.kind, _placed(row.cells, aligns, whole)) for row in self.rows]
 
     @property
     def hold(self) -> str:
@@ -135,7 +87,7 @@ class Table:
 
 
 def _placed(
-    cells: Sequence[str | Wide], aligns: Sequence[str]
+    cells: Sequence[str | Wide], aligns: Sequence[str], whole_word: int
 ) -> Sequence[tuple[str, str, int, str]]:
     placed, at = [], 0
     for cell in cells:
@@ -145,7 +97,9 @@ def _placed(
             continue
         # Marks after a number hang outside the column, so that the digits stay aligned.
         text = cell.rstrip("†‡") if aligns[at] == "right" else cell
-        placed.append((text, cell[len(text) :], 1, aligns[at]))
+        is_long = aligns[at] == "left" and max(map(len, text.split()), default=0) > whole_word
+        style = f"{aligns[at]} long" if is_long else aligns[at]
+        placed.append((text, cell[len(text) :], 1, style))
         at += 1
     if at != len(aligns):
         raise DefectError(f"a row of {at} columns in a table of {len(aligns)}: {cells[0]}")
@@ -165,7 +119,7 @@ def table_of(
     kind: str = "",
     heads: Mapping[str, str] = {},
     shares: Mapping[str, float] = {},
-    wide_in: float = TEXT_IN,
+    is_narrow: bool = False,
 ) -> Table:
     """Return rows of one entity as a table of the named fields, in that order.
 
@@ -185,7 +139,7 @@ def table_of(
             text = stamp(value) if isinstance(value, Verdict) else value
             cells += shown.cells(text, fmt.none, units[name], mark, show)
         made.append(TableRow(cells=tuple(cells), kind=row.style))
-    return Table(columns=tuple(columns), rows=tuple(made), kind=kind, wide_in=wide_in)
+    return Table(columns=tuple(columns), rows=tuple(made), kind=kind, is_narrow=is_narrow)
 
 
 _Value = Callable[[Any], Any]

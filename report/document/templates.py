@@ -68,7 +68,8 @@ def sentence(folder: Path, name: str, *about: object) -> str:
 def said(folder: Path, path: str, name: str, context: Mapping[str, Any]) -> str:
     """Return what a macro of a template says, as plain text: for tables and the screen."""
     module = _environment(folder).get_template(path).make_module(dict(context))
-    return Markup(getattr(module, name)()).unescape().strip()
+    plain = Markup(getattr(module, name)()).unescape()
+    return plain.replace(units.NO_BREAK, " ").strip()
 
 
 @cache
@@ -81,6 +82,7 @@ def _environment(folder: Path) -> Environment:
         bytecode_cache=_kept(folder / "__pycache__"),
         # A name that is missing is an error: an empty place would go unseen under a seal.
         undefined=StrictUndefined,
+        finalize=_finished,
         autoescape=True,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -104,6 +106,12 @@ def _environment(folder: Path) -> Environment:
         "rows": _rows,
     }
     return environment
+
+
+def _finished(value: Any) -> Any:
+    """Return what is printed of a value: a text with its quantities whole."""
+    # Markup is finished: what a macro returns, or a page.
+    return units.kept(value) if type(value) is str else value
 
 
 def _kept(folder: Path) -> BytecodeCache:

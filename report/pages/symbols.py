@@ -10,6 +10,7 @@ from markupsafe import Markup, escape
 
 from report.assessment.requirement_rows import STANDARD
 from report.pages.parts import PackageData
+from report.text.units import kept
 from report.typeset.equations import symbol
 from solver.rules.hazard import EDITIONS
 
@@ -97,7 +98,7 @@ _NAME = re.compile(rf"\b(?:{'|'.join(name for name in SYMBOLS if '_' in name)})\
 
 def with_symbols(text: str) -> Markup:
     """Return a text with its symbols typeset, such as `S_DS`; the rest is escaped."""
-    plain = str(escape(text))
+    plain = str(escape(kept(text)))
     return Markup(_NAME.sub(lambda match: str(symbol(match[0])), plain))
 
 

@@ -191,6 +191,16 @@ def _in_us_order(both: re.Match[str]) -> str:
     return both[0] if is_us else f"{second} {other} ({first} {unit})"
 
 
+NO_BREAK = "\u00a0"
+# Also of units that have no other system.
+_QUANTITY = re.compile(rf"(?<=\d) (?=(?:{_SYMBOLS}|g|s|Hz|%|s/m|m g|kB|MB)(?![\w/]))")
+
+
+def kept(text: str) -> str:
+    """Return a text in which no line breaks between a number and its unit."""
+    return _QUANTITY.sub(NO_BREAK, text)
+
+
 def ratio(value: float) -> str:
     """Return a demand/capacity ratio, rounded up so that 1.00 never hides a failure."""
     if math.isnan(value):

@@ -2,8 +2,6 @@
 
 Reads only the HTML, `data:` addresses and the fonts and styles in the template folder. Any warning
 in the renderer's log is an internal error.
-
-What no line breaks within: a number and its unit, a date, a short name with a hyphen.
 """
 
 from __future__ import annotations
@@ -11,7 +9,6 @@ from __future__ import annotations
 import datetime as dt
 import gc
 import logging
-import re
 import sys
 import tempfile
 import warnings
@@ -22,46 +19,8 @@ from typing import Any
 from xml.etree import ElementTree
 
 from report.libraries import load_renderer
-from report.text.units import Quantity
 from report.typeset.finish import Attached, finish
 from solver.model import DefectError
-
-# Characters of a name that is kept whole: a longer one may need a second line in its column.
-LONGEST = 8
-
-_UNITS = {unit.symbol for quantity in Quantity for unit in quantity.value}
-_MORE = ("g", "s", "Hz", "%", "s/m", "m g", "kB", "MB")
-# The longest symbol first, or m would be found where m g is meant.
-_QUANTITY = "[−]?\\d[\\d.,]* (?:{})(?![\\w/])".format(
-    "|".join(map(re.escape, sorted({*_UNITS, *_MORE}, key=len, reverse=True)))
-)
-_DATE = r"\d{4}-\d\d-\d\d"
-_NAME = rf"(?=[\w-]{{3,{LONGEST}}}(?![\w-]))[A-Z0-9]\w*(?:-\w+)+"
-# Tags before all else: what is in their attributes stays as it is.
-_PATTERN = re.compile(rf"<[^<>]*>|(?<![\w./-])(?P<whole>{_QUANTITY}|(?:{_DATE}|{_NAME})(?![\w-]))")
-
-
-def unbroken(html: str) -> str:
-    """Return a document in which no line breaks within such a text."""
-    head, body, rest = html.partition("<body")
-    return head + _PATTERN.sub(_kept, body + rest)
-
-
-def _kept(match: re.Match[str]) -> str:
-    whole = match["whole"]
-    return f'<span style="white-space: nowrap">{whole}</span>' if whole else match[0]
-
-
-# After a hyphen before a letter, or a dash.
-_BREAK = re.compile(r"[ \n]+|(?<=\w-)(?=[^\W\d])|(?<=–)")
-_HELD = str.maketrans({" ": "\xa0", "-": "\u2011"})
-
-
-def pieces(text: str) -> Iterator[str]:
-    """Yield the parts of a text between which a line may break."""
-    held = _PATTERN.sub(lambda match: (match["whole"] or "").translate(_HELD), text)
-    return (piece.replace("\u2011", "-") for piece in _BREAK.split(held))
-
 
 _HERE = Path(__file__).resolve().parents[1]
 # In a wheel the folder is inside the package, in a checkout beside it.
@@ -83,7 +42,7 @@ def lay_out(html: str, attached: Sequence[Attached] = ()) -> bytes:
     """
     load_renderer()
     # The renderer would mend broken markup without a word.
-    tree = ElementTree.fromstring(unbroken(html))
+    tree = ElementTree.fromstring(html)
     files = sorted(attached, key=lambda file: file.name)
     with _clean_log(), warnings.catch_warnings(), _no_fonts_left():
         # The renderer leaves the file of its color profile to the garbage collector.

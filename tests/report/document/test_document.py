@@ -1,11 +1,12 @@
 """Tables of a document, which rows are one and what a cell takes; and its templates, compiled."""
 
+from dataclasses import replace
 from operator import itemgetter
 
 import pytest
 
 from report.document.tables import Wide, listed, merged
-from report.document.templates import rendered, state_of
+from report.document.templates import rendered, said, state_of
 from report.entities.shown import text, words
 
 pytestmark = pytest.mark.quick
@@ -21,6 +22,16 @@ COLUMNS = (
 def rows_of(rows, *fields, style=lambda _: "", once=False):
     table = merged(listed(rows, COLUMNS, style=style), *fields, once=once)
     return [row.cells for row in table.rows], [column.share for column in table.columns]
+
+
+def test_a_column_has_its_share_and_only_a_word_longer_than_its_table_has_room_for_is_broken():
+    cells = ("NORTHWEST CORNER, ARRAY 07", "1.5 in", "PENTHOUSE-MECHANICAL")
+    table = listed([cells], COLUMNS)
+    assert [width for *_, width in table.heads] == ["34.78%", "43.48%", "21.74%"]
+    ((_, placed),) = table.body
+    assert [style for *_, style in placed] == ["left", "right", "left long"]
+    ((_, placed),) = replace(table, is_narrow=True).body
+    assert [style for *_, style in placed] == ["left long", "right", "left long"]
 
 
 def test_rows_that_differ_in_names_alone_are_one_and_their_column_is_wider():
@@ -69,3 +80,12 @@ def test_a_template_is_kept_compiled_until_the_state_of_code_changes(tmp_path):
 def test_where_nothing_can_be_kept_a_template_is_compiled(tmp_path):
     (tmp_path / "__pycache__").symlink_to(tmp_path / "gone" / "away")
     assert template(tmp_path) == "1.50"
+
+
+def test_a_page_keeps_a_number_and_its_unit_together_and_the_screen_has_plain_blanks(tmp_path):
+    text = "{% macro words() %}<b>{{ found }}</b>{% endmacro %}{{ words() }}"
+    (tmp_path / "page.html").write_text(text, encoding="utf-8")
+    found = {"found": "12 in (305 mm) < 3 inches, 1.5 g"}
+    page = rendered(tmp_path, "page.html", found)
+    assert page == "<b>12\u00a0in (305\u00a0mm) &lt; 3 inches, 1.5\u00a0g</b>"
+    assert said(tmp_path, "page.html", "words", found) == f"<b>{found['found']}</b>"

@@ -1,8 +1,7 @@
-"""From markup to PDF: what is refused, letters without a font, equations, what stays on a line."""
+"""From markup to PDF: what is refused, letters without a font, equations."""
 
 import io
 import os
-import re
 import subprocess
 import sys
 from xml.etree import ElementTree
@@ -13,7 +12,7 @@ from pypdf import PdfReader
 from commands import refused
 from report.typeset.equations import data_uri, formula, fraction, symbol
 from report.typeset.letters import undrawable
-from report.typeset.pdf import lay_out, unbroken
+from report.typeset.pdf import lay_out
 from sheets import at, make, type_into
 from solver.model import DefectError
 
@@ -153,29 +152,3 @@ def test_a_file_name_that_cannot_be_printed_is_refused_before_the_runs(tmp_path,
     told = refused(command, book)
     assert "the file name: no font of this machine has" in told
     assert "rename the workbook" in told
-
-
-KEPT = re.compile(r'<span style="white-space: nowrap">(.*?)</span>')
-
-
-def kept(text):
-    html = f"<html><head><title>1 in</title></head><body><p>{text}</p></body></html>"
-    made = unbroken(html)
-    assert KEPT.sub(r"\1", made) == html
-    return KEPT.findall(made)
-
-
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("slides at 62.10 in/s (1577.3 mm/s)", ["62.10 in/s", "1577.3 mm/s"]),
-        ("50 % of 81.6 in (2072 mm)", ["50 %", "81.6 in", "2072 mm"]),
-        ("on 2025-11-20, RTU-1 and PV-OLD", ["2025-11-20", "RTU-1", "PV-OLD"]),
-        ("PV1-2012, ASTM G115-10, EX-FT-1", ["PV1-2012", "G115-10", "EX-FT-1"]),
-        ("a name-with-many-parts, LONGER-THAN-EIGHT, two-axis", []),
-        ("7 motions, 3 inches, 2 min, 0.5 inches", []),
-        ('<img src="a 1 in-b" alt="RTU-1"/> and −1.5 g', ["−1.5 g"]),
-    ],
-)
-def test_what_is_kept_on_one_line(text, expected):
-    assert kept(text) == expected
