@@ -15,7 +15,7 @@ from markupsafe import Markup
 
 from report.assessment.verdict import Verdict
 from report.entities.shown import Entity, Shown, TableColumn, UnitFormat, shown_by
-from report.text.counts import grouped_by, joined, name_order, ranged
+from report.text.counts import LONGEST, grouped_by, joined, name_order, ranged
 from report.text.units import Unit
 from solver.model import DefectError
 
@@ -26,6 +26,8 @@ PLAIN = UnitFormat(us_first=True, none="—")
 MOST_SHARE = 1.9
 # Letters of a word that is never broken, also in the narrow table beside a plan.
 WHOLE_WORD, NARROW_WORD = 16, 8
+# Columns at the left that may have names, and letters of one that is given more room.
+NAMED, LONG_NAME = 3, 16
 # Longer tables may break across pages, with the heading repeated.
 WHOLE_ROWS = 6
 
@@ -59,8 +61,9 @@ class Table:
     @property
     def heads(self) -> tuple[tuple[str, int, str, str], ...]:
         """Headings, with number of columns spanned, alignment and width."""
-        whole = sum(column.share for column in self.columns)
-        groups = [list(group) for _, group in groupby(self.columns, key=lambda c: c.head)]
+        columns = [replace(column, share=self._share(k)) for k, column in enumerate(self.columns)]
+        whole = sum(column.share for column in columns)
+        groups = [list(group) for _, group in groupby(columns, key=lambda c: c.head)]
         return tuple(
             (
                 group[0].head,
@@ -71,6 +74,18 @@ class Table:
             )
             for group in groups
         )
+
+    def _share(self, k: int) -> float:
+        """Return the share of a column: more where it has long names, for two lines of each."""
+        share = self.columns[k].share
+        whole = (row for row in self.rows if not any(type(cell) is Wide for cell in row.cells))
+        cells = [str(row.cells[k]) for row in whole]
+        longest = max(map(len, cells), default=0)
+        # Names are in the first columns; what is longer than any name is a sentence.
+        is_named = k < NAMED and self.columns[k].align == "left"
+        if not is_named or not LONG_NAME < longest <= 2 * LONGEST:
+            return share
+        return max(share, 0.055 * longest)
 
     @property
     def body(self) -> Sequence[tuple[str, Sequence[tuple[str, str, int, str]]]]:

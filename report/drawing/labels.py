@@ -17,7 +17,7 @@ from report.assessment.project import Assessment
 from report.assessment.routes import NOT_PERMITTED
 from report.drawing.items import Mark, width_in
 from report.drawing.placer import Frame, centered
-from report.drawing.sheet import COLUMN_IN, LINE_IN, PAD_IN, PlanSheet, PlanSize, text_size
+from report.drawing.sheet import LINE_IN, PAD_IN, PlanSheet, PlanSize, text_size
 from report.entities.shown import UnitFormat
 from report.sheet.schema.choices import ObjectKind
 from report.sheet.schema.scene import RoofObject
@@ -28,7 +28,6 @@ from report.text.units import Quantity, measured, no_less, number, pair
 ROW_IN = 0.175  # of a table of the package
 _IDS_IN, _FROM_IN, _TO_IN = 0.48, 0.22, 0.48  # width of words in columns of the tables
 _AROUND_ARRAYS_IN, _AROUND_SCHEDULE_IN = 1.05, 0.62  # captions, headings, notes and margins
-_KEY_ROW_IN, _KEY_COLUMN_IN, _AROUND_KEY_IN = 0.15, 2.7, 0.25  # of the key to names
 _BELOW_IN = 0.75  # by which columns may be taller than the plan: the legend and the caption
 
 
@@ -74,29 +73,19 @@ class Schedule(NamedTuple):
         return self.has_arrays and sum(self.rows) == len(assessment.clearances)
 
 
-def key_tall(assessment: Assessment, size: PlanSize) -> float:
-    """Return the height of the key to the names below a plan on a large sheet [in]."""
-    data = assessment.project
-    ids = [*(row.id for row in data.arrays), *(row.id for row in data.objects)]
-    keys = data.names.keys.keys() & ids
-    columns = math.floor((size.wide + size.columns * COLUMN_IN) / _KEY_COLUMN_IN)
-    return _AROUND_KEY_IN + _KEY_ROW_IN * math.ceil(len(keys) / columns) if keys else 0.0
-
-
 def beside(assessment: Assessment, arrays: Sequence[AlikeArrays], size: PlanSize) -> Schedule:
     """Return what has room beside a plan."""
     room = size.tall + _BELOW_IN
-    printed = assessment.project.names
     arrays_tall = _AROUND_ARRAYS_IN
-    arrays_tall += ROW_IN * sum(_lines(printed(row.ids), _IDS_IN) for row in arrays)
+    arrays_tall += ROW_IN * sum(_lines(row.ids, _IDS_IN) for row in arrays)
     has_arrays = size.columns > 0 and arrays_tall <= room
     if has_arrays:
         room -= arrays_tall
     tall = [
         ROW_IN
         * max(
-            _lines(printed(gap.clearance.array), _FROM_IN),
-            _lines(printed(gap.clearance.object), _TO_IN),
+            _lines(gap.clearance.array, _FROM_IN),
+            _lines(gap.clearance.object, _TO_IN),
         )
         for gap in assessment.clearances
     ]
@@ -121,13 +110,14 @@ def label_edges(plan: PlanSheet, extent: Rectangle) -> None:
     """Write the name and height of each edge along it, outside of the roof."""
     middle = plan.paper.frame(extent).middle
     for item in plan.edges:
-        shape, words = plan.shapes[item.id], _edge_words(plan, item)
+        shape, name = plan.shapes[item.id], " ".join(plan.name_lines(item.id))
+        words = _edge_words(plan, item, name)
         if not isinstance(shape, Rectangle):
-            plan.name_beside(plan.room(item.id), words)
+            plan.name_beside(plan.room(item.id), [words])
             continue
         frame = plan.paper.frame(shape)
         if width_in(words) > max(frame.wide, frame.tall) or not plan.size.is_full:
-            words = plan.printed(item.id)
+            words = name
         label, is_upright = along_strip(frame, middle, width_in(words))
         x, y = label.middle
         base = (x + _BASE_IN, y) if is_upright else (x, y - _BASE_IN)
@@ -145,14 +135,12 @@ def along_strip(frame: Frame, middle: Point, wide: float) -> tuple[Frame, bool]:
     return centered(x, y, wide, LINE_IN), False
 
 
-def _edge_words(plan: PlanSheet, item: RoofObject) -> str:
+def _edge_words(plan: PlanSheet, item: RoofObject, name: str) -> str:
     if item.kind is ObjectKind.EDGE_WITHOUT_PARAPET:
-        return f"{plan.printed(item.id)}: no parapet"
+        return f"{name}: no parapet"
     height = math.nan if item.height_m is None else item.height_m
     note = parapet_note(plan.assessment, item)
-    return (
-        f"{plan.printed(item.id)}: parapet {pair(height, Quantity.SIZE, plan.fmt.us_first)}{note}"
-    )
+    return f"{name}: parapet {pair(height, Quantity.SIZE, plan.fmt.us_first)}{note}"
 
 
 def reserve_name(plan: PlanSheet, array: ArrayAssessment) -> Frame | None:
@@ -198,10 +186,10 @@ def label_array(plan: PlanSheet, array: ArrayAssessment, name: Frame) -> None:
     else:
         lines = []
         if frame.wide < name.wide or frame.tall < name.tall:
-            plan.name_beside(frame, plan.printed(array.id))
+            plan.name_beside(frame, shown[-1])
         else:
             plan.paper.placer.take(name)
-            plan.paper.label(name, [plan.printed(array.id)], first_bold=True)
+            plan.paper.label(name, shown[-1], first_bold=True)
     if len(lines) < min(3, len(shown[0])):
         plan.crowded.append(array.id)
 
@@ -226,10 +214,10 @@ def _write(
 
 def _array_labels(plan: PlanSheet, array: ArrayAssessment) -> Iterator[list[str]]:
     """Yield the lines of an array's label, then fewer where there is less room."""
-    name, fmt, says = plan.printed(array.id), plan.fmt, [plan.fmt.short]
+    name, fmt, says = plan.name_lines(array.id), plan.fmt, [plan.fmt.short]
     if plan.designs:
-        yield [name, f"Δ {plan.designs[array.id]}"]
-        yield [name]
+        yield [*name, f"Δ {plan.designs[array.id]}"]
+        yield [*name]
         return
     if plan.size.is_full:
         says.insert(0, fmt.both)
@@ -239,16 +227,16 @@ def _array_labels(plan: PlanSheet, array: ArrayAssessment) -> Iterator[list[str]
     if plan.size.is_full:
         size = f"{size_words(array.array.shape, fmt)} {fmt.units(Quantity.PLAN)[0].symbol}"
         slope = f"slope {number(math.degrees(array.array.slope_rad), 2)}°"
-        yield from ([name, words, size, slope] for words in moves)
-        yield from ([name, words, size] for words in moves)
-    yield from ([name, words] for words in moves)
-    yield [name]
+        yield from ([*name, words, size, slope] for words in moves)
+        yield from ([*name, words, size] for words in moves)
+    yield from ([*name, words] for words in moves)
+    yield [*name]
 
 
 def name_spot(plan: PlanSheet, item: RoofObject) -> Frame | None:
     """Return where the name of an object fits in the middle of it, if it does."""
     frame = plan.room(item.id)
-    wide, tall = text_size([plan.printed(item.id)])
+    wide, tall = text_size(plan.name_lines(item.id))
     is_room = wide < frame.wide and tall < frame.tall
     return centered(*frame.middle, wide, tall) if is_room else None
 
@@ -256,14 +244,14 @@ def name_spot(plan: PlanSheet, item: RoofObject) -> Frame | None:
 def label_object(plan: PlanSheet, item: RoofObject) -> None:
     """Name an object inside of it, or beside it with a leader."""
     frame = plan.room(item.id)
-    words = plan.printed(item.id)
-    wide, tall = text_size([words])
+    lines = plan.name_lines(item.id)
+    wide, tall = text_size(lines)
     label = plan.paper.placer.place(wide, tall, frame.middle, _inner(frame))
     if label is None:
-        plan.name_beside(frame, words)
+        plan.name_beside(frame, lines)
         return
     plan.paper.box(Mark.BACKING, label)
-    plan.paper.label(label, [words])
+    plan.paper.label(label, lines)
 
 
 def _inner(frame: Frame) -> Frame:

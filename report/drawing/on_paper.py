@@ -18,7 +18,6 @@ from report.drawing.labels import (
     Schedule,
     alike_arrays,
     beside,
-    key_tall,
     label_array,
     label_edges,
     label_object,
@@ -30,6 +29,7 @@ from report.drawing.plan import outlines
 from report.drawing.sheet import (
     A3,
     A4,
+    COLUMN_IN,
     LETTER,
     LINE_IN,
     TABLOID,
@@ -162,6 +162,10 @@ def plan_on_paper(
     return plan
 
 
+# Longest name that a table beside a plan has room for: with longer ones it follows the plan.
+BESIDE_LETTERS = 12
+
+
 class PrintedPlan(NamedTuple):
     """The plan, its legend, the tables beside it, and what has no room for a label."""
 
@@ -177,7 +181,9 @@ def printed_plan(assessment: Assessment) -> PrintedPlan:
     arrays = alike_arrays(assessment, unit_format(assessment))
     schedules = {size: beside(assessment, arrays, size) for size in _sizes(assessment)}
     # A plan whose schedule has no room beside it need not be drawn.
-    roomy = [size for size, rows in schedules.items() if not size.sheet or rows.is_all(assessment)]
+    roomy = [
+        size for size, rows in schedules.items() if not size.columns or rows.is_all(assessment)
+    ]
     # The last is taken as it is: there is no larger paper.
     for size in roomy or list(schedules)[-1:]:
         sheet = plan_on_paper(assessment, size)
@@ -189,7 +195,11 @@ def printed_plan(assessment: Assessment) -> PrintedPlan:
 def _sizes(assessment: Assessment) -> Sequence[PlanSize]:
     """Return the sizes on the paper asked for, or on any, the smallest first."""
     small, large = (A4, A3) if assessment.project.is_on_a4 else (LETTER, TABLOID)
-    large = tuple(replace(size, tall=size.tall - key_tall(assessment, size)) for size in large)
+    data = assessment.project
+    ids = (*(array.id for array in data.arrays), *(item.id for item in data.objects))
+    if max(map(len, ids)) > BESIDE_LETTERS:
+        one = large[0]
+        large = (replace(one, wide=one.wide + one.columns * COLUMN_IN, columns=0),)
     return {
         PlanPaper.BY_SIZE: (small, *large),
         **dict.fromkeys((PlanPaper.LETTER, PlanPaper.A4), (small,)),

@@ -6,7 +6,7 @@ Read `report.drawing.on_paper` first.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import product
@@ -20,6 +20,7 @@ from report.drawing.placer import Frame, Placer, centered
 from report.entities.shown import UnitFormat
 from report.sheet.schema.scene import RoofObject
 from report.sheet.schema.shapes import Point, Rectangle, Shape, room, sides
+from report.text.counts import name_lines
 from report.text.units import LENGTHS
 from solver.model import INCH_M
 
@@ -236,10 +237,9 @@ class PlanSheet:
         """The units of the plan."""
         return unit_format(self.assessment)
 
-    @cached_property
-    def printed(self) -> Callable[[str], str]:
-        """How the names of arrays and objects are printed."""
-        return tick_text if self.size.is_screen else self.assessment.project.names
+    def name_lines(self, name: str) -> Sequence[str]:
+        """Return the lines of the name of an array or an object."""
+        return [tick_text(name)] if self.size.is_screen else name_lines(name)
 
     @property
     def envelopes(self) -> Collection[Layer]:
@@ -288,13 +288,13 @@ class PlanSheet:
             self.paper.lines(Mark.LEADER, (start, end))
             self.paper.placer.take_segment(start, end)
 
-    def name_beside(self, frame: Frame, name: str) -> None:
+    def name_beside(self, frame: Frame, lines: Sequence[str]) -> None:
         """Name an array or an object outside of it: on a full plan far from it rather than not."""
-        if self.beside(frame, [name]):
+        if self.beside(frame, lines):
             return
-        self.crowded.append(name)
-        if not self.size.is_full or not self.beside(frame, [name], is_last=True):
-            self.unnamed.append(name)
+        self.crowded.append(" ".join(lines))
+        if not self.size.is_full or not self.beside(frame, lines, is_last=True):
+            self.unnamed.append(" ".join(lines))
 
     def beside(
         self,

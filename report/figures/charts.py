@@ -9,7 +9,7 @@ Friction as tested: runs by velocity, with the laws of the arrays.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import cycle
 from typing import Any
 
@@ -42,17 +42,15 @@ def comparison(
     groups: Sequence[Sequence[ArrayAssessment]],
     us_first: bool,
     others_m: Mapping[str, float] = {},
-    printed: Callable[[str], str] = str,
 ) -> str:
     """Return prescriptive value, floor, PRDs, mean and design value by group of like arrays.
 
-    `others_m` is the design displacement [m] of an array with another input; `printed` gives the
-    names as they are printed.
+    `others_m` is the design displacement [m] of an array with another input.
     """
     first, second = UnitFormat(us_first).units()
     with style():
         height = 1.18 + 0.31 * len(groups)
-        names = [cut(printed(ranged(array.id for array in group)), 32) for group in groups]
+        names = [cut(ranged(array.id for array in group), 32) for group in groups]
         # 0.06 in for each letter of the longest name.
         figure, axes = framed(height, 0.2 + 0.06 * max(map(len, names)), 0.1, 0.48, 0.75)
         for row, group in enumerate(groups):
@@ -146,12 +144,10 @@ def friction_by_velocity(
     arrays: Sequence[Array],
     fits: Mapping[Surface, FittedLaw],
     us_first: bool,
-    printed: Callable[[str], str] = str,
 ) -> str:
     """Return the runs that report a velocity, the laws of the arrays, and fitted laws.
 
-    At least one of `runs` has a velocity; `fits` are drawn as colored lines; `printed` gives the
-    names as they are printed.
+    At least one of `runs` has a velocity; `fits` are drawn as colored lines.
     """
     unit = UnitFormat(us_first).units(Quantity.VELOCITY)[0]
     shown = [run for run in runs if not math.isnan(run.velocity_mps)]
@@ -179,7 +175,7 @@ def friction_by_velocity(
         for (law, ids), line in zip(laws.items(), cycle(LINES)):
             curve = [law.at(velocity) for velocity in v]
             mu = number(law.mu_slow, 3) if law.mu_fast == law.mu_slow else "μ(v)"
-            name = f"{cut(printed(ranged(ids)), 24)}: {mu}"
+            name = f"{cut(ranged(ids), 24)}: {mu}"
             axes.plot(v / unit.si, curve, color=INK, linewidth=1.6, linestyle=line, label=name)
         axes.set_xlim(0.0, most / unit.si)
         mus = [*(run.mu for run in shown), *(law.at(s) for law in laws for s in (0.0, most))]

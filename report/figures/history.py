@@ -6,7 +6,7 @@ Paths of an array in plan, one panel per motion, all at one scale.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -29,13 +29,15 @@ from report.figures.base import (
     style,
     svg_text,
 )
-from report.text.counts import cut
+from report.text.counts import LONGEST, cut, name_lines
 from report.text.units import Unit, no_less, number, round_below
 from solver.model import Floats, SlideHistory
 
 # In a history: a panel is 150 pt wide.
 MAX_POINTS = 150
 ROW_IN = 0.76
+# Of the titles: from line to line, and for a letter in bold.
+LINE_IN, LETTER_IN = 0.13, 0.075
 # Of the width of a panel: the times of two panels stand apart.
 TRACE = 0.88
 MOST_LEVELS = 4
@@ -50,22 +52,25 @@ class RunPanel(NamedTuple):
     history: SlideHistory
 
 
-def histories(
-    panels: Sequence[RunPanel], us_first: bool, printed: Callable[[str], str] = str
-) -> str:
-    """Return the relative displacement in the governing run of each panel, PRD marked.
-
-    `printed` gives the names as they are printed.
-    """
+def histories(panels: Sequence[RunPanel], us_first: bool) -> str:
+    """Return the relative displacement in the governing run of each panel, PRD marked."""
     # All panels share one pair of axes, with offsets: one for each would take ten times as long.
     grid = _Grid(panels, UnitFormat(us_first).units()[0])
+    titles = _titles(grid, panels, us_first)
+    grid.above = LINE_IN / ROW_IN * (max(len(lines) for lines, _ in titles) - 1)
     with style():
         # Room for the labels of the levels at the left, and of the times below the last row.
-        across, up = (-0.1 * grid.columns, grid.columns), (-grid.rows - 0.3, 0.0)
-        figure, axes = canvas(ROW_IN * grid.rows + 0.3, across, up)
+        tall = grid.rows * (1.0 + grid.above)
+        across, up = (-0.1 * grid.columns, grid.columns), (-tall - 0.3, 0.0)
+        figure, axes = canvas(ROW_IN * tall + 0.3, across, up)
         _rules(axes, grid, len(panels))
         _traces(axes, grid)
-        _titles(axes, grid, panels, us_first, printed)
+        for index, (lines, prd) in enumerate(titles):
+            top = grid.y(index, grid.high) + 0.07
+            for count, line in enumerate(reversed(lines)):
+                height = top + count * LINE_IN / ROW_IN
+                axes.text(grid.x(index, 0.0), height, line, weight="semibold")
+            axes.text(index % grid.columns + 0.97, top, prd, ha="right")
         return svg_text(figure)
 
 
@@ -88,6 +93,7 @@ class _Grid:
         self.ticks = _levels(float(reached.min()), float(reached.max()) or 1.0)
         self.low, self.high = self.ticks[0], self.ticks[-1]
         self.seconds = max(panel.motion.seconds for panel in panels)
+        self.above = 0.0  # height of all lines of a title but one, in rows
 
     def x(self, index: int, t_s: Any) -> Any:
         """Return the position of times, a number or an array."""
@@ -96,7 +102,7 @@ class _Grid:
     def y(self, index: int, value: Any) -> Any:
         """Return the position of displacements in the unit of the grid, a number or an array."""
         share = (value - self.low) / (self.high - self.low)
-        return -(index // self.columns) - 0.95 + 0.72 * share
+        return -(index // self.columns + 1) * (1.0 + self.above) + 0.05 + 0.72 * share
 
 
 def _levels(low: float, high: float) -> list[float]:
@@ -159,14 +165,11 @@ def _traces(axes: Axes, grid: _Grid) -> None:
 
 
 def _titles(
-    axes: Axes,
-    grid: _Grid,
-    panels: Sequence[RunPanel],
-    us_first: bool,
-    printed: Callable[[str], str],
-) -> None:
+    grid: _Grid, panels: Sequence[RunPanel], us_first: bool
+) -> Sequence[tuple[Sequence[str], str]]:
+    """Return the lines of the title of each panel, and its PRD."""
     show, room_in = UnitFormat(us_first), 0.92 * WIDTH_IN / (1.1 * grid.columns)
-    names = [_name(panel, printed) for panel in panels]
+    names = [_name(panel) for panel in panels]
     peaks = [panel.motion.governing.prd_m for panel in panels]
     prds = [show.both(prd_m, show=no_less) for prd_m in peaks]
 
@@ -176,20 +179,24 @@ def _titles(
     # The second unit of the PRDs gives way to the names, in all panels alike.
     if not all(map(fits, map("".join, names), prds)):
         prds = [show.short(prd_m, show=no_less) for prd_m in peaks]
-    for index, ((array, run), prd) in enumerate(zip(names, prds, strict=True)):
+    titles = []
+    for (array, run), prd in zip(names, prds, strict=True):
         # Then the names of the arrays: motion, orientation and PRD are printed in full.
         room = (n for n in range(len(array), 3, -1) if fits(cut(array, n) + run, prd))
-        top = grid.y(index, grid.high) + 0.07
-        axes.text(grid.x(index, 0.0), top, cut(array, next(room, 4)) + run, weight="semibold")
-        axes.text(index % grid.columns + 0.97, top, prd, ha="right")
+        lines = [cut(array, next(room, 4)) + run]
+        if not fits(lines[0], prd):
+            letters = int((room_in - width_in(prd)) / LETTER_IN)
+            lines = name_lines(cut(array, LONGEST) + run, letters)
+        titles.append((lines, prd))
+    return titles
 
 
-def _name(panel: RunPanel, printed: Callable[[str], str]) -> tuple[str, str]:
+def _name(panel: RunPanel) -> tuple[str, str]:
     """Return the array of a panel, if it names one, and its motion with the orientation."""
     motion, way = panel.motion.motion, panel.motion.governing.orientation.name
     # With its component where the motion has two.
-    run = f"{printed(motion.id)} {way if motion.has_transverse else way[-1]}"
-    return (printed(panel.array), f": {run}") if panel.array else ("", run)
+    run = f"{motion.id} {way if motion.has_transverse else way[-1]}"
+    return (panel.array, f": {run}") if panel.array else ("", run)
 
 
 def envelope(t: Floats, u: Floats, maximum: int = MAX_POINTS) -> tuple[Floats, Floats]:
@@ -220,25 +227,27 @@ def hodographs(
     motions: Sequence[MotionRun],
     followed: Sequence[SlideHistory],
     us_first: bool,
-    printed: Callable[[str], str] = str,
 ) -> str:
     """Return the path in plan of the governing run of each motion, PRD marked, with a scale bar.
 
-    `followed` are the histories of these runs; `printed` gives the names as they are printed.
+    `followed` are the histories of these runs.
     """
     paths = [path_of(history) for history in followed]
     panel = PanelScale.around(paths)
     columns = min(COLUMNS, len(paths))
     rows = math.ceil(len(paths) / columns)
-    tall = rows * (panel.tall_in + PANEL_TITLE_IN) + FOOT_IN
+    titles = [name_lines(run.motion.id, int(panel.wide_in / LETTER_IN)) for run in motions]
+    title_in = PANEL_TITLE_IN + LINE_IN * (max(map(len, titles)) - 1)
+    tall = rows * (panel.tall_in + title_in) + FOOT_IN
     with style():
         figure, axes = canvas(tall, (0.0, WIDTH_IN), (0.0, tall))
-        for index, (run, path) in enumerate(zip(motions, paths, strict=True)):
+        for index, (lines, path) in enumerate(zip(titles, paths, strict=True)):
             left = index % columns * panel.wide_in
-            top = tall - index // columns * (panel.tall_in + PANEL_TITLE_IN)
-            name = printed(run.motion.id)
-            axes.text(left, top - 0.03, name, va="top", weight="semibold")
-            _draw(axes, panel, path, (left, top - PANEL_TITLE_IN))
+            top = tall - index // columns * (panel.tall_in + title_in)
+            for count, line in enumerate(lines):
+                height = top - 0.03 - LINE_IN * count
+                axes.text(left, height, line, va="top", weight="semibold")
+            _draw(axes, panel, path, (left, top - title_in))
         _arrow(axes)
         _scale_bar(axes, panel.m_per_in, us_first)
         return svg_text(figure)

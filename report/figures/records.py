@@ -15,6 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from report.drawing.items import width_in
 from report.figures.base import (
     ACCENT,
     GRAY,
@@ -29,6 +30,7 @@ from report.figures.base import (
     svg_text,
 )
 from report.figures.history import envelope
+from report.text.counts import name_lines
 from report.text.formats import shortened
 from report.text.units import G_MPS2, round_below
 from solver.model import Floats, Motion
@@ -132,18 +134,15 @@ def _spectra(axes: Axes, records: Sequence[Record], periods_s: Floats, sa_g: Flo
 _ROW_IN, _TOP_IN, _FOOT_IN = 0.21, 0.22, 0.3
 # In a history; with fewer the peaks stand apart as if the motion were slow.
 _ROW_POINTS = 360
-# Width of the labels of the rows, in columns.
+# Width of the names of the motions, in columns, at least.
 _LABELS = 0.14
 # A bar at most, of the largest peak and of the longest motion; at least 0.32 of them.
 _BAR = 0.8
 _COLUMNS = ("Record", "Transverse", "Vertical")
 
 
-def accelerations(motions: Sequence[Motion], printed: Callable[[str], str] = str) -> str:
-    """Return the scaled accelerations of the motions over time, all at one scale.
-
-    `printed` gives the names as they are printed.
-    """
+def accelerations(motions: Sequence[Motion]) -> str:
+    """Return the scaled accelerations of the motions over time, all at one scale."""
     # All panels share one pair of axes, with offsets: one for each would take ten times as long.
     scaled = [[m.scaled(a) / G_MPS2 for a in (m.ax_mps2, m.ay_mps2, m.az_mps2)] for m in motions]
     reach = max(float(np.abs(a_g).max()) for row in scaled for a_g in row if a_g.size) or 1.0
@@ -151,9 +150,14 @@ def accelerations(motions: Sequence[Motion], printed: Callable[[str], str] = str
     height = _ROW_IN * len(motions) + _TOP_IN + _FOOT_IN
     with style():
         rows = (-len(motions) - _FOOT_IN / _ROW_IN, _TOP_IN / _ROW_IN)
-        figure, axes = canvas(height, (-_LABELS, len(_COLUMNS)), rows)
+        names = [name_lines(motion.id) for motion in motions]
+        widest_in = max(width_in(line) for lines in names for line in lines)
+        labels = max(_LABELS, len(_COLUMNS) * widest_in / (WIDTH_IN - widest_in))
+        figure, axes = canvas(height, (-labels, len(_COLUMNS)), rows)
         _lines(axes, motions, scaled, reach, seconds)
-        _words(axes, [printed(motion.id) for motion in motions], scaled)
+        for row, lines in enumerate(names):
+            axes.text(-labels, -row - 0.5, "\n".join(lines), va="center", linespacing=0.95)
+        _words(axes, scaled)
         _scales(axes, len(motions), reach, seconds)
         return svg_text(figure)
 
@@ -178,11 +182,10 @@ def _lines(
     axes.plot(histories.x, histories.y, color=INK, linewidth=0.4)
 
 
-def _words(axes: Axes, names: Sequence[str], scaled: Sequence[Sequence[Floats]]) -> None:
+def _words(axes: Axes, scaled: Sequence[Sequence[Floats]]) -> None:
     for column, title in enumerate(_COLUMNS):
         axes.text(column, 0.1, title, weight="semibold", va="bottom")
-    for row, (name, components) in enumerate(zip(names, scaled, strict=True)):
-        axes.text(-_LABELS, -row - 0.5, name, va="center")
+    for row, components in enumerate(scaled):
         for column, a_g in enumerate(components):
             if not a_g.size:
                 axes.text(column + 0.47, -row - 0.5, "none", va="center", ha="center")

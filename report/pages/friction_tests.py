@@ -69,7 +69,7 @@ def drawings(package: PackageData) -> Sequence[str]:
         return ()
     runs = [run for series in tested(data) for run in series.runs]
     fits = {series.surface: fit for series, fit in _fits(package) if fit.is_determined}
-    return (friction_by_velocity(runs, data.arrays, fits, package.fmt.us_first, data.names),)
+    return (friction_by_velocity(runs, data.arrays, fits, package.fmt.us_first),)
 
 
 def _n_drawn(data: ProjectInput) -> int:

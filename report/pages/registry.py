@@ -32,7 +32,7 @@ from report.pages import (
 )
 from report.pages.parts import PackageData
 from report.sheet.schema.choices import PackageEdition
-from report.text.counts import Names, ranged
+from report.text.counts import ranged
 from solver.model import SlideHistory
 
 Content = Mapping[str, Any]
@@ -175,7 +175,6 @@ def draw_assessment(package: PackageData) -> Drawings:
     from report.figures.plan import array_section
 
     us_first, assessment = package.fmt.us_first, package.assessment
-    names = package.data.names
     printed = printed_plan(assessment)
     drawings = {
         "inputs-friction": friction_tests.drawings(package),
@@ -186,7 +185,7 @@ def draw_assessment(package: PackageData) -> Drawings:
     return drawings | {
         "method-motion": [array_section(package.governing.array, us_first)],
         "motions-list": [
-            records.accelerations(some, names)
+            records.accelerations(some)
             for some in _in_parts(assessment.shaking.motions, ACCELERATION_ROWS)
         ],
     }
@@ -199,23 +198,23 @@ def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
 
     if not package.assessment.has_motions:
         return {}
-    us_first, names = package.fmt.us_first, package.data.names
+    us_first = package.fmt.us_first
     roof = [part for part in shown.spectra if not part.is_ground]
     ground = [part for part in shown.spectra if part.is_ground]
     runs = list(zip(package.assessment.alike, shown.histories, strict=True))
     others_m = {case.array.id: case.array.design_m for case in shown.cases}
     drawings: dict[str, Sequence[Any]] = {
         "comparison": [
-            comparison(some, us_first, others_m, names)
+            comparison(some, us_first, others_m)
             for some in _in_parts(package.assessment.alike, CHART_ROWS)
         ],
         "motions-spectra": [spectra(parts) for parts in ((roof, ground) if ground else (roof,))],
-        "results": list(_governing(runs, us_first, names)),
+        "results": list(_governing(runs, us_first)),
     }
     # Only the complete edition has this part: the other draws the governing runs alone.
     if "histories" in package.numbers:
         drawings["histories"] = [
-            list(_histories(group[0], followed, us_first, names)) for group, followed in runs
+            list(_histories(group[0], followed, us_first)) for group, followed in runs
         ]
     return drawings
 
@@ -223,7 +222,6 @@ def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
 def _governing(
     runs: Sequence[tuple[Sequence[ArrayAssessment], Sequence[SlideHistory]]],
     us_first: bool,
-    names: Names,
 ) -> Iterator[str]:
     """Yield the histories of the governing runs, a panel for each group of arrays."""
     from report.figures.history import RunPanel, histories
@@ -236,16 +234,16 @@ def _governing(
         if motion is group[0].worst
     ]
     for some in _in_parts(panels, PANELS):
-        yield histories(some, us_first, names)
+        yield histories(some, us_first)
 
 
 def _histories(
-    array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool, names: Names
+    array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool
 ) -> Iterator[tuple[str, str]]:
     from report.figures.history import RunPanel, histories, hodographs
 
     runs = zip(_in_parts(array.motions, PANELS), _in_parts(followed, PANELS), strict=True)
     for some, paths in runs:
         panels = [RunPanel("", *run) for run in zip(some, paths, strict=True)]
-        paths_in_plan = hodographs(some, paths, us_first, names)
-        yield histories(panels, us_first, names), paths_in_plan
+        paths_in_plan = hodographs(some, paths, us_first)
+        yield histories(panels, us_first), paths_in_plan

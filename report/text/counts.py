@@ -1,6 +1,6 @@
 """Counts and lists in sentences: counts are spelled out up to nine, in digits beyond.
 
-Long names of arrays, objects and motions, and the keys that a package prints for them.
+Long names of arrays, objects and motions, in lines.
 
 Greek letters for their names (the solver writes `mu`, a page prints μ); superscripts.
 
@@ -14,14 +14,11 @@ import os
 import re
 import shlex
 import sys
+import textwrap
 import unicodedata
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import chain, count
 from pathlib import Path
 from typing import Any, TypeVar
-
-from markupsafe import escape
 
 _Item = TypeVar("_Item")
 _Key = TypeVar("_Key", bound=Hashable)
@@ -98,83 +95,13 @@ def named(names: Sequence[str], noun: str) -> str:
     return f"{noun}{'' if len(names) == 1 else 's'} {ranged(names)}"
 
 
-# Characters of a name that is printed as it is.
-LONGEST = 12
-
-# A name within a longer word or a path is another name.
-_BEFORE, _AFTER = r"(?<![\w/\\.-])", r"(?![\w/\\]|[.-]\w)"
-# Before a key that stands for a name: `[1]` as somebody typed it has none. No text has a NUL.
-_MARK = "\0"
-_LISTED = re.compile(r"\0\[\d+\](?:, \0\[\d+\])*")
-# What is printed as it was entered, with all within; and what is no text.
-_KEPT = r"""<(\w+)[^>]*\stranslate="no"[^>]*>.*?</\1>|<[^>]*>"""
+# Letters of a name on one line of a drawing or a chart.
+LONGEST = 24
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Names:
-    """Prints the names of a project: a long one by its key, such as `[3]`."""
-
-    keys: Mapping[str, str]
-
-    @classmethod
-    def of(cls, *kinds: Iterable[str]) -> Names:
-        """Return the keys of names of several kinds."""
-        # Names that count on have keys that count on, so that a range of names is one of keys: of
-        # names with one stem all have a key, or none.
-        rows = [sorted(map(name_order, dict.fromkeys(names))) for names in kinds]
-        long = {
-            (at, row[0]) for at, kind in enumerate(rows) for row in kind if len(row[2]) > LONGEST
-        }
-        keyed = [row[2] for at, kind in enumerate(rows) for row in kind if (at, row[0]) in long]
-        keys = {row[2] for row in chain(*rows)}
-        # An array may be called [1].
-        free = (key for number in count(1) if (key := f"[{number}]") not in keys)
-        return cls(keys=dict(zip(dict.fromkeys(keyed), free, strict=False)))
-
-    @property
-    def _written(self) -> Mapping[str, str]:
-        """The keys of the names, also as they begin a sentence."""
-        return {**{capitalized(name): key for name, key in self.keys.items()}, **self.keys}
-
-    def __call__(self, text: str) -> str:
-        """Return a text with the keys of the names in it."""
-        keys = self._written
-        if not keys:
-            return text
-        any_of = _any_of(keys)
-        return _ranged_keys(re.compile(any_of).sub(lambda match: _MARK + keys[match[0]], text))
-
-    def in_html(self, html: str) -> str:
-        """Return a document with the keys of the names in its texts.
-
-        What is marked `translate="no"` is left as it is.
-        """
-        if not self.keys:
-            return html
-        keys = {str(escape(name)): _MARK + key for name, key in self._written.items()}
-        head, body, rest = html.partition("<body")
-        any_of = rf"{_KEPT}|{_any_of(keys)}"
-        pattern = re.compile(any_of, re.DOTALL)
-        body = pattern.sub(lambda match: keys.get(match[0], match[0]), body + rest)
-        return head + _ranged_keys(body)
-
-
-def _ranged_keys(text: str) -> str:
-    """Return a text without the marks; three or more keys of a list that count on are a range."""
-
-    # Names that end in words are no range, as "A1 to A6" is; their keys are.
-    def shorter(keys: re.Match[str]) -> str:
-        numbers = re.findall(r"\d+", keys[0])
-        return re.sub(r"\d+", r"[\g<0>]", ranged(numbers)) if len(numbers) > 2 else keys[0]
-
-    return _LISTED.sub(shorter, text).replace(_MARK, "")
-
-
-def _any_of(names: Iterable[str]) -> str:
-    """Return a pattern for the longest of some names."""
-    # A name may begin with another one.
-    longest_first = sorted(names, key=len, reverse=True)
-    return f"{_BEFORE}(?:{'|'.join(map(re.escape, longest_first))}){_AFTER}"
+def name_lines(name: str, longest: int = LONGEST) -> list[str]:
+    """Return the lines of a name: one, or as many as a long one needs."""
+    return textwrap.wrap(name, longest)
 
 
 # Control characters, those that separate lines or change the direction of a text, and what XML

@@ -34,7 +34,6 @@ from report.sheet.schema.motions import (
 from report.sheet.schema.project import FrictionTestRow, FrictionTests, Project, Revision, Site
 from report.sheet.schema.scene import ROOF, Array, Clearance, DrawingLayer, Roof, RoofObject, Vertex
 from report.sheet.schema.shapes import Point, ring
-from report.text.counts import Names
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, OVERRIDABLE
 
 # Most smaller events whose displacements are added.
@@ -292,12 +291,6 @@ class ProjectInput(Frozen):
         if paper is PlanPaper.BY_SIZE:
             return not self.us_first
         return paper in (PlanPaper.A4, PlanPaper.A3)
-
-    @property
-    def names(self) -> Names:
-        """How a package prints the names of arrays, objects and motions."""
-        kinds = (self.arrays, self.objects, self.motions)
-        return Names.of(*([row.id for row in rows] for rows in kinds))
 
     def with_outdated(self, sheets: Mapping[str, str]) -> ProjectInput:
         """Return the same with the sheets that a confirmation does not cover, by its section."""

@@ -24,10 +24,14 @@ def rows_of(rows, *fields, style=lambda _: "", once=False):
     return [row.cells for row in table.rows], [column.share for column in table.columns]
 
 
-def test_a_column_has_its_share_and_only_a_word_longer_than_its_table_has_room_for_is_broken():
+def test_a_column_has_its_share_or_more_and_only_a_word_too_long_for_its_table_is_broken():
     cells = ("NORTHWEST CORNER, ARRAY 07", "1.5 in", "PENTHOUSE-MECHANICAL")
     table = listed([cells], COLUMNS)
-    assert [width for *_, width in table.heads] == ["34.78%", "43.48%", "21.74%"]
+    short = listed([("A1", "1.5 in", "east")], COLUMNS)
+    assert [width for *_, width in short.heads] == ["34.78%", "43.48%", "21.74%"]
+    # Long names have more room, beside a row that spans columns as well.
+    wide = listed([cells, ("B1", Wide("none", 2), "")], COLUMNS)
+    assert [width for *_, width in wide.heads] == ["40.51%", "28.33%", "31.16%"]
     ((_, placed),) = table.body
     assert [style for *_, style in placed] == ["left", "right", "left long"]
     ((_, placed),) = replace(table, is_narrow=True).body

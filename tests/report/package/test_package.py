@@ -23,6 +23,7 @@ from report.package.html import pages as written
 from report.package.html import part
 from report.pages.registry import draw_assessment
 from report.sheet.schema.choices import PlanPaper
+from report.text.counts import name_lines
 from report.typeset.pdf import TEMPLATES, lay_out
 
 
@@ -318,23 +319,18 @@ def long():
 
 
 @pytest.mark.nightly
-def test_the_plan_names_everything_and_long_names_stand_in_the_keys_alone(long):
-    page, names = printed(long, "plan"), long.data.names.keys
+def test_long_names_are_printed_as_they_are_on_the_plan_in_lines(long):
     on = printed_plan(long.assessment)
-    shown = re.findall(r"<text[^>]*>([^<]*)</text>", paper_svg(on.plan))
+    shown = Counter(re.findall(r"<text[^>]*>([^<]*)</text>", paper_svg(on.plan)))
     rows = (*long.data.arrays, *long.data.objects)
     assert len(rows) == 24
-    for row in rows:
-        assert len(row.id) == 40
-        assert names[row.id] in shown
-        assert " ".join(page.split()).count(f"{names[row.id]} {row.id}") == 1
+    assert {len(row.id) for row in rows} == {40}
+    lines = Counter(line for row in rows for line in name_lines(row.id))
+    assert {line: shown[line] for line in lines} == lines
     assert not on.unnamed
     texts = pages(lay_out(written(long.assessment, support(long.assessment))))
     whole = flat(" ".join(texts))
-    keys = long.data.names.keys
-    assert len(keys) == 31
-    for name, key in keys.items():
-        assert whole.count(name) == whole.count(f"{key} {name}") == 1
+    assert all(row.id in whole for row in (*rows, *long.data.motions))
     short = scenes.twelve(is_long=False)
     count = len(pages(lay_out(written(short.assessment, support(short.assessment)))))
-    assert abs(len(texts) - count) <= 0.1 * count
+    assert len(texts) <= 1.6 * count

@@ -20,7 +20,16 @@ from report.text.amounts import (
     limit_texts,
     shown_in_order,
 )
-from report.text.counts import Names, capitalized, counted, named, quoted, ranged, spelled, trimmed
+from report.text.counts import (
+    capitalized,
+    counted,
+    name_lines,
+    named,
+    quoted,
+    ranged,
+    spelled,
+    trimmed,
+)
 from report.text.formats import csv_text
 from report.text.units import Quantity, digits_down, digits_up, measured, no_less, no_more
 from solver.rules.limit import Limit, Measure
@@ -51,46 +60,11 @@ def test_names_that_count_on_are_a_range_from_three_of_them(names, text):
     assert ranged(names.split()) == text
 
 
-ARRAYS = ["NORTHWEST ROOF 2", "A1", "NORTHWEST ROOF 10", "NORTHWEST ROOF 1"]
-NAMES = Names.of(ARRAYS, ["Kitchen & make-up air", "RTU-1"])
-
-
-def test_long_names_have_keys_by_themselves_in_ranges_and_in_texts_of_a_document():
-    assert Names.of(["twelve chars", "thirteen char"]).keys == {"thirteen char": "[1]"}
-    roofs = {f"NORTHWEST ROOF {k}": f"[{n}]" for n, k in enumerate((1, 2, 10), start=1)}
-    assert NAMES.keys == roofs | {"Kitchen & make-up air": "[4]"}
-    # A key is no name of the project.
-    assert Names.of(["[1]", "a long name of an array"]).keys == {"a long name of an array": "[2]"}
-    assert NAMES("NORTHWEST ROOF 10 to A1") == "[3] to A1"
-    assert NAMES("NORTHWEST ROOF 1: NG, NORTHWEST ROOF 2.") == "[1]: NG, [2]."
-    for other in ("NORTHWEST ROOF 11", "records/NORTHWEST ROOF 1", "NORTHWEST ROOF 1.csv"):
-        assert NAMES(other) == other
-    names = Names.of(["north penthouse", "Roof of the kitchen", "roof of the kitchen"])
-    assert names.keys["Roof of the kitchen"] == "[1]"
-    assert names("North penthouse: NG. Roof of the kitchen: OK") == "[2]: NG. [1]: OK"
-    roofs = [f"roof of bay {word}" for word in ("east", "north", "south", "west")]
-    names = Names.of(roofs)
-    assert names(ranged(roofs)) == "[1] to [4]"
-    assert names(ranged([roofs[0], *roofs[2:]])) == "[1], [3], [4]"
-    assert names.in_html(f"<body><td>{', '.join(roofs)}</td>") == "<body><td>[1] to [4]</td>"
-    html = (
-        "<html><title>Kitchen &amp; make-up air</title><body>"
-        '<h1 id="NORTHWEST ROOF 1" translate="no">NORTHWEST ROOF 1 <b>A1</b></h1>'
-        '<p title="NORTHWEST ROOF 1">NORTHWEST ROOF 1 and Kitchen &amp; make-up air</p></body>'
-    )
-    said = ">NORTHWEST ROOF 1 and Kitchen &amp; make-up air<"
-    assert NAMES.in_html(html) == html.replace(said, ">[1] and [4]<")
-    assert Names.of(["A1"]).in_html(html) is html
-
-
-@pytest.mark.parametrize("count", [3, 12])
-def test_a_range_of_names_is_the_range_of_their_keys(count):
-    # Nine of twelve characters, and others of thirteen.
-    names = [f"UPPER ROOF {k}" for k in range(1, count + 1)]
-    keys = Names.of(["LOWER ROOF EAST 7", *reversed(names)])
-    both = "[2] to [13]" if count == 12 else "UPPER ROOF 1 to UPPER ROOF 3"
-    assert keys(ranged(names)) == both
-    assert keys.keys["LOWER ROOF EAST 7"] == "[1]"
+def test_a_name_has_one_line_up_to_24_letters_and_breaks_between_words_where_it_can():
+    assert name_lines("NORTHWEST CORNER ROOF 01") == ["NORTHWEST CORNER ROOF 01"]
+    words = "NORTHWEST CORNER OF UPPER ROOF, ARRAY 07"
+    assert name_lines(words) == ["NORTHWEST CORNER OF", "UPPER ROOF, ARRAY 07"]
+    assert name_lines("A" * 40) == ["A" * 24, "A" * 16]
 
 
 WIDTHLESS = "\u00ad\u200b\u200c\u200d\u200e\u200f\u2060\u2061\u2062\u2063\u2064\ufeff"
