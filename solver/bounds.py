@@ -1,7 +1,7 @@
 """Physical bounds of numbers that come from outside.
 
 A number beyond them is in another unit, or damaged: it is refused and never computed with. Read
-`Bounds`.
+`PhysicalBounds`.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
-class Bounds:
+class PhysicalBounds:
     """The least and the most that a quantity can be."""
 
     least: float
@@ -28,14 +28,14 @@ class Bounds:
 
 
 # Of a hazard curve at the ground: those of the U.S. Geological Survey have 0.0001 to 7.4 g.
-INTENSITY = Bounds(1e-6, 10.0, "g")
+INTENSITY = PhysicalBounds(1e-6, 10.0, "g")
 # A greater number is no annual rate, and lives of as many events fill the memory.
-ANNUAL_RATE = Bounds(1e-30, 10.0, "a year")
+ANNUAL_RATE = PhysicalBounds(1e-30, 10.0, "a year")
 # Of a target spectrum, at a roof too.
-ORDINATE = Bounds(1e-6, 100.0, "g")
+ORDINATE = PhysicalBounds(1e-6, 100.0, "g")
 # Of a record: more than twice that of any ground, roof or shake table.
-PEAK = Bounds(0.0, 10.0, "g")
+PEAK = PhysicalBounds(0.0, 10.0, "g")
 # Of a record, with a wide margin.
-TIME_STEP = Bounds(1e-6, 1.0, "s")
+TIME_STEP = PhysicalBounds(1e-6, 1.0, "s")
 # From 8 bits for 100 g to 32 bits for a thousandth of 1 g.
-SENSITIVITY = Bounds(0.1, 1e12, "counts per m/s2")
+SENSITIVITY = PhysicalBounds(0.1, 1e12, "counts per m/s2")

@@ -220,7 +220,7 @@ CASES = (*study.CASES[:4], Case(-7.0, 0.05, 1.0), Case(0.0, 0.0, 0.2))
 """Compared with 50 digits; the second and the fourth also with vertical shaking."""
 
 
-class Block(NamedTuple):
+class KnownBlock(NamedTuple):
     """A block whose motion is known to 50 digits."""
 
     name: str
@@ -232,14 +232,14 @@ RANDOM, ROOF = "random records", "records of section 2"
 """The kinds of `rival_errors`."""
 
 
-def _block(name: str, ax: Floats, az: Floats | None, **given: float) -> Block:
+def _block(name: str, ax: Floats, az: Floats | None, **given: float) -> KnownBlock:
     vertical = None if az is None else az.tolist()
     known = {"g_mps2": STANDARD_GRAVITY_MPS2} | given
     exact = reference.slide(ax.tolist(), az_mps2=vertical, **known)
-    return Block(name, {"ax_mps2": ax, "az_mps2": az, "units": "m/s2"} | known, exact)
+    return KnownBlock(name, {"ax_mps2": ax, "az_mps2": az, "units": "m/s2"} | known, exact)
 
 
-def roof_blocks(record: Record) -> Iterator[Block]:
+def roof_blocks(record: Record) -> Iterator[KnownBlock]:
     """Yield `CASES` of a record."""
     ax = record.a_mps2
     for k, case in enumerate(CASES):
@@ -250,7 +250,7 @@ def roof_blocks(record: Record) -> Iterator[Block]:
             yield _block(f"{record.name}, {case}{more}", ax, az, scale=scale, **place)
 
 
-def random_blocks() -> Iterator[Block]:
+def random_blocks() -> Iterator[KnownBlock]:
     """Yield blocks under noise of few samples, which stops and reverses them between samples."""
     rng = np.random.default_rng(2003)
     for k in range(200):
@@ -259,14 +259,14 @@ def random_blocks() -> Iterator[Block]:
         yield _block(f"Random record {k}", ax, az if k % 2 else None, dt_s=0.02, **place)
 
 
-def fifty_digits(blocks: Iterable[Block]) -> Iterator[Check]:
+def fifty_digits(blocks: Iterable[KnownBlock]) -> Iterator[Check]:
     """Compare PRD and residual of the exact method with `reference`."""
     source = "Decimal arithmetic, Eqs. 12-18 of the paper; shares no code with the solver"
     for block in blocks:
         yield from slip_checks("DA-1", source, block.name, block.exact, slide(**block.given))
 
 
-def rival_errors(kinds: Mapping[str, Sequence[Block]]) -> pd.DataFrame:
+def rival_errors(kinds: Mapping[str, Sequence[KnownBlock]]) -> pd.DataFrame:
     """Run every method on every block that it takes, beside `reference`.
 
     Returns

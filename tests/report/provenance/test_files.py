@@ -103,16 +103,16 @@ def test_what_changed_meanwhile_is_an_input_error_and_changes_the_hash(job, tmp_
 
 
 def replacing(monkeypatch, name):
-    """Put other bytes in the place of a file as soon as it was read, each time."""
-    read_bytes = Path.read_bytes
+    """Put another file in the place of one as soon as it is opened, each time."""
 
-    def read(path):
-        content = read_bytes(path)
-        if path.name == name:
-            path.write_bytes(OTHER)
-        return content
+    def opened(path, *mode, **options):
+        file = open(path, *mode, **options)
+        if Path(path).name == name:
+            Path(path).unlink()
+            Path(path).write_bytes(OTHER)
+        return file
 
-    monkeypatch.setattr(Path, "read_bytes", read)
+    monkeypatch.setattr("solver.files.open", opened, raising=False)
 
 
 OTHER = b"another file"
