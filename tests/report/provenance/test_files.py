@@ -106,7 +106,7 @@ def replacing(monkeypatch, name):
     """Put another file in the place of one as soon as it is opened, each time."""
 
     def opened(path, *mode, **options):
-        file = open(path, *mode, **options)
+        file = open(path, *mode, **options)  # noqa: SIM115 - who opens it closes it
         if Path(path).name == name:
             Path(path).unlink()
             Path(path).write_bytes(OTHER)
