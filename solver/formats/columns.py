@@ -35,19 +35,11 @@ def rising(table: Floats) -> list[int]:
 
 def remedy(table: Floats) -> str:
     """Return what would do for a table of two or more columns without headings."""
-    width, columns = table.shape[1], rising(table)
-    heading = "a heading such as time_s,x_g" + ",y_g" * (width > 2)
-    if not columns:
-        return f"give {heading}, or {_ACROSS.format(width)}"
-    for column in columns:
-        if (table[:, column] % 1.0 == 0.0).all():
-            return (
-                f"column {column + 1} counts the lines: delete it (if it is times in ms, give them"
-                " in the first column, as time_ms)"
-            )
-    if columns == [0]:
-        return f"the first rises as times do: give {heading}"
-    if len(columns) > 1:
-        which = " and ".join(str(column + 1) for column in columns)
-        return f"columns {which} rise as times do: put each time and its values on a line"
-    return f"column {columns[0] + 1} rises as times do: put it first, below {heading}"
+    heading = f"a heading such as time_s,x_g{',y_g' * (table.shape[1] > 2)}"
+    if not (columns := rising(table)):
+        return f"give {heading}, or {_ACROSS.format(table.shape[1])}"
+    which = ", ".join(str(column + 1) for column in columns)
+    return (
+        f"times or line numbers rise in column {which}: put each time first on a line with its"
+        f" values, below {heading}; delete line numbers"
+    )

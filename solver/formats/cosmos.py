@@ -8,7 +8,6 @@ California Geological Survey lack the comma between the unit and the format.
 
 from __future__ import annotations
 
-import math
 import re
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
@@ -61,7 +60,7 @@ _UNITS = {2: "g", 4: "cm/s2", 7: "in/s2", 10: "gal", 11: "mg"}
 _RECORD_STEP_S, _SERIES_STEP_MS, _SERIES_LENGTH_S, _PEAK = 34, 62, 63, 64
 
 # The format codes an unknown real number as -999 or thereabouts.
-_UNKNOWN = Stated(value=math.nan, rounding=0.0, index=0)
+_UNKNOWN = Stated()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

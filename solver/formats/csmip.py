@@ -187,7 +187,7 @@ def _step(source: Source, part: range, volume: _Volume, at: int, line: re.Match[
     if line.re is _RATE_LINE:
         # A rate is exact; `.005 SEC` is rounded to its digits.
         step_s = 1.0 / stated.value if stated.value > 0.0 else 0.0
-        return Stated(value=step_s, rounding=0.0, index=at)
+        return Stated(value=step_s, index=at)
     if volume is _ONE:
         return stated
     exact = _real(source, part, volume, _STEP_2)

@@ -97,7 +97,7 @@ def _counts(source: Source) -> MotionFile:
     rate = _number(source, "Sampling Freq(Hz)")
     duration = _number(source, "Duration Time(s)")
     _, memo = _entry(source, "Memo.")
-    dt_s = source.step(Stated(value=1.0 / rate.value, rounding=0.0, index=rate.index))
+    dt_s = source.step(Stated(value=1.0 / rate.value, index=rate.index))
     count = round(duration.value * rate.value)
     block = Block(first=memo + 1, stop=len(source.lines), count=count, promised=duration.index)
     values = free_values(source, block) * _scale(source)

@@ -19,7 +19,6 @@ import numpy as np
 from solver.formats.columns import remedy, rising
 from solver.formats.numbers import DECIMAL_COMMA, NUMBER, field_problems, number_in
 from solver.formats.source import Source
-from solver.formats.times import is_even
 from solver.model import Floats, InputError
 from solver.records.record import is_other_unit, is_raw, raise_any, unit_size
 
@@ -336,28 +335,16 @@ def check_shape(source: Source, start: int, separator: str | None) -> None:
     *middle, (last, left) = others
     widths = {numbers for _, numbers in middle}
     if not is_headed and widths == {width} and left < width:
+        table = across(source, start, separator, width)[:-left].reshape(-1, width)
         raise InputError(
             f"{source.at(last)}: found {left} values after lines of {width}: values across the"
-            f" lines, not in columns; {remedy(full_rows(source, start, separator, width))}"
+            f" lines, not in columns; {remedy(table)}"
         )
     if len(widths) == 1 and widths != {width} and left <= min(widths):
         raise InputError(
             f"{source.at(first)}: found {width} numbers above rows of {min(widths)}; if they are no"
             " samples, put # before them, and give the time step"
         )
-
-
-def full_rows(source: Source, start: int, separator: str | None, width: int) -> Floats:
-    """Return the rows of so many fields, shape (n, width); NaN where a field is no number."""
-    rows = [row.rstrip(",;").split(separator) for _, row in rows_of(source.lines, start)]
-    return np.array([[_number(field) for field in row] for row in rows if len(row) == width])
-
-
-def _number(field: str) -> float:
-    try:
-        return number_in(field)
-    except ValueError:
-        return math.nan
 
 
 def across(source: Source, start: int, separator: str | None, due: int) -> Floats:
@@ -369,17 +356,8 @@ def across(source: Source, start: int, separator: str | None, due: int) -> Float
         if len(fields) > due or (len(fields) < due and index != rows[-1][0])
     )
     raise_any(problem for i, fields in rows for problem in field_problems(source, i, fields))
-    table = full_rows(source, start, separator, due)
+    values = np.array([number_in(field) for _, fields in rows for field in fields])
+    table = values[: values.size // due * due].reshape(-1, due)
     if due > 1 and rising(table):
         raise InputError(f"{source.name}: found no values across the lines; {remedy(table)}")
-    return np.array([number_in(field) for _, fields in rows for field in fields]).reshape(-1, 1)
-
-
-def pairs(source: Source, start: int, separator: str | None) -> Floats | None:
-    """Return pairs of time and value across the lines, shape (n, 2); None if they are none."""
-    rows = [row.rstrip(",;").split(separator) for _, row in rows_of(source.lines, start)]
-    numbers = [_number(field) for row in rows for field in row]
-    if len(numbers) % 2:
-        return None
-    table = np.array(numbers).reshape(-1, 2)
-    return table if 0 in rising(table) and is_even(table[:, 0]) else None
+    return values.reshape(-1, 1)

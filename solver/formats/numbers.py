@@ -216,7 +216,7 @@ def printed(text: str, index: int) -> Stated:
     """A number as printed, with a rounding of up to half of its last digit."""
     match = NUMBER.fullmatch(text.strip())
     if not match:
-        return Stated(value=math.nan, rounding=0.0, index=index)
+        return Stated(index=index)
     mantissa, _, exponent = text.strip().lower().partition("e")
     decimals = len(mantissa.partition(".")[2]) - int(exponent or 0)
     # A whole number is taken as exact.

@@ -96,18 +96,17 @@ def step_in(source: Source, index: int, line: str) -> Stated:
     rate = _RATE.search(line)
     if rate and (rate[1] or rate[2] or rate[4]) and float(rate[3]) > 0.0:
         size = 1000.0 if "khz" in rate[0].lower() else 1.0
-        return Stated(value=1.0 / (size * float(rate[3])), rounding=0.0, index=index)
-    none = Stated(value=math.nan, rounding=0.0, index=index)
+        return Stated(value=1.0 / (size * float(rate[3])), index=index)
     match = _STEP.search(line)
     if not match:
-        return none
+        return Stated(index=index)
     before, after = (match[1] or match[2] or "").lower(), match[5].lower()
     unit = before or after
     if unit in OTHER_TIMES:
         raise InputError(f"{source.at(index)}: found a step in {unit}; give it in s, ms or min")
     # Behind the number may be another word; before it, or without a sign, it must be a time.
     if unit not in SECONDS and (before or not match[3]):
-        return none
+        return Stated(index=index)
     size, stated = SECONDS.get(unit, 1.0), printed(match[4], index)
     return Stated(value=stated.value * size, rounding=stated.rounding * size, index=index)
 

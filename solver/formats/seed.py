@@ -20,6 +20,7 @@ from solver.bounds import SENSITIVITY
 from solver.files import read_file
 from solver.formats.channels import Channel, MotionFile, motion_file, offset_notes
 from solver.formats.source import MAX_BYTES, Source, Stated, waveform_format
+from solver.formats.times import round_step
 from solver.model import Floats, InputError
 from solver.records.record import shown, unit_size
 
@@ -28,7 +29,7 @@ from solver.records.record import shown, unit_size
 # FDSN StationXML 1.2 (InstrumentSensitivity: output for one unit of the input).
 _NAMES = {"MSEED": "miniSEED", "SAC": "SAC"}
 _OTHER_SAC = {6: "displacement", 7: "velocity", 50: "volts"}
-_SINGLE = 1e-7  # rounding of a number of 24 bits
+_SEVEN_DIGITS = 5e-7  # of a number of 24 bits
 _PLUMB_DEG = 5.0
 _INSTALL = (
     "is read by ObsPy, which is not installed; type the command of ./roofslip motion with a name"
@@ -84,19 +85,14 @@ def _channel(source: Source, obspy: Any, trace: Any) -> Channel:
     if not np.isfinite(trace.data).all():
         raise InputError(f"{source.name}: {trace.id} has values that are no numbers")
     values: Floats = trace.data.astype(np.float64)
-    delta_s = _step_s(float(sac.delta)) if sac else float(trace.stats.delta)
-    step = Stated(value=delta_s, rounding=0.0, index=0)
+    delta_s = float(trace.stats.delta)
+    if sac:  # ObsPy rounds it to microseconds
+        delta_s = round_step(float(f"{sac.delta:.7g}"), _SEVEN_DIGITS * float(sac.delta))
+    step = Stated(value=delta_s)
     scale, notes = _scale(source, obspy, trace, values)
     a_mps2 = values * scale
     notes = (*notes, *(offset_notes(a_mps2) if a_mps2.any() else ()))
     return Channel(name=trace.id, dt_s=source.step(step), a_mps2=a_mps2, notes=notes)
-
-
-def _step_s(delta_s: float) -> float:
-    """Step that SAC has as a number of 24 bits: that of a whole rate, or else of seven digits."""
-    whole = 1.0 / max(round(1.0 / delta_s), 1) if delta_s > 0.0 else math.nan
-    is_whole = abs(whole - delta_s) <= _SINGLE * delta_s
-    return whole if is_whole else float(f"{delta_s:.7g}")
 
 
 def _scale(source: Source, obspy: Any, trace: Any, values: Floats) -> tuple[float, tuple[str, ...]]:

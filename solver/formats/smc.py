@@ -62,7 +62,7 @@ def read(source: Source) -> MotionFile:
     block, more = _block(source, whole)
     rate = real[_RATE - 1]
     if _known(rate) > 0.0:
-        dt_s = source.step(Stated(value=1.0 / rate.value, rounding=0.0, index=rate.index))
+        dt_s = source.step(Stated(value=1.0 / rate.value, index=rate.index))
         values, told = fixed_values(source, block, _VALUES), tuple[str, ...]()
     else:
         dt_s, values, told = _uneven(source, block)
@@ -105,7 +105,14 @@ def _block(source: Source, whole: Sequence[Stated]) -> tuple[Block, tuple[str, .
 
 def _uneven(source: Source, block: Block) -> tuple[float, Floats, tuple[str, ...]]:
     """Pairs of time and acceleration; a line may have fewer than four."""
-    block, notes = _without_last_line(source, block)
+    fields = [_VALUES.fields(line) for line in source.lines[block.first : block.stop]]
+    last = max((i for i, number in enumerate(fields) if number), default=0)
+    notes: tuple[str, ...] = ()
+    # As in many records of film: the rest of another piece.
+    if fields and sum(fields[:last]) == block.count:
+        block = replace(block, stop=block.first + last)
+        notes = (f"line {block.stop + 1} is beyond the {block.count} values stated, and is left"
+                 " out",)  # fmt: skip
     values = fixed_rows(source, block, _VALUES)
     # Files state the number of values; one that states the number of pairs is not truncated.
     if len(values) not in (block.count, 2 * block.count):
@@ -114,13 +121,12 @@ def _uneven(source: Source, block: Block) -> tuple[float, Floats, tuple[str, ...
             " give the whole file"
         )
     rows = []
-    for index in range(block.first, block.stop):
-        fields = _VALUES.fields(source.lines[index])
-        if fields % 2:
+    for index, number in enumerate(fields[: block.stop - block.first], block.first):
+        if number % 2:
             raise InputError(
-                f"{source.at(index)}: found {fields} values; give pairs of time and acceleration"
+                f"{source.at(index)}: found {number} values; give pairs of time and acceleration"
             )
-        rows += [index] * (fields // 2)
+        rows += [index] * (number // 2)
     pairs = values.reshape(-1, 2)
     if len(pairs) < 2:
         raise InputError(f"{source.at(block.promised)}: found {len(pairs)} pairs; give at least 2")
@@ -133,18 +139,6 @@ def _uneven(source: Source, block: Block) -> tuple[float, Floats, tuple[str, ...
         pairs, rows = np.column_stack((times, means)), [rows[i] for i in first]
     even = sampled(source, pairs[:, 0], pairs[:, 1:].T, rows.__getitem__)
     return even.dt_s, even.columns[0], (*notes, *even.notes)
-
-
-def _without_last_line(source: Source, block: Block) -> tuple[Block, tuple[str, ...]]:
-    """Leave out a line more than stated, as of many records of film: the rest of another piece."""
-    lines = range(block.first, block.stop)
-    fields = [_VALUES.fields(source.lines[index]) for index in lines]
-    last = max((i for i, number in enumerate(fields) if number), default=0)
-    if not fields or sum(fields) - fields[last] != block.count:
-        return block, ()
-    index = block.first + last
-    note = f"line {index + 1} is beyond the {block.count} values stated, and is left out"
-    return replace(block, stop=index), (note,)
 
 
 def _known(number: Stated) -> float:

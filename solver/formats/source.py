@@ -111,11 +111,14 @@ _LINE_END = re.compile(r"\r{0,2}\n|\r")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stated:
-    """A number as printed in a file: its value, its possible rounding error and its line."""
+    """A number as printed in a file: its value, its possible rounding error and its line.
 
-    value: float
-    rounding: float
-    index: int
+    NaN is one that is not stated.
+    """
+
+    value: float = math.nan
+    rounding: float = 0.0
+    index: int = 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -202,7 +205,7 @@ class Source:
         if math.isnan(value):
             if math.isnan(self.dt_s):
                 found = f"{self.at(stated.index)}: found no time step"
-                raise InputError(Problem(found, "give dt", about="dt_s"))
+                raise InputError(Problem(found, "give the time step dt", about="dt_s"))
             return self.dt_s
         if not (is_finite_number(value) and value > 0.0):
             raise InputError(
@@ -212,10 +215,11 @@ class Source:
             return value
         if abs(value - self.dt_s) > stated.rounding + 1e-4 * value:
             found = (
-                f"{self.at(stated.index)}: the time step of the file is {value:.6g} s but dt is"
-                f" {self.dt_s:.6g} s"
+                f"{self.at(stated.index)}: the time step of the file is {value:.6g} s but the one"
+                f" given is {self.dt_s:.6g} s"
             )
-            raise InputError(Problem(found, "give the dt of the file, or none", about="dt_s"))
+            wanted = "give the time step of the file, or none"
+            raise InputError(Problem(found, wanted, about="dt_s"))
         return self.dt_s
 
 

@@ -12,7 +12,7 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cache, partial
+from functools import cache
 
 import numpy as np
 
@@ -28,7 +28,6 @@ from solver.formats.layout import (
     content_of,
     first_row,
     is_heading,
-    pairs,
     plain_lines,
     rows_of,
     separator_of,
@@ -69,7 +68,6 @@ class _Table:
     headings: list[Heading]  # one for each column, or none
     heading_index: int  # of their line
     remarks: list[Row]  # the other lines above the first row
-    note: str = ""  # on how they were found
 
 
 def recognizes(lines: Sequence[str]) -> bool:
@@ -80,6 +78,7 @@ def recognizes(lines: Sequence[str]) -> bool:
 def read(source: Source) -> MotionFile:
     """Read a text of one or more columns, or of values across the lines."""
     source = replace(source, lines=plain_lines(source.lines))
+    _check_factor(source)
     table = _table(source)
     _check_count(source, table)
     _check_last(source, table)
@@ -115,7 +114,6 @@ def read(source: Source) -> MotionFile:
     notes = [
         f"column {shown(table.headings[i].text)} is ignored: it is {why}" for i, why in left.items()
     ]
-    notes += [table.note] if table.note else []
     if not source.is_ended:
         notes.append(
             "the last line has no line end: if the file was cut there, its last value or further"
@@ -134,7 +132,6 @@ def _check_remarks(source: Source, table: _Table) -> None:
     is_headed = any(heading.kind is Kind.ACCELERATION for heading in table.headings)
     is_said = is_headed or any(phrases.is_of_acceleration(line) for _, line in table.remarks)
     for index, line in table.remarks:
-        _check_factor(source, index, line)
         if is_positive and phrases.is_of_a_spectrum(line):
             raise InputError(
                 f"{source.at(index)}: found {shown(line)} above values of which none is negative:"
@@ -148,12 +145,13 @@ def _check_remarks(source: Source, table: _Table) -> None:
             )
 
 
-def _check_factor(source: Source, index: int, line: str) -> None:
-    if _FACTOR.fullmatch(line):
-        raise InputError(
-            f"{source.at(index)}: found {shown(line)}, a factor of the numbers below it; multiply"
-            " them all by it, and delete the line"
-        )
+def _check_factor(source: Source) -> None:
+    for index, line in enumerate(source.lines[:_MAX_REMARKS]):
+        if _FACTOR.fullmatch(plain := line.strip("# ")):
+            raise InputError(
+                f"{source.at(index)}: found {shown(plain)}, a factor of the numbers below it;"
+                " multiply them all by it, and delete the line"
+            )
 
 
 def _magnitudes(table: _Table, columns: Sequence[int]) -> list[int]:
@@ -292,8 +290,7 @@ def _seconds(source: Source, table: _Table) -> float:
 def _stated_step(source: Source, table: _Table) -> Stated:
     """Step [s] that a remark states; NaN for none."""
     steps = (phrases.step_in(source, index, line) for index, line in table.remarks)
-    none = Stated(value=math.nan, rounding=0.0, index=-1)
-    return next((step for step in steps if not math.isnan(step.value)), none)
+    return next((step for step in steps if not math.isnan(step.value)), Stated())
 
 
 def _scale(source: Source, table: _Table, column: int) -> float:
@@ -329,7 +326,6 @@ def _table(source: Source) -> _Table:
         raise InputError(f"{source.name}: found no numbers; give one or more columns of them")
     separator = separator_of(first[1])
     fields = first[1].split(separator)
-    _check_factor(source, *first)
     if any(field.strip(" *") and _is_text(field.strip()) for field in fields):
         raise InputError(f"{source.at(first[0])}: {likely_text(source.lines, first[0])}")
     if any(_CLOCK.fullmatch(field.strip()) for field in fields[:2]):
@@ -338,13 +334,9 @@ def _table(source: Source) -> _Table:
             " give seconds from the start in the first column, such as time_s"
         )
     width, remarks = len(fields), _remarks(source.lines, start)
-    heads, place = _headings(source, start, separator, width, remarks)
-    bare = partial(_Table, start=start, headings=[], heading_index=-1, remarks=remarks)
-    is_wide = width > 2 and width % 2 == 0 and not heads
-    if is_wide and (found := pairs(source, start, separator)) is not None:
-        return bare(values=found, note="each line has several pairs of time and value")
     if due := source.values_per_line or _told_across(source, start, separator, remarks):
-        return bare(values=across(source, start, separator, due))
+        numbers = across(source, start, separator, due)
+        return _Table(values=numbers, start=start, headings=[], heading_index=-1, remarks=remarks)
     # numpy reads a sound file at once; one with an error is read row by row, to name its lines.
     values = _parse_fast(source.lines[start:], separator, width)
     if values is None:
@@ -352,6 +344,7 @@ def _table(source: Source) -> _Table:
         values = _parse_slowly(source, start, separator, width)
     if len(values) < 2:
         raise InputError(f"{source.name}: found 1 sample; give at least 2")
+    heads, place = _headings(source, start, separator, width, remarks)
     if width > 2 and not heads:
         raise InputError(
             f"{source.at(first[0])}: found {width} columns without a heading; {remedy(values)}"

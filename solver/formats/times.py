@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver.formats.source import Source
+from solver.formats.source import Source, Stated
 from solver.model import Floats, InputError, Problem
 from solver.records.record import fits, raise_any
 
@@ -25,12 +25,12 @@ LOSS = 0.005
 # A gap is an interval longer than this number of typical steps.
 _GAP_STEPS = 10.0
 _FINEST = 200.0
+_MAX_GAPS = 3
 
 # Fewer times, or a step nearer to the last digit of the times, show no rounding.
 _MANY, _ROUNDED_WITHIN = 10, 0.9
 # Of instruments and programs, the most usual first.
 _RATES_HZ = (200, 100, 50, 250, 500, 1000, 400, 125, 128, 256, 512, 80, 120, 150, 75, 300, 5000)
-_MAX_GAPS = 3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,10 +65,11 @@ def sampled(
     _check_rising(source, t_s, line_of)
     step, blur = _even_step(t_s, unit_s)
     if not math.isnan(step):
-        return Sampled(dt_s=_agreed(source, step, blur), columns=columns, notes=())
+        stated = Stated(value=round_step(step, blur), rounding=blur, index=line_of(0))
+        return Sampled(dt_s=source.step(stated), columns=columns, notes=())
     if not math.isnan(source.dt_s):
-        found = f"{source.name}: found uneven times but dt is {source.dt_s:.6g} s"
-        raise InputError(Problem(found, "omit dt, and the record is resampled", about="dt_s"))
+        found = f"{source.name}: found uneven times but the time step given is {source.dt_s:.6g} s"
+        raise InputError(Problem(found, "give none, and the record is resampled", about="dt_s"))
     return _resampled(source, t_s, columns, line_of)
 
 
@@ -131,20 +132,7 @@ def _resolution(t_s: Floats, unit_s: float) -> float:
     return next((unit_s * 10.0**-k for k in range(10) if fits(printed, 10.0**-k)), 0.0)
 
 
-def _agreed(source: Source, step: float, blur: float) -> float:
-    """Step of the times, or the caller's if it agrees."""
-    if math.isnan(source.dt_s):
-        return _round_step(step, blur)
-    if abs(step - source.dt_s) > blur + 1e-4 * step:
-        found = (
-            f"{source.name}: the time step in the file is {_round_step(step, blur):.6g} s but dt is"
-            f" {source.dt_s:.6g} s"
-        )
-        raise InputError(Problem(found, "omit dt, or correct one of them", about="dt_s"))
-    return source.dt_s
-
-
-def _round_step(step: float, blur: float) -> float:
+def round_step(step: float, blur: float) -> float:
     """Step [s] without the rounding of printed times: that of a whole rate in Hz if within it."""
     whole = 1.0 / max(round(1.0 / step), 1)
     return whole if abs(whole - step) <= blur + 1e-9 * step else float(f"{step:.9g}")

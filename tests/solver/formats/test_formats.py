@@ -241,7 +241,7 @@ def test_sensors_and_steps_of_headings_are_taken(altered):
     assert read_motion_file(path).channel().dt_s == 0.008
     for dt_s in (1 / 128, 0.0084):
         assert read_motion_file(path, dt_s=dt_s).channel().dt_s == dt_s
-    assert "but dt is 0.0086 s" in problems_of(path, dt_s=0.0086)[0]
+    assert "but the one given is 0.0086 s" in problems_of(path, dt_s=0.0086)[0]
     unknown = ("    -999.000000", "    -999.000000")
     steps = [("       7.812500", unknown[1]), ("       0.005000", unknown[1])]
     path = altered("cosmos.v2c", *steps)
@@ -266,7 +266,7 @@ FAULTS = [
     ("cosmos.v2c", [("-123.456000", "-923.456000")], ":38: the header states a peak of 0.9417 g,"),
     ("cosmos.v2c", [("Corrected accel", "Raw accel")], ":1: found raw counts; give the volume 1"),
     ("cosmos.v2c", [("       7.812500", "       0.000000"), ("       0.005000", "       0.000000")],
-     ":26: found no time step; give dt"),
+     ":26: found no time step; give the time step dt"),
     ("cosmos.v2c", [("21 acceleration pts", "21 velocity pts")],
      ": found no acceleration in this COSMOS V1.20 file; give a file of acceleration"),
     ("csmip-old.v2", [("  -45.250\r\n", "  -45.250   1.0000\r\n")], ":47: found 9 values; give 8"),
@@ -361,7 +361,7 @@ def test_what_the_caller_says_must_agree(name, units, written, other, step, othe
     said = f"the file is in {written} but units are {other}; give the units of the file, or none"
     assert all(one.startswith(f"{name}:") and one.endswith(said) for one in told)
     told = problems_of(path, dt_s=other_s)
-    said = f"the time step of the file is {step} s but dt is {other_s:g} s; give the dt of the"
+    said = f"the time step of the file is {step} s but the one given is {other_s:g} s; give"
     assert all(said in one for one in told)
 
 
@@ -432,7 +432,7 @@ def test_the_unit_of_a_count_and_step_is_found_however_it_is_said(file, line):
     [
         ("NPTS= 3, DT= 5 USEC", "1 2 3", "4: found a step in usec; give it in s, ms or min"),
         ("NPTS= 4, DT= .01 SEC", "1 2 3", "4: states 4 values, found 3; give the whole file"),
-        ("NPTS= 3, DT= SEC", "1 2 3", "4: found no time step; give dt"),
+        ("NPTS= 3, DT= SEC", "1 2 3", "4: found no time step; give the time step dt"),
         ("NPTS= 3, DT= 0.0 SEC", "1 2 3", "4: found time step 0 s; give a number above 0"),
         ("NPTS: 3", "1 2 3", "4: found 'NPTS: 3'; give the count and the step as in NPTS="),
         ("NPTS= 3, DT= .01 SEC", "1 wide 3", "5: found 'wide'; give a number"),

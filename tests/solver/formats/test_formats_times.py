@@ -140,7 +140,8 @@ class TestUnevenTimes:
 
     def test_uneven_times_agree_with_no_step_and_grow_to_a_limit(self, file):
         assert refused(read_record, file("0 1\n1 2\n3 4\n"), units="g", dt_s=1.0) == (
-            "roof.csv: found uneven times but dt is 1 s; omit dt, and the record is resampled",
+            "roof.csv: found uneven times but the time step given is 1 s; give none, and the"
+            " record is resampled",
         )
         path = file("0 1\n1e-6 2\n2e-6 3\n3e-6 4\n1e9 5\n")
         (problem,) = refused(read_record, path, units="g")
