@@ -115,7 +115,7 @@ def read_components(
     try:
         records = {field: process(each.record, up_to) for field, each in components.items()}
     except InputError as error:
-        return [*faults, *_faults(index, "record", error)]
+        return [*faults, *_faults(index, "record", error, row)]
     faults += [*_mismatches(index, records), *_unscalable(index, row, records)]
     if faults or any(name not in row for name in MotionInput.model_fields):
         return faults
@@ -129,14 +129,12 @@ _LEFT_TO_THE_FILE = {
 }
 
 
-def _faults(
-    index: int, field: str, error: InputError, row: Mapping[str, Any] | None = None
-) -> list[Finding]:
+def _faults(index: int, field: str, error: InputError, row: Mapping[str, Any]) -> list[Finding]:
     """Return the faults of a record, each at the cell to change: units and step have their own."""
     findings = []
     for problem in error.parts:
         place = Place("motions", index, problem.about or field)
-        is_given = (row or {}).get(problem.about) not in (None, AccelUnit.FROM_FILE)
+        is_given = row.get(problem.about) not in (None, AccelUnit.FROM_FILE)
         remedy = _LEFT_TO_THE_FILE[problem.about] if is_given else problem.remedy
         findings.append(Finding.error(place, f"{LABELS[field]} record: {problem.found}", remedy))
     return findings

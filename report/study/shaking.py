@@ -233,10 +233,7 @@ _OF_OTHERS = re.compile(
     r"\bPG[VD]\b|\bprobabilit|\breturn period|\bSa ?\( ?(?!1(?:\.0+)? ?s?\))", re.IGNORECASE
 )
 _MEASURE = {False: "PGA [g]", True: "Sa(1 s) [g]"}
-_RATE_WANTED = (
-    "annual rate [1/year] (of a probability p in n years it is -ln(1 - p) / n, of a return period"
-    " one over it)"
-)
+_RATE = "annual rate [1/year] (-ln(1 - p) / n of a probability p in n years)"
 
 _TWO = "give intensity and annual rate in two columns, or the CSV of the USGS hazard tool"
 
@@ -281,14 +278,14 @@ def points_of(lines: Sequence[str], *, is_spectral: bool) -> list[tuple[float, f
     # A spreadsheet pads the shorter rows with blanks.
     rows = [row[: max(k for k, cell in enumerate(row) if cell) + 1] for row in read if any(row)]
     if curves := list(_saved_curves(rows)):
-        names = [name for name, _, _ in curves]
-        fits = [saved for saved in curves if _NAMES[is_spectral].search(saved[0])]
+        names = [", ".join(name) for name, _, _ in curves]
+        fits = [k for k, name in enumerate(names) if _NAMES[is_spectral].search(name)]
         if len(fits) != 1:
             found = f"has {len(fits)} curves of {_MEASURE[is_spectral]} ({'; '.join(names)})"
             raise InputError(f"{found}; keep one")
-        _, labels, points = fits[0]
-        raise_any(_wrong_headings(labels, is_spectral))
-        return points
+        _, x, y = curves[fits[0]]
+        raise_any(_wrong_headings([x[0], y[0]], is_spectral))
+        return list(zip(_numbers(x[1:]), _numbers(y[1:]), strict=True))
     columns = [_numbers(row) for row in rows]
     first = next((k for k, values in enumerate(columns) if values), len(rows))
     # What is above the first row of numbers are headings; below it nothing else may be.
@@ -296,43 +293,34 @@ def points_of(lines: Sequence[str], *, is_spectral: bool) -> list[tuple[float, f
     if wrong or first == len(rows):
         shown = mark.join(rows[wrong[0]] if wrong else lines)[:60].strip()
         raise InputError(f"has '{shown}'; {_TWO}")
-    problems: list[str] = []
-    for row in rows[:first]:
-        is_text = len(row) != 2 or row[0].startswith("#")
-        text = f"{mark} ".join(row)
-        problems += _wrong_text(text, is_spectral) if is_text else _wrong_headings(row, is_spectral)
-    raise_any(problems)
+    raise_any(problem for row in rows[:first] for problem in _wrong_headings(row, is_spectral))
     return [(values[0], values[1]) for values in columns[first:]]
 
 
-def _wrong_headings(headings: Sequence[str], is_spectral: bool) -> Iterator[str]:
-    """Yield the headings of intensities and of rates that say another quantity or unit."""
-    kinds = ((_OF_INTENSITY[is_spectral], _MEASURE[is_spectral]), (_OF_RATE, _RATE_WANTED))
-    for heading, (known, wanted) in zip(headings, kinds, strict=True):
+def _wrong_headings(row: Sequence[str], is_spectral: bool) -> Iterator[str]:
+    """Yield the headings of a row, or its text, that say another quantity or unit."""
+    measure = _MEASURE[is_spectral]
+    if len(row) != 2 or row[0].startswith("#"):
+        text = ", ".join(row)
+        named = [name for name, pattern in _NAMES.items() if pattern.search(text)]
+        if is_of_another(text) or _OF_OTHERS.search(text) or named == [not is_spectral]:
+            yield f"has the heading '{text[:60]}'; give {measure} and {_RATE}, or delete it"
+        return
+    for heading, known, wanted in zip(
+        row, (_OF_INTENSITY[is_spectral], _OF_RATE), (measure, _RATE), strict=True
+    ):
         if not set(known.split()).issuperset(_WORD.findall(heading.casefold())):
             yield f"has the heading '{heading[:60]}'; give {wanted}"
 
 
-def _wrong_text(text: str, is_spectral: bool) -> Iterator[str]:
-    """Yield a line of text above the columns if it says another quantity or unit."""
-    named = [name for name, pattern in _NAMES.items() if pattern.search(text)]
-    if is_of_another(text) or _OF_OTHERS.search(text) or named == [not is_spectral]:
-        wanted = f"give {_MEASURE[is_spectral]} and annual rate [1/year]"
-        yield f"has the heading '{text[:60]}'; {wanted}, or delete the line if it is of others"
-
-
-_Saved = tuple[str, tuple[str, str], list[tuple[float, float]]]
-
-
-def _saved_curves(rows: Sequence[Sequence[str]]) -> Iterator[_Saved]:
-    """Yield name, labels and points of each curve of the USGS hazard tool."""
+def _saved_curves(rows: Sequence[list[str]]) -> Iterator[Sequence[list[str]]]:
+    """Yield the three lines of each curve of the USGS hazard tool."""
     # It saves for each curve a line with its name, one that begins with a label and has the
     # intensities, and one with the rates (`D3SaveLineData` of nshmp-haz-ws).
     for k in range(1, len(rows) - 1):
         x, y = _numbers(rows[k][1:]), _numbers(rows[k + 1][1:])
         if len(x) > 1 and len(x) == len(y) and not (_numbers(rows[k][:1]) or _numbers(rows[k - 1])):
-            labels = rows[k][0], rows[k + 1][0]
-            yield ", ".join(rows[k - 1]), labels, list(zip(x, y, strict=True))
+            yield rows[k - 1 : k + 2]
 
 
 def _numbers(cells: Sequence[str]) -> list[float]:

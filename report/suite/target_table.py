@@ -18,7 +18,7 @@ from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.cells import CellError, Found, check_saved, number
 from report.sheet.reading.positions import CellPosition, found_at
 from report.sheet.reading.typed_text import separator, with_point
-from solver.bounds import ORDINATE
+from solver.bounds import ORDINATE, PhysicalBounds
 from solver.formats.phrases import is_of_another
 from solver.formats.source import open_source
 from solver.model import Floats, InputError, Problem
@@ -31,15 +31,15 @@ HEADING_ROWS = 10
 MAX_TOLD = 10
 
 _FREQUENCY, _PERIOD, _HORIZONTAL, _VERTICAL = "frequency", "period", "horizontal", "vertical"
-# Of each kind of column: its names, its unit, and the range of its values.
+# Of each kind of column: its names, and the range of its values.
 _KINDS = {
-    _FREQUENCY: ("frequency freq f", "Hz", 1e-3, 1e3),
-    _PERIOD: ("period t", "s", 1e-3, 1e3),
-    _HORIZONTAL: ("horizontal sa", "g", ORDINATE.least, ORDINATE.most),
-    _VERTICAL: ("vertical", "g", ORDINATE.least, ORDINATE.most),
+    _FREQUENCY: ("frequency freq f", PhysicalBounds(1e-3, 1e3, "Hz")),
+    _PERIOD: ("period t", PhysicalBounds(1e-3, 1e3, "s")),
+    _HORIZONTAL: ("horizontal sa", ORDINATE),
+    _VERTICAL: ("vertical", ORDINATE),
 }
 
-_NAMES = {name: kind for kind, (names, *_) in _KINDS.items() for name in names.split()}
+_NAMES = {name: kind for kind, (names, _) in _KINDS.items() for name in names.split()}
 _HEADING = re.compile(r"([a-z]+)\s*(?:_|\[|\()?\s*([^\s\])]*)\s*[\])]?")
 _WANTED = "frequency [Hz] or period [s], horizontal [g] and, optionally, vertical [g]"
 # Allows for band limits given as rounded periods, such as 3.33 s.
@@ -195,8 +195,9 @@ def _columns(
     for column, (cell, (kind, unit)) in enumerate(zip(row, headings, strict=True)):
         if not kind:
             continue
-        if unit not in ("", _KINDS[kind][1].casefold()):
-            wanted = f"give {kind} [{_KINDS[kind][1]}]"
+        due = _KINDS[kind][1].unit
+        if unit not in ("", due.casefold()):
+            wanted = f"give {kind} [{due}]"
             problems.append(Problem(f"is '{cell.shown.strip()}'", wanted, cell.address))
         if kind in columns:
             problems.append(Problem(f"a second {kind} column", "delete one", cell.address))
@@ -215,17 +216,18 @@ def _value(row: Sequence[Found], column: int, kind: str, problems: list[Problem]
         place = row[min(column, len(row) - 1)].address
         problems.append(Problem(f"{kind} is blank", "give a number greater than 0", place))
         return float("nan")
-    _, shown, least, most = _KINDS[kind]
-    cell, wanted = row[column], f"give a number greater than 0 [{shown}]"
+    bounds = _KINDS[kind][1]
+    cell, wanted = row[column], f"give a number greater than 0 [{bounds.unit}]"
     try:
         check_saved(cell)
-        value = number(cell, wanted, shown)
+        value = number(cell, wanted, bounds.unit)
     except CellError as error:
         problems.append(error.parts[0].at(cell.address, kind))
         return float("nan")
-    if not least <= value <= most:
-        wanted = f"give a number from {least:g} to {most:g} [{shown}]"
-        problems.append(Problem(f"{kind} is {value:g}", wanted, cell.address))
+    if not bounds.has(value):
+        problems.append(
+            Problem(f"{kind} is {value:g}", f"give a number from {bounds.words}", cell.address)
+        )
     return value
 
 

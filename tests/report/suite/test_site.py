@@ -288,11 +288,11 @@ def test_every_invalid_cell_is_reported_by_its_address_or_its_line(tmp_path):
     rows[4][1] = True
     rows[5][2] = 250
     assert problems(f"{book(tmp_path, rows)}!Target") == (
-        "Target!A4: period is 0; give a number from 0.001 to 1000 [s]",
+        "Target!A4: period is 0; give a number from 0.001 to 1000 s",
         "Target!B2: horizontal is '1,5,0'; give a number greater than 0 [g]",
         "Target!B5: horizontal is TRUE, a logical value; give a number greater than 0 [g]",
         "Target!C3: vertical is blank; give a number greater than 0",
-        "Target!C6: vertical is 250; give a number from 1e-06 to 100 [g]",
+        "Target!C6: vertical is 250; give a number from 1e-06 to 100 g",
     )
     rows = [list(row) for row in ROWS]
     rows[1][1] = "=1+1"  # a formula that was never computed
