@@ -110,9 +110,9 @@ def _uneven(source: Source, block: Block) -> tuple[float, Floats, tuple[str, ...
     notes: tuple[str, ...] = ()
     # As in many records of film: the rest of another piece.
     if fields and sum(fields[:last]) == block.count:
-        block = replace(block, stop=block.first + last)
-        notes = (f"line {block.stop + 1} is beyond the {block.count} values stated, and is left"
-                 " out",)  # fmt: skip
+        line = block.first + last
+        notes = (f"line {line + 1} is beyond the {block.count} values stated, and is left out",)
+        block = replace(block, stop=line)
     values = fixed_rows(source, block, _VALUES)
     # Files state the number of values; one that states the number of pairs is not truncated.
     if len(values) not in (block.count, 2 * block.count):

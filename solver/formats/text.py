@@ -78,7 +78,6 @@ def recognizes(lines: Sequence[str]) -> bool:
 def read(source: Source) -> MotionFile:
     """Read a text of one or more columns, or of values across the lines."""
     source = replace(source, lines=plain_lines(source.lines))
-    _check_factor(source)
     table = _table(source)
     _check_count(source, table)
     _check_last(source, table)
@@ -145,8 +144,9 @@ def _check_remarks(source: Source, table: _Table) -> None:
             )
 
 
-def _check_factor(source: Source) -> None:
-    for index, line in enumerate(source.lines[:_MAX_REMARKS]):
+def _check_factor(source: Source, first: int) -> None:
+    """Raise where a line down to the first row is a factor of all numbers."""
+    for index, line in enumerate(source.lines[: first + 1]):
         if _FACTOR.fullmatch(plain := line.strip("# ")):
             raise InputError(
                 f"{source.at(index)}: found {shown(plain)}, a factor of the numbers below it;"
@@ -326,6 +326,7 @@ def _table(source: Source) -> _Table:
         raise InputError(f"{source.name}: found no numbers; give one or more columns of them")
     separator = separator_of(first[1])
     fields = first[1].split(separator)
+    _check_factor(source, first[0])
     if any(field.strip(" *") and _is_text(field.strip()) for field in fields):
         raise InputError(f"{source.at(first[0])}: {likely_text(source.lines, first[0])}")
     if any(_CLOCK.fullmatch(field.strip()) for field in fields[:2]):

@@ -179,7 +179,8 @@ def test_a_record_that_cannot_be_run_is_refused_at_its_cell(tmp_path, number):
          {"Record units": "units are cm/s2; give the units of the file, or 'from file'"}),
         ({"Horizontal record": "records/all.csv | 1", "Vertical record": None, "Time step": 0.02,
           "Record units": "from file"},
-         {"Time step": "but the one given is 0.02 s; give the time step of the file, or leave it blank"}),
+         {"Time step": "but the one given is 0.02 s; give the time step of the file, or leave it"
+          " blank"}),
         ({"Low-pass corner": 60},
          {"Horizontal record": "horizontal record: x.csv: low-pass corner is 60 Hz; give"}),
         # Records are checked even if their row has other errors.
