@@ -172,17 +172,10 @@ class StudyPlan:
     @property
     def about(self) -> dict[str, Any]:
         """What determines the results besides motions and cases, for the manifest."""
-        study = self.input.study
         return {
-            "title": study.title,
-            "intensity": study.intensity.value,
-            "run_without_value": study.no_value.value,
-            "seed": study.seed,
+            "seed": self.input.study.seed,
             "seeds": {f"array {array.array.id}": array.seed for array in self.arrays},
             "buildings": list(self.motions.buildings),
-            "slopes_deg": list(self.input.slopes_deg),
-            "mus": list(self.input.mus),
-            "intensities": list(self.input.intensities),
             "input": self.input.model_dump(mode="json"),
             "hazard_curves": [
                 {"intensity": c.intensity.tolist(), "rate": c.rate.tolist(), "beta": c.beta}

@@ -16,7 +16,6 @@ from itertools import islice
 
 import numpy as np
 
-from solver.formats.columns import remedy, rising
 from solver.formats.numbers import DECIMAL_COMMA, NUMBER, field_problems, number_in
 from solver.formats.source import Source
 from solver.model import Floats, InputError
@@ -322,6 +321,41 @@ def separator_of(content: str) -> str | None:
     if ";" in content:
         return ";"
     return "," if "," in content and not _BLANK_BETWEEN.search(content) else None
+
+
+# No shaking rises from line to line. Fewer rows than `_FEW` show nothing; in `_MANY` a column need
+# not rise evenly, as times of loggers do not.
+_FEW, _MANY = 5, 12
+_EVEN_WITHIN, _OFTEN = 0.01, 0.1  # of a step, of all steps
+
+
+def rising(table: Floats) -> list[int]:
+    """Indexes of the columns that rise from row to row, evenly where there are few rows."""
+    rows = len(table)
+    if rows < _FEW:
+        return []
+    steps = np.diff(table, axis=0)
+    usual = (table[-1] - table[0]) / (rows - 1)
+    # Rounded times stand twice; zeros up to a last pulse are no times.
+    rises = (steps >= 0.0).all(axis=0) & ((steps > 0.0).mean(axis=0) > _OFTEN)
+    if rows < _MANY:
+        rises &= np.abs(steps - usual).max(axis=0) <= _EVEN_WITHIN * usual
+    return [int(column) for column in np.flatnonzero(rises)]
+
+
+def remedy(table: Floats) -> str:
+    """Return what would do for a table of two or more columns without headings."""
+    heading = f"a heading such as time_s,x_g{',y_g' * (table.shape[1] > 2)}"
+    if not (columns := rising(table)):
+        return (
+            f"give {heading}, or put one on each line, or give the values per line to motion"
+            f" convert (--values-per-line {table.shape[1]})"
+        )
+    which = ", ".join(str(column + 1) for column in columns)
+    return (
+        f"times or line numbers rise in column {which}: put each time first on a line with its"
+        f" values, below {heading}; delete line numbers"
+    )
 
 
 def check_shape(source: Source, start: int, separator: str | None) -> None:

@@ -18,7 +18,6 @@ import numpy as np
 
 from solver.formats import layout, phrases
 from solver.formats.channels import Channel, MotionFile, motion_file
-from solver.formats.columns import remedy, rising
 from solver.formats.layout import (
     Heading,
     Kind,
@@ -29,6 +28,8 @@ from solver.formats.layout import (
     first_row,
     is_heading,
     plain_lines,
+    remedy,
+    rising,
     rows_of,
     separator_of,
 )
