@@ -225,7 +225,7 @@ def _processed(
         # For the table that says how much of the slip the filter removes.
         bare = process_together(raw, replace(processing, highpass_hz=0.0))
     except InputError as error:
-        return _faults(index, "record", error)
+        return _faults(index, "record", error, row.model_dump())
     kept = dict(zip(components, done, strict=True))
     faults = list(_unscalable(index, {"scaling": row.scaling}, kept)) or list(
         _no_motion(index, kept)
