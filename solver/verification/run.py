@@ -108,7 +108,7 @@ def verify(
     )
 
 
-def _rows(record: Record, roof: Sequence[checks.Block]) -> Iterator[Check]:
+def _rows(record: Record, roof: Sequence[checks.KnownBlock]) -> Iterator[Check]:
     yield from checks.closed_forms()
     yield from checks.physical_checks(record)
     yield from checks.fifty_digits(roof)
