@@ -239,7 +239,6 @@ def rows(
         from report.motions.stored import unpack
         from report.results.motions import row_cells, set_rows
         from report.sheet.writing.filled import changing
-        from solver.files import within
         from solver.model import InputError
 
         # A default would be wrong in silence: ground motions go through the building.
@@ -247,12 +246,14 @@ def rows(
             raise InputError(
                 "--at is missing; give --at roof or --at ground, where the motions were recorded"
             )
-        folder = _in_library(source)
+        folder, whole = _in_library(source), ""
         if not folder.is_dir():
-            # The name of a zip may be that of motions, or "..".
-            zipped, folder = folder, within(Path(temporary), folder.stem)
+            # The name of a zip is that of motions, and never of a folder: it may be "..".
+            zipped, folder, whole = folder, Path(temporary), folder.stem
             unpack(zipped, folder)
-        sets, left = sets_of(folder, units or "", dt_s, without_vertical=without_vertical)
+        sets, left = sets_of(
+            folder, units or "", dt_s, whole=whole, without_vertical=without_vertical
+        )
         wanted = [name.casefold() for name in only or ("*",)]
         for name in list(sets):
             if not any(fnmatchcase(name.casefold(), each) for each in wanted):

@@ -98,12 +98,18 @@ _Clear = tuple[str, str, list[Candidate]]  # name, longer name, channels
 
 
 def sets_of(
-    folder: Path, units: str = "", dt_s: float = math.nan, *, without_vertical: bool = False
+    folder: Path,
+    units: str = "",
+    dt_s: float = math.nan,
+    *,
+    whole: str = "",
+    without_vertical: bool = False,
 ) -> tuple[Sets, Sequence[Left]]:
     """Return the sets of three in a folder and the folders in it, and what is left.
 
-    Two horizontal records alone are a set where that is asked. Raises `InputError` if it has more
-    than `MOST_FILES` files.
+    A motion that its files do not name has that of the whole, or of the folder. Two horizontal
+    records alone are a set where that is asked. Raises `InputError` if it has more than
+    `MOST_FILES` files.
     """
     paths = sorted(
         path
@@ -134,7 +140,7 @@ def sets_of(
         if why := next(_unclear(group, without_vertical), ""):
             left.append((_listed(group), why))
         else:
-            name = stem or PurePosixPath(parent).name or folder.resolve().name
+            name = stem or PurePosixPath(parent).name or whole or folder.resolve().name
             clear.append((name, f"{name} {rest}".strip(), group))
     clear = list(_corrected(clear, left))
     plain = Counter(name for name, _, _ in clear)

@@ -96,8 +96,6 @@ def test_values_across_the_lines_and_a_zip_in_a_zip_are_read(tmp_path):
     told = printed("rows", outer, "--without-vertical")
     assert "part/M-x.csv  horizontal x" in told
     assert "note: M: without a vertical record. Motions for analysis have two horizontal" in told
-    told = refused("rows", outer.rename(tmp_path / "...zip"), "--without-vertical")
-    assert "is no path within a folder; rename the file" in told
 
 
 def test_info_prints_a_table_for_people_and_never_over_a_record(column):
