@@ -96,7 +96,7 @@ def test_pages_are_landscape_and_legible_on_the_paper_of_the_units(done, book):
 
 
 INCH = 0.0254
-GOVERNING = "Governing array, direction"
+GOVERNING = "Governing array"
 SITE = stand_in.site()
 REVIEWED = scenes.REVIEW | {"statistic": "1.1 x largest"}
 
@@ -170,7 +170,10 @@ def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(b
     assert not after.clearances[1].ok
     book = changed[0]
     assert cell(book, "Design/Verdict").value == after.verdict.value
-    lengths = ("Prescriptive", "Mean PRD", "Largest PRD", "Computed", "Floor [in]", "Design [in]")
+    lengths = [
+        f"{heading}, unrounded"
+        for heading in ("Prescriptive", "Mean PRD", "Largest PRD", "Computed", "Floor", "Design")
+    ]
     for item in after.arrays:
         row, found = f"Design/{item.id}", item.analysis
         wanted = (
@@ -186,7 +189,7 @@ def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(b
         row = f"Clearances/{number}"
         lengths = (gap.design_m, gap.factor * INCH, gap.required_m, gap.clearance.provided_m)
         wanted = [*(value / INCH for value in lengths), float(ratio(gap.demand_capacity))]
-        headings = ("Design", "Factor", "Required [in]", "Provided", "D/C")
+        headings = ("Design, unrounded", "Factor", "Required, unrounded", "Provided", "D/C")
         assert compared(book, row, headings) == pytest.approx(wanted, rel=1e-9)
         wanted = [gap.governing_array, gap.verdict.value]
         assert compared(book, row, (GOVERNING, "Verdict")) == wanted
@@ -194,7 +197,7 @@ def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(b
 
 @pytest.mark.nightly
 def test_the_governing_array_follows_a_peak_that_is_changed(reviewed, changed):
-    headings = (GOVERNING, "Design", "Required [in]", "Provided", "Verdict")
+    headings = (GOVERNING, "Design, unrounded", "Required, unrounded", "Provided", "Verdict")
     governing, design, required, provided, result = compared(changed[1], "Clearances/1", headings)
     assert governing == other_array(reviewed)
     assert design == pytest.approx(1.1 * 90.0)

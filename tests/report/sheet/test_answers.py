@@ -322,7 +322,7 @@ def test_required_separation_and_ratio_of_each_clearance_are_those_of_the_packag
         rules, s_ds_g=data.site.s_ds, sdc=data.site.sdc, importance=data.site.i_e
     )
     design = {"adopted": None, "opened_mark": "", "is_permitted": True,
-              "permitted_toward_m": lambda direction: prescriptive.value_m}  # fmt: skip
+              "permitted_m": prescriptive.value_m}  # fmt: skip
     arrays = [SimpleNamespace(id=each.id, array=each, **design) for each in data.arrays]
     checks = [check_clearance(data, rules, arrays, row) for row in data.clearances]
     unit, required = case.column("Required, prescriptive")

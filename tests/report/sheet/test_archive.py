@@ -116,7 +116,7 @@ SPOILED = {
         "a Strict Open XML workbook; save it as Excel Workbook (.xlsx), not Strict"),
     "a bomb by its directory": (
         "xl/media/zeros.bin", to(bytes(60_000_000)),
-        f"unpacks to 61 MB, more than 100 MB in total or 50 MB in one part; {BESIDE}"),
+        f"unpacks to 60 MB, more than 100 MB in total or 50 MB in one part; {BESIDE}"),
     "a bomb by its ratio": (
         "xl/media/zeros.bin", to(bytes(40_000_000)),
         f"unpacks to more than 200 times its size; {REOPEN}"),
