@@ -1,6 +1,7 @@
 """One record, a slope and a coefficient of friction that are plainly in order: `slide` at once.
 
-    record of `read_record`, mu = 0.4, a slope of 2 degrees:  6 us in place of 33 us
+    record of `read_record`, mu = 0.4, a slope of 2 degrees:  a quarter of the time with all checks,
+    two fifths where its array can be written to, so that no bounds are kept
 
 Says nothing of what is wrong: for whatever it does not know it returns None, and
 `solver.sliding.arguments` then finds every fault. Equal to the long way to the last bit.
