@@ -10,8 +10,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from report.assessment.precheck import lacking_motions, limit_words
-from report.assessment.routes import statistic_basis
+from report.assessment.precheck import limit_words
+from report.assessment.routes import lacking_motions, statistic_basis
 from report.assessment.verdict import Requirement, Verdict, nan_is_worst
 from report.text.amounts import capacity, compared_pairs, demand
 from report.text.counts import ids_by, lowered, ranged

@@ -18,6 +18,7 @@ from report.assessment.neighbors import PlanNeighbor
 from report.assessment.requirement_rows import fire_lane_rows, friction_rows, hazard_rows
 from report.assessment.routes import Route
 from report.assessment.verdict import (
+    MOTIONS_ID,
     NO_DESIGN,
     NOT_GIVEN,
     PLAN_ROW,
@@ -53,9 +54,6 @@ DRIFT_M = 0.010
 # above which a peer reviewer must accept the motions: in no code.
 LONG_PERIOD_S, MOST_LONG_RATIO = 1.0, 2.0
 _NOISE = 1e-9  # a width in other units is no more than itself
-
-# Of the rows on limits that the motions miss: `limit_verdict` finds them by it.
-MOTIONS_ID = "motions"
 
 # Above it, records that are scaled to a target are of another intensity than it.
 MOST_FACTOR = 2.0

@@ -14,7 +14,13 @@ from report.assessment.array_rows import rows_before_runs
 from report.assessment.conditions import motion_rows, noted, project_rows
 from report.assessment.neighbors import REACH_FACTOR, NearbyKind
 from report.assessment.plan_clearances import design_before_runs_m, pairs_before_runs
-from report.assessment.routes import Route, interconnection_n, limits_of, statistic_basis
+from report.assessment.routes import (
+    Route,
+    interconnection_n,
+    lacking_motions,
+    limits_of,
+    statistic_basis,
+)
 from report.assessment.verdict import Requirement, Verdict, rule_set_of
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion, Targets, targets
@@ -174,13 +180,6 @@ def _limit(check: Limit, section: str, row: int, us_first: bool) -> Iterator[Fin
 
 def _place(check: Limit, section: str, row: int) -> Place:
     return Place(section, row, _FIELDS[check.key]) if check.key in _FIELDS else Place("motions")
-
-
-def lacking_motions(rules: RuleSet, basis: Basis | None, count: int) -> str:
-    """Return which statistic the motions are too few for."""
-    asked = Basis.LARGEST_FACTORED if basis is None else basis
-    least = provisions.minimum_motions(rules, asked)
-    return f"{count} motions are given, and the statistic '{asked}' needs {least:.0f} or more"
 
 
 def _requirements(rows: Iterable[Requirement]) -> Iterator[Finding]:

@@ -11,14 +11,16 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.checks.check import Check
+from report.assessment.checks.every import every
 from report.assessment.clearances import ClearanceCheck
-from report.assessment.conditions import MOTIONS_ID
 from report.assessment.friction import LowVelocityAssessment
 from report.assessment.links import LinkedArray
 from report.assessment.neighbors import ComparedGap, PlanNeighbor
 from report.assessment.runs import OrientedRun, scene_key
 from report.assessment.verdict import (
     BY_CONSEQUENCE,
+    MOTIONS_ID,
     Requirement,
     Verdict,
     as_one,
@@ -130,6 +132,8 @@ class Assessment:
     # arrays with their low-velocity coefficient alone; without any in `at_reduced_friction`, and in
     # what `reassess` and `anticipate` give
     low_velocity: LowVelocityAssessment
+    # everything that is required, satisfied or not: the verdicts are the worst of it
+    checks: tuple[Check, ...] = field(init=False, compare=False)
     # What many ask for, once; not when it is asked for first: nothing may change while it is sent.
     _rows_by_subject: Mapping[str, Sequence[Requirement]] = field(init=False, compare=False)
     _gaps_by_array: Mapping[str, Sequence[ClearanceCheck]] = field(init=False, compare=False)
@@ -152,6 +156,7 @@ class Assessment:
         object.__setattr__(self, "neighbors", neighbors)
         missing = tuple(near for near in neighbors if near.is_short)
         object.__setattr__(self, "missing_gaps", missing)
+        object.__setattr__(self, "checks", every(self))
 
     def __repr__(self) -> str:
         counts = f"{len(self.arrays)} arrays, {len(self.clearances)} clearances"

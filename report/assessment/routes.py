@@ -106,6 +106,13 @@ def statistic_basis(data: ProjectInput) -> Basis | None:
     return None if asked is Statistic.RULE_SET else Basis(asked.value)
 
 
+def lacking_motions(rules: RuleSet, basis: Basis | None, count: int) -> str:
+    """Return which statistic the motions are too few for."""
+    asked = Basis.LARGEST_FACTORED if basis is None else basis
+    least = provisions.minimum_motions(rules, asked)
+    return f"{count} motions are given, and the statistic '{asked}' needs {least:.0f} or more"
+
+
 def interconnection_n(data: ProjectInput, rules: RuleSet, array: Array) -> float:
     """Return the required strength between the parts of an array [N]."""
     # The lighter side of a section is at most half of the array.

@@ -143,7 +143,12 @@ condition = partial(Requirement, consequence=Consequence.CONDITION)
 
 def worst(verdicts: Iterable[Verdict]) -> Verdict:
     """Return the most severe verdict; OK for none."""
-    return max(verdicts, key=list(Verdict).index, default=Verdict.OK)
+    return max(verdicts, key=severity, default=Verdict.OK)
+
+
+def severity(verdict: Verdict) -> int:
+    """Return a sort key of verdicts, the largest for NG."""
+    return list(Verdict).index(verdict)
 
 
 # Fraction by which the friction coefficients are decreased and increased; a verdict that less
@@ -152,6 +157,8 @@ SHIFT = 0.05
 
 NOT_GIVEN = "not given"
 NO_DESIGN = "unknown without a permitted design displacement"
+# Id of the limits on the motions.
+MOTIONS_ID = "motions"
 # Id of the requirement on friction beyond the velocities tested.
 VELOCITY_ROW = "friction_velocity"
 # Id of the requirement that clearances are given as the plan has them.

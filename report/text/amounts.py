@@ -17,29 +17,31 @@ _MOST_MORE = 2
 
 @dataclass(frozen=True, slots=True)
 class Amount:
-    """A value in SI, and how it is rounded."""
+    """A value in SI with its quantity, and how it is rounded."""
 
     value: float
     rounding: Rounding
+    quantity: Quantity = Quantity.RATIO
+    mark: str = ""  # behind the number, such as †
 
     def text(self, size: float, decimals: int) -> str:
         """Return it in a unit of a size, for print."""
         return self.rounding.text(self.value / size, decimals)
 
 
-def entered(value: float) -> Amount:
+def entered(value: float, quantity: Quantity = Quantity.RATIO) -> Amount:
     """Return what is entered or measured."""
-    return Amount(value, Rounding.NEAREST)
+    return Amount(value, Rounding.NEAREST, quantity)
 
 
-def demand(value: float) -> Amount:
+def demand(value: float, quantity: Quantity = Quantity.RATIO, mark: str = "") -> Amount:
     """Return what is required, or a demand."""
-    return Amount(value, Rounding.UP)
+    return Amount(value, Rounding.UP, quantity, mark)
 
 
-def capacity(value: float) -> Amount:
+def capacity(value: float, quantity: Quantity = Quantity.RATIO, mark: str = "") -> Amount:
     """Return what is provided, or a capacity."""
-    return Amount(value, Rounding.DOWN)
+    return Amount(value, Rounding.DOWN, quantity, mark)
 
 
 def in_order(
@@ -92,28 +94,64 @@ def compared_pairs(
     return first, second
 
 
-_DECIMALS = {Measure.COUNT: 0, Measure.TIME_S: 1, Measure.PLAIN: 2}
-
-
 def limit_texts(check: Limit, us_first: bool) -> tuple[str, str]:
     """Return what a limit finds and the limit, with the units of its measure."""
+    return amount_texts(*limit_amounts(check), us_first, is_at_least=check.is_at_least)
+
+
+_QUANTITIES = {
+    Measure.ANGLE_DEG: Quantity.ANGLE,
+    Measure.LENGTH_M: Quantity.SIZE,
+    Measure.TIME_S: Quantity.TIME,
+    Measure.COUNT: Quantity.COUNT,
+    Measure.PLAIN: Quantity.RATIO,
+}
+
+
+def limit_amounts(check: Limit) -> tuple[Amount, Amount]:
+    """Return what a limit finds, and the limit."""
+    quantity = _QUANTITIES[check.measure]
+    if check.key and quantity is Quantity.RATIO:
+        quantity = Quantity.COEFFICIENT
     is_at_least = check.is_at_least
-    found, limit = entered(check.found), (demand if is_at_least else capacity)(check.limit)
+    limit = (demand if is_at_least else capacity)(check.limit, quantity)
     # A limit of the rule set looks at what was entered, one on the motions at what is computed.
-    if not check.key:
-        found = (capacity if is_at_least else demand)(check.found)
-    if check.measure is Measure.LENGTH_M:
-        return compared_pairs(found, limit, Quantity.SIZE, us_first, is_at_least=is_at_least)
-    if check.measure is Measure.ANGLE_DEG:
+    if check.key:
+        return entered(check.found, quantity), limit
+    return (capacity if is_at_least else demand)(check.found, quantity), limit
+
+
+def amount_texts(
+    found: Amount, limit: Amount, us_first: bool, *, is_at_least: bool, is_both: bool = True
+) -> tuple[str, str]:
+    """Return a value found and its limit with units, in the order in which they are.
+
+    Where it is not both systems, in the preferred one alone.
+    """
+    quantity = limit.quantity
+    if quantity is Quantity.ANGLE and is_both:
         degrees = in_order(found, limit, 2, is_at_least=is_at_least)
         slope, most = (
             replace(each, value=100.0 * math.tan(math.radians(each.value)))
             for each in (found, limit)
         )
         percents = in_order(slope, most, 1, is_at_least=is_at_least)
-        first, second = (f"{a}° ({b} %)" for a, b in zip(degrees, percents, strict=True))
-        return first, second
-    decimals = _DECIMALS[check.measure] + bool(check.key and check.measure is Measure.PLAIN)
-    texts = in_order(found, limit, decimals, is_at_least=is_at_least)
-    first, second = (f"{text} {check.measure.unit}".rstrip() for text in texts)
-    return first, second
+        texts = [f"{a}° ({b} %)" for a, b in zip(degrees, percents, strict=True)]
+    elif quantity.has_systems and is_both:
+        texts = [*compared_pairs(found, limit, quantity, us_first, is_at_least=is_at_least)]
+    else:
+        unit = quantity.us if us_first else quantity.si
+        both = in_order(found, limit, unit.decimals, is_at_least=is_at_least, size=unit.si)
+        texts = [with_unit(text, unit) for text in both]
+    return texts[0] + found.mark, texts[1] + limit.mark
+
+
+def amount_text(amount: Amount, us_first: bool, *, is_both: bool = True) -> str:
+    """Return an amount with its units, which is compared with none."""
+    return amount_texts(amount, amount, us_first, is_at_least=True, is_both=is_both)[0]
+
+
+def with_unit(text: str, unit: Unit) -> str:
+    """Return a number for print with the symbol of its unit."""
+    space = "" if unit.symbol in ("", "°") else " "
+    return f"{text}{space}{unit.symbol}"

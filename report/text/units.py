@@ -71,6 +71,13 @@ class Quantity(Enum):
     PRESSURE = (Unit("psf", PRESSURES["psf"], 1), Unit("kPa", 1e3, 2))
     # At the end of a record, where a limit is as small as 10 mm.
     DRIFT = (Unit("in", INCH_M, 2), Unit("mm", 1e-3, 1))
+    # In one unit alone, whichever system is preferred. An angle is in degrees everywhere.
+    ANGLE = (Unit("°", 1.0, 2),) * 2
+    TIME = (Unit("s", 1.0, 1),) * 2
+    ACCELERATION = (Unit("g", G_MPS2, 3),) * 2
+    COUNT = (Unit("", 1.0, 0),) * 2
+    RATIO = (Unit("", 1.0, 2),) * 2
+    COEFFICIENT = (Unit("", 1.0, 3),) * 2
 
     @property
     def accepted(self) -> Mapping[str, float]:
@@ -82,6 +89,11 @@ class Quantity(Enum):
             Quantity.PRESSURE: PRESSURES,
         }
         return others.get(self, LENGTHS)
+
+    @property
+    def has_systems(self) -> bool:
+        """Whether it has a unit in each of the two systems."""
+        return self.us != self.si
 
     @property
     def us(self) -> Unit:
@@ -176,7 +188,8 @@ def pair(value_si: float, quantity: Quantity, us_first: bool = True, show: Show 
     return f"{first} ({second})"
 
 
-_SYMBOLS = "|".join(unit.symbol for quantity in Quantity for unit in quantity.value)
+_IN_BOTH = [quantity for quantity in Quantity if quantity.has_systems]
+_SYMBOLS = "|".join(unit.symbol for quantity in _IN_BOTH for unit in quantity.value)
 _BOTH = re.compile(rf"(\S+) ({_SYMBOLS}) \((\S+) ({_SYMBOLS})\)")
 
 
@@ -187,7 +200,7 @@ def in_us_order(text: str) -> str:
 
 def _in_us_order(both: re.Match[str]) -> str:
     first, unit, second, other = both.groups()
-    is_us = any(unit == quantity.us.symbol for quantity in Quantity)
+    is_us = any(unit == quantity.us.symbol for quantity in _IN_BOTH)
     return both[0] if is_us else f"{second} {other} ({first} {unit})"
 
 
