@@ -19,7 +19,7 @@ from report.sheet.schema.project import Site
 from report.sheet.schema.scene import SIDES, Array
 from report.sheet.schema.shapes import around, gap_m
 from report.text.amounts import capacity, compared_pairs, entered
-from report.text.counts import grouped_by, numbered, ranged
+from report.text.counts import capitalized, grouped_by, numbered, ranged
 from report.text.units import Quantity, measured, no_less, pair
 from solver.friction_tests import Series, Surface, fit_law, governing, series
 from solver.model import Friction
@@ -38,21 +38,25 @@ def hazard_rows(data: ProjectInput) -> tuple[Requirement, ...]:
     return (*_code(data), _source(site), _category(site), *_site_class(site), *_site_specific(site))
 
 
+_ATTACH = "attach the jurisdiction's letter of acceptance on the sheet Site"
+
+
 def _code(data: ProjectInput) -> Iterator[Requirement]:
     """Yield what is not by the edition of ASCE 7 that the building code references."""
     site, mark = data.site, "" if data.confirmed else "†"
     # By chapter 35 of the IBC and the CBC, the list of referenced standards.
     code, edition = site.code_text, REFERENCED.get(site.code_text)
-    row = partial(condition, basis=f"{code}, chapter 35{mark}", is_satisfied=False)
+    letter = site.acceptance_letter and f"; {site.acceptance_letter}, attached"
+    row = partial(condition, basis=f"{code}, chapter 35{mark}", is_satisfied=bool(letter))
     # Nothing is guessed for a code that is not in the list.
     if code and not edition:
         yield row(
             id="code_edition",
             title="Edition of ASCE 7 that the building code references",
-            found=f"not known to this program for the {code}",
-            limit="confirmation",
+            found=f"not known to this program for the {code}{letter}",
+            limit="known, or acceptance in writing",
             remedy="Confirm which it is, and that the rule set and the seismic parameters are by "
-            f"it. Known for: {', '.join(REFERENCED)}.",
+            f"it, and {_ATTACH}. Known for: {', '.join(REFERENCED)}.",
             places=(Place("site", 0, "building_code_year"),),
         )
     for field, what, used, instead in (
@@ -63,10 +67,9 @@ def _code(data: ProjectInput) -> Iterator[Requirement]:
             yield row(
                 id=field,
                 title=f"Acceptance of {what}{used} by the jurisdiction",
-                found=used,
+                found=f"{used}{letter}",
                 limit=f"{edition} of the {code}{mark}, or acceptance in writing",
-                remedy=f"Obtain the jurisdiction's acceptance in writing, or {instead} {edition}. "
-                f"{STAYS}",
+                remedy=f"{capitalized(_ATTACH)}, or {instead} {edition}.",
                 places=(Place("site", 0, field),),
             )
 

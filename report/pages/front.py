@@ -107,7 +107,7 @@ def _ratios(package: PackageData) -> Iterator[_Ratio]:
 def _what_if(package: PackageData, evidence: Evidence) -> Iterator[str]:
     """Yield what another input comes to, of the conditions and of the comparison, each once."""
     assessment, us_first = package.assessment, package.fmt.us_first
-    of_rows = [row.outcome for row in assessment.conditions if row.outcome]
+    of_rows = [row.outcome for row in assessment.rows if row.outcome]
     of_cases = [case.words(us_first) for case in evidence.cases]
     # A case of the comparison may repeat the outcome of a condition: the same words stand once.
     yield from dict.fromkeys((*of_rows, *of_cases))

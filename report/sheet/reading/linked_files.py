@@ -34,6 +34,7 @@ MOST_LISTED = 2_000
 
 DOCUMENTS = (
     ("site", "hazard_printout"),
+    ("site", "acceptance_letter"),
     ("friction_tests", "report_file"),
     ("options", "peer_letter"),
     ("options", "study_years"),

@@ -165,6 +165,9 @@ class Site(Frozen):
     """Edition of the building code."""
     jurisdiction: Annotated[Text, Cell("Jurisdiction", "City of Los Angeles")] = ""
     """Building department. Printed on the cover."""
+    acceptance_letter: Annotated[Text, Cell("Letter of acceptance", "acceptance.pdf")] = ""
+    """The jurisdiction's, of a rule set or an edition of ASCE 7 that the building code does not
+    reference: a PDF in the workbook's folder; the package attaches it."""
     fire_code_section: Annotated[
         Text, Cell("Fire code section", "Section of the 2022 CFC, as adopted")
     ] = ""

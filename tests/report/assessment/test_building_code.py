@@ -47,6 +47,14 @@ def test_the_cbc_references_what_the_ibc_of_the_year_before_does(year):
     assert REFERENCED[f"{year + 1} CBC"] == REFERENCED[f"{year} IBC"]
 
 
+@pytest.mark.parametrize("code", ["2001 CBC", "2025 CBC"])
+def test_the_letter_of_the_jurisdiction_satisfies_what_it_accepts(code):
+    accepted = before_runs(code, acceptance_letter="acceptance.pdf")
+    assert list(accepted) == list(before_runs(code))
+    assert all(row.verdict is Verdict.OK and not row.remedy for row in accepted.values())
+    assert all(row.found.endswith("; acceptance.pdf, attached") for row in accepted.values())
+
+
 @pytest.mark.parametrize(
     ("code", "changes", "found"),
     [("", {}, []), ("2022 CBC", {"rule_set": "ASCE 7-16"}, []), ("2022 CBC", {}, ["rule_set"]),
