@@ -34,6 +34,7 @@ class PeakRow(SheetRow, PeakResult):
 
     sheet: ClassVar[str] = "Peaks"
     across: ClassVar[str] = "array"
+    last_printed: ClassVar[str] = "any_m"
 
     array: Annotated[str, Column("Array")]
 
@@ -161,10 +162,11 @@ class DesignRow(SheetRow, ArrayResult):
 
     sheet: ClassVar[str] = "Design"
     across: ClassVar[str] = (
-        "id s_ds_g factor_m importance minimum_m prescriptive_m n_motions mean_prd_m largest_prd_m"
-        " analysis_factor computed_m floor_share floor_m design_m over_prescriptive by_roofslip_m"
-        " difference verdict statistic others slack_m weight_n interconnection_n given_n"
+        "id prescriptive_m mean_prd_m largest_prd_m statistic analysis_factor computed_m"
+        " floor_share floor_m design_m over_prescriptive slack_m weight_n interconnection_n given_n"
+        " others verdict s_ds_g factor_m importance minimum_m n_motions by_roofslip_m difference"
     )
+    last_printed: ClassVar[str] = "verdict"
 
     s_ds_g: Annotated[float, Column("S_DS [g]", 4, "={inputs[s_ds_g]}")]
     factor_m: Annotated[float, Column("Factor [in]", is_input=True)]
@@ -194,8 +196,8 @@ def write_design(
     peaks: PeakRanges,
     inputs: InputCells,
     results: Mapping[str, Sequence[str]],
-) -> None:
-    """Write the design displacement and the verdict of each array as formulas.
+) -> Sequence[DesignRow]:
+    """Write the design displacement and the verdict of each array as formulas; return the rows.
 
     From `results`, the cells with OK, NG or none of its clearances and its row of linked blocks.
     """
@@ -203,43 +205,16 @@ def write_design(
     for item in assessment.arrays:
         refs = {"inputs": inputs, "peaks": peaks.get(item.id, "")}
         rows.append(_row(assessment, item, refs, results[item.id]))
-    sheet = write_live(
+    write_live(
         pages,
         DesignRow,
         rows,
         "Design displacement",
         f"{assessment.rules.name}. {_FROM[assessment.has_motions]} Other requirements, those that "
-        "need other runs or the plan, are those of the report."
-        + (f" {MEANING}." if assessment.is_overridden else ""),
+        "need other runs or the plan, are those of the report. Columns right of the verdict do "
+        "not print." + (f" {MEANING}." if assessment.is_overridden else ""),
     )
-    sheet.write_string("B3", "Verdict", pages.head)
-    sheet.merge_range("C3:D3", "", pages.head)
-    sheet.write_string("E3", "Other", pages.head)
-    sheet.write_string("F3", _beside_arrays(assessment).value, pages.text)
-    cells = (Cells(DesignRow, TOP + at, is_here=True) for at in range(len(rows)))
-    formula = _worst_of(["F3", *(row.verdict for row in cells)])
-    sheet.write_formula("C3", formula, pages.head, assessment.verdict.value)
-
-
-def _beside_arrays(assessment: Assessment) -> Verdict:
-    """Return the verdict on what belongs to no array."""
-    ids = {item.id for item in assessment.arrays}
-    return worst(
-        [
-            *(Verdict.OK if check.ok else Verdict.NG for check in assessment.building_checks),
-            *(row.verdict for row in assessment.rows if row.subject not in ids),
-        ]
-    )
-
-
-def _worst_of(cells: Sequence[str]) -> str:
-    """Return the formula of the verdict on the project, from cells with those on its parts."""
-    # NG before conditions before OK, as `worst` has it.
-    met, missed = _quoted(Verdict.OK), _quoted(Verdict.CONDITIONS)
-    return (
-        f"=IF(OR({_any(cells, Verdict.NG)}),{_quoted(Verdict.NG)},"
-        f"IF(OR({_any(cells, Verdict.CONDITION)}),{missed},{met}))"
-    )
+    return rows
 
 
 def _verdict(results: Sequence[str]) -> str:
@@ -249,22 +224,19 @@ def _verdict(results: Sequence[str]) -> str:
         "ISTEXT({design_m})",
         "AND(ISNUMBER({slack_m}),{slack_m}<{design_m})",
         "AND(ISNUMBER({given_n}),{given_n}<{interconnection_n})",
-        _any(["{others}", *results], Verdict.NG),
-        *([_any(results, Verdict.NONE)] if results else []),
+        any_of(["{others}", *results], Verdict.NG),
+        *([any_of(results, Verdict.NONE)] if results else []),
     ]
-    open_ = ["ISTEXT({slack_m})", "ISTEXT({given_n})", _any(["{others}"], Verdict.CONDITION)]
+    open_ = ["ISTEXT({slack_m})", "ISTEXT({given_n})", any_of(["{others}"], Verdict.CONDITION)]
     return (
-        f"=IF(OR({','.join(failed)}),{_quoted(Verdict.NG)},"
-        f"IF(OR({','.join(open_)}),{_quoted(Verdict.CONDITION)},{_quoted(Verdict.OK)}))"
+        f'=IF(OR({",".join(failed)}),"{Verdict.NG}",'
+        f'IF(OR({",".join(open_)}),"{Verdict.CONDITION}","{Verdict.OK}"))'
     )
 
 
-def _any(cells: Sequence[str], verdict: Verdict) -> str:
-    return ",".join(f"{cell}={_quoted(verdict)}" for cell in cells)
-
-
-def _quoted(verdict: Verdict) -> str:
-    return f'"{verdict}"'
+def any_of(cells: Sequence[str], verdict: Verdict) -> str:
+    """Return the arguments of a formula that ask whether any cell has a verdict."""
+    return ",".join(f'{cell}="{verdict}"' for cell in cells)
 
 
 def _row(

@@ -26,6 +26,7 @@ from report.results.sheets import (
     Pages,
     SheetRow,
     fixed,
+    printed_columns,
     write_list,
     write_live,
     write_rows,
@@ -76,10 +77,10 @@ def write_lists(pages: Pages, assessment: Assessment, spectra: Sequence[Spectra]
     """Write the runs, the components of the motions, the records, spectra and neighbors."""
     shaking = assessment.shaking
     if assessment.has_motions:
-        write_list(pages, RunRow.sheet, list(_runs(assessment)))
+        write_list(pages, RunRow.sheet, list(_runs(assessment)), is_printed=False)
         write_list(pages, MotionRow.sheet, list(_motions(shaking)))
         write_list(pages, "Records", list(map(RecordResult.of, shaking.records)))
-        write_table(pages, "Spectra", _spectra(spectra))
+        write_table(pages, "Spectra", _spectra(spectra), is_printed=False)
     if assessment.neighbors:
         write_list(pages, "Neighbors", list(map(NeighborResult.of, assessment.neighbors)))
 
@@ -125,7 +126,7 @@ def write_requirements(pages: Pages, assessment: Assessment) -> None:
         RequirementLine,
         list(map(RequirementLine.beside, _rows(assessment))),
         "Requirements and limits",
-        "Satisfied or not. The verdict on the project and on each array is on the sheet Design.",
+        "Satisfied or not. The verdict on the project and on each array is on the sheet Summary.",
     )
 
 
@@ -205,6 +206,7 @@ class LinkRow(SheetRow, LinkedResult):
         " linked_one_axis_m ratio computed_m floor_m estimated_m design_m tolerance_m result"
         " by_roofslip_m difference"
     )
+    last_printed: ClassVar[str] = "difference"
 
     rigid_mean_m: Annotated[Number, Column("Mean, rigid [in]", 3, "=AVERAGE({peaks.rigid_m})")]
     rigid_largest_m: Annotated[Number, Column("Largest, rigid [in]", 3, "=MAX({peaks.rigid_m})")]
@@ -279,6 +281,7 @@ def write_links(pages: Pages, assessment: Assessment, designs: Mapping[str, Cell
     headings = [heading for _, heading, _ in columns_of(LinkPeakRow)]
     sheet.write_row(top - 2, 0, headings, pages.head)
     sheet.set_row(top - 2, 3 * LINE_PT)
+    sheet.print_area(0, 0, top + len(peaks) - 2, printed_columns(LinkRow) - 1)
     write_rows(pages, sheet, top, peaks)
 
 

@@ -18,7 +18,7 @@ from xlsxwriter.utility import xl_col_to_name
 from xlsxwriter.workbook import Workbook
 from xlsxwriter.worksheet import Worksheet
 
-from report.assessment.verdict import OVERRIDDEN
+from report.assessment.verdict import OVERRIDDEN, Verdict
 from report.entities.shown import NO_VALUE, Column, Entity, columns_of
 from report.text.units import Rounding
 
@@ -37,7 +37,9 @@ _TEXT = _WRAPPED | {"indent": 1}
 # By the numbers of Excel.
 _LETTER, _A4 = 1, 9
 # Of a column whose texts wrap, in letters; of long texts, twice that.
-_WIDEST = 30
+_WIDEST, _WIDEST_DATA = 30, 120
+# In the header of a sheet of data, beside what package it is of.
+NOT_PRINTED = "   Data, not printed: to print, Page Layout, Print Area, Clear Print Area"
 # A row of Excel is at most 409 points tall.
 _MOST_LINES = 27
 # Width of a landscape page, and the least scale on it [%].
@@ -48,6 +50,8 @@ class SheetRow(Entity):
     """A row of a sheet: an entity, and what the formulas of its fields take from elsewhere."""
 
     sheet: ClassVar[str]
+    # Last field on paper; those after it, and unrounded values, are to be traced on a screen.
+    last_printed: ClassVar[str] = ""
 
     refs: Mapping[str, Any] = {}  # cells elsewhere, by the name that formulas give them
     # those of this row, by field, in place of that of its first column; empty for none
@@ -64,11 +68,20 @@ class Cells:
     """The cells of a row, or of several, by the names of the fields."""
 
     def __init__(self, model: type[SheetRow], first: int, last: int = 0, *, is_here: bool = False):
-        self._letters, self._first, self._last = _letters(model), first, last
+        self._model, self._letters = model, _letters(model)
+        self._first, self._last = first, last
         self._sheet = "" if is_here else f"{model.sheet}!"
 
     def __getattr__(self, name: str) -> str:
         letter = self._letters[name]
+        return self._range(letter)
+
+    def printed(self, name: str) -> str:
+        """Return the cells of a field as they print: rounded up where the field is."""
+        names = [field for field, _, _ in columns_of(self._model)]
+        return self._range(xl_col_to_name(names.index(name)))
+
+    def _range(self, letter: str) -> str:
         to = f":{letter}{self._last}" if self._last else ""
         return f"{self._sheet}{letter}{self._first}{to}"
 
@@ -106,15 +119,36 @@ def text_workbook(buffer: BytesIO, date: dt.date, title: str = "") -> Workbook:
 class Pages:
     """The formats that all sheets share, and the paper that they are printed on."""
 
-    def __init__(self, workbook: Workbook, *, is_a4: bool = False):
-        self.workbook = workbook
+    def __init__(self, workbook: Workbook, head: str, *, is_a4: bool = False):
+        self.workbook, self.head_line = workbook, head
         self.paper = _A4 if is_a4 else _LETTER
         self.title = workbook.add_format({"bold": True, "font_size": 14})
         self.head = workbook.add_format(_WRAPPED | {"bold": True, "bottom": 1})
         self.note = workbook.add_format(_WRAPPED | {"italic": True, "font_color": "#555555"})
         self.text = workbook.add_format(_TEXT)
         self.typed_text = workbook.add_format(_TEXT | _INPUT)
+        # Among texts: aligned as they are.
+        self.lengths = workbook.add_format(_TEXT | {"num_format": "0.0"})
+        self.ratios = workbook.add_format(_TEXT | {"num_format": "0.00"})
+        self.failed = workbook.add_format({"bold": True, "font_color": "#C00000"})
+        self.open = workbook.add_format({"bold": True, "font_color": "#7F6000"})
         self._numbers: dict[tuple[int | None, bool, bool], Format] = {}
+
+    def mark_verdicts(self, sheet: Worksheet, last: int, columns: int) -> None:
+        """Let cells up to a row show NG in bold and red, and conditions in bold, as they change."""
+        looks = {Verdict.NG: self.failed}
+        looks |= dict.fromkeys((Verdict.CONDITION, Verdict.CONDITIONS), self.open)
+        for verdict, look in looks.items():
+            rule = {"type": "cell", "criteria": "==", "value": f'"{verdict}"', "format": look}
+            sheet.conditional_format(0, 0, last, columns - 1, rule)
+
+    def on_paper(self, sheet: Worksheet, extra: str = "") -> None:
+        """Make the pages of a sheet landscape, each with what package it is of."""
+        sheet.set_landscape()
+        sheet.set_paper(self.paper)
+        sheet.set_margins(left=0.4, right=0.4, top=0.75, bottom=0.6)
+        sheet.set_header(f"&L{self.head_line}{extra}")
+        sheet.set_footer("&L&F, &A&RPage &P of &N")
 
     def number(self, decimals: int | None, mark: str = "", *, is_input: bool = False) -> Format:
         """Return the format of a number, with its mark, which leaves it a number."""
@@ -134,16 +168,21 @@ class Pages:
         headings: Sequence[str],
         rows: Sequence[Sequence[str]],
         keys: int = 1,
+        printed: int | None = None,
     ) -> Worksheet:
-        """Return a sheet with its title and headings, laid out for rows of texts as shown."""
+        """Return a sheet with its title and headings, laid out for rows of texts as shown.
+
+        The columns that are `printed` come first; None for all.
+        """
         sheet: Worksheet = self.workbook.get_worksheet_by_name(name)
-        widths = lay_out(self, sheet, TOP - 2, headings, rows, keys)
+        widths = lay_out(self, sheet, TOP - 2, headings, rows, keys, printed)
         # Beside columns that stand on every page, on which it would be truncated.
-        start = keys if _is_wide(widths) else 0
+        start = keys if _is_wide(widths[:printed]) else 0
         end = max(k for k in range(len(widths) + 1) if not _is_wide(widths[:k]))
         sheet.write_string(0, start, title, self.title)
         sheet.merge_range(1, start, 1, end - 1, note, self.note)
-        sheet.set_row(1, LINE_PT * _lines(note, sum(widths[start:end])))
+        sheet.set_row(1, LINE_PT * lines_of(note, sum(widths[start:end])))
+        self.mark_verdicts(sheet, TOP + len(rows), len(widths))
         return sheet
 
 
@@ -154,25 +193,29 @@ def lay_out(
     headings: Sequence[str],
     rows: Sequence[Sequence[str]],
     keys: int = 1,
+    printed: int | None = None,
 ) -> Sequence[int]:
     """Write headings, fit columns and rows to texts as shown, and make landscape pages legible.
 
     Return the widths of the columns [letters]. The first `keys` say which row it is: they stay in
-    sight, and stand on every page.
+    sight, and stand on every page. Only the first columns are `printed`: of data, none.
     """
     sheet.write_row(top, 0, headings, pages.head)
-    widths = [_width(head, cells) for head, *cells in zip(headings, *rows, strict=True)]
+    widest = _WIDEST if printed != 0 else _WIDEST_DATA
+    widths = [_width(head, cells, widest) for head, *cells in zip(headings, *rows, strict=True)]
     for at, width in enumerate(widths):
         sheet.set_column(at, at, width)
     for number, texts in enumerate((headings, *rows), start=top):
-        sheet.set_row(number, LINE_PT * max(map(_lines, texts, widths)))
+        sheet.set_row(number, LINE_PT * max(map(lines_of, texts, widths)))
     sheet.freeze_panes(top + 1, keys)
-    sheet.set_landscape()
-    sheet.set_paper(pages.paper)
-    sheet.set_margins(left=0.4, right=0.4, top=0.6, bottom=0.6)
+    pages.on_paper(sheet, NOT_PRINTED if printed == 0 else "")
     sheet.repeat_rows(top)
-    sheet.set_footer("&L&F, &A&RPage &P of &N")
-    if _is_wide(widths):
+    if printed == 0:
+        # A sheet has no switch for that: it prints a blank cell beside its data, with its header.
+        sheet.print_area(top, len(widths), top, len(widths))
+    elif printed is not None:
+        sheet.print_area(0, 0, top + len(rows), printed - 1)
+    if _is_wide(widths[:printed]):
         sheet.set_print_scale(_LEAST_SCALE)
         sheet.repeat_columns(0, keys - 1)
         sheet.print_across()
@@ -187,15 +230,15 @@ def _is_wide(widths: Sequence[int]) -> bool:
     return sum(7 * width + 5 for width in widths) * _LEAST_SCALE > 100 * _PAGE_PX
 
 
-def _width(heading: str, cells: Sequence[str]) -> int:
+def _width(heading: str, cells: Sequence[str], widest: int) -> int:
     """Return the width of a column, in which no word is broken."""
     longest = max(map(len, cells), default=0)
     words = [len(word) for text in cells for word in text.split()]
-    wanted = min(longest, max(_WIDEST, min(longest // 4, 2 * _WIDEST)))
+    wanted = min(longest, max(widest, min(longest // 4, 2 * _WIDEST)))
     return max(*(len(word) - 1 for word in heading.split()), *words, wanted) + 2
 
 
-def _lines(text: str, width: int) -> int:
+def lines_of(text: str, width: int) -> int:
     """Return how many lines a text takes, of those that a row may have."""
     return max(1, min(len(wrap(text, width)), _MOST_LINES))
 
@@ -209,9 +252,22 @@ def write_live(
         [_shown(_value(row, name, column), column.decimals) for name, _, column in columns]
         for row in rows
     ]
-    sheet = pages.sheet(model.sheet, title, note, _headings(model), shown, model.key_columns)
+    sheet = pages.sheet(
+        model.sheet,
+        title,
+        note,
+        _headings(model),
+        shown,
+        model.key_columns,
+        printed_columns(model) if model.last_printed else None,
+    )
     write_rows(pages, sheet, TOP, rows)
     return sheet
+
+
+def printed_columns(model: type[SheetRow]) -> int:
+    """Return the number of columns that print, where a model says which is the last."""
+    return [name for name, _, _ in columns_of(model)].index(model.last_printed) + 1
 
 
 def write_rows(pages: Pages, sheet: Worksheet, top: int, rows: Iterable[SheetRow]) -> None:
@@ -252,7 +308,7 @@ def _write(
         sheet.write_number(*place, typed(value) if is_input else value, shown)
 
 
-def write_list(pages: Pages, name: str, rows: Sequence[Entity]) -> None:
+def write_list(pages: Pages, name: str, rows: Sequence[Entity], *, is_printed: bool = True) -> None:
     """Write entities as a sheet without formulas."""
     model = type(rows[0])
     columns = columns_of(model, has_formulas=False)
@@ -260,7 +316,7 @@ def write_list(pages: Pages, name: str, rows: Sequence[Entity]) -> None:
         heading: [_value(row, field, column) for row in rows] for field, heading, column in columns
     }
     decimals = {heading: column.decimals for _, heading, column in columns}
-    write_table(pages, name, table, model.key_columns, decimals)
+    write_table(pages, name, table, model.key_columns, decimals, is_printed=is_printed)
 
 
 def write_table(
@@ -269,6 +325,8 @@ def write_table(
     table: Mapping[str, Sequence[Any]],
     keys: int = 1,
     own_decimals: Mapping[str, int | None] = {},
+    *,
+    is_printed: bool = True,
 ) -> None:
     """Write columns by heading as a sheet."""
     sheet: Worksheet = pages.workbook.get_worksheet_by_name(name)
@@ -279,7 +337,7 @@ def write_table(
         for heading, values in table.items()
     ]
     shown = [list(map(_shown, row, decimals)) for row in zip(*table.values(), strict=True)]
-    lay_out(pages, sheet, 0, list(table), shown, keys)
+    lay_out(pages, sheet, 0, list(table), shown, keys, None if is_printed else 0)
     for at, (values, digits) in enumerate(zip(table.values(), decimals, strict=True)):
         is_text = any(isinstance(value, str) for value in values)
         look = pages.text if is_text else pages.number(digits)
@@ -291,7 +349,8 @@ def _shown(value: Any, decimals: int | None) -> str:
     number = _finite(value)
     if isinstance(number, float) and decimals is not None:
         return f"{number:.{decimals}f}"
-    return str(number)
+    # As the format General shows it.
+    return f"{number:.9g}" if isinstance(number, float) else str(number)
 
 
 def _headings(model: type[Entity]) -> Sequence[str]:
@@ -304,6 +363,13 @@ def _value(row: Entity, name: str, column: Column) -> Any:
     if value is None:
         return "not given"
     return column.held(value)
+
+
+def printed_value(row: Entity, name: str) -> float | str:
+    """Return what the first cell of a field holds, as the sheet of its row prints it."""
+    value = next(_value(row, name, column) for at, _, column in columns_of(type(row)) if at == name)
+    found: float | str = _finite(value)
+    return found
 
 
 def _finite(value: Any) -> Any:

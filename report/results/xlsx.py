@@ -7,23 +7,13 @@ value is repeated beside it as a number, so that a checker can trace, change and
 from __future__ import annotations
 
 import io
-import math
 from collections.abc import Sequence
-from typing import Annotated, ClassVar
 
-from report.assessment.clearances import ClearanceCheck, beside
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra
-from report.assessment.verdict import MEANING, Verdict
-from report.entities.clearance import ClearanceResult
-from report.entities.shown import Column, Number, up_column
-from report.results.design import (
-    DesignRow,
-    InputCells,
-    write_design,
-    write_inputs,
-    write_peaks,
-)
+from report.provenance.files import fingerprint
+from report.results.clearances import result_cells, write_clearances
+from report.results.design import DesignRow, write_design, write_inputs, write_peaks
 from report.results.lists import (
     LinkRunRow,
     link_cells,
@@ -32,112 +22,14 @@ from report.results.lists import (
     write_lists,
     write_requirements,
 )
-from report.results.sheets import (
-    TOP,
-    Cells,
-    Pages,
-    SheetRow,
-    fixed,
-    text_workbook,
-    write_list,
-    write_live,
-)
-from solver.rules.provisions import SEPARATION_KEYS
-
-_DIFFERENCE = '=IF(ISTEXT({required_m}),"none",{required_m}-{by_roofslip_m})'
-
-
-class GapRow(SheetRow, ClearanceResult):
-    """A clearance: required and provided separation."""
-
-    sheet: ClassVar[str] = "Clearances"
-    across: ClassVar[str] = (
-        "count array object direction neighbor governing design_m factor minimum_m required_m"
-        " provided_m basis demand_capacity verdict by_roofslip_m difference rule_factor importance"
-    )
-    key_columns: ClassVar[int] = 3
-
-    count: Annotated[int, Column("No.")]
-    governing: Annotated[str, Column("Governing array")]
-    minimum_m: Annotated[float, Column("Minimum [in]", is_input=True)]
-    by_roofslip_m: Annotated[Number, up_column("Required by Roofslip [in]", 1)]
-    difference: Annotated[float, Column("Difference [in]", 4, _DIFFERENCE)] = 0.0
-    rule_factor: Annotated[float, Column("Separation / displacement", 2, is_input=True)]
-
-
-def result_cells(assessment: Assessment, array_id: str) -> Sequence[str]:
-    """Return the cells of the results of the clearances of an array, from either side."""
-    return [
-        fixed(GapRow, "verdict", row)
-        for row, gap in enumerate(assessment.clearances, start=TOP)
-        if gap.involves(array_id)
-    ]
-
-
-def write_clearances(pages: Pages, assessment: Assessment, inputs: InputCells) -> None:
-    """Write each clearance as formulas."""
-    write_live(
-        pages,
-        GapRow,
-        [_row(assessment, gap, inputs, k) for k, gap in enumerate(assessment.clearances, start=1)],
-        "Clearances",
-        f"{assessment.rules.name}. From the sheet Design; between two arrays the larger "
-        "displacement governs. The factor includes I_e or I_p if the rule set applies it here."
-        + (f" {MEANING}." if assessment.is_overridden else ""),
-    )
-
-
-def _row(assessment: Assessment, gap: ClearanceCheck, inputs: InputCells, count: int) -> GapRow:
-    rules = assessment.rules
-    largest, governing = _sides(assessment, gap)
-    # Which route is permitted is no formula.
-    formulas = {"governing": f"={governing}" if gap.is_permitted else ""}
-    if not (rules.importance_in_separation and gap.neighbor.is_edge):
-        formulas["importance"] = ""
-    factor = rules.values[SEPARATION_KEYS[gap.neighbor]]
-    has_value = not math.isnan(gap.required_m)
-    return GapRow.beside(
-        ClearanceResult.of(gap),
-        refs={
-            "inputs": inputs,
-            "largest": largest if gap.is_permitted else '"none"',
-            "unknown": Verdict.NG if gap.is_permitted else Verdict.NONE,
-        },
-        formulas=formulas,
-        blanks=() if has_value else {"by_roofslip_m", "difference"},
-        marks={
-            "design_m": gap.design_mark,
-            "rule_factor": factor.reason,
-            **dict.fromkeys(("required_m", "demand_capacity", "by_roofslip_m"), gap.mark),
-        },
-        count=count,
-        governing=gap.governing_array,
-        minimum_m=gap.minimum_m,
-        by_roofslip_m=gap.required_m,
-        rule_factor=factor.value,
-    )
-
-
-def _sides(assessment: Assessment, gap: ClearanceCheck) -> tuple[str, str]:
-    """Return the formulas of the larger displacement on either side, and of whose it is."""
-    rows = {array.id: row for row, array in enumerate(assessment.arrays, start=TOP)}
-    sides = [rows[array.id] for array in beside(assessment.arrays, gap.clearance)]
-    cells = [fixed(DesignRow, "design_m", row) for row in sides]
-    names = [fixed(DesignRow, "id", row) for row in sides]
-    if len(cells) == 1:
-        return cells[0], names[0]
-    # Text, "none", is larger than any number: an array without a value governs.
-    near, far = cells
-    return (
-        f'IF(OR(ISTEXT({near}),ISTEXT({far})),"none",MAX({near},{far}))',
-        f"IF({far}>{near},{names[1]},{names[0]})",
-    )
-
+from report.results.sheets import TOP, Cells, Pages, text_workbook, write_list
+from report.results.summary import write_summary
+from report.text.formats import shortened
 
 # The sheets in the order of the package.
 _ORDER = (
-    "Design", "Clearances", "Neighbors", "Requirements", "Inputs", "Motions", "Records", "Spectra",
-    "Peaks", "Runs", "Links", "LinkRuns",
+    "Summary", "Design", "Clearances", "Neighbors", "Requirements", "Inputs", "Motions", "Records",
+    "Spectra", "Peaks", "Runs", "Links", "LinkRuns",
 )  # fmt: skip
 
 # The sheets that a workbook without motions has not.
@@ -150,8 +42,14 @@ def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
     absent = set() if assessment.linked else {"Links", "LinkRuns"}
     absent |= set() if assessment.neighbors else {"Neighbors"}
     absent |= set() if assessment.has_motions else OF_MOTIONS
-    with text_workbook(buffer, assessment.project.project.date) as workbook:
-        pages = Pages(workbook, is_a4=not assessment.project.us_first)
+    project = assessment.project.project
+    of = f"revision {project.revision}, hash {fingerprint(assessment.sheet, assessment.shaking)}"
+    title = f"{project.number} {project.name}, {of}"
+    with text_workbook(buffer, project.date, title) as workbook:
+        head = f"{shortened(project.number, 24)}   {shortened(project.name, 60)}   {of}"
+        # An ampersand begins a code in the header of a page.
+        head = head.replace("&", "&&")
+        pages = Pages(workbook, head, is_a4=not assessment.project.us_first)
         for name in _ORDER:
             # All before any is written: xlsxwriter keeps them in the order in which they were
             # added.
@@ -170,9 +68,10 @@ def _write_live(pages: Pages, assessment: Assessment) -> None:
     ids = [item.id for item in assessment.arrays]
     results = {id: [*result_cells(assessment, id), *link_cells(assessment, id)] for id in ids}
     designs = {id: Cells(DesignRow, row) for row, id in enumerate(ids, start=TOP)}
-    write_design(pages, assessment, peaks, inputs, results)
+    rows = write_design(pages, assessment, peaks, inputs, results)
     write_requirements(pages, assessment)
     if assessment.linked:
-        write_list(pages, LinkRunRow.sheet, list(link_run_rows(assessment)))
+        write_list(pages, LinkRunRow.sheet, list(link_run_rows(assessment)), is_printed=False)
         write_links(pages, assessment, designs)
-    write_clearances(pages, assessment, inputs)
+    gaps = write_clearances(pages, assessment, inputs)
+    write_summary(pages, assessment, rows, gaps)

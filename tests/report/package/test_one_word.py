@@ -12,6 +12,7 @@ import pytest
 
 import scenes
 import stand_in
+from cells import cell
 from nightly import by_day
 from printed import IDS, printed
 from report.assessment.assess import reassess
@@ -75,7 +76,7 @@ def test_verdicts_of_arrays_clearances_and_neighbors_are_one_word(made):
     ]
     cells = rows_of(book["Design"], 4)
     assert [row["Verdict"] for row in cells] == [row["verdict"] for row in arrays]
-    assert book["Design"]["C3"].value == document["verdict"]
+    assert cell(book, "Summary/Verdict").value == document["verdict"]
     gaps = document["clearances"]
     table = printed(package, "plan").table("Schedule of clearances").rows
     kinds = [f"{row['neighbor']}, {row['direction']}" for row in gaps]

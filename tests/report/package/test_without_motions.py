@@ -139,7 +139,9 @@ def test_results_xlsx_follows_from_the_site_by_formula(tmp_path):
     path = tmp_path / "results.xlsx"
     path.write_bytes(results_xlsx(scenes.without_motions(), ()))
     (book,) = recalculated([path], tmp_path)
-    assert book.sheetnames == ["Design", "Clearances", "Neighbors", "Requirements", "Inputs"]
+    assert book.sheetnames == [
+        "Summary", "Design", "Clearances", "Neighbors", "Requirements", "Inputs",
+    ]  # fmt: skip
     rows = [[cell.value for cell in row] for row in book["Design"].iter_rows(min_row=4)]
     heads, first = rows[0], rows[1]
     design = dict(zip(heads, first, strict=False))

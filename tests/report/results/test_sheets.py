@@ -6,7 +6,7 @@ from textwrap import wrap
 
 import openpyxl
 import pytest
-from openpyxl.utils import get_column_letter
+from openpyxl.utils import get_column_letter, range_boundaries
 from pypdf import PdfReader
 
 import scenes
@@ -15,12 +15,14 @@ from cells import cell
 from nightly import by_day
 from recalculated import converted, recalculated
 from report.assessment.spectra import spectra
+from report.provenance.files import fingerprint
 from report.results.xlsx import results_xlsx
 from report.text.units import ratio
 from sheets import of, put
 
 LETTER_PX, MARGIN_PX = 7, 5
-PAGE_IN = {"1": 11.0, "9": 11.69}  # Letter and A4 in landscape
+PAGE_IN = {"1": (11.0, 8.5), "9": (11.69, 8.27)}  # Letter and A4: long side, short side
+DATA = {"Spectra", "Runs", "LinkRuns"}
 LEGIBLE = 0.6  # of 11 pt
 
 
@@ -46,6 +48,10 @@ def widths(sheet):
     return found
 
 
+def printed(sheet):
+    return sheet.print_area.rpartition("!")[2].replace("$", "")
+
+
 def heading_row(sheet):
     return int(sheet.print_title_rows.split(":")[0].strip("$"))
 
@@ -58,12 +64,12 @@ def shown(cell):
 @pytest.mark.quick
 def test_sheets_are_in_order_landscape_and_legible(book):
     order = [
-        "Design", "Clearances", "Neighbors", "Requirements", "Inputs", "Motions", "Records",
-        "Spectra", "Peaks", "Runs", "Links", "LinkRuns",
+        "Summary", "Design", "Clearances", "Neighbors", "Requirements", "Inputs", "Motions",
+        "Records", "Spectra", "Peaks", "Runs", "Links", "LinkRuns",
     ]  # fmt: skip
     assert book.sheetnames == [name for name in order if name in book.sheetnames]
     for sheet in book:
-        wide, top = widths(sheet), heading_row(sheet)
+        wide, top = widths(sheet), heading_row(sheet) if sheet.print_title_rows else 3
         for row in sheet.iter_rows(min_row=top):
             for at in (at for at in row if at.value is not None):
                 text, letters = shown(at), wide[at.column_letter]
@@ -75,15 +81,23 @@ def test_sheets_are_in_order_landscape_and_legible(book):
 
 
 @pytest.mark.quick
-def test_pages_are_landscape_and_legible_on_the_paper_of_the_units(done, book):
+def test_pages_are_legible_on_the_paper_of_the_units_and_data_do_not_print(done, book):
     for sheet in book:
         setup, wide = sheet.page_setup, widths(sheet)
-        assert (setup.orientation, str(setup.paperSize)) == (
-            "landscape",
-            "1" if done.project.us_first else "9",
-        )
-        page_in = PAGE_IN[str(setup.paperSize)] - sheet.page_margins.left - sheet.page_margins.right
+        paper = "1" if done.project.us_first else "9"
+        turned = "portrait" if sheet.title == "Summary" else "landscape"
+        assert (setup.orientation, str(setup.paperSize)) == (turned, paper)
+        if sheet.title in DATA:
+            left, top, right, bottom = range_boundaries(printed(sheet))
+            assert (left, top) == (right, bottom)
+            assert sheet.cell(top, left).value is None
+            assert "Data, not printed" in sheet.oddHeader.left.text
+            continue
+        size_in = PAGE_IN[paper]
+        page_in = size_in[turned == "portrait"] - sheet.page_margins.left - sheet.page_margins.right
         columns_in = [(LETTER_PX * letters + MARGIN_PX) / 96.0 for letters in wide.values()]
+        if sheet.print_area:
+            columns_in = columns_in[: range_boundaries(printed(sheet))[2]]
         if sheet.sheet_properties.pageSetUpPr and sheet.sheet_properties.pageSetUpPr.fitToPage:
             assert (setup.fitToWidth, setup.fitToHeight) in ((1, 0), (None, 0))
             assert sum(columns_in) * LEGIBLE <= page_in
@@ -93,6 +107,26 @@ def test_pages_are_landscape_and_legible_on_the_paper_of_the_units(done, book):
             assert keys[0] == "A"
             repeated = sum(columns_in[: list(wide).index(keys[1]) + 1])
             assert (repeated + max(columns_in)) * LEGIBLE <= page_in
+
+
+@pytest.mark.quick
+def test_every_sheet_says_what_it_is_of_and_shows_a_verdict_that_changes_to_ng(done, book):
+    project = done.project.project
+    of = f"revision {project.revision}, hash {fingerprint(done.sheet, done.shaking)}"
+    assert book.properties.title == f"{project.number} {project.name}, {of}"
+    for sheet in book:
+        assert sheet.oddHeader.left.text.startswith(f"{project.number}   {project.name}   {of}")
+    for title in ("Summary", "Design", "Clearances", "Requirements"):
+        last = book[title].cell(book[title].max_row, 5).coordinate
+        formats = {
+            rule.formula[0]: rule.dxf.font
+            for some in book[title].conditional_formatting
+            if "A1" in some.sqref and last in some.sqref
+            for rule in some.rules
+        }
+        assert set(formats) == {'"NG"', '"Condition"', '"OK with conditions"'}
+        assert all(font.b for font in formats.values())
+        assert formats['"NG"'].color.rgb == "FFC00000"
 
 
 INCH = 0.0254
@@ -169,7 +203,11 @@ def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(b
     assert before.clearances[1].ok
     assert not after.clearances[1].ok
     book = changed[0]
-    assert cell(book, "Design/Verdict").value == after.verdict.value
+    assert cell(book, "Summary/Verdict").value == after.verdict.value
+    worst = max(after.clearances, key=lambda gap: gap.demand_capacity)
+    row = f"Summary/{worst.clearance.array} to {worst.clearance.object}"
+    assert cell(book, f"{row}/D/C").value == float(ratio(worst.demand_capacity))
+    assert cell(book, f"{row}/Of all").value == "NG"
     lengths = [
         f"{heading}, unrounded"
         for heading in ("Prescriptive", "Mean PRD", "Largest PRD", "Computed", "Floor", "Design")
@@ -211,6 +249,19 @@ def test_every_printed_page_names_its_sheet(before, tmp_path):
     names = openpyxl.load_workbook(path).sheetnames
     (printed,) = converted([path], tmp_path, "pdf")
     texts = [page.extract_text() for page in PdfReader(printed).pages]
-    counts = {name: sum(f", {name}" in text for text in texts) for name in names}
-    assert all(counts.values()), counts
+    counts = {name: sum(f"xlsx, {name}" in text for text in texts) for name in names}
+    assert {name for name, count in counts.items() if not count} == DATA & set(names)
     assert len(texts) == sum(counts.values())
+    project = before.project.project
+    hash_ = fingerprint(before.sheet, before.shaking)
+    for said in (project.number, project.name, f"revision {project.revision}", hash_):
+        assert all(said in text for text in texts), said
+
+
+@pytest.mark.nightly
+def test_the_example_prints_ten_pages(tmp_path):
+    done = scenes.shipped("example")
+    path = tmp_path / "results.xlsx"
+    path.write_bytes(results_xlsx(done, spectra(done)))
+    (printed,) = converted([path], tmp_path, "pdf")
+    assert len(PdfReader(printed).pages) == 10

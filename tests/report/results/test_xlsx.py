@@ -176,7 +176,7 @@ def test_without_a_value_or_a_route_the_workbook_has_no_verdict():
     assert valued(values, "Clearances/1", "Required [in]", "Verdict") == ["none", "none"]
     linked = valued(values, "Links/1", "Array", "Design with links", "Verdict")
     assert linked == ["A1", "none", "NG"]
-    assert cell(values, "Design/Verdict").value == "NG"
+    assert cell(values, "Summary/Verdict").value == "NG"
     rows = list(values["Requirements"].iter_rows(min_row=5, values_only=True))
     assert any(row[0] == "Motions" and row[5] == "NG" for row in rows)
     links = [stand_in.links("A1", "0.3, 0.3", 50)]
@@ -202,9 +202,9 @@ def test_texts_stay_texts_and_two_runs_give_the_same_bytes(content, usual):
 
 def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(usual):
     assessment, values = scenes.usual(), usual[1]
-    assert values.sheetnames[0] == "Design"
+    assert values.sheetnames[:2] == ["Summary", "Design"]
     assert not {"Links", "LinkRuns"} & set(values.sheetnames)  # no row of blocks is asked for
-    assert cell(values, "Design/Verdict").value == assessment.verdict.value
+    assert cell(values, "Summary/Verdict").value == assessment.verdict.value
     for item in assessment.arrays:
         verdict = assessment.array_verdict(item)
         assert cell(values, f"Design/{item.id}/Verdict").value == verdict
@@ -241,7 +241,7 @@ def test_a_column_is_one_field_with_its_heading_unit_digits_and_formula():
     content = io.BytesIO()
     with Workbook(content, {"strings_to_formulas": False}) as workbook:
         workbook.add_worksheet("Peaks")
-        write_live(Pages(workbook), WiderRow, [row], "Peaks", "")
+        write_live(Pages(workbook, "A project"), WiderRow, [row], "Peaks", "")
     formulas, values = opened(content.getvalue())
     head = next(line for line in values["Peaks"].iter_rows(values_only=True) if "Motion" in line)
     assert head[5:8] == ("Any direction [in]", "Twice [in]", "Note")

@@ -1,0 +1,160 @@
+"""The sheet Summary of results.xlsx, as sheet 1 of the package: project, verdicts, what is open.
+
+The verdicts and the governing clearance are formulas and follow the yellow cells; the rest is of
+the package. Read `write_summary`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from operator import itemgetter
+
+from xlsxwriter.worksheet import Worksheet
+
+from report.assessment.project import Assessment
+from report.assessment.verdict import Verdict, worst
+from report.provenance.files import fingerprint
+from report.results.clearances import GapRow
+from report.results.design import DesignRow, any_of
+from report.results.sheets import LINE_PT, TOP, Cells, Pages, lines_of, printed_value
+from report.text.counts import ranged
+
+# What a cell holds: a text, a number, or a formula with its value.
+_Value = str | float | tuple[str, str | float]
+
+_OF_ARRAYS = (
+    "Array", "Route", "Analysis [in]", "Prescriptive [in]", "Design [in]", "Cause", "Verdict",
+)  # fmt: skip
+_OF_GAPS = ("Governing clearance", "Kind", "Provided [in]", "Required [in]", "D/C", "", "Of all")
+_OF_OPEN = ("Not satisfied", "Of", "Found", "Required", "", "What must be done", "Verdict")
+_WIDTHS = (26, 26, 24, 22, 13, 26, 12)  # [letters]
+_NOTE = (
+    "As sheet 1 of the calculation package. Verdicts, displacements and the governing clearance "
+    "follow the yellow cells of the sheets Inputs, Design and Clearances; all else is of the "
+    "package. Spectra, runs and unrounded values are data and do not print."
+)
+
+
+def write_summary(
+    pages: Pages, assessment: Assessment, designs: Sequence[DesignRow], gaps: Sequence[GapRow]
+) -> None:
+    """Write the head, the arrays, the clearance that governs and what is not satisfied.
+
+    From the rows of the sheets Design and Clearances.
+    """
+    sheet: Worksheet = pages.workbook.get_worksheet_by_name("Summary")
+    for at, width in enumerate(_WIDTHS):
+        sheet.set_column(at, at, width)
+    sheet.write_string(0, 0, "Seismic displacement of rooftop solar arrays: summary", pages.title)
+    sheet.merge_range(1, 0, 1, len(_WIDTHS) - 1, _NOTE, pages.note)
+    sheet.set_row(1, LINE_PT * lines_of(_NOTE, sum(_WIDTHS)))
+    arrays = [_array(row, place) for place, row in enumerate(designs, start=TOP)]
+    tables: list[tuple[Sequence[str], Sequence[Sequence[_Value]]]] = [
+        ((), _head(assessment, len(designs))),
+        (_OF_ARRAYS, arrays),
+        (_OF_GAPS, [_gap(gaps)] if gaps else []),
+        (_OF_OPEN, list(_open(assessment))),
+    ]
+    top = 3
+    for heads, rows in filter(itemgetter(1), tables):
+        sheet.write_row(top, 0, heads, pages.head)
+        for row, values in enumerate(rows, start=top + bool(heads)):
+            _write_row(pages, sheet, row, values, heads)
+        top += bool(heads) + len(rows) + 1
+    pages.on_paper(sheet)
+    sheet.set_portrait()
+    pages.mark_verdicts(sheet, top, len(_WIDTHS))
+    sheet.fit_to_pages(1, 0)
+
+
+def _write_row(
+    pages: Pages, sheet: Worksheet, row: int, values: Sequence[_Value], heads: Sequence[str]
+) -> None:
+    tall = 1
+    for at, value in enumerate(values):
+        formula, shown = value if isinstance(value, tuple) else ("", value)
+        look = pages.text
+        if not isinstance(shown, str):
+            look = pages.lengths if heads[at].endswith("[in]") else pages.ratios
+        if formula:
+            sheet.write_formula(row, at, formula, look, shown)
+        else:
+            sheet.write(row, at, shown, look)
+        tall = max(tall, lines_of(str(shown), _WIDTHS[at] - 2))
+    sheet.set_row(row, LINE_PT * tall)
+
+
+def _head(assessment: Assessment, n_arrays: int) -> Sequence[Sequence[_Value]]:
+    """Return the rows of the project, the last two with the verdict and what it follows from."""
+    project, site = assessment.project.project, assessment.project.site
+    ids = {item.id for item in assessment.arrays}
+    other = worst(
+        [
+            *(Verdict.OK if check.ok else Verdict.NG for check in assessment.building_checks),
+            *(row.verdict for row in assessment.rows if row.subject not in ids),
+        ]
+    )
+    rows: list[Sequence[_Value]] = [
+        ("Project", project.name),
+        ("Project number", project.number),
+        ("Revision", project.revision),
+        ("Date", str(project.date)),
+        ("Prepared by", project.prepared_by),
+        ("Checked by", project.checked_by or "not yet checked"),
+        ("Hash", fingerprint(assessment.sheet, assessment.shaking)),
+        ("Rule set", assessment.rules.name),
+        ("S_DS, SDC", f"{site.s_ds:.3f} g, {site.sdc_text}"),
+    ]
+    cells = [Cells(DesignRow, TOP + count).verdict for count in range(n_arrays)]
+    cells.append(f"B{len(rows) + 4}")  # the next row, below title, note and a blank one
+    formula = (
+        f'=IF(OR({any_of(cells, Verdict.NG)}),"{Verdict.NG}",'
+        f'IF(OR({any_of(cells, Verdict.CONDITION)}),"{Verdict.CONDITIONS}","{Verdict.OK}"))'
+    )
+    return (
+        *rows,
+        ("Building, motions and documents", other.value),
+        ("Verdict", (formula, assessment.verdict.value)),
+    )
+
+
+def _array(row: DesignRow, place: int) -> Sequence[_Value]:
+    """Return an array with its displacements, rounded as on the sheet Design."""
+    cells = Cells(DesignRow, place)
+    lengths = [
+        (f"={cells.printed(name)}", printed_value(row, name))
+        for name in ("computed_m", "prescriptive_m", "design_m")
+    ]
+    return (row.id, row.route.value, *lengths, row.cause, (f"={cells.verdict}", row.verdict.value))
+
+
+def _gap(rows: Sequence[GapRow]) -> Sequence[_Value]:
+    """Return the clearance with the largest D/C, and the verdict on all."""
+    cells = Cells(GapRow, TOP, TOP + len(rows) - 1)
+    ratios = [printed_value(row, "demand_capacity") for row in rows]
+    known = [ratio for ratio in ratios if not isinstance(ratio, str)]
+    verdicts = [row.verdict for row in rows]
+    of_all = next((v for v in (Verdict.NG, Verdict.NONE) if v in verdicts), Verdict.OK)
+    formula = (
+        f'=IF(COUNTIF({cells.verdict},"{Verdict.NG}")>0,"{Verdict.NG}",'
+        f'IF(COUNTIF({cells.verdict},"{Verdict.NONE}")>0,"{Verdict.NONE}","{Verdict.OK}"))'
+    )
+    if not known:
+        return ("none has a required separation", "", "", "", "", "", (formula, of_all.value))
+    at = ratios.index(max(known))
+    place = f"MATCH(MAX({cells.demand_capacity}),{cells.demand_capacity},0)"
+
+    def found(name: str) -> _Value:
+        return f"=INDEX({cells.printed(name)},{place})", printed_value(rows[at], name)
+
+    array, other = (f"INDEX({cells.printed(name)},{place})" for name in ("array", "object"))
+    between = f'={array}&" to "&{other}', f"{rows[at].array} to {rows[at].object}"
+    names = ("neighbor", "provided_m", "required_m", "demand_capacity")
+    return (between, *map(found, names), "", (formula, of_all.value))
+
+
+def _open(assessment: Assessment) -> Iterator[Sequence[_Value]]:
+    """Yield what is not satisfied, as in the package."""
+    for row, subjects in assessment.alike_conditions:
+        of = ranged(subjects) if row.subject else "Project"
+        yield (row.title, of, row.found, row.limit, "", row.remedy, row.verdict.value)
