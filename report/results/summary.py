@@ -11,13 +11,14 @@ from operator import itemgetter
 
 from xlsxwriter.worksheet import Worksheet
 
+from report.assessment.checks.check import Check, alike, by_ratio, texts
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict, worst
 from report.provenance.files import fingerprint
 from report.results.clearances import GapRow
 from report.results.design import DesignRow, any_of
 from report.results.sheets import LINE_PT, TOP, Cells, Pages, lines_of, printed_value
-from report.text.counts import ranged
+from report.text.units import ratio
 
 # What a cell holds: a text, a number, or a formula with its value.
 _Value = str | float | tuple[str, str | float]
@@ -26,7 +27,8 @@ _OF_ARRAYS = (
     "Array", "Route", "Analysis [in]", "Prescriptive [in]", "Design [in]", "Cause", "Verdict",
 )  # fmt: skip
 _OF_GAPS = ("Governing clearance", "Kind", "Provided [in]", "Required [in]", "D/C", "", "Of all")
-_OF_OPEN = ("Not satisfied", "Of", "Found", "Required", "", "What must be done", "Verdict")
+_OF_CHECKS = ("Largest of each check", "Of", "Found", "Required", "Ratio", "Clause", "Verdict")
+_OF_OPEN = ("Not satisfied", "Of", "Found", "Required", "Who acts", "What must be done", "Verdict")
 _WIDTHS = (26, 26, 24, 22, 13, 26, 12)  # [letters]
 _NOTE = (
     "As sheet 1 of the calculation package. Verdicts, displacements and the governing clearance "
@@ -38,7 +40,7 @@ _NOTE = (
 def write_summary(
     pages: Pages, assessment: Assessment, designs: Sequence[DesignRow], gaps: Sequence[GapRow]
 ) -> None:
-    """Write the head, the arrays, the clearance that governs and what is not satisfied.
+    """Write the head, the arrays, the checks that govern and what is not satisfied.
 
     From the rows of the sheets Design and Clearances.
     """
@@ -53,6 +55,7 @@ def write_summary(
         ((), _head(assessment, len(designs))),
         (_OF_ARRAYS, arrays),
         (_OF_GAPS, [_gap(gaps)] if gaps else []),
+        (_OF_CHECKS, list(_governing(assessment))),
         (_OF_OPEN, list(_open(assessment))),
     ]
     top = 3
@@ -87,13 +90,7 @@ def _write_row(
 def _head(assessment: Assessment, n_arrays: int) -> Sequence[Sequence[_Value]]:
     """Return the rows of the project, the last two with the verdict and what it follows from."""
     project, site = assessment.project.project, assessment.project.site
-    ids = {item.id for item in assessment.arrays}
-    other = worst(
-        [
-            *(Verdict.OK if check.ok else Verdict.NG for check in assessment.building_checks),
-            *(row.verdict for row in assessment.rows if row.subject not in ids),
-        ]
-    )
+    other = worst(check.verdict for check in assessment.checks if not check.arrays)
     rows: list[Sequence[_Value]] = [
         ("Project", project.name),
         ("Project number", project.number),
@@ -132,7 +129,7 @@ def _gap(rows: Sequence[GapRow]) -> Sequence[_Value]:
     """Return the clearance with the largest D/C, and the verdict on all."""
     cells = Cells(GapRow, TOP, TOP + len(rows) - 1)
     ratios = [printed_value(row, "demand_capacity") for row in rows]
-    known = [ratio for ratio in ratios if not isinstance(ratio, str)]
+    known = [each for each in ratios if not isinstance(each, str)]
     verdicts = [row.verdict for row in rows]
     of_all = next((v for v in (Verdict.NG, Verdict.NONE) if v in verdicts), Verdict.OK)
     formula = (
@@ -153,8 +150,24 @@ def _gap(rows: Sequence[GapRow]) -> Sequence[_Value]:
     return (between, *map(found, names), "", (formula, of_all.value))
 
 
+def _governing(assessment: Assessment) -> Iterator[Sequence[_Value]]:
+    """Yield the satisfied check with the largest ratio of each kind but clearances."""
+    first: dict[str, Check] = {}
+    for check in by_ratio(assessment.checks):
+        first.setdefault(check.id, check)
+    for id_, check in first.items():
+        if id_ != "clearance" and not check.is_open:
+            largest = float(ratio(check.ratio))
+            yield (*_said(assessment, check), largest, check.clause, check.verdict.value)
+
+
 def _open(assessment: Assessment) -> Iterator[Sequence[_Value]]:
-    """Yield what is not satisfied, as in the package."""
-    for row, subjects in assessment.alike_conditions:
-        of = ranged(subjects) if row.subject else "Project"
-        yield (row.title, of, row.found, row.limit, "", row.remedy, row.verdict.value)
+    """Yield what is not satisfied, with who must act and what they must do."""
+    for check in alike(check for check in by_ratio(assessment.checks) if check.is_open):
+        yield (*_said(assessment, check), check.actor, check.remedy, check.verdict.value)
+
+
+def _said(assessment: Assessment, check: Check) -> tuple[str, str, str, str]:
+    found, limit = texts(check, assessment.project.us_first)
+    found += f" ({check.note})" if check.note else ""
+    return check.title, check.subject or "project", found, limit

@@ -11,8 +11,10 @@ import scenes
 import stand_in
 from cells import address, cell
 from recalculated import recalculated
+from report.assessment.checks.check import alike
 from report.assessment.spectra import spectra
 from report.entities.shown import Column
+from report.provenance.files import fingerprint
 from report.results.design import PeakRow
 from report.results.lists import RunRow
 from report.results.sheets import Cells, Pages, write_live
@@ -218,6 +220,24 @@ def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(usual)
     motions = assessment.acceptance.rows
     count = len(assessment.rows) + len(assessment.building_checks) + len(limits) + len(motions)
     assert len(rows) == count
+
+
+@pytest.mark.quick
+def test_the_summary_has_every_check_that_is_open_and_no_kind_twice(usual):
+    assessment, values = scenes.usual(), usual[1]
+    rows = [row for row in values["Summary"].iter_rows(values_only=True) if row[0]]
+    heads = [row[0] for row in rows]
+    last = rows[heads.index("Not satisfied") + 1 :]
+    wanted = alike(check for check in assessment.checks if check.is_open)
+    assert sorted((row[0], row[6]) for row in last) == sorted((c.title, c.verdict) for c in wanted)
+    assert all(row[4] and row[5] for row in last if row[6] == "Condition")
+    governing = rows[heads.index("Largest of each check") + 1 : heads.index("Not satisfied")]
+    assert len({row[0] for row in governing}) == len(governing)
+    ratios = [row[4] for row in governing]
+    assert ratios == sorted(ratios, reverse=True)
+    head = {row[0]: row[1] for row in rows if row[1]}
+    assert head["Hash"] == fingerprint(assessment.sheet, assessment.shaking)
+    assert head["Project number"] == assessment.project.project.number
 
 
 class WiderRow(PeakRow):
