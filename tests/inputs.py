@@ -23,6 +23,11 @@ SITE: Row = {
     "structure_height_m": 36 * FT, "roof_height_m": 36 * FT,
 }  # fmt: skip
 
+REVIEW = {
+    "peer_reviewed": True, "peer_reviewer": "Reviewer of record", "peer_license": "CA S0000",
+    "peer_date": dt.date(2026, 3, 1), "peer_letter": "peer-review.pdf",
+}  # fmt: skip
+
 
 def project(**sections: object) -> ProjectInput:
     """Return an input of these sections, with the usual head and site unless they are given."""

@@ -28,10 +28,7 @@ from sheets import Book, read_workbook
 from solver.records.record import Record
 
 FOOT = stand_in.FOOT
-REVIEW = {
-    "peer_reviewed": True, "peer_reviewer": "Reviewer of record", "peer_license": "CA S0000",
-    "peer_date": dt.date(2026, 3, 1), "peer_letter": "peer-review.pdf",
-}  # fmt: skip
+REVIEW = inputs.REVIEW
 CONFIRMED = {
     "site": inputs.SITE | {"building_code": "CBC", "building_code_year": 2022},
     "confirmation": {"by": "RG, SE", "date": dt.date(2026, 3, 1), "rule_set": "SEAOC PV1-2012",

@@ -138,7 +138,7 @@ def unpermitted(**changes):
     clearance is that of A2 alone.
     """
     given = {
-        "options": {"peer_reviewed": True},
+        "options": inputs.REVIEW,
         "arrays": [array("A1", 0.5, mu=0.3, slack_m=1.0), array("A2", 0.5, x=120)],
         "clearances": [
             clearance("A1", "RTU-1", 7 * FOOT),

@@ -66,10 +66,8 @@ def project() -> ProjectInput:
                 clearance("A10", "RTU-4", "across", 1.6),
             ],
             "motions": school.motions[:COUNT],
-            # The letter attached to the school is on the school alone.
-            "options": school.options.model_copy(
-                update={"peer_letter": "", "peer_covered": COVERED}
-            ),
+            # The letter beside this file is on these arrays, and an example as that of the school.
+            "options": school.options.model_copy(update={"peer_covered": COVERED}),
         }
     )
 

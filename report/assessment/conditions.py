@@ -182,7 +182,7 @@ def _peer_review(data: ProjectInput) -> Iterator[Requirement]:
         **stated("options", **{f"peer_{x}": (x, getattr(options, f"peer_{x}")) for x in fields}),
         limit="reviewer, license, date and letter",
         basis=data.site.rule_set,
-        remedy="Give reviewer, license, date and letter. Without peer review the "
+        remedy="Give reviewer, license, date and letter: until then the "
         f"{back if lifts_slope else 'floor of the analysis route applies'}.",
     )
 

@@ -283,6 +283,7 @@ class ChangeKind(StrEnum):
     INPUT = "input"
     RECORD = "record"
     DOCUMENT = "document"
+    ANALYSIS = "displacement by analysis"
     DESIGN = "design displacement"
     CLEARANCE = "clearance"
     REQUIREMENT = "requirement"

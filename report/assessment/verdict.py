@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from enum import StrEnum
 from functools import partial
 from typing import Annotated, Any
@@ -22,7 +22,7 @@ from report.text.counts import grouped_by, lowered, ranged
 from solver.rules.hazard import REFERENCED
 from solver.rules.limit import Consequence
 from solver.rules.provisions import RULE_SETS, Basis, RuleSet
-from solver.rules.rulesets import ALLOWED
+from solver.rules.rulesets import ALLOWED, IBC_SECTION, IBC_SLOPE
 
 
 class Verdict(StrEnum):
@@ -213,6 +213,10 @@ def rule_set_of(data: ProjectInput) -> RuleSet:
     """
     changes = {row.provision: (row.value, row.reason) for row in data.overrides}
     rules = RULE_SETS[data.site.rule_set].overridden(changes)
+    code, year = data.site.building_code, data.site.building_code_year
+    if code:  # the slope limit of the IBC by the code that is adopted
+        limit = replace(rules.values[IBC_SLOPE], clause=f"{code} {IBC_SECTION}, {year}")
+        rules = replace(rules, values={**rules.values, IBC_SLOPE: limit})
     return rules.confirmed() if data.confirmed else rules
 
 

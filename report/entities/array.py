@@ -71,7 +71,7 @@ class Displacements(Entity):
         at("analysis.value_m"),
         required("Analysis"),
         up_column("Computed [in]", 1, _COMPUTED, is_always=True),
-        Told(),
+        Told(ChangeKind.ANALYSIS, "Array {row.id}", of_new=False),
     ]
     computed_basis: Annotated[Basis, at("analysis.basis")]
     """How the displacement by analysis follows from the peaks of the motions."""

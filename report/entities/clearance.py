@@ -91,6 +91,7 @@ class ClearanceResult(Entity):
         Number,
         Shown(head="D/C", text=ratio, share=0.75),
         Column("", 2, _RATIO, value=_as_printed, is_always=True),
+        Told(ChangeKind.CLEARANCE, "{row.array} to {row.object}{row.toward}, D/C", of_new=False),
     ]
     """Required / provided separation."""
     verdict: Annotated[

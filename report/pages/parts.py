@@ -143,10 +143,9 @@ class PackageData(Marked):
 
     @property
     def reviewer(self) -> str:
-        """Who reviewed the analysis: name, license and date, as far as they are given."""
+        """Who reviewed the analysis: name, license and date."""
         options = self.data.options
-        by = (options.peer_reviewer, options.peer_license, options.peer_date or "")
-        return ", ".join(str(part) for part in by if part) or "reviewer not given"
+        return f"{options.peer_reviewer}, {options.peer_license}, {options.peer_date}"
 
     def rule_length(self, key: str) -> str:
         """Return a length of the rule set in both systems of units, with its marks."""

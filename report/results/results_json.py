@@ -387,5 +387,5 @@ def _as_texts(old: Entity | None, row: Entity | None, name: str, fmt: UnitFormat
     # Results that differ by more than rounding may still print alike.
     if texts[0] != texts[1]:
         return texts
-    unit = name.rpartition("_")[2]
-    return [f"{getattr(entity, name):.7g} {unit}" for entity in (old, row)]
+    unit = " m" if name.endswith("_m") else ""
+    return [f"{getattr(entity, name):.7g}{unit}" for entity in (old, row)]

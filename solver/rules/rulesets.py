@@ -246,9 +246,12 @@ interconnection_min         0.1    K  13.6.12
 
 
 # Limits every ballasted system, beside all rule sets: 1 in 12.
+IBC_SLOPE, IBC_SECTION = "ibc_max_slope_deg", "1613.3"
 _IBC = {
-    "ibc_max_slope_deg": Provision(
-        value=math.degrees(math.atan(1 / 12)), clause="IBC 1613.3", confidence=Confidence.KNOWN
+    IBC_SLOPE: Provision(
+        value=math.degrees(math.atan(1 / 12)),
+        clause=f"IBC {IBC_SECTION}",
+        confidence=Confidence.KNOWN,
     )
 }
 

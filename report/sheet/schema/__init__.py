@@ -80,7 +80,7 @@ class Options(Frozen):
         ),
     ] = Statistic.RULE_SET
     peer_reviewed: Annotated[bool, Cell("Peer review", "No")] = False
-    """Yes removes the floor of the value from analysis."""
+    """Yes removes the floor of the value from analysis, once the four cells below are given."""
     peer_reviewer: Annotated[Text, Cell("Peer reviewer", "Reviewer of record")] = ""
     """Required with peer review."""
     peer_license: Annotated[Text, Cell("Reviewer's license", "CA S0000")] = ""
@@ -105,6 +105,12 @@ class Options(Frozen):
     plan_paper: Annotated[PlanPaper, Cell("Paper of the roof plan", "by size")] = PlanPaper.BY_SIZE
     """By size: Letter with US units first, A4 with SI units first; 11 x 17 in or A3 where labels
     have no room. The other sheets go with it: Letter or A4."""
+
+    @property
+    def has_review(self) -> bool:
+        """Whether peer review is stated with all that a plan checker asks for."""
+        given = self.peer_reviewer, self.peer_license, self.peer_date, self.peer_letter
+        return self.peer_reviewed and all(given)
 
     @property
     def smaller_factors(self) -> tuple[float, ...]:
@@ -305,10 +311,10 @@ class ProjectInput(Frozen):
 
     @property
     def is_peer_reviewed(self) -> bool:
-        """Whether peer review is stated, of these inputs, and not dated later than the package."""
-        reviewed = self.options.peer_date or self.project.date
-        is_of_these = "options" not in self.outdated
-        return self.options.peer_reviewed and is_of_these and reviewed <= self.project.date
+        """Whether a whole peer review is given, of these inputs, not dated after the package."""
+        date, is_of_these = self.options.peer_date, "options" not in self.outdated
+        is_dated = date is not None and date <= self.project.date
+        return self.options.has_review and is_of_these and is_dated
 
     @property
     def confirmed(self) -> str:

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+import inputs
 import scenes
 import stand_in
 from report.assessment.links import assess_linked
@@ -27,7 +28,7 @@ def assessed(friction, lb_per_in, *, shaking=MOTIONS, peer_reviewed=True, array=
         objects=[],
         clearances=[],
         links=[stand_in.links("A1", friction, lb_per_in, **changes)],
-        options={"peer_reviewed": peer_reviewed},
+        options=inputs.REVIEW | {"peer_reviewed": peer_reviewed},
     ).assessment
     return done, done.linked[0]
 

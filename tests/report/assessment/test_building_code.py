@@ -2,6 +2,7 @@
 
 import pytest
 
+import inputs
 import scenes
 import stand_in
 from report.assessment.precheck import limits_before_runs
@@ -106,7 +107,7 @@ def test_the_outcome_says_other_reasons_and_takes_no_override_over():
 def test_a_row_of_linked_blocks_counts_under_the_other_rule_set_too():
     links = [stand_in.links("A1", "0.40, 0.45, 0.50", 50)]
     sections = {"arrays": [stand_in.array("A1", 2.0)], "objects": [], "clearances": [],
-                "links": links, "options": {"peer_reviewed": True}}  # fmt: skip
+                "links": links, "options": inputs.REVIEW}  # fmt: skip
     done = assessed("2022 CBC", sections=sections)
     assert not done.is_rigid_enough(done.arrays[0])
     outcome = listed(done.conditions)["rule_set"].outcome

@@ -10,6 +10,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
+import inputs
 import scenes
 import stand_in
 from report.assessment.envelopes import design_envelope, hull, keep_clear_m, runs_envelope
@@ -19,7 +20,7 @@ from report.sheet.schema.shapes import Polygon, Rectangle, gap_m
 from solver.rules.provisions import Neighbor
 
 SEVEN = scenes.motions(7, 12.0)  # half a second less than those of eight seconds
-PEER = {"peer_reviewed": True}
+PEER = inputs.REVIEW
 SAME_SLOPE = {"slope_value": 100.0 * math.tan(math.radians(0.5)), "slope_unit": "percent"}
 
 

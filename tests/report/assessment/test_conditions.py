@@ -8,6 +8,7 @@ import pytest
 import inputs
 import scenes
 import stand_in
+from printed import printed
 from report.assessment.array_rows import rows_before_runs
 from report.assessment.conditions import project_rows
 from report.assessment.requirement_rows import hazard_rows
@@ -44,9 +45,33 @@ def without(given, missing):
 )
 def test_a_peer_review_without_name_license_date_and_letter_is_a_condition(missing):
     assert row(assessed(), "peer_review") is None
-    found = row(assessed(options=without(scenes.REVIEW, missing)), "peer_review")
+    done = assessed(options=without(scenes.REVIEW, missing))
+    found = row(done, "peer_review")
     assert found.is_satisfied is (missing is None)
     assert found.consequence is Consequence.CONDITION
+    # Without any of the four nothing rests on it.
+    assert all((item.floor_m == 0.0) is (missing is None) for item in done.arrays)
+
+
+def test_a_typed_name_alone_removes_no_floor_and_turns_no_clearance_ok():
+    # The floor alone needs more than is provided: by analysis the arrays hardly slide.
+    given = {"arrays": [stand_in.array("A1", 0.5)], "objects": [stand_in.SECTIONS["objects"][0]],
+             "clearances": [stand_in.clearance("A1", "RTU-1", 30 * INCH)]}  # fmt: skip
+    weak = scenes.motions(peak_g=0.1)
+    name = {"peer_reviewed": True, "peer_reviewer": "J"}
+    plain, named, reviewed = (
+        scenes.package(weak, **given | {"options": options})
+        for options in ({}, name, scenes.REVIEW)
+    )
+    (before,), (after,), (last,) = (p.assessment.clearances for p in (plain, named, reviewed))
+    assert before.demand_capacity == after.demand_capacity == pytest.approx(1.36, abs=0.005)
+    assert (after.verdict, last.verdict) == (Verdict.NG, Verdict.OK)
+    said = row(named.assessment, "peer_review")
+    assert said.found == "J; license, date, letter not given"
+    assert "until then the floor of the analysis route applies" in said.remedy
+    text = printed(named, "basis")
+    assert "The peer review stated does not count (part 1): the floor of part 2 applies." in text
+    assert "removed by peer review" not in printed(named, "summary")
 
 
 @pytest.mark.parametrize(

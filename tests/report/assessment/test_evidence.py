@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 import pytest
 
+import inputs
 import scenes
 import stand_in
 from nightly import by_day
@@ -99,7 +100,7 @@ CELL = "Options/Smaller events"
 
 
 def with_events(events=FACTORS, found=None, **changes):
-    options = {"peer_reviewed": True, "smaller_events": events}
+    options = {**inputs.REVIEW, "smaller_events": events}
     return scenes.package(found, options=options, **changes).assessment
 
 

@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 
+import inputs
 import scenes
 import stand_in
 from nightly import by_day
@@ -16,7 +17,7 @@ from report.assessment.uncertainty import surface, uncertainty
 from report.text.counts import below_mm
 from solver.model import Friction
 
-PEER = {"peer_reviewed": True}
+PEER = inputs.REVIEW
 SHORT = scenes.motions()
 
 

@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+import inputs
 import scenes
 import stand_in
 from one_by_one import slides
@@ -24,7 +25,7 @@ from solver.rules.provisions import Basis
 from solver.sliding import least_model
 from solver.sliding.least_model import Model
 
-PEER = {"peer_reviewed": True}
+PEER = inputs.REVIEW
 STEEP = [stand_in.array("A1", 4.0)]
 SHORT = scenes.motions()
 SEVEN = scenes.motions(7, 12.0)  # half a second less than those of eight seconds
@@ -76,7 +77,7 @@ def test_the_floor_governs_unless_reviewed_and_friction_by_speed_is_solved():
     assert models == {Model.SPEED_FRICTION}
     assert by_speed.analysis.mean_m < constant.analysis.mean_m
     for reviewed, governs in ((False, "floor"), (True, "analysis")):
-        item = assessed(RESTING, options={"peer_reviewed": reviewed}).arrays[0]
+        item = assessed(RESTING, options=inputs.REVIEW | {"peer_reviewed": reviewed}).arrays[0]
         assert item.governs == governs
         assert item.design_m == (0.0 if reviewed else 0.5 * item.prescriptive.value_m)
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import inputs
 import scenes
 import stand_in
 from nightly import by_day
@@ -97,12 +98,31 @@ def test_a_prescriptive_value_that_is_not_permitted_says_so_wherever_it_stands()
 
 def test_the_prescriptive_value_is_not_offered_where_the_analysis_exceeds_it():
     strong = scenes.motions(3, 30.0, peak_g=6.0, vertical_peak_g=0.1)
-    made = scenes.package(strong, **WIDE | {"options": {"peer_reviewed": True}})
+    made = scenes.package(strong, **WIDE | {"options": inputs.REVIEW})
     item = made.assessment.arrays[0]
     assert item.analysis.value_m > item.prescriptive.value_m
     words = printed(made, "comparison")
     assert "may be used instead" not in words
     assert "the displacement by analysis exceeds its value" in words
+
+
+@pytest.mark.parametrize(
+    ("changes", "failed"),
+    [({}, ""),
+     ({"arrays": [ARRAY("A1", 0.5, cg_height_m=40 * stand_in.INCH)]},
+      "height of the center of gravity"),
+     ({"site": stand_in.site(risk_category="IV", i_e=1.5)}, "risk category (I = 1 to IV = 4)"),
+     ({"site": stand_in.site(stories=20)}, "number of stories"),
+     ({"arrays": [ARRAY("A1", 4.0)]}, "roof slope, prescriptive route"),
+     ({"arrays": [ARRAY("A1", 0.5, mu=0.3)]}, "friction coefficient, prescriptive route")],
+)  # fmt: skip
+def test_the_prescriptive_value_is_offered_only_where_every_limit_of_its_route_is_met(
+    changes, failed
+):
+    given = {"arrays": [ARRAY("A1", 0.5)], "objects": [], "clearances": []} | changes
+    words = printed(scenes.package(scenes.motions(), **given), "comparison")
+    assert ("may be used instead" in words) is not failed
+    assert (f"the prescriptive route is not permitted ({failed})" in words) is bool(failed)
 
 
 FLAT = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=220)]
@@ -116,7 +136,7 @@ def made(shaking=ALONE, **changes):
 
 
 def test_the_motions_and_the_review_are_notes_and_not_counted():
-    package = made(options={"peer_reviewed": True})
+    package = made(options=inputs.REVIEW | {"peer_license": ""})
     done = package.assessment
     assert {item.route for item in done.arrays} == {Route.PRESCRIPTIVE}
     notes = {row.id for row in done.notes}

@@ -21,7 +21,7 @@ from report.sheet.schema.shapes import gap_m
 from solver.friction_tests import MOST_MU
 from solver.model import Friction, Status
 
-PEER = {"peer_reviewed": True}
+PEER = inputs.REVIEW
 SHORT = scenes.motions()
 
 

@@ -14,6 +14,7 @@ import pytest
 from click.testing import CliRunner
 from openpyxl import load_workbook
 
+import inputs
 import packages
 import report.package.html
 from commands import printed, refused, run
@@ -117,7 +118,7 @@ def test_a_rigid_block_that_is_not_adequate_is_ng(tmp_path):
     book = make(
         tmp_path,
         links=[{"array": "A2", "friction": "0.30, 0.45, 0.60", "stiffness_n_per_m": 1e3}],
-        options={"statistic": "rule set", "peer_reviewed": True},
+        options={"statistic": "rule set", **inputs.REVIEW},
         motions=[motion | {"pad_s": 20.0} for motion in given["motions"]],
         arrays=[array | {"slope_value": 7.0} for array in given["arrays"]],
     )

@@ -9,6 +9,7 @@ from html import unescape
 import pytest
 from pypdf import PdfReader
 
+import inputs
 import packages
 import scenes
 import stand_in
@@ -125,6 +126,23 @@ def test_every_document_is_listed_exactly_where_it_is_cited(html):
         assert name not in listed, name
 
 
+@pytest.mark.quick
+@pytest.mark.parametrize(
+    ("code", "clause", "name"),
+    [({}, "IBC 1613.3", "International Building Code, 2018 or 2021."),
+     ({"building_code": "CBC", "building_code_year": 2022}, "CBC 1613.3, 2022",
+      "California Building Code."),
+     ({"building_code": "IBC", "building_code_year": 2021}, "IBC 1613.3, 2021",
+      "International Building Code.")],
+)  # fmt: skip
+def test_the_slope_limit_of_the_code_is_cited_by_the_code_that_is_named(code, clause, name):
+    made = scenes.package(site=stand_in.site(**code))
+    assert f"{clause}: {name}" in printed(made, "records")
+    assert f"; {clause}; AC156" in printed(made, "cover").facts["Applicable codes"]
+    assert f"{clause}† | OK" in printed(made, "limits")
+    assert "due to Seismic Motion, manuscript that names no authors" in printed(made, "records")
+
+
 def test_every_symbol_is_in_the_list_and_none_printed_as_typed(html):
     used = set(re.findall(r"<i>([^<]+)</i><sub>([^<]+)</sub>", html[: html.index('id="symbols"')]))
     missing = {f"{stem}_{below}" for stem, below in used} - SYMBOLS.keys()
@@ -172,7 +190,7 @@ def notes(**changes):
 def test_the_schedule_of_gaps_is_rounded_up():
     near = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42)
     rows = [*GAPS, stand_in.clearance("A1", "RTU-9", FOOT)]
-    made = package(objects=[near], clearances=rows, options={"peer_reviewed": True})
+    made = package(objects=[near], clearances=rows, options=inputs.REVIEW)
     table = printed(made, "notes").table("Schedule of gaps")
     least = [math.ceil(gap.required_m * 1e3) for gap in made.assessment.clearances]
     assert [(row["To"], row["At least [mm]"], row["Measured, date, by"]) for row in table.rows] == [

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from openpyxl import Workbook
 
+import inputs
 import scenes
 import stand_in
 from printed import printed
@@ -152,7 +153,7 @@ def test_a_source_that_motions_share_is_said_once(sources, notes):
 
 def made(found=None, **changes):
     """A package, what it has of margins, and the page."""
-    package = scenes.package(found, **{"options": {"peer_reviewed": True}} | changes)
+    package = scenes.package(found, **{"options": inputs.REVIEW} | changes)
     done = uncertainty(package.assessment)
     return package, done, printed(package, "accuracy", uncertainty=done)
 

@@ -27,7 +27,8 @@ def test_prescriptive_designs_have_no_floor_and_clearances_without_verdict_are_c
     shown = printed(done, "summary").facts
     assert "Floor" not in shown
     assert shown["Peer review"] == (
-        "reviewer not given; no floor is used: no array takes the value from analysis"
+        "Reviewer of record, CA S0000, 2026-03-01; no floor is used: no array takes the value from"
+        " analysis"
     )
     assert "floor" not in printed(done, "letter")
     gaps = [stand_in.clearance("A1", "RTU-1", 7 * stand_in.FOOT)]

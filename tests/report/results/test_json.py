@@ -5,6 +5,7 @@ import math
 
 import pytest
 
+import inputs
 import scenes
 import stand_in
 from report.assessment.evidence import support
@@ -64,7 +65,7 @@ def test_json_has_smaller_events_links_and_prescriptive_values():
     assert tuple(row["runs"][5]["prd_m"]) == item.motions[1].runs[1].row.prd_m
     assert max(one["link_force_n"] for one in row["runs"]) == row["link_force_n"]
     check_units(document)
-    options = {"peer_reviewed": True, "smaller_events": "0.50, 0.50, 0.25"}
+    options = {**inputs.REVIEW, "smaller_events": "0.50, 0.50, 0.25"}
     assessment, document = run(options=options)
     for row, item in zip(document["cumulative"], assessment.arrays, strict=True):
         assert row["array"] == item.id

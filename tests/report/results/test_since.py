@@ -101,6 +101,13 @@ def test_an_input_with_its_results_and_verdicts_is_found(assessment, document):
     assert 5 not in found.clearances
     verdicts = {(i.title, i.now) for i in found.items if i.kind is ChangeKind.VERDICT}
     assert ("Clearance A1 to RTU-1", "NG") in verdicts
+    # What moved is listed with its value before and now: a checker of a revision asks for it.
+    titles = {kind: {i.title for i in found.items if i.kind is kind} for kind in ChangeKind}
+    assert titles[ChangeKind.ANALYSIS] == {"Array A3"}
+    assert "A1 to RTU-1, D/C" in titles[ChangeKind.CLEARANCE]
+    (value,) = (i for i in found.items if i.kind is ChangeKind.ANALYSIS)
+    assert value.before.endswith(" mm)")
+    assert value.before != value.now
 
 
 def reissue(done, document):

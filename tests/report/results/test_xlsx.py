@@ -7,6 +7,7 @@ import openpyxl
 import pytest
 from xlsxwriter.workbook import Workbook
 
+import inputs
 import scenes
 import stand_in
 from cells import address, cell
@@ -72,10 +73,10 @@ CASES = {
     "PV1": {},
     "PV1, low category": {"site": SITE | {"sdc": "C", "s_ds_g": 0.45}},
     "ASCE 7-16": {"site": SITE | {"rule_set": "ASCE 7-16", "risk_category": "III", "i_e": 1.25}},
-    "peer reviewed": {"options": {"peer_reviewed": True, "statistic": "1.1 x largest"}},
+    "peer reviewed": {"options": {**inputs.REVIEW, "statistic": "1.1 x largest"}},
     "a row of linked blocks": {
         "links": [stand_in.links("A1", "0.40, 0.50", 50), stand_in.links("A3", "0.55, 0.55", 50)],
-        "options": {"peer_reviewed": True},
+        "options": inputs.REVIEW,
     },
     "prescriptive": {"site": SITE | {"s_ds_g": 1.0}, "options": {"statistic": "mean"}},
 }

@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 
+import inputs
 import stand_in
 from browsing import called, quiet_page, serve_scripts
 from report.text.units import Quantity, measured, number, pair
@@ -34,7 +35,7 @@ async ([view, data, wide]) => {
 
 
 DATA = stand_in.project(
-    options={"peer_reviewed": True},
+    options=inputs.REVIEW,
     arrays=[stand_in.array("A1", 0.5), stand_in.array("A2", 2.0, x=120, downslope_deg=30.0)],
     objects=[stand_in.roof_object("RTU-1", "fixed object", 107, 112, 35, 42)],
     clearances=[stand_in.clearance("A1", "RTU-1", 9.0)],

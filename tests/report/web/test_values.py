@@ -8,6 +8,7 @@ from itertools import combinations
 
 import pytest
 
+import inputs
 import stand_in
 from nightly import by_day, nightly
 from places import ROOT
@@ -204,7 +205,7 @@ def test_where_no_run_gives_a_displacement_the_page_says_no_value():
     lifted = stand_in.motions(1, seconds=4.0)[0]
     lifted = stand_in.motion("M1", lifted.ax_mps2, 4.0 * lifted.az_mps2, dt_s=0.005)
     data = stand_in.project(
-        options={"peer_reviewed": True},
+        options=inputs.REVIEW,
         arrays=[stand_in.array("A1", 0.5)],
         objects=[stand_in.roof_object("RTU-1", "fixed object", 107, 112, 35, 42)],
         clearances=[stand_in.clearance("A1", "RTU-1", 9.0)],

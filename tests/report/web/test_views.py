@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+import inputs
 import stand_in
 from report.assessment import uncertainty
 from report.web import views
@@ -20,7 +21,7 @@ G = stand_in.G
 
 
 def made(*found, **changes):
-    data = stand_in.project(options={"peer_reviewed": True}, **changes)
+    data = stand_in.project(options=inputs.REVIEW, **changes)
     return stand_in.assess_input(data, found)
 
 
