@@ -146,4 +146,6 @@ ORDERS: Mapping[str, str] = {
 }
 
 # Single cells that workbooks of 0.3.0 do not have.
-ADDED: frozenset[tuple[str, str]] = frozenset({("options", "study_years")})
+ADDED: frozenset[tuple[str, str]] = frozenset(
+    {("options", "study_years"), ("site", "acceptance_letter")}
+)
