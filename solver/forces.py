@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -44,12 +45,15 @@ def friction_demand(scene: Scene) -> float:
 
 def components(scene: Scene) -> tuple[Floats, Floats, Floats]:
     """Return the record along, across and up [m/s2]; zeros for what it does not have."""
-    across, up = (each if each.size else _still(scene) for each in (scene.ay_mps2, scene.az_mps2))
+    across, up = (
+        each if each.size else _still(scene.ax_mps2.size) for each in (scene.ay_mps2, scene.az_mps2)
+    )
     return scene.ax_mps2, across, up
 
 
-def _still(scene: Scene) -> Floats:
-    still = np.zeros_like(scene.ax_mps2)
+@lru_cache(8)
+def _still(size: int) -> Floats:
+    still = np.zeros(size)
     still.setflags(write=False)  # as all records are: for another array numba compiles once more
     return still
 

@@ -31,6 +31,7 @@ STOP = 0.0
 # Just above the smallest normal float: a divisor that is never zero, a time that advances.
 TINY = 2.3e-308
 SIXTH = 1.0 / 6.0
+EPS = 2.0**-52
 # Some units of rounding: within it of the band the push itself decides, not its bound.
 MARGIN = 1e-15
 
@@ -369,18 +370,35 @@ def fill_history(ax, az, dt, sn, cs, mu, g, scale, events, history):
 
 
 @njit(cache=KEPT)
+def rounding(x, z, dt, sn, cs, mu, g, scale, n):
+    """Allowance for rounding error in a displacement of `slide_exact` over n samples [m].
+
+    The drive and friction are computed to 4 units in the last place of their terms. Friction is
+    monotone, so an error d in the acceleration makes an error of at most d t in velocity after a
+    time t, and d t^2 / 2 in displacement. Here t is the whole record, and the result is doubled to
+    cover rounding of the sums.
+    """
+    # The last column of the bounds is that of the whole record: no pass over its samples.
+    up = abs(scale) * max(-z[0, -1], z[1, -1], 0.0) if z is not None else 0.0
+    along, lasts = abs(scale) * max(-x[0, -1], x[1, -1]), (n - 1) * dt
+    terms = (abs(sn) + mu * cs) * (g + up) + (cs + mu * abs(sn)) * along
+    return 4.0 * EPS * terms * lasts * lasts
+
+
+@njit(cache=KEPT)
 def slide_checked(ax, az, x, z, dt, slope, mu, g, scale):
     """Run one scene of a slope [rad]; N is looked at first.
 
-    Returns the least N / (m g), the cosine of the slope, and the first seven of `slide_exact`,
-    which mean nothing if N falls below zero.
+    Returns the least N / (m g), the cosine of the slope, `rounding`, and the first seven of
+    `slide_exact`, which mean nothing if N falls below zero.
     """
     sn, cs = math.sin(slope), math.cos(slope)
     least, _ = minimum_normal(ax, az, x, z, dt, sn, cs, g, scale)
     if least < 0.0:
-        return least, cs, np.nan, np.nan, np.nan, np.nan, np.nan, 0, np.nan
+        return least, cs, np.nan, np.nan, np.nan, np.nan, np.nan, np.nan, 0, np.nan
+    error = rounding(x, z, dt, sn, cs, mu, g, scale, ax.size)
     slide = slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, None)
-    return least, cs, slide[0], slide[1], slide[2], slide[3], slide[4], slide[5], slide[6]
+    return least, cs, error, slide[0], slide[1], slide[2], slide[3], slide[4], slide[5], slide[6]
 
 
 @njit(cache=KEPT, nogil=True)
@@ -393,4 +411,4 @@ def sweep_exact(ax, az, x, z, dt, g, scenes, out):
     for k in range(scenes.shape[0]):
         slope, mu, scale = scenes[k]
         run = slide_checked(ax, az, x, z, dt, slope, mu, g, scale)
-        out[k, 0], out[k, 1], out[k, 2], out[k, 3] = run[2], run[3], run[4], run[5]
+        out[k, 0], out[k, 1], out[k, 2], out[k, 3] = run[3], run[4], run[5], run[6]

@@ -193,7 +193,8 @@ def _chosen(
     at_most += vertical.error_m if at_most else 0.0
     if not at_most <= bound or lesser <= bound < lesser + at_most:
         both = both or two_axes.run_bounded(scene, settings.tolerance, bounds or bounds_of(scene))
-        at_most, lesser = _left_out(vertical, both), _left_out(level, vertical, both)
+        at_most = _left_out(vertical, both)
+        lesser = at_most if level is vertical else _left_out(level, vertical, both)
     if lesser <= bound:
         return Model.ONE_AXIS, level, both
     if both is None or at_most <= bound:

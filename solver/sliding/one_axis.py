@@ -7,7 +7,6 @@ Checks no input (`solver.sliding.arguments`) and computes no physics (`solver.ke
 from __future__ import annotations
 
 import math
-import sys
 from typing import NamedTuple
 
 import numpy as np
@@ -50,8 +49,26 @@ def run(scene: Scene, method: Method = EXACT, /, **parameters: float) -> SlideRe
 
 
 def run_bounded(scene: Scene, bounds: RecordBounds) -> SlideResult:
-    """Return `run` of a scene whose bounds are known."""
-    return _run(EXACT, {}, prepared(scene, bounds), _NO_HISTORY)
+    """Return `run` of a scene whose bounds are known, by the exact method."""
+    about, (az, z) = scene, (None, None)
+    if about.az_mps2.size:
+        az, z = about.az_mps2, bounds.z
+    n_min_g, cs, error_m, *run = kernel.slide_checked(
+        about.ax_mps2,
+        az,
+        bounds.x,
+        z,
+        about.dt_s,
+        about.slope_rad,
+        about.friction.mu_slow,
+        about.g_mps2,
+        about.scale,
+    )
+    outcome = Outcome(True, *run)
+    if n_min_g < 0.0 or not outcome.s_max - outcome.s_min < math.inf:
+        # Tells what gives no displacement.
+        return _run(EXACT, {}, prepared(scene, bounds), _NO_HISTORY)
+    return result_of(outcome, cs, n_min_g, error_m)
 
 
 def run_history(scene: Scene, method: Method = EXACT, /, **parameters: float) -> SlideHistory:
@@ -71,26 +88,10 @@ def run_history(scene: Scene, method: Method = EXACT, /, **parameters: float) ->
 
 
 def rounding(scene: AxisScene) -> float:
-    """Return `rounding_m` of a scene."""
-    # The last column of the bounds is that of the whole record: no pass over its samples.
-    c, up = scene, abs(scene.scale) * float(max(-scene.z[0, -1], scene.z[1, -1], 0.0))
-    along = abs(c.scale) * float(max(-c.x[0, -1], c.x[1, -1]))
-    return rounding_m(c.sn, c.cs, c.mu, c.g + up, along, (c.ax.size - 1) * c.dt)
-
-
-def rounding_m(
-    sn: float, cs: float, mu: float, up_mps2: float, along_mps2: float, lasts_s: float
-) -> float:
-    """Return the allowance for rounding error in a displacement by the method `exact` [m].
-
-    The drive and friction are computed to 4 units in the last place of their terms. Friction is
-    monotone, so an error d in the acceleration makes an error of at most d t in velocity after a
-    time t, and d t^2 / 2 in displacement. Here t is the whole record, and the result is doubled to
-    cover rounding of the sums. `up_mps2` and `along_mps2` are the largest accelerations, gravity
-    included.
-    """
-    terms = (abs(sn) + mu * cs) * up_mps2 + (cs + mu * abs(sn)) * along_mps2
-    return 4.0 * sys.float_info.epsilon * terms * lasts_s * lasts_s
+    """Return the allowance for rounding error in a displacement by the method `exact` [m]."""
+    c, z = scene, scene.z if scene.az.size else None
+    error_m: float = kernel.rounding(c.x, z, c.dt, c.sn, c.cs, c.mu, c.g, c.scale, c.ax.size)
+    return error_m
 
 
 def _run(method: Method, parameters: Parameters, scene: AxisScene, samples: Floats) -> SlideResult:

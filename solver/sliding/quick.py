@@ -49,16 +49,17 @@ def quick_slide(
     known = _kept.get(id(record)) or _prepared(record)
     if known is None:
         return None
-    _, a, x, unscaled_mps2, lasts_s = known
-    peak_mps2, dt = abs(scale) * unscaled_mps2, record.dt_s
+    _, a, x, peak_mps2, lasts_s = known
+    largest_mps2, dt = (abs(scale) * peak_mps2 + g_mps2) * (1.0 + mu), record.dt_s
     # Also false for a factor or a gravity that is not finite.
-    if not is_in_range((peak_mps2 + g_mps2) * (1.0 + mu), dt, lasts_s):
+    if not is_in_range(largest_mps2, dt, lasts_s):
         return None
-    n_min_g, cs, *run = kernel.slide_checked(a, None, x, None, dt, slope_rad, mu, g_mps2, scale)
+    n_min_g, cs, error_m, *run = kernel.slide_checked(
+        a, None, x, None, dt, slope_rad, mu, g_mps2, scale
+    )
     outcome = Outcome(True, *run)
     if n_min_g < 0.0 or not outcome.s_max - outcome.s_min < math.inf:
         return None
-    error_m = one_axis.rounding_m(math.sin(slope_rad), cs, mu, g_mps2, peak_mps2, lasts_s)
     return one_axis.result_of(outcome, cs, n_min_g, error_m)
 
 

@@ -13,15 +13,17 @@ import itertools
 import math
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
 import numpy as np
-from measure import RECORDS, SMOKE, figure
+from measure import RECORDS, ROOT, SMOKE, figure
 
 from blocks import block
+from report.motions.prepare import prepare
+from report.sheet.reading.read import read
 from solver.formats import read_record
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Scene, SlideResult, Status
@@ -102,36 +104,74 @@ def difference(result: SlideResult, other: SlideResult) -> float:
     return max(abs(getattr(result, name) - getattr(other, name)) for name in names)
 
 
+def numbered(index: int) -> Scene:
+    """Return a random scene that has this number."""
+    return random_scene(np.random.default_rng([10, index]))
+
+
+def cost(scenes: Iterable[Scene]) -> float:
+    """Return the time of selecting and running scenes, over that of always two axes.
+
+    Each comes first in every other scene: what comes first finds nothing of it in the caches.
+    """
+    ways, took = (least_model.solve, two_axes.run), [0.0, 0.0]
+    for index, scene in enumerate(scenes):
+        for k in (0, 1) if index % 2 else (1, 0):
+            started = time.process_time()
+            ways[k](scene)
+            took[k] += time.process_time() - started
+    return took[0] / took[1]
+
+
 def choose() -> None:
     """Print how many scenes are wrong, need two axes and get them, and what choosing costs."""
     count: Counter[str] = Counter()
-    chosen_s = always_s = largest = 0.0
-    for index in range(-1, SCENES):
-        scene = random_scene(np.random.default_rng([10, max(index, 0)]))
-        started = time.process_time()
+    groups: dict[str, list[int]] = {"": [], ", one axis": [], ", two axes": [], ", one-sided": []}
+    every, one, two, push = groups.values()
+    largest = 0.0
+    for index in range(SCENES):
+        scene = numbered(index)
         solution = least_model.solve(scene)
-        chose_s = time.process_time() - started
         if solution.model is least_model.Model.NO_SLIP or solution.result.status is Status.UPLIFT:
             continue
-        started = time.process_time()
-        two_axes.run(scene)
-        if index < 0:
-            continue  # compiled
-        always_s, chosen_s = always_s + time.process_time() - started, chosen_s + chose_s
+        needed = solution.model is least_model.Model.TWO_AXES
+        for group in (every, two if needed else one):
+            group.append(index)
+        if (np.diff(scene.ay_mps2) >= 0.0).all():
+            push.append(index)
         true, lesser = two_axes.run(scene, 1e-8), one_axis.run(scene)
         off, bound = difference(solution.result, true), least_model.DEFAULT.bound_m(lesser.prd_m)
         largest = max(largest, off / bound)
-        count["slide"] += 1
         count["wrong"] += off > bound + true.error_m + solution.result.error_m
         count["need"] += difference(lesser, true) > bound
-        count["get"] += solution.model is least_model.Model.TWO_AXES
-    figure("random scenes that slide", count["slide"])
+    figure("random scenes that slide", len(every))
     figure("scenes in which the selected model neglects too much", count["wrong"])
     figure("largest neglected part, relative to what may be neglected", largest)
-    figure("scenes that need two axes", 100.0 * count["need"] / count["slide"], "%", digits=3)
-    figure("scenes that get two axes", 100.0 * count["get"] / count["slide"], "%", digits=3)
-    name = "time of selecting and running, relative to always two axes"
-    figure(name, chosen_s / always_s, digits=3)
+    figure("scenes that need two axes", 100.0 * count["need"] / len(every), "%", digits=3)
+    figure("scenes that get two axes", 100.0 * len(two) / len(every), "%", digits=3)
+    ratios = {name: cost(map(numbered, group)) for name, group in groups.items()}
+    for name, scenes in (("conditions", of_project("conditions")), ("turned", turned())):
+        ratios[f", {name}"] = cost(scenes)
+    for name, ratio in ratios.items():
+        what = "time of selecting and running, relative to always two axes"
+        figure(what + name, ratio, digits=3)
+
+
+def of_project(name: str) -> Iterator[Scene]:
+    """Yield the scenes of a project's package: each array, motion and orientation."""
+    sheet = read(ROOT / "projects" / name / "input.xlsx")
+    for motion in prepare(sheet).motions:
+        for array, to in itertools.product(sheet.project.arrays, motion.orientations):
+            yield motion.scene(to, slope_rad=array.slope_rad, friction=array.friction)
+
+
+def turned() -> Iterator[Scene]:
+    """Yield the scenes whose shaking `turn` turns, as recorded."""
+    for ax, ay, az, dt in motions():
+        peak = float(max(np.abs(ax).max(), np.abs(ay).max()))
+        for slope_deg, mu, peak_g in CASES[:: 9 if SMOKE else 1]:
+            about = {"dt": dt, "slope": math.radians(slope_deg), "friction": mu}
+            yield block(ax, ay, az, **about, scale=peak_g * G / peak)
 
 
 def worst(scene: Scene, step_deg: int) -> float:
@@ -148,16 +188,13 @@ def turn() -> None:
     """Print what directions that a package does not run would change."""
     rows: dict[str, list[float]] = {f"every {STEP_DEG} degrees": [], "vertical reversed": []}
     every, reversed_ = rows.values()
-    for ax, ay, az, dt in motions():
-        peak = float(max(np.abs(ax).max(), np.abs(ay).max()))
-        for slope_deg, mu, peak_g in CASES[:: 9 if SMOKE else 1]:
-            about = {"dt": dt, "slope": math.radians(slope_deg), "friction": mu}
-            scene = block(ax, ay, az, **about, scale=peak_g * G / peak)
-            package = worst(scene, 90)
-            if package > LEAST_M:
-                every.append(worst(scene, STEP_DEG) / package)
-                if az.size:
-                    reversed_.append(worst(replace(scene, az_mps2=read_only(-az)), 90) / package)
+    for scene in turned():
+        package = worst(scene, 90)
+        if package > LEAST_M:
+            every.append(worst(scene, STEP_DEG) / package)
+            if scene.az_mps2.size:
+                backward = read_only(-scene.az_mps2)
+                reversed_.append(worst(replace(scene, az_mps2=backward), 90) / package)
     kind = "recorded" if RECORDS else "made"
     figure("motions that are turned", len(motions()), kind)
     for what, ratios in rows.items():
