@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 import solver
+from blocks import block, shaking
 from places import ROOT
-from solver.model import InputError
+from solver.model import InputError, Status
 from solver.sliding import one_axis
 
 pytestmark = pytest.mark.quick
@@ -83,3 +84,16 @@ def test_samples_that_are_not_finite_are_named(record):
     a[7] = math.nan
     with pytest.raises(InputError, match=r"ax_mps2\[7\] is nan; give finite accelerations"):
         solver.slide(replace(record, a_mps2=a), slope_rad=0.02, mu=0.4)
+
+
+@pytest.mark.parametrize("vertical", [False, True])
+def test_a_run_whose_bounds_are_known_is_any_run_to_the_last_bit(vertical):
+    rng, statuses = np.random.default_rng(6), set()
+    for seed in range(40):
+        ax, az = (shaking(2 * seed + k, rng.uniform(2.0, 30.0)) for k in range(2))
+        slope, mu, scale = rng.uniform(-0.5, 0.5), rng.uniform(0.0, 0.8), rng.choice([-1.0, 0.7])
+        scene = block(ax, ax, az if vertical else (), slope=slope, friction=mu, scale=scale)
+        known = one_axis.run_bounded(scene, one_axis.bounds_of(scene))
+        np.testing.assert_array_equal(astuple(known), astuple(one_axis.run(scene)))
+        statuses.add(known.status)
+    assert statuses >= {Status.OK, Status.SLIDING_AT_END, Status.UPLIFT}
