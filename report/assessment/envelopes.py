@@ -126,10 +126,3 @@ def keep_clear(separation_m: float, us_first: bool) -> str:
         return "unknown"  # "none" would read as no distance
     steps = math.ceil(separation_m / (INCH_M if us_first else 0.01) - 1e-9)
     return f"{steps} in" if us_first else f"{10 * steps} mm"
-
-
-def keep_clear_words(separation_m: float, us_first: bool) -> str:
-    """Return the field note of an array."""
-    if math.isnan(separation_m):
-        return "keep clear: no value"
-    return f"keep clear {keep_clear(separation_m, us_first)}"

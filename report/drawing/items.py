@@ -25,22 +25,30 @@ Point = tuple[float, float]
 
 
 class Layer(Enum):
-    """A layer: its name, its color by AutoCAD's index, and whether its lines are dashed."""
+    """A layer: its name, its color by AutoCAD's index, and whether its lines are dashed.
 
-    OUTLINE = ("ROOF-OUTLINE", 8, False)
-    EDGE = ("ROOF-EDGE", 7, True)
-    PARAPET = ("ROOF-PARAPET", 7, False)
-    BARE_EDGE = ("ROOF-EDGE-NOT-GIVEN", 1, True)
-    ARRAY = ("ARRAY", 5, False)
-    UNLIKE = ("ARRAY-UNLIKE", 9, False)
-    OBJECT = ("OBJECT", 8, False)
-    CLEARANCE = ("CLEARANCE", 3, False)
-    CLEARANCE_NG = ("CLEARANCE-NG", 1, False)
-    CLEARANCE_NONE = ("CLEARANCE-NO-VERDICT", 2, False)
-    DESIGN = ("ENVELOPE-DESIGN", 6, True)
-    RUNS = ("ENVELOPE-RUNS", 30, False)
-    NOTES = ("NOTES", 7, False)
-    NORTH = ("NORTH", 7, False)
+    Names in the form of the U.S. National CAD Standard: discipline S, structural, because the plan
+    is of seismic displacement and not of the solar installation, then groups of four letters. Not
+    every group is one of the standard's list.
+    """
+
+    OUTLINE = ("S-ROOF-OTLN", 8, False)
+    EDGE = ("S-ROOF-EDGE", 7, True)
+    PARAPET = ("S-ROOF-PRPT", 7, False)
+    BARE_EDGE = ("S-ROOF-EDGE-BARE", 1, True)
+    ARRAY = ("S-SOLR-ARRY", 5, False)
+    UNLIKE = ("S-SOLR-ARRY-UNLK", 9, False)
+    OBJECT = ("S-EQPM", 8, False)
+    CLEARANCE = ("S-ANNO-DIMS", 3, False)
+    CLEARANCE_NG = ("S-ANNO-DIMS-FAIL", 1, False)
+    CLEARANCE_NONE = ("S-ANNO-DIMS-NONE", 2, False)
+    DESIGN = ("S-SOLR-ENVL-DSGN", 6, True)
+    RUNS = ("S-SOLR-ENVL-RUNS", 30, False)
+    NOTES = ("S-ANNO-NOTE", 7, False)
+    NORTH = ("S-ANNO-NRTH", 7, False)
+    SCHEDULE = ("S-ANNO-SCHD", 7, False)
+    TITLE = ("S-ANNO-TTLB", 7, False)
+    WINDOW = ("S-ANNO-NPLT", 8, False)  # of the plan in its layout; not plotted
 
     @property
     def title(self) -> str:
@@ -85,13 +93,20 @@ class PlanDimension:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanDrawing:
-    """The plan in feet (US) or meters (SI), with the height of its texts."""
+    """The plan in feet (US) or meters (SI), with the height of its texts.
+
+    Its layout has a title block, in pairs of a heading and a text, below a window on the plan about
+    a point, at a scale given by the length of the plan in an inch of paper.
+    """
 
     is_feet: bool
     height: float
     lines: tuple[PlanLine, ...]
     texts: tuple[PlanText, ...]
     dimensions: tuple[PlanDimension, ...]
+    title: tuple[tuple[str, str], ...]
+    middle: Point
+    per_in: float
 
 
 # Application whose extended data names what an outline is of.
@@ -101,6 +116,13 @@ _VERSION = "R2010"
 _DASHED = "DASHED"
 _FONT = "arial.ttf"
 _STYLE = "ROOFSLIP"  # of dimensions
+_LEGIBLE = 7  # black on white, white on black
+
+# Size of the layout [in], ANSI D and ISO A1, its margin, and the height of the title block.
+_SHEETS = {True: (34.0, 22.0), False: (33.1, 23.4)}
+_MARGIN_IN, _TITLE_IN = 0.75, 1.0
+# The window on the plan, which fits into both.
+WINDOW_IN = (33.1 - 2.0 * _MARGIN_IN, 22.0 - 2.0 * _MARGIN_IN - _TITLE_IN)
 
 
 def write_dxf(plan: PlanDrawing) -> bytes:
@@ -134,25 +156,63 @@ def write_dxf(plan: PlanDrawing) -> bytes:
         align = (
             TextEntityAlignment.MIDDLE_LEFT if text.is_left else TextEntityAlignment.MIDDLE_CENTER
         )
-        words = _plain(text.words).replace("%%", "%%%%%%").replace("^", "^ ")  # begin codes
         written = space.add_text(
-            words,
+            _coded(text.words),
             height=plan.height,
             rotation=90.0 if text.is_upright else 0.0,
             dxfattribs={"layer": text.layer.title},
         )
         written.set_placement(text.at, align=align)
+        if text.layer in (Layer.ARRAY, Layer.UNLIKE, Layer.OBJECT):
+            written.dxf.color = _LEGIBLE  # also on black, where lines in blue and gray are faint
         if text.of:
             written.set_xdata(APPLICATION, [(1000, _plain(text.of))])
     _add_style(document, plan)
     for dimension in plan.dimensions:
         _add_dimension(space, dimension)
+    _add_layout(document, plan)
     # As the library would, but sorted: its order is that of a set, another one in each process.
     for kind in sorted(document.entitydb.dxf_types_in_use()):
         document.classes.add_class(kind)
     out = io.StringIO()
     document.write(out)
     return out.getvalue().encode("utf-8")
+
+
+def _add_layout(document: Drawing, plan: PlanDrawing) -> None:
+    """Add the layout: a window on the plan to scale, above the title block."""
+    from ezdxf.enums import TextEntityAlignment
+
+    document.layers.get(Layer.WINDOW.title).dxf.plot = 0
+    wide, tall = _SHEETS[plan.is_feet]
+    layout = document.paperspace("Layout1")
+    margins = (_MARGIN_IN,) * 4
+    layout.page_setup(size=(wide, tall), margins=margins, units="inch", device="DWG To PDF.pc3")
+    long, high = wide - 2.0 * _MARGIN_IN, tall - 2.0 * _MARGIN_IN - _TITLE_IN
+    layout.add_viewport(
+        center=(long / 2, _TITLE_IN + high / 2),
+        size=(long, high),
+        view_center_point=plan.middle,
+        view_height=high * plan.per_in,
+        dxfattribs={"layer": Layer.WINDOW.title},
+    )
+    on_title = {"layer": Layer.TITLE.title}
+    frame = ((0.0, 0.0), (long, 0.0), (long, _TITLE_IN + high), (0.0, _TITLE_IN + high))
+    rules = [
+        layout.add_lwpolyline(frame, close=True, dxfattribs=on_title),
+        layout.add_lwpolyline(((0.0, _TITLE_IN), (long, _TITLE_IN)), dxfattribs=on_title),
+    ]
+    shares = [max(len(head), len(text)) + 4 for head, text in plan.title]
+    for count, (head, text) in enumerate(plan.title):
+        left = long * sum(shares[:count]) / sum(shares)
+        if count:
+            ends = ((left, 0.0), (left, _TITLE_IN))
+            rules.append(layout.add_lwpolyline(ends, dxfattribs=on_title))
+        for words, size, y in ((head, 0.1, 0.75), (text, 0.2, 0.35)):
+            written = layout.add_text(_coded(words), height=size, dxfattribs=on_title)
+            written.set_placement((left + 0.12, y), align=TextEntityAlignment.MIDDLE_LEFT)
+    for rule in rules:  # no closed line of another's plan
+        rule.set_xdata(APPLICATION, [(1000, "title block")])
 
 
 def _add_style(document: Drawing, plan: PlanDrawing) -> None:
@@ -198,6 +258,11 @@ def _add_dimension(space: Modelspace, dimension: PlanDimension) -> None:
         if part.dxf.layer == "0":  # not every viewer takes that for the layer of the dimension
             part.dxf.layer = dimension.layer.title
     drawn.dimension.set_xdata(APPLICATION, [(1000, _plain(dimension.name))])
+
+
+def _coded(words: str) -> str:
+    """Return a text in which nothing begins a code."""
+    return _plain(words).replace("%%", "%%%%%%").replace("^", "^ ")
 
 
 def _plain(words: str) -> str:

@@ -13,9 +13,9 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.envelopes import (
     Outline,
     design_envelope,
+    keep_clear,
     keep_clear_m,
     keep_clear_mark,
-    keep_clear_words,
     runs_envelope,
 )
 from report.assessment.neighbors import EDGES, bare_edges
@@ -26,6 +26,7 @@ from report.assessment.verdict import Verdict
 from report.drawing.dimensions import alongside, gap_texts, lane_of
 from report.drawing.items import (
     TYPE_PT,
+    WINDOW_IN,
     Layer,
     PlanDimension,
     PlanDrawing,
@@ -35,7 +36,8 @@ from report.drawing.items import (
 )
 from report.drawing.labels import along_strip
 from report.drawing.placer import Frame, Placer
-from report.drawing.sheet import LINE_IN, PAD_IN, Gap, Paper, Scale, unit_format
+from report.drawing.sheet import LINE_IN, PAD_IN, Gap, Paper, Scale, round_scale, unit_format
+from report.provenance.files import fingerprint
 from report.sheet.schema.choices import ObjectKind
 from report.sheet.schema.scene import ROOF
 from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape, around, room, sides
@@ -78,11 +80,16 @@ class PlacedTexts:
             for ends in sides(tuple(map(self.paper.at, line.points))):
                 placer.take_segment(*ends)
 
-    def name(self, layer: Layer, of: str, words: str, shape: Shape) -> None:
-        """Name a shape within it or beside it with a leader, or else by a number in the list."""
+    def name(self, layer: Layer, of: str, words: str, shape: Shape, more: str = "") -> None:
+        """Name a shape within it or beside it with a leader, or else by a number in the list.
+
+        What `more` says of it stands where it has room.
+        """
         inner, key = self.paper.frame(room(shape)), f"({len(self.left) + 1})"
-        for shown in (words, key):
+        for shown in dict.fromkeys((words + more, words, key)):
             label = self.paper.placer.place(*_size(shown), inner.middle, inner)
+            if not label and more and shown == words + more:
+                continue
             label = label or self._beside(of, shown, inner.middle)
             if label:
                 self._write(layer, of, shown, label)
@@ -168,16 +175,29 @@ def plan_drawing(assessment: Assessment) -> PlanDrawing:
     corner = (placed.right + 4.0 * height, extent.y_to_m / unit.si)
     arrow, letter = _north(assessment, corner, height)
     below = (corner[0], corner[1] - 24.0 * height)
+    rules, tables, foot = _schedules(assessment, placed.left, below, height)
     lines = tuple(
         replace(line, points=tuple((x / unit.si, y / unit.si) for x, y in line.points))
         for line in drawn
     )
+    texts = (*placed.texts, letter, *tables)
+    xs = [x for line in (*lines, *rules) for x, _ in line.points]
+    ends = [text.at[0] + _wide(text.words, height) for text in tables if text.is_left]
+    fringe = 8.0 * height  # names of edges are outside of the roof
+    low = extent.x_from_m / unit.si - fringe, min(foot, extent.y_from_m / unit.si - fringe)
+    high = max(*xs, *ends) + height, extent.y_to_m / unit.si + fringe
+    long_in, tall_in = WINDOW_IN
+    least = max((high[0] - low[0]) / long_in, (high[1] - low[1]) / tall_in) * unit.si
+    scale = round_scale(least, is_feet)
     return PlanDrawing(
         is_feet=is_feet,
         height=height,
-        lines=(*lines, *placed.leaders, *arrow),
-        texts=(*placed.texts, letter, *_listed(assessment, placed.left, below, height)),
+        lines=(*lines, *placed.leaders, *arrow, *rules),
+        texts=texts,
         dimensions=tuple(placed.dimensions),
+        title=(*title_block(assessment), ("SCALE", scale.name)),
+        middle=((low[0] + high[0]) / 2, (low[1] + high[1]) / 2),
+        per_in=scale.m_per_in / unit.si,
     )
 
 
@@ -224,13 +244,17 @@ _LAYERS = {
 
 def _place(assessment: Assessment, placed: PlacedTexts, extent: Rectangle) -> None:
     """Name the arrays, dimension the gaps, and name the edges and the other objects."""
+    fmt = unit_format(assessment)
     for array in assessment.arrays:
-        placed.name(Layer.ARRAY, array.id, array.id, array.array.shape)
+        moves = NOT_PERMITTED if array.has_unpermitted_value else "no value"
+        if not math.isnan(array.permitted_m):
+            moves = fmt.short(array.design_m, Quantity.SIZE, no_less)
+        more = f": displacement {moves}"
+        placed.name(Layer.ARRAY, array.id, array.id, array.array.shape, more)
     gaps = [Gap(gap, *map(placed.paper.at, gap.ends)) for gap in plan_gaps(assessment)]
     for gap in gaps:
         # All lines are reserved before the first text, which could lie over the next one.
         placed.paper.placer.take_segment(gap.a, gap.b)
-    fmt = unit_format(assessment)
     for gap in gaps:
         name = f"{gap.of.array} to {gap.of.other}"
         number = gap.of.number or "not given"
@@ -249,51 +273,95 @@ def _place(assessment: Assessment, placed: PlacedTexts, extent: Rectangle) -> No
             placed.name(_OBJECTS[item.kind], item.id, words, item.placed)
 
 
-def _listed(
-    assessment: Assessment, left: Sequence[tuple[str, str]], corner: Point, height: float
-) -> Iterator[PlanText]:
-    """Yield a list of the arrays and of the gaps beside the plan, and of what has no room in it."""
-    us_first = assessment.project.us_first
-    rows = [
-        *((Layer.NOTES, *row) for row in left),
-        (Layer.NOTES, "", "ARRAYS"),
-        *((Layer.NOTES, "", array_words(assessment, array)) for array in assessment.arrays),
-        (Layer.NOTES, "", "CLEARANCES"),
-        *((_LAYERS[gap.verdict], "", gap_words(gap, us_first)) for gap in plan_gaps(assessment)),
+def _table(
+    heads: Sequence[str], rows: Sequence[tuple[Layer, Sequence[str]]], corner: Point, height: float
+) -> tuple[list[PlanLine], list[PlanText], Point]:
+    """Return a ruled table below a point as lines and texts, and the point below it."""
+    cells = [(Layer.SCHEDULE, heads), *rows]
+    columns = zip(*(texts for _, texts in cells), strict=True)
+    wide = [max(_wide(text, height) for text in texts) for texts in columns]
+    lefts = [corner[0] + sum(wide[:k]) for k in range(len(wide) + 1)]
+    tops = [corner[1] - _LINE * height * k for k in range(len(cells) + 1)]
+    rules = [((lefts[0], y), (lefts[-1], y)) for y in tops]
+    rules += [((x, tops[0]), (x, tops[-1])) for x in lefts]
+    lines = [
+        PlanLine(layer=Layer.SCHEDULE, name="", points=ends, is_closed=False) for ends in rules
     ]
-    for count, (layer, of, words) in enumerate(rows):
-        at = (corner[0], corner[1] - _LINE * height * count)
-        yield PlanText(layer=layer, words=words, at=at, of=of, is_left=True)
+    texts = [
+        PlanText(layer=layer, words=text, at=(x + 0.5 * height, y - 0.9 * height), is_left=True)
+        for (layer, row), y in zip(cells, tops[:-1], strict=True)
+        for text, x in zip(row, lefts[:-1], strict=True)
+    ]
+    return lines, texts, (corner[0], tops[-1] - 2.0 * _LINE * height)
 
 
-def gap_words(gap: PlanGap, us_first: bool) -> str:
-    """Return what a gap says, numbered as in the workbook, in both systems of units."""
+def _wide(text: str, height: float) -> float:
+    """Return the width of a column with a text, in the unit of the height of its letters."""
+    return (_WIDER * width_in(text) / _CAP_IN + 1.0) * height
+
+
+def _schedules(
+    assessment: Assessment, left: Sequence[tuple[str, str]], corner: Point, height: float
+) -> tuple[list[PlanLine], list[PlanText], float]:
+    """Return what the drawing is of, and the arrays and gaps as tables; the lowest y."""
+    us_first, (x, y), step = assessment.project.us_first, corner, _LINE * height
+    said = [*(("", f"{head}: {text}") for head, text in title_block(assessment)), *left]
+    texts = [
+        PlanText(layer=Layer.NOTES, words=words, at=(x, y - k * step), of=of, is_left=True)
+        for k, (of, words) in enumerate(said)
+    ]
+    lines: list[PlanLine] = []
+    at = (x, y - step * (len(said) + 1))
+    arrays = [(Layer.SCHEDULE, array_cells(assessment, array)) for array in assessment.arrays]
+    gaps = [(_LAYERS[gap.verdict], gap_cells(gap, us_first)) for gap in plan_gaps(assessment)]
+    for heads, rows in ((_OF_ARRAYS, arrays), (_OF_GAPS, gaps)):
+        ruled, words, at = _table(heads, rows, at, height)
+        lines += ruled
+        texts += words
+    return lines, texts, at[1]
+
+
+_OF_ARRAYS = (
+    "ARRAY", "DESIGN DISPLACEMENT", "KEEP CLEAR, NO CONDUIT", "SLOPE", "DOWNSLOPE", "VERDICT",
+)  # fmt: skip
+_OF_GAPS = ("CLEARANCE", "BETWEEN", "PROVIDED", "REQUIRED", "VERDICT")
+
+
+def title_block(assessment: Assessment) -> Sequence[tuple[str, str]]:
+    """Return what identifies the drawing, each with its heading."""
+    project = assessment.project.project
+    return (
+        ("PROJECT", f"{project.number} {project.name}"),
+        ("REVISION", project.revision),
+        ("DATE", str(project.date)),
+        ("BY", project.prepared_by),
+        ("HASH OF THE CALCULATION", fingerprint(assessment.sheet, assessment.shaking)),
+        ("VERDICT", assessment.verdict.value),
+    )
+
+
+def gap_cells(gap: PlanGap, us_first: bool) -> Sequence[str]:
+    """Return the row of a gap, numbered as in the workbook, in both systems of units."""
     provided, required = compared_pairs(
         capacity(gap.provided_m), demand(gap.required_m), Quantity.SIZE, us_first
     )
     required = "no value" if math.isnan(gap.required_m) else required + _by(gap.mark)
+    number = str(gap.number) if gap.is_given else "not given"
     verdict = "no verdict" if gap.verdict is Verdict.NONE else gap.verdict.value
-    between = f"{gap.array} to {gap.other}"
-    start = f"{gap.number}: {between}: provided {provided}"
-    if not gap.is_given:
-        start = f"{between}: no clearance given: {provided} in plan"
-    return f"{start}, required {required}, {verdict}"
+    return number, f"{gap.array} to {gap.other}", provided, required, verdict
 
 
-def array_words(assessment: Assessment, array: ArrayAssessment) -> str:
-    """Return how far an array moves, what is kept clear of it, and how the roof slopes."""
-    us_first = assessment.project.us_first
+def array_cells(assessment: Assessment, array: ArrayAssessment) -> Sequence[str]:
+    """Return the row of an array: how far it moves, what is kept clear of it, and its slope."""
+    us_first, verdict = assessment.project.us_first, assessment.array_verdict(array).value
+    slope = number(math.degrees(array.array.slope_rad), 2).replace("−", "-")
+    turned = (f"{slope} deg", f"{array.array.downslope_deg:.0f} deg", verdict)
     if math.isnan(array.permitted_m):
         what = NOT_PERMITTED if array.has_unpermitted_value else "no value"
-        return f"{array.id}: design displacement: {what}"
-    design = pair(array.design_m, Quantity.SIZE, us_first, no_less)
-    keep = keep_clear_words(keep_clear_m(assessment, array), us_first)
-    slope = number(math.degrees(array.array.slope_rad), 2).replace("−", "-")
-    return (
-        f"{array.id}: design displacement {design}{_by(array.design_mark)}; "
-        f"{keep}{_by(keep_clear_mark(assessment, array))}; no conduit; "
-        f"slope {slope} deg, downslope {array.array.downslope_deg:.0f} deg"
-    )
+        return array.id, what, "no value", *turned
+    design = pair(array.design_m, Quantity.SIZE, us_first, no_less) + _by(array.design_mark)
+    keep = keep_clear(keep_clear_m(assessment, array), us_first)
+    return array.id, design, keep + _by(keep_clear_mark(assessment, array)), *turned
 
 
 def _by(mark: str) -> str:

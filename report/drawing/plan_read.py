@@ -9,6 +9,7 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 
 from report.assessment.neighbors import EDGE_STRIP_M, bare_sides
 from report.drawing.items import Layer
@@ -38,14 +39,26 @@ from report.sheet.schema.shapes import (
 from report.text.units import LENGTHS, Quantity, pair
 from solver.model import InputError
 
+_READ: Mapping[Layer, LayerKind] = {
+    Layer.OUTLINE: LayerKind.ROOF,
+    Layer.EDGE: LayerKind.EDGE_WITHOUT_PARAPET,
+    Layer.PARAPET: LayerKind.EDGE_WITH_PARAPET,
+    Layer.ARRAY: LayerKind.ARRAY,
+    Layer.UNLIKE: LayerKind.UNLIKE_ARRAY,
+    Layer.OBJECT: LayerKind.FIXED,
+}
+# Names of version 0.3, whose plans are read as they were.
+_FORMER = (
+    "ROOF-OUTLINE", "ROOF-EDGE", "ROOF-PARAPET", "ROOF-EDGE-NOT-GIVEN", "ARRAY", "ARRAY-UNLIKE",
+    "OBJECT", "CLEARANCE", "CLEARANCE-NG", "CLEARANCE-NO-VERDICT", "ENVELOPE-DESIGN",
+    "ENVELOPE-RUNS", "NOTES", "NORTH",
+)  # fmt: skip
 # What is drawn on the layers of the plan that `report` writes.
-LAYERS: Mapping[str, LayerKind] = {layer.title: LayerKind.NOT_READ for layer in Layer} | {
-    Layer.OUTLINE.title: LayerKind.ROOF,
-    Layer.EDGE.title: LayerKind.EDGE_WITHOUT_PARAPET,
-    Layer.PARAPET.title: LayerKind.EDGE_WITH_PARAPET,
-    Layer.ARRAY.title: LayerKind.ARRAY,
-    Layer.UNLIKE.title: LayerKind.UNLIKE_ARRAY,
-    Layer.OBJECT.title: LayerKind.FIXED,
+LAYERS: Mapping[str, LayerKind] = {
+    name: _READ.get(layer, LayerKind.NOT_READ)
+    for layer, former in zip_longest(Layer, _FORMER)
+    for name in (layer.title, former)
+    if name
 }
 
 MAX_NAME = 40

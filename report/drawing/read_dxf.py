@@ -118,7 +118,8 @@ def _drawn_layouts(document: Document, unit_m: float, hidden: Mapping[str, str])
                 reader.take_all(document.paperspace(name))
         except InputError:
             return
-        if len(drawing.lines) > before:
+        # That of `report` has a title block alone.
+        if not all(line.is_ours for line in drawing.lines[before:]):
             yield _printable(name)
 
 

@@ -24,7 +24,7 @@ from printed import printed
 from report.assessment.envelopes import design_envelope
 from report.assessment.plan_clearances import plan_gaps
 from report.drawing.items import APPLICATION, Layer, write_dxf
-from report.drawing.plan import gap_words, plan_drawing
+from report.drawing.plan import gap_cells, plan_drawing, title_block
 from report.sheet.schema.choices import UnitsFirst
 
 
@@ -44,6 +44,13 @@ def document(plan):
     return read(write_dxf(plan))
 
 
+def rows(plan):
+    """Return the rows of the tables beside the plan, headings too."""
+    cells = [text for text in plan.texts if text.is_left]
+    lines = itertools.groupby(cells, lambda text: text.at[1])
+    return [tuple(text.words for text in line) for _, line in lines]
+
+
 def read(data):
     return ezdxf.read(io.StringIO(data.decode("utf-8")))
 
@@ -53,10 +60,10 @@ def test_texts_name_what_is_drawn_and_the_same_plan_gives_the_same_bytes(done):
     assert write_dxf(plan_drawing(done)) == write_dxf(plan_drawing(done))
     plan = plan_drawing(done)
     said = [text.words for text in plan.texts]
-    assert {"A1", "A2", "A3", "RTU-1, height 42.0 in", "T-1", "S edge", "N"} <= set(said)
-    (gap,) = [words for words in said if words.startswith("5: ")]
-    assert gap.startswith("5: A2 to S edge: provided 60.0 in (1524 mm), required 61.2 in")
-    assert gap.endswith("NG")
+    arrays = {f"{a.id}: displacement {a.design_m / 0.0254:.1f} in" for a in done.arrays}
+    assert arrays | {"RTU-1, height 42.0 in", "T-1", "S edge", "N"} <= set(said)
+    gap = next(row for row in rows(plan) if row[:2] == ("5", "A2 to S edge"))
+    assert gap[2:] == ("60.0 in (1524 mm)", "61.2 in (1554 mm)", "NG")
     failed = [gap.name for gap in plan.dimensions if gap.layer is Layer.CLEARANCE_NG]
     assert failed == ["A2 to S edge"]
 
@@ -67,7 +74,8 @@ def test_every_process_writes_the_same_bytes():
         "from report.drawing.items import write_dxf; from report.drawing.items import *; "
         "gap = PlanDimension(layer=Layer.CLEARANCE, name='A1 to N', ends=((0, 0), (4, 0)), "
         "words='1: 48.0 in', at=(2, 3)); drawn = PlanDrawing("
-        "is_feet=True, height=1.0, lines=(), texts=(), dimensions=(gap,)); "
+        "is_feet=True, height=1.0, lines=(), texts=(), dimensions=(gap,), title=(), "
+        "middle=(0, 0), per_in=1.0); "
         "print(write_dxf(drawn).hex())"
     )
     seeds = ("1", "5")  # sets of the library's kinds in two orders
@@ -111,7 +119,9 @@ def test_the_auditor_finds_nothing_and_lines_texts_and_dimensions_are_read_back(
 def test_each_kind_has_its_layer_and_each_text_shows_as_it_is(document, plan):
     assert {layer.title for layer in Layer} <= {layer.dxf.name for layer in document.layers}
     used = {entity.dxf.layer for entity in document.modelspace()}
-    assert used == {layer.title for layer in Layer} - {Layer.CLEARANCE_NONE.title}
+    elsewhere = {Layer.CLEARANCE_NONE, Layer.TITLE, Layer.WINDOW}
+    assert used == {layer.title for layer in set(Layer) - elsewhere}
+    assert all(re.fullmatch("S(-[A-Z]{4}){1,3}", layer.title) for layer in Layer)
     words = "%%c 5%% %%u^J a^ b 100 %"
     texts = [replace(text, words=words) for text in plan.texts]
     (shown,) = {
@@ -119,6 +129,34 @@ def test_each_kind_has_its_layer_and_each_text_shows_as_it_is(document, plan):
         for text in read(write_dxf(replace(plan, texts=texts))).modelspace().query("TEXT")
     }
     assert shown == words
+
+
+@pytest.mark.quick
+def test_the_layout_says_what_it_is_of_and_shows_the_whole_plan_to_scale(done, plan, document):
+    layout = document.paperspace("Layout1")
+    said = [text.dxf.text for text in layout.query("TEXT")]
+    project = done.project.project
+    for words in (f"{project.number} {project.name}", project.revision, str(project.date)):
+        assert words in said
+    shown = dict(zip(said[::2], said[1::2], strict=True))
+    assert shown | dict(title_block(done)) == shown
+    assert shown["VERDICT"] == done.verdict.value
+    (window,) = (each for each in layout.query("VIEWPORT") if each.dxf.id > 1)
+    unit_in = 12.0 if plan.is_feet else 1.0 / 0.0254
+    ratio = window.dxf.view_height / window.dxf.height * unit_in
+    stated = re.fullmatch(r"1 in = (\d+) ft|1:(\d+)", shown["SCALE"])
+    assert ratio == pytest.approx(12.0 * float(stated[1]) if stated[1] else float(stated[2]))
+    (x, y), tall = window.dxf.view_center_point.vec2, window.dxf.view_height
+    wide = tall * window.dxf.width / window.dxf.height
+    box_shown = BoundingBox2d([(x - wide / 2, y - tall / 2), (x + wide / 2, y + tall / 2)])
+    for entity in document.modelspace().query("TEXT"):
+        assert box_shown.contains(box(entity)), entity.dxf.text
+    for line in plan.lines:
+        assert box_shown.contains(BoundingBox2d(line.points))
+    names = [
+        text for text in document.modelspace().query("TEXT") if text.dxf.text.startswith("A1:")
+    ]
+    assert [text.dxf.color for text in names] == [7]
 
 
 def test_the_envelope_is_that_of_the_design_displacement_if_there_is_one(done):
@@ -129,7 +167,7 @@ def test_the_envelope_is_that_of_the_design_displacement_if_there_is_one(done):
     plan = plan_drawing(lost)
     assert not [line for line in plan.lines if line.layer is Layer.DESIGN]
     said = {text.words for text in plan.texts}
-    assert {f"A{k}: design displacement: no value" for k in (1, 2, 3)} <= said
+    assert {f"A{k}: displacement no value" for k in (1, 2, 3)} <= said
     assert not read(write_dxf(plan)).audit().errors
 
 
@@ -137,19 +175,19 @@ def test_a_gap_short_by_less_than_a_digit_does_not_read_as_enough(done):
     gap = next(one for one in done.clearances if one.clearance.object == "RTU-1")
     near = gap.clearance.model_copy(update={"provided_m": gap.required_m - 1e-5})
     (gap,) = plan_gaps(replace(done, clearances=(replace(gap, clearance=near),)))
-    words = gap_words(gap, us_first=True)
-    provided, required = re.findall(r"(?:provided|required) ([\d.]+) in", words)
-    assert float(required) > float(provided)
-    assert words.endswith("NG")
+    *_, provided, required, verdict = gap_cells(gap, us_first=True)
+    assert float(required.split(" ")[0]) > float(provided.split(" ")[0])
+    assert verdict == "NG"
 
 
 def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_clear():
     plan = plan_drawing(stand_in.unpermitted())
     said = [text.words for text in plan.texts]
-    assert said.count("A1: design displacement: not permitted") == 1
-    assert sum("keep clear" in words for words in said) == 1  # of A2
-    (first, *_) = [words for words in said if words.startswith("1: ")]
-    assert first == "1: A1 to RTU-1: provided 84.0 in (2133 mm), required no value, no verdict"
+    assert said.count("A1: displacement not permitted") == 1
+    array = next(row for row in rows(plan) if row[0] == "A1")
+    assert array[1:3] == ("not permitted", "no value")
+    first = next(row for row in rows(plan) if row[:2] == ("1", "A1 to RTU-1"))
+    assert first[2:] == ("84.0 in (2133 mm)", "no value", "no verdict")
     layers = {gap.name: gap.layer for gap in plan.dimensions}
     assert layers == {
         "A1 to RTU-1": Layer.CLEARANCE_NONE,

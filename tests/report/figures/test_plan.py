@@ -15,7 +15,7 @@ from inputs import NO_SIDES
 from nightly import by_day
 from plans import SMALL, roof_plan
 from printed import printed
-from report.assessment.envelopes import keep_clear_words
+from report.assessment.envelopes import keep_clear
 from report.drawing.items import TYPE_PT, Text, width_in
 from report.drawing.on_paper import plan_on_paper, printed_plan
 from report.drawing.sheet import LETTER, PlanSize, round_scale
@@ -253,8 +253,8 @@ def test_scales_are_those_of_an_engineers_ruler_or_round(inches, us_first, name)
 )
 def test_keep_clear_is_never_rounded_down(inches, us, si):
     inches = 40.0 + 1e-6 if inches == 40.0 else inches
-    assert keep_clear_words(inches * INCH_M, True) == f"keep clear {us} in"
-    assert keep_clear_words(inches * INCH_M, False) == f"keep clear {si} mm"
+    assert keep_clear(inches * INCH_M, True) == f"{us} in"
+    assert keep_clear(inches * INCH_M, False) == f"{si} mm"
 
 
 @pytest.mark.quick
