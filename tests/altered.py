@@ -61,6 +61,17 @@ COPIES: Mapping[str, tuple[str, Mapping[str, Change]]] = {
         {"site": {"stories": 20}, "arrays": {1: {"cg_height_m": 44 * INCH}},
          "clearances": {1: {"provided_m": 20 * INCH}}},
     ),
+    "two causes": (
+        "example",
+        {"arrays": {ALL: {"roof_capacity_pa": 2 * PSF}},
+         "clearances": {1: {"provided_m": 20 * INCH}}},
+    ),
+    "two causes and a slope": (
+        "example",
+        {"arrays": {1: {"slope_value": 8.0, "roof_capacity_pa": 2 * PSF}},
+         "clearances": {1: {"provided_m": 20 * INCH}}},
+    ),
+    "short between arrays": ("example", {"clearances": {0: {"provided_m": 36 * INCH}}}),
     "short slack": ("example", {"arrays": {0: {"slack_m": 10 * INCH}}}),
     "small roof capacity": ("example", {"arrays": {1: {"roof_capacity_pa": 2 * PSF}}}),
     "other weight in wind design": ("example", {"arrays": {2: {"wind_weight_pa": 3 * PSF}}}),

@@ -129,6 +129,15 @@ def check_clearance(
     return _marked(check, data, arrays)
 
 
+def slides_m(arrays: Sequence[ArrayAssessment], gap: ClearanceCheck) -> Sequence[float]:
+    """Return the displacements of the arrays beside a gap that narrow it at once [m]."""
+    # Arrays that are alike slide the same way: the gap loses one displacement at most.
+    if gap.neighbor is Neighbor.LIKE:
+        return [gap.design_m]
+    # Arrays that are unlike may slide toward each other: both displacements are subtracted.
+    return [array.permitted_m for array in beside(arrays, gap.clearance)]
+
+
 def _across(
     data: ProjectInput, rules: RuleSet, near: Array, other: Array | RoofObject
 ) -> tuple[Neighbor, float]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from report.assessment.clearances import ClearanceCheck, beside
+from report.assessment.clearances import ClearanceCheck, slides_m
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.requirement_rows import fire_lane_rows, friction_rows, hazard_rows
 from report.assessment.routes import Route
@@ -41,7 +41,7 @@ from report.text.counts import capitalized, grouped_by, ids_by, lowered, quoted,
 from report.text.units import G_MPS2, Quantity, digits_up, no_less, no_more, number, pair
 from solver.records.acceptance import FULL_RATIO, POINTS_HZ, Acceptance, spectrum_mps2
 from solver.rules.limit import Consequence, Limit, Measure
-from solver.rules.provisions import RULE_SETS, Neighbor, review_lifts_slope
+from solver.rules.provisions import RULE_SETS, review_lifts_slope
 
 if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment
@@ -395,11 +395,7 @@ def pathway_rows(
         row = gap.clearance
         if row.pathway_m is None:
             continue
-        # Arrays that are unlike may slide toward each other: both displacements are subtracted.
-        slides = [array.permitted_m for array in beside(arrays, row)]
-        # Arrays that are alike slide the same way: the gap loses one displacement at most.
-        if gap.neighbor is Neighbor.LIKE:
-            slides = [gap.design_m]
+        slides = slides_m(arrays, gap)
         left_m = row.provided_m - math.fsum(slides)
         units = Quantity.SIZE, data.us_first
         left, least = compared_pairs(capacity(left_m), demand(row.pathway_m), *units)

@@ -16,7 +16,7 @@ from report.assessment.assess import reassess
 from report.assessment.clearances import ClearanceCheck, by_id, check_clearance
 from report.assessment.friction import InputCase, with_friction
 from report.assessment.project import THREADS, Assessment
-from report.assessment.remedies import Remedy, remedies
+from report.assessment.remedies import Remedies, remedies
 from report.assessment.routes import Route, statistic_basis
 from report.assessment.runs import MotionRun, run_motion
 from report.assessment.spectra import Spectra, spectra
@@ -28,6 +28,8 @@ from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import Direction
 from report.sheet.schema.motions import BuildingInput, MotionInput
 from report.sheet.schema.scene import Array
+from report.text.amounts import limit_texts
+from report.text.counts import lowered
 from report.text.units import number
 from solver.building.structure import MOST_PERIOD_S
 from solver.model import SlideHistory
@@ -245,7 +247,7 @@ class Evidence:
     accuracy: Accuracy  # the design with changed friction
     # effect of the high-pass of each motion on the slip of the governing array
     highpass: tuple[Beyond, ...]
-    remedies: tuple[Remedy, ...]  # what would satisfy each clearance and array marked NG
+    remedies: Remedies  # what would satisfy each check that is NG, and all of them
     # margins in friction, and directions of shaking that are not run; none without motions
     uncertainty: Uncertainty | None
     cumulative: tuple[Cumulative, ...]  # for each array, if the workbook names smaller events
@@ -278,7 +280,8 @@ def support(assessment: Assessment) -> Evidence:
 class Saving:
     """The least design displacement that an analysis may give, and what it would satisfy."""
 
-    ids: Sequence[str]  # arrays that may be analyzed
+    lacks: Sequence[str]  # limits that the motions miss, in words; none without motions
+    ids: Sequence[str]  # arrays that may be analyzed, and are not
     others: Sequence[str]  # arrays on roofs that are too steep for it
     is_lifted_by_review: bool  # whether these may be analyzed with peer review
     prescriptive_m: float
@@ -287,19 +290,29 @@ class Saving:
     n_satisfied: int  # of them, with the arrays that may be analyzed at the floor
 
 
+def _lack(missed: Limit, us_first: bool) -> str:
+    found, limit = limit_texts(missed, us_first)
+    return f"{lowered(missed.title)}: {found}, required {missed.sign} {limit}"
+
+
 def saving(assessment: Assessment) -> Saving:
-    """Return what an analysis could save in a project without motions."""
+    """Return what an analysis could save, of a project without motions that permit one."""
     first = assessment.arrays[0]  # the prescriptive displacement is the same for every array
     floor_m = analysis_floor_m(assessment.rules, first.prescriptive)
+    without = [item for item in assessment.arrays if item.route is Route.PRESCRIPTIVE]
+    ids = [item.id for item in without if item.may_be_analyzed]
     at_floor = [
-        replace(resting(item, floor_m), is_permitted=True) if item.may_be_analyzed else item
+        replace(resting(item, floor_m), is_permitted=True) if item.id in ids else item
         for item in assessment.arrays
     ]
     short = [gap.clearance for gap in assessment.clearances if not gap.ok]
     checks = [check_clearance(assessment.project, assessment.rules, at_floor, row) for row in short]
+    has_motions = assessment.has_motions
+    missed = [*assessment.acceptance.missed, *(few for few in first.analysis_checks if not few.ok)]
     return Saving(
-        ids=[item.id for item in assessment.arrays if item.may_be_analyzed],
-        others=[item.id for item in assessment.arrays if not item.may_be_analyzed],
+        lacks=[_lack(each, assessment.project.us_first) for each in missed if has_motions],
+        ids=ids,
+        others=[item.id for item in without if not item.may_be_analyzed],
         is_lifted_by_review=review_lifts_slope(assessment.rules, assessment.project.site.sdc),
         prescriptive_m=first.prescriptive.value_m,
         floor_m=floor_m,

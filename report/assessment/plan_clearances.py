@@ -241,7 +241,7 @@ class PlanGap:
 
 def plan_gaps(assessment: Assessment) -> Iterator[PlanGap]:
     """Yield the clearances between shapes in plan, and after them what is NG without one."""
-    shapes = shapes_of(assessment)
+    shapes = shapes_of(assessment.project)
     gaps: list[tuple[int, ClearanceCheck | PlanNeighbor]]
     gaps = [*enumerate(assessment.clearances, start=1)]
     for number, gap in (*gaps, *((0, missing) for missing in assessment.missing_gaps)):
@@ -261,9 +261,8 @@ def plan_gaps(assessment: Assessment) -> Iterator[PlanGap]:
             )
 
 
-def shapes_of(assessment: Assessment) -> dict[str, Shape]:
+def shapes_of(data: ProjectInput) -> dict[str, Shape]:
     """Return the arrays and the objects that have a place in plan, by id."""
-    data = assessment.project
     shapes: dict[str, Shape] = {item.id: item.placed for item in data.objects if item.placed}
     return shapes | {array.id: array.shape for array in data.arrays}
 

@@ -43,7 +43,7 @@ _MOST_NAMED = 4  # motions in a sentence; more are counted, and the results have
 
 _WHAT_WOULD_DO = {
     Status.SLIDING_AT_END: "give a longer record, or Zero padding on the sheet Motions",
-    Status.UPLIFT: "anchor the array, or replace the motion",
+    Status.UPLIFT: "replace the motion",
     Status.DIVERGED: "replace the motion",
     Status.STEP_LIMIT: "replace the motion",
 }
@@ -80,7 +80,7 @@ def _would_do(run: OrientedRun) -> str:
     if status is Status.SLIDING_AT_END and scene.friction.mu_slow <= math.tan(scene.slope_rad):
         return (
             "the friction coefficient is not above tan θ of the roof slope, so that no record is "
-            "long enough: provide more friction, or positive attachment"
+            "long enough: provide more friction"
         )
     return _WHAT_WOULD_DO[status]
 

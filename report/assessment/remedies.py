@@ -1,32 +1,34 @@
-"""What would satisfy a clearance or an array marked NG: separation, peer review, friction.
+"""What would satisfy each check that is NG, and the smallest set of changes that is enough.
 
-Each is entered and assessed (`report.assessment.assess`); friction is searched with the runs of
-`report.assessment.trials`. `report.pages.summary` prints the results. Read `remedies`.
+Each change is entered and assessed (`report.assessment.assess`) before it is named; friction is
+searched with the runs of `report.assessment.trials`. Read `remedies`.
 """
 
 from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from functools import partial
+from functools import cached_property, partial, reduce
+from typing import NamedTuple
 
-from report.assessment.arrays import DesignBasis
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.assess import changed, entered, refused
 from report.assessment.causes import ProjectOutcome, outcome
-from report.assessment.clearances import ClearanceCheck
-from report.assessment.neighbors import compass
-from report.assessment.plan_clearances import shapes_of
+from report.assessment.checks.check import Check, by_ratio
+from report.assessment.clearances import ClearanceCheck, by_id, slides_m
+from report.assessment.friction import mu_words
+from report.assessment.moves import Change, moves
+from report.assessment.neighbors import ComparedGap
 from report.assessment.project import THREADS, Assessment
 from report.assessment.routes import Route
 from report.assessment.trials import (
-    HUNDREDTH,
+    Runs,
     Trials,
     above,
-    involved,
     is_final,
     resting,
     search,
@@ -34,271 +36,278 @@ from report.assessment.trials import (
     trials_of,
     with_mu,
 )
-from report.assessment.verdict import Verdict, nan_is_worst
+from report.assessment.verdict import PLAN_ROW, STRENGTH_ROW, Verdict
 from report.sheet.schema import ProjectInput
-from report.sheet.schema.scene import SIDES, Array, Clearance
-from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape, gap_m
-from report.text.counts import ranged
-from report.text.units import Quantity, no_less, pair, round_up
+from report.sheet.schema.scene import Clearance
+from report.text.amounts import Amount, capacity, compared_pairs, demand
+from report.text.amounts import entered as entered_amount
+from report.text.counts import capitalized, grouped_by, joined, lowered, name_order, ranged
+from report.text.units import Quantity, no_less, pair
 from solver.friction_tests import MOST_MU
 
-_NOISE_M = 1e-8  # a length that is rounded up is no less than what it is rounded from
+_NOISE = 1e-9
 _MOST_HUNDREDTHS = round(100.0 * MOST_MU)
-_NORTH_UP_DEG = 90.0  # counterclockwise from +x
-_MOST_TRIES = 10  # of the length of a move: more only where it goes past the other shape
 
+# Checks whose remedies are searched, those with the largest ratio first; and changes of a set.
+MOST = 12
 
-def moves(
-    assessment: Assessment, number: int, gap: ClearanceCheck
-) -> tuple[Assessment | None, str]:
-    """Return the project with a clearance as required, and how; or none, and why not."""
-    row, data = gap.clearance, assessment.project
-    unit = Quantity.SIZE.us if data.us_first else Quantity.SIZE.si
-    lack_m = round_up((gap.required_m - row.provided_m) / unit.si, unit.decimals) * unit.si
-    more = pair(lack_m, Quantity.SIZE, data.us_first, no_less)
-    shapes = shapes_of(assessment)
-    if row.object not in shapes:  # not in plan: the clearance alone is entered
-        rows = list(data.clearances)
-        rows[number - 1] = row.model_copy(update={"provided_m": row.provided_m + lack_m + _NOISE_M})
-        return entered(assessment, changed(data, clearances=tuple(rows))), f"{more} more"
-    before = _failed(assessment)
-    ways = sorted(_ways_to_move(data, shapes, row, lack_m), key=lambda way: way[0])
-    # The shortest move with which nothing else becomes NG.
-    for length_m, array, (dx, dy) in ways:
-        by = (dx * length_m, dy * length_m)
-        # Most are refused by a neighbor in plan: only the others are assessed.
-        if not _has_room(assessment, array, shifted(shapes[array.id], by)):
-            continue
-        done = entered(assessment, _moved(data, shapes, array, by))
-        if done is not None and done.clearances[number - 1].ok and _failed(done) <= before:
-            toward = _toward(dx, dy, data.roof.north_deg)
-            length = pair(length_m - _NOISE_M, Quantity.SIZE, data.us_first, no_less)
-            return done, f"{array.id} moved {length} {toward}"
-    return None, (
-        f"{more} more is needed, and no move of one array along an axis of the plan gives it and "
-        "leaves all else sufficient"
-    )
-
-
-def _toward(dx: float, dy: float, north_deg: float) -> str:
-    """Return a direction along an axis of the plan in words, by the compass where north is up."""
-    if north_deg == _NORTH_UP_DEG:
-        return compass(math.degrees(math.atan2(dy, dx)), north_deg)
-    axis, along = ("x", dx) if dx else ("y", dy)
-    return f"toward {'−' if along < 0.0 else '+'}{axis} of the plan"
-
-
-def _has_room(assessment: Assessment, array: Array, moved: Shape) -> bool:
-    """Whether no pair of the plan comes nearer than is required, as far as that is known."""
-    near = (pair for pair in assessment.pairs if pair.involves(array.id))
-    others = ((pair, pair.far if pair.array == array.id else pair.near) for pair in near)
-    return not any(
-        gap_m(moved, other) < min(pair.required_m, pair.gap_m) - _NOISE_M for pair, other in others
-    )
-
-
-def _ways_to_move(
-    data: ProjectInput, shapes: dict[str, Shape], row: Clearance, lack_m: float
-) -> Iterator[tuple[float, Array, Point]]:
-    """Yield the length of each move along an axis of the plan that gives what lacks [m]."""
-    sides = ((row.array, row.object), (row.object, row.array))
-    for own, other in sides:
-        for array in (each for each in data.arrays if each.id == own):
-            for way in ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)):
-                length_m = _length_m(shapes[own], shapes[other], way, lack_m)
-                if not math.isnan(length_m):
-                    yield length_m, array, way
-
-
-def _length_m(near: Shape, far: Shape, way: Point, lack_m: float) -> float:
-    """Return how far a shape is to move for so much more distance [m]; NaN if it comes nearer."""
-    wanted_m, length_m = gap_m(near, far) + lack_m, lack_m
-    for _ in range(_MOST_TRIES):
-        still_m = wanted_m - gap_m(shifted(near, (way[0] * length_m, way[1] * length_m)), far)
-        if still_m <= _NOISE_M:
-            return length_m + _NOISE_M
-        if still_m > lack_m + _NOISE_M:
-            break
-        length_m += still_m
-    return math.nan
-
-
-def shifted(shape: Shape, by: Point) -> Shape:
-    """Return a shape moved in plan [m]."""
-    dx, dy = by
-    if isinstance(shape, Polygon):
-        return Polygon(tuple((x + dx, y + dy) for x, y in shape.points))
-    x0, x1, y0, y1 = shape.x_from_m, shape.x_to_m, shape.y_from_m, shape.y_to_m
-    return Rectangle(x0 + dx, x1 + dx, y0 + dy, y1 + dy)
-
-
-def _moved(data: ProjectInput, shapes: dict[str, Shape], array: Array, by: Point) -> ProjectInput:
-    """Return an input with an array moved, and its clearances as the plan then shows them."""
-    old, new = shapes[array.id], shifted(shapes[array.id], by)
-
-    def provided(row: Clearance) -> Clearance:
-        other = row.object if row.array == array.id else row.array
-        if array.id not in (row.array, row.object) or other not in shapes:
-            return row
-        change_m = gap_m(new, shapes[other]) - gap_m(old, shapes[other])
-        return row.model_copy(update={"provided_m": row.provided_m + change_m})
-
-    sides = {name: getattr(new, name) for name in SIDES} if isinstance(new, Rectangle) else {}
-    return changed(
-        data,
-        arrays=tuple(
-            row.model_copy(update=sides) if row.id == array.id else row for row in data.arrays
-        ),
-        outlines=tuple(
-            row.model_copy(update={"x_m": row.x_m + by[0], "y_m": row.y_m + by[1]})
-            if row.name == array.id
-            else row
-            for row in data.outlines
-        ),
-        clearances=tuple(map(provided, data.clearances)),
-    )
-
-
-def _failed(assessment: Assessment) -> set[tuple[str, ...]]:
-    """Return what is NG: clearances, pairs of the plan without one, requirements."""
-    gaps = (*(gap for gap in assessment.clearances if not gap.ok), *assessment.missing_gaps)
-    rows = (row for row in assessment.rows if not row.verdict.is_permitted)
-    return {*(gap.between for gap in gaps), *((row.id, row.subject, row.title) for row in rows)}
-
-
-# Clearances for which remedies are searched, those with the largest D/C: each takes runs.
-MOST_GAPS = 12
+# What no change of arrays and clearances satisfies.
+_OF_THE_BUILDING = ("max_risk_category", "max_stories", "ibc_max_slope_deg")
 
 
 class RemedyKind(StrEnum):
     """Quantity that would have to change."""
 
-    FRICTION = "friction coefficient"
     SEPARATION = "provided separation"
     REVIEW = "design displacement by peer review"
+    FRICTION = "friction coefficient"
+    HEIGHT = "height of the center of gravity"
+    CAPACITY = "roof capacity"
+    SLACK = "electrical slack"
+    STRENGTH = "interconnection strength"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Remedy:
-    """One quantity that would satisfy a clearance, or give an array final values, by itself."""
+    """A change that satisfies checks which are NG, and makes nothing else NG."""
 
     kind: RemedyKind
-    clearance: int  # number of the clearance in the workbook, from 1; 0 for no single one
-    array: str  # array whose friction or displacement it is; those of a peer review
-    given: float  # value in the workbook; by peer review the largest design displacement [m]
-    # least coefficient or separation [m] that would do, or that displacement without its floor; NaN
-    # if none within the search would
-    value: float
-    resolution: float = 0.0  # step of the search; 0 for a value that follows from the runs
-    # smallest and largest of the values at which all runs satisfied, without failure between
-    verified: tuple[float, float]
-    n_values: int  # number of values tried from one to the other
-    basis: str  # what was varied and what with it; or why no value would do; a clause
-    # of the project with it, and with the friction of the other array of the clearance where that
-    # is short, too
-    outcome: ProjectOutcome | None
+    checks: tuple[Check, ...]
+    words: str  # the change, without what comes of it
+    change: Change
+    outcome: ProjectOutcome | None = None  # of the project with this change alone
 
     @property
-    def exists(self) -> bool:
-        """Whether a value would do."""
-        return not math.isnan(self.value)
+    def is_enough(self) -> bool:
+        """Whether the project is not NG with it alone."""
+        return self.outcome is not None and self.outcome.verdict.is_permitted
+
+    def sentence(self, us_first: bool) -> str:
+        """Return the change, and what the project comes to where that is enough."""
+        came = f" {_came(self.outcome, us_first)}" if self.outcome and self.is_enough else ""
+        return f"{self.words}.{came}"
 
 
-def remedies(assessment: Assessment) -> tuple[Remedy, ...]:
-    """Return what would satisfy the clearances marked NG, and each array without final values."""
-    with ThreadPoolExecutor(THREADS) as pool:
-        return tuple(remedy for way in _ways(assessment, pool) for remedy in way)
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Remedies:
+    """What would satisfy a project that is NG; empty for another one."""
+
+    own: tuple[Remedy, ...] = ()  # of each check, each by itself
+    # the changes that are enough together, none of which may be left out; empty if none are
+    together: tuple[Remedy, ...] = ()
+    outcome: ProjectOutcome | None = None  # of the project with those
+
+    def sentence(self, us_first: bool) -> str:
+        """Return the changes that are enough together, and what comes of them; empty if none."""
+        if self.outcome is None:
+            return ""
+        changes = joined([lowered(each.words) for each in self.together])
+        return f"{capitalized(changes)}. {_came(self.outcome, us_first)}"
 
 
-def best_remedy(assessment: Assessment, *, may_run: bool = True) -> Sequence[Remedy]:
-    """Return what is entered together as the best remedy of the governing clearance; or nothing."""
-    # The first with which the project is not NG, or else the first that would do.
-    first: Sequence[Remedy] = ()
-    with ThreadPoolExecutor(THREADS) as pool:
-        for way in _ways(assessment, pool, most=1, may_run=may_run):
-            outcomes = [remedy.outcome for remedy in way if remedy.outcome]
-            if way and len(outcomes) == len(way):
-                first = first or way
-                if outcomes[0].verdict.is_permitted:
-                    return way
-    return first
+def _came(outcome: ProjectOutcome, us_first: bool) -> str:
+    return f"Project verdict: {outcome.words(us_first)}."
 
 
-def _ways(
-    assessment: Assessment, pool: Executor, *, most: int = MOST_GAPS, may_run: bool = True
-) -> Iterator[Sequence[Remedy]]:
-    """Yield the remedies that are entered together, those that need runs last."""
+def remedies(assessment: Assessment) -> Remedies:
+    """Return the remedies of each check that is NG, and the smallest set that is enough."""
     if assessment.verdict.is_permitted:
+        return Remedies()
+    with ThreadPoolExecutor(THREADS) as pool:
+        state = _State(assessment, pool, {})
+        own = tuple(state.own())
+        return replace(_enough(state, own), own=own)
+
+
+def sufficient(assessment: Assessment, *, may_run: bool = True) -> Remedies:
+    """Return the smallest set of changes that is enough, with runs for friction or without."""
+    if assessment.verdict.is_permitted:
+        return Remedies()
+    with ThreadPoolExecutor(THREADS) as pool:
+        state = _State(assessment, pool, {} if may_run else None)
+        return _enough(state, state.own())
+
+
+def _enough(state: _State, own: Iterable[Remedy]) -> Remedies:
+    """Return a change that is enough by itself, or else those that are found in turn."""
+    if any(check.id in _OF_THE_BUILDING for check in state.failed):
+        return Remedies()
+    if alone := next((each for each in own if each.is_enough), None):
+        return Remedies(together=(alone,), outcome=alone.outcome)
+    now, taken = state, list[Remedy]()
+    while now.failed:
+        ways = (list(now.ways(check)) for check in now.failed)
+        found = next(filter(None, ways), None)
+        if found is None or len(taken) == MOST:
+            return Remedies()
+        # Of those that satisfy the check, the one with which the least is NG.
+        remedy, now = min(found, key=lambda way: len(way[1].failed))
+        taken.append(remedy)
+    done = now.done
+    for each in tuple(taken):
+        fewer = [other for other in taken if other is not each]
+        data = reduce(lambda data, other: other.change(data), fewer, state.done.project)
+        without = entered(state.done, data)
+        if without is not None and without.verdict.is_permitted:
+            taken, done = fewer, without
+    return Remedies(together=tuple(taken), outcome=outcome(done))
+
+
+class _State:
+    """A project, as given or with changes, and what would satisfy what is NG in it."""
+
+    def __init__(self, done: Assessment, pool: Executor, runs: Runs | None) -> None:
+        self.done = done
+        self._pool = pool
+        self._runs = runs  # of other friction, of all states; None where none may be run
+        self.failed = by_ratio(check for check in done.checks if check.verdict is Verdict.NG)
+
+    def own(self) -> Iterator[Remedy]:
+        """Yield the remedies of each check, one that satisfies several once."""
+        told = set[tuple[RemedyKind, Check]]()
+        for check in self.failed[:MOST]:
+            kinds = {kind for kind, of in told if of is check}
+            for remedy, now in self.ways(check, kinds):
+                told |= {(remedy.kind, each) for each in remedy.checks}
+                yield replace(remedy, outcome=outcome(now.done))
+
+    def ways(
+        self, check: Check, told: Iterable[RemedyKind] = ()
+    ) -> Iterator[tuple[Remedy, _State]]:
+        """Yield a change of each kind that satisfies a check and makes nothing NG that was OK."""
+        ok = {_key(each) for each in self.done.checks if each.is_satisfied}
+        found = {*told}
+        for remedy in (each for way in _WAYS.get(check.id, ()) for each in way(self, check)):
+            if remedy.kind in found:
+                continue
+            is_review = remedy.change is _reviewed  # the same of every check
+            done = self.reviewed if is_review else entered(self.done, remedy.change(self.data))
+            now = done and _State(done, self._pool, self._runs)
+            wanted = ok | {*map(_key, remedy.checks)}
+            if now and wanted.isdisjoint(map(_key, now.failed)):
+                found.add(remedy.kind)
+                yield remedy, now
+
+    @property
+    def data(self) -> ProjectInput:
+        """The input."""
+        return self.done.project
+
+    @cached_property
+    def trials(self) -> Mapping[str, Trials]:
+        """The arrays with other friction; none where none may be run."""
+        return {} if self._runs is None else trials_of(self.done, self._pool, self._runs)
+
+    @cached_property
+    def reviewed(self) -> Assessment | None:
+        """The project with a review of the analysis."""
+        return entered(self.done, _reviewed(self.data))
+
+
+def _key(check: Check) -> Hashable:
+    return check.id, check.title, check.subject, check.places
+
+
+def _separations(state: _State, check: Check) -> Iterator[Remedy]:
+    """Yield what widens a clearance, a pair of the plan without one, or a fire pathway."""
+    gap = _gap(state.done, check)
+    if gap is None:
         return
-    numbered = enumerate(assessment.clearances, start=1)
-    failed = [(number, gap) for number, gap in numbered if gap.verdict is Verdict.NG]
-    short = sorted(failed, key=lambda each: -nan_is_worst(each[1].demand_capacity))[:most]
-    yield from ([_separation(assessment, *each)] for each in short)
-    yield list(_review(assessment))
-    if not may_run:
+    lack_m = gap.required_m - gap.provided_m
+    if check.id == "fire_pathway" and isinstance(gap, ClearanceCheck):
+        left_m = gap.provided_m - math.fsum(slides_m(state.done.arrays, gap))
+        lack_m = (gap.clearance.pathway_m or 0.0) - left_m
+    if lack_m > 0.0:
+        for words, change in moves(state.done, gap, lack_m):
+            yield Remedy(kind=RemedyKind.SEPARATION, checks=(check,), words=words, change=change)
+
+
+def _gap(done: Assessment, check: Check) -> ComparedGap | None:
+    """Return the gap that a check is of."""
+    rows = [place.row for place in check.places if place.section == "clearances"]
+    if rows and check.id != PLAN_ROW:
+        return done.clearances[rows[0]]
+    words = check.subject, check.title.removeprefix("Clearance ")
+    return next((gap for gap in done.missing_gaps if gap.names in words), None)
+
+
+def _reviewed(data: ProjectInput) -> ProjectInput:
+    review = {
+        "peer_reviewed": True,
+        "peer_date": data.project.date,
+        "peer_covered": "",
+        **dict.fromkeys(("peer_reviewer", "peer_license", "peer_letter"), "to be given"),
+    }
+    return changed(data, options=data.options.model_copy(update=review))
+
+
+def _review(state: _State, check: Check) -> Iterator[Remedy]:
+    """Yield peer review, where with it arrays of a check that it satisfies slide less far."""
+    done = state.reviewed
+    if done is None:
         return
-    trials = trials_of(assessment, pool)
-    yield from (_frictions(assessment, *each, trials) for each in short)
-    for array in assessment.arrays:
-        if not is_final(array):
-            yield _together(assessment, [_friction(trials[array.id], 0, None)])
+    left = {_key(each) for each in done.checks if each.verdict is Verdict.NG}
+    cured = tuple(each for each in state.failed if each.arrays and _key(each) not in left)
+    show = partial(pair, quantity=Quantity.DISPLACEMENT, us_first=state.data.us_first, show=no_less)
+    designs = dict[str, str]()
+    for name in sorted({name for each in cured for name in each.arrays}, key=name_order):
+        given_m, value_m = (by_id(each.arrays, name).permitted_m for each in (state.done, done))
+        if math.isnan(given_m) or value_m < given_m:
+            instead = "" if math.isnan(given_m) else f" instead of {show(given_m)}"
+            designs[name] = f"{show(value_m)}{instead}"
+    if check in cured and not designs.keys().isdisjoint(check.arrays):
+        alike = grouped_by(designs, designs.__getitem__)
+        parts = [f"{ranged(names)} {words}" for words, names in alike.items()]
+        words = f"Have the analysis peer reviewed: design displacement of {joined(parts)}"
+        yield Remedy(kind=RemedyKind.REVIEW, checks=cured, words=words, change=_reviewed)
 
 
-def _frictions(
-    assessment: Assessment, number: int, gap: ClearanceCheck, trials: Mapping[str, Trials]
-) -> Sequence[Remedy]:
-    """Return the friction of each array beside a clearance that is too small for it."""
-    row, short = gap.clearance, []
-    for array in involved(assessment, row):
-        check = single_array_check(assessment, assessment.project, array, row)
-        if not (is_final(array) and check.ok):
-            short.append(_friction(trials[array.id], number, row))
-    return _together(assessment, short)
+def _frictions(state: _State, check: Check) -> Iterator[Remedy]:
+    """Yield the friction that all arrays of a check need, if any coefficient is enough."""
+    gap, mus = _gap(state.done, check), dict[str, float]()
+    row = gap.clearance if isinstance(gap, ClearanceCheck) else None
+    for item in (by_id(state.done.arrays, name) for name in check.arrays):
+        if row and is_final(item) and single_array_check(state.done, state.data, item, row).ok:
+            continue
+        if item.id not in state.trials:
+            return
+        mus[item.id] = _least_mu(state.trials[item.id], row)
+    if mus and not any(map(math.isnan, mus.values())):
+        yield _friction(state, check, mus)
 
 
-def _together(assessment: Assessment, remedies: Sequence[Remedy]) -> Sequence[Remedy]:
-    """Return coefficients with what comes of all of them, if each would do."""
-    if not all(remedy.exists for remedy in remedies):
-        return remedies
-    done = entered(
-        assessment,
-        _with_mus(assessment.project, {remedy.array: remedy.value for remedy in remedies}),
-    )
-    return [replace(remedy, outcome=outcome(done) if done else None) for remedy in remedies]
+def _prescriptive_mu(state: _State, check: Check) -> Iterator[Remedy]:
+    """Yield the friction coefficient that the prescriptive route requires."""
+    array = by_id(state.done.arrays, check.arrays[0]).array
+    if isinstance(check.limit, Amount) and array.minimum_mu > 0.0:
+        mu = array.mu * check.limit.value / array.minimum_mu
+        yield _friction(state, check, {array.id: math.ceil(100.0 * mu - 1e-6) / 100.0})
 
 
-def _with_mus(data: ProjectInput, mus: dict[str, float]) -> ProjectInput:
+def _friction(state: _State, check: Check, mus: Mapping[str, float]) -> Remedy:
+    arrays = {array.id: array for array in state.data.arrays}
+    parts = [
+        f"{mu_words(with_mu(arrays[name], mu).friction)} for {name}"
+        f" (given {mu_words(arrays[name].friction)})"
+        for name, mu in mus.items()
+    ]
+    words = f"Provide a friction coefficient of at least {joined(parts)}"
+    change = partial(_with_mus, mus=mus)
+    return Remedy(kind=RemedyKind.FRICTION, checks=(check,), words=words, change=change)
+
+
+def _with_mus(data: ProjectInput, *, mus: Mapping[str, float]) -> ProjectInput:
     arrays = (with_mu(row, mus[row.id]) if row.id in mus else row for row in data.arrays)
     return changed(data, arrays=tuple(arrays))
 
 
-def _friction(trials: Trials, number: int, row: Clearance | None) -> Remedy:
-    """Return the least friction coefficient with which an array satisfies."""
-    array = trials.array.array
-    end, most = above(array.mu), _most_mu(trials)
-    reason = _in_vain(trials, row)
-    held: tuple[int, ...] = ()
-    if not reason and end <= most:
-        held = search(lambda mu: trials.satisfies(row, mu=mu), most, end)
-    law = (
-        "one coefficient at every velocity"
-        if array.friction.is_constant
-        else "the friction law scaled as a whole, the coefficient given being that at low velocity"
-    )
-    by_tests = "" if most == _MOST_HUNDREDTHS else ", the most that its tests give,"
-    least = held[-1] / 100 if held else math.nan
-    return Remedy(
-        kind=RemedyKind.FRICTION,
-        clearance=number,
-        array=array.id,
-        given=array.mu,
-        value=least,
-        resolution=HUNDREDTH,
-        verified=(least, most / 100 if held else math.nan),
-        n_values=len(held),
-        basis=law if held else reason or f"no coefficient up to {most / 100}{by_tests} is enough",
-        outcome=None,
-    )
+def _least_mu(trials: Trials, row: Clearance | None) -> float:
+    """Return the least friction coefficient with which an array satisfies; NaN for none."""
+    end, most = above(trials.array.array.mu), _most_mu(trials)
+    if end > most or not _may_help(trials, row):
+        return math.nan
+    held = search(lambda mu: trials.satisfies(row, mu=mu), most, end)
+    return held[-1] / 100 if held else math.nan
 
 
 def _most_mu(trials: Trials) -> int:
@@ -307,76 +316,110 @@ def _most_mu(trials: Trials) -> int:
     mus = range(above(array.mu), _MOST_HUNDREDTHS + 1)
 
     def is_refused(mu: int) -> bool:
-        return bool(refused(data, _with_mus(data, {array.id: mu / 100})))
+        return bool(refused(data, _with_mus(data, mus={array.id: mu / 100})))
 
     # Where one is refused a larger one is, too: it is above the tests as well.
     return mus.start - 1 + bisect_left(mus, True, key=is_refused)
 
 
-def _in_vain(trials: Trials, row: Clearance | None) -> str:
-    """Return why no friction can satisfy, if so: found without a run."""
+def _may_help(trials: Trials, row: Clearance | None) -> bool:
+    """Whether an array that does not slide would satisfy: found without a run."""
     assessment, array = trials.assessment, trials.array
     if array.lacks_motions:
-        return "there are too few motions for the requested statistic"
+        return False
     is_prescriptive = array.route is Route.PRESCRIPTIVE
     least_m = array.prescriptive.value_m if is_prescriptive else array.floor_m
-    holds = partial(single_array_check, assessment, assessment.project)
-    if row is None or holds(resting(array, least_m), row).ok:
-        return ""
-    if holds(resting(array), row).ok:
-        least = "prescriptive displacement" if is_prescriptive else "floor"
-        return f"the {least} alone requires more than is provided"
-    return "the minimum separation of the rule set is more than is provided"
+    at_rest = resting(array, least_m)
+    return row is None or single_array_check(assessment, assessment.project, at_rest, row).ok
 
 
-def _separation(assessment: Assessment, number: int, gap: ClearanceCheck) -> Remedy:
-    """Return the required separation, where the plan has room for it or does not show both."""
-    required, basis, result = gap.required_m, "there is no design displacement", None
-    if not math.isnan(required):
-        result, basis = moves(assessment, number, gap)
-    value = required if result else math.nan
-    return Remedy(
-        kind=RemedyKind.SEPARATION,
-        clearance=number,
-        array=gap.governing_array,
-        given=gap.clearance.provided_m,
-        value=value,
-        verified=(value, value),
-        n_values=1 if result else 0,
-        basis=basis,
-        outcome=outcome(result) if result else None,
+class _Value(NamedTuple):
+    """A value of an array that a check compares, and the value that satisfies it."""
+
+    kind: RemedyKind
+    field: str
+    quantity: Quantity
+    needed: Callable[[ArrayAssessment], float]
+    words: str  # of the change; at most where it is lowered, else at least
+
+
+def _low_profile_m(item: ArrayAssessment) -> float:
+    return next(limit.limit for limit in item.checks if limit.key == "low_profile_in")
+
+
+_HEIGHT = RemedyKind.HEIGHT, "cg_height_m", Quantity.SIZE
+_LOWER = "Lower the center of gravity to at most"
+
+# By the id of the check.
+_VALUES = {
+    "low_profile_in": _Value(*_HEIGHT, _low_profile_m, _LOWER),
+    "tipping": _Value(*_HEIGHT, lambda item: item.array.cg_height_m / item.tipping.ratio, _LOWER),
+    "roof_capacity": _Value(
+        RemedyKind.CAPACITY,
+        "roof_capacity_pa",
+        Quantity.PRESSURE,
+        lambda item: item.array.weight_pa,
+        "Show a roof capacity of at least",
+    ),
+    "electrical_slack": _Value(
+        RemedyKind.SLACK,
+        "slack_m",
+        Quantity.SIZE,
+        lambda item: item.permitted_m,
+        "Provide electrical slack of at least",
+    ),
+    STRENGTH_ROW: _Value(
+        RemedyKind.STRENGTH,
+        "interconnection_n",
+        Quantity.WEIGHT,
+        lambda item: item.interconnection_n,
+        "Provide interconnection strength of at least",
+    ),
+}
+
+
+def _value(state: _State, check: Check) -> Iterator[Remedy]:
+    """Yield the values that satisfy a check of one array and the like of others."""
+    kind, field, quantity, needed, words = _VALUES[check.id]
+    is_least = kind is not RemedyKind.HEIGHT
+    checks = tuple(each for each in state.failed if each.id == check.id)
+    values, texts = dict[str, float](), dict[str, tuple[str, str]]()
+    for item in (by_id(state.done.arrays, each.arrays[0]) for each in checks):
+        # A height that is divided by a ratio and multiplied again is no more than its limit.
+        values[item.id] = needed(item) * (1.0 if is_least else 1.0 - _NOISE)
+        texts[item.id] = compared_pairs(
+            entered_amount(getattr(item.array, field)),
+            (demand if is_least else capacity)(values[item.id]),
+            quantity,
+            state.data.us_first,
+            is_at_least=is_least,
+        )
+    alike = grouped_by(texts, texts.__getitem__)
+    parts = [f"{wanted} for {ranged(of)} (given {had})" for (had, wanted), of in alike.items()]
+    if not any(map(math.isnan, values.values())):
+        yield Remedy(
+            kind=kind,
+            checks=checks,
+            words=f"{words} {joined(parts)}",
+            change=partial(_with_values, field=field, values=values),
+        )
+
+
+def _with_values(data: ProjectInput, *, field: str, values: Mapping[str, float]) -> ProjectInput:
+    arrays = (
+        row.model_copy(update={field: values[row.id]}) if row.id in values else row
+        for row in data.arrays
     )
+    return changed(data, arrays=tuple(arrays))
 
 
-def _review(assessment: Assessment) -> Iterator[Remedy]:
-    """Yield peer review, where it removes a floor that governs."""
-    data = assessment.project
-    floored = [
-        item
-        for item in assessment.arrays
-        if item.governs is DesignBasis.FLOOR and item.is_permitted
-    ]
-    if not floored:
-        return
-    review = {
-        "peer_reviewed": True,
-        "peer_date": data.project.date,
-        "peer_covered": "",
-        **dict.fromkeys(("peer_reviewer", "peer_license", "peer_letter"), "to be given"),
-    }
-    done = entered(assessment, changed(data, options=data.options.model_copy(update=review)))
-    if done is None:
-        return
-    ids = [item.id for item in floored]
-    value = max(item.design_m for item in done.arrays if item.id in ids)
-    yield Remedy(
-        kind=RemedyKind.REVIEW,
-        clearance=0,
-        array=ranged(ids),
-        given=max(item.design_m for item in floored),
-        value=value,
-        verified=(value, value),
-        n_values=1,
-        basis="peer review of the analysis removes the floor",
-        outcome=outcome(done),
-    )
+# By the id of a check, in the order in which they are tried: those with runs last.
+_WAYS: Mapping[str, Sequence[Callable[[_State, Check], Iterator[Remedy]]]] = {
+    "clearance": (_separations, _review, _frictions),
+    PLAN_ROW: (_separations, _review),
+    "fire_pathway": (_separations, _review),
+    "analysis_max_slope_deg": (_review,),
+    "prescriptive_min_mu": (_prescriptive_mu,),
+    "runs": (_frictions,),
+    **dict.fromkeys(_VALUES, (_value,)),
+}

@@ -126,9 +126,11 @@ class Trials:
         return tuple(self._pool.map(partial(_runs, array, every), before.motions))
 
 
-def trials_of(assessment: Assessment, pool: Executor) -> Mapping[str, Trials]:
-    """Return the trials of each array by its id."""
-    runs: Runs = {}
+def trials_of(
+    assessment: Assessment, pool: Executor, runs: Runs | None = None
+) -> Mapping[str, Trials]:
+    """Return the trials of each array by its id, with the `runs` that others have done."""
+    runs = {} if runs is None else runs
     return {array.id: Trials(assessment, array, pool, runs) for array in assessment.arrays}
 
 

@@ -97,12 +97,12 @@ def _without_motions(sheet: Sheet, shaking: Shaking) -> Iterator[Finding]:
     if shaking.motions:
         return
     from report.assessment.assess import assess
-    from report.pages.summary import without_motions
+    from report.pages.summary import without_analysis
     from report.sheet.checking.findings import note
     from report.sheet.schema.fields import Place
 
     # Without motions nothing is run, so that the assessment is at hand before the report.
-    yield note(Place("motions"), without_motions(assess(sheet, shaking)))
+    yield note(Place("motions"), without_analysis(assess(sheet, shaking)))
 
 
 def _computed(sheet: Sheet) -> Iterator[Finding]:

@@ -225,7 +225,7 @@ class PlanSheet:
     @cached_property
     def shapes(self) -> Mapping[str, Shape]:
         """What is on the plan, by name [m]."""
-        return shapes_of(self.assessment)
+        return shapes_of(self.assessment.project)
 
     @cached_property
     def gaps(self) -> Sequence[Gap]:

@@ -6,7 +6,7 @@ Computes nothing: see `report.assessment.evidence` and, of linked blocks, `repor
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from operator import attrgetter
 from typing import Annotated, Any, ClassVar
@@ -15,7 +15,7 @@ from pydantic import BeforeValidator
 
 from report.assessment.links import LinkedArray
 from report.assessment.neighbors import Cover, NearbyKind
-from report.assessment.remedies import Remedy, RemedyKind
+from report.assessment.remedies import Remedies, RemedyKind
 from report.assessment.uncertainty import Uncertainty
 from report.assessment.verdict import Verdict
 from report.entities.array import TAKES_LARGEST
@@ -25,8 +25,6 @@ from report.entities.shown import (
     Column,
     Entity,
     Number,
-    OfUnit,
-    RangeOfUnit,
     Shown,
     at,
     centered,
@@ -40,6 +38,7 @@ from report.entities.shown import (
     words,
 )
 from report.sheet.schema.motions import BuildingInput
+from report.text.counts import joined
 from report.text.units import Quantity, Rounding, number
 from solver.model import INCH_M, Status
 from solver.rules.provisions import AnalysisValue
@@ -55,39 +54,17 @@ def _numbers(clearances: tuple[GivenResult, ...]) -> str:
 
 
 class RemedyResult(Entity):
-    """A change that would satisfy a clearance or an array, under the keys of its unit."""
+    """A change that satisfies checks which are NG, or changes that are enough together."""
 
-    quantity: RemedyKind
+    quantities: tuple[RemedyKind, ...]
     """What would have to change."""
-    clearance: str | None
-    """Number of the clearance; null for the runs of an array."""
-    array: str
-    """Array whose friction or displacement it is."""
-    exists: bool
-    """Whether a value satisfies."""
-    given: OfUnit
-    """Value entered: friction coefficient."""
-    given_m: OfUnit
-    """Value entered: separation."""
-    value: OfUnit
-    """Least friction coefficient that satisfies."""
-    value_m: OfUnit
-    """Least separation that satisfies."""
-    resolution: OfUnit
-    """Step of the search."""
-    resolution_m: OfUnit
-    """Step of the search; 0 where the value follows from the runs."""
-    verified: RangeOfUnit
-    """Range in which every value tried satisfied."""
-    verified_m: RangeOfUnit
-    """Range in which every value tried satisfied."""
-    n_values: int
-    """Number of values tried in that range."""
-    basis: str
-    """What was varied, or why no value satisfies."""
-    verdict: Verdict | None
-    """On the project with it; null where no value satisfies."""
-    governing: str | None
+    checks: tuple[str, ...]
+    """What it satisfies, as printed."""
+    change: str
+    """In words."""
+    verdict: Verdict
+    """On the project with it."""
+    governing: str
     """The same with the clearance that then governs, in words."""
 
 
@@ -226,22 +203,22 @@ def variation_result(building: BuildingInput, value: AnalysisValue) -> Variation
     return VariationResult.of(building, **asdict(value))
 
 
-def remedy_result(item: Remedy, us_first: bool) -> RemedyResult:
-    """Return a remedy."""
-    names = ("given", "value", "resolution", "verified")
-    # Of the keys that differ in their unit one is written.
-    unit = "" if item.kind is RemedyKind.FRICTION else "_m"
-    return RemedyResult(
-        quantity=item.kind,
-        clearance=f"{item.clearance}" if item.clearance else None,
-        array=item.array,
-        exists=item.exists,
-        **{f"{name}{unit}": getattr(item, name) for name in names},
-        n_values=item.n_values,
-        basis=item.basis,
-        verdict=item.outcome.verdict if item.outcome else None,
-        governing=item.outcome.words(us_first) if item.outcome else None,
-    )
+def remedy_results(found: Remedies, us_first: bool) -> Iterator[RemedyResult]:
+    """Yield the remedies of each check, then the changes that are enough together, if several."""
+    own = [((remedy,), remedy.outcome) for remedy in found.own]
+    for remedies, outcome in [*own, (found.together[len(found.together) == 1 :], found.outcome)]:
+        if remedies and outcome:
+            yield RemedyResult(
+                quantities=tuple(remedy.kind for remedy in remedies),
+                checks=tuple(
+                    f"{check.title}, {check.subject}"
+                    for remedy in remedies
+                    for check in remedy.checks
+                ),
+                change=joined([remedy.words for remedy in remedies]),
+                verdict=outcome.verdict,
+                governing=outcome.words(us_first),
+            )
 
 
 def uncertainty_result(item: Uncertainty) -> UncertaintyResult:

@@ -26,7 +26,7 @@ from report.entities.evidence import (
     UncertaintyResult,
     VariationResult,
     linked_result,
-    remedy_result,
+    remedy_results,
     uncertainty_result,
     variation_result,
 )
@@ -177,9 +177,7 @@ def results(assessment: Assessment, evidence: Evidence) -> Results:
         findings=tuple(finding_results(findings(sheet, shaking), sheet.addresses)),
         linked=tuple(map(linked_result, assessment.linked)),
         warnings=tuple(run.text for run in assessment.warnings),
-        remedies=tuple(
-            remedy_result(item, assessment.project.us_first) for item in evidence.remedies
-        ),
+        remedies=tuple(remedy_results(evidence.remedies, assessment.project.us_first)),
         certainty=evidence.uncertainty and uncertainty_result(evidence.uncertainty),
         cumulative=evidence.cumulative,
         building_variations=tuple(starmap(variation_result, evidence.building)),

@@ -25,7 +25,7 @@ from report.assessment.verdict import LOWERING, Verdict, nan_is_worst
 from report.entities.clearance import ClearanceResult
 from report.pages.limits import analysis_faults, check_table, troubles
 from report.pages.parts import PackageData, statistic
-from report.pages.summary import answers
+from report.pages.summary import remedy_lines
 from report.pages.symbols import friction_standard
 from report.sheet.reading.linked_files import StudyYears, YearsOfArray
 from report.sheet.schema import SECTION
@@ -74,7 +74,7 @@ def summary(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "other": max(ratios, key=lambda item: item.ratio, default=None),
         "what_if": list(_what_if(package, evidence)),
         "troubles": troubles(package),
-        "answers": answers(package, evidence.remedies),
+        "remedies": list(remedy_lines(package.assessment, evidence.remedies)),
     }
 
 

@@ -7,10 +7,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from functools import partial
 
 from report.assessment.friction import mu_words
-from report.assessment.project import Assessment
 from report.document.tables import Table, listed
 from report.entities.shown import Shown, length, plain, text, words
 from report.motions.history import ac156
@@ -19,8 +17,8 @@ from report.pages.parts import PackageData
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import RiskCategory
 from report.sheet.schema.project import Site
-from report.text.counts import grouped_by, ids_by, ranged
-from report.text.units import Quantity, digits_up, no_less, number, pair
+from report.text.counts import ids_by
+from report.text.units import Quantity, number
 from solver.building.structure import approximate_period_s
 from solver.rules import hazard
 from solver.rules.hazard import ComponentForce, component_force
@@ -45,30 +43,6 @@ def site(package: PackageData) -> Mapping[str, object]:
         "near_fault_g": hazard.NEAR_FAULT_S_1_G,
         "categories": categories,
     }
-
-
-def attachment(assessment: Assessment) -> str:
-    """Return the force of a positive attachment of the arrays that are NG, if any is."""
-    data = assessment.project
-    arrays = [
-        item.array for item in assessment.arrays if not assessment.array_verdict(item).is_permitted
-    ]
-    if not arrays:
-        return ""
-    force, names = site_force(data), ranged(array.id for array in arrays)
-    if force is None:
-        factors = " and ".join(data.site.edition.force_factors)
-        return (
-            f"Positive attachment of {names}, by others: give {factors} on the sheet Site for F_p."
-        )
-    weight = partial(pair, quantity=Quantity.WEIGHT, us_first=data.us_first, show=no_less)
-    # By the printed force: arrays whose forces read the same share a clause.
-    alike = grouped_by(arrays, lambda array: weight(force.value * array.weight_n))
-    forces = (f"{ranged(array.id for array in same)} {each}" for each, same in alike.items())
-    return (
-        f"Positive attachment of {names}, by others, for F_p = {digits_up(force.value, 3)} W_p, at "
-        f"each: {'; '.join(forces)}. It is not assessed here."
-    )
 
 
 def site_force(data: ProjectInput) -> ComponentForce | None:

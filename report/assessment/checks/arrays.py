@@ -66,7 +66,7 @@ def _way_out(done: Assessment, item: ArrayAssessment) -> str:
 
 _WOULD_DO = {
     Status.SLIDING_AT_END: "Enter a longer record, or Zero padding on the Motions worksheet.",
-    Status.UPLIFT: "Anchor the array, or replace the motion.",
+    Status.UPLIFT: "Replace the motion.",
     Status.DIVERGED: "Replace the motion.",
     Status.STEP_LIMIT: "Replace the motion.",
 }
@@ -76,7 +76,7 @@ def _would_do(run: OrientedRun) -> str:
     status, scene = run.result.status, run.scene
     if status is Status.SLIDING_AT_END and scene.friction.mu_slow <= math.tan(scene.slope_rad):
         return (
-            "Provide more friction, or positive attachment: the friction coefficient is not above "
+            "Provide more friction: the friction coefficient is not above "
             "tan θ of the roof slope, so that no record is long enough."
         )
     return _WOULD_DO.get(status, "")

@@ -51,7 +51,7 @@ STATES = {
         of((*MOTIONS, LIFTING)),
         "governed by: none",
         "An array without a permitted design displacement is NG",
-        "Changes that are sufficient, each by itself",
+        "Changes that would satisfy what is NG",
         "no limit the normal force falls below zero, which no model covers none",
         "A1, A2 −0.40 0.996 no limit",  # minimum normal force, time of uplift, demand
     ),

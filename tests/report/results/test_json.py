@@ -137,14 +137,14 @@ def supported():
 
 def test_json_has_what_would_do_margins_angles_and_neighbors(supported):
     assessment, evidence, document = supported
-    rows = {row["quantity"]: row for row in document["remedies"] if row["clearance"] == "1"}
-    assert list(rows) == [item.kind for item in evidence.remedies if item.clearance == 1]
-    assert rows["provided separation"]["value_m"] == assessment.clearances[0].required_m
-    assert rows["provided separation"]["given_m"] == 0.5
-    (friction,) = (item for item in evidence.remedies if item.kind == "friction coefficient")
-    assert rows["friction coefficient"]["exists"] is friction.exists is False
-    assert rows["friction coefficient"]["value"] is None
-    assert rows["friction coefficient"]["basis"] == friction.basis
+    rows = document["remedies"]
+    found = evidence.remedies
+    assert [row["change"] for row in rows[: len(found.own)]] == [each.words for each in found.own]
+    for row, each in zip(rows, found.own, strict=False):
+        assert row["verdict"] == each.outcome.verdict
+        assert row["quantities"] == [each.kind]
+        assert row["governing"] == each.outcome.words(us_first=True)
+    assert rows[0]["checks"] == ["Clearance, A1 to RTU-1"]
     check_units(document)
     margins = document["certainty"]["margins"]
     assert [row["array"] for row in margins] == ["A1", "A1", "A3"]
