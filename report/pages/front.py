@@ -13,27 +13,30 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import NamedTuple
+from dataclasses import replace
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.checks.check import alike
 from report.assessment.evidence import Evidence
-from report.assessment.project import ChangeKind, Changes
+from report.assessment.project import Assessment, ChangeKind, Changes
+from report.assessment.remedies import Remedies
 from report.assessment.requirement_rows import tested
 from report.assessment.routes import Route
-from report.assessment.spectra import departures
-from report.assessment.verdict import LOWERING, Verdict, nan_is_worst
-from report.entities.clearance import ClearanceResult
-from report.pages.limits import analysis_faults, check_table, troubles
+from report.assessment.verdict import LOWERING
+from report.pages.checks import (
+    FirstSheet,
+    condition_table,
+    first_sheet,
+    governing_table,
+    verdict_sentence,
+)
+from report.pages.limits import analysis_faults, check_table
 from report.pages.parts import PackageData, statistic
-from report.pages.summary import remedy_lines
 from report.pages.symbols import friction_standard
 from report.sheet.reading.linked_files import StudyYears, YearsOfArray
 from report.sheet.schema import SECTION
 from report.sheet.schema.project import Revision
 from report.text.formats import VALIDATION
-
-# Clearances of the summary, where all are OK: the complete schedule stands in their part.
-N_WORST = 3
 
 
 def _review(package: PackageData) -> Mapping[str, object]:
@@ -52,72 +55,55 @@ def _review(package: PackageData) -> Mapping[str, object]:
 def letter(package: PackageData) -> Mapping[str, object]:
     """Return what requires less than the rule set, and what peer review permits."""
     return {
+        "verdict": verdict_sentence(package.assessment, f"in {package.part('summary')}"),
         # What asks for less than the rule set stands in the letter, too.
         "lowered": [row for row in package.assessment.rows if row.id in LOWERING],
         "review": _review(package),
     }
 
 
-def summary(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
-    """Return what the summary page needs beside the package."""
-    missed = departures(evidence.spectra)
-    last = {departure.is_short: departure for departure in missed}.values()
-    # Without a permitted design displacement, the ratio of the slack of an array is not known.
-    ratios = [item for item in _ratios(package) if not math.isnan(item.ratio)]
+def summary(
+    package: PackageData, evidence: Evidence, sheet: FirstSheet | None = None
+) -> Mapping[str, object]:
+    """Return what decides: verdict, arrays, the checks that govern and the conditions.
+
+    `sheet` are the checks for which the first sheet has room; without it all of them.
+    """
+    done, numbers = package.assessment, package.numbers
+    sheet = sheet or first_sheet(done)
+    notes = alike(check for check in done.checks if check.is_note and not check.is_satisfied)
     return {
+        "verdict": verdict_sentence(done),
         "statistic": statistic(package.governing.analysis.basis),
-        "worst": _worst(package.clearances),
-        "gap": package.assessment.governing_gap(),
+        "fmt": replace(package.fmt, systems=1),
+        # What gives a verdict is a row of its own below.
+        "arrays": [
+            row.model_copy(update={"marks": {**row.marks, "verdict": ""}}) for row in package.arrays
+        ],
         "review": _review(package),
-        # What follows from a missed target is said once, with the last.
-        "missed": [(departure, departure in last) for departure in missed],
-        "other": max(ratios, key=lambda item: item.ratio, default=None),
-        "what_if": list(_what_if(package, evidence)),
-        "troubles": troubles(package),
-        "remedies": list(remedy_lines(package.assessment, evidence.remedies)),
+        "n_checks": len(done.checks),
+        "sheet": sheet,
+        "governing": governing_table(sheet, done, numbers),
+        "conditions": condition_table(sheet, done, numbers),
+        "remedy": _enough(done, evidence.remedies),
+        "effects": list(_what_if(package, evidence)),
+        "notes": [check.title for check in notes],
     }
 
 
-class _Ratio(NamedTuple):
-    """Required / provided of a check beside the clearances."""
-
-    ratio: float
-    title: str
-    array: str
-    part: str  # id of the page that has it
-
-
-def _ratios(package: PackageData) -> Iterator[_Ratio]:
-    for item in package.assessment.arrays:
-        array = item.array
-        # Without runs, tipping is by the most that friction transmits: no ratio of a run.
-        if item.runs:
-            yield _Ratio(item.tipping.ratio, "tipping", item.id, "model")
-        # What is not given has a condition of its own, and no ratio.
-        if array.interconnection_n:
-            strength = item.interconnection_n / array.interconnection_n
-            yield _Ratio(strength, "interconnection strength", item.id, "limits")
-        if array.slack_m:
-            yield _Ratio(item.permitted_m / array.slack_m, "electrical slack", item.id, "limits")
-        if array.roof_capacity_pa:
-            weight = array.weight_pa / array.roof_capacity_pa
-            yield _Ratio(weight, "weight per roof capacity", item.id, "limits")
+def _enough(done: Assessment, found: Remedies) -> str:
+    """Return what is enough for a project that is NG, in a sentence; or that nothing found is."""
+    if found.own and not found.together:
+        return "No set of the changes that were tried is enough."
+    return found.sentence(done.project.us_first)
 
 
 def _what_if(package: PackageData, evidence: Evidence) -> Iterator[str]:
-    """Yield what another input comes to, of the conditions and of the comparison, each once."""
-    assessment, us_first = package.assessment, package.fmt.us_first
-    of_rows = [row.outcome for row in assessment.rows if row.outcome]
-    of_cases = [case.words(us_first) for case in evidence.cases]
-    # A case of the comparison may repeat the outcome of a condition: the same words stand once.
-    yield from dict.fromkeys((*of_rows, *of_cases))
-
-
-def _worst(clearances: Sequence[ClearanceResult]) -> Sequence[ClearanceResult]:
-    """Return the clearances with the largest D/C: three, or all that are not OK."""
-    # A ratio that is not known, beside an array without a design displacement, comes first.
-    ordered = sorted(clearances, key=lambda gap: -nan_is_worst(gap.demand_capacity))
-    return ordered[: max(N_WORST, sum(gap.verdict != Verdict.OK for gap in clearances))]
+    """Yield what another input comes to; of a condition its own row says it."""
+    said = {check.otherwise for check in package.assessment.checks}
+    for case in evidence.cases:
+        if (text := case.words(package.fmt.us_first)) not in said:
+            yield text
 
 
 def basis(package: PackageData) -> Mapping[str, object]:

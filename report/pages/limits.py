@@ -14,28 +14,27 @@ from typing import Any
 from markupsafe import Markup, escape
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.evidence import Evidence
 from report.assessment.friction import mus_words
 from report.assessment.neighbors import Cover
 from report.assessment.plan_clearances import plan_gaps
 from report.assessment.precheck import findings
-from report.assessment.routes import Route
-from report.assessment.verdict import STRENGTH_ROW, Verdict, as_one
-from report.document.tables import Table, listed, table_of
+from report.document.tables import Table, listed
 from report.drawing.labels import alike_arrays
 from report.drawing.sheet import unit_format
 from report.entities.array import array_results
 from report.entities.evidence import NeighborResult
-from report.entities.requirement import UNVERIFIED, dagger, requirement_rows
+from report.entities.requirement import UNVERIFIED, dagger
 from report.entities.shown import Shown, centered, length, provided, text, words
-from report.pages.model import link_troubles
+from report.pages.checks import all_checks
 from report.pages.parts import NG, OK, PackageData, verdict
-from report.pages.symbols import with_symbols
+from report.pages.summary import remedy_lines
 from report.sheet.checking.findings import lines
 from report.sheet.schema.choices import ObjectKind
 from report.sheet.schema.fields import Level
 from report.sheet.schema.scene import Array, RoofObject
 from report.sheet.schema.shapes import Polygon, Shape
-from report.text.counts import grouped_by, ranged
+from report.text.counts import grouped_by
 from report.text.units import Quantity
 from report.typeset.equations import symbol
 from solver.rules.limit import Consequence, Limit
@@ -58,46 +57,6 @@ def analysis_faults(package: PackageData, array: ArrayAssessment) -> Sequence[st
 def _motion_faults(package: PackageData) -> Sequence[str]:
     missed = package.assessment.acceptance.missed
     return [row.title for row in missed if row.consequence is Consequence.NG]
-
-
-def troubles(package: PackageData) -> Mapping[str, Sequence[object]]:
-    """Return everything that prevents an OK, except clearances, by kind; nothing if all is OK."""
-    arrays, is_refused = package.assessment.arrays, bool(_motion_faults(package))
-    by_kind: Mapping[str, Sequence[object]] = {
-        "warnings": package.assessment.warnings,
-        "few": [array for array in arrays if array.lacks_motions],
-        "refused": [array for array in arrays if is_refused and array.route is Route.ANALYSIS],
-        "tipping": [array for array in arrays if not array.tipping.is_ok],
-        "links": tuple(link_troubles(package)),
-        "limits": [(place, check) for place, check in package.checks if not check.ok],
-    }
-    # The template heads this list only where there is any.
-    return by_kind if any(by_kind.values()) else {}
-
-
-def _requirements(package: PackageData) -> Table:
-    """Return the requirements beside the numeric limits that are satisfied or notes.
-
-    The summary has the others. Those that ask the same are one.
-    """
-    others = (
-        row
-        for row in package.assessment.rows
-        # The strength has a table of its own in this part.
-        if row.id != STRENGTH_ROW and (row.is_satisfied or row.verdict is Verdict.NOTE)
-    )
-    alike = grouped_by(others, lambda row: (*row.asked, row.basis, row.verdict))
-    each = (
-        as_one(rows).model_copy(update={"subject": ranged(row.subject for row in rows)})
-        for rows in alike.values()
-    )
-    rows = [
-        row.model_copy(
-            update={name: with_symbols(getattr(row, name)) for name in ("title", "found", "limit")}
-        )
-        for row in requirement_rows(each)
-    ]
-    return table_of(rows, "subject title found limit basis verdict", package.fmt, kind="compact")
 
 
 def check_table(
@@ -128,16 +87,15 @@ def check_table(
     return listed(checks, columns, package.fmt, kind="compact")
 
 
-def limits(package: PackageData) -> Mapping[str, object]:
+def limits(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the part on limits and interconnection strength."""
     excepted = [check for _, check in package.checks if check.passes_by_exception]
     return {
-        "checks": check_table(package, package.checks),
+        "checks": all_checks(package.assessment),
+        "remedies": list(remedy_lines(package.assessment, evidence.remedies)),
         # One note explains the exception, however many arrays take it.
         "excepted": excepted[:1],
-        "routes": package.routes,
         "arrays": tuple(array_results(package)),
-        "requirements": _requirements(package),
         "warnings": list(_warnings(package)),
     }
 

@@ -73,7 +73,7 @@ PAGES = (
     Page("plan", "Roof plan and schedule of clearances", _alone(limits.plan)),
     Page("basis", "Basis and limits of the method", _alone(front.basis)),
     Page("model", "Model used", _alone(model.page)),
-    Page("limits", "Limits and requirements", _alone(limits.limits)),
+    Page("limits", "Limits and requirements", limits.limits),
     Page("provisions", "Provisions and overrides", _alone(limits.provisions)),
     Page("inputs", "Inputs", _alone(inputs.inputs), lambda _: BELOW_INPUTS),
     Page("motions", "Roof motions", motions.page, motions.below),

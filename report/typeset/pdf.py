@@ -12,7 +12,7 @@ import logging
 import sys
 import tempfile
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -48,6 +48,23 @@ def lay_out(html: str, attached: Sequence[Attached] = ()) -> bytes:
         # The renderer leaves the file of its color profile to the garbage collector.
         warnings.simplefilter("ignore", ResourceWarning)
         return _laid_out(tree, files)
+
+
+def places_of(html: str) -> Mapping[str, float]:
+    """Return how far below the upper edge each element with an id is, on an endless sheet [px].
+
+    Without a log: what its pages refer to may be in parts that it does not have.
+    """
+    load_renderer()
+    from weasyprint import CSS
+
+    endless = CSS(
+        string="@page { size: 8.5in 1000in !important } @page a4 { size: 8.27in 1000in !important }"
+    )
+    with warnings.catch_warnings(), _no_fonts_left():
+        warnings.simplefilter("ignore", ResourceWarning)
+        (page,) = _parsed(ElementTree.fromstring(html)).render(stylesheets=[endless]).pages
+    return {name: box[1] for name, box in page.anchors.items()}
 
 
 def _laid_out(tree: ElementTree.Element, files: Sequence[Attached]) -> bytes:

@@ -16,17 +16,15 @@ from report.assessment.project import Assessment
 from report.assessment.routes import NOT_PERMITTED
 from report.assessment.runs import MotionRun
 from report.assessment.verdict import MEANING, Verdict
-from report.document.templates import sentence
 from report.drawing.sheet import unit_format
 from report.entities.array import ArrayRow, short_rows
 from report.entities.clearance import ClearanceResult, clearance_results
 from report.entities.requirement import Marked
 from report.entities.shown import UnitFormat
-from report.pages.registry import package_data
+from report.pages.checks import verdict_sentence
 from report.pages.summary import attention
 from report.text.amounts import capacity, demand, shown_in_order
 from report.text.units import no_less, no_more
-from report.typeset.pdf import TEMPLATES
 from report.web.plan import USUAL_PX, Cell, ShowVerdict, cells, described, heads, plan, stamp
 from solver.rules.limit import Consequence
 
@@ -71,7 +69,7 @@ def answer(
         # What it rests on; the reasons are listed below it.
         "verdict_text": None
         if is_provisional or may_change
-        else sentence(TEMPLATES, "verdict", package_data(assessment), "here"),
+        else verdict_sentence(assessment, "here"),
         "reasons": [] if is_provisional else _reasons(assessment, fmt),
         # Of what is not whole, the rest is asked next.
         "pending": "" if is_whole else _LESS,

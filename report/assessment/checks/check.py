@@ -128,6 +128,12 @@ class Check:
         return not self.is_satisfied and not self.is_note
 
     @property
+    def is_excepted(self) -> bool:
+        """Whether it is satisfied beyond its limit, as its note says."""
+        has_numbers = isinstance(self.found, Amount) and isinstance(self.limit, Amount)
+        return self.is_satisfied and has_numbers and math.isnan(self.ratio)
+
+    @property
     def ratio(self) -> float:
         """Demand / capacity: more than 1 is not satisfied.
 

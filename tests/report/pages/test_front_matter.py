@@ -110,8 +110,6 @@ def test_what_is_said_of_several_arrays_counts_once_wherever_conditions_are_coun
     assert len(alike.conditions) > 1
     assert "One requirement is open" in printed(alike, "letter")
     assert "One condition of part 1 is to be met first." in printed(alike, "notes")
-    for key in ("letter", "summary"):
-        assert "; 1 condition listed in part 1 must be met" in printed(alike, key)
 
 
 def test_every_document_is_listed_exactly_where_it_is_cited(html):
@@ -138,8 +136,9 @@ def test_every_document_is_listed_exactly_where_it_is_cited(html):
 def test_the_slope_limit_of_the_code_is_cited_by_the_code_that_is_named(code, clause, name):
     made = scenes.package(site=stand_in.site(**code))
     assert f"{clause}: {name}" in printed(made, "records")
-    assert f"; {clause}; AC156" in printed(made, "cover").facts["Applicable codes"]
-    assert f"{clause}† | OK" in printed(made, "limits")
+    assert f"; {clause}; AC156" in printed(made, "cover").facts["Codes"]
+    rows = printed(made, "limits").table("All checks").rows
+    assert f"{clause}†" in [row["Section of the code"] for row in rows]
     assert "due to Seismic Motion, manuscript that names no authors" in printed(made, "records")
 
 

@@ -1,0 +1,243 @@
+"""The checks of a project as a package prints them: the first sheet's two tables, and all of them.
+
+Owns no check and no word of one: see `report.assessment.checks`. Read `first_sheet`, then `listed`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from markupsafe import Markup
+
+from report.assessment.checks.check import MOST_NAMED, Check, alike, by_ratio, texts
+from report.assessment.project import Assessment
+from report.assessment.verdict import MOTIONS_ID, NO_DESIGN, Verdict, nan_is_worst
+from report.document.tables import Table, TableRow, Wide, headed, stamp
+from report.pages.symbols import with_symbols
+from report.text.counts import capitalized, counted, grouped_by, lowered, numbered
+from report.text.units import ratio
+
+# The part with the numbers behind a kind of check; of the others the part on checks.
+_PARTS = {
+    kind: part
+    for part, kinds in {
+        "plan": ("clearance", "neighbors", "roof_outline", "drawing_distances", "fire_pathway"),
+        "model": ("tipping", "links"),
+        "results": ("design", "runs"),
+        "motions": ("motions", "drift", "ground_motions"),
+        "provisions": ("override", "statistic", "confirmation"),
+        "accuracy": ("less_friction",),
+        "inputs-friction": ("friction_tests", "friction_velocity"),
+        "inputs-site": ("building_code", "code_edition", "hazard_source", "sdc", "site_class",
+                        "dates", "site_specific_hazard", "rule_set", "edition_name"),
+    }.items()
+    for kind in kinds
+}  # fmt: skip
+
+
+def part_of(check: Check, numbers: Mapping[str, str]) -> str:
+    """Return the part with the numbers behind a check, of those that a package has."""
+    part = _PARTS.get(check.id, "limits")
+    return part if part.partition("-")[0] in numbers else "limits"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FirstSheet:
+    """What the two tables of the first sheet have."""
+
+    failed: Sequence[Check]
+    """What is NG, the largest ratio first."""
+    n_following: int
+    """NG that only follow from a design displacement that is not there."""
+    largest: Sequence[Check]
+    """Of each kind of capacity that is satisfied the check with the largest ratio."""
+    conditions: Sequence[Check]
+    n_more: int = 0
+    """Conditions without room."""
+    has_effects: bool = True
+    """Whether there is room for the effect of other inputs, which is in the comparison as well."""
+
+
+def first_sheet(done: Assessment) -> FirstSheet:
+    """Return what is NG, the conditions, and the largest ratio of every other kind."""
+    open_ = open_checks(done)
+    failed = [check for check in open_ if check.verdict is Verdict.NG]
+    causes = [check for check in failed if not _follows(check)] or failed
+    satisfied = (
+        check
+        for check in done.checks
+        if check.is_satisfied and check.is_capacity and check.id != MOTIONS_ID
+    )
+    kinds = grouped_by(by_ratio(satisfied), lambda check: check.id)
+    return FirstSheet(
+        failed=sorted(causes, key=lambda check: -nan_is_worst(check.ratio)),
+        n_following=len(failed) - len(causes),
+        largest=[group[0] for group in kinds.values()],
+        conditions=[check for check in open_ if check.verdict is not Verdict.NG],
+    )
+
+
+def fitted(sheet: FirstSheet, tops: Mapping[str, float], bottom: float) -> FirstSheet:
+    """Return the rows for which a sheet has room: what is NG always, then the conditions.
+
+    `tops` are where rows begin on a sheet without end [px], by `LARGEST`, `OPEN` and their count;
+    `bottom` is where the sheet ends. The first condition is never left out.
+    """
+    over = tops[END] - bottom
+    # What is below the last row of a table goes with it, but not the margin of the table.
+    over += 2 * _MARGIN_PX if over > 0.0 else 0.0
+    largest, conditions, has_effects = len(sheet.largest), len(sheet.conditions), True
+
+    def height(name: str, count: int) -> float:
+        return tops[f"{name}{count}"] - tops[f"{name}{count - 1}"]
+
+    while over > 0.0 and largest:
+        over -= height(LARGEST, largest)
+        largest -= 1
+    if over > 0.0:
+        over -= tops[f"{EFFECTS}1"] - tops[f"{EFFECTS}0"]
+        has_effects = False
+    # Where any is left out a line says how many.
+    over += _LINE_PX if over > 0.0 else 0.0
+    while over > 0.0 and conditions > 1:
+        over -= height(OPEN, conditions)
+        conditions -= 1
+    return replace(
+        sheet,
+        largest=sheet.largest[:largest],
+        conditions=sheet.conditions[:conditions],
+        n_more=len(sheet.conditions) - conditions,
+        has_effects=has_effects,
+    )
+
+
+# Names of the places on the first sheet, and of what is behind its last line.
+LARGEST, OPEN, EFFECTS, END = "largest-", "open-", "effects-", "front-end"
+_LINE_PX, _MARGIN_PX = 18.0, 8.0
+
+
+def _follows(check: Check) -> bool:
+    """Whether a check only lacks a design displacement, whose own check says why."""
+    return NO_DESIGN in (check.found, check.limit)
+
+
+def verdict_sentence(done: Assessment, conditions: str = "below") -> str:
+    """Return what the verdict on a project rests on, and where its conditions are listed."""
+    failed = [check for check in done.checks if check.is_open and check.verdict is Verdict.NG]
+    n_open = sum(check.verdict is not Verdict.NG for check in open_checks(done))
+    total = len(done.checks)
+    if failed:
+        causes = [c for c in alike(failed) if not _follows(c)] or alike(failed)
+        causes = sorted(causes, key=lambda check: -nan_is_worst(check.ratio))
+        names = [", ".join(filter(None, (c.subject, lowered(c.title)))) for c in causes]
+        more = [numbered(len(names) - MOST_NAMED, "more check")] if names[MOST_NAMED:] else []
+        are = "is" if len(failed) == 1 else "are"
+        text = f"{len(failed)} of {total} checks {are} not satisfied: "
+        text += f"{'; '.join([*names[:MOST_NAMED], *more])}."
+        return text + (f" {capitalized(numbered(n_open, 'open condition'))}." if n_open else "")
+    if n_open:
+        opened = f"{capitalized(counted(n_open, 'open condition'))} {conditions}"
+        text = f"No check is NG. {opened} must be closed before the package is complete."
+    elif any(check.is_excepted for check in done.checks):
+        text = f"All {total} checks are satisfied, or exceeded where the rule set permits it."
+    else:
+        text = f"All {total} checks are satisfied."
+    return text if done.clearances else f"{text} No clearance is entered, and none is checked."
+
+
+def open_checks(done: Assessment) -> Sequence[Check]:
+    """Return what is NG or a condition, those that ask the same as one."""
+    return alike(check for check in done.checks if check.is_open)
+
+
+def governing_table(sheet: FirstSheet, done: Assessment, numbers: Mapping[str, str]) -> Table:
+    """Return what is NG, each with what would satisfy it below, then the largest ratios."""
+    us_first, rows = done.project.us_first, []
+    counts = Counter(check.id for check in done.checks)
+    places = [*("" for _ in sheet.failed), *(f"{LARGEST}{k}" for k in range(len(sheet.largest)))]
+    for check, place in zip((*sheet.failed, *sheet.largest), places, strict=True):
+        subject = check.subject or "project"
+        if check.is_satisfied and counts[check.id] > 1:
+            subject += f" (of {counts[check.id]})"
+        found, limit = texts(check, us_first, is_both=False)
+        cells = check.title, subject, found, limit, _ratio(check), check.clause
+        rows.append(_row(*cells, check.verdict, _sheet(check, numbers, place)))
+        if under := " ".join(filter(None, (check.remedy, check.otherwise))):
+            rows.append(_below(under, len(cells) + 2))
+    return replace(_GOVERNING_HEADS, rows=tuple(rows))
+
+
+def condition_table(sheet: FirstSheet, done: Assessment, numbers: Mapping[str, str]) -> Table:
+    """Return the conditions, each with what the project comes to if it is not met below."""
+    us_first, rows = done.project.us_first, []
+    for count, check in enumerate(sheet.conditions):
+        found, limit = texts(check, us_first, is_both=False)
+        title = f"{check.subject}: {lowered(check.title)}" if check.subject else check.title
+        found += f" ({check.note})" if check.note else ""
+        cells = title, found, f"{limit} ({check.clause})", check.actor.value
+        rows.append(_row(*cells, _sheet(check, numbers, f"{OPEN}{count}")))
+        if check.otherwise:
+            rows.append(_below(f"If not met: {check.otherwise}", len(cells) + 1))
+    return replace(_CONDITION_HEADS, rows=tuple(rows))
+
+
+def all_checks(done: Assessment) -> Table:
+    """Return every check but clearances and limits on motions, satisfied or not, in both systems.
+
+    Those two have tables of their own, in the parts with the plan and with the motions.
+    """
+    us_first = done.project.us_first
+    others = (check for check in done.checks if check.id not in APART)
+    rows = []
+    for check in alike(others):
+        found, limit = texts(check, us_first)
+        found += f" ({check.note})" if check.note else ""
+        cells = check.subject or "project", check.title, found, limit, _ratio(check), check.clause
+        rows.append(_row(*cells, check.verdict))
+        if check.is_open and check.remedy:
+            rows.append(_below(f"To close: {check.remedy}", len(cells) + 1))
+    return replace(_ALL_HEADS, rows=tuple(rows))
+
+
+APART = ("clearance", MOTIONS_ID)
+"""Kinds with a table of their own."""
+_GOVERNING_HEADS = headed(
+    ("Check", 2.25), ("Of", 1.2), ("Found", 1.45), ("Required", 1.45), ("Ratio", 0.5, "right"),
+    ("Section of the code", 1.6), ("Verdict", 0.75, "center"), ("Sheet", 0.45, "right"),
+    kind="compact",
+)  # fmt: skip
+_CONDITION_HEADS = headed(
+    ("Condition", 2.4), ("Found", 2.6), ("Required (section of the code)", 3.1),
+    ("Who acts", 0.95), ("Sheet", 0.45, "right"), kind="compact",
+)  # fmt: skip
+_ALL_HEADS = headed(
+    ("Of", 0.95), ("Check", 2.5), ("Found", 2.9), ("Required", 1.9), ("Ratio", 0.5, "right"),
+    ("Section of the code", 1.6), ("Verdict", 0.9, "center"), kind="compact",
+)  # fmt: skip
+
+
+def _row(*cells: str) -> TableRow:
+    return TableRow(cells=tuple(map(_cell, cells)))
+
+
+def _cell(value: str) -> Markup:
+    if isinstance(value, Verdict):
+        return stamp(value)
+    return value if isinstance(value, Markup) else with_symbols(value)
+
+
+def _below(text: str, span: int) -> TableRow:
+    return TableRow(cells=(Wide(with_symbols(text), span),), kind="under")
+
+
+def _ratio(check: Check) -> str:
+    return ratio(check.ratio) if check.is_capacity and math.isfinite(check.ratio) else "—"
+
+
+def _sheet(check: Check, numbers: Mapping[str, str], place: str) -> Markup:
+    """Return the number of the sheet on which a part begins, which the layout fills in."""
+    name = Markup(' id="{}"').format(place) if place else ""
+    return Markup('<a class="at"{} href="#{}"></a>').format(name, part_of(check, numbers))
