@@ -18,9 +18,34 @@ SIXTH = 1.0 / 6.0
 HOPELESS = 10.0
 
 
+# Less than 1 by more than the relative rounding error of the square of a ratio of forces.
+NEARLY = 1.0 - 1e-12
+
+
 @njit(cache=KEPT, nogil=True, error_model="numpy")
-def cross_slope_effect(ax, ay, az, dt, sn, cs, mu, g, scale, matters, share):
+def first_slip(ax, ay, az, sn, cs, hold, g, scale):
+    """First sample at which |G| / N exceeds `hold`, or N is not above zero; their number if none.
+
+    To the last bit where `two_axes.friction_demand`, which reads every sample, says so.
+    """
+    least = NEARLY * hold * hold
+    for i in range(ax.size):
+        along, weight = scale * ax[i], g + scale * az[i]
+        normal, down, across = weight * cs + along * sn, weight * sn - along * cs, scale * ay[i]
+        if not normal > 0.0:
+            return i
+        # The ratio is needed only near the coefficient: products, which are faster, tell.
+        near = down * down + across * across >= least * (normal * normal)
+        if near and math.hypot(down, across) / normal > hold:
+            return i
+    return ax.size
+
+
+@njit(cache=KEPT, nogil=True, error_model="numpy")
+def cross_slope_effect(ax, ay, az, dt, sn, cs, mu, g, scale, matters, share, first):
     """Bound the change of any displacement by ay [m]; inf where the bound would not be small.
+
+    Before sample `first` the block is at rest.
 
     Small is at most `matters` [m], or `share` of the farthest that the block can slide.
     Friction is monotone, so two blocks of one normal force under the drives G and (Gx, 0) differ in
@@ -30,12 +55,13 @@ def cross_slope_effect(ax, ay, az, dt, sn, cs, mu, g, scale, matters, share):
     effect = travel = apart = w = 0.0
     push = side = 0.0
     sixth = dt * dt * SIXTH
-    for i in range(ax.size):
+    begin = max(first - 1, 0)
+    for i in range(begin, ax.size):
         along, weight = scale * ax[i], g + scale * az[i]
         down, across = weight * sn - along * cs, abs(scale * ay[i])
         before, before_side, side = push, side, across
         push = math.sqrt(down * down + across * across) - mu * (weight * cs + along * sn)
-        if i == 0 or (w == 0.0 and push <= 0.0 and before <= 0.0):
+        if i == begin or (w == 0.0 and push <= 0.0 and before <= 0.0):
             continue
         # Both rates are convex between samples, so no more than linear. What a rate below zero
         # takes away counts at the end of the interval, and slip that begins within it as at once.

@@ -78,8 +78,8 @@ _LENGTHS = ("prd_m", "down_m", "up_m", "across_m", "residual_m", "residual_acros
 class Solution:
     """Result of a scene, the model used, and the effect of a more complete model.
 
-    Where a bound known beforehand decided the model, `reason` and `next_effect_m` take the runs
-    that were not needed: they are made once, when either is first asked for.
+    What the choice of the model did not need is computed once, when it is first asked for:
+    `reason` and `next_effect_m` take the runs that were left out, `friction_demand` the samples.
 
     Attributes
     ----------
@@ -87,15 +87,12 @@ class Solution:
     result : SlideResult
     next_model : Model
         The first more complete model that was not used; the model itself if there is none.
-    friction_demand : float
-        Largest ratio of shear to normal force with no slip. The block slips if this exceeds the
-        friction coefficient. inf if the normal force is zero or negative at a sample.
     """
 
     model: Model
     result: SlideResult
     next_model: Model
-    friction_demand: float
+    scene: Scene = field(repr=False, compare=False)
     # The reason and the effect, or what returns them.
     told: tuple[str, float] | Callable[[], tuple[str, float]] = field(repr=False, compare=False)
 
@@ -112,6 +109,15 @@ class Solution:
         if the input has no data for a more complete model.
         """
         return self._told[1]
+
+    @cached_property
+    def friction_demand(self) -> float:
+        """Largest ratio of shear to normal force with no slip.
+
+        The block slips if this exceeds the friction coefficient. inf if the normal force is zero or
+        negative at a sample.
+        """
+        return friction_demand(self.scene)
 
     @cached_property
     def _told(self) -> tuple[str, float]:
@@ -144,12 +150,12 @@ def solve(
     those of the scene, where they are known.
     Raises `InputError` for a forced model that the scene does not allow.
     """
+    if settings.forced is None:
+        return _climbed(scene, settings, bounds)
     demand = friction_demand(scene)
     # N of just zero has no demand either, and yet a motion: only N below zero is uplift.
     if math.isinf(demand) and one_axis.run(scene).status is Status.UPLIFT:
         return _lifted(scene)
-    if settings.forced is None:
-        return _climbed(scene, settings, demand, bounds)
     return _forced(scene, settings, settings.forced, demand)
 
 
@@ -161,27 +167,30 @@ def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> S
     return one_axis.run_history(run)
 
 
-def _climbed(
-    scene: Scene, settings: Settings, demand: float, bounds: RecordBounds | None
-) -> Solution:
-    if demand <= scene.friction.mu_static:
-        return _still(scene, demand, bounds)
+def _climbed(scene: Scene, settings: Settings, bounds: RecordBounds | None) -> Solution:
+    slope, samples = (math.sin(scene.slope_rad), math.cos(scene.slope_rad)), components(scene)
+    hold = scene.friction.mu_static
+    first = kernel.first_slip(*samples, *slope, hold, scene.g_mps2, scene.scale)
+    if first == scene.ax_mps2.size:
+        return _still(scene, bounds)
     if not scene.friction.is_constant:
         why = "the friction coefficient depends on velocity"
-        return _in_plane(scene, settings, Model.SPEED_FRICTION, why, demand)
-    model, result, both = _chosen(scene, settings, bounds)
-    tell = partial(_told, scene, settings, model, both)
-    return _solution(scene, model, result, demand, tell)
+        solution = _in_plane(scene, settings, Model.SPEED_FRICTION, why)
+    else:
+        model, result, both = _chosen(scene, settings, bounds, first)
+        tell = partial(_told, scene, settings, model, both)
+        solution = _solution(scene, model, result, tell)
+    return _lifted(scene) if solution.result.status is Status.UPLIFT else solution
 
 
 def _chosen(
-    scene: Scene, settings: Settings, bounds: RecordBounds | None
+    scene: Scene, settings: Settings, bounds: RecordBounds | None, first: int
 ) -> tuple[Model, SlideResult, SlideResult | None]:
     """Return the simplest adequate model, its result, and that in two axes where it was needed."""
     both, at_most = None, 0.0
-    if scene.ay_mps2.any():
+    if scene.ay_mps2.size:
         bounds = bounds or bounds_of(scene)
-        at_most = _second_axis_at_most(scene, settings)
+        at_most = _second_axis_at_most(scene, settings, first)
         # The costly run: once, and only where no bound shows that it is not needed.
         if math.isinf(at_most):
             both = two_axes.run_bounded(scene, settings.tolerance, bounds)
@@ -202,7 +211,7 @@ def _chosen(
     return Model.TWO_AXES, both, both
 
 
-def _second_axis_at_most(scene: Scene, settings: Settings) -> float:
+def _second_axis_at_most(scene: Scene, settings: Settings, first: int) -> float:
     """Return what the second horizontal component changes at most [m]; inf if not known."""
     effect: float = kernel.cross_slope_effect(
         *components(scene),
@@ -214,6 +223,7 @@ def _second_axis_at_most(scene: Scene, settings: Settings) -> float:
         scene.scale,
         settings.matters_m,
         settings.matters_share,
+        first,
     )
     return effect
 
@@ -274,12 +284,12 @@ def _forced(scene: Scene, settings: Settings, model: Model, demand: float) -> So
             f"{demand:.3g}, exceeds that given, {hold:.3g}; request a more complete model"
         )
     if model is Model.NO_SLIP:
-        return _still(scene, demand, None)
+        return _still(scene, None)
     if model >= Model.TWO_AXES:
-        return _in_plane(scene, settings, model, why, demand)
+        return _in_plane(scene, settings, model, why)
     result = one_axis.run(as_run(scene, model))
     tell = partial(_told_requested, scene, settings, model, result, why)
-    return _solution(scene, model, result, demand, tell)
+    return _solution(scene, model, result, tell)
 
 
 def _told_requested(
@@ -295,11 +305,7 @@ def _told_requested(
 
 
 def _solution(
-    scene: Scene,
-    model: Model,
-    result: SlideResult,
-    demand: float,
-    tell: Callable[[], tuple[str, float]],
+    scene: Scene, model: Model, result: SlideResult, tell: Callable[[], tuple[str, float]]
 ) -> Solution:
     """Return a solution with the next model that the records of the scene are enough for."""
     following = model
@@ -307,40 +313,32 @@ def _solution(
         following = Model.ONE_AXIS_VERTICAL
     elif model < Model.TWO_AXES and scene.ay_mps2.size:
         following = Model.TWO_AXES
-    return Solution(
-        model=model, result=result, next_model=following, friction_demand=demand, told=tell
-    )
+    return Solution(model=model, result=result, next_model=following, scene=scene, told=tell)
 
 
 def _without_next(
-    model: Model, why: str, result: SlideResult, demand: float, effect_m: float = math.nan
+    scene: Scene, model: Model, result: SlideResult, why: str, effect_m: float = math.nan
 ) -> Solution:
     """Return a solution by the most complete model that applies."""
-    return Solution(
-        model=model,
-        result=result,
-        next_model=model,
-        friction_demand=demand,
-        told=(why, effect_m),
-    )
+    return Solution(model=model, result=result, next_model=model, scene=scene, told=(why, effect_m))
 
 
 def _lifted(scene: Scene) -> Solution:
     model = Model.ONE_AXIS_VERTICAL if scene.az_mps2.size else Model.ONE_AXIS
     why = "the normal force falls below zero, which no model covers"
-    return _without_next(model, why, one_axis.run(scene), math.inf)
+    return _without_next(scene, model, one_axis.run(scene), why)
 
 
-def _still(scene: Scene, demand: float, bounds: RecordBounds | None) -> Solution:
-    hold = scene.friction.mu_static
+def _still(scene: Scene, bounds: RecordBounds | None) -> Solution:
+    demand, hold = friction_demand(scene), scene.friction.mu_static
     why = f"the required friction coefficient, {demand:.2f}, is below that given, {hold:.2f}"
     result = _run_along(as_run(scene, Model.NO_SLIP), bounds)
-    return _without_next(Model.NO_SLIP, why, result, demand, effect_m=0.0)
+    return _without_next(scene, Model.NO_SLIP, result, why, effect_m=0.0)
 
 
-def _in_plane(scene: Scene, settings: Settings, model: Model, why: str, demand: float) -> Solution:
+def _in_plane(scene: Scene, settings: Settings, model: Model, why: str) -> Solution:
     result = two_axes.run(as_run(scene, model), settings.tolerance)
-    solution = _without_next(model, why, result, demand)
+    solution = _without_next(scene, model, result, why)
     if scene.friction.is_constant or model is Model.SPEED_FRICTION:
         return solution
     # Constant friction was asked for where the scene has a law: what that changes is told.

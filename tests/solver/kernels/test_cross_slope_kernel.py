@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from blocks import block, readonly, shaking
-from solver.forces import components
-from solver.kernels.cross_slope import cross_slope_effect
+from solver.forces import components, forces
+from solver.kernels.cross_slope import cross_slope_effect, first_slip
 from solver.sliding import one_axis, two_axes
 
 pytestmark = pytest.mark.quick
@@ -19,7 +19,7 @@ def at_most(run, matters=math.inf, share=0.0):
     """The bound of a scene [m]; inf if it is above what matters."""
     slope = math.sin(run.slope_rad), math.cos(run.slope_rad)
     forces = run.friction.mu_slow, run.g_mps2, run.scale
-    return cross_slope_effect(*components(run), run.dt_s, *slope, *forces, matters, share)
+    return cross_slope_effect(*components(run), run.dt_s, *slope, *forces, matters, share, 0)
 
 
 def effect(run):
@@ -80,3 +80,31 @@ def test_nothing_is_changed_at_rest_and_what_is_not_small_is_not_told():
     unread = readonly([*push, math.nan])
     assert at_most(block(unread, unread, friction=0.2, dt=0.1), matters=1e-6) == math.inf
     assert at_most(block(unread, 0.0 * unread, friction=0.2, dt=0.1), share=1.0) == math.inf
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_first_slip_is_at_the_first_sample_whose_ratio_exceeds_the_coefficient(seed):
+    run = random_block(seed)
+    made = forces(run)
+    ratios = np.hypot(made.down_mps2, made.across_mps2) / made.normal_mps2
+    slope, most = (math.sin(run.slope_rad), math.cos(run.slope_rad)), ratios.max()
+    for hold in (
+        0.0,
+        *np.quantile(ratios, (0.3, 0.9)),
+        math.nextafter(most, 0.0),
+        most,
+        2.0 * most,
+    ):
+        over = np.flatnonzero(~((ratios <= hold) & (made.normal_mps2 > 0.0)))
+        found = first_slip(*components(run), *slope, hold, run.g_mps2, run.scale)
+        assert found == (over[0] if over.size else ratios.size)
+
+
+def test_a_bound_from_the_first_slip_on_is_that_of_the_whole_record():
+    for seed in range(10):
+        run = random_block(seed)
+        slope = math.sin(run.slope_rad), math.cos(run.slope_rad)
+        about = run.friction.mu_slow, run.g_mps2, run.scale
+        first = first_slip(*components(run), *slope, *about)
+        later = cross_slope_effect(*components(run), run.dt_s, *slope, *about, math.inf, 0.0, first)
+        assert later == at_most(run)
