@@ -16,7 +16,7 @@ from solver.synthesis.suite import SuiteMotion
 Row = Mapping[str, object]
 Range = tuple[float, float]
 
-ENGINEER = "Engineer of record"
+ENGINEER, FIRM, LICENSE = "Engineer of record", "Example firm", "S0000"
 
 
 def issued(
@@ -32,6 +32,8 @@ def issued(
             "address": address,
             "prepared_by": ENGINEER,
             "checked_by": "",
+            "firm": FIRM,
+            "license": LICENSE,
             "date": date,
             "revision": revision,
             "units_first": units,

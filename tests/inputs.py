@@ -21,6 +21,7 @@ SITE: Row = {
     "rule_set": "SEAOC PV1-2012", "risk_category": "II", "i_e": 1.0, "s_1_g": 0.7,
     "site_class": "D", "s_ds_g": 1.566, "sdc": "D", "stories": 1,
     "structure_height_m": 36 * FT, "roof_height_m": 36 * FT,
+    "roof_evaluation": "J. Doe, SE, 2026-02-20",
 }  # fmt: skip
 
 REVIEW = {

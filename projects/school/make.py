@@ -96,6 +96,9 @@ def project() -> ProjectInput:
                 "building_code_year": 2021,
                 "jurisdiction": "City of Albuquerque",
                 "fire_code_section": "2021 IFC, example section",
+                "latitude_deg": 35.0844,
+                "longitude_deg": -106.6504,
+                "roof_evaluation": "New building; example, not an evaluation",
             },
             "roof": rectangle((0.0, 60.0), (0.0, 34.0), 1.0),
             "arrays": [

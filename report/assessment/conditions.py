@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from report.assessment.clearances import ClearanceCheck, slides_m
+from report.assessment.existing_roof import existing_roof_rows
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.requirement_rows import fire_lane_rows, friction_rows, hazard_rows
 from report.assessment.routes import Route
@@ -77,6 +78,7 @@ def project_rows(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> tupl
         *_ground_motions(data, prepared),
         *friction_rows(data),
         *fire_lane_rows(data),
+        *existing_roof_rows(data),
     )
 
 

@@ -43,6 +43,8 @@ def page(package: PackageData) -> Mapping[str, object]:
     return {
         "is_reported": tests != FrictionTests(),
         "report": [(label, getattr(tests, field) or NOT_GIVEN) for label, field in _STATED],
+        "tested_pa": tests.contact_pressure_pa,
+        "pressures": _pressures(data),
         "runs": _runs(package),
         "n_drawn": _n_drawn(data),
         "reports": [
@@ -58,6 +60,13 @@ def page(package: PackageData) -> Mapping[str, object]:
             for item in assessment.low_velocity.arrays
         ],
     }
+
+
+def _pressures(data: ProjectInput) -> Mapping[float | None, Sequence[str]]:
+    """Return the arrays by the contact pressure of their supports [Pa]; empty if none is known."""
+    pressures = ids_by(data.arrays, lambda array: array.contact_pressure_pa)
+    is_given = data.friction_tests.contact_pressure_pa or any(pressures)
+    return pressures if is_given else {}
 
 
 def drawings(package: PackageData) -> Sequence[str]:

@@ -33,10 +33,11 @@ def _all_but(**left_out: str) -> _Covers:
 # What the design displacements follow from.
 _ANALYSIS = _all_but(
     site="hazard_source hazard_date hazard_covered hazard_report hazard_printout building_code"
-         " building_code_year jurisdiction acceptance_letter fire_code_section fire_lane_m",
+         " building_code_year jurisdiction acceptance_letter fire_code_section fire_lane_m"
+         " latitude_deg longitude_deg roof_load_pa seismic_weight_n roof_evaluation",
     arrays=" ".join((*SIDES, *WEIGHT_PARTS, "place_from interconnection_n slack_m roof_capacity_pa"
-                     " wind_weight_pa")),
-    friction_tests="tests_covered report_file",
+                     " wind_weight_pa contact_pressure_pa")),
+    friction_tests="tests_covered report_file contact_pressure_pa",
     friction_runs="", motions="", building="", spectrum="", links="", target="", overrides="",
 )  # fmt: skip
 

@@ -47,6 +47,7 @@ _OR_NONE = "give all four sides of the rectangle, or none"
 _OR_OUTLINE = "give all four sides of the rectangle, or an outline on the sheet Outlines"
 _LAW = "give high-velocity friction and friction rate, or neither"
 _CODE = "give building code and year, or neither"
+_BOTH = "give latitude and longitude, or neither"
 _CONFIRMED = "give who confirmed the drawing distances and when, or neither"
 _ALL_FIVE = "give all five cells of the confirmation, or none"
 _CONFIRMATION = ("by", "date", "rule_set", "edition", "code")
@@ -55,6 +56,8 @@ _CONFIRMATION = ("by", "date", "rule_set", "edition", "code")
 REQUIRED: Mapping[tuple[str, str], tuple[Condition, str]] = {
     ("site", "building_code"): (_filled("building_code_year"), _CODE),
     ("site", "building_code_year"): (_filled("building_code"), _CODE),
+    ("site", "latitude_deg"): (_filled("longitude_deg"), _BOTH),
+    ("site", "longitude_deg"): (_filled("latitude_deg"), _BOTH),
     ("project", "drawing_confirmed_by"): (_filled("drawing_confirmed_date"), _CONFIRMED),
     ("project", "drawing_confirmed_date"): (_filled("drawing_confirmed_by"), _CONFIRMED),
     **{("confirmation", field): (_filled(*_CONFIRMATION), _ALL_FIVE) for field in _CONFIRMATION},

@@ -147,5 +147,13 @@ ORDERS: Mapping[str, str] = {
 
 # Single cells that workbooks of 0.3.0 do not have.
 ADDED: frozenset[tuple[str, str]] = frozenset(
-    {("options", "study_years"), ("site", "acceptance_letter")}
-)
+    (section, field)
+    for section, fields in (
+        ("project", "firm firm_contact license plan_number plan_date"),
+        ("site", "acceptance_letter latitude_deg longitude_deg roof_load_pa seismic_weight_n"
+                 " roof_evaluation"),
+        ("friction_tests", "contact_pressure_pa"),
+        ("options", "study_years"),
+    )
+    for field in fields.split()
+)  # fmt: skip

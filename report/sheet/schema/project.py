@@ -60,12 +60,24 @@ class Project(Frozen):
     """Name or initials, printed on every page."""
     checked_by: Annotated[Text, Cell("Checked by", "MT")] = ""
     """Name or initials, printed on every page. Leave blank until checked."""
+    firm: Annotated[Text, Cell("Firm", "Example Structural Engineers")] = ""
+    """Of the engineer of record. Printed on the cover."""
+    firm_contact: Annotated[
+        Text, Cell("Firm's address and phone", "500 Main St, Los Angeles, CA; 213 555 0100")
+    ] = ""
+    """Printed with the firm."""
+    license: Annotated[Text, Cell("Engineer's license", "CA S0000")] = ""
+    """State and number of the engineer of record, printed in the box of the seal."""
     date: Annotated[dt.date, Cell("Date", dt.date(2026, 3, 5))]
     """Date of this issue."""
     revision: Annotated[RequiredText, Cell("Revision", "0")]
     """Revision of this issue, printed on every page."""
     units_first: Annotated[UnitsFirst, Cell("Primary units", "US")] = UnitsFirst.US
     """Both systems are printed; this one comes first."""
+    plan_number: Annotated[Text, Cell("Drawing number", "S-101")] = ""
+    """Of the plan in the permit set from which the distances are. Printed on the cover."""
+    plan_date: Annotated[dt.date | None, Cell("Drawing date", dt.date(2026, 2, 27))] = None
+    """Of that plan."""
     drawing_confirmed_by: Annotated[Text, Cell("Drawing distances confirmed by", "RG")] = ""
     """Name, if every clearance whose distance is from the drawing is confirmed; with the date."""
     drawing_confirmed_date: Annotated[
@@ -178,6 +190,30 @@ class Site(Frozen):
     ] = 4 * 0.3048
     """Arrays that are closer count as one between fire lanes. Blank: 4 ft, a practice: verify
     against the adopted code."""
+    latitude_deg: Annotated[
+        float | None, Field(ge=-90, le=90), Cell("Latitude", 34.0362, "deg")
+    ] = None
+    """Of the site, for which the hazard was read; positive to the north. Printed on the cover."""
+    longitude_deg: Annotated[
+        float | None, Field(ge=-180, le=180), Cell("Longitude", -118.2334, "deg")
+    ] = None
+    """Positive to the east, so that it is negative in America."""
+    roof_load_pa: Annotated[
+        Positive | None,
+        Cell("Design load of the roof", 32.0, Quantity.PRESSURE, usual=(10.0, 150.0)),
+    ] = None
+    """Gravity load for which the existing roof is designed; the weight of each array over its plan
+    area is compared with 5 % of it."""
+    seismic_weight_n: Annotated[
+        Positive | None,
+        Cell("Seismic weight", 900_000.0, Quantity.WEIGHT, usual=(20_000.0, 100_000_000.0)),
+    ] = None
+    """Of the existing building; the weight of all arrays is compared with 10 % of it."""
+    roof_evaluation: Annotated[
+        Text, Cell("Evaluation of the building", "J. Doe, SE, 2026-02-20")
+    ] = ""
+    """Of the existing building with the weight added: by whom, and date or number of the report.
+    For a new building: so designed, by whom."""
 
     computed_last: ClassVar[Mapping[str, str]] = {
         "i_e": "ASCE 7 Table 1.5-2†",
@@ -354,6 +390,10 @@ class FrictionTests(Frozen):
     """Roof surface as tested: product and thickness."""
     support: Annotated[Text, Cell("Support material", "EPDM pad")] = ""
     """Surface of the array's supports as tested."""
+    contact_pressure_pa: Annotated[
+        Positive | None, Cell("Contact pressure of the tests", 150.0, Quantity.PRESSURE)
+    ] = None
+    """Weight on a tested support over its contact area; printed beside that of the arrays."""
     report_file: Annotated[Text, Cell("Test report file", "friction-report.pdf")] = ""
     """The report as a PDF in the workbook's folder; the package attaches it. All such files: at
     most 20 MB."""

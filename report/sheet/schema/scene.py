@@ -203,6 +203,10 @@ class Array(Placed):
     ] = None
     """Least plan dimension of the supporting base, for the low-profile limit of PV1-2012. Blank:
     the support spacing, which is on the safe side."""
+    contact_pressure_pa: Annotated[
+        Positive | None, Cell("Contact pressure", 150.0, Quantity.PRESSURE, is_rare=True)
+    ] = None
+    """Weight over the contact area of the supports; printed beside that of the friction tests."""
     interconnection_n: Annotated[
         Positive | None, Cell("Interconnection strength", 4000.0, Quantity.WEIGHT)
     ] = None

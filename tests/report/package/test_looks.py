@@ -192,9 +192,9 @@ def test_an_empty_signature_field_lies_over_the_seal_box(pdf, elements):
     assert "/V" not in field
     assert field.objgen in {annotation.objgen for annotation in pdf.pages[0].Annots}
     left, bottom, right, top = map(float, field.Rect)
-    # Letter, with margins of 0.75 in: the left one of two boxes with 0.15 in between them.
-    assert left == pytest.approx(0.75 * 72, abs=0.1)
-    assert right == pytest.approx((8.5 / 2 - 0.075) * 72, abs=0.1)
-    assert top - bottom == pytest.approx(1.1 * 72, abs=10.0)
+    # Letter, with margins of 0.75 in: right of the project's block, the left one of two boxes.
+    assert left == pytest.approx((0.75 + 3.46 + 0.1) * 72, abs=1.0)
+    assert right - left >= 1.65 * 72
+    assert top - bottom >= 1.6 * 72
     (form,) = of_kind(elements, "/Form")
     assert form.K[0].Obj.objgen == field.objgen

@@ -1,5 +1,6 @@
 """Cover, letter, references, symbols and notes say what the project at hand has."""
 
+import datetime as dt
 import io
 import math
 import re
@@ -140,6 +141,35 @@ def test_the_slope_limit_of_the_code_is_cited_by_the_code_that_is_named(code, cl
     rows = printed(made, "limits").table("All checks").rows
     assert f"{clause}†" in [row["Section of the code"] for row in rows]
     assert "due to Seismic Motion, manuscript that names no authors" in printed(made, "records")
+
+
+@pytest.mark.quick
+def test_the_head_has_firm_license_place_and_drawing_where_they_are_given():
+    given = {"firm": "Example Engineers", "firm_contact": "500 Main St; 213 555 0100",
+             "license": "CA S0000", "plan_number": "S-101",
+             "plan_date": dt.date(2026, 2, 27)}  # fmt: skip
+    place = {"latitude_deg": 34.0362, "longitude_deg": -118.2334}
+    made = scenes.package(project=inputs.HEAD | given, site=stand_in.site(**place))
+    head = printed(made, "cover")
+    assert head.facts["Latitude, longitude"] == "34.0362°, −118.2334°"
+    assert head.facts["Drawing"] == "S-101, 2026-02-27"
+    assert head.facts["Firm"] == "Example Engineers, 500 Main St; 213 555 0100"
+    assert "License no. CA S0000" in head
+    assert "CA S0000 License no., state" in " ".join(printed(made, "letter").split())
+    bare = printed(scenes.package(), "cover").facts
+    assert not {"Latitude, longitude", "Drawing", "Firm"} & bare.keys()
+    assert "structural observation" in printed(made, "notes")
+
+
+def test_contact_pressures_stand_beside_each_other_and_are_not_compared():
+    arrays = [stand_in.array("A1", 0.5, contact_pressure_pa=4788.0), ARRAYS[1]]
+    tests = scenes.TESTS | {"contact_pressure_pa": 7182.0}
+    said = printed(package(arrays=arrays, friction_tests=tests), "inputs").line("Contact pressure")
+    assert said == (
+        "Contact pressure, not compared by a rule: of the tests 150.0 psf (7.18 kPa); of the"
+        " supports array A1 100.0 psf (4.79 kPa), array A2 not given."
+    )
+    assert "Contact pressure" not in printed(package(), "inputs")
 
 
 def test_every_symbol_is_in_the_list_and_none_printed_as_typed(html):

@@ -208,6 +208,8 @@ CONTRADICTIONS = [
     (of("Options/2", {"Provision": "parapet_height_in", "Value": 20, "Reason": "x"}),
      "Options/2/Provision is 'Minimum height of a qualifying parapet above the roof', already given"
      " at <Options/1/Provision>; delete one"),
+    ({"Site/Latitude": 34.0},
+     "Site/Longitude is missing; give latitude and longitude, or neither"),
     ({"Site/S_S": 2.4},
      "Site/S_DS is 1.566 g; give at least 1.6 g, which is 2/3 F_a S_S with F_a of 1 for site class"
      " 'D' (ASCE 7-16 Table 11.4-1†), or select the hazard basis 'site-specific analysis' and give"

@@ -243,7 +243,8 @@ def echo(book):
 def test_a_workbook_saved_by_libreoffice_reads_the_same_and_shows_its_formulas(tmp_path):
     saved = by_libreoffice(tmp_path)
     book = read_workbook(saved)
-    assert same(book.input, project())
+    site = project().site.model_copy(update={"roof_evaluation": ""})  # saved before that cell
+    assert same(book.input, project().model_copy(update={"site": site}))
     first, second = (address(saved, f"Arrays/{name}/Friction coefficient") for name in ("A1", "A2"))
     assert echo(book)[first].typed == "=0.4+0.05 → 0.45"
     assert echo(book)[second].typed == f"={first.partition('!')[2]} → 0.45"

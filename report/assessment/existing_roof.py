@@ -1,0 +1,70 @@
+"""The existing building that takes the arrays: the weight added beside its own loads.
+
+The existing-building code has a rule of 5 % for gravity and one of 10 % for lateral loads. Neither
+section was compared with its text: hence †. Read `existing_roof_rows`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from report.assessment.verdict import NOT_GIVEN, Requirement, condition
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import BuildingCode
+from report.sheet.schema.fields import Place
+from report.text.amounts import capacity, demand, in_order
+from report.text.counts import lowered
+from report.text.units import Quantity, pair
+
+_NOISE = 1e-9  # a weight in other units is no more than itself
+_REMEDY = (
+    "Have the engineer of the existing building evaluate it with the weight added, and enter who"
+    " did on the sheet Site."
+)
+
+
+def existing_roof_rows(data: ProjectInput) -> Iterator[Requirement]:
+    """Yield the weight added as a share of the roof's own loads, and what is not entered."""
+    site, heaviest = data.site, max(data.arrays, key=lambda array: array.weight_pa)
+    added_n = math.fsum(array.weight_n for array in data.arrays)
+    evaluated = f"evaluated: {site.roof_evaluation}" if site.roof_evaluation else ""
+    code = "CEBC" if site.building_code is BuildingCode.CBC else "IEBC"
+    year = f", {site.building_code_year}" if site.building_code else ""
+    lacking: dict[str, str] = {}
+    for field, load, added, own, quantity, of, most_percent, section in (
+        ("roof_load_pa", "design load of the roof", heaviest.weight_pa, site.roof_load_pa,
+         Quantity.PRESSURE, heaviest.id, 5.0, "503.3"),
+        ("seismic_weight_n", "seismic weight of the building", added_n, site.seismic_weight_n,
+         Quantity.WEIGHT, "all arrays", 10.0, "503.4"),
+    ):  # fmt: skip
+        if own is None:
+            lacking[field] = load
+            continue
+        percent = 100.0 * added / own
+        share, most = in_order(demand(percent), capacity(most_percent), 1, is_at_least=False)
+        first, second = (pair(value, quantity, data.us_first) for value in (added, own))
+        found = f"{share} % ({of}: {first} of {second})"
+        is_met = percent <= most_percent * (1.0 + _NOISE)
+        yield condition(
+            id=field,
+            title=f"Weight added / {load}",
+            found=f"{found}; {evaluated}" if evaluated and not is_met else found,
+            limit=f"≤ {most} %, or an evaluation",
+            basis=f"{code} {section}{year}†",
+            is_satisfied=is_met or bool(evaluated),
+            remedy=_REMEDY,
+            places=(Place("site", 0, field), Place("site", 0, "roof_evaluation")),
+        )
+    if lacking:
+        yield condition(
+            id="existing_roof",
+            title="Existing building with the weight added",
+            found=evaluated or f"not checked: {', '.join(lacking.values())} {NOT_GIVEN}",
+            limit="its loads, for the rules of 5 % and 10 %, or an evaluation",
+            basis=f"{code} 503.3, 503.4{year}†",
+            is_satisfied=bool(evaluated),
+            remedy=f"Enter its loads on the sheet Site, or {lowered(_REMEDY)}",
+            places=(*(Place("site", 0, field) for field in lacking),
+                    Place("site", 0, "roof_evaluation")),
+        )  # fmt: skip
