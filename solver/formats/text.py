@@ -12,7 +12,6 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cache
 
 import numpy as np
 
@@ -233,11 +232,10 @@ def _evened(source: Source, table: _Table, columns: Floats, timed: bool) -> Samp
     times = table.values[:, 0] * unit_s
     _check_decimal_comma(source, table, times)
 
-    @cache
-    def indexes() -> list[int]:
-        return [index for index, _ in rows_of(source.lines, table.start)]
+    def line_of(row: int) -> int:
+        return next(itertools.islice(rows_of(source.lines, table.start), row, None))[0]
 
-    even = sampled(source, times, columns, lambda i: indexes()[i], unit_s)
+    even = sampled(source, times, columns, line_of, unit_s)
     # Where the times are even, they have the step that a remark states.
     if not even.notes and abs(even.dt_s - stated.value) > stated.rounding + 1e-4 * even.dt_s:
         raise InputError(

@@ -20,7 +20,7 @@ from pydantic import ValidationError
 
 from report.sheet.reading import typed_text
 from report.sheet.schema.choices import SlopeUnit
-from report.sheet.schema.fields import Entry, YesNo, adapter, entries
+from report.sheet.schema.fields import Entry, YesNo, adapter
 from report.text.counts import SHOWN, UNPRINTABLE, cut, trimmed
 from report.text.units import LENGTHS
 from solver.model import INCH_M, InputError, Problem
@@ -197,7 +197,6 @@ def _converted(cell: Found, entry: Entry, wanted: str, unit: str, si: float) -> 
         inches = typed_text.inches_in(text) if is_length else math.nan
         if math.isfinite(inches):
             return inches * INCH_M / si
-        _check_remark(text, entry)
         value = number(cell, wanted, unit)
         return int(value) if entry.kind is int and value.is_integer() else value
     if entry.kind is date:
@@ -231,15 +230,6 @@ def number(cell: Found, wanted: str = "give a number", unit: str = "") -> float:
             f"{wanted}, formatted as a number",
         )
     return float(value)
-
-
-def _check_remark(text: str, entry: Entry) -> None:
-    """Raise if the remark behind a number is what another column of its row says."""
-    for word in typed_text.remark_in(text).casefold().replace(",", " ").split():
-        for other in entries(entry.model):
-            if word in other.choices:
-                wanted = f"write the number alone, and {word} in the column {other.cell.label}"
-                raise CellError(f"is '{cut(text)}'", wanted)
 
 
 def _number_in_text(text: str, wanted: str, unit: str) -> float:

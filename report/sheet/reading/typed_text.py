@@ -22,13 +22,6 @@ _NUMBER = re.compile(rf"[+-]?{_DIGITS}(?:[eE][+-]?[0-9]+)?")
 _DECIMAL_COMMA = re.compile(r"([+\u2212-]?[0-9]*),([0-9]+)")
 _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:,[0-9]{3})+(?:\.[0-9]+)?")
 _MIXED = re.compile(rf"([0-9]+)[\s-]+({_SHARE})")
-_WORD = r"(?:wet|dry|tested|measured|mean|average|avg\.?|typ\.?|typical|est\.?|estimated)"
-# Its blanks and words are bounded: a long text takes time as its length.
-_REMARK = re.compile(
-    rf"(?:(?:\u03bc|\u00b5|mu)\s{{0,3}}=\s{{0,3}})?(.{{0,40}}?)"
-    rf"(?:(?:\s|\s{{0,3}}[(\[]\s{{0,3}})({_WORD}(?:,? {_WORD}){{0,2}})\s{{0,3}}[)\]]?)?",
-    re.IGNORECASE,
-)
 _FEET = re.compile(
     rf"(?P<sign>[+-]?)(?:(?P<feet>{_DIGITS})\s*')?[\s-]*"
     rf"(?:(?P<inches>{_DIGITS})(?:[\s-]+(?P<share>{_SHARE}))?\s*\"|(?P<only>{_SHARE})\s*\")?"
@@ -46,16 +39,11 @@ _DATES = ("%b %d %Y", "%B %d %Y", "%d %b %Y", "%d %B %Y", "%Y %m %d")
 _BESIDE_DATE = re.compile(
     r"(?:mon|tues|wednes|thurs|fri|satur|sun)day\b|(?<=[0-9])(?:st|[nr]d|th)\b"
 )
-# Begins a choice as it is spoken: site class D, risk category II.
-_LABEL = re.compile(r"(?:(?:site|risk|sdc|class|category) )+(?=\S)")
-
 _SLASHED = re.compile(r"([0-9]{1,2})[/.-]([0-9]{1,2})[/.-]([0-9]{4})")
 
 
 def number_in(text: str) -> float:
-    """Return the number in a text: `0.45`, `0,5`, `1,234.5`, `4 1/2`, `0.45 (wet)`; else NaN."""
-    if remark := _REMARK.fullmatch(text):
-        text = remark[1]
+    """Return the number in a text: `0.45`, `0,5`, `1,234.5`, `4 1/2`; else NaN."""
     text = text.replace("\u2212", "-")
     mixed = _MIXED.fullmatch(plain_marks(text))
     if mixed and Fraction(mixed[2]) < 1:
@@ -71,12 +59,6 @@ def number_in(text: str) -> float:
 def in_thousands(text: str) -> str:
     """Return a number with a comma before its thousands without it; empty for another text."""
     return text.replace(",", "") if _THOUSANDS.fullmatch(text) else ""
-
-
-def remark_in(text: str) -> str:
-    """Return the remark behind a number: `wet` of `0.45 (wet)`; empty for none."""
-    remark = _REMARK.fullmatch(text)
-    return (remark[2] or "") if remark else ""
 
 
 def plain_marks(text: str) -> str:
@@ -152,20 +134,12 @@ def with_point(text: str, separated_by: str) -> str:
 
 
 def choice_in(text: str, choices: Iterable[str]) -> str:
-    """Return the only choice that a text is, but for capitals and blanks, or begins; else empty."""
-    said = " ".join(text.split()).casefold().replace("w/o ", "without ").replace("w/ ", "with ")
-    said = _LABEL.sub("", said)
-    choices = list(choices)
-    same = [choice for choice in choices if choice.casefold() == said]
-    if not same and len(_bare(said)) > 3:
-        same = [choice for choice in choices if _bare(choice) == _bare(said)]
-    if not same and len(said) > 1:
-        same = [choice for choice in choices if choice.casefold().startswith(f"{said} ")]
-    return same[0] if len(same) == 1 else ""
+    """Return the choice that a text is, but for capitals, blanks, hyphens and brackets."""
+    return next((choice for choice in choices if _bare(choice) == _bare(text)), "")
 
 
 def _bare(text: str) -> str:
-    return re.sub(r"/sei\b|[\s()_-]", "", text.casefold())
+    return re.sub(r"[\s()-]", "", text.casefold())
 
 
 # No repetition can be matched in two ways: a code takes time as its length.

@@ -64,7 +64,7 @@ SINGLE_CELLS = {
         "1/2:12": "'1/2:12'; give a number of 0 or more, or choose the slope unit in/12",
     },
     "Friction tests/1/Kinetic coefficient": {
-        "0.45 (dry)": "'0.45 (dry)'; write the number alone, and dry in the column Surface",
+        "0.45 (dry)": "'0.45 (dry)'; give a number from 0 to 1.5",
     },
     "Friction tests/1/Velocity": {-1: "-1; give a number of 0 or more [in/s]"},
     "Links/1/Block friction": {
