@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from report.cli.options import TIME_STEP, Number, SectionedGroup
+from report.cli.options import TIME_STEP, Existing, Number, SectionedGroup
 from report.cli.terminal import AS_JSON, SOURCE, UNITS, Progress, input_errors, plain, say_next
 from report.text.counts import called, numbered
 
@@ -210,7 +210,7 @@ def suite(
 
 
 @motion.command()
-@click.argument("source", metavar="FOLDER|ZIP", type=SOURCE)
+@click.argument("source", metavar="FOLDER|ZIP", type=Existing())
 @click.argument("project", metavar="[DIR|WORKBOOK]", type=SOURCE, required=False)
 @click.option("--at", type=click.Choice(["roof", "ground"]),
               help="Where they were recorded; required with a workbook.")  # fmt: skip
@@ -231,8 +231,7 @@ def rows(
     """List the motions in FOLDER or ZIP, sets of three records; add them to a workbook.
 
     Sets that are not clear are listed with the reason and not added. Records are copied into
-    records/ beside the workbook, unless they are in its folder. A FOLDER that does not exist is
-    sought in the library: the folder that the key "motions" of your config.toml names.
+    records/ beside the workbook, unless they are in its folder.
     """
     with input_errors(source), TemporaryDirectory() as temporary:
         from report.motions.sets import sets_of, table
@@ -246,7 +245,7 @@ def rows(
             raise InputError(
                 "--at is missing; give --at roof or --at ground, where the motions were recorded"
             )
-        folder, whole = _in_library(source), ""
+        folder, whole = source, ""
         if not folder.is_dir():
             # The name of a zip is that of motions, and never of a folder: it may be "..".
             zipped, folder, whole = folder, Path(temporary), folder.stem
@@ -278,31 +277,6 @@ def rows(
             rows_added = f"{numbered(len(added), 'row')} added to the sheet Motions"
             click.echo(f"{path}: {rows_added}: {change.areas}")
             say_next(path, change.has_formulas)
-
-
-def _in_library(source: Path) -> Path:
-    """Return a folder or zip as given, or of that name in the user's library of motions."""
-    import tomllib
-
-    from solver.files import read_file
-    from solver.model import InputError
-    from solver.suggestions import meant
-
-    if source.exists():
-        return source
-    config = Path(click.get_app_dir("roofslip")) / "config.toml"
-    wanted = f"write motions = '/folder/of/motions' in {config}"
-    try:
-        text = read_file(config, 100_000).decode() if config.exists() else ""
-        library = str(tomllib.loads(text).get("motions", ""))
-        path = Path(library).expanduser() / source
-    except (OSError, ValueError, RuntimeError) as error:  # the last of an unknown ~user
-        raise InputError(f"{config}: cannot be read; {wanted}") from error
-    if not library or not path.exists():
-        hint = meant(source) or f"for a library of motions, {wanted}"
-        place = f"here or in {library}" if library else f"here; {hint}"
-        raise InputError(f"no such folder or zip {place}")
-    return path
 
 
 def _targets(

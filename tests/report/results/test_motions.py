@@ -123,24 +123,11 @@ def test_a_zip_is_checked_and_unpacked_elsewhere(library, tmp_path, name):
     assert "is no path within a folder" in commands.refused(*rows(zipped))
 
 
-@pytest.mark.nightly
-def test_the_library_of_the_user_is_searched(library, tmp_path, monkeypatch):
-    monkeypatch.setattr("click.get_app_dir", lambda _: str(tmp_path / "config"))
-    config = tmp_path / "config" / "config.toml"
-    assert f"write motions = '/folder/of/motions' in {config}" in commands.refused(*rows("kobe"))
-    config.parent.mkdir()
-    for text, why in (
-        ("motions = 3", "no such folder or zip here or in"),
-        ("motions", "cannot be read"),
-        ("motions = '~nobody-here/m'", "cannot be read"),
-    ):
-        config.write_text(text)
-        assert why in commands.refused(*rows("kobe"))
-    config.write_text(f"motions = '{library}'")
+def test_a_folder_that_is_not_there_is_asked_about_and_one_elsewhere_is_no_record(
+    library, tmp_path
+):
+    assert f"did you mean '{library}'?" in commands.refused(*rows(tmp_path / "libary"))
     path = make(tmp_path / "p")
-    commands.printed(*rows("kobe", path, "--at", "roof"))
-    # The workbook names the copy beside it, never the library.
-    assert read(path).project.motions[-1].record == "records/KJM-x.csv"
     assert "is outside the workbook's folder" in "".join(
-        problems(type_into(path, {"Motions/KJM/Horizontal record": str(library / "PET-x.csv")}))
+        problems(type_into(path, {"Motions/M1/Horizontal record": str(library / "PET-x.csv")}))
     )
