@@ -5,7 +5,7 @@ from __future__ import annotations
 import copyreg
 import datetime as dt
 import pickle
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from pathlib import Path
 from types import MappingProxyType
 
@@ -16,12 +16,10 @@ from click.testing import CliRunner
 import packages
 import report.cli.verify
 import report.manual.render
-import solver.verification.run
 from report.cli.main import main
 from report.cli.terminal import Progress
 from report.manual.render import manual_html
 from solver.verification.evidence import Verification
-from solver.verification.run import verify
 from solver.verification.workprecision import SINGLE, TIME
 
 DATE = dt.date(2026, 3, 5)
@@ -70,7 +68,7 @@ class Verified:
 
 
 def verified(factory: pytest.TempPathFactory) -> Verified:
-    """Return what the command did; other programs, where some are installed, are tested apart."""
+    """Return what the command did."""
     folder = packages.once(factory, "verified", _fill)
     found = pickle.loads((folder / "kept").read_bytes())  # this run of the tests has written it
     return Verified(**found, out=folder / "v")
@@ -78,9 +76,6 @@ def verified(factory: pytest.TempPathFactory) -> Verified:
 
 def _fill(folder: Path) -> None:
     found, started = {}, dt.date.today()
-
-    def without_peers(*arguments, **options):
-        return replace(verify(*arguments, **options), peers=())
 
     def kept_html(verification, parts, machine, date):
         assert started <= date <= dt.date.today()
@@ -90,7 +85,6 @@ def _fill(folder: Path) -> None:
         return found["html"]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(solver.verification.run, "verify", without_peers)
         patch.setattr(report.manual.render, "manual_html", kept_html)
         patch.setattr(report.cli.verify, "Progress", Counting)
         done = CliRunner().invoke(main, ["verify", "--quick", "--out", str(folder / "v")])

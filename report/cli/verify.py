@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
 
 # Usual shares of the time of the steps that a verification reports, as with --quick.
-VERIFY_STEPS = (18, 2, 3, 9, 11, 5, 0.1, 5, 0.1, 0.5, 0.1, 7, 33, 2)
+VERIFY_STEPS = (18, 2, 3, 9, 11, 5, 0.1, 5, 0.1, 0.5, 7, 33, 2)
 
 _FOLDER = Existing(file_okay=False)
 _USUAL = "out"

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import asdict
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from report.figures.base import INK, LOOKS, T, labeled, logarithmic, panels, style, svg_text
-from solver.verification.evidence import PeerPoint
-from solver.verification.peers import ONE_AXIS
+from report.figures.base import LOOKS, T, labeled, logarithmic, panels, style, svg_text
 from solver.verification.workprecision import FIXED, OURS, SINGLE, TIME
 
 _LARGE = {"markersize": 10}
@@ -38,13 +35,11 @@ def overview(
     runs: pd.DataFrame,
     plane: pd.DataFrame,
     floor: float,
-    peers: Iterable[PeerPoint] = (),
     painted: Callable[[Figure], T] = svg_text,  # type: ignore[assignment]
 ) -> T:
     """Return the medians of every method: a panel for two axes, and one for one axis.
 
-    `floor` is the error of the exact method [%], from its checks; `peers` are other programs on the
-    same runs in one axis.
+    `floor` is the error of the exact method [%], from its checks.
     """
     with style():
         margins = {"left": 0.085, "right": 0.99, "above": 0.221, "below": 2.35, "wspace": 0.08}
@@ -56,7 +51,6 @@ def overview(
         # The exact method has one setting: one point among lines.
         _, single, error, _ = points.loc["exact"].iloc[0]
         right.plot(single, error, **LOOKS["exact"] | _LARGE | _SINGLE)
-        _peers(right, peers, floor)
         labeled(left, "Time per run [s]", "Error [%]", "Two axes, roof motions: position")
         labeled(right, "Time per run [s]", title="One axis: PRD")
         for axes in (left, right):
@@ -79,17 +73,3 @@ def _drawn(axes: Axes, points: pd.DataFrame, looks: Mapping[str, dict[str, Any]]
         seconds, _, median, largest = points.loc[name].to_numpy().T
         axes.plot(seconds, median, **looks[name] | (_LARGE if name == "exact" else {}))
         axes.vlines(seconds, median, largest, color=looks[name]["color"], linewidth=0.4)
-
-
-def _peers(axes: Axes, peers: Iterable[PeerPoint], floor: float) -> None:
-    """Draw the medians of each program, with its model of friction, over its runs in one axis."""
-    points = pd.DataFrame([asdict(peer) for peer in peers if peer.model == ONE_AXIS])
-    if points.empty:
-        return
-    answered = points.dropna(subset=["seconds", "prd_error_percent"])
-    for marker, (name, own) in zip("1+x2", answered.groupby("peer", sort=False), strict=False):
-        medians = own[["seconds", "prd_error_percent"]].median()
-        axes.plot(
-            medians["seconds"], max(medians["prd_error_percent"], floor), linestyle="",
-            marker=marker, markersize=9, color=INK, label=name,
-        )  # fmt: skip

@@ -64,7 +64,6 @@ def work(verification: Verification) -> Section:
         "manual/work",
         "Accuracy against run time",
         cases=len(runs[RUN].drop_duplicates()),
-        is_own=set(runs["record"]) <= set(verification.records),
         lost=lost.groupby("method", sort=False).size().to_dict(),
         floor_percent=100.0 * least,
         plane=plane,
@@ -73,7 +72,7 @@ def work(verification: Verification) -> Section:
             plane[plane["method"].str.endswith("(compiled)")], ours, "residual error [%]"
         ),
         medians=_medians(runs),
-        charts={"work-percent": figures.overview(runs, plane, 100.0 * least, verification.peers)},
+        charts={"work-percent": figures.overview(runs, plane, 100.0 * least)},
     )
 
 

@@ -1,6 +1,6 @@
 """Output files of a verification: PDF, CSV and charts, and the sections that need no more.
 
-The summary, the tables of checks and of other programs, machine and software. Read `sections`.
+The summary, the tables of checks, machine and software. Read `sections`.
 """
 
 from __future__ import annotations
@@ -32,16 +32,14 @@ from report.text.formats import (
     NOT_VALIDATED,
     VALIDATION,
     csv_text,
-    percent,
     scientific,
-    seconds,
     ten_digits,
     unbroken,
 )
 from report.typeset.pdf import TEMPLATES, lay_out
 from solver.verification import evidence, model_study
 from solver.verification.building import BY_HEIGHT
-from solver.verification.evidence import Check, PeerPoint, Verification
+from solver.verification.evidence import Check, Verification
 from solver.verification.features import statuses
 from solver.verification.workprecision import RUN, SINGLE, TIME
 
@@ -111,13 +109,6 @@ _CHECK_COLUMNS = (
     (centered("Result", 0.7), lambda row: judged(row.passed)),
 )
 
-_PEER = (
-    (words("Record", 2.0), lambda peer: peer.record),
-    (words("Analysis case", 2.0), lambda peer: lettered(peer.scene)),
-    (text("Time per run"), lambda peer: seconds(peer.seconds)),
-    (text("Error in PRD"), lambda peer: _error(peer.prd_error_percent)),
-)
-
 
 def checks(verification: Verification) -> Section:
     """Return every check, a table for each section."""
@@ -137,18 +128,6 @@ def checks(verification: Verification) -> Section:
 
 def _quantity(row: Check) -> str:
     return row.quantity if row.unit == "1" else f"{row.quantity} [{lettered(row.unit)}]"
-
-
-def peers(points: Sequence[PeerPoint]) -> Section:
-    """Return the results of other programs, each run below its program and model."""
-    groups = grouped_by(
-        points, lambda peer: f"{peer.peer} {peer.version}: {peer.model}; {peer.note}"
-    )
-    return section("manual/peers", "Other programs", peers=grouped(groups, _PEER))
-
-
-def _error(value_percent: float) -> str:
-    return "failed" if math.isnan(value_percent) else percent(value_percent)
 
 
 # Modules whose constants the templates print.
@@ -226,7 +205,6 @@ def sections(verification: Verification) -> tuple[Section, ...]:
         *((models(verification),) if verification.models else ()),
         section("manual/features", "Status of each feature"),
         section("manual/known-errors", "Known errors of released versions"),
-        *((peers(verification.peers),) if verification.peers else ()),
         section("manual/software", "Software and machine"),
     )
 

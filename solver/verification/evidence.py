@@ -226,20 +226,6 @@ class Conditioning:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PeerPoint:
-    """One run by another program, if installed."""
-
-    peer: str
-    version: str
-    model: str  # such as `peers.ONE_AXIS`
-    record: str
-    scene: str
-    seconds: float  # [s]; NaN for a failed run
-    prd_error_percent: float  # see `percent_off`; NaN for a failed run
-    note: str
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class RoofPrediction:
     """A roof motion computed from the ground motion, compared with the recorded one."""
 
@@ -298,7 +284,6 @@ class Verification:
     # the model building first, then those whose records were given
     roofs: tuple[RoofComparison, ...]
     models: tuple[ModelEvidence, ...]  # one
-    peers: tuple[PeerPoint, ...]  # empty if none is installed
     records: tuple[str, ...]  # names of the records, the project's first
     quick: bool
     seconds: float  # total time [s]

@@ -18,7 +18,6 @@ from solver.verification import (
     model_checks,
     model_study,
     paper_studies,
-    peers,
     stability,
     workprecision,
 )
@@ -87,8 +86,6 @@ def verify(
     )
     progress("The paper's design curves (Figs. 10 to 12)")
     curves = tuple(paper_studies.design_curves(record) for record in records)
-    progress("Other programs, if installed")
-    judged = tuple(peers.peer_points(peers.JUDGES, runs, triples, quick=quick))
     return Verification(
         checks=tuple(row for row in rows if row.is_run),
         left_out=tuple(row for row in rows if not row.is_run),
@@ -101,7 +98,6 @@ def verify(
         conditioning=conditioning,
         roofs=roofs,
         models=(models,),
-        peers=judged,
         records=tuple(record.name for record in records),
         quick=quick,
         seconds=time.perf_counter() - start,

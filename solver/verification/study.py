@@ -7,7 +7,6 @@ Motions of three components for the comparison of models: generated, or recorded
 
 from __future__ import annotations
 
-import importlib.util
 import itertools
 import math
 import time
@@ -20,7 +19,7 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 
 from solver.forces import forces
-from solver.formats import read_motion_file, read_record
+from solver.formats import read_motion_file
 from solver.model import (
     STANDARD_GRAVITY_MPS2,
     Floats,
@@ -123,22 +122,8 @@ def runnable_methods() -> list[Method]:
     return [m for m in METHODS.values() if scipy or not m.source.startswith("scipy")]
 
 
-def real_records() -> tuple[Record, ...]:
-    """Return the records that the package pyslammer carries, if installed; it is not imported."""
-    spec = importlib.util.find_spec("pyslammer")
-    places = spec.submodule_search_locations if spec else None
-    paths = sorted(Path((places or [""])[0]).glob("sample_ground_motions/*.csv"))
-    return tuple(replace(read_record(path, units="g"), name=path.stem) for path in paths)
-
-
 def compared_runs(quick: bool) -> list[tuple[Record, Case]]:
-    """Return the runs on which methods are compared: the real records, a case each in turn.
-
-    Where these are not installed, and if quick, the project's records with every case.
-    """
-    real = () if quick else real_records()
-    if real:
-        return list(zip(real, itertools.cycle(CASES), strict=False))
+    """Return the runs on which methods are compared: the project's records with every case."""
     return list(itertools.product(own_records(quick), CASES[:3] if quick else CASES))
 
 

@@ -16,6 +16,7 @@ from measure import RECORDS, SMOKE, figure, made_records
 
 import oracle
 import plane_oracle
+from peers import real_records
 from solver.formats import read_record
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, coulomb
@@ -27,7 +28,6 @@ from solver.verification.study import (
     Case,
     cut,
     own_triples,
-    real_records,
     recorded_triples,
     scene_of,
 )

@@ -18,6 +18,7 @@ import numpy as np
 from measure import SMOKE, figure, made_records, seconds
 from numba import njit
 
+from peers import real_records
 from solver.formats import read_record
 from solver.kernels import one_axis, rivals
 from solver.model import STANDARD_GRAVITY_MPS2 as G
@@ -29,7 +30,7 @@ from solver.sliding.checked import slide
 from solver.sliding.row import slide_row
 from solver.sliding.sweep import order_alike
 from solver.verification.model_study import by_speed, row_of
-from solver.verification.study import Case, own_triples, real_records, scene_of
+from solver.verification.study import Case, own_triples, scene_of
 
 SLOPES = [math.radians(0.5 * k) for k in range(-14, 15)]
 FRICTIONS = [0.1 + 0.05 * k for k in range(15)]

@@ -9,20 +9,22 @@ Errors are relative to the exact method, in two axes to the tightest tolerance, 
 """
 
 import io
+import itertools
 from dataclasses import asdict, fields
 
 import pandas as pd
 from measure import ROOT, SMOKE, figure
 from PIL import Image
 
-from report.figures.base import png_bytes
+import peers
+from peers import PeerPoint
+from report.figures.base import INK, LOOKS, png_bytes
 from report.figures.work import overview
 from solver.formats import read_record
 from solver.rivals.methods import METHODS
 from solver.sliding.two_axes import DEFAULT_TOLERANCE
-from solver.verification import checks, peers, workprecision
-from solver.verification.evidence import PeerPoint
-from solver.verification.study import compared_runs, own_triples, real_records
+from solver.verification import checks, workprecision
+from solver.verification.study import CASES, compared_runs, own_triples
 from solver.verification.workprecision import OURS, SCIPY, SINGLE, TIME, times_longer, work_points
 
 PICTURE = ROOT / "docs" / "pictures" / "work-precision.png"
@@ -57,7 +59,9 @@ def two_axes() -> pd.DataFrame:
 
 def one_axis(plane: pd.DataFrame) -> None:
     """Print time and error of each method and program, and draw them beside those in two axes."""
-    runs, source = compared_runs(SMOKE), "real" if real_records() and not SMOKE else "made"
+    real = () if SMOKE else peers.real_records()
+    runs = list(zip(real, itertools.cycle(CASES), strict=False)) or compared_runs(SMOKE)
+    source = "real" if real else "made"
     figure("runs of each method", len(runs), f"under {source} records")
     found = work_points(runs, quick=SMOKE)
     error = "PRD error [%]"
@@ -82,11 +86,19 @@ def one_axis(plane: pd.DataFrame) -> None:
     judges = {peers.ONE_AXIS: peers.JUDGES[peers.ONE_AXIS]}
     points = list(peers.peer_points(judges, runs, (), quick=SMOKE))
     judged = pd.DataFrame(map(asdict, points), columns=[each.name for each in fields(PeerPoint)])
-    for name, own in judged.groupby("peer", sort=False):
+    assert isinstance(LOOKS, dict)
+    for marker, (name, own) in zip("1+x2", judged.groupby("peer", sort=False), strict=False):
         label = f"{name} {own['version'].iloc[0]}"
         printed(label, own["seconds"], own["prd_error_percent"], "PRD")
+        # Drawn as a method with one setting.
+        LOOKS[name] = {
+            "linestyle": "", "marker": marker, "markersize": 9, "color": INK, "label": name,
+        }  # fmt: skip
+        row = {"method": name, "setting": 0.0, TIME: own["seconds"], SINGLE: own["seconds"]}
+        others = pd.DataFrame(row | {error: own["prd_error_percent"]})
+        found = pd.concat([found, others], ignore_index=True)
     if not SMOKE:
-        drawn = overview(found, plane, FLOOR_PERCENT, points, png_bytes)
+        drawn = overview(found, plane, FLOOR_PERCENT, png_bytes)
         picture = Image.open(io.BytesIO(drawn)).convert("RGB")
         picture.quantize(64).save(PICTURE, optimize=True)
 

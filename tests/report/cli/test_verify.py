@@ -22,7 +22,7 @@ from report.text import formats
 from report.text.counts import lettered
 from solver.model import Status
 from solver.rivals.methods import METHODS
-from solver.verification.evidence import Check, PeerPoint
+from solver.verification.evidence import Check
 from verified import only
 
 pytestmark = pytest.mark.skipif(
@@ -107,19 +107,14 @@ MEASURED = ["time per run [s]", *verified.NO_RUNS.filter(like="error")]
 
 @pytest.fixture(scope="module")
 def broken(verification):
-    """The same verification with its second check failed, some runs lost, and other programs."""
+    """The same verification with its second check failed, and some runs lost."""
     first, second, *others = verification.checks
     wrong = replace(second, expected=2.0, computed=1.5)
     work = verification.work.copy()
     lost = (work["method"] == "penalty-explicit") & (work["setting"] == 1e2)
     work.loc[lost, MEASURED], work.loc[lost, "status"] = math.nan, Status.DIVERGED
-    peer = PeerPoint(
-        peer="Other", model="one axis", version="1.2", record="motion-01-x", scene="flat",
-        seconds=0.5, prd_error_percent=1.25, note="as its example",
-    )  # fmt: skip
-    no_peer = replace(peer, seconds=math.nan, prd_error_percent=math.nan, note="did not converge")
     checks = (first, wrong, *others)
-    return replace(verification, checks=checks, work=work, peers=(peer, no_peer))
+    return replace(verification, checks=checks, work=work)
 
 
 @pytest.fixture(scope="module")
@@ -231,10 +226,6 @@ def test_failed_checks_are_said_and_exit_1(verification, words_of_broken, words,
     row = verification.checks[1]
     assert f"FAIL: {row.section}, {row.problem}, {row.quantity}" in words_of_broken
     assert re.search(r" 1\.5 2\.5 × 10⁻¹ [^A-Z]* FAIL", words_of_broken)
-    assert "15 Other programs" in words_of_broken
-    assert "Other 1.2: one axis; as its example motion-01-x flat 500 ms 1.25 %" in words_of_broken
-    assert "Other 1.2: one axis; did not converge motion-01-x flat — failed" in words_of_broken
-    assert "Other programs" not in words
     done, out = failed
     assert done.exit_code == 1
     row = broken.checks[1]

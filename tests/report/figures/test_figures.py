@@ -35,8 +35,8 @@ from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
 from solver.rivals.methods import METHODS
 from solver.studies.uncertainty import Bar
-from solver.verification import peers, workprecision
-from solver.verification.evidence import PeerPoint, StabilityMap
+from solver.verification import workprecision
+from solver.verification.evidence import StabilityMap
 from study_books import limit_state
 
 
@@ -360,21 +360,13 @@ def test_in_the_stability_maps_of_the_manual(drawn, count):
     assert not list(faults(drawn))
 
 
-def judges():
-    """A run by each program that is compared."""
-    point = {"version": "1", "record": "r", "scene": "s", "note": "", "seconds": 1e-2}
-    for model, programs in peers.JUDGES.items():
-        for each in programs:
-            yield PeerPoint(peer=each.name, model=model, prd_error_percent=2.0, **point)
-
-
 def test_in_the_accuracy_of_every_method_against_run_time(drawn):
     times = {"setting": 1.0, workprecision.TIME: 1e-5, workprecision.SINGLE: 2e-5}
     runs = pd.DataFrame({"method": [*METHODS], "PRD error [%]": 0.5} | times)
     labels = [each.label for each in METHODS.values()]
     ours = [workprecision.OURS, workprecision.FIXED]
     plane = pd.DataFrame({"method": ours + labels[6:9], "residual error [%]": 0.5} | times)
-    work.overview(runs, plane, 1e-12, judges())
+    work.overview(runs, plane, 1e-12)
     assert not list(faults(drawn))
 
 

@@ -12,17 +12,19 @@ import importlib.util
 import math
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 
 from solver.forces import components
+from solver.formats import read_record
 from solver.model import STANDARD_GRAVITY_MPS2, Motion, Scene, coulomb
 from solver.records.record import Record
 from solver.sliding import checked, one_axis, two_axes
 from solver.verification import model_checks
-from solver.verification.evidence import PeerPoint, percent_off
+from solver.verification.evidence import percent_off
 from solver.verification.study import MODEL_CASES, Case, clocked, cut, posed, samples_of, scene_of
 
 SUBSTEPS = 10
@@ -38,6 +40,28 @@ ONE_AXIS, VERTICAL, TWO_AXES = "one axis", "one axis with vertical", "two axes w
 _G = STANDARD_GRAVITY_MPS2
 
 _Named = tuple[str, Case, Scene]
+
+
+def real_records() -> tuple[Record, ...]:
+    """Return the records that the package pyslammer carries, if installed; it is not imported."""
+    spec = importlib.util.find_spec("pyslammer")
+    places = spec.submodule_search_locations if spec else None
+    paths = sorted(Path((places or [""])[0]).glob("sample_ground_motions/*.csv"))
+    return tuple(replace(read_record(path, units="g"), name=path.stem) for path in paths)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PeerPoint:
+    """One run by another program, if installed."""
+
+    peer: str
+    version: str
+    model: str  # such as `ONE_AXIS`
+    record: str
+    scene: str
+    seconds: float  # [s]; NaN for a failed run
+    prd_error_percent: float  # see `percent_off`; NaN for a failed run
+    note: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
