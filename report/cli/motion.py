@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
 
 # Rounding error allowed in a converted record, relative to its peak.
 _KEPT_WITHIN = 1e-9
-_PICTURES = (".svg", ".png")
 
 
 @click.group(cls=SectionedGroup)
@@ -55,15 +54,6 @@ _channel = click.option("--channel", default="", metavar="NAME",
                         help="One channel: its name or its number in the file.")  # fmt: skip
 
 
-def _picture(_: click.Context, __: click.Parameter, path: Path | None) -> Path | None:
-    """Accept only picture file names, so that a record is never overwritten."""
-    if path and path.suffix.lower() not in _PICTURES:
-        raise click.BadParameter(
-            f"{path} is not a picture file name; use the extension .svg or .png"
-        )
-    return path
-
-
 @motion.command()
 @click.argument("file", metavar="FILE", type=SOURCE)
 @_channel
@@ -71,9 +61,7 @@ def _picture(_: click.Context, __: click.Parameter, path: Path | None) -> Path |
 @_response
 @_reading
 @AS_JSON
-@click.option("--plot", metavar="OUT.svg|OUT.png", type=SOURCE, callback=_picture,
-              help="Plot the records and their 5 % damped response spectra.")  # fmt: skip
-def info(file: Path, channel: str, as_json: bool, plot: Path | None, **how: Any) -> None:
+def info(file: Path, channel: str, as_json: bool, **how: Any) -> None:
     """List the channels of FILE with peaks, duration and drift.
 
     Prints peak acceleration, velocity and displacement, Arias intensity, significant duration (5 to
@@ -85,9 +73,6 @@ def info(file: Path, channel: str, as_json: bool, plot: Path | None, **how: Any)
     with input_errors(file):
         motion_file = _read(file, **how)
         records = [motion_file.channel(channel)] if channel else motion_file.channels
-        if plot:
-            # Before anything is printed: a plot that cannot be written is an error.
-            _draw(records, plot)
     channels = [summary(record) for record in records]
     if as_json:
         about = {"file": str(file), "format": motion_file.format, "notes": list(motion_file.notes)}
@@ -96,8 +81,6 @@ def info(file: Path, channel: str, as_json: bool, plot: Path | None, **how: Any)
     click.echo(f"{file}: {motion_file.format}")
     for line in (*table(channels), *(f"note: {note}" for note in motion_file.notes)):
         click.echo(line)
-    if plot:
-        click.echo(plot)
 
 
 @motion.command()
@@ -316,22 +299,3 @@ def _write(record: Record, out: Path) -> None:
     if os.path.lexists(out):  # a dangling link as well
         raise InputError(f"{out}: already exists; give another name, or move the file")
     write_whole(out, record_csv(record, within=_KEPT_WITHIN).encode())
-
-
-def _draw(records: Sequence[Record], out: Path) -> None:
-    """Write the plot of records; an earlier plot is replaced."""
-    from report.figures.base import png_bytes, svg_text
-    from report.figures.records import MOST, records_picture
-    from report.suite.files import PERIODS_S, spectra_g
-    from solver.files import write_whole
-    from solver.model import InputError
-
-    if len(records) > MOST:
-        raise InputError(
-            f"{out.name}: a plot shows at most {MOST} channels; select one with --channel"
-        )
-    drawn = records, PERIODS_S, spectra_g(records)
-    if out.suffix.lower() == ".png":
-        write_whole(out, records_picture(*drawn, png_bytes))
-    else:
-        write_whole(out, records_picture(*drawn, svg_text).encode())

@@ -20,10 +20,6 @@ if TYPE_CHECKING:
     from solver.model import Scene
     from solver.records.record import Record
 
-# Of `solver.sliding.least_model`, simplest first: the index is the number of the model. This
-# command has no velocity-dependent friction.
-MODELS = ("no-slip", "one-axis", "one-axis-vertical", "two-axes")
-
 
 @click.command()
 @click.argument("record")
@@ -41,8 +37,6 @@ MODELS = ("no-slip", "one-axis", "one-axis-vertical", "two-axes")
 @click.option("--dt", type=TIME_STEP, help="Time step, if the record has no time column.")
 @click.option("--units", type=UNITS,
               help="Units of the records, if the files do not state them.")  # fmt: skip
-@click.option("--model", type=click.Choice(MODELS), help="Run this model instead of the simplest "
-              "adequate one.")  # fmt: skip
 @AS_JSON
 def slide(
     record: str,
@@ -54,7 +48,6 @@ def slide(
     factor: float | None,
     dt: float | None,
     units: str | None,
-    model: str | None,
     as_json: bool,
 ) -> None:
     """Compute the sliding of one block under one RECORD, for a quick check or in a script.
@@ -74,7 +67,7 @@ def slide(
         scale = _scale(records[0], ppa_g, factor)
         scene = _scene(records, slope_deg, mu, scale)
         values = {"slope_deg": slope_deg, "mu": mu, "scale": scale, "dt_s": scene.dt_s}
-        values |= _solved(scene, model)
+        values |= _solved(scene)
     from report.text.formats import aligned, finite
 
     if as_json:
@@ -157,11 +150,11 @@ def _scene(records: list[Record | None], slope_deg: float, mu: float, scale: flo
     )
 
 
-def _solved(scene: Scene, model: str | None) -> dict[str, Any]:
+def _solved(scene: Scene) -> dict[str, Any]:
     """Return the results by name, with the model used."""
-    from solver.sliding.least_model import Model, Settings, solve
+    from solver.sliding.least_model import solve
 
-    solution = solve(scene, Settings(forced=None if model is None else Model(MODELS.index(model))))
+    solution = solve(scene)
     return asdict(solution.result) | {
         "outcome": solution.result.status.sentence,
         "model": f"{int(solution.model)}, {solution.model.title}",

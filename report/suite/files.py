@@ -33,7 +33,6 @@ from solver.model import Floats
 from solver.records.acceptance import Acceptance, acceptance
 from solver.records.measures import Measures, measures
 from solver.records.record import Record, record_csv
-from solver.records.spectrum import response_spectrum
 from solver.rules.hazard import Target, target_sa_g
 from solver.rules.limit import Limit
 from solver.sliding.checked import motion
@@ -81,8 +80,6 @@ def acceptance_facts(rows: Sequence[Limit]) -> list[dict[str, Any]]:
     ]
 
 
-PERIODS_S: Floats = np.geomspace(0.02, 10.0, 200)
-
 # Heading, key of the number, and factor for the printed unit.
 _MEASURES = (
     ("dt [s]", "dt_s", 1.0),
@@ -125,12 +122,6 @@ def table(channels: Sequence[Mapping[str, Any]]) -> Iterator[str]:
     rows = [("", "channel", *(heading for heading, _, _ in _MEASURES))]
     rows += [(str(count), *_row(channel)) for count, channel in enumerate(channels, start=1)]
     return aligned(rows, (">", "<", *(">" for _ in _MEASURES)))
-
-
-def spectra_g(records: Sequence[Record]) -> Floats:
-    """Return the 5 % damped pseudo-accelerations [g] of each record over `PERIODS_S`."""
-    rows = [response_spectrum(record.a_mps2, record.dt_s, PERIODS_S) / G_MPS2 for record in records]
-    return np.array(rows)
 
 
 def _row(channel: Mapping[str, Any]) -> tuple[str, ...]:

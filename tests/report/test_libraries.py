@@ -82,7 +82,7 @@ DAY = {
     "clearances": ["plan", "clearances", "PROJECT"],
     "completion": ["completion", "bash"],
     "convert": ["motion", "convert", RECORD, "OUT.csv"],
-    "info": ["motion", "info", RECORD, "--plot", "OUT.png"],
+    "info": ["motion", "info", RECORD],
     "new": ["new", "OUT", "--example"],
     "plan": ["plan", "read", "PROJECT/roof.dxf", "PROJECT", "--replace", "--accept"],
     "rows": ["motion", "rows", EXAMPLE / "records"],

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import commands
-from nightly import by_day
 from places import DATA, ROOT
 from solver.formats import read_record
 from solver.records.measures import measures
@@ -106,20 +105,6 @@ def test_info_prints_a_table_for_people_and_never_over_a_record(column):
     # Trapezia of 0.125 and -0.25 g; the velocity ends at -0.0025 g s.
     assert row["final v [cm/s]"] == f"{-0.0025 * G * 100:.4g}"
     assert printed("info", RECORD).splitlines()[2].split()[-2:] == ["0", "0"]
-    told = refused("info", column, *READING, "--plot", column)
-    assert "use the extension .svg or .png" in told
-    assert column.read_text() == COLUMN
-
-
-@pytest.mark.parametrize(("name", "start"), by_day([("a.svg", b"<svg"), ("a.PNG", b"\x89PNG")], 1))
-def test_info_draws_all_channels_the_same_each_time(three, tmp_path, name, start):
-    out = tmp_path / name
-    assert printed("info", three, "--plot", out).splitlines()[-1] == str(out)
-    first = out.read_bytes()
-    assert first.startswith(start)
-    assert len(first) > 10_000
-    printed("info", three, "--plot", out)
-    assert out.read_bytes() == first
 
 
 def test_convert_writes_time_and_g(column, tmp_path):
@@ -140,7 +125,7 @@ def test_convert_loses_nothing_of_a_small_record(tmp_path, scale):
     assert np.abs(back - values * 0.01).max() <= 1.001e-9 * np.abs(values * 0.01).max()
 
 
-def test_convert_never_overwrites_and_too_many_channels_are_not_drawn(three, tmp_path, column):
+def test_convert_never_overwrites_and_notes_are_told(three, tmp_path, column):
     out = tmp_path / "out.csv"
     assert "1 HN1; 2 HN2; 3 HNZ" in refused("convert", three, out)
     assert not out.exists()
@@ -155,24 +140,11 @@ def test_convert_never_overwrites_and_too_many_channels_are_not_drawn(three, tmp
     (note,) = as_json("info", path)["notes"]
     assert f"note: {note}" in printed("info", path).splitlines()
     assert f"note: {note}" in printed("convert", path, tmp_path / "out.csv").splitlines()
-    path = tmp_path / "many.csv"
-    names = ",".join(f"C{k} [g]" for k in range(13))
-    path.write_text(f"time [s],{names}\n" + "".join(f"{t},{'0.1,' * 12}0\n" for t in (0, 0.01)))
-    told = refused("info", path, "--plot", tmp_path / "a.svg")
-    assert "a.svg: a plot shows at most 12 channels; select one with --channel" in told
-    assert not (tmp_path / "a.svg").exists()
 
 
-# What each command writes, as its last words.
-COMMANDS = {"info": ("--plot", "a.svg"), "convert": ("a.csv",)}
-
-
-@pytest.mark.parametrize("command", COMMANDS)
-def test_what_cannot_be_read_or_written_is_reported(command, column, three, tmp_path, files_up_to):
-    *option, name = COMMANDS[command]
-
+def test_what_cannot_be_read_or_written_is_reported(column, three, tmp_path, files_up_to):
     def told(file, *words, to=tmp_path):
-        return refused(command, file, *option, to / name, *words)
+        return refused("convert", file, to / "a.csv", *words)
 
     assert "no such file" in told(tmp_path / "none.at2")
     assert "give the time step dt" in told(column, "--units", "g")
@@ -180,7 +152,7 @@ def test_what_cannot_be_read_or_written_is_reported(command, column, three, tmp_
     no_folder = told(column, *READING, to=tmp_path / "none")
     assert "cannot be written (No such file or directory)" in no_folder
     with files_up_to(10):
-        assert f"{name}: cannot be written (File too large)" in told(column, *READING)
+        assert "a.csv: cannot be written (File too large)" in told(column, *READING)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["one.txt", "three.csv"]
 
 
@@ -227,11 +199,10 @@ def test_slide_gives_what_the_solver_gives_for_files_or_channels():
         ((), "1, one axis"),
         (("--vertical", UP), "2, one axis with vertical"),
         (("--transverse", ACROSS), "3, two axes with vertical"),
-        (("--transverse", ACROSS, "--model", "one-axis"), "1, one axis"),
         (("--factor", 0.01), "0, no slip"),
     ],
 )
-def test_the_model_is_the_simplest_adequate_one_or_the_requested_one(words, model):
+def test_the_model_is_the_simplest_adequate_one(words, model):
     assert found(RECORD, *PLACE, *words)["model"] == model
 
 
@@ -246,7 +217,6 @@ def test_the_model_is_the_simplest_adequate_one_or_the_requested_one(words, mode
         ([*PLACE, "--dt", "0.01"], "0.01"),
         ([*PLACE, "--factor", "inf"], "it is inf; give a finite number."),
         ([*PLACE, "--ppa-g", "1", "--factor", "1"], "not both"),
-        ([*PLACE, "--model", "no-slip"], "required friction coefficient"),
     ],
 )
 def test_slide_says_what_is_wrong(arguments, message):

@@ -56,8 +56,6 @@ WRITTEN = {
     "new folder": ("new", "it"),
     "report out": ("report", "job", "--out", "it"),
     "study out": ("study", "job", "--out", "it"),
-    "motion info plot": ("motion", "info", "x.csv", "--units", "g", "--dt", 0.01, "--plot",
-                              "it.svg"),
     "motion convert out": ("motion", "convert", "x.csv", "it.csv", "--units", "g", "--dt",
                                 0.01),
     "motion suite folder": ("motion", "suite", "it", *AC156),

@@ -67,7 +67,7 @@ def test_the_quick_command_of_the_readme_writes_everything(quick, made, verifica
         assert text.startswith("<svg")
         assert "mathdefault" not in text
         assert set(re.findall(r"font: [^;]*?'([^']+)'", text)) <= {"Source Sans 3"}
-    assert ">exact: rounding error<" in made["charts/work-percent.svg"].decode()
+    assert ">exact, a single run<" in made["charts/work-percent.svg"].decode()
     assert curve_of("exact", verification.work, 1e-12)["PRD error [%]"].tolist() == [1e-12]
 
 

@@ -21,18 +21,14 @@ from report.assessment.evidence import support
 from report.assessment.spectra import spectra
 from report.drawing.sheet import LETTER
 from report.figures import charts as figures
-from report.figures import history, manual, records, work
-from report.figures.base import png_bytes
+from report.figures import history, manual, work
 from report.figures.history import STEP_IN, PanelScale, hodographs, path_of, thinned
 from report.figures.records import accelerations
 from report.figures.spectra import spectra as drawn_spectra
 from report.pages.registry import draw_assessment, draw_plotted
 from report.sheet.schema.choices import UnitsFirst
 from report.study import figures as study
-from report.suite.files import PERIODS_S, spectra_g
 from report.text.units import Quantity
-from solver.records.record import Record
-from solver.records.spectrum import response_spectrum
 from solver.rivals.methods import METHODS
 from solver.studies.uncertainty import Bar
 from solver.verification import workprecision
@@ -216,47 +212,6 @@ def test_thinning_keeps_the_ends_and_no_point_is_farther_than_a_step_from_the_ne
     assert np.hypot(np.diff(x_few), np.diff(y_few)).max() < 1.3 * STEP_IN
 
 
-G = 9.80665
-
-
-@pytest.fixture
-def channels(noise):
-    names = ["HN1", "HN2", "HNZ", *(f"floor {k}" for k in range(9))]
-    return [Record(name=name, dt_s=0.01, a_mps2=noise / (1 + k)) for k, name in enumerate(names)]
-
-
-@pytest.mark.quick
-def test_spectra_are_those_of_each_record_in_g(channels):
-    spectra = spectra_g(channels[:2])
-    assert spectra.shape == (2, len(PERIODS_S))
-    expected = response_spectrum(channels[1].a_mps2, 0.01, PERIODS_S) / G
-    assert np.array_equal(spectra[1], expected)
-
-
-@pytest.mark.parametrize("count", by_day([1, 3, 12], 1))
-def test_any_number_of_channels_is_drawn_each_with_room_and_a_line_of_its_own(channels, count):
-    some = channels[:count]
-    svg = records.records_picture(some, PERIODS_S, spectra_g(some))
-    width, height = map(float, re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', svg).groups())
-    assert width / 72 == pytest.approx(7.0, abs=0.01)
-    assert height / 72 > 3.0 + 0.9 * count
-    assert "<text" not in svg  # outlines: no font is needed
-    looks = set(re.findall(r'fill="none" ([^>]*stroke-width="1.2"[^>]*)/>', svg))
-    assert len(looks) == count <= records.MOST
-
-
-@pytest.mark.parametrize("size", by_day([0.0, 1e-9, 1e3], 1))
-def test_records_of_any_size_are_drawn_without_a_warning(noise, size):
-    some = [Record(name="r" * 200, dt_s=0.01, a_mps2=noise * size)]
-    png = records.records_picture(some, PERIODS_S, spectra_g(some), png_bytes)
-    assert png.startswith(b"\x89PNG")
-
-
-def test_records_of_different_lengths_share_their_axes(channels, noise):
-    pair = [channels[0], Record(name="short", dt_s=0.02, a_mps2=noise[:100])]
-    assert records.records_picture(pair, PERIODS_S, spectra_g(pair))
-
-
 DPI = 400  # extents are rounded to pixels
 TOUCH_IN = 0.01
 LEAST_PT = 8.5
@@ -334,12 +289,6 @@ def test_in_a_package(drawn, units):
     evidence = support(package.assessment)
     draw_plotted(package, evidence)
     assert len(drawn.figures) >= 10
-    assert not list(faults(drawn))
-
-
-def test_in_pictures_of_records(drawn, noise):
-    some = [Record(name=f"HN{k}", dt_s=0.01, a_mps2=noise / (1 + k)) for k in range(4)]
-    records.records_picture(some, PERIODS_S, spectra_g(some), png_bytes)
     assert not list(faults(drawn))
 
 
