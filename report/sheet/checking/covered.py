@@ -8,8 +8,6 @@ from __future__ import annotations
 import datetime as dt
 import hashlib
 from collections.abc import Iterator, Mapping, Sequence, Set
-from functools import partial
-from types import MappingProxyType
 
 from report.sheet.schema import SECTION, SECTIONS, ProjectInput, layout
 from report.sheet.schema.choices import ClearanceSource
@@ -74,8 +72,8 @@ def outdated(data: ProjectInput, records: Sequence[str]) -> ProjectInput:
     changed = {}
     for place, _, recorded, now, earlier in _dated(data, records):
         then = dict(part.rpartition(" ")[::2] for part in recorded.split(", "))
-        # A record has the sheets of its own version, with which it differs least.
-        other = min((_changed(then, each) for each in (now, *earlier)), key=len)
+        # A record is of its own version, with which it differs least.
+        other = min(_changed(then, now), _changed(then, earlier), key=len)
         if recorded and other:
             changed[place.section] = f"sheet{'s' * (len(other) > 1)} {', '.join(other)}"
     return data.with_outdated(changed)
@@ -88,10 +86,10 @@ def _changed(then: _Hashes, now: _Hashes) -> Sequence[str]:
 
 def _dated(
     data: ProjectInput, records: Sequence[str]
-) -> Iterator[tuple[Place, dt.date, str, _Hashes, Sequence[_Hashes]]]:
+) -> Iterator[tuple[Place, dt.date, str, _Hashes, _Hashes]]:
     """Yield the cell and date of each confirmation, what is on record of it, and the hashes now.
 
-    Last, those by the forms of earlier versions.
+    Last, the hashes as 0.3 recorded them.
     """
     for section, dated, covered, covers in CONFIRMATIONS:
         block = getattr(data, section)
@@ -100,9 +98,8 @@ def _dated(
         if date and getattr(block, "peer_reviewed", True):
             of, _, recorded = getattr(block, covered).partition(": ")
             now = _hashes(covers, data, records)
-            # To 0.3 in the order of the rows, and before that by the sheets of earlier workbooks.
-            in_order = partial(_hashes, covers, data, records, is_sorted=False)
-            earlier = in_order(), in_order(sheets=layout.SHEETS)
+            # In the order of the rows.
+            earlier = _hashes(covers, data, records, is_sorted=False)
             # With another date it is another confirmation, of the inputs as they are now.
             recorded = recorded if of == str(date) else ""
             yield Place(section, 0, covered), date, recorded, now, earlier
@@ -114,16 +111,15 @@ def _hashes(
     records: Sequence[str],
     *,
     is_sorted: bool = True,
-    sheets: Mapping[str, str] = MappingProxyType({}),
 ) -> _Hashes:
-    """Return the hash of what is covered, by sheet; `sheets` are those of some sections before."""
+    """Return the hash of what is covered, by sheet."""
     lines: dict[str, list[str]] = {}
     for key, fields in covers.items():
         rows = getattr(data, key) if SECTION[key].is_table else [getattr(data, key)]
         # What was measured or entered needs no confirmation of the drawing.
         if key == "clearances":
             rows = [row for row in rows if row.source is ClearanceSource.DRAWING]
-        of = {name: sheets.get(key) or SECTION[key].sheet_of(name) for name in sorted(fields)}
+        of = {name: SECTION[key].sheet_of(name) for name in sorted(fields)}
         for sheet, together in grouped_by(of, of.__getitem__).items():
             hashes = [*filter(None, (_line(key, row, together) for row in rows))]
             # The records themselves: a file may change under the same name.

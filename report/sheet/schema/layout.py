@@ -136,9 +136,6 @@ FORMER_ANSWERS: Mapping[str, frozenset[str]] = {
     "outlines": frozenset({"twice the area"}),
 }
 
-# Earlier sheet of a block, which records of what a confirmation covers name.
-SHEETS: Mapping[str, str] = {"roof": "Site", "target": "Options"}
-
 # Earlier order of the first fields of a block, in which confirmations are hashed.
 ORDERS: Mapping[str, str] = {
     "site": "rule_set risk_category i_e s_s_g s_1_g site_class f_a f_v s_ds_g sdc stories"
