@@ -15,11 +15,11 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from report.motions.files import BAR, MAX_BYTES
+from report.motions.stored import MOST_FILES
 from report.text.formats import aligned
 from solver.formats import MotionFile, read_motion_file
 from solver.model import InputError
 
-MOST_FILES = 500
 # Of an ID.
 MOST_NAME = 40
 # Part by which components may differ in length: those of one recording often end apart.
