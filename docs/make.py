@@ -184,7 +184,7 @@ def _range(entry: Entry) -> str:
     if not sides:
         return entry.bounds.words()
     said = [f"{entry.bounds.words(unit.si)} [{unit.symbol}]" for unit in sides]
-    return "; ".join(said) if entry.bounds.words() else ""
+    return "; ".join(said) + entry.or_zero if entry.bounds.words() else ""
 
 
 RESULTS = """# results.json

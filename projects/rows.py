@@ -58,9 +58,9 @@ def roof_object(
 
 
 def clearance(array: str, other: str, direction: str, provided_m: float, **more: object) -> Row:
-    """Return a row of the sheet Clearances."""
+    """Return a row of the sheet Clearances; without a fire pathway, unless its width is given."""
     row = {"array": array, "object": other, "direction": direction, "provided_m": provided_m}
-    return row | more
+    return {**row, "pathway_m": 0.0, **more}
 
 
 _COMPONENTS = {"x": "record", "y": "transverse", "z": "vertical"}

@@ -7,17 +7,22 @@ A copy is a line of `COPIES`: the project that it is of, and what is changed in 
 from __future__ import annotations
 
 import datetime as dt
+import shutil
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
+from pathlib import Path
 from typing import Any
 
 import scenes
 from inputs import FT, INCH, LB
+from places import ROOT
 from report.assessment.assess import assess
 from report.assessment.project import Assessment
 from report.motions.prepare import prepare
+from report.sheet.reading.read import Sheet
 from report.sheet.schema import SECTION, ProjectInput
 from report.sheet.schema.fields import Frozen
+from report.sheet.writing.template import write_template
 
 PSF = LB / FT**2
 DAY = dt.date(2025, 11, 1)
@@ -157,11 +162,15 @@ def assessed(name: str) -> Assessment:
     if name not in COPIES:
         return scenes.shipped(name)
     project, changes = COPIES[name]
-    former = scenes.shipped(project)
-    sheet = former.sheet.with_(**_parts(former.project, changes))
+    former, sheet = scenes.shipped(project), _sheet(project, changes)
     if not changes.keys() & _OF_MOTIONS:
         return assess(sheet, former.shaking, former)
     return assess(sheet, prepare(sheet))
+
+
+def _sheet(project: str, changes: Mapping[str, Change]) -> Sheet:
+    former = scenes.shipped(project)
+    return former.sheet.with_(**_parts(former.project, changes))
 
 
 # What the motions at the roof or their targets follow from, or runs of another kind.
@@ -190,3 +199,16 @@ def _section(given: Any, model: type[Frozen], change: Change) -> Any:
         ]
     changed = (change.get(ALL, {}) | change.get(number, {}) for number in range(len(rows)))
     return [model.model_validate(row | other) for row, other in zip(rows, changed, strict=True)]
+
+
+def workbook(name: str, folder: Path) -> Path:
+    """Write the workbook of a project or a copy, with what lies beside it, into a new folder."""
+    project, changes = COPIES.get(name, (name, {}))
+    source = ROOT / "projects" / project
+    shutil.copytree(source, folder, ignore=shutil.ignore_patterns("out", "make.py", "__pycache__"))
+    shutil.copy(ROOT / "projects" / "school" / "peer-review.pdf", folder / "hazard.pdf")
+    shutil.copy(folder / "hazard.pdf", folder / "peer-review.pdf")
+    if changes:
+        data = _sheet(project, changes).project
+        write_template(folder / "input.xlsx", units=data.project.units_first, example=data)
+    return folder / "input.xlsx"

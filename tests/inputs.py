@@ -58,8 +58,9 @@ def roof_object(name: str, kind: str, *plan_ft: float, height: float | None = No
 
 
 def clearance(near: str, far: str, provided_m: float, direction: str = "any") -> Row:
-    """Return a clearance."""
-    return {"array": near, "object": far, "direction": direction, "provided_m": provided_m}
+    """Return a clearance along which no fire pathway runs."""
+    ends = {"array": near, "object": far, "direction": direction}
+    return ends | {"provided_m": provided_m, "pathway_m": 0.0}
 
 
 def motion(name: str, record: str = "x", **changes: object) -> Row:

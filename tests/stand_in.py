@@ -86,6 +86,9 @@ def _noise(rng, seconds, peak):
 LOW_SPECTRUM = [
     {"period_s": period_s, "horizontal_g": 1e-5, "vertical_g": 1e-5} for period_s in (0.01, 20.0)
 ]
+SHORT_SPECTRUM = [
+    {"period_s": period_s, "horizontal_g": 1.0, "vertical_g": 0.5} for period_s in (0.01, 0.9)
+]
 
 
 def project(**changes) -> ProjectInput:

@@ -119,7 +119,8 @@ def _object(name: str, kind: str, height_in: float | None, x: Range, y: Range) -
 
 
 def _clearance(array: str, other: str, direction: str, feet: float) -> Row:
-    return clearance(array, other, direction, feet * FOOT)
+    # Nobody said whether there is a fire pathway.
+    return clearance(array, other, direction, feet * FOOT, pathway_m=None)
 
 
 if __name__ == "__main__":

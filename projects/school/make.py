@@ -187,6 +187,8 @@ def _array(name: str, x: Range, y: Range) -> Row:
         "i_p": 1.0,
         "interconnection_n": 15.0e3,
         "slack_m": 1.2,
+        "roof_capacity_pa": 300.0,
+        "wind_weight_pa": 260.0,
         **rectangle(x, y, 1.0),
     }
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from report.assessment.verdict import NO_DESIGN, NOT_GIVEN, STRENGTH_ROW, Requirement, condition
@@ -66,7 +67,17 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
     here_pa, capacity_pa, wind_pa = array.weight_pa, array.roof_capacity_pa, array.wind_weight_pa
     units, here = (Quantity.PRESSURE, data.us_first), entered(here_pa)
     unit = Quantity.PRESSURE.us if data.us_first else Quantity.PRESSURE.si
-    if capacity_pa is not None:
+    missing = partial(condition, subject=array.id, found=NOT_GIVEN, is_satisfied=False)
+    if capacity_pa is None:
+        yield missing(
+            id="roof_capacity",
+            title="Roof capacity",
+            limit="the weight per plan area that the roof's engineer permits",
+            basis="roof capacity",
+            remedy="Have the roof's engineer state it, and enter it on the sheet Arrays.",
+            places=_places(data, array, "roof_capacity_pa"),
+        )
+    else:
         is_over = here_pa > capacity_pa * (1.0 + _NOISE)
         weight, most = compared_pairs(here, capacity(capacity_pa), *units, is_at_least=False)
         yield Requirement(
@@ -82,7 +93,17 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
             remedy="Reduce the weight, or have the roof's engineer state a larger capacity.",
             places=_places(data, array, "weight_n", "roof_capacity_pa"),
         )
-    if wind_pa is not None:
+    if wind_pa is None:
+        yield missing(
+            id="wind_weight",
+            title="Weight in wind design",
+            limit="the weight per plan area with ballast that the wind design takes",
+            basis="wind, by others",
+            remedy="Have the engineer of the wind design state it, and enter it on the sheet "
+            "Arrays.",
+            places=_places(data, array, "wind_weight_pa"),
+        )
+    else:
         is_same = measured(wind_pa, unit) == measured(here_pa, unit)  # to the digits printed
         weight, wanted = (pair(value, *units) for value in (wind_pa, here_pa))
         if not is_same:

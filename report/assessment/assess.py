@@ -20,6 +20,7 @@ from report.assessment.arrays import ArrayAssessment, assess_array
 from report.assessment.causes import outcome
 from report.assessment.clearances import by_id, check_clearance, largest_separation_m, minimum_gap
 from report.assessment.conditions import (
+    asked_pathways,
     less_friction_rows,
     motion_rows,
     noted,
@@ -225,6 +226,7 @@ def _assess(
             *noted(rows, by_runs),
             *noted(velocity_rows(data, arrays, slower) if has_runs else (), by_runs),
             *pathway_rows(data, arrays, clearances),
+            *asked_pathways(data, pairs),
             *plan_rows(data, [pair for pair in pairs if pair.is_listed]),
             *(
                 less_friction_rows(arrays, clearances, reduced.arrays, reduced.clearances)

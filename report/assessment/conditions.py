@@ -38,7 +38,7 @@ from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import SIDES
 from report.text.amounts import capacity, compared_pairs, demand, limit_texts
-from report.text.counts import capitalized, grouped_by, ids_by, lowered, quoted, ranged
+from report.text.counts import capitalized, grouped_by, ids_by, lowered, numbered, quoted, ranged
 from report.text.units import G_MPS2, Quantity, digits_up, no_less, no_more, number, pair
 from solver.records.acceptance import FULL_RATIO, POINTS_HZ, Acceptance, spectrum_mps2
 from solver.rules.limit import Consequence, Limit, Measure
@@ -232,13 +232,28 @@ def _ground_motions(
             ratio, where = max(
                 (ratio, where), (float(ratios[at]), f"{name}, at {periods_s[at]:.3g} s")
             )
+    row = partial(
+        condition,
+        id="ground_motions",
+        limit=f"≤ {number(MOST_LONG_RATIO, 2)}",
+        basis="limit of this program",
+    )
+    if any(item.roof for item in prepared) and not where:
+        values = {"S_D1": data.site.s_d1, "T_L": data.target.t_l_s}
+        lacking = [name for name, value in values.items() if value is None]
+        yield row(
+            title="Mean of the ground motions / target at long periods",
+            found=f"{' and '.join(lacking)} {NOT_GIVEN}: no target"
+            if lacking and not data.spectrum
+            else f"no target from {LONG_PERIOD_S:g} s on",
+            is_satisfied=False,
+            remedy="Give S_1 and F_v, or S_D1, and T_L; or a spectrum up to 10 s.",
+            places=(Place("motions"),),
+        )
     if where:
-        yield condition(
-            id="ground_motions",
+        yield row(
             title=f"Mean of the ground motions / target ({target.name}), {LONG_PERIOD_S:g} to 10 s",
             found=f"{digits_up(ratio, 3)} ({where})",
-            limit=f"≤ {number(MOST_LONG_RATIO, 2)}",
-            basis="limit of this program",
             is_satisfied=ratio <= MOST_LONG_RATIO,
             remedy="Obtain the peer reviewer's acceptance of the ground motions in writing, or use "
             f"ground motions that match the target at long periods. {STAYS}",
@@ -389,13 +404,38 @@ def drifts(prepared: PreparedMotion) -> bool:
     return any(abs(m.final_displacement_m) > DRIFT_M for m in prepared.measures.values())
 
 
+def asked_pathways(data: ProjectInput, pairs: Sequence[PlanNeighbor] = ()) -> Iterator[Requirement]:
+    """Yield for each array whether its clearances say if a fire pathway runs along them.
+
+    The pairs of the plan that lack a clearance do not say so, if they are given.
+    """
+    for array in data.arrays:
+        rows = [(index, row) for index, row in enumerate(data.clearances) if row.array == array.id]
+        blank = [index for index, row in rows if row.pathway_m is None]
+        missing = sum(pair.is_missing and pair.array == array.id for pair in pairs)
+        count = len(blank) + missing
+        yield condition(
+            id="fire_pathways",
+            title="Fire pathways along the clearances",
+            subject=array.id,
+            found=f"{numbered(count, 'clearance')} without an answer" if count else "answered",
+            limit="none or a width, for each clearance",
+            basis="fire code, as entered",
+            is_satisfied=not count,
+            remedy="State for each row of the sheet Clearances the width of the fire pathway along "
+            "it, or none.",
+            places=tuple(Place("clearances", index, "pathway_m") for index in blank)
+            or (Place("clearances"),),
+        )
+
+
 def pathway_rows(
     data: ProjectInput, arrays: Sequence[ArrayAssessment], clearances: Sequence[ClearanceCheck]
 ) -> Iterator[Requirement]:
     """Yield what is left of each fire pathway after the arrays beside it have slid into it."""
     for index, gap in enumerate(clearances):
         row = gap.clearance
-        if row.pathway_m is None:
+        if not row.pathway_m:
             continue
         slides = slides_m(arrays, gap)
         left_m = row.provided_m - math.fsum(slides)
@@ -430,14 +470,14 @@ def less_friction_rows(
     row = partial(condition, id="less_friction", is_satisfied=False, basis="sensitivity")
     for array, less in zip(arrays, less_arrays, strict=True):
         if array.is_permitted and not less.is_permitted:
-            # Without runs there is no second route that could be closed, too.
-            left = "no route is" if array.runs else "this route is not"
+            # No code asks for this margin, and no cell could show it: only a larger coefficient.
             yield row(
+                consequence=Consequence.NOTE,
                 title=f"The {array.route} route with {friction}",
                 subject=array.id,
-                found="not permitted",
+                found=f"not permitted with μ = {number(less.array.minimum_mu, 3)}",
                 limit="permitted",
-                remedy=f"With {friction} {left} permitted: confirm the friction coefficient.",
+                remedy=f"The route is permitted as entered, and not with {friction}.",
             )
     for gap, short in zip(clearances, less_clearances, strict=True):
         if gap.verdict.is_permitted and not short.verdict.is_permitted:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment, assess_array
 from report.assessment.clearances import ClearanceCheck, check_clearance
-from report.assessment.requirement_rows import tested
+from report.assessment.requirement_rows import is_complete, tested
 from report.assessment.routes import NOT_PERMITTED
 from report.assessment.runs import PendingRuns
 from report.assessment.verdict import NOT_GIVEN, VELOCITY_ROW, Requirement, Verdict, condition
@@ -20,10 +20,13 @@ from report.sheet.schema import ProjectInput
 from report.sheet.schema.scene import Array
 from report.text.amounts import compared_pairs, demand, entered
 from report.text.counts import ids_by, ranged
-from report.text.units import Quantity, Rounding, no_less, number, pair
+from report.text.units import Quantity, Rounding, digits_up, no_less, number, pair
 from solver.friction_tests import Series, governing
 from solver.model import Friction
 from solver.rules.provisions import RuleSet
+
+# Sliding velocity / largest velocity tested above which no test shows the friction: in no code.
+MOST_BEYOND = 10.0
 
 
 def coefficient(mu: float) -> str:
@@ -74,19 +77,34 @@ class VelocityCheck:
     friction: Friction
     # largest sliding velocity of all runs of the array [m/s]; NaN where a run gives none
     fastest_mps: float
-    tests: Series  # the runs of friction tests that govern for the array
+    tests: Series | None  # the runs of friction tests that govern for the array, if any
+    is_complete: bool  # whether their report has all runs that are required
+
+    @property
+    def tested_mps(self) -> float:
+        """Largest velocity tested [m/s]; NaN where no test reports one."""
+        return self.tests.velocity_mps if self.tests else math.nan
+
+    @property
+    def minimum_mu(self) -> float:
+        """Smallest friction tested; NaN without tests."""
+        return self.tests.minimum_mu if self.tests else math.nan
 
     @property
     def is_beyond(self) -> bool:
         """Whether the array may slide faster than tested, or no test reports its velocity."""
-        tested_mps = self.tests.velocity_mps
         # A run without a velocity, NaN, is beyond; an array that never slides is not.
-        return not self.fastest_mps <= (0.0 if math.isnan(tested_mps) else tested_mps)
+        return not self.fastest_mps <= (0.0 if math.isnan(self.tested_mps) else self.tested_mps)
+
+    @property
+    def is_far(self) -> bool:
+        """Whether the array may slide so fast that the tests do not show its friction."""
+        return not self.fastest_mps <= MOST_BEYOND * self.tested_mps
 
     @property
     def mu_beyond(self) -> float:
         """Largest friction used beyond the velocities tested; NaN where none is."""
-        law, ends = self.friction, (self.tests.velocity_mps, self.fastest_mps)
+        law, ends = self.friction, (self.tested_mps, self.fastest_mps)
         if not self.is_beyond:
             return math.nan
         if any(map(math.isnan, ends)):
@@ -95,8 +113,12 @@ class VelocityCheck:
 
     @property
     def is_satisfied(self) -> bool:
-        """Whether friction beyond the tests is at most the smallest tested, within rounding."""
-        return not self.is_beyond or self.mu_beyond <= self.tests.minimum_mu + MU_TOLERANCE
+        """Whether friction beyond the tests is at most the smallest tested, within rounding.
+
+        The tests must be complete and not far from it: fewer runs are never better.
+        """
+        is_low = self.mu_beyond <= self.minimum_mu + MU_TOLERANCE
+        return not self.is_beyond or (is_low and self.is_complete and not self.is_far)
 
     @property
     def beyond_words(self) -> str:
@@ -106,7 +128,7 @@ class VelocityCheck:
     @property
     def minimum_words(self) -> str:
         """Smallest friction tested, for print."""
-        return Rounding.DOWN.text(self.tests.minimum_mu, 3)
+        return Rounding.DOWN.text(self.minimum_mu, 3)
 
     @property
     def verdict(self) -> Verdict:
@@ -114,15 +136,15 @@ class VelocityCheck:
         return Verdict.OK if self.is_satisfied else Verdict.CONDITION
 
 
-def velocity_check(data: ProjectInput, assessed: ArrayAssessment) -> VelocityCheck | None:
-    """Return the friction of an array beyond the velocities tested; None without test runs."""
+def velocity_check(data: ProjectInput, assessed: ArrayAssessment) -> VelocityCheck:
+    """Return the friction of an array beyond the velocities tested."""
     all_series = tested(data)
-    if not all_series:
-        return None
+    tests = governing(all_series, assessed.array.mu_report) if all_series else None
     return VelocityCheck(
         friction=assessed.array.friction,
         fastest_mps=assessed.fastest_mps,
-        tests=governing(all_series, assessed.array.mu_report),
+        tests=tests,
+        is_complete=tests is not None and is_complete(data, tests.report),
     )
 
 
@@ -224,10 +246,7 @@ def velocity_rows(
 ) -> Iterator[Requirement]:
     """Yield for each array whether friction beyond the velocities tested is shown by tests."""
     for item in arrays:
-        check = velocity_check(data, item)
-        # Test runs that are missing are a requirement of their own.
-        if check is not None:
-            yield _row(item.id, check, slow, data.us_first)
+        yield _row(item.id, velocity_check(data, item), slow, data.us_first)
 
 
 def _row(
@@ -239,7 +258,10 @@ def _row(
         title="Friction beyond the velocities tested",
         subject=array_id,
         found="; ".join(_found(check, us_first)),
-        limit=f"slower than tested, or μ beyond ≤ {check.minimum_words}",
+        limit=f"slower than tested; or up to {MOST_BEYOND:g} times as fast, μ beyond ≤ "
+        f"{check.minimum_words}, and complete tests"
+        if check.tests
+        else "tests at the sliding velocities",
         basis="friction tests",
         is_satisfied=check.is_satisfied,
         # No coefficient is offered but the one that is run: with less friction it may be NG.
@@ -249,7 +271,7 @@ def _row(
 
 
 def _found(check: VelocityCheck, us_first: bool) -> Iterator[str]:
-    fastest_mps, tested_mps = check.fastest_mps, check.tests.velocity_mps
+    fastest_mps, tested_mps = check.fastest_mps, check.tested_mps
     slides, most = compared_pairs(
         demand(fastest_mps), entered(tested_mps), Quantity.VELOCITY, us_first, is_at_least=False
     )
@@ -259,9 +281,13 @@ def _found(check: VelocityCheck, us_first: bool) -> Iterator[str]:
         yield "does not slide"
     else:
         yield f"slides at {slides}"
-    if math.isnan(tested_mps):
-        yield f"velocities tested {NOT_GIVEN}"
-    else:
-        yield f"tested to {most}"
+    if check.tests is None:
+        yield "no runs of friction tests"
+        return
+    yield f"velocities tested {NOT_GIVEN}" if math.isnan(tested_mps) else f"tested to {most}"
     if check.is_beyond:
         yield f"μ beyond {check.beyond_words}"
+        if check.is_far and fastest_mps < math.inf and tested_mps > 0.0:
+            yield f"{digits_up(fastest_mps / tested_mps, 3)} times as fast"
+        if not check.is_complete:
+            yield "tests not complete"

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
 
 from report.assessment.array_rows import rows_before_runs
-from report.assessment.conditions import motion_rows, noted, project_rows
+from report.assessment.conditions import asked_pathways, motion_rows, noted, project_rows
 from report.assessment.neighbors import REACH_FACTOR, NearbyKind
 from report.assessment.plan_clearances import design_before_runs_m, pairs_before_runs
 from report.assessment.routes import (
@@ -127,7 +127,8 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
     pairs = zip(data.arrays, routes, strict=True)
     by_runs = {array.id for array, limits in pairs if limits.route is Route.ANALYSIS}
     rows = motion_rows(acceptance, (limits.route for limits in routes), shaking)
-    yield from _requirements(noted((*project_rows(data, shaking.prepared), *rows), by_runs))
+    known = *project_rows(data, shaking.prepared), *rows, *asked_pathways(data)
+    yield from _requirements(noted(known, by_runs))
     for index, array in enumerate(data.arrays):
         required_n = interconnection_n(data, rules, array)
         yield from _requirements(rows_before_runs(data, array, required_n))

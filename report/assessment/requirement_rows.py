@@ -231,6 +231,17 @@ def _standard(data: ProjectInput) -> Requirement:
     )
 
 
+def is_complete(data: ProjectInput, report: str) -> bool:
+    """Whether the runs of a report are wet and dry, and three or more at each velocity."""
+    parts = [tests for tests in tested(data) if tests.report == report]
+    return {tests.surface for tests in parts} == set(Surface) and all(
+        # Runs without a velocity, which are the last, are no repeats of each other.
+        len(repeats.runs) >= LEAST_RUNS and not math.isnan(repeats.velocity_mps)
+        for tests in parts
+        for repeats in tests.repeats
+    )
+
+
 def _wet_and_dry(data: ProjectInput) -> Requirement:
     by_surface = {(series.report, series.surface): series for series in tested(data)}
     reports = dict.fromkeys(report for report, _ in by_surface)
@@ -244,14 +255,7 @@ def _wet_and_dry(data: ProjectInput) -> Requirement:
         title="Wet and dry, three runs at each velocity",
         found="; ".join(rows) or "no runs",
         limit=f"{LEAST_RUNS} runs or more at each velocity, wet and dry",
-        is_satisfied=bool(reports)
-        and all((report, surface) in by_surface for report in reports for surface in Surface)
-        # Runs without a velocity, which are the last, are no repeats of each other.
-        and all(
-            len(repeats.runs) >= LEAST_RUNS and not math.isnan(repeats.velocity_mps)
-            for tests in by_surface.values()
-            for repeats in tests.repeats
-        ),
+        is_satisfied=bool(reports) and all(is_complete(data, report) for report in reports),
         remedy="Obtain the runs that are missing, and enter them with velocities on the sheet "
         "Friction tests.",
         places=tuple(Place("friction_runs", index, "velocity_mps") for index in still)

@@ -24,7 +24,8 @@ from report.text.units import ratio
 _PARTS = {
     kind: part
     for part, kinds in {
-        "plan": ("clearance", "neighbors", "roof_outline", "drawing_distances", "fire_pathway"),
+        "plan": ("clearance", "neighbors", "roof_outline", "drawing_distances", "fire_pathway",
+                 "fire_pathways"),
         "model": ("tipping", "links"),
         "results": ("design", "runs"),
         "motions": ("motions", "drift", "ground_motions"),

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import by_id
-from report.assessment.friction import mu_words, velocity_check
+from report.assessment.friction import MOST_BEYOND, mu_words, velocity_check
 from report.assessment.requirement_rows import tested
 from report.assessment.verdict import NOT_GIVEN, VELOCITY_ROW, Verdict
 from report.document.tables import Table, Wide, by_place, listed, stamp
@@ -55,6 +55,7 @@ def page(package: PackageData) -> Mapping[str, object]:
         "fits": [(series, fit, _scatter(series)) for series, fit in _fits(package)],
         "velocities": _velocities(package),
         "tolerance": MU_TOLERANCE,
+        "most_beyond": MOST_BEYOND,
         "alone": [
             (item, by_id(assessment.arrays, item.id).design_m)
             for item in assessment.low_velocity.arrays
@@ -152,16 +153,11 @@ def _velocity(
 ) -> tuple[object, ...]:
     check = velocity_check(data, item)
     about = item.id, mu_words(item.array.friction), item.fastest_mps
-    if check is None:
-        return *about, "no runs", "—", "—", "not compared"
-    tested_mps = check.tests.velocity_mps
-    return (
-        *about,
-        "not given" if math.isnan(tested_mps) else tested_mps,
-        check.beyond_words,
-        check.minimum_words,
-        stamp(verdicts.get(item.id, check.verdict)),
-    )
+    verdict = stamp(verdicts.get(item.id, check.verdict))
+    if check.tests is None:
+        return *about, "no runs", "—", "—", verdict
+    tested_mps = "not given" if math.isnan(check.tested_mps) else check.tested_mps
+    return *about, tested_mps, check.beyond_words, check.minimum_words, verdict
 
 
 def _means(all_series: Sequence[Series]) -> Mapping[str, object]:

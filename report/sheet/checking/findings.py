@@ -211,7 +211,8 @@ def unusual(data: ProjectInput) -> Iterator[Finding]:
             is_bare = getattr(row, "kind", None) is ObjectKind.EDGE_WITHOUT_PARAPET
             for entry, low, high in _ranged(section.model):
                 value = getattr(row, entry.name)
-                if value is None or low <= value <= high or (is_bare and value == 0.0):
+                is_none = value == 0.0 and (is_bare or entry.cell.zero)
+                if value is None or low <= value <= high or is_none:
                     continue
                 yield _warning(section, index, entry, row, is_us)
 

@@ -107,7 +107,7 @@ def as_used(value: object, entry: Entry, unit: str) -> str:
     if isinstance(value, bool):
         return str(YesNo.YES if value else YesNo.NO)
     if isinstance(value, float):
-        return f"{value:.6g} {unit}".rstrip()
+        return (entry.cell.zero if value == 0.0 else "") or f"{value:.6g} {unit}".rstrip()
     return "" if value is None else plain(value)
 
 
@@ -166,7 +166,7 @@ def wish(entry: Entry, unit: str = "", si: float = 1.0) -> str:
             is_closed = math.isfinite(entry.bounds.low) and math.isfinite(entry.bounds.high)
             start = "from" if is_closed and not entry.bounds.excludes_low else "of"
             span = f" {start} {span}"
-        return f"give {noun}{span}" + (f" [{unit}]" if unit else "")
+        return f"give {noun}{span}" + (f" [{unit}]" if unit else "") + entry.or_zero
     if entry.kind is date:
         return "give a date such as 2026-03-05"
     return f"give text of at most {entry.max_length} characters"
@@ -192,6 +192,8 @@ def _quoted(value: object) -> str:
 def _converted(cell: Found, entry: Entry, wanted: str, unit: str, si: float) -> Any:
     if entry.kind in (int, float):
         text = trimmed(cell.value) if isinstance(cell.value, str) else ""
+        if text and text.casefold() == entry.cell.zero:
+            return 0.0
         is_length = entry.quantity is not None and entry.quantity.accepted is LENGTHS
         # Marks of feet and inches say their own unit, whatever the column has.
         inches = typed_text.inches_in(text) if is_length else math.nan

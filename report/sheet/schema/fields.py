@@ -93,6 +93,7 @@ class Cell:
     usual: tuple[float, float] | None = None  # a number beyond is marked; in the unit of `example`
     # Field that states the unit of a number without one of its own, and what its text says of it.
     unit_from: tuple[str, Callable[[str], str]] | None = None
+    zero: str = ""  # what 0 of a number is called, in a cell and in print
     is_rare: bool = False  # its column is folded at the right of a table
     below: tuple[str, str] | None = None  # field of another block that its row follows
 
@@ -247,6 +248,11 @@ class Entry:
     def help(self) -> str:
         """The message shown when the cell is selected."""
         return self.cell.help or docstrings(self.model)[self.name]
+
+    @property
+    def or_zero(self) -> str:
+        """What may be typed for 0, after the numbers that are accepted."""
+        return f", or {self.cell.zero}" if self.cell.zero else ""
 
     @property
     def need(self) -> str:

@@ -335,10 +335,11 @@ class Clearance(Frozen):
     ]
     """Clear distance in roof plan."""
     pathway_m: Annotated[
-        Positive | None, Cell("Fire pathway", 48.0, Quantity.SIZE, usual=(24.0, 240.0))
+        NotNegative | None,
+        Cell("Fire pathway", 48.0, Quantity.SIZE, usual=(24.0, 240.0), zero="none"),
     ] = None
-    """Width that the fire code requires of a pathway along this clearance: the package checks that
-    it is left after the design displacement. Blank: no pathway."""
+    """Width that the fire code requires of a pathway along this clearance, or none: the package
+    checks that it is left after the design displacement. Blank: a condition of the package."""
     source: Annotated[ClearanceSource | None, Cell("Distance from", "measured")] = None
     """Blank: as entered. Drawing: taken from the plan, a condition of the package until it is
     confirmed, here by measured, or for all by name and date on the sheet Project."""

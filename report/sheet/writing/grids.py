@@ -302,7 +302,7 @@ def _allowed(entry: Entry, unit: Unit | None) -> str:
         return " / ".join(entry.choices)
     if entry.kind in (int, float):
         si = unit.si if unit else 1.0
-        words = entry.bounds.words(si) or "any number"
+        words = (entry.bounds.words(si) or "any number") + entry.or_zero
         if entry.cell.usual is None:
             return words
         usual = (entry.expected.low, entry.expected.high)

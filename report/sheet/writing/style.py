@@ -115,7 +115,7 @@ def put_heading(sheet: Worksheet, row: int, title: str, hint: str) -> None:
 def put_input(cell: Any, entry: Entry, value: object, unit: Unit | None) -> None:
     """Format a cell as input of a field, and write a value in SI, if any."""
     style_input(cell, entry.kind)
-    shown = in_cell(value, unit)
+    shown = entry.cell.zero if value == 0.0 and entry.cell.zero else in_cell(value, unit)
     if shown is None:
         return
     cell.value = shown
@@ -182,7 +182,10 @@ def validate(sheet: Worksheet, cells: str, entry: Entry, si: float) -> None:
         offer(sheet, cells, entry.choices, label, message)
     elif entry.kind in (int, float):
         if allowed := entry.bounds.words(si):
-            message = f"{message} Allowed: {allowed}."
+            message = f"{message} Allowed: {allowed}{entry.or_zero}."
+        if entry.cell.zero:  # a rule on numbers would refuse the word
+            suggest(sheet, cells, f'"{entry.cell.zero}"', label, message)
+            return
         _add(sheet, cells, _number_rule(entry, si), label, message, wish(entry, "", si))
     elif entry.kind is date:
         # After the serial number of 2000-01-01, `EARLIEST` of the reader.
@@ -201,7 +204,7 @@ def offer(sheet: Worksheet, cells: str, choices: Collection[str], title: str, me
 
 
 def suggest(sheet: Worksheet, cells: str, source: str, title: str, message: str) -> None:
-    """Add a dropdown of a range of cells that also accepts other texts."""
+    """Add a dropdown of a range of cells, or of a text, that also accepts what is not in it."""
     rule = DataValidation(type="list", formula1=source)
     _add(sheet, cells, rule, title, message, "choose from the list")
     rule.showErrorMessage = False

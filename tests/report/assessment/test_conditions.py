@@ -127,7 +127,8 @@ def test_a_weight_over_the_roof_capacity_is_ng_and_prints_the_same_beside_the_wi
     row = before_runs("roof_capacity", roof_capacity_pa=capacity_psf * PSF, **given)
     assert (row.found, row.limit, row.verdict) == (found, limit, verdict)
     assert before_runs("wind_weight", **given).limit == f"= {found}"
-    assert before_runs("roof_capacity", **given) is None
+    row = before_runs("roof_capacity", **given)
+    assert (row.found, row.verdict) == ("not given", Verdict.CONDITION)
 
 
 @pytest.mark.parametrize(
@@ -141,7 +142,8 @@ def test_a_weight_over_the_roof_capacity_is_ng_and_prints_the_same_beside_the_wi
 def test_another_weight_in_the_wind_design_is_a_condition(wind_psf, units, found, verdict):
     said = before_runs("wind_weight", units=units, wind_weight_pa=wind_psf * PSF)
     assert (said.found, said.verdict) == (found, verdict)
-    assert before_runs("wind_weight") is None
+    said = before_runs("wind_weight")
+    assert (said.found, said.verdict) == ("not given", Verdict.CONDITION)
 
 
 def pathway(other, more_m, **second):
@@ -152,6 +154,27 @@ def pathway(other, more_m, **second):
     gap["provided_m"] = 36 * INCH + sum(slides[: 2 if second else 1]) + more_m
     done = assessed(arrays=arrays, clearances=[gap])
     return row(done, "fire_pathway"), done.array_verdict(done.arrays[0])
+
+
+def test_whether_there_is_a_fire_pathway_is_asked_of_each_clearance():
+    """Also where the plan calls for one: a row that is deleted answers nothing."""
+    units = [
+        stand_in.roof_object(name, "fixed object", x_ft, x_ft + 6, 35, 42)
+        for name, x_ft in (("RTU-1", 106), ("RTU-2", 180))
+    ]
+    gaps = [stand_in.clearance("A1", "RTU-2", 20.0) | {"pathway_m": m} for m in (0.0, 0.5, None)]
+    near = stand_in.clearance("A1", "RTU-1", 6 * FOOT)
+
+    def found(*rows):
+        done = assessed(arrays=[stand_in.array("A1", 0.5)], objects=units, clearances=rows)
+        (asked,) = (row for row in done.rows if row.title == "Fire pathways along the clearances")
+        return asked.verdict, asked.found
+
+    for answered in gaps[:2]:
+        assert found(answered, near) == (Verdict.OK, "answered")
+    without = Verdict.CONDITION, "1 clearance without an answer"
+    assert found(gaps[2], near) == without
+    assert found(gaps[0]) == without  # to RTU-1
 
 
 @pytest.mark.parametrize(
@@ -342,16 +365,15 @@ def test_no_slack_gap_or_pathway_is_enough_for_a_displacement_that_is_not_permit
 
 
 @pytest.mark.parametrize(("mu", "is_closed"), [(0.41, True), (0.43, False)])  # the limit is 0.40
-def test_a_route_that_five_percent_less_friction_closes_is_a_condition(mu, is_closed):
+def test_a_route_that_five_percent_less_friction_closes_is_a_note(mu, is_closed):
     arrays = [stand_in.array("A1", 0.5, mu=mu)]
     found = row(assessed(scenes.level(), arrays=arrays, clearances=[]), "less_friction")
     assert (found is not None) is is_closed
     if is_closed:
         assert found.title == "The prescriptive route with 5 % less friction"
-        assert found.verdict is Verdict.CONDITION
-        assert found.remedy == (
-            "With 5 % less friction no route is permitted: confirm the friction coefficient."
-        )
+        assert found.verdict is Verdict.NOTE
+        assert found.found == "not permitted with μ = 0.389"
+        assert found.remedy == "The route is permitted as entered, and not with 5 % less friction."
 
 
 BUILDING = {"building": {"period_s": 0.5}, "spectrum": [], "target": {"t_l_s": 8.0}}
@@ -385,7 +407,13 @@ def test_ground_motions_are_compared_with_the_design_spectrum_where_there_is_one
     found = float(grounded().found.split()[0])
     assert found == pytest.approx(largest_ratio(), rel=0.02)  # periods up to 1/24 octave apart
     assert grounded(place="roof") is None
-    assert grounded(target={}) is None
+    for given, said in (
+        ({"target": {}}, "T_L not given: no target"),
+        ({"target": {}, "site": inputs.SITE}, "S_D1 and T_L not given: no target"),
+        ({"spectrum": stand_in.SHORT_SPECTRUM}, "no target from 1 s on"),
+    ):
+        found = grounded(**given)
+        assert (found.found, found.verdict) == (said, Verdict.CONDITION)
 
 
 @pytest.mark.parametrize(("ratio", "is_met"), [(1.95, True), (2.05, False)])

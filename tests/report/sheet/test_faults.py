@@ -96,6 +96,10 @@ SINGLE_CELLS = {
     },
     "Site/Number of stories": {1.5: "1.5; give a whole number from 1 to 200"},
     "Site/Rule set": {"ASCE 7-10": "'ASCE 7-10'; choose SEAOC PV1-2012, ASCE 7-16 or ASCE 7-22"},
+    "Clearances/1/Fire pathway": {
+        "no": "'no'; give a number of 0 or more [in], or none",
+        -1: "-1; give a number of 0 or more [in], or none",
+    },
     "Motions/M2/ID": {" \u200b\ufeff\u2060 ": "missing; give text such as 'M1'"},
     "Motions/M1/Time step": {0: "0; give a number of more than 0 to 1 [s]"},
     "Options/1/Value": {1e9: f"1e+09 {PARAPET} to 240"},

@@ -12,8 +12,9 @@ from openpyxl.utils import coordinate_to_tuple, get_column_letter, range_boundar
 from openpyxl.worksheet.table import Table
 
 from cells import address, cell
-from inputs import FT
+from inputs import FT, INCH
 from nightly import by_day
+from report.assessment.precheck import findings
 from report.sheet import schema
 from report.sheet.schema.choices import Polarity, SlopeUnit, UnitsFirst
 from report.sheet.writing.template import write_template
@@ -204,6 +205,20 @@ def test_spelling_and_notes_do_not_matter_and_units_are_followed(tmp_path):
     assert data.site.roof_height_m == pytest.approx(36 * FT)
 
 
+def test_a_fire_pathway_is_a_width_or_none_or_not_answered(tmp_path):
+    typed = {1: "None ", 2: 0, 3: "36", 4: 48, 5: None}
+    cells = {f"Clearances/{row}/Fire pathway": value for row, value in typed.items()}
+    book = read_workbook(type_into(make(tmp_path), cells))
+    widths = [row.pathway_m for row in book.input.clearances]
+    assert widths == [0.0, 0.0, pytest.approx(36 * INCH), pytest.approx(48 * INCH), None]
+    shown = [echo(book)[at(name)].value for name in cells]
+    assert (shown[:2], shown[4]) == (["none", "none"], "—")
+    # None is no width that is too small, and is written as the word.
+    assert not [found for found in findings(book.sheet, book.shaking) if "pathway" in found.text]
+    written = load_workbook(make(tmp_path / "again", clearances=book.input.clearances))
+    assert cell(written, "Clearances/1/Fire pathway").value == "none"
+
+
 def test_what_is_blank_or_absent_takes_its_default(tmp_path):
     statistic = "Options/Design value statistic"
     blank = (statistic, "Options/Peer review", "Motions/M2/Polarity")
@@ -243,8 +258,10 @@ def echo(book):
 def test_a_workbook_saved_by_libreoffice_reads_the_same_and_shows_its_formulas(tmp_path):
     saved = by_libreoffice(tmp_path)
     book = read_workbook(saved)
-    site = project().site.model_copy(update={"roof_evaluation": ""})  # saved before that cell
-    assert same(book.input, project().model_copy(update={"site": site}))
+    # Saved before one cell, and before a blank one for a fire pathway was no answer.
+    site = project().site.model_copy(update={"roof_evaluation": ""})
+    rows = [row.model_copy(update={"pathway_m": None}) for row in project().clearances]
+    assert same(book.input, project(clearances=rows).model_copy(update={"site": site}))
     first, second = (address(saved, f"Arrays/{name}/Friction coefficient") for name in ("A1", "A2"))
     assert echo(book)[first].typed == "=0.4+0.05 → 0.45"
     assert echo(book)[second].typed == f"={first.partition('!')[2]} → 0.45"

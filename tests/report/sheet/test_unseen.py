@@ -115,7 +115,7 @@ def test_a_row_that_a_filter_hides_is_filtered_out(tmp_path, change):
 
 def test_a_row_that_is_struck_through_is_a_warning_and_a_blank_one_is_none(tmp_path):
     path = make(tmp_path)
-    sheet, letter, row = cell_of("Clearances/5/Provided clearance")
+    sheet, letter, row = cell_of("Clearances/5/Fire pathway")
 
     def change(book):
         for number in (row, row + 1):
