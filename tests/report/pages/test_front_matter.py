@@ -151,13 +151,13 @@ def test_the_head_has_firm_license_place_and_drawing_where_they_are_given():
     place = {"latitude_deg": 34.0362, "longitude_deg": -118.2334}
     made = scenes.package(project=inputs.HEAD | given, site=stand_in.site(**place))
     head = printed(made, "cover")
-    assert head.facts["Latitude, longitude"] == "34.0362°, −118.2334°"
+    assert head.facts["Lat., long."] == "34.0362°, −118.2334°"
     assert head.facts["Drawing"] == "S-101, 2026-02-27"
     assert head.facts["Firm"] == "Example Engineers, 500 Main St; 213 555 0100"
     assert "License no. CA S0000" in head
     assert "CA S0000 License no., state" in " ".join(printed(made, "letter").split())
     bare = printed(scenes.package(), "cover").facts
-    assert not {"Latitude, longitude", "Drawing", "Firm"} & bare.keys()
+    assert not {"Lat., long.", "Drawing", "Firm"} & bare.keys()
     assert "structural observation" in printed(made, "notes")
 
 
