@@ -97,10 +97,15 @@ def headings_left_behind(found: Sequence[Sheet]) -> list[tuple[int, str]]:
         elif block.kind == "Table":
             heading = None
         elif block.kind == "Figure" and heading:  # an equation is a figure too, and less wide
-            if block.wide > DRAWING_PT and block.sheet > heading.sheet:
+            if is_drawing(block) and block.sheet > heading.sheet:
                 left.append((heading.sheet, heading.text))
             heading = None
     return left
+
+
+def is_drawing(block: Block) -> bool:
+    """Whether a block is a drawing, and no equation."""
+    return block.kind == "Figure" and block.wide > DRAWING_PT
 
 
 def short_sheets(found: Sequence[Sheet], least: float) -> list[tuple[int, float]]:

@@ -9,7 +9,7 @@ Friction as tested: runs by velocity, with the laws of the arrays.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import cycle
 from typing import Any
 
@@ -49,18 +49,22 @@ def comparison(
     """
     first, second = UnitFormat(us_first).units()
     with style():
-        height = 1.18 + 0.31 * len(groups)
-        names = [cut(ranged(array.id for array in group), 32) for group in groups]
-        # 0.06 in for each letter of the longest name.
-        figure, axes = framed(height, 0.2 + 0.06 * max(map(len, names)), 0.1, 0.48, 0.75)
+        names = [
+            [cut(ranged(array.id for array in group), 32), *_refusals(group[0])] for group in groups
+        ]
+        row_in = max(0.31, 0.16 * max(map(len, names)))
+        height = 1.1 + row_in * len(groups)
+        # 0.06 in for each letter of the longest line.
+        letters = max(len(line) for lines in names for line in lines)
+        figure, axes = framed(height, 0.2 + 0.06 * letters, 0.1, 0.48, 0.75)
         for row, group in enumerate(groups):
             _compare(axes, row, group[0], first)
             others = [others_m[array.id] / first.si for array in group if array.id in others_m]
             if others:
                 axes.plot(others, [row] * len(others), **_OTHER, label=_LEGEND[-1])
-        axes.set_yticks(range(len(groups)), names)
-        # Downward, as the arrays are listed; above the first row is room for a note.
-        axes.set_ylim(len(groups) - 0.45, -0.92)
+        axes.set_yticks(range(len(groups)), map("\n".join, names))
+        # Downward, as the arrays are listed.
+        axes.set_ylim(len(groups) - 0.45, -0.55)
         # From zero: bars are compared by their lengths.
         axes.set_xlim(0, None)
         axes.set_xlabel(f"Horizontal displacement [{first.symbol}]")
@@ -96,9 +100,6 @@ def _second_scale(axes: Any, first: Unit, second: Unit) -> None:
 _BAR: Any = {"facecolor": "white", "edgecolor": INK, "linewidth": 0.8}
 _FLOOR: Any = {"color": INK, "linestyle": (0, (3, 2)), "linewidth": 1.2}
 _OTHER: Any = {"marker": "D", "markersize": 6, "color": INK, "fillstyle": "none", "linestyle": ""}
-# Of a row: clear of its bar, whose middle has the marks.
-_ABOVE = 0.33
-_NOTE: Any = {"va": "bottom", "fontsize": 6}
 _PEAK: Any = {"color": ACCENT, "markersize": 4, "fillstyle": "none", "markeredgewidth": 0.8}
 
 
@@ -117,11 +118,14 @@ def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit) -> None:
     design = array.permitted_m / unit.si
     if not math.isnan(design):
         axes.plot([design], [row], "D", markersize=6, color=INK, label="design")
-    else:
-        axes.text(0.0, row - _ABOVE, "no design displacement", **_NOTE, ha="left")
+
+
+def _refusals(array: ArrayAssessment) -> Iterator[str]:
+    """Yield what an array has not, below its name, where it is of no other row and on no bar."""
     if not all(check.ok for check in array.prescriptive_checks):
-        refusal = f"prescriptive displacement {NOT_PERMITTED}"
-        axes.text(prescriptive, row - _ABOVE, refusal, **_NOTE, ha="right")
+        yield f"prescriptive {NOT_PERMITTED}"
+    if math.isnan(array.permitted_m):
+        yield "no design displacement"
 
 
 _TYPE: Any = dict.fromkeys(

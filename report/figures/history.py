@@ -38,8 +38,8 @@ MAX_POINTS = 150
 ROW_IN = 0.76
 # Of the titles: from line to line, and for a letter in bold.
 LINE_IN, LETTER_IN = 0.13, 0.075
-# Of the width of a panel: the times of two panels stand apart.
-TRACE = 0.88
+# Of the width of a panel: the times of two panels stand apart, and so do a PRD and the next title.
+TRACE, TITLE = 0.88, 0.94
 MOST_LEVELS = 4
 DASHES = (0, (3.0, 1.2))
 
@@ -70,7 +70,7 @@ def histories(panels: Sequence[RunPanel], us_first: bool) -> str:
             for count, line in enumerate(reversed(lines)):
                 height = top + count * LINE_IN / ROW_IN
                 axes.text(grid.x(index, 0.0), height, line, weight="semibold")
-            axes.text(index % grid.columns + 0.97, top, prd, ha="right")
+            axes.text(index % grid.columns + TITLE, top, prd, ha="right")
         return svg_text(figure)
 
 
@@ -168,7 +168,7 @@ def _titles(
     grid: _Grid, panels: Sequence[RunPanel], us_first: bool
 ) -> Sequence[tuple[Sequence[str], str]]:
     """Return the lines of the title of each panel, and its PRD."""
-    show, room_in = UnitFormat(us_first), 0.92 * WIDTH_IN / (1.1 * grid.columns)
+    show, room_in = UnitFormat(us_first), (TITLE - 0.03) * WIDTH_IN / (1.1 * grid.columns)
     names = [_name(panel) for panel in panels]
     peaks = [panel.motion.governing.prd_m for panel in panels]
     prds = [show.both(prd_m, show=no_less) for prd_m in peaks]

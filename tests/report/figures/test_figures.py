@@ -90,7 +90,7 @@ def test_envelopes_histories_and_comparisons_keep_what_they_show(assessment):
     assert sum(bool(re.fullmatch(r"\d+ mm \([\d.]+ in\)", text)) for text in printed) == 3
     printed = words(figures.comparison(stand_in.unpermitted().alike, True))
     assert "no design displacement" in printed
-    assert "prescriptive displacement not permitted" in printed
+    assert "prescriptive not permitted" in printed
 
 
 def test_short_records_and_runs_without_a_value_are_drawn_as_such():

@@ -9,6 +9,7 @@ import io
 import os
 import shutil
 from base64 import b64encode
+from itertools import takewhile
 from pathlib import Path
 
 import pikepdf
@@ -27,7 +28,7 @@ pytestmark = pytest.mark.quick
 
 
 PROJECTS = tuple(path.parent.name for path in sorted(ROOT.glob("projects/*/input.xlsx")))
-LEAST_FILLED = 0.5
+LEAST_FILLED = 0.4
 FILES = (
     Attached(name="input.xlsx", content=b"workbook", mime="application/vnd.ms-excel",
              relationship="Source", description="Input workbook"),
@@ -67,6 +68,23 @@ def test_the_sheets_have_no_fault_that_a_program_sees(sheets):
     # Each section of a study begins a sheet.
     is_study = sheets[0].blocks[0].lines[0].startswith("Study")
     assert is_study or looked.short_sheets(sheets, LEAST_FILLED) == []
+
+
+@pytest.mark.nightly
+def test_plan_and_notes_begin_a_sheet_and_captions_and_equations_stay_whole(sheets):
+    if sheets[0].blocks[0].lines[0].startswith("Study"):
+        return
+    first = [sheet.blocks[0].text for sheet in sheets]
+    assert sum(text.endswith("Notes for the construction documents") for text in first) == 1
+    assert any("Roof plan and schedule" in text for text in first)
+    blocks = [block for sheet in sheets for block in sheet.blocks]
+    (caption,) = {block.sheet for block in blocks if block.text.startswith("To the scale stated")}
+    assert any(looked.is_drawing(block) for block in blocks if block.sheet == caption)
+    for title in ("Design displacement", "Separations"):
+        of = [b for b in blocks if b.kind in ("H1", "H2", "Figure")]
+        at = next(k for k, b in enumerate(of) if b.kind == "H2" and b.text.endswith(title))
+        equations = takewhile(lambda b: b.kind == "Figure", of[at + 1 :])
+        assert {b.sheet for b in equations} == {of[at].sheet}, title
 
 
 SVG = (
