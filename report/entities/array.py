@@ -18,7 +18,7 @@ from report.assessment.friction import mu_words
 from report.assessment.neighbors import ComparedGap, PlanNeighbor
 from report.assessment.project import Assessment, ChangeKind
 from report.assessment.routes import SEAOC, Route, prescriptive_of
-from report.assessment.verdict import NOT_GIVEN, STRENGTH_ROW, ItemVerdict, Verdict
+from report.assessment.verdict import NOT_GIVEN, ItemVerdict
 from report.entities.motion import PeakResult, RunResult, peak_result, run_result
 from report.entities.requirement import LimitResult, Marked
 from report.entities.shown import (
@@ -38,7 +38,7 @@ from report.entities.shown import (
     words,
 )
 from report.text.amounts import capacity, demand, shown_in_order
-from report.text.units import Quantity, Show, measured, no_less, no_more, ratio
+from report.text.units import Quantity, Show, measured, no_less
 from solver.model import Friction
 from solver.rules.provisions import Basis, PrescriptiveBasis
 
@@ -250,7 +250,6 @@ class ArrayResult(ArrayRow):
         at("array.interconnection_n"),
         Column("Interconnection provided [lb]", is_input=True),
     ] = printed(None)
-    clause: Annotated[str, words("Clause", 1.9)] = printed("")
     seaoc_m: Annotated[float, required("PV1")] = printed(math.nan)
     model: Annotated[str, Shown(head="Model", share=0.7)] = printed("")
     residual_m: Annotated[float, required("Residual", 0.9)] = printed(math.nan)
@@ -268,29 +267,10 @@ class ArrayResult(ArrayRow):
         """The design displacement [m]; NaN where none is permitted."""
         return self.design_m if self.design_permitted else math.nan
 
-    @unwritten(_weight("Lighter part"))
-    def lighter_n(self) -> float:
-        """Weight of the lighter part beside a section, at most [N]."""
-        # Of any section the lighter side has at most half: what is required there covers all.
-        return self.weight_n / 2.0
-
-    @unwritten(_weight("Provided", no_more))
-    def provided_n(self) -> float | str:
-        """Interconnection strength provided [N]."""
-        return "not given" if self.given_n is None else self.given_n
-
-    strength_verdict: Annotated[Verdict, centered("Verdict", 1.3)] = printed(Verdict.OK)
-
-    @unwritten(Shown(head="D/C", share=0.8))
-    def strength_dc(self) -> str:
-        """Interconnection strength required / provided."""
-        return "—" if self.given_n is None else ratio(self.interconnection_n / self.given_n)
-
 
 def array_result(
     assessment: Assessment,
     item: ArrayAssessment,
-    clause: str = "",
     *,
     has_runs: bool = True,
     **marks: str,
@@ -299,7 +279,7 @@ def array_result(
     motions = item.motions if has_runs else ()
     strength = math.nan if item.array.interconnection_n is None else item.array.interconnection_n
     shows = shown_in_order(capacity(strength), demand(item.interconnection_n))
-    rounds = dict(zip(("provided_n", "interconnection_n"), shows, strict=True))
+    rounds = {"interconnection_n": shows[1]}
     gap = assessment.governing_gap(item.id)
     # Without a clearance the defaults hold: none given, and a dash for D/C.
     near: dict[str, object] = {}
@@ -319,16 +299,12 @@ def array_result(
         item,
         **near,
         cause=unshown_cause(assessment, item),
-        clause=clause,
         marks=marks,
         keep_clear=distance + keep_clear_mark(assessment, item),
         rounds=rounds,
         verdict=assessment.array_verdict(item),
         friction_as_run=mu_words(item.array.friction),
         model=models_used(item),
-        strength_verdict=next(
-            row.verdict for row in assessment.rows_of(item.id) if row.id == STRENGTH_ROW
-        ),
         seaoc_m=prescriptive_of(assessment.project, SEAOC).value_m,
         peaks=tuple(map(peak_result, motions)),
         runs=tuple(run_result(motion, run) for motion in motions for run in motion.runs),
@@ -355,7 +331,6 @@ def array_results(marked: Marked) -> Iterator[ArrayResult]:
         yield array_result(
             marked.assessment,
             item,
-            clause=marked.clause("interconnection_sds"),
             has_runs=False,
             interconnection_n=marked.mark("interconnection_sds"),
             prescriptive_m=marked.prescriptive_mark(item),

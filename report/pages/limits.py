@@ -22,7 +22,6 @@ from report.assessment.precheck import findings
 from report.document.tables import Table, listed
 from report.drawing.labels import alike_arrays
 from report.drawing.sheet import unit_format
-from report.entities.array import array_results
 from report.entities.evidence import NeighborResult
 from report.entities.requirement import UNVERIFIED, dagger
 from report.entities.shown import Shown, centered, length, provided, text, words
@@ -88,14 +87,13 @@ def check_table(
 
 
 def limits(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
-    """Return the part on limits and interconnection strength."""
+    """Return the part on limits and requirements."""
     excepted = [check for _, check in package.checks if check.passes_by_exception]
     return {
         "checks": all_checks(package.assessment),
         "remedies": list(remedy_lines(package.assessment, evidence.remedies)),
         # One note explains the exception, however many arrays take it.
         "excepted": excepted[:1],
-        "arrays": tuple(array_results(package)),
         "warnings": list(_warnings(package)),
     }
 
