@@ -214,6 +214,8 @@ def prepared(given, **changes):
         "motion_id": given.id, "recorded_at": RecordedAt.ROOF, "done": "as recorded",
         "scaling": "as recorded", "scaled": scaled, "roof": {}, "unfiltered": (),
         "measures": {name: measures(record) for name, record in scaled.items()},
+        # Noise ends where it ends.
+        "drift_basis": "a test, seeded noise",
     }  # fmt: skip
     return PreparedMotion(**(usual | changes))
 

@@ -202,7 +202,7 @@ def _assess(
     pairs = _plan_pairs(sheet, data, rules, arrays) if has_pairs else ()
     rows = [
         *project_rows(data, shaking.prepared),
-        *motion_rows(acceptance, (item.route for item in arrays), shaking),
+        *motion_rows(acceptance, (item.route for item in arrays), shaking, data.us_first),
         *(row for item in arrays for row in array_rows(data, item)),
     ]
     # Last, as these runs are begun last.

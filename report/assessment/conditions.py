@@ -41,7 +41,7 @@ from report.text.amounts import capacity, compared_pairs, demand, limit_texts
 from report.text.counts import capitalized, grouped_by, ids_by, lowered, numbered, quoted, ranged
 from report.text.units import G_MPS2, Quantity, digits_up, no_less, no_more, number, pair
 from solver.records.acceptance import FULL_RATIO, POINTS_HZ, Acceptance, spectrum_mps2
-from solver.rules.limit import Consequence, Limit, Measure
+from solver.rules.limit import PROGRAM, Consequence, Limit, Measure
 from solver.rules.provisions import RULE_SETS, review_lifts_slope
 
 if TYPE_CHECKING:
@@ -50,6 +50,13 @@ if TYPE_CHECKING:
 
 # Final displacement of a record [m] above which it drifts: the block would follow it as slip.
 DRIFT_M = 0.010
+# Final displacement [m] and velocity [m/s] above which it is not accepted: in no code. A fault may
+# move the ground by more, and no ground keeps moving.
+MOST_DRIFT_M, MOST_END_MPS = 0.5, 0.1
+_DRIFT_TITLES = (
+    "Final displacement of each component, unless it is stated to be permanent",
+    "Final velocity of each component",
+)
 
 # Periods from which on the mean of the ground motions / their target is compared, and the ratio
 # above which a peer reviewer must accept the motions: in no code.
@@ -205,12 +212,16 @@ def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[R
                 id="drift",
                 title="Final displacement of the record",
                 subject=motion.motion_id,
-                found=drift,
+                found=f"{drift}; permanent by {motion.drift_basis}"
+                if motion.drift_basis
+                else drift,
                 limit=f"≤ {most}",
                 basis="limit of this program",
                 is_satisfied=False,
-                remedy="Drift of a record is computed as slip: correct its baseline, or show that "
-                f"the displacement is real. {STAYS}",
+                remedy=f"A permanent displacement is computed as slip. {STAYS}"
+                if motion.drift_basis
+                else "Drift of a record is computed as slip: correct its baseline, or state on the "
+                "sheet Motions by whom and by what source the displacement is permanent.",
                 places=(Place("motions", index, FIELDS[max(ends, key=ends.__getitem__)]),),
             )
 
@@ -274,7 +285,7 @@ def noted(rows: Iterable[Requirement], by_runs: Collection[str]) -> Iterator[Req
 
 
 def motion_rows(
-    acceptance: Acceptance, routes: Iterable[Route], shaking: Shaking
+    acceptance: Acceptance, routes: Iterable[Route], shaking: Shaking, us_first: bool
 ) -> tuple[Requirement, ...]:
     """Return the limits on the motions that they miss."""
     takes_analysis = Route.ANALYSIS in routes
@@ -282,7 +293,10 @@ def motion_rows(
     spectral = next(filter(_is_spectral, acceptance.missed), None)
     return tuple(
         _motion_row(
-            missed, takes_analysis, _ways(acceptance, shaking) if missed is spectral else ""
+            missed,
+            takes_analysis,
+            _ways(acceptance, shaking) if missed is spectral else _ways_of_drift(missed, shaking),
+            us_first,
         )
         for missed in acceptance.missed
     )
@@ -309,6 +323,48 @@ def _ways(acceptance: Acceptance, shaking: Shaking) -> str:
     return ways
 
 
+def _ways_of_drift(missed: Limit, shaking: Shaking) -> str:
+    """Return which records end elsewhere or in motion, and what would do; empty for another."""
+    if missed.title not in _DRIFT_TITLES:
+        return ""
+    ids = [
+        motion.motion_id
+        for motion in shaking.prepared
+        if any(not limit.ok for limit in drift_limits([motion]))
+    ]
+    return f" Correct the baseline of {ranged(ids)} (Baseline or High-pass corner on its row)."
+
+
+def drift_limits(prepared: Sequence[PreparedMotion]) -> tuple[Limit, ...]:
+    """Return the limits on where the components of the motions end, and how fast they are then."""
+    free = [motion for motion in prepared if not motion.drift_basis]
+
+    def largest(motions: Sequence[PreparedMotion], end: str) -> tuple[float, str]:
+        ends = (
+            (round(abs(getattr(measures, end)), 9), f"{motion.motion_id}, {name}")
+            for motion in motions
+            for name, measures in motion.measures.items()
+        )
+        return max(ends, default=(0.0, ""))
+
+    ends = (
+        (*largest(free, "final_displacement_m"), MOST_DRIFT_M, Measure.LENGTH_M),
+        (*largest(prepared, "final_velocity_mps"), MOST_END_MPS, Measure.VELOCITY_MPS),
+    )
+    return tuple(
+        Limit(
+            title=title,
+            found=found,
+            limit=most,
+            is_at_least=False,
+            measure=measure,
+            provision=PROGRAM,
+            worst=worst if found > 0.0 else "",
+        )
+        for title, (found, worst, most, measure) in zip(_DRIFT_TITLES, ends, strict=True)
+    )
+
+
 def _is_spectral(row: Limit) -> bool:
     """Whether a limit is on a spectrum over its target, or on how many of its points are below."""
     return row.is_ratio_to_target or (row.measure is Measure.COUNT and not row.is_at_least)
@@ -327,10 +383,10 @@ def _factor(acceptance: Acceptance) -> float:
     )
 
 
-def _motion_row(missed: Limit, takes_analysis: bool, way: str) -> Requirement:
+def _motion_row(missed: Limit, takes_analysis: bool, way: str, us_first: bool) -> Requirement:
     # The prescriptive displacement rests on no motion: there a miss is a condition only.
     is_ng = missed.consequence is Consequence.NG
-    measured, least = limit_texts(missed, us_first=True)  # none is a length
+    measured, least = limit_texts(missed, us_first)
     return Requirement(
         id=MOTIONS_ID,
         title=missed.title,

@@ -8,10 +8,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 
 from report.assessment.array_rows import rows_before_runs
-from report.assessment.conditions import asked_pathways, motion_rows, noted, project_rows
+from report.assessment.conditions import (
+    asked_pathways,
+    drift_limits,
+    motion_rows,
+    noted,
+    project_rows,
+)
 from report.assessment.neighbors import REACH_FACTOR, NearbyKind
 from report.assessment.plan_clearances import design_before_runs_m, pairs_before_runs
 from report.assessment.routes import (
@@ -126,7 +133,7 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
         yield from _not_run(data)
     pairs = zip(data.arrays, routes, strict=True)
     by_runs = {array.id for array, limits in pairs if limits.route is Route.ANALYSIS}
-    rows = motion_rows(acceptance, (limits.route for limits in routes), shaking)
+    rows = motion_rows(acceptance, (limits.route for limits in routes), shaking, us_first)
     known = *project_rows(data, shaking.prepared), *rows, *asked_pathways(data)
     yield from _requirements(noted(known, by_runs))
     for index, array in enumerate(data.arrays):
@@ -198,13 +205,14 @@ def shaking_acceptance(
     """Compare the motions as run with the targets at the roof, and with the other limits."""
     if not shaking.motions:
         return Acceptance(rows=(), motions=())
-    return acceptance(
+    done = acceptance(
         shaking.motions,
         [_hold_s(prepared, shaking.records) for prepared in shaking.prepared],
         lambda freq_hz: targets.roof.ordinates(1.0 / freq_hz),
         lambda freq_hz: targets.vertical.ordinates(1.0 / freq_hz),
         spectra_of,
     )
+    return replace(done, rows=(*done.rows, *drift_limits(shaking.prepared)))
 
 
 def _hold_s(prepared: PreparedMotion, files: Sequence[RecordFile]) -> float:

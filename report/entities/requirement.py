@@ -76,6 +76,8 @@ class _FoundAndLimit(Entity):
     """Value found: a length."""
     found_s: OfUnit
     """Value found: a time."""
+    found_mps: OfUnit
+    """Value found: a velocity."""
     limit: OfUnit
     """Limit: a count or a ratio."""
     limit_deg: OfUnit
@@ -84,6 +86,8 @@ class _FoundAndLimit(Entity):
     """Limit: a length."""
     limit_s: OfUnit
     """Limit: a time."""
+    limit_mps: OfUnit
+    """Limit: a velocity."""
 
     @model_validator(mode="before")
     @classmethod

@@ -145,6 +145,7 @@ class PreparedMotion:
     roof: Mapping[str, RoofMotion]
     # the motion without its high-pass filter; empty if there is none
     unfiltered: tuple[Motion, ...]
+    drift_basis: str = ""  # who states by what that it ends elsewhere, as in the workbook
 
 
 def shake(
@@ -179,6 +180,7 @@ def _shake(
         scaled=scaled,
         roof=roof,
         unfiltered=(_motion(data, row, bare, scale)[0],) if bare else (),
+        drift_basis=row.drift_basis,
     )
     return motion, prepared
 

@@ -103,6 +103,7 @@ _QUANTITIES = {
     Measure.ANGLE_DEG: Quantity.ANGLE,
     Measure.LENGTH_M: Quantity.SIZE,
     Measure.TIME_S: Quantity.TIME,
+    Measure.VELOCITY_MPS: Quantity.VELOCITY,
     Measure.COUNT: Quantity.COUNT,
     Measure.PLAIN: Quantity.RATIO,
 }

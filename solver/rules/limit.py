@@ -36,6 +36,7 @@ class Measure(StrEnum):
     ANGLE_DEG = "deg"
     LENGTH_M = "m"
     TIME_S = "s"
+    VELOCITY_MPS = "mps"
     COUNT = "count"
     PLAIN = ""
 

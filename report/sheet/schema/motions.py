@@ -114,6 +114,20 @@ class MotionInput(Frozen):
         Cell("V_s30", 312.0, "m/s", usual=(150.0, 1500.0), is_rare=True),
     ] = None
     """Mean shear-wave velocity of the upper 30 m at the station."""
+    drift_by: Annotated[Text, Cell("Permanent displacement by", "RG, SE", is_rare=True)] = ""
+    """Only if a component ends away from where it began and the ground or the roof did so: who
+    states it. With its source."""
+    drift_source: Annotated[
+        Text, Cell("Permanent displacement source", "GNSS at the station", is_rare=True)
+    ] = ""
+    """What shows that the displacement is real. Without both, a record that ends more than 0.5 m
+    away is not accepted for the analysis."""
+
+    @property
+    def drift_basis(self) -> str:
+        """Who states by what that a permanent displacement is real; empty unless both are given."""
+        is_stated = self.drift_by and self.drift_source
+        return f"{self.drift_by}, {self.drift_source}" if is_stated else ""
 
 
 Period = Annotated[float, Field(gt=0, le=10)]
