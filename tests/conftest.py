@@ -18,6 +18,8 @@ from places import RECORDS, SAMPLES
 
 G = 9.80665
 
+gc.disable()  # until all tests are collected: their modules live to the end
+
 # A run in the background of a shell ignores interrupts, and so would all that the tests start.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
@@ -32,6 +34,7 @@ def pytest_collection_finish(session):
     gc.collect()
     gc.freeze()
     gc.set_threshold(100_000, 20, 100)
+    gc.enable()
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -17,7 +17,7 @@ import sheets
 import stand_in
 from places import ROOT
 from report.assessment.assess import assess
-from report.assessment.evidence import support
+from report.assessment.evidence import Evidence, support
 from report.assessment.project import Assessment, Changes
 from report.motions.components import Components
 from report.motions.history import shake
@@ -75,7 +75,19 @@ def package(shaking=None, **changes) -> PackageData:
     return _made[key][1]
 
 
+def evidence(assessment: Assessment) -> Evidence:
+    """Return what supports an assessment, computed once for each that is still known."""
+    key = id(assessment)
+    if key not in _supported:
+        _supported[key] = (assessment, support(assessment))
+    _supported.move_to_end(key)
+    if len(_supported) > MOST:
+        _supported.popitem(last=False)
+    return _supported[key][1]
+
+
 MOST = 60
+_supported: OrderedDict[int, tuple[Assessment, Evidence]] = OrderedDict()
 _made: OrderedDict[str, tuple[object, PackageData]] = OrderedDict()
 """The last packages with their motions, so that no others get the identity of those."""
 
@@ -226,4 +238,4 @@ def departing() -> PackageData:
 
 def since(first: Assessment, second: Assessment) -> Changes:
     """Return what changed from an assessment to another, as `--since` finds it."""
-    return changes(former_from(results_json(first, support(first)), "former"), second)
+    return changes(former_from(results_json(first, evidence(first)), "former"), second)

@@ -7,7 +7,6 @@ import pytest
 from click.testing import CliRunner
 
 import scenes
-from report.assessment.evidence import support
 from report.cli.main import main
 from report.document.tables import table_of
 from report.entities.clearance import ClearanceResult
@@ -21,7 +20,7 @@ pytestmark = pytest.mark.quick
 @pytest.fixture(scope="module")
 def content():
     assessment = scenes.package().assessment
-    return results_json(assessment, support(assessment))
+    return results_json(assessment, scenes.evidence(assessment))
 
 
 def test_what_is_written_is_read_back_and_the_schema_names_every_key(content):

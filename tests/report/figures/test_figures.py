@@ -17,7 +17,6 @@ import scenes
 import stand_in
 from nightly import by_day
 from plans import SMALL, roof_plan
-from report.assessment.evidence import support
 from report.assessment.spectra import spectra
 from report.drawing.sheet import LETTER
 from report.figures import charts as figures
@@ -286,7 +285,7 @@ def test_in_a_package(drawn, units):
     project = stand_in.project().project.model_copy(update={"units_first": units})
     package = scenes.package(scenes.motions(7, seconds=12.0), project=project)
     draw_assessment(package)
-    evidence = support(package.assessment)
+    evidence = scenes.evidence(package.assessment)
     draw_plotted(package, evidence)
     assert len(drawn.figures) >= 10
     assert not list(faults(drawn))

@@ -17,7 +17,6 @@ from nightly import by_day
 from printed import IDS, printed
 from report.assessment.assess import reassess
 from report.assessment.checks.check import alike
-from report.assessment.evidence import support
 from report.assessment.spectra import spectra
 from report.assessment.verdict import Verdict
 from report.drawing.on_paper import plan_on_paper
@@ -45,7 +44,7 @@ CASES = {
 def made(request):
     """A package, its results.json and its results.xlsx."""
     package = scenes.package_data(CASES[request.param]())
-    found = support(package.assessment)
+    found = scenes.evidence(package.assessment)
     content = results_xlsx(package.assessment, found.spectra)
     book = openpyxl.load_workbook(io.BytesIO(content), data_only=True)
     return package, json.loads(results_json(package.assessment, found)), book
@@ -184,7 +183,7 @@ def test_lowered_values_are_marked_where_they_govern_on_the_plan_and_in_results_
     said = " ".join(text.words for text in plan_drawing(done).texts)
     assert re.search(rf"A1 {LENGTH} \(overridden\) \d+ in \(overridden\)", said)
     assert "‡" not in said
-    found = json.loads(results_json(done, support(done)))
+    found = json.loads(results_json(done, scenes.evidence(done)))
     assert all(item["design_is_overridden"] for item in found["arrays"])
     assert all(item["required_is_overridden"] for item in found["clearances"])
     ids = [row["id"] for row in found["requirements"] if row["verdict"] != "OK"]

@@ -16,7 +16,6 @@ import stand_in
 from inputs import HEAD
 from nightly import by_day, nightly
 from printed import FRONT, IDS, printed, read
-from report.assessment.evidence import support
 from report.drawing.on_paper import printed_plan
 from report.figures.plan import paper_svg
 from report.package.html import pages as written
@@ -38,7 +37,7 @@ def flat(text):
 @pytest.fixture(scope="module")
 def html():
     done = scenes.usual()
-    return written(done, support(done))
+    return written(done, scenes.evidence(done))
 
 
 @pytest.fixture(scope="module")
@@ -293,7 +292,7 @@ def test_a_name_of_one_word_is_not_broken_in_a_table(id_):
     given = stand_in.clearance(names[0], names[1], 3.0)
     package = scenes.package(arrays=arrays, objects=[], clearances=[given])
     drawings = draw_assessment(package)
-    made = lay_out(part(package, support(package.assessment), id_, drawings))
+    made = lay_out(part(package, scenes.evidence(package.assessment), id_, drawings))
     text = "\n".join(pages(made))
     for name in names:
         assert text.count(name) == text.count(name[:6]) > 0
@@ -328,9 +327,9 @@ def test_long_names_are_printed_as_they_are_on_the_plan_in_lines(long):
     lines = Counter(line for row in rows for line in name_lines(row.id))
     assert {line: shown[line] for line in lines} == lines
     assert not on.unnamed
-    texts = pages(lay_out(written(long.assessment, support(long.assessment))))
+    texts = pages(lay_out(written(long.assessment, scenes.evidence(long.assessment))))
     whole = flat(" ".join(texts))
     assert all(row.id in whole for row in (*rows, *long.data.motions))
     short = scenes.twelve(is_long=False)
-    count = len(pages(lay_out(written(short.assessment, support(short.assessment)))))
+    count = len(pages(lay_out(written(short.assessment, scenes.evidence(short.assessment)))))
     assert len(texts) <= 1.6 * count

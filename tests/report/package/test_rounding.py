@@ -14,7 +14,6 @@ import stand_in
 from nightly import by_day
 from printed import printed
 from report.assessment.clearances import beside
-from report.assessment.evidence import support
 from report.assessment.spectra import spectra
 from report.drawing.plan import plan_drawing
 from report.pages.summary import summary
@@ -113,7 +112,7 @@ def amounts(done):
 def texts(done):
     """What is printed, by output."""
     package = scenes.package_data(done)
-    found = support(done)
+    found = scenes.evidence(done)
     book = openpyxl.load_workbook(io.BytesIO(results_xlsx(done, found.spectra)), data_only=True)
     cells = [c.value for sheet in book for row in sheet.iter_rows() for c in row]
     return {

@@ -17,7 +17,6 @@ from places import ROOT
 from recalculated import recalculated
 from report.assessment.assess import assess, changed
 from report.assessment.causes import reasons
-from report.assessment.evidence import support
 from report.assessment.routes import Route
 from report.assessment.verdict import Verdict
 from report.cli.check import checked, lines
@@ -122,7 +121,7 @@ def test_check_says_what_is_made_and_the_screen_what_an_analysis_could_save(tmp_
 
 def test_results_json_has_null_for_what_needs_runs_and_is_read_as_a_former_revision():
     given = scenes.without_motions()
-    content = results_json(given, support(given))
+    content = results_json(given, scenes.evidence(given))
     document = json.loads(content)
     assert document["motions"] == document["acceptance"] == []
     assert document["certainty"] is None

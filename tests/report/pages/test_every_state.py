@@ -15,7 +15,6 @@ import scenes
 import stand_in
 from nightly import by_day
 from printed import FRONT, printed, read
-from report.assessment.evidence import support
 from report.assessment.project import NO_FORMER, Change, ChangeKind
 from report.package.html import pages
 from report.pages.registry import package_data, pages_of
@@ -94,7 +93,7 @@ def package(state):
 def test_every_page_is_whole(state):
     made = package(state)
     with packages.undrawn():
-        html = pages(made.assessment, support(made.assessment), made.changes)
+        html = pages(made.assessment, scenes.evidence(made.assessment), made.changes)
     words = packages.words(html)  # every link leads to a place
     _, *claims = STATES[state]
     assert [claim for claim in claims if claim not in words] == []

@@ -14,7 +14,6 @@ import stand_in
 from nightly import by_day
 from places import ROOT
 from report import making
-from report.assessment.evidence import support
 from report.motions import files as motion_files
 from report.motions.prepare import prepare
 from report.provenance import files
@@ -157,7 +156,9 @@ def with_documents(sheet, folder, *paths):
 @pytest.mark.nightly
 def test_former_results_are_attached_as_they_were_compared(tmp_path, monkeypatch):
     assessment = scenes.package(scenes.motions(3, 4.0)).assessment
-    (tmp_path / "results.json").write_bytes(was := results_json(assessment, support(assessment)))
+    (tmp_path / "results.json").write_bytes(
+        was := results_json(assessment, scenes.evidence(assessment))
+    )
     kept = {}
     monkeypatch.setattr(
         "report.typeset.pdf.lay_out",

@@ -8,13 +8,12 @@ import pytest
 import inputs
 import scenes
 import stand_in
-from report.assessment.evidence import support
 from report.results.results_json import results_json
 from report.sheet.schema.choices import Direction
 
 
 def made(assessment):
-    return json.loads(results_json(assessment, support(assessment)))
+    return json.loads(results_json(assessment, scenes.evidence(assessment)))
 
 
 def run(shaking=None, **changes):
@@ -131,7 +130,7 @@ def supported():
     """A clearance that is NG beside one that contradicts the plan, with the evidence."""
     gaps = [stand_in.clearance("A1", "RTU-1", 0.5), stand_in.clearance("A1", "A3", 4.572)]
     assessment = scenes.package(clearances=gaps).assessment
-    evidence = support(assessment)
+    evidence = scenes.evidence(assessment)
     return assessment, evidence, json.loads(results_json(assessment, evidence))
 
 

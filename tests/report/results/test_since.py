@@ -15,7 +15,6 @@ import inputs as parts_of
 import scenes
 import stand_in
 from printed import IDS, printed
-from report.assessment.evidence import support
 from report.assessment.project import ChangeKind
 from report.assessment.verdict import Verdict
 from report.pages.registry import package_data, parts
@@ -44,7 +43,7 @@ def assessment():
 
 @pytest.fixture(scope="module")
 def content(assessment):
-    return results_json(assessment, support(assessment))
+    return results_json(assessment, scenes.evidence(assessment))
 
 
 @pytest.fixture
@@ -183,7 +182,7 @@ def test_a_record_with_another_hash_the_rule_set_and_the_version_are_found(asses
 def test_a_document_with_another_hash_is_found_unless_the_former_file_does_not_say(assessment):
     letter = Document(label="Letter of review", path="r.pdf", size=9, sha256="ab" * 32)
     now = replace(assessment, sheet=replace(assessment.sheet, documents=(letter,)))
-    document = json.loads(results_json(now, support(now)))
+    document = json.loads(results_json(now, scenes.evidence(now)))
     assert document["documents"] == [asdict(letter)]
     assert not changes(former(document), now).items
     document["documents"][0]["sha256"] = "00" * 32
@@ -321,7 +320,7 @@ def test_damaged_bytes_are_read_or_refused_and_never_crash(assessment, content, 
 def test_a_verdict_that_is_lost_with_the_route_is_named():
     """A former version took the displacement of 0 and called the clearance OK."""
     now = stand_in.unpermitted()
-    document = json.loads(results_json(now, support(now)))
+    document = json.loads(results_json(now, scenes.evidence(now)))
     document["clearances"][0] |= {"required_m": 0.0, "verdict": "OK"}
     found = changes(former(document), now)
     shown = {(item.kind, item.title): (item.before, item.now) for item in found.items}
@@ -334,7 +333,7 @@ def test_a_verdict_that_is_lost_with_the_route_is_named():
 
 def test_an_array_that_is_new_and_has_no_value_has_none():
     now = stand_in.assess_input(stand_in.steep(), scenes.motions(2))
-    document = json.loads(results_json(now, support(now)))
+    document = json.loads(results_json(now, scenes.evidence(now)))
     first = document["arrays"].pop(0)["id"]
     found = changes(former(document), now)
     shown = {(item.kind, item.title): (item.before, item.now) for item in found.items}
