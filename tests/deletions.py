@@ -14,8 +14,9 @@ from pathlib import Path
 from openpyxl.utils import coordinate_to_tuple
 
 from report.assessment.assess import assess
+from report.assessment.checks.check import Check
 from report.assessment.project import Assessment
-from report.assessment.verdict import Requirement, Verdict
+from report.assessment.verdict import Verdict
 from report.motions.prepare import Shaking, prepare
 from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.read import Sheet, read_book
@@ -148,7 +149,7 @@ def improved(before: Assessment, after: Assessment, deletion: Deletion) -> Itera
             yield f"{name}: {row.verdict} to {now.value if left else 'gone'}"
 
 
-def _kind(row: Requirement) -> str:
+def _kind(row: Check) -> str:
     # A width of a fire pathway, and whether there is one.
     return row.id.removesuffix("s")
 

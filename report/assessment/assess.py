@@ -15,29 +15,19 @@ from dataclasses import replace
 from functools import cache, partial
 from typing import Any
 
-from report.assessment.array_rows import array_rows
 from report.assessment.arrays import ArrayAssessment, assess_array
 from report.assessment.causes import outcome
+from report.assessment.checks.limits import building_limits
 from report.assessment.clearances import by_id, check_clearance, largest_separation_m, minimum_gap
-from report.assessment.conditions import (
-    asked_pathways,
-    less_friction_rows,
-    motion_rows,
-    noted,
-    pathway_rows,
-    plan_rows,
-    project_rows,
-)
 from report.assessment.friction import (
     NOT_BY_VELOCITY,
     low_velocity,
-    velocity_rows,
     with_friction,
     with_low_velocity,
 )
 from report.assessment.links import assess_linked
 from report.assessment.neighbors import PlanNeighbor, plan_pairs, reaches_of
-from report.assessment.precheck import building_limits, shaking_acceptance
+from report.assessment.precheck import shaking_acceptance
 from report.assessment.project import THREADS, Assessment
 from report.assessment.runs import (
     MotionRun,
@@ -107,7 +97,7 @@ def assess(
 
 
 def _beside(other: Assessment, assessment: Assessment) -> Assessment:
-    """Return an assessment with the outcome by the rule set of its building code in its rows."""
+    """Return an assessment with the outcome by the rule set of its building code."""
     linked = tuple(
         replace(row, design=by_id(other.arrays, row.design.id)) for row in assessment.linked
     )
@@ -115,13 +105,8 @@ def _beside(other: Assessment, assessment: Assessment) -> Assessment:
     how = "the same motions and S_DS" if assessment.has_motions else "the same S_DS"
     how += "" if own == by_code else ", without overrides and departures"
     result = outcome(replace(other, linked=linked)).words(assessment.project.us_first)
-    text = f"By {other.rules.name} 13.6.12 with {how}: {result}."
-    ids = "rule_set", "edition_name"
-    rows = [
-        row.model_copy(update={"outcome": text}) if row.id in ids else row
-        for row in assessment.rows
-    ]
-    return replace(assessment, rows=tuple(rows))
+    text = f"Under {other.rules.name} 13.6.12, with {how}: {result}."
+    return replace(assessment, otherwise={"rule_set": text, "edition_name": text})
 
 
 def reassess(assessment: Assessment, project: ProjectInput) -> Assessment:
@@ -200,13 +185,7 @@ def _assess(
     clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
     # With less friction the plan is the same, and is not measured again.
     pairs = _plan_pairs(sheet, data, rules, arrays) if has_pairs else ()
-    rows = [
-        *project_rows(data, shaking.prepared),
-        *motion_rows(acceptance, (item.route for item in arrays), shaking, data.us_first),
-        *(row for item in arrays for row in array_rows(data, item)),
-    ]
     # Last, as these runs are begun last.
-    by_runs = {item.id for item in arrays if item.is_by_runs}
     reduced, slower = reduced_friction() if reduced_friction else None, NOT_BY_VELOCITY
     if slow and has_runs:
         slower = low_velocity(data, rules, arrays, slow, motions_qualify=acceptance.qualifies)
@@ -222,18 +201,6 @@ def _assess(
         linked=linked,
         pairs=pairs,
         acceptance=acceptance,
-        rows=(
-            *noted(rows, by_runs),
-            *noted(velocity_rows(data, arrays, slower) if has_runs else (), by_runs),
-            *pathway_rows(data, arrays, clearances),
-            *asked_pathways(data, pairs),
-            *plan_rows(data, [pair for pair in pairs if pair.is_listed]),
-            *(
-                less_friction_rows(arrays, clearances, reduced.arrays, reduced.clearances)
-                if reduced
-                else ()
-            ),
-        ),
         at_reduced_friction=reduced,
         low_velocity=slower,
     )

@@ -1,6 +1,6 @@
 """The friction of arrays: in words, as it was run; and inputs with other friction.
 
-Runs nothing. `report.assessment.requirement_rows` compares it with tests.
+Runs nothing. `report.assessment.checks.friction` compares it with tests.
 """
 
 from __future__ import annotations
@@ -11,16 +11,15 @@ from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment, assess_array
 from report.assessment.clearances import ClearanceCheck, check_clearance
-from report.assessment.requirement_rows import is_complete, tested
 from report.assessment.routes import NOT_PERMITTED
 from report.assessment.runs import PendingRuns
-from report.assessment.verdict import NOT_GIVEN, VELOCITY_ROW, Requirement, Verdict, condition
+from report.assessment.tested import is_complete, tested
+from report.assessment.verdict import Verdict
 from report.sheet.checking.motion_checks import MU_TOLERANCE
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.scene import Array
-from report.text.amounts import compared_pairs, demand, entered
 from report.text.counts import ids_by, ranged
-from report.text.units import Quantity, Rounding, digits_up, no_less, number, pair
+from report.text.units import Quantity, Rounding, no_less, number, pair
 from solver.friction_tests import Series, governing
 from solver.model import Friction
 from solver.rules.provisions import RuleSet
@@ -239,55 +238,3 @@ def low_velocity(
             if not changed.keys().isdisjoint((row.array, row.object))
         },
     )
-
-
-def velocity_rows(
-    data: ProjectInput, arrays: Sequence[ArrayAssessment], slow: LowVelocityAssessment
-) -> Iterator[Requirement]:
-    """Yield for each array whether friction beyond the velocities tested is shown by tests."""
-    for item in arrays:
-        yield _row(item.id, velocity_check(data, item), slow, data.us_first)
-
-
-def _row(
-    array_id: str, check: VelocityCheck, slow: LowVelocityAssessment, us_first: bool
-) -> Requirement:
-    case = slow.case_of(array_id)
-    return condition(
-        id=VELOCITY_ROW,
-        title="Friction beyond the velocities tested",
-        subject=array_id,
-        found="; ".join(_found(check, us_first)),
-        limit=f"slower than tested; or up to {MOST_BEYOND:g} times as fast, μ beyond ≤ "
-        f"{check.minimum_words}, and complete tests"
-        if check.tests
-        else "tests at the sliding velocities",
-        basis="friction tests",
-        is_satisfied=check.is_satisfied,
-        # No coefficient is offered but the one that is run: with less friction it may be NG.
-        remedy="Obtain friction tests at the sliding velocities.",
-        outcome=case.words(us_first) if case else "",
-    )
-
-
-def _found(check: VelocityCheck, us_first: bool) -> Iterator[str]:
-    fastest_mps, tested_mps = check.fastest_mps, check.tested_mps
-    slides, most = compared_pairs(
-        demand(fastest_mps), entered(tested_mps), Quantity.VELOCITY, us_first, is_at_least=False
-    )
-    if math.isnan(fastest_mps):
-        yield "a run gives no velocity"
-    elif fastest_mps == 0.0:
-        yield "does not slide"
-    else:
-        yield f"slides at {slides}"
-    if check.tests is None:
-        yield "no runs of friction tests"
-        return
-    yield f"velocities tested {NOT_GIVEN}" if math.isnan(tested_mps) else f"tested to {most}"
-    if check.is_beyond:
-        yield f"μ beyond {check.beyond_words}"
-        if check.is_far and fastest_mps < math.inf and tested_mps > 0.0:
-            yield f"{digits_up(fastest_mps / tested_mps, 3)} times as fast"
-        if not check.is_complete:
-            yield "tests not complete"

@@ -7,28 +7,24 @@ Runs nothing. `report.assessment.project` decides the verdict after the runs. Re
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
-from report.assessment.array_rows import rows_before_runs
-from report.assessment.conditions import (
-    asked_pathways,
-    drift_limits,
-    motion_rows,
-    noted,
-    project_rows,
-)
+from report.assessment.checks.arrays import slack_check
+from report.assessment.checks.check import Check, sentence
+from report.assessment.checks.every import before_runs
+from report.assessment.checks.motions import drift_limits
+from report.assessment.checks.plan import of_pathways
 from report.assessment.neighbors import REACH_FACTOR, NearbyKind
 from report.assessment.plan_clearances import design_before_runs_m, pairs_before_runs
 from report.assessment.routes import (
     Route,
-    interconnection_n,
     lacking_motions,
     limits_of,
     statistic_basis,
 )
-from report.assessment.verdict import Requirement, Verdict, rule_set_of
+from report.assessment.verdict import Verdict, rule_set_of
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion, Targets, targets
 from report.motions.prepare import Shaking, record_findings
@@ -40,26 +36,12 @@ from report.sheet.reading.unseen import warnings
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import RecordedAt
 from report.sheet.schema.fields import Finding, Place
-from report.text.amounts import limit_texts
 from report.text.counts import lowered, numbered, quoted
 from report.text.units import Quantity, no_less, no_more, pair
 from solver.records.acceptance import POINTS_HZ, Acceptance, SpectraOf, acceptance, one_by_one
 from solver.records.block_spectra import together
 from solver.rules import provisions
-from solver.rules.limit import Limit
-from solver.rules.provisions import Basis, RuleSet
-
-# The cell that a limit compares, by the key of the limit.
-_FIELDS: Mapping[str, str] = {
-    "low_profile_in": "cg_height_m",
-    "ibc_max_slope_deg": "slope_value",
-    "analysis_max_slope_deg": "slope_value",
-    "prescriptive_max_slope_deg": "slope_value",
-    "prescriptive_min_mu": "mu",
-    "max_risk_category": "risk_category",
-    "max_stories": "stories",
-}
-
+from solver.rules.provisions import Basis
 
 # Pairs without a clearance that are named; the nearest.
 MOST_NAMED = 50
@@ -75,29 +57,10 @@ def findings(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
     )
 
 
-def building_limits(data: ProjectInput, rules: RuleSet) -> tuple[Limit, ...]:
-    """Return the limits on the building."""
-    categories = list(type(data.site.risk_category))
-    return provisions.building_checks(
-        rules,
-        risk_category=categories.index(data.site.risk_category) + 1,
-        stories=data.site.stories,
-    )
-
-
-def limit_words(check: Limit, us_first: bool) -> str:
-    """Return a limit that is not satisfied: quantity, value, what would do, clause."""
-    value, most = limit_texts(check, us_first)
-    wanted = f"at least {most} is required" if check.is_at_least else f"at most {most} is permitted"
-    return f"{lowered(check.title)}: {value}; {wanted} ({check.provision.clause})"
-
-
 def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
-    """Yield the limits and requirements that need no displacement, each at its cell."""
+    """Yield the checks that need no displacement and are not satisfied, each at its cell."""
     data = outdated(data, shaking.hashes)
-    rules, us_first = rule_set_of(data), data.us_first
-    for check in building_limits(data, rules):
-        yield from _limit(check, "site", 0, us_first)
+    rules = rule_set_of(data)
     spectra_of = partial(together, periods_s=1.0 / POINTS_HZ)
     acceptance = shaking_acceptance(shaking, targets(data), spectra_of)
     basis = statistic_basis(data)
@@ -117,33 +80,37 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
     statistic = Place("options", 0, "statistic")
     if basis and lacking and any(limits.route is Route.ANALYSIS for limits in routes):
         yield limit(f"{lacking}: {Verdict.NG.value}", statistic)
-    for index, limits in enumerate(routes):
-        for check in limits.limits:
-            yield from _limit(check, "arrays", index, us_first)
+    for array, limits in zip(data.arrays, routes, strict=True):
         if limits.route is Route.PRESCRIPTIVE and shaking.motions:
-            failed = [check for check in limits.analysis_checks if not check.ok]
-            why = "; ".join(limit_words(check, us_first) for check in failed)
-            place = statistic if lacking else Place("motions")
+            missed = [check for check in limits.analysis_checks if not check.ok]
+            why = lacking or "the motions do not satisfy the limits for analysis"
+            why = "; ".join(lowered(check.title) for check in missed) or why
             yield note(
-                _place(failed[0], "arrays", index) if failed else place,
-                f"array {data.arrays[index].id} takes the prescriptive displacement: "
-                f"{why or lacking or 'the motions do not qualify'}",
+                statistic if lacking and not missed else Place("motions"),
+                f"{array.id} uses the prescriptive displacement: {why}",
             )
     if not shaking.motions:
         yield from _not_run(data)
     pairs = zip(data.arrays, routes, strict=True)
     by_runs = {array.id for array, limits in pairs if limits.route is Route.ANALYSIS}
-    rows = motion_rows(acceptance, (limits.route for limits in routes), shaking, us_first)
-    known = *project_rows(data, shaking.prepared), *rows, *asked_pathways(data)
-    yield from _requirements(noted(known, by_runs))
+    known = before_runs(data, rules, shaking, acceptance, routes, by_runs)
+    yield from map(partial(_finding, us_first=data.us_first), _unsatisfied(known, data))
+
+
+def _unsatisfied(known: Iterable[Check], data: ProjectInput) -> Iterator[Check]:
+    # Of the limits of a route that is not taken, the note above says what follows.
+    every = (*known, *of_pathways(data))
+    yield from (c for c in every if c.is_open or (c.verdict is Verdict.NOTE and c.remedy))
     for index, array in enumerate(data.arrays):
-        required_n = interconnection_n(data, rules, array)
-        yield from _requirements(rows_before_runs(data, array, required_n))
         if array.slack_m is None:
-            text = (
-                f"{array.id}, electrical slack: not given; provide at least the design displacement"
-            )
-            yield limit(f"{text}: {Verdict.CONDITION}", Place("arrays", index, "slack_m"))
+            yield slack_check(array, math.nan, index)
+
+
+def _finding(check: Check, us_first: bool) -> Finding:
+    text = sentence(check, us_first)
+    if check.verdict is Verdict.NOTE:
+        return note(check.places[0], text)
+    return limit(f"{check.verdict}. {text}", *check.places)
 
 
 def _not_run(data: ProjectInput) -> Iterator[Finding]:
@@ -178,25 +145,6 @@ def missing_clearances(sheet: Sheet) -> Iterator[Finding]:
         f" clearances {quoted(sheet.path)}, or add the rows"
     )
     yield limit(text, Place("clearances"))
-
-
-def _limit(check: Limit, section: str, row: int, us_first: bool) -> Iterator[Finding]:
-    if not check.ok:
-        text = f"{limit_words(check, us_first)}: {Verdict.NG.value}"
-        yield limit(text, _place(check, section, row))
-
-
-def _place(check: Limit, section: str, row: int) -> Place:
-    return Place(section, row, _FIELDS[check.key]) if check.key in _FIELDS else Place("motions")
-
-
-def _requirements(rows: Iterable[Requirement]) -> Iterator[Finding]:
-    for row in (row for row in rows if not row.is_satisfied):
-        subject = f"{row.subject}, " if row.subject else ""
-        text = f"{subject}{lowered(row.title)}: {row.found}; {row.limit} required ({row.basis}): "
-        text += f"{row.verdict}. {row.remedy}"
-        is_note = row.verdict is Verdict.NOTE
-        yield note(row.places[0], text) if is_note else limit(text, *row.places)
 
 
 def shaking_acceptance(

@@ -5,110 +5,38 @@ Runs nothing: `report.assessment.assess` does. Runs without a final displacement
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.checks.check import Check
+from report.assessment.checks.check import Check, alike, verdict_of
 from report.assessment.checks.every import every
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.friction import LowVelocityAssessment
 from report.assessment.links import LinkedArray
 from report.assessment.neighbors import ComparedGap, PlanNeighbor
-from report.assessment.runs import OrientedRun, scene_key
+from report.assessment.runs import scene_key
 from report.assessment.verdict import (
     BY_CONSEQUENCE,
     MOTIONS_ID,
-    Requirement,
     Verdict,
-    as_one,
     nan_is_worst,
-    worst,
+    severity,
 )
 from report.motions.history import Targets
 from report.motions.prepare import Shaking
 from report.sheet.reading.read import Sheet
 from report.sheet.schema import ProjectInput
 from report.text.counts import grouped_by
-from report.text.units import Quantity, no_less, pair
 from solver.model import Status
 from solver.records.acceptance import Acceptance
 from solver.rules.limit import Limit
 from solver.rules.provisions import RuleSet
 
-_MOST_NAMED = 4  # motions in a sentence; more are counted, and the results have each
-
-
-_WHAT_WOULD_DO = {
-    Status.SLIDING_AT_END: "give a longer record, or Zero padding on the sheet Motions",
-    Status.UPLIFT: "replace the motion",
-    Status.DIVERGED: "replace the motion",
-    Status.STEP_LIMIT: "replace the motion",
-}
-
-
-@dataclass(frozen=True, slots=True)
-class RunWarning:
-    """Runs without a final displacement, as a sentence, and what would do."""
-
-    text: str
-    would_do: str
-
-
-def run_warnings(arrays: Sequence[ArrayAssessment], us_first: bool) -> tuple[RunWarning, ...]:
-    """Return the runs without a final displacement, a sentence for each outcome and its remedy."""
-    troubled = [
-        (array.id, motion.motion.id, run)
-        for array in arrays
-        for motion in array.motions
-        for run in motion.runs
-        if run.result.status is not Status.OK
-    ]
-    by_status = grouped_by(troubled, lambda each: (each[2].result.status, _would_do(each[2])))
-    return tuple(
-        RunWarning(f"{_place(same)}: {_outcome(status, [each[2] for each in same], us_first)}.", do)
-        for (status, do), same in sorted(
-            by_status.items(), key=lambda item: list(Status).index(item[0][0])
-        )
-    )
-
-
-def _would_do(run: OrientedRun) -> str:
-    status, scene = run.result.status, run.scene
-    if status is Status.SLIDING_AT_END and scene.friction.mu_slow <= math.tan(scene.slope_rad):
-        return (
-            "the friction coefficient is not above tan θ of the roof slope, so that no record is "
-            "long enough: provide more friction"
-        )
-    return _WHAT_WOULD_DO[status]
-
-
-def _place(runs: Sequence[tuple[str, str, OrientedRun]]) -> str:
-    """Return the arrays and motions of runs that are given with the ids of theirs."""
-    arrays = tuple(dict.fromkeys(array for array, _, _ in runs))
-    motions = tuple(dict.fromkeys(motion for _, motion, _ in runs))
-    of = f"{'Array' if len(arrays) == 1 else 'Arrays'} {', '.join(arrays)}"
-    if len(motions) > _MOST_NAMED:
-        return f"{of}, {len(runs)} runs of {len(motions)} motions"
-    of += f", {'motion' if len(motions) == 1 else 'motions'} {', '.join(motions)}"
-    if len(arrays) == len(motions) == 1:
-        return f"{of}, {', '.join(run.orientation.name for _, _, run in runs)}"
-    return f"{of}, {len(runs)} runs"
-
-
-def _outcome(status: Status, runs: Sequence[OrientedRun], us_first: bool) -> str:
-    results = [run.result for run in runs]
-    if status is Status.UPLIFT:
-        return f"{status.sentence} (at {min(result.t_uplift_s for result in results):.3f} s)"
-    if status is not Status.SLIDING_AT_END:
-        return status.sentence
-    fastest = max(abs(result.end_speed_mps) for result in results)
-    return f"{status.sentence} (at {pair(fastest, Quantity.VELOCITY, us_first, no_less)})"
-
-
 THREADS = 2
+
+_APART = ("clearance", "design", "runs", "tipping", "links")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -127,17 +55,17 @@ class Assessment:
     # what the plan shows beside each array, with its clearances; none in `at_reduced_friction`
     pairs: tuple[PlanNeighbor, ...]
     acceptance: Acceptance  # limits on the motions as run, at the roof
-    rows: tuple[Requirement, ...]  # of the project, its motions and arrays, beside the limits
     at_reduced_friction: Assessment | None  # the same with less friction; None in that one itself
     # arrays with their low-velocity coefficient alone; without any in `at_reduced_friction`, and in
     # what `reassess` and `anticipate` give
     low_velocity: LowVelocityAssessment
+    # what the project comes to if a check is not met, as a sentence by the id of the check
+    otherwise: Mapping[str, str] = field(default_factory=dict)
+    more: tuple[Check, ...] = ()  # checks that do not follow from the input alone
     # everything that is required, satisfied or not: the verdicts are the worst of it
     checks: tuple[Check, ...] = field(init=False, compare=False)
     # What many ask for, once; not when it is asked for first: nothing may change while it is sent.
-    _rows_by_subject: Mapping[str, Sequence[Requirement]] = field(init=False, compare=False)
     _gaps_by_array: Mapping[str, Sequence[ClearanceCheck]] = field(init=False, compare=False)
-    _verdicts: Mapping[str, Verdict] = field(init=False, compare=False)  # by array
     # what the plan shows near each array, or what a clearance is given to
     neighbors: tuple[PlanNeighbor, ...] = field(init=False, compare=False)
     # those without a clearance that are not known to be sufficient
@@ -148,15 +76,11 @@ class Assessment:
         ids = {row.array: None for row in rows} | {row.object: None for row in rows}
         gaps = {each: [gap for gap in self.clearances if gap.involves(each)] for each in ids}
         object.__setattr__(self, "_gaps_by_array", gaps)
-        rows_by_subject = grouped_by(self.rows, lambda row: row.subject)
-        object.__setattr__(self, "_rows_by_subject", rows_by_subject)
-        verdicts = {item.id: self._array_verdict(item) for item in self.arrays}
-        object.__setattr__(self, "_verdicts", verdicts)
         neighbors = tuple(pair for pair in self.pairs if pair.is_listed)
         object.__setattr__(self, "neighbors", neighbors)
         missing = tuple(near for near in neighbors if near.is_short)
         object.__setattr__(self, "missing_gaps", missing)
-        object.__setattr__(self, "checks", every(self))
+        object.__setattr__(self, "checks", (*every(self), *self.more))
 
     def __repr__(self) -> str:
         counts = f"{len(self.arrays)} arrays, {len(self.clearances)} clearances"
@@ -179,39 +103,17 @@ class Assessment:
 
     @property
     def verdict(self) -> Verdict:
-        """Verdict on the project: the worst of its limits, arrays, clearances and rows."""
-        verdict = worst(
-            [
-                *(self.limit_verdict(check) for check in self.building_checks),
-                *self._verdicts.values(),
-                *(gap.verdict for gap in self.clearances),
-                *(row.verdict for row in self.rows),
-            ]
-        )
-        return Verdict.CONDITIONS if verdict is Verdict.CONDITION else verdict
+        """Verdict on the project: the worst of its checks."""
+        return verdict_of(self.checks)
 
     def array_verdict(self, item: ArrayAssessment) -> Verdict:
-        """Return the verdict on an array: its values, limits, rows and clearances."""
-        return self._verdicts[item.id]
-
-    def _array_verdict(self, item: ArrayAssessment) -> Verdict:
-        gaps = self.gaps_of(item.id)
-        # Beside a clearance without a verdict it is NG.
-        has_verdicts = not math.isnan(item.design_m) and all(gap.is_permitted for gap in gaps)
-        is_ok = has_verdicts and self.is_rigid_enough(item) and self.is_sound(item)
-        return worst(
-            [
-                Verdict.OK if is_ok else Verdict.NG,
-                *(gap.verdict for gap in gaps),
-                *(row.verdict for row in self.rows_of(item.array.id)),
-            ]
-        )
+        """Return the verdict on an array: the worst of its checks."""
+        return verdict_of(self.checks, item.id)
 
     def limit_verdict(self, limit: Limit) -> Verdict:
-        """Return the verdict on a limit: of one that is a requirement too, the verdict on that."""
-        rows = (row for row in self.rows if row.id == MOTIONS_ID and row.title == limit.title)
-        missed = next((row.verdict for row in rows), BY_CONSEQUENCE[limit.consequence])
-        return Verdict.OK if limit.ok else missed
+        """Return the verdict on a limit on the motions, or of the rule set."""
+        missed = (c.verdict for c in self.checks if c.id == MOTIONS_ID and c.title == limit.title)
+        return Verdict.OK if limit.ok else next(missed, BY_CONSEQUENCE[limit.consequence])
 
     def is_sound(self, item: ArrayAssessment) -> bool:
         """Whether an array satisfies its limits, and its runs are final."""
@@ -222,22 +124,30 @@ class Assessment:
         )
 
     @property
-    def conditions(self) -> tuple[Requirement, ...]:
-        """The rows that are not satisfied and not only a note."""
+    def open(self) -> Sequence[Check]:
+        """What is NG, then the conditions; those that ask the same of several are one."""
+        checks = [check for check in self.checks if check.is_open]
+        return alike(sorted(checks, key=lambda check: -severity(check.verdict)))
+
+    @property
+    def rows(self) -> tuple[Check, ...]:
+        """The checks beside the limits, clearances and runs, which have tables of their own."""
+        apart = {*self.rules.values, *_APART}
         return tuple(
-            row for row in self.rows if not row.is_satisfied and row.verdict is not Verdict.NOTE
+            check
+            for check in self.checks
+            if check.id not in apart and not (check.id == MOTIONS_ID and check.is_satisfied)
         )
 
     @property
-    def notes(self) -> tuple[Requirement, ...]:
-        """The rows on the analysis that are not satisfied, where nothing follows from it."""
-        return tuple(row for row in self.rows if row.verdict is Verdict.NOTE)
+    def conditions(self) -> tuple[Check, ...]:
+        """The rows that are not satisfied and not only a note."""
+        return tuple(row for row in self.rows if row.is_open)
 
     @property
-    def alike_conditions(self) -> Sequence[tuple[Requirement, Sequence[str]]]:
-        """The same, each with the ids of all arrays or motions that it asks the same of."""
-        groups = grouped_by(self.conditions, lambda row: row.asked)
-        return [(as_one(rows), [row.subject for row in rows]) for rows in groups.values()]
+    def notes(self) -> tuple[Check, ...]:
+        """The rows on the analysis that are not satisfied, where nothing follows from it."""
+        return tuple(row for row in self.rows if row.verdict is Verdict.NOTE)
 
     @property
     def is_overridden(self) -> bool:
@@ -250,9 +160,9 @@ class Assessment:
             )
         )
 
-    def rows_of(self, subject: str) -> Sequence[Requirement]:
-        """Return the rows about an array or a motion."""
-        return self._rows_by_subject.get(subject, ())
+    def rows_of(self, array_id: str) -> Sequence[Check]:
+        """Return the rows that are part of the verdict on an array."""
+        return [row for row in self.rows if array_id in row.arrays]
 
     def is_rigid_enough(self, item: ArrayAssessment) -> bool:
         """Whether one rigid block is adequate for an array, where the workbook asks."""
@@ -261,11 +171,6 @@ class Assessment:
     def gaps_of(self, array_id: str) -> Sequence[ClearanceCheck]:
         """Return the clearances that involve an array, on either side."""
         return self._gaps_by_array.get(array_id, ())
-
-    @property
-    def warnings(self) -> tuple[RunWarning, ...]:
-        """Runs whose displacement is missing or not final, in words."""
-        return run_warnings(self.arrays, self.project.us_first)
 
     def governing_gap(self, array_id: str = "") -> ComparedGap | None:
         """Return the gap with the largest D/C, if any; of an array that from either side."""

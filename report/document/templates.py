@@ -18,10 +18,10 @@ from typing import TYPE_CHECKING, Any
 from jinja2 import pass_context
 from markupsafe import Markup
 
+from report.assessment.checks.check import dagger
 from report.assessment.friction import mu_words
 from report.document.tables import Table, headed, merged, stamp, table_of
 from report.entities.evidence import ratio_up
-from report.entities.requirement import dagger
 from report.text import counts, formats, units
 from report.typeset import equations
 

@@ -14,9 +14,10 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, model_validator
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis
+from report.assessment.checks.check import Check, dagger, found_and_limit
 from report.assessment.project import Assessment
 from report.assessment.routes import SEAOC
-from report.assessment.verdict import OVERRIDDEN, Requirement, Verdict
+from report.assessment.verdict import ItemVerdict, Verdict
 from report.entities.shown import (
     LEFT_OUT,
     Beside,
@@ -33,7 +34,7 @@ from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Finding, Level, Place
 from report.text.units import Quantity, no_less
 from solver.rules.limit import Consequence, Limit
-from solver.rules.provisions import PrescriptiveBasis, Provision
+from solver.rules.provisions import PrescriptiveBasis
 
 
 class FindingResult(Entity):
@@ -137,21 +138,54 @@ def finding_results(
         yield FindingResult.of(finding, cell=cell)
 
 
-def requirement_rows(requirements: Iterable[Requirement]) -> Iterator[RequirementRow]:
-    """Yield requirements as rows of a table."""
-    for row in requirements:
-        yield RequirementRow.of(row, subject=row.subject or "Project")
+class Requirement(Entity):
+    """A requirement compared with the project, besides the numeric limits."""
+
+    id: str
+    """Kind of requirement."""
+    title: str
+    """As printed."""
+    found: str
+    """As printed."""
+    limit: str
+    """As printed."""
+    basis: Annotated[str, at("clause")]
+    """Document and clause, or whose practice it is."""
+    is_satisfied: bool
+    """Whether the project satisfies it."""
+    consequence: Consequence
+    """Where it is not satisfied."""
+    subject: str
+    """Id of the array or motion that it concerns; empty for the project."""
+    remedy: str
+    """What the engineer must do where it is not satisfied, as a sentence."""
+    outcome: Annotated[str, at("otherwise")]
+    """What another input in its place comes to, as a sentence."""
+    verdict: ItemVerdict
+    """Of this requirement alone."""
+
+
+def requirements(checks: Iterable[Check], us_first: bool) -> Iterator[Requirement]:
+    """Yield checks as results.json has them."""
+    for check in checks:
+        found, limit = found_and_limit(check, us_first)
+        yield Requirement.of(check, found=found, limit=limit)
+
+
+def requirement_rows(checks: Iterable[Check], us_first: bool) -> Iterator[RequirementRow]:
+    """Yield checks as rows of a table."""
+    for check in checks:
+        found, limit = found_and_limit(check, us_first)
+        subject = check.subject or "Project"
+        yield RequirementRow.of(
+            check, subject=subject, found=found, limit=limit, basis=check.clause
+        )
 
 
 UNVERIFIED = (
     "Numbers marked † have not been compared with the text of the adopted document and shall be "
     "verified against it"
 )
-
-
-def dagger(provision: Provision) -> str:
-    """Return the marks of a number: † unverified, ‡ overridden."""
-    return ("" if provision.verified else "†") + (OVERRIDDEN if provision.reason else "")
 
 
 def joined(marks: str, more: str) -> str:

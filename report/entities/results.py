@@ -12,10 +12,11 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator
 
+from report.assessment.checks.check import sentence
 from report.assessment.evidence import Evidence
 from report.assessment.precheck import findings
 from report.assessment.project import Assessment
-from report.assessment.verdict import Requirement, Verdict
+from report.assessment.verdict import Verdict
 from report.entities.array import ArrayResult, LowVelocityResult, array_result
 from report.entities.clearance import ClearanceResult
 from report.entities.evidence import (
@@ -35,7 +36,9 @@ from report.entities.requirement import (
     AcceptanceResult,
     FindingResult,
     LimitResult,
+    Requirement,
     finding_results,
+    requirements,
 )
 from report.entities.shown import Entity, WrittenSchema, at
 from report.sheet.schema import ProjectInput
@@ -95,7 +98,7 @@ class Compared(Entity):
     """Name of the rule set."""
     verdict: Verdict
     """Verdict on the project."""
-    requirements: Annotated[tuple[Requirement, ...], at("rows")]
+    requirements: tuple[Requirement, ...]
     """Requirements besides the numeric limits."""
     arrays: tuple[ArrayResult, ...]
     """Arrays in the order of the workbook."""
@@ -162,6 +165,7 @@ def _compared(assessment: Assessment) -> dict[str, Any]:
     return {
         "roofslip_version": version("roofslip"),
         "arrays": tuple(array_result(assessment, item) for item in assessment.arrays),
+        "requirements": tuple(requirements(assessment.rows, assessment.project.us_first)),
     }
 
 
@@ -176,7 +180,11 @@ def results(assessment: Assessment, evidence: Evidence) -> Results:
         sdc_is_confirmed=not assessment.project.site.sdc_lacks,
         findings=tuple(finding_results(findings(sheet, shaking), sheet.addresses)),
         linked=tuple(map(linked_result, assessment.linked)),
-        warnings=tuple(run.text for run in assessment.warnings),
+        warnings=tuple(
+            sentence(check, assessment.project.us_first)
+            for check in assessment.open
+            if check.id == "runs"
+        ),
         remedies=tuple(remedy_results(evidence.remedies, assessment.project.us_first)),
         certainty=evidence.uncertainty and uncertainty_result(evidence.uncertainty),
         cumulative=evidence.cumulative,

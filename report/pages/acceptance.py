@@ -11,9 +11,9 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 
+from report.assessment.checks.check import dagger
 from report.assessment.spectra import LEAST_MEAN, Spectra
 from report.document.tables import Column, Table, listed, stamp
-from report.entities.requirement import dagger
 from report.entities.shown import plain, text, words
 from report.motions.components import RecordFile
 from report.pages.parts import MOTION_ROWS, PackageData

@@ -20,8 +20,8 @@ from report.assessment.checks.check import alike
 from report.assessment.evidence import Evidence
 from report.assessment.project import Assessment, ChangeKind, Changes
 from report.assessment.remedies import Remedies
-from report.assessment.requirement_rows import tested
 from report.assessment.routes import Route
+from report.assessment.tested import tested
 from report.assessment.verdict import LOWERING
 from report.pages.checks import (
     FirstSheet,

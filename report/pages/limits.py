@@ -14,6 +14,7 @@ from typing import Any
 from markupsafe import Markup, escape
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.checks.check import dagger
 from report.assessment.evidence import Evidence
 from report.assessment.friction import mus_words
 from report.assessment.neighbors import Cover
@@ -23,7 +24,7 @@ from report.document.tables import Table, listed
 from report.drawing.labels import alike_arrays
 from report.drawing.sheet import unit_format
 from report.entities.evidence import NeighborResult
-from report.entities.requirement import UNVERIFIED, dagger
+from report.entities.requirement import UNVERIFIED
 from report.entities.shown import Shown, centered, length, provided, text, words
 from report.pages.checks import all_checks
 from report.pages.parts import NG, OK, PackageData, verdict

@@ -12,7 +12,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.links import LinkedArray
 from report.assessment.runs import OrientedRun
 from report.assessment.verdict import nan_is_worst
 from report.document.tables import Table, Wide, by_place, listed
@@ -21,19 +20,8 @@ from report.entities.shown import NO_VALUE, centered, length, plain, text, words
 from report.pages.parts import PackageData, statistic, verdict
 from report.text.counts import below_mm, grouped_by
 from report.text.units import number, ratio
-from solver.model import INCH_M, Status
+from solver.model import INCH_M
 from solver.sliding.least_model import DEFAULT, Model, Solution
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LinkTrouble:
-    """A reason why one rigid block has not been shown to be adequate for an array."""
-
-    linked: LinkedArray
-    status: Status = Status.OK  # an outcome without a final displacement
-    runs: tuple[str, ...] = ()  # those that have it
-    # If not, and without runs, there is nothing to compare with.
-    is_too_far: bool = False
 
 
 def part(package: PackageData) -> Mapping[str, object]:
@@ -42,30 +30,8 @@ def part(package: PackageData) -> Mapping[str, object]:
     return {
         "rows": tuple(map(linked_result, linked)),
         "statistics": sorted({statistic(array.design.analysis.basis) for array in linked}),
-        "troubles": tuple(link_troubles(package)),
+        "troubles": package.sentences("links"),
     }
-
-
-def link_troubles(package: PackageData) -> Iterator[LinkTrouble]:
-    """Yield for which arrays one rigid block has not been shown to be adequate, and why."""
-    for linked in package.assessment.linked:
-        yield from _unfinished(linked)
-        if not linked.design.is_permitted:
-            yield LinkTrouble(linked=linked)
-        if not linked.is_within and not math.isnan(linked.estimated_m):
-            yield LinkTrouble(linked=linked, is_too_far=True)
-
-
-def _unfinished(linked: LinkedArray) -> Iterator[LinkTrouble]:
-    for status in Status:
-        runs = [
-            f"{motion.motion.id} {run.orientation.name}"
-            for motion in linked.motions
-            for run in motion.runs
-            if run.row.status is status
-        ]
-        if runs and status is not Status.OK:
-            yield LinkTrouble(linked=linked, status=status, runs=tuple(runs))
 
 
 _NEGLECTED = {

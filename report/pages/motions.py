@@ -14,7 +14,7 @@ from operator import itemgetter
 import numpy as np
 from markupsafe import Markup
 
-from report.assessment.conditions import DRIFT_M, drifts
+from report.assessment.checks.motions import DRIFT_M, drifts
 from report.assessment.evidence import Beyond, Evidence
 from report.assessment.spectra import PRINTED_S, Spectra, departures
 from report.document.tables import Column, Table, Wide, by_place, listed

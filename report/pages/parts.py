@@ -5,17 +5,17 @@ Owns no content: see the other `report.pages` modules. Read `PackageData`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.causes import reasons
+from report.assessment.checks.check import alike, sentence
 from report.assessment.evidence import Saving, saving
 from report.assessment.project import NO_FORMER, Changes
-from report.assessment.requirement_rows import basis_words
+from report.assessment.tested import basis_words
 from report.assessment.verdict import Verdict
 from report.document.tables import stamp
 from report.entities.array import ArrayResult, array_results
@@ -111,25 +111,12 @@ class PackageData(Marked):
         """The arrays of each route that any takes."""
         return ids_by(self.assessment.arrays, lambda item: item.route.value)
 
-    @property
-    def verdicts(self) -> Mapping[str, Sequence[bool]]:
-        """Whether each array, clearance, limit and requirement is not NG."""
-        assessment = self.assessment
-        return {
-            "array": [assessment.array_verdict(item).is_permitted for item in assessment.arrays],
-            "clearance": [
-                *(gap.verdict.is_permitted for gap in assessment.clearances),
-                # A pair in plan that has no clearance counts as one that is not satisfied.
-                *(False for _ in assessment.missing_gaps),
-            ],
-            "limit": [check.ok for _, check in self.checks],
-            "requirement": [row.verdict.is_permitted for row in assessment.rows],
-        }
-
-    @cached_property
-    def reasons(self) -> Sequence[str]:
-        """What makes the project NG, in order."""
-        return tuple(reasons(self.assessment))
+    def sentences(self, id: str, arrays: Collection[str] = ()) -> Sequence[str]:
+        """Return the open checks of a kind in words, those that ask the same as one."""
+        ids = set(arrays or (item.id for item in self.assessment.arrays))
+        checks = self.assessment.checks
+        of_kind = [c for c in checks if c.id == id and c.is_open and not ids.isdisjoint(c.arrays)]
+        return [sentence(check, self.fmt.us_first) for check in alike(of_kind)]
 
     @cached_property
     def saving(self) -> Saving:

@@ -15,7 +15,6 @@ from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.evidence import Evidence
-from report.assessment.project import run_warnings
 from report.assessment.runs import MotionRun
 from report.assessment.verdict import nan_is_worst
 from report.document.tables import Column, Table, TableRow, Wide, listed, table_of
@@ -88,7 +87,7 @@ def _results(package: PackageData, group: _Alike) -> Mapping[str, object]:
         "slope_percent": 100.0 * math.tan(array.array.slope_rad),
         "table": _peaks(package, group, orientations),
         "is_prd_across": not all(run.has_across for run in runs),
-        "troubles": run_warnings(group, package.fmt.us_first),
+        "troubles": package.sentences("runs", [item.id for item in group]),
     }
 
 

@@ -11,15 +11,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from report.assessment.causes import causes, reasons, row_words
-from report.assessment.checks.check import subjects
+from report.assessment.causes import causes
+from report.assessment.checks.check import alike, sentence, subjects
 from report.assessment.evidence import saving
 from report.assessment.precheck import findings
 from report.assessment.project import Assessment
 from report.assessment.remedies import MOST, Remedies, sufficient
 from report.assessment.routes import NOT_PERMITTED
 from report.assessment.verdict import MEANING, Verdict
-from report.document.templates import sentence
+from report.document.templates import sentence as of_template
 from report.entities.array import ArrayResult, array_results
 from report.entities.requirement import Marked
 from report.entities.shown import UnitFormat
@@ -41,8 +41,8 @@ def remedy_lines(assessment: Assessment, found: Remedies) -> Iterator[str]:
     if len(found.together) > 1:
         yield found.sentence(us_first)
     for checks, own in grouped_by(found.own, lambda remedy: remedy.checks).items():
-        alike = grouped_by(checks, lambda check: check.title)
-        names = (", ".join(filter(None, (title, subjects(of)))) for title, of in alike.items())
+        titles = grouped_by(checks, lambda check: check.title)
+        names = (", ".join(filter(None, (title, subjects(of)))) for title, of in titles.items())
         yield f"{'; '.join(names)}: {' '.join(each.sentence(us_first) for each in own)}"
     failed = sum(check.verdict is Verdict.NG for check in assessment.checks)
     if found.own and failed > MOST:
@@ -86,7 +86,7 @@ def without_analysis(assessment: Assessment) -> str:
     if assessment.has_motions and not found.ids:
         return ""
     marked = Marked(assessment=assessment, has_daggers=False)
-    return sentence(TEMPLATES, "without_analysis", marked, found)
+    return of_template(TEMPLATES, "without_analysis", marked, found)
 
 
 def document(assessment: Assessment) -> dict[str, Any]:
@@ -129,20 +129,19 @@ def _row(fmt: UnitFormat, item: ArrayResult) -> tuple[str, ...]:
 
 def attention(assessment: Assessment, *, may_run: bool = True) -> Iterator[Concern]:
     """Yield what is not satisfied, what makes it NG first, and what would do, with runs or not."""
-    for reason in reasons(assessment):
-        yield Concern(Consequence.NG.value, reason)
+    us_first, is_best_due = assessment.project.us_first, assessment.at_reduced_friction is not None
+    failed = [check for check in assessment.open if not check.verdict.is_permitted]
+    for check in failed:
+        yield Concern(Consequence.NG.value, sentence(check, us_first))
     # The verdict with a remedy depends on less friction as well.
-    is_whole = assessment.at_reduced_friction is not None
-    if is_whole and (found := sufficient(assessment, may_run=may_run)).together:
-        yield Concern("remedy", found.sentence(assessment.project.us_first))
-    for row, ids in assessment.alike_conditions:
-        # The others are among the reasons above.
-        if row.verdict.is_permitted:
-            yield Concern(row.consequence.value, row_words(row, ids))
+    if is_best_due and (found := sufficient(assessment, may_run=may_run)).together:
+        yield Concern("remedy", found.sentence(us_first))
+    for check in assessment.open[len(failed) :]:
+        yield Concern(check.consequence.value, sentence(check, us_first))
     if lacks := without_analysis(assessment):
         yield Concern(Consequence.NOTE.value, lacks)
-    for row in assessment.notes:
-        yield Concern(row.consequence.value, row_words(row, [row.subject]))
+    for check in alike(assessment.notes):
+        yield Concern(Consequence.NOTE.value, sentence(check, us_first))
     listed = findings(assessment.sheet, assessment.shaking)
     for line in lines(listed, assessment.sheet.addresses):
         if line.finding.level is Level.WARNING:

@@ -139,7 +139,7 @@ def _rows(assessment: Assessment) -> Iterator[RequirementRow]:
     # In the order of the package, so that both can be laid side by side.
     for check in assessment.acceptance.rows:
         yield _limit(assessment, "Motions", check)
-    yield from requirement_rows(assessment.rows)
+    yield from requirement_rows(assessment.rows, assessment.project.us_first)
 
 
 def _limit(assessment: Assessment, item: str, row: Limit) -> RequirementRow:

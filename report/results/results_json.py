@@ -16,9 +16,9 @@ from typing import Any, TypeVar
 from pydantic import ValidationError
 from pydantic_core import from_json
 
+from report.assessment.checks.check import condition
 from report.assessment.evidence import Evidence
 from report.assessment.project import Assessment, Change, ChangeKind, Changes
-from report.assessment.verdict import condition
 from report.entities.array import ArrayResult
 from report.entities.results import SCHEMA_VERSION, Compared, compared, results
 from report.entities.shown import Entity, Told, UnitFormat, marks_of
@@ -199,12 +199,12 @@ def with_reissue(assessment: Assessment, former: Compared) -> Assessment:
         title=f"Revision {issue.revision}",
         found=f"issued with other inputs, {then.date}",
         limit="another revision for other inputs",
-        basis="plan check",
+        clause="plan check",
         is_satisfied=False,
-        remedy="Raise the revision on the sheet Project, and add its row to Revisions: a seal on "
-        "the former package is not one on this.",
+        remedy="Raise the revision on the Project worksheet, and add its row to Revisions: a "
+        "seal on the previous package is not one on this.",
     )
-    return replace(assessment, rows=(*assessment.rows, row))
+    return replace(assessment, more=(row,))
 
 
 def _given(former: Compared, now: Compared, assessment: Assessment) -> Iterator[Change]:

@@ -76,6 +76,7 @@ class Quantity(Enum):
     TIME = (Unit("s", 1.0, 1),) * 2
     ACCELERATION = (Unit("g", G_MPS2, 3),) * 2
     COUNT = (Unit("", 1.0, 0),) * 2
+    PERCENT = (Unit("%", 1.0, 1),) * 2
     RATIO = (Unit("", 1.0, 2),) * 2
     COEFFICIENT = (Unit("", 1.0, 3),) * 2
 

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 from typing import Any
 
-from report.assessment.causes import outcome, short_clearances, short_words
+from report.assessment.causes import outcome
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.project import Assessment
 from report.assessment.routes import NOT_PERMITTED
@@ -24,15 +24,11 @@ from report.entities.shown import UnitFormat
 from report.pages.checks import verdict_sentence
 from report.pages.summary import attention
 from report.text.amounts import capacity, demand, shown_in_order
-from report.text.units import no_less, no_more
+from report.text.units import no_less
 from report.web.plan import USUAL_PX, Cell, ShowVerdict, cells, described, heads, plan, stamp
-from solver.rules.limit import Consequence
 
 _ARRAY = "id mean_prd_m design_m prescriptive_m verdict"
 _CLEARANCE = "count array provided_m required_m demand_capacity verdict"
-
-MOST_SHORT = 3
-"""Clearances that are NG, up to which each is a cause of its own."""
 
 _PROVISIONAL = (
     "Provisional: each motion in the two orientations with the largest PRD at rest. All of them "
@@ -70,7 +66,9 @@ def answer(
         "verdict_text": None
         if is_provisional or may_change
         else verdict_sentence(assessment, "here"),
-        "reasons": [] if is_provisional else _reasons(assessment, fmt),
+        "reasons": []
+        if is_provisional
+        else list(map(asdict, attention(assessment, may_run=False))),
         # Of what is not whole, the rest is asked next.
         "pending": "" if is_whole else _LESS,
         "arrays": {
@@ -100,31 +98,12 @@ def answer(
 
 def _line(assessment: Assessment) -> str:
     """Return the worst clearance, the first other cause and how many there are, for one line."""
-    short, causes = short_clearances(assessment), outcome(assessment)
+    causes = outcome(assessment)
+    n_short = sum(not gap.verdict.is_permitted for gap in assessment.clearances)
     if more := causes.others[1:]:
-        causes = replace(causes, others=(f"{causes.others[0]} and {len(more)} more",))
+        causes = replace(causes, others=(f"{causes.others[0]} and {len(more)} more items",))
     words = causes.causes(assessment.project.us_first)
-    return f"{words}; {len(short)} clearances NG" if len(short) > 1 else words
-
-
-def _reasons(assessment: Assessment, fmt: UnitFormat) -> list[dict[str, Any]]:
-    """Return what needs attention, the causes of NG first; many short clearances as one."""
-    reasons = list(map(asdict, attention(assessment, may_run=False)))
-    short = [gap for gap in short_clearances(assessment) if not math.isnan(gap.required_m)]
-    if len(short) <= MOST_SHORT:
-        return reasons
-    parts = [short_words(gap, assessment.project.us_first) for gap in short]
-    worst, most_m = short[0].clearance, max(gap.required_m for gap in short)
-    # They stay where the first of them stood among the other causes.
-    first = reasons.index({"level": Consequence.NG.value, "text": parts[0]})
-    grouped = {
-        "level": Consequence.NG.value,
-        "text": f"{len(short)} clearances under {fmt.short(most_m, show=no_less)}; worst "
-        f"{worst.array} to {worst.object}, {fmt.short(worst.provided_m, show=no_more)}",
-        "parts": parts,
-    }
-    others = [reason for reason in reasons if reason["text"] not in parts]
-    return [*others[:first], grouped, *others[first:]]
+    return f"{words}; {n_short} clearances NG" if n_short > 1 else words
 
 
 def _design(item: ArrayRow, fmt: UnitFormat, is_provisional: bool) -> Cell:

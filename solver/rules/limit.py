@@ -19,7 +19,9 @@ _EQUAL = 1e-9
 MOTIONS = Provision(value=math.nan, clause="motions for analysis", confidence=Confidence.KNOWN)
 
 # Of the limits that stand in no code: there is nothing to verify there.
-PROGRAM = Provision(value=math.nan, clause="limit of this program", confidence=Confidence.CONFIRMED)
+PROGRAM = Provision(
+    value=math.nan, clause="limit set by this program", confidence=Confidence.CONFIRMED
+)
 
 
 class Consequence(StrEnum):

@@ -1,17 +1,22 @@
-"""What an array is to come to: a design displacement, runs that end, a block that stays flat."""
+"""What is required of an array: a displacement, runs that end, strength, weight, slack."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
 
-from report.assessment.checks.check import THIS_PROGRAM, Check, Sense
+from report.assessment.checks.check import THIS_PROGRAM, Actor, Check, Sense, condition
 from report.assessment.routes import Route, lacking_motions, statistic_basis
-from report.text.amounts import Amount, capacity, demand
+from report.assessment.verdict import NO_DESIGN, NOT_GIVEN, STRENGTH_ROW
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.fields import Place
+from report.sheet.schema.scene import Array
+from report.text.amounts import Amount, capacity, demand, entered
 from report.text.counts import grouped_by, lowered, ranged
-from report.text.units import Quantity, no_less, pair
+from report.text.units import Quantity, measured, no_less, pair
 from solver.model import Status
+from solver.rules.limit import Consequence
 from solver.rules.provisions import review_lifts_slope
 from solver.sliding.least_model import DEFAULT
 
@@ -22,12 +27,124 @@ if TYPE_CHECKING:
     from report.assessment.runs import OrientedRun
 
 
+_NOISE = 1e-9  # a weight in other units is no more than itself
+
+
 def of_array(done: Assessment, item: ArrayAssessment) -> Iterator[Check]:
     """Yield whether an array has a design displacement, comes to rest and stays flat."""
     yield _design(done, item)
     if item.runs:
-        yield from _runs(item, done.project.us_first)
+        yield from run_checks(item, done.project.us_first)
     yield _tipping(item)
+    index = [each.id for each in done.arrays].index(item.id)
+    yield slack_check(item.array, item.permitted_m, index)
+
+
+def before_runs(data: ProjectInput, array: Array, required_n: float) -> Iterator[Check]:
+    """Yield what is required of an array and needs no run; of its parts a strength [N]."""
+    yield _interconnection(data, array, required_n)
+    yield from _weight(data, array)
+
+
+def _interconnection(data: ProjectInput, array: Array, required_n: float) -> Check:
+    # PV1-2012 section 6: the larger of 0.133 S_DS W1 and 0.1 W1, W1 the lighter side.
+    return Check(
+        id=STRENGTH_ROW,
+        title="Interconnection strength",
+        subject=array.id,
+        arrays=(array.id,),
+        **_provided(array.interconnection_n, required_n, Quantity.WEIGHT),
+        clause=data.site.rule_set,
+        actor=Actor.SUPPLIER,
+        remedy="Show that the racking provides the required strength between its parts, and enter "
+        "it on the Arrays worksheet.",
+        places=_places(data, array, "interconnection_n"),
+    )
+
+
+def slack_check(array: Array, required_m: float, index: int) -> Check:
+    """Return whether the wiring has slack for a displacement [m]; NaN before it is known."""
+    return Check(
+        id="electrical_slack",
+        title="Electrical slack",
+        subject=array.id,
+        arrays=(array.id,),
+        **_provided(array.slack_m, required_m, Quantity.SIZE),
+        clause="design displacement",
+        remedy="Provide wiring slack of at least the design displacement, and enter it on the "
+        "Arrays worksheet.",
+        places=(Place("arrays", index, "slack_m"),),
+    )
+
+
+def _provided(value: float | None, required: float, quantity: Quantity) -> Mapping[str, Any]:
+    """Return what is found and required of a value that a workbook may give, and what follows."""
+    has_limit = not math.isnan(required)
+    return {
+        "found": NOT_GIVEN if value is None else capacity(value, quantity),
+        "limit": demand(required, quantity) if has_limit else NO_DESIGN,
+        "sense": Sense.AT_LEAST if has_limit else Sense.STATED,
+        "is_satisfied": value is not None and value >= required,
+        "consequence": Consequence.CONDITION if value is None else Consequence.NG,
+    }
+
+
+def _weight(data: ProjectInput, array: Array) -> Iterator[Check]:
+    """Yield the weight per plan area beside what the engineers of roof and wind state."""
+    here_pa, capacity_pa, wind_pa = array.weight_pa, array.roof_capacity_pa, array.wind_weight_pa
+    unit = Quantity.PRESSURE.us if data.us_first else Quantity.PRESSURE.si
+    if capacity_pa is None:
+        yield condition(
+            id="roof_capacity",
+            title="Weight per plan area",
+            subject=array.id,
+            arrays=(array.id,),
+            found=f"roof capacity {NOT_GIVEN}",
+            limit="the weight per plan area that the roof's engineer permits",
+            clause="roof capacity, as entered",
+            actor=Actor.ROOF,
+            is_satisfied=False,
+            remedy="Have the roof's engineer state the roof capacity, and enter it on the Arrays "
+            "worksheet.",
+            places=_places(data, array, "roof_capacity_pa"),
+        )
+    else:
+        yield Check(
+            id="roof_capacity",
+            title="Weight per plan area",
+            subject=array.id,
+            arrays=(array.id,),
+            found=entered(here_pa, Quantity.PRESSURE),
+            limit=capacity(capacity_pa, Quantity.PRESSURE),
+            sense=Sense.AT_MOST,
+            clause="roof capacity, as entered",
+            actor=Actor.ROOF,
+            is_satisfied=here_pa <= capacity_pa * (1.0 + _NOISE),
+            remedy="Reduce the weight, or have the roof's engineer state a larger capacity.",
+            places=_places(data, array, "weight_n", "roof_capacity_pa"),
+        )
+    yield condition(
+        id="wind_weight",
+        title="Weight in wind design",
+        subject=array.id,
+        arrays=(array.id,),
+        found=NOT_GIVEN if wind_pa is None else entered(wind_pa, Quantity.PRESSURE),
+        limit=entered(here_pa, Quantity.PRESSURE),
+        sense=Sense.EQUAL,
+        is_capacity=False,
+        clause="wind design, by others",
+        actor=Actor.WIND,
+        # To the digits that are printed.
+        is_satisfied=wind_pa is not None and measured(wind_pa, unit) == measured(here_pa, unit),
+        remedy="Have the engineer of the wind design state the weight with ballast, and use one "
+        "weight in both.",
+        places=_places(data, array, "weight_n", "wind_weight_pa"),
+    )
+
+
+def _places(data: ProjectInput, array: Array, *fields: str) -> tuple[Place, ...]:
+    index = [each.id for each in data.arrays].index(array.id)
+    return tuple(Place("arrays", index, field) for field in fields)
 
 
 def _design(done: Assessment, item: ArrayAssessment) -> Check:
@@ -82,7 +199,7 @@ def _would_do(run: OrientedRun) -> str:
     return _WOULD_DO.get(status, "")
 
 
-def _runs(item: ArrayAssessment, us_first: bool) -> Iterator[Check]:
+def run_checks(item: ArrayAssessment, us_first: bool) -> Iterator[Check]:
     """Yield whether every run of an array comes to rest, one check for each outcome."""
     named = [(motion.motion.id, run) for motion in item.motions for run in motion.runs]
     outcomes = grouped_by(named, lambda each: (each[1].result.status, _would_do(each[1])))
@@ -136,8 +253,11 @@ def of_links(linked: LinkedArray) -> Check:
     design, estimated_m = linked.design, linked.estimated_m
     most_m = design.design_m + DEFAULT.bound_m(design.design_m)
     found: Amount | str = demand(estimated_m, Quantity.DISPLACEMENT)
+    note = "one rigid block does not slide in one axis" if math.isinf(estimated_m) else ""
     if not linked.is_final:
         found = "not every block comes to rest"
+        lost = (each for each in linked.motions if not all(run.is_final for run in each.runs))
+        note = ranged(each.motion.id for each in lost)
     elif math.isnan(estimated_m):
         found = "none"
     has_limit = not math.isnan(most_m)
@@ -147,6 +267,7 @@ def of_links(linked: LinkedArray) -> Check:
         subject=design.id,
         arrays=(design.id,),
         found=found,
+        note=note,
         limit=capacity(most_m, Quantity.DISPLACEMENT) if has_limit else "that of one rigid block",
         sense=Sense.AT_MOST if has_limit else Sense.STATED,
         clause=THIS_PROGRAM,

@@ -8,13 +8,15 @@ the parts of it in columns. Read `Check`, then `sentence`.
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import partial
+from typing import Any
 
 from report.assessment.verdict import (
     BY_CONSEQUENCE,
+    NOT_GIVEN,
     OVERRIDDEN,
     Verdict,
     nan_is_worst,
@@ -25,10 +27,10 @@ from report.sheet.schema.fields import Place
 from report.text.amounts import Amount, amount_text, amount_texts
 from report.text.counts import capitalized, grouped_by, joined, lowered, ranged
 from report.text.units import Rounding, ratio
-from solver.rules.limit import Consequence
+from solver.rules.limit import PROGRAM, Consequence
 from solver.rules.provisions import Provision
 
-THIS_PROGRAM = "limit set by this program"
+THIS_PROGRAM = PROGRAM.clause
 # Kinds whose subjects are pairs, which do not count on as A1 to A3 do.
 PAIRS = ("clearance", "neighbors", "fire_pathway")
 # Pairs that a sentence names.
@@ -102,15 +104,13 @@ class Check:
     remedy: str = ""
     """What they must do where it is not satisfied, as a sentence; empty where it is."""
     otherwise: str = ""
-    """What the project comes to if it is not met, as a sentence; empty where it is."""
+    """What the project comes to if it is not met, or with another input, as a sentence."""
     places: tuple[Place, ...] = ()
     """Cells of the workbook."""
 
     def __post_init__(self) -> None:
-        # Nothing is to be done of what is satisfied, and nothing else comes of it.
-        if self.is_satisfied:
+        if self.is_satisfied:  # nothing is to be done
             object.__setattr__(self, "remedy", "")
-            object.__setattr__(self, "otherwise", "")
 
     @property
     def verdict(self) -> Verdict:
@@ -165,6 +165,12 @@ def texts(check: Check, us_first: bool, *, is_both: bool = True) -> tuple[str, s
     return found, f"{check.sense} {limit}" if is_amount else limit
 
 
+def found_and_limit(check: Check, us_first: bool) -> tuple[str, str]:
+    """Return the same in both systems, what is found with its note."""
+    found, limit = texts(check, us_first)
+    return found + (f" ({check.note})" if check.note else ""), limit
+
+
 def sentence(check: Check, us_first: bool) -> str:
     """Return a check in words: of what, what was found, what is required and by which clause."""
     found, limit = _texts(check, us_first)
@@ -195,6 +201,8 @@ def words(check: Check) -> str:
     """Return a check in a few words for one cell, such as `roof slope 1.29`."""
     name = lowered(check.title)
     name += f" {check.subject}" if check.id in PAIRS else ""
+    if math.isinf(check.ratio) and isinstance(check.found, str):
+        return f"{name} {check.found}"
     return f"{name} {ratio(check.ratio)}" if math.isfinite(check.ratio) else name
 
 
@@ -299,3 +307,15 @@ def dagger(provision: Provision) -> str:
 
 # What is a condition where it is not satisfied.
 condition = partial(Check, consequence=Consequence.CONDITION)
+
+
+def stated(section: str, **parts: tuple[str, object]) -> Mapping[str, Any]:
+    """Return what a block states of several parts, name and value by field, and what it lacks."""
+    values = [str(value) for _, value in parts.values() if value]
+    missing = {field: name for field, (name, value) in parts.items() if not value}
+    lacks = [f"{', '.join(missing.values())} missing"] if missing else []
+    return {
+        "found": "; ".join([*values, *lacks]) if values else NOT_GIVEN,
+        "is_satisfied": not missing,
+        "places": tuple(Place(section, 0, field) for field in missing),
+    }

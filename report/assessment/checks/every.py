@@ -1,26 +1,95 @@
-"""All that is required of an assessed project, satisfied or not. Read `every`."""
+"""All that is required of a project, satisfied or not. Read `every`, then `before_runs`."""
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from report.assessment.checks import arrays, evidence, limits, motions, plan
+from report.assessment.checks import (
+    arrays,
+    evidence,
+    existing_roof,
+    friction,
+    hazard,
+    limits,
+    motions,
+    plan,
+)
 from report.assessment.checks.check import Check
-from report.assessment.verdict import MOTIONS_ID
+from report.assessment.routes import Route, RouteLimits, interconnection_n
+from report.assessment.verdict import MOTIONS_ID, VELOCITY_ROW
+from report.sheet.schema import ProjectInput
+from solver.records.acceptance import Acceptance
+from solver.rules.limit import Consequence
+from solver.rules.provisions import RuleSet
 
 if TYPE_CHECKING:
     from report.assessment.project import Assessment
+    from report.motions.prepare import Shaking
+
+# Who takes the prescriptive displacement need not meet them.
+_OF_ANALYSIS = (MOTIONS_ID, "drift", "ground_motions", "peer_review", VELOCITY_ROW)
 
 
 def every(done: Assessment) -> tuple[Check, ...]:
-    """Return everything that is required of a project."""
-    ids = [item.id for item in done.arrays]
-    return (
-        *limits.of_building(done),
-        *(check for item in done.arrays for check in limits.of_array(done, item)),
+    """Return everything that is required of an assessed project."""
+    data, by_runs = done.project, {item.id for item in done.arrays if item.is_by_runs}
+    has_variations = done.at_reduced_friction is not None and done.has_motions
+    found = (
+        *before_runs(data, done.rules, done.shaking, done.acceptance, done.arrays, by_runs),
         *(check for item in done.arrays for check in arrays.of_array(done, item)),
         *map(arrays.of_links, done.linked),
         *plan.of_clearances(done),
-        *motions.of_motions(done),
-        *(evidence.of_row(row, ids) for row in done.rows if row.id != MOTIONS_ID),
+        *plan.of_pathways(data, done.pairs),
+        *plan.of_neighbors(done),
+        *noted(
+            friction.of_velocities(data, done.arrays, done.low_velocity) if has_variations else (),
+            by_runs,
+        ),
+        *friction.of_less(done),
     )
+    return tuple(
+        replace(check, otherwise=done.otherwise[check.id]) if check.id in done.otherwise else check
+        for check in found
+    )
+
+
+def before_runs(
+    data: ProjectInput,
+    rules: RuleSet,
+    shaking: Shaking,
+    acceptance: Acceptance,
+    routes: Sequence[RouteLimits],
+    by_runs: Collection[str],
+) -> Iterator[Check]:
+    """Yield what is known of a project before any run; `routes` are those of its arrays.
+
+    `by_runs` are the arrays whose design displacement follows from their runs.
+    """
+    ids = [array.id for array in data.arrays]
+    analyzed = [id for id, item in zip(ids, routes, strict=True) if item.route is Route.ANALYSIS]
+    yield from limits.of_building(data, rules)
+    for index, (id, item) in enumerate(zip(ids, routes, strict=True)):
+        yield from limits.of_array(item, index, id, has_motions=bool(shaking.motions))
+    yield evidence.of_building_code(data)
+    yield from plan.of_roof(data)
+    yield from existing_roof.of_existing_roof(data)
+    yield from noted(evidence.of_confirmations(data), by_runs)
+    yield from limits.of_overrides(data)
+    yield from hazard.of_site(data)
+    yield from noted(motions.of_records(data, shaking.prepared), by_runs)
+    yield from friction.of_tests(data)
+    yield from noted(motions.of_acceptance(acceptance, analyzed, shaking), by_runs)
+    for array in data.arrays:
+        yield from arrays.before_runs(data, array, interconnection_n(data, rules, array))
+
+
+def noted(checks: Iterator[Check] | tuple[()], by_runs: Collection[str]) -> Iterator[Check]:
+    """Yield checks; what concerns the analysis alone is a note where nothing follows from it."""
+    for check in checks:
+        concerned = check.subject in by_runs if check.id == VELOCITY_ROW else bool(by_runs)
+        if concerned or check.id not in _OF_ANALYSIS:
+            yield check
+        else:
+            yield replace(check, consequence=Consequence.NOTE, remedy=motions.NO_EFFECT, arrays=())

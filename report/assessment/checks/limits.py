@@ -1,36 +1,54 @@
-"""The limits of the rule set on the building and on each array, of both routes."""
+"""The limits of the rule set on the building and on each array, of both routes; overrides."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from functools import partial
 
-from report.assessment.checks.check import Check, Sense, dagger
-from report.assessment.routes import Route
+from report.assessment.checks.check import Actor, Check, Sense, condition, dagger
+from report.assessment.routes import Route, RouteLimits
+from report.assessment.verdict import OVERRIDDEN, OVERRIDE_ID, STAYS, takes_plain_mean
+from report.sheet.schema import Override, ProjectInput, provision_name, provision_unit
+from report.sheet.schema.fields import Place
 from report.text.amounts import limit_amounts
+from report.text.counts import lowered
 from solver.rules.limit import Consequence, Limit, Measure
-
-if TYPE_CHECKING:
-    from report.assessment.arrays import ArrayAssessment
-    from report.assessment.project import Assessment
+from solver.rules.provisions import RULE_SETS, RuleSet, building_checks
+from solver.rules.rulesets import ALLOWED, Provision
 
 
-def of_building(done: Assessment) -> Iterator[Check]:
+def of_building(data: ProjectInput, rules: RuleSet) -> Iterator[Check]:
     """Yield the limits on the building."""
-    return map(of_limit, done.building_checks)
+    for limit in building_limits(data, rules):
+        yield replace(of_limit(limit), places=(Place("site", 0, _FIELDS[limit.key]),))
 
 
-def of_array(done: Assessment, item: ArrayAssessment) -> Iterator[Check]:
+def building_limits(data: ProjectInput, rules: RuleSet) -> tuple[Limit, ...]:
+    """Return the limits on the building, of the solver."""
+    categories = list(type(data.site.risk_category))
+    return building_checks(
+        rules,
+        risk_category=categories.index(data.site.risk_category) + 1,
+        stories=data.site.stories,
+    )
+
+
+def of_array(item: RouteLimits, index: int, id: str, *, has_motions: bool) -> Iterator[Check]:
     """Yield the limits on an array; of the route that is not taken each is a note."""
-    for limit in item.limits:
-        yield of_limit(limit, item.id)
+
+    def of(limit: Limit) -> Check:
+        field = _FIELDS.get(limit.key, "")
+        place = Place("arrays", index, field) if field else Place("motions")
+        return replace(of_limit(limit, id), places=(place,))
+
+    yield from map(of, item.limits)
     is_analysis = item.route is Route.ANALYSIS
     for limit in item.prescriptive_checks if is_analysis else item.analysis_checks:
         # Without motions nobody takes the analysis: how many there are says nothing.
-        if is_analysis or done.has_motions:
-            yield replace(of_limit(limit, item.id), consequence=Consequence.NOTE)
+        if is_analysis or has_motions:
+            yield replace(of(limit), consequence=Consequence.NOTE, remedy="")
 
 
 def of_limit(limit: Limit, subject: str = "") -> Check:
@@ -54,8 +72,59 @@ def of_limit(limit: Limit, subject: str = "") -> Check:
     )
 
 
+# The cell that a limit compares, by the key of the limit.
+_FIELDS = {
+    "low_profile_in": "cg_height_m",
+    "ibc_max_slope_deg": "slope_value",
+    "analysis_max_slope_deg": "slope_value",
+    "prescriptive_max_slope_deg": "slope_value",
+    "prescriptive_min_mu": "mu",
+    "max_risk_category": "risk_category",
+    "max_stories": "stories",
+}
+
 _REMEDIES = {
     "low_profile_in": "Lower the center of gravity of the array, or widen its supports.",
     "prescriptive_min_mu": "Provide more friction, shown by tests.",
     "analysis_min_motions": "Complete the motions.",
 }
+
+
+def of_overrides(data: ProjectInput) -> Iterator[Check]:
+    """Yield what requires less than the rule set: each override that does, and each departure."""
+    rules = RULE_SETS[data.site.rule_set]
+    for index, row in enumerate(data.overrides):
+        if (rule := rules.values.get(row.provision)) is not None:
+            yield _override(rule, index, row)
+    if takes_plain_mean(data):
+        yield _lowering(
+            id="statistic",
+            title="Design value statistic",
+            found=f"{data.options.statistic}{OVERRIDDEN}",
+            limit="statistic of the rule set, with its factor",
+            clause=rules.values["analysis_factor"].clause,
+            is_satisfied=False,
+            places=(Place("options", 0, "statistic"),),
+        )
+
+
+def _override(rule: Provision, index: int, row: Override) -> Check:
+    allowed, unit = ALLOWED[row.provision], provision_unit(row.provision)
+    value, adopted = (f"{v:.4g} {unit}".rstrip() for v in (row.value, rule.value))
+    return _lowering(
+        id=OVERRIDE_ID,
+        title=f"Override of the {lowered(provision_name(row.provision))}",
+        found=f"{value}{OVERRIDDEN}, {row.reason}",
+        limit=f"{'≤' if allowed.is_maximum else '≥'} {adopted}",
+        clause=rule.clause,
+        # One on the safe side needs nobody's consent.
+        is_satisfied=not allowed.lowers(row.value, rule.value),
+        places=(Place("overrides", index, "value"),),
+    )
+
+
+_lowering = partial(
+    condition,
+    actor=Actor.JURISDICTION,
+    remedy=f"Obtain the consent of the authority having jurisdiction. {STAYS}",
+)

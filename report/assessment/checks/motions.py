@@ -1,39 +1,243 @@
-"""The limits on the motions of an analysis."""
+"""What is required of the motions of an analysis: AC156 and practice, drift, long periods."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
-from report.assessment.checks.check import Check
+import numpy as np
+
+from report.assessment.checks.check import THIS_PROGRAM, Actor, Check, Sense, condition
 from report.assessment.checks.limits import of_limit
-from report.assessment.routes import Route
-from report.assessment.verdict import MOTIONS_ID
+from report.assessment.verdict import MOTIONS_ID, NOT_GIVEN, STAYS
+from report.motions.history import PreparedMotion, targets
+from report.sheet.checking.motion_checks import FIELDS
+from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Place
-from solver.rules.limit import Consequence
+from report.text.amounts import capacity, demand
+from report.text.counts import grouped_by, ids_by, quoted, ranged
+from report.text.units import G_MPS2, Quantity, digits_up
+from solver.records.acceptance import FULL_RATIO, POINTS_HZ, Acceptance, spectrum_mps2
+from solver.rules.limit import PROGRAM, Consequence, Limit, Measure
 
 if TYPE_CHECKING:
-    from report.assessment.project import Assessment
+    from report.motions.prepare import Shaking
+
+# Final displacement of a record [m] above which it drifts: the block would follow it as slip.
+DRIFT_M = 0.010
+# Final displacement [m] and velocity [m/s] above which it is not accepted: in no code. A fault may
+# move the ground by more, and no ground keeps moving.
+MOST_DRIFT_M, MOST_END_MPS = 0.5, 0.1
+_DRIFT_TITLES = (
+    "Final displacement of each component, unless it is stated to be permanent",
+    "Final velocity of each component",
+)
+
+# Periods from which on the mean of the ground motions / their target is compared, and the ratio
+# above which a peer reviewer must accept the motions: in no code.
+LONG_PERIOD_S, MOST_LONG_RATIO = 1.0, 2.0
+
+# Above it, records that are scaled to a target are of another intensity than it.
+MOST_FACTOR = 2.0
+
+# Of a check on the analysis where nothing follows from it.
+NO_EFFECT = "For information only: the design displacement is prescriptive."
 
 
-def of_motions(done: Assessment) -> Iterator[Check]:
-    """Yield the limits on the motions; a note where no design displacement follows from them."""
-    analyzed = tuple(item.id for item in done.arrays if item.route is Route.ANALYSIS)
-    is_concerned = any(item.is_by_runs for item in done.arrays)
-    remedies = {row.title: row.remedy for row in done.rows if row.id == MOTIONS_ID}
-    for limit in done.acceptance.rows:
-        check, consequence = of_limit(limit), limit.consequence
+def of_acceptance(
+    acceptance: Acceptance, analyzed: Sequence[str], shaking: Shaking
+) -> Iterator[Check]:
+    """Yield the limits on the motions; `analyzed` are the arrays that take the analysis route."""
+    # The way out is said once, at the first of the spectral limits.
+    spectral = next(filter(_is_spectral, acceptance.missed), None)
+    for limit in acceptance.rows:
         # The prescriptive displacement rests on no motion: there a miss is a condition only.
-        if not analyzed:
-            consequence = Consequence.CONDITION
-        if not is_concerned:
-            consequence = Consequence.NOTE
+        is_ng = limit.consequence is Consequence.NG
+        way = _ways(acceptance, shaking) if limit is spectral else _ways_of_drift(limit, shaking)
         yield replace(
-            check,
+            of_limit(limit),
             id=MOTIONS_ID,
-            arrays=analyzed if consequence is Consequence.NG else (),
-            consequence=consequence,
-            remedy=remedies.get(limit.title, ""),
+            arrays=tuple(analyzed) if is_ng else (),
+            consequence=limit.consequence if analyzed else Consequence.CONDITION,
+            is_capacity=False,
+            remedy="" if limit.ok else _remedy(is_ng=is_ng, has_analysis=bool(analyzed)) + way,
             places=(Place("motions"),),
+        )
+
+
+def _remedy(*, is_ng: bool, has_analysis: bool) -> str:
+    if not is_ng:
+        show = "Show that the duration of strong motion is sufficient, or replace the motions."
+        return f"{show} {STAYS}"
+    why = (
+        "until then the value from analysis is not permitted"
+        if has_analysis
+        else "the prescriptive displacement is compared with the runs under them"
+    )
+    return f"Replace or complete the motions: {why}."
+
+
+def _ways(acceptance: Acceptance, shaking: Shaking) -> str:
+    """Return how records reach the target: by a factor, if one does, and by motions of them."""
+    ways, more = "", _factor(acceptance)
+    if more <= MOST_FACTOR:
+        factors = ids_by(shaking.motions, lambda motion: digits_up(motion.scale * more, 4))
+        each = "; ".join(f"{ranged(ids)} {factor}" for factor, ids in factors.items())
+        ways = (
+            f" With {digits_up(more, 3)} times their factors they reach it: set Scaling to factor"
+            f" on the sheet Motions, and the factors {each}."
+        )
+    are_records = not any(motion.is_generated for motion in acceptance.motions)
+    if are_records and all(file.is_file for file in shaking.records):
+        files = grouped_by(shaking.records, attrgetter("motion_id")).values()
+        seeds = " ".join(quoted(",".join(file.name for file in each)) for each in files)
+        ways += (
+            " Or clear their rows on the sheet Motions and make motions of them that reach it, in"
+            f" the folder of the workbook: roofslip motion suite matched --into . --records {seeds}"
+        )
+    return ways
+
+
+def _ways_of_drift(missed: Limit, shaking: Shaking) -> str:
+    """Return which records end elsewhere or in motion, and what would do; empty for another."""
+    if missed.title not in _DRIFT_TITLES:
+        return ""
+    ids = [
+        motion.motion_id
+        for motion in shaking.prepared
+        if any(not limit.ok for limit in drift_limits([motion]))
+    ]
+    return f" Correct the baseline of {ranged(ids)} (Baseline or High-pass corner on its row)."
+
+
+def drift_limits(prepared: Sequence[PreparedMotion]) -> tuple[Limit, ...]:
+    """Return the limits on where the components of the motions end, and how fast they are then."""
+    free = [motion for motion in prepared if not motion.drift_basis]
+
+    def largest(motions: Sequence[PreparedMotion], end: str) -> tuple[float, str]:
+        ends = (
+            (round(abs(getattr(measures, end)), 9), f"{motion.motion_id}, {name}")
+            for motion in motions
+            for name, measures in motion.measures.items()
+        )
+        return max(ends, default=(0.0, ""))
+
+    ends = (
+        (*largest(free, "final_displacement_m"), MOST_DRIFT_M, Measure.LENGTH_M),
+        (*largest(prepared, "final_velocity_mps"), MOST_END_MPS, Measure.VELOCITY_MPS),
+    )
+    return tuple(
+        Limit(
+            title=title,
+            found=found,
+            limit=most,
+            is_at_least=False,
+            measure=measure,
+            provision=PROGRAM,
+            worst=worst if found > 0.0 else "",
+        )
+        for title, (found, worst, most, measure) in zip(_DRIFT_TITLES, ends, strict=True)
+    )
+
+
+def _is_spectral(row: Limit) -> bool:
+    """Whether a limit is on a spectrum over its target, or on how many of its points are below."""
+    return row.is_ratio_to_target or (row.measure is Measure.COUNT and not row.is_at_least)
+
+
+def _factor(acceptance: Acceptance) -> float:
+    """Return a factor of all motions with which they satisfy every limit on their spectra."""
+    ratios = [row for row in acceptance.rows if row.is_ratio_to_target]
+    is_dipping = any(_is_spectral(row) and row not in ratios for row in acceptance.missed)
+    # Points below 1.00 are counted from 1.3 Hz on: a factor with which none is needs no count.
+    return max(
+        (FULL_RATIO if is_dipping and not row.is_program_limit else row.limit) / row.found
+        if row.found > 0.0
+        else math.inf
+        for row in ratios
+    )
+
+
+def of_records(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[Check]:
+    """Yield whether records end where they began, and ground motions keep to long periods."""
+    for index, motion in enumerate(prepared):
+        yield _drift(motion, index)
+    yield from _ground_motions(data, prepared)
+
+
+def _drift(motion: PreparedMotion, index: int) -> Check:
+    ends = {name: abs(m.final_displacement_m) for name, m in motion.measures.items()}
+    component = max(ends, key=ends.__getitem__)
+    return condition(
+        id="drift",
+        title="Final displacement of the record",
+        subject=motion.motion_id,
+        found=demand(ends[component], Quantity.DRIFT),
+        limit=capacity(DRIFT_M, Quantity.DRIFT),
+        sense=Sense.AT_MOST,
+        clause=THIS_PROGRAM,
+        is_satisfied=not drifts(motion),
+        is_capacity=False,
+        note=f"permanent by {motion.drift_basis}" if motion.drift_basis else "",
+        remedy=f"A permanent displacement is computed as slip. {STAYS}"
+        if motion.drift_basis
+        else "Correct the baseline of the record, whose drift is computed as slip, or state on the "
+        "Motions worksheet by whom and by what source the displacement is permanent.",
+        places=(Place("motions", index, FIELDS[component]),),
+    )
+
+
+def drifts(prepared: PreparedMotion) -> bool:
+    """Whether any component of a motion ends away from where it began."""
+    return any(abs(m.final_displacement_m) > DRIFT_M for m in prepared.measures.values())
+
+
+def _ground_motions(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[Check]:
+    # Sliding is driven by long periods: an excess there goes straight into the displacement.
+    target, periods_s = targets(data).ground, 1.0 / POINTS_HZ
+    # NaN at short periods, so that nanargmax looks at the long ones alone.
+    goal_mps2 = np.where(periods_s >= LONG_PERIOD_S, G_MPS2 * target.ordinates(periods_s), math.nan)
+    ratio, where = 0.0, ""
+    for name in ("horizontal", "transverse"):
+        records = [item.scaled[name] for item in prepared if item.roof and name in item.scaled]
+        if records and np.isfinite(goal_mps2).any():
+            spectra = [spectrum_mps2(each.a_mps2.tobytes(), each.dt_s) for each in records]
+            ratios = np.mean(spectra, axis=0) / goal_mps2
+            at = int(np.nanargmax(ratios))
+            ratio, where = max(
+                (ratio, where), (float(ratios[at]), f"{name}, at {periods_s[at]:.3g} s")
+            )
+    row = partial(
+        condition,
+        id="ground_motions",
+        limit=capacity(MOST_LONG_RATIO),
+        sense=Sense.AT_MOST,
+        clause=THIS_PROGRAM,
+        is_capacity=False,
+        places=(Place("motions"),),
+    )
+    if where:
+        yield row(
+            title=f"Mean of the ground motions / target ({target.name}), {LONG_PERIOD_S:g} to 10 s",
+            found=demand(ratio),
+            note=where,
+            is_satisfied=ratio <= MOST_LONG_RATIO,
+            actor=Actor.REVIEWER,
+            remedy="Obtain the peer reviewer's acceptance of the ground motions in writing, or use "
+            f"ground motions that match the target at long periods. {STAYS}",
+        )
+    elif any(item.roof for item in prepared):
+        values = {"S_D1": data.site.s_d1, "T_L": data.target.t_l_s}
+        lacking = [name for name, value in values.items() if value is None]
+        yield row(
+            title="Mean of the ground motions / target at long periods",
+            found=f"{' and '.join(lacking)} {NOT_GIVEN}: no target"
+            if lacking and not data.spectrum
+            else f"no target from {LONG_PERIOD_S:g} s on",
+            is_satisfied=False,
+            remedy="Enter S_1 and F_v, or S_D1, and T_L; or a spectrum up to 10 s.",
         )

@@ -1,4 +1,4 @@
-"""What an array must keep from all that is near it."""
+"""What an array must keep from all that is near it, and how the plan shows it."""
 
 from __future__ import annotations
 
@@ -6,23 +6,36 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from report.assessment.checks.check import Check, Sense, dagger
-from report.assessment.verdict import NO_DESIGN, Verdict
+from report.assessment.checks.check import Actor, Check, Sense, condition, dagger
+from report.assessment.clearances import slides_m
+from report.assessment.verdict import NO_DESIGN, NOT_GIVEN, PLAN_ROW, STAYS, Verdict
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import ClearanceSource, DistanceBasis
 from report.sheet.schema.fields import Place
-from report.text.amounts import capacity, demand
-from report.text.units import Quantity
+from report.sheet.schema.scene import SIDES, Array
+from report.sheet.schema.shapes import around, gap_m
+from report.text.amounts import Amount, capacity, demand, entered
+from report.text.counts import numbered, ranged
+from report.text.units import Quantity, no_less, no_more, pair
+from solver.rules.limit import Consequence
 from solver.rules.provisions import SEPARATION_KEYS, RuleSet
 
 if TYPE_CHECKING:
     from report.assessment.clearances import ClearanceCheck
+    from report.assessment.neighbors import PlanNeighbor
     from report.assessment.project import Assessment
+
+_NOISE = 1e-9  # a width in other units is no more than itself
 
 
 def of_clearances(done: Assessment) -> Iterator[Check]:
-    """Yield whether each clearance is as wide as is required."""
+    """Yield whether each clearance is as wide as is required, and what is left of a pathway."""
     ids = [item.id for item in done.arrays]
     for index, gap in enumerate(done.clearances):
         yield _clearance(gap, done.rules, index, ids)
+    for index, gap in enumerate(done.clearances):
+        if gap.clearance.pathway_m:
+            yield _pathway(done, gap, gap.clearance.pathway_m, index)
 
 
 def _clearance(gap: ClearanceCheck, rules: RuleSet, index: int, ids: Sequence[str]) -> Check:
@@ -42,3 +55,208 @@ def _clearance(gap: ClearanceCheck, rules: RuleSet, index: int, ids: Sequence[st
         remedy="Widen the clearance, or reduce the displacement.",
         places=(Place("clearances", index, "provided_m"),),
     )
+
+
+def _pathway(done: Assessment, gap: ClearanceCheck, pathway_m: float, index: int) -> Check:
+    """Return what is left of a fire pathway after the arrays beside it have slid into it."""
+    row, us_first = gap.clearance, done.project.us_first
+    slides = slides_m(done.arrays, gap)
+    left_m = row.provided_m - math.fsum(slides)
+    found: Amount | str = capacity(left_m, Quantity.SIZE, gap.design_mark)
+    slid = (pair(m, Quantity.SIZE, us_first, no_less) for m in slides)
+    terms = " − ".join((pair(row.provided_m, Quantity.SIZE, us_first, no_more), *slid))
+    if math.isnan(left_m):
+        found, terms = NO_DESIGN, ""
+    return Check(
+        id="fire_pathway",
+        title="Fire pathway after displacement",
+        subject=f"{row.array} to {row.object}",
+        arrays=(row.array,),
+        found=found,
+        note=terms,
+        limit=demand(pathway_m, Quantity.SIZE),
+        sense=Sense.AT_LEAST,
+        clause="fire code, as entered",
+        is_satisfied=left_m >= pathway_m * (1.0 - _NOISE),
+        remedy="Widen the clearance, or reduce the displacement.",
+        places=(Place("clearances", index, "pathway_m"),),
+    )
+
+
+def of_pathways(data: ProjectInput, pairs: Sequence[PlanNeighbor] = ()) -> Iterator[Check]:
+    """Yield for each array whether its clearances say if a fire pathway runs along them.
+
+    The pairs of the plan that lack a clearance do not say so, if they are given.
+    """
+    for array in data.arrays:
+        rows = [(index, row) for index, row in enumerate(data.clearances) if row.array == array.id]
+        blank = [index for index, row in rows if row.pathway_m is None]
+        count = len(blank) + sum(near.is_missing and near.array == array.id for near in pairs)
+        yield condition(
+            id="fire_pathways",
+            title="Fire pathways along the clearances",
+            subject=array.id,
+            arrays=(array.id,),
+            found=f"{numbered(count, 'clearance')} without an answer" if count else "answered",
+            limit="none or a width, for each clearance",
+            clause="fire code, as entered",
+            is_satisfied=not count,
+            remedy="Enter for each row of the Clearances worksheet the width of the fire pathway "
+            "along it, or none.",
+            places=tuple(Place("clearances", index, "pathway_m") for index in blank)
+            or (Place("clearances"),),
+        )
+
+
+def of_neighbors(done: Assessment) -> Iterator[Check]:
+    """Yield what the plan shows near an array and no clearance covers, or contradicts."""
+    wrong = [(near, text) for near in done.neighbors for text in near.shortcomings()]
+    for near, text in wrong:
+        # With cells before it, which a sentence names as they are.
+        cell, words = text.split(": ", 1)
+        found, limit = _found_and_required(near, done.project.us_first)
+        yield Check(
+            id=PLAN_ROW,
+            title="Clearance as on the plan",
+            subject=near.names,
+            arrays=(near.array,),
+            found=found,
+            note=NOT_GIVEN if near.is_short else "",
+            limit=limit,
+            sense=Sense.STATED if isinstance(limit, str) else Sense.AT_LEAST,
+            clause="roof plan",
+            is_satisfied=False,
+            consequence=Consequence.NG if near.is_short else Consequence.CONDITION,
+            remedy=f"{words[:1].upper()}{words[1:]} ({cell}).",
+        )
+    if done.neighbors and not wrong:
+        yield condition(
+            id=PLAN_ROW,
+            title="Clearances as on the plan",
+            found=f"{len(done.neighbors)} of {len(done.neighbors)} pairs that are near",
+            limit="all, and as on the plan",
+            clause="roof plan",
+            is_satisfied=True,
+        )
+
+
+def _found_and_required(near: PlanNeighbor, us_first: bool) -> tuple[Amount | str, Amount | str]:
+    if near.is_short:
+        required = demand(near.required_m, Quantity.SIZE, near.mark)
+        has_limit = not math.isnan(near.required_m)
+        return capacity(near.gap_m, Quantity.SIZE), required if has_limit else NO_DESIGN
+    gap = pair(near.gap_m, Quantity.SIZE, us_first, no_more)
+    if near.is_missing:
+        found = f"{NOT_GIVEN}; {gap} on the plan, within twice the design displacement"
+        return found, "a clearance, as on the plan"
+    # Several rows of a pair may give several distances.
+    values = {row.clearance.provided_m for row in near.contradictions}
+    sizes = " and ".join(pair(m, Quantity.SIZE, us_first, no_more) for m in sorted(values))
+    return f"{sizes} entered, {gap} on the plan", "as on the plan"
+
+
+def of_roof(data: ProjectInput) -> Iterator[Check]:
+    """Yield what is required of the roof plan: its outline, array sections, confirmed distances."""
+    has_outline = data.roof.placed is not None
+    yield condition(
+        id="roof_outline",
+        title="Outline of the roof",
+        found="entered" if has_outline else NOT_GIVEN,
+        limit="entered",
+        clause="roof plan",
+        is_satisfied=has_outline,
+        remedy="Enter the outline of the roof on the Building worksheet: without it, roof edges "
+        "near the arrays were not looked for.",
+        places=tuple(Place("roof", 0, side) for side in SIDES),
+    )
+    yield from _sections(data)
+    for array in data.arrays:
+        yield from _drawing_distances(data, array)
+
+
+def _drawing_distances(data: ProjectInput, array: Array) -> Iterator[Check]:
+    """Yield the distances beside an array that are from the drawing, which no check compares."""
+    drawn = [
+        index
+        for index, row in enumerate(data.clearances)
+        if row.source is ClearanceSource.DRAWING and array.id in (row.array, row.object)
+    ]
+    if drawn:  # their numbers are below the table of clearances: so arrays share a condition
+        by, date = data.project.drawing_confirmed_by, data.project.drawing_confirmed_date
+        is_confirmed = data.basis_of(data.clearances[drawn[0]]) is DistanceBasis.CONFIRMED
+        yield condition(
+            id="drawing_distances",
+            title="Clear distances from the drawing",
+            subject=array.id,
+            arrays=(array.id,),
+            found=f"confirmed by {by}, {date}" if is_confirmed else "not confirmed",
+            limit="measured, or confirmed by name and date",
+            clause="roof plan",
+            is_satisfied=is_confirmed,
+            remedy="Enter measured on the Clearances worksheet, or on the Project worksheet who "
+            "confirmed them and when.",
+            places=tuple(Place("clearances", index, "source") for index in drawn),
+        )
+
+
+# Largest plan dimension of an array section [m]: 150 ft, which local codes amend: hence †.
+FIRE_LANE_M = 150 * 0.3048
+
+_MOST_M = FIRE_LANE_M * (1.0 + 1e-9)  # 150 ft given in meters is no more than 150 ft
+_ROUNDING_M = 1e-3  # a pathway of 4 ft is typed as 1.22 m
+
+
+def _sections(data: ProjectInput) -> Iterator[Check]:
+    """Yield for each array the plan dimension of all that no fire pathway separates from it."""
+    # The section of the code is an input: local fire codes amend the limit and its number.
+    lane_m, section = data.site.fire_lane_m, data.site.fire_code_section
+    at = {array.id: row for row, array in enumerate(data.arrays)}
+    yield condition(
+        id="fire_code",
+        title="Section of the fire code",
+        arrays=tuple(at),
+        found=section or NOT_GIVEN,
+        limit="the section on arrays on roofs",
+        clause="fire code",
+        is_satisfied=bool(section),
+        remedy="Enter the section of the fire code on the Site worksheet.",
+        places=(Place("site", 0, "fire_code_section"),),
+    )
+    for group in _undivided(data.arrays, lane_m):
+        plan = around(array.shape for array in group)
+        dimension_m = max(plan.x_to_m - plan.x_from_m, plan.y_to_m - plan.y_from_m)
+        for array in group:
+            yield condition(
+                id="fire_lanes",
+                title="Array section without a fire pathway of "
+                + pair(lane_m, Quantity.PLAN, data.us_first, no_less),
+                subject=array.id,
+                arrays=(array.id,),
+                found=entered(dimension_m, Quantity.PLAN),
+                note=ranged(array.id for array in group) if len(group) > 1 else "",
+                limit=capacity(FIRE_LANE_M, Quantity.PLAN, mark="†"),
+                sense=Sense.AT_MOST,
+                clause=f"{section or 'fire code'}†",
+                actor=Actor.FIRE,
+                is_satisfied=dimension_m <= _MOST_M,
+                remedy="Separate the arrays with a fire pathway, or obtain the fire department's "
+                f"approval. {STAYS}",
+                places=tuple(Place("arrays", at[array.id], side) for side in SIDES),
+            )
+
+
+def _undivided(arrays: Sequence[Array], lane_m: float) -> Sequence[Sequence[Array]]:
+    """Return arrays in groups: each is nearer than a pathway to another one of its group."""
+    groups: list[list[Array]] = []
+    for array in arrays:
+        # One array may join groups that were apart until it came.
+        apart: list[list[Array]] = []
+        joined = [array]
+        for group in groups:
+            # Between shapes, not their boxes: a ring may surround an array without being near it.
+            if any(gap_m(array.shape, other.shape) < lane_m - _ROUNDING_M for other in group):
+                joined += group
+            else:
+                apart.append(group)
+        groups = [*apart, joined]
+    return groups

@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
@@ -23,13 +22,12 @@ from report.assessment.evidence import (
     support,
 )
 from report.assessment.routes import Route
-from report.assessment.verdict import Requirement, Verdict, as_one
+from report.assessment.verdict import Verdict
 from report.document.templates import sentence
 from report.entities.requirement import Marked
 from report.typeset.pdf import TEMPLATES
 from sheets import at, make, problems, read_workbook, type_into
 from solver import at_roof, building_of_periods
-from solver.rules.limit import Consequence
 from solver.sliding.least_model import DEFAULT
 
 T1_S, T2_S, FACTOR = 0.5, 0.16, 1.4
@@ -246,24 +244,6 @@ def test_the_building_case_is_the_farthest_or_one_without_a_value_where_it_matte
         assert ": no design displacement" in case.words(us_first=True)
     assert building_case(done, ()) is None
     assert building_case(done, (used, used)) is None
-
-
-row = partial(Requirement, id="x", title="Friction", limit="tests", basis="tests",
-              is_satisfied=False, consequence=Consequence.CONDITION)  # fmt: skip
-
-
-def test_rows_that_ask_the_same_are_one_with_what_each_finds():
-    rows = [
-        row(subject="A1", found="tested to 4; slides at 62", outcome="One."),
-        row(subject="A2", found="tested to 4; slides at 66"),
-        row(subject="A3", found="tested to 4; slides at 66", outcome="Three."),
-    ]
-    found = as_one(rows)
-    assert found.found == "tested to 4; A1: slides at 62; A2, A3: slides at 66"
-    assert found.outcome == "One. Three."
-    assert as_one(rows[1:2]).found == "tested to 4; slides at 66"
-    alike = [row(subject=name, found="not given") for name in ("A1", "A2")]
-    assert as_one(alike).found == "not given"
 
 
 PRESCRIPTIVE_M = 60 * 0.0254 * (1.566 - 0.4) ** 2

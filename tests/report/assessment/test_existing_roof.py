@@ -3,7 +3,8 @@
 import pytest
 
 import inputs
-from report.assessment.existing_roof import existing_roof_rows
+from report.assessment.checks.check import found_and_limit
+from report.assessment.checks.existing_roof import of_existing_roof
 from report.assessment.verdict import Verdict
 from report.text.units import PRESSURES, WEIGHTS
 
@@ -13,7 +14,11 @@ BARE = {name: value for name, value in inputs.SITE.items() if name != "roof_eval
 def rows(**site):
     """The rows of an array of 42,000 lb on 80 ft x 60 ft, 8.75 psf."""
     data = inputs.project(site=BARE | site, arrays=[inputs.array("A1", 0.5)])
-    return {row.id: row for row in existing_roof_rows(data)}
+    return {row.id: row for row in of_existing_roof(data)}
+
+
+def said(row):
+    return found_and_limit(row, us_first=True)[0]
 
 
 def load(psf):
@@ -30,7 +35,7 @@ def test_without_its_loads_one_line_says_that_it_is_not_checked():
     assert row.found == (
         "not checked: design load of the roof, seismic weight of the building not given"
     )
-    assert row.basis == "IEBC 503.3, 503.4\u2020"
+    assert row.clause == "IEBC 503.3, 503.4\u2020"
     assert {place.field for place in row.places} == {
         "roof_load_pa", "seismic_weight_n", "roof_evaluation"}  # fmt: skip
     (row,) = rows(roof_evaluation="J. Doe, SE").values()
@@ -47,16 +52,16 @@ def test_a_share_beyond_the_rule_needs_an_evaluation(site, id, share, is_met):
     found = rows(**site)
     assert set(found) == {id, "existing_roof"}  # the load that is not entered stays open
     row = found[id]
-    assert row.found.startswith(f"{share} (")
+    assert said(row).startswith(f"{share} (")
     assert row.verdict is (Verdict.OK if is_met else Verdict.CONDITION)
     evaluated = rows(**site, roof_evaluation="J. Doe, SE")
     assert all(each.verdict is Verdict.OK for each in evaluated.values())
-    assert evaluated[id].found.endswith("; evaluated: J. Doe, SE") is not is_met
+    assert said(evaluated[id]).endswith("; evaluated: J. Doe, SE)") is not is_met
 
 
 def test_the_sections_are_of_the_existing_building_code_that_goes_with_the_code_named():
     code = {"building_code": "CBC", "building_code_year": 2022}
     found = rows(**load(200.0), **mass(500_000.0), **code)
-    assert [row.basis for row in found.values()] == [
+    assert [row.clause for row in found.values()] == [
         "CEBC 503.3, 2022\u2020", "CEBC 503.4, 2022\u2020"]  # fmt: skip
-    assert found["roof_load_pa"].found == "4.4 % (A1: 8.8 psf (0.42 kPa) of 200.0 psf (9.58 kPa))"
+    assert said(found["roof_load_pa"]) == "4.4 % (A1: 8.8 psf (0.42 kPa) of 200.0 psf (9.58 kPa))"

@@ -8,9 +8,10 @@ import pytest
 
 import scenes
 import stand_in
+from report.assessment.checks.check import found_and_limit
 from report.assessment.evidence import histories
 from report.assessment.friction import VelocityCheck, at_low_velocity, mu_words, mus_words
-from report.assessment.requirement_rows import basis_words
+from report.assessment.tested import basis_words
 from report.assessment.verdict import Verdict
 from solver.friction_tests import FrictionRun, Series, Surface
 from solver.model import Friction, coulomb
@@ -109,7 +110,6 @@ def test_the_velocities_of_the_tests_are_said_as_far_as_they_are_given(given, la
 
 RISING = {"mu": 0.30, "mu_fast": 0.45, "mu_rate_s_per_m": 20.0}
 MOTIONS = scenes.motions()
-TITLE = "Friction beyond the velocities tested"
 
 
 def runs(mu=0.45, velocity_mps=0.0254, count=3):
@@ -129,7 +129,11 @@ def one(mu=0.45, slope=2.0, tests=(), shaking=MOTIONS, **law):
 
 
 def rows(done):
-    return {row.subject: row for row in done.rows if row.title == TITLE}
+    return {row.subject: row for row in done.checks if row.id == "friction_velocity"}
+
+
+def said(check):
+    return found_and_limit(check, us_first=True)
 
 
 @pytest.fixture(scope="module")
@@ -164,13 +168,15 @@ def test_the_largest_velocity_and_friction_beyond_the_tests_are_told(by_velocity
     done = one(tests=[slow, *runs(0.47, 0.0254)], **RISING)
     row = rows(done)["A1"]
     assert row.verdict is Verdict.CONDITION
-    assert "; tested to 1.00 in/s (25.4 mm/s); μ beyond 0.450" in row.found
-    assert row.limit == (
-        "slower than tested; or up to 10 times as fast, μ beyond ≤ 0.400, and complete tests"
-    )
+    found, limit = said(row)
+    if "complete tests" in limit:
+        assert "; μ above the tested range 0.450, smallest tested 0.400" in found
+    else:
+        assert limit == "≤ 10.00 in/s (254.0 mm/s)"
+        assert "tested to 1.00 in/s (25.4 mm/s); μ above the tested range 0.450" in found
     # A coefficient that was not run is not offered: entered, it may be NG.
     assert row.remedy == "Obtain friction tests at the sliding velocities."
-    assert row.outcome.startswith("A1 with μ = 0.30 at every velocity: ")
+    assert row.otherwise.startswith("A1 with μ = 0.30 at every velocity: ")
     assert done.array_verdict(done.arrays[0]) is not Verdict.OK
 
 
@@ -183,38 +189,39 @@ def test_nothing_is_beyond_fast_tests_or_where_nothing_slides():
         wet = [test | {"number": k} for k, test in enumerate(tests, 1)]
         row = rows(one(tests=wet))["A1"]
         assert row.is_satisfied is satisfied
-        assert ("μ beyond" in row.found) is not satisfied
+        assert ("μ above the tested range" in said(row)[0]) is not satisfied
     weak = [replace(motion, scale=1e-3 * motion.scale) for motion in MOTIONS]
     row = rows(one(slope=0.5, tests=runs(0.2), shaking=weak))["A1"]
     assert row.is_satisfied
-    assert row.found == "does not slide; tested to 1.00 in/s (25.4 mm/s)"
+    assert [text.split(" (")[0] for text in said(row)] == ["0.00 in/s", "≤ 1.00 in/s"]
 
 
 def test_tests_without_velocities_or_none_are_conditions():
     row = rows(one(0.44, tests=runs(0.45, None)))["A1"]
     assert row.verdict is Verdict.CONDITION
-    assert row.found.endswith("; velocities tested not given; μ beyond 0.440; tests not complete")
+    assert row.found.endswith("smallest tested 0.450; tests not complete")
+    assert "; velocities tested not given; μ above the tested range 0.440" in row.found
     row = rows(one())["A1"]
     assert row.verdict is Verdict.CONDITION
     assert row.found.endswith("; no runs of friction tests")
     weak = [replace(motion, scale=1e-3 * motion.scale) for motion in MOTIONS]
     row = rows(one(slope=0.5, shaking=weak))["A1"]
-    assert (row.is_satisfied, row.found) == (True, "does not slide; no runs of friction tests")
+    assert (row.is_satisfied, row.found) == (True, "does not slide")
 
 
 def test_friction_beyond_the_tests_needs_complete_ones_that_are_not_far_slower():
     fastest = one(0.40).arrays[0].fastest_mps
-    said = {}
+    words = {}
     for share in (1.01, 0.99):
         row = rows(one(0.40, tests=runs(0.45, share * fastest / 10.0)))["A1"]
-        said[row.is_satisfied] = row.found
-    assert "times as fast" not in said[True]
-    assert said[False].endswith("; μ beyond 0.400; 10.2 times as fast")
+        words[row.is_satisfied] = said(row)
+    assert words[True][1] == "≤ 0.450"
+    assert words[False][0].endswith("; at most 10 times as fast)")
     for count, surfaces, is_met in ((3, Surface, True), (2, Surface, False), (3, "wet", False)):
         tests = [test for test in runs(0.45, 0.9 * fastest, count) if test["surface"] in surfaces]
         row = rows(one(0.40, tests=tests))["A1"]
         assert row.is_satisfied is is_met
-        assert row.found.endswith("; tests not complete") is not is_met
+        assert ("; tests not complete" in said(row)[0]) is not is_met
 
 
 def test_a_coefficient_below_the_tested_mean_is_no_worse_than_at_it():
@@ -224,7 +231,7 @@ def test_a_coefficient_below_the_tested_mean_is_no_worse_than_at_it():
             assessed([stand_in.array("A1", 0.5, mu=mu)], tests, motions, clearances=[])
             for mu in (0.45, 0.41)
         )
-        assert [row.id for row in below.conditions] == [row.id for row in at.conditions]
+        assert [row.id for row in below.open] == [row.id for row in at.open]
         assert below.verdict is at.verdict
 
 
@@ -251,7 +258,7 @@ def test_friction_beyond_is_the_largest_of_any_velocity_that_may_be():
         assert check(coulomb(mu), 1.0, (0.1, 0.46)).is_satisfied is satisfied
     up = tuple(replace(motion, az_mps2=2.0 * motion.ax_mps2) for motion in MOTIONS)
     row = rows(one(slope=0.5, tests=runs(0.40), shaking=up))["A1"]
-    assert row.found.startswith("a run gives no velocity; tested to")
+    assert "a run gives no velocity; tested to" in said(row)[0]
     assert not row.is_satisfied
 
 
@@ -272,10 +279,10 @@ def test_the_low_velocity_coefficient_alone_is_as_entered_and_has_no_reruns(by_v
     assert again.clearances[1].neighbor is Neighbor.LIKE
     assert slow.clearances[2].neighbor is Neighbor.UNLIKE
     failed = [gap.clearance for gap in slow.gaps_of("A2") if not gap.ok]
-    outcome = rows(by_velocity)["A2"].outcome
+    outcome = rows(by_velocity)["A2"].otherwise
     assert all(f"{gap.array} to {gap.object}" in outcome for gap in failed)
     assert ("NG: " in outcome) is bool(failed)
     assert by_velocity.at_reduced_friction.low_velocity.arrays == ()
     constant = one(tests=runs())
     assert (constant.low_velocity.arrays, constant.low_velocity.clearances) == ((), {})
-    assert rows(constant)["A1"].outcome == ""
+    assert rows(constant)["A1"].otherwise == ""

@@ -14,6 +14,7 @@ import stand_in
 from inputs import FT, INCH, NO_SIDES, sides
 from plans import roof_plan
 from report.assessment.assess import assess
+from report.assessment.checks.check import texts
 from report.assessment.clearances import minimum_gap
 from report.assessment.neighbors import Cover, NearbyKind, bare_edges, plan_pairs, reaches_of
 from report.assessment.plan_clearances import plan_gaps
@@ -314,7 +315,7 @@ def test_a_required_separation_that_an_override_lowers_is_marked_without_a_row_t
     (gap,) = plan_gaps(unlisted)
     assert (gap.number, gap.mark) == (0, "‡")
     (row,) = (row for row in unlisted.rows if row.id == "neighbors")
-    assert re.search(r"^≥ [\d.]+ in \([\d.]+ mm\)‡", row.limit)
+    assert re.search(r"^≥ [\d.]+ in \([\d.]+ mm\)‡", texts(row, us_first=True)[1])
     assert unlisted.is_overridden
     designs = {item.id: {"text": ""} for item in unlisted.arrays}
     items = plan(unlisted, designs, ((), ()), UnitFormat(us_first=True), stamp)["items"]

@@ -10,6 +10,7 @@ import scenes
 import sheets
 import stand_in
 from commands import printed
+from report.assessment.checks.check import sentence
 from report.assessment.precheck import limits_before_runs, shaking_acceptance
 from report.assessment.routes import Route
 from report.motions.history import targets
@@ -35,7 +36,8 @@ LIMITS = {
     ),
 }  # fmt: skip
 NEED_RUNS = {
-    "neighbors", "less_friction", "electrical_slack", "friction_velocity", "fire_pathways",
+    "neighbors", "less_friction", "clearance_less_friction", "electrical_slack", "clearance",
+    "design", "tipping", "runs", "friction_velocity", "fire_pathways",
 }  # fmt: skip
 
 
@@ -44,16 +46,14 @@ NEED_RUNS = {
 def test_check_and_report_name_the_same_limits_and_requirements(case):
     book = stand_in.book(*LIMITS[case])
     assessment = stand_in.assessed(book)
-    checks = [*assessment.building_checks, *(c for a in assessment.arrays for c in a.limits)]
-    limits = [check for check in checks if not check.ok]
-    rows = [row for row in assessment.conditions if row.id not in NEED_RUNS]
+    rows = [check for check in assessment.checks if check.is_open and check.id not in NEED_RUNS]
     slack = [a for a in assessment.arrays if a.array.slack_m is None]
     listed = list(limits_before_runs(book.sheet.project, book.shaking))
     found = [f for f in listed if f.level is Level.WARNING]
-    assert len(found) == len(limits) + len(rows) + len(slack)
+    assert len(found) == len(rows) + len(slack)
     words = [finding.text for finding in found]
-    for title in (*(c.title for c in limits), *(row.title for row in rows)):
-        assert any(title[1:] in text for text in words), title
+    for row in rows:
+        assert f"{row.verdict}. {sentence(row, us_first=True)}" in words
     prescribed = [a for a in assessment.arrays if a.route is Route.PRESCRIPTIVE]
     notes = [row for row in assessment.notes if row.id not in NEED_RUNS]
     assert sum(f.level is Level.NOTE for f in listed) == len(prescribed) + len(notes)
@@ -70,24 +70,27 @@ def test_a_limit_names_its_cell_its_value_and_the_limit_and_cannot_be_acknowledg
     assert {finding.id for finding in listed} == {""}
     found = {finding.place: finding.text for finding in listed}
     assert found[Place("site", 0, "risk_category")] == (
-        "risk category (I = 1 to IV = 4): 4; at most 3 is permitted (PV1-2012): NG"
+        "NG. Risk category (I = 1 to IV = 4): 4. Required: at most 3† (PV1-2012†)."
     )
     assert found[Place("site", 0, "stories")] == (
-        "number of stories: 7; at most 6 is permitted (PV1-2012): NG"
+        "NG. Number of stories: 7. Required: at most 6† (PV1-2012†)."
     )
     slope = Place("arrays", 0, "slope_value")
     assert [finding.text for finding in listed if finding.place == slope] == [
-        "roof slope, any ballasted system: 8.00° (14.1 %); at most 4.76° (8.3 %) is permitted"
-        " (IBC 1613.3): NG",
-        "roof slope, analysis route: 8.00° (14.1 %); at most 7.00° (12.2 %) is permitted"
-        " (PV1-2012): NG",
+        "NG. Roof slope, any ballasted system, A1: 8.00° (14.1 %). "
+        "Required: at most 4.76° (8.3 %)† (IBC 1613.3†).",
+        "NG. Roof slope, analysis route, A1: 8.00° (14.1 %). "
+        "Required: at most 7.00° (12.2 %)† (PV1-2012†).",
     ]
 
 
 @pytest.mark.parametrize(
     ("case", "text"),
     [
-        ("two motions on a slope that only analysis permits", "number of motions: 2; ≥ 3 required"),
+        (
+            "two motions on a slope that only analysis permits",
+            "Number of motions: 2. Required: at least 3†",
+        ),
         ("no vertical, no test report, no fire lane", "two horizontal and the vertical together"),
     ],
 )
@@ -99,7 +102,7 @@ def test_too_few_motions_and_no_vertical_are_said_at_the_motions(case, text):
 def test_a_statistic_that_needs_more_motions_is_the_reason_or_ng_at_its_cell():
     data = stand_in.project(options={"statistic": "mean"})
     notes = [f.text for f in findings(data, SEVEN) if f.level is Level.NOTE]
-    found = [text for text in notes if "takes the prescriptive displacement" in text]
+    found = [text for text in notes if "uses the prescriptive displacement" in text]
     reason = "7 motions are given, and the statistic 'mean' needs 11 or more"
     assert found
     assert all(reason in text for text in found)
@@ -127,52 +130,52 @@ def site(**changes):
 
 CASES = {
     "S_1 that decides on the design category": (
-        site(s_1_g=None, f_v=None), "basis of the seismic design category",
+        site(s_1_g=None, f_v=None), "Seismic design category",
         [("site", 0, "s_1_g")]),
     "report number of the hazard": (
         site(**HAZARD, hazard="site-specific analysis"),
-        "report on the site-specific hazard analysis", [("site", 0, "hazard_report")]),
+        "Report on the site-specific hazard analysis", [("site", 0, "hazard_report")]),
     "date of the hazard": (
-        site(hazard_source="Tool"), "source, date and printout of the seismic parameters",
+        site(hazard_source="Tool"), "Source, date and printout of the seismic parameters",
         [("site", 0, "hazard_date"), ("site", 0, "hazard_printout")]),
     "S_1 that decides on a site-specific analysis": (
-        site(s_1_g=None), "hazard analysis for site class D", [("site", 0, "s_1_g")]),
+        site(s_1_g=None), "Hazard analysis for site class D", [("site", 0, "s_1_g")]),
     "mapped values in site class D": (
-        site(hazard="mapped values"), "hazard analysis for site class D", [("site", 0, "hazard")]),
+        site(hazard="mapped values"), "Hazard analysis for site class D", [("site", 0, "hazard")]),
     "jurisdiction": (
-        site(building_code="CBC", building_code_year=2022), "building code and jurisdiction",
+        site(building_code="CBC", building_code_year=2022), "Building code and jurisdiction",
         [("site", 0, "jurisdiction")]),
     "license and letter of the review": (
-        {"options": REVIEW | {"peer_license": ""}}, "peer review of the analysis",
+        {"options": REVIEW | {"peer_license": ""}}, "Peer review of the analysis",
         [("options", 0, "peer_license"), ("options", 0, "peer_letter")]),
     "standard and accreditation": (
-        {"friction_tests": TESTS}, "tested to ASTM G115",
+        {"friction_tests": TESTS}, "Friction test standard",
         [("friction_tests", 0, "standard"), ("friction_tests", 0, "accreditation")]),
     "date of the friction report": (
-        {"friction_tests": TESTS | {"date": None}}, "friction test report stated",
+        {"friction_tests": TESTS | {"date": None}}, "Friction test report",
         [("friction_tests", 0, "date")]),
-    "no runs": ({}, "wet and dry, three runs", [("friction_runs", 0, "")]),
+    "no runs": ({}, "Friction test repeats", [("friction_runs", 0, "")]),
     "runs without a velocity": (
         {"friction_runs": [RUN | {"velocity_mps": 0.1}, RUN | {"number": 2}]},
-        "wet and dry, three runs", [("friction_runs", 1, "velocity_mps")]),
-    "outline of the roof": ({}, "outline of the roof", [("roof", 0, side) for side in SIDES]),
+        "Friction test repeats", [("friction_runs", 1, "velocity_mps")]),
+    "Outline of the roof": ({}, "Outline of the roof", [("roof", 0, side) for side in SIDES]),
     "mean of few motions": (
         {"options": {"statistic": "mean"}},
-        "takes the prescriptive displacement: 7 motions are given, and the statistic 'mean'",
+        "uses the prescriptive displacement: 7 motions are given, and the statistic 'mean'",
         [("options", 0, "statistic")]),
     "drawn distances": (
         {"clearances": [row | {"source": source} for row, source in zip(
             stand_in.SECTIONS["clearances"], ("drawing", "measured", "drawing", None, None),
             strict=True)]},
-        "A3, clear distances from the drawing",
+        "Clear distances from the drawing, A3",
         [("clearances", 0, "source"), ("clearances", 2, "source")]),
     "overrides that require less": (
         {"overrides": [{"provision": key, "value": value, "reason": "agreed"} for key, value in (
             ("max_stories", 8.0), ("separation_fixed", 1.5), ("low_profile_in", 40.0))]},
-        "override", [("overrides", 0, "value"), ("overrides", 2, "value")]),
+        "Override", [("overrides", 0, "value"), ("overrides", 2, "value")]),
     "weight in wind": (
         {"arrays": [inputs.array("A1", 0.5, wind_weight_pa=10.0)], "clearances": []},
-        "weight in wind design", [("arrays", 0, "weight_n"), ("arrays", 0, "wind_weight_pa")]),
+        "Weight in wind design", [("arrays", 0, "weight_n"), ("arrays", 0, "wind_weight_pa")]),
 }  # fmt: skip
 
 
@@ -191,12 +194,16 @@ def test_cells_of_a_drift_and_of_several_values_are_printed(tmp_path):
     path = sheets.make(tmp_path)
     drift = "".join(f"{2.0 if 20 < i < 60 else 0.0}\n" for i in range(200))
     (tmp_path / "records" / "z.csv").write_text(drift)
-    found = [line for line in printed("check", path).splitlines() if "M1, final displ" in line]
+    found = [
+        line
+        for line in printed("check", path).splitlines()
+        if "Final displacement of the record, M1" in line
+    ]
     assert [line.split(": ")[1] for line in found] == [sheets.at("Motions/M1/Vertical record")]
     path = sheets.make(tmp_path, site=sheets.site(hazard_source="Tool"))
     line = next(line for line in printed("check", path).splitlines() if "date and printout" in line)
     cells = f"{sheets.at('Site/Date of hazard')}, {sheets.at('Site/Hazard printout')}"
-    assert line.startswith(f"warning: {cells}: source, date and printout of the seismic parameters")
+    assert line.startswith(f"warning: {cells}: Condition. Source, date and printout of the seismic")
 
 
 def scaled(factor):

@@ -15,8 +15,8 @@ import stand_in
 from one_by_one import slides
 from report import assess_project
 from report.assessment.arrays import DesignBasis, assess_array
+from report.assessment.checks.arrays import run_checks
 from report.assessment.evidence import support
-from report.assessment.project import run_warnings
 from report.assessment.runs import motion_run
 from report.assessment.verdict import Verdict
 from report.sheet.schema.choices import Direction
@@ -113,8 +113,9 @@ def test_uplift_withholds_the_displacement_and_fails_every_clearance():
     assert not any(gap.ok for gap in done.clearances)
     assert not done.verdict.is_permitted
     assert any(
-        "normal force falls below zero" in line.text and "(at " in line.text
-        for line in done.warnings
+        "normal force falls below zero, from " in check.found and not check.is_satisfied
+        for check in done.checks
+        if check.id == "runs"
     )
 
 
@@ -130,8 +131,9 @@ def test_a_run_without_a_final_displacement_withholds_that_of_its_array(done, st
     assert math.isnan(item.design_m)
     assert done.is_sound(done.arrays[0])
     assert not done.is_sound(item)
-    (line,) = run_warnings([item], us_first=True)
-    assert line.text.startswith(f"Array A1, motion M1, record +: {status.sentence}")
+    (check,) = run_checks(item, us_first=True)
+    assert (check.verdict, check.note) == (Verdict.NG, "M1")
+    assert check.found.startswith(f"1 of {len(item.runs)} {status.sentence.split(':')[0]}")
 
 
 @pytest.mark.quick
@@ -160,13 +162,14 @@ def test_too_few_motions_are_never_ok_and_runs_bound_the_prescriptive_route():
 def test_runs_that_never_stop_are_one_sentence_with_their_count_and_us_speed():
     cut = [stand_in.motion(f"CUT{k}", CUT, signs=(1,)) for k in range(11)]
     arrays = [stand_in.array("A1", 0.0), stand_in.array("A2", 0.0, x=120)]
-    (found,) = alone(cut, arrays=arrays).warnings
+    (found,) = (check for check in alone(cut, arrays=arrays).open if check.id == "runs")
     # From rest, (12 - 0.45 g) m/s2 over 99 whole intervals of 0.01 s, and half the first.
     speed = (12.0 - 0.45 * 9.80665) * 0.99
+    assert (found.subject, found.note, found.limit) == ("A1, A2", "", "all")
     found = re.fullmatch(
-        r"Arrays A1, A2, 22 runs of 11 motions: still sliding at the end of the record: the "
-        r"displacement is not final \(at (\d+\.\d\d) in/s \(\d+\.\d mm/s\)\)\.",
-        found.text,
+        r"11 of 11 still sliding at the end of the record, at (\d+\.\d\d) in/s "
+        r"\(\d+\.\d mm/s\); CUT0 to CUT10",
+        found.found,
     )
     assert float(found[1]) * 0.0254 == pytest.approx(speed, rel=0.01)
 

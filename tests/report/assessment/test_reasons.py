@@ -8,7 +8,7 @@ import scenes
 import stand_in
 from nightly import by_day
 from printed import printed
-from report.assessment.causes import reasons
+from report.assessment.checks.check import sentence
 from report.assessment.routes import Route
 from report.assessment.verdict import Verdict
 from report.pages.summary import summary
@@ -32,16 +32,16 @@ NEAR = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42, height=1.
 
 
 CASES = {
-    "risk category": (None, {"site": stand_in.site(risk_category="IV", i_e=1.5)}, "Building, risk"),
-    "stories": (None, {"site": stand_in.site(stories=7)}, "Building, number of stories: 7"),
-    "slope": (None, {"arrays": [ARRAY("A1", 8.0), WIDE["arrays"][1]]}, "Array A1, roof slope"),
-    "friction below the slope": (WEAK, SLIPPERY, "Array A1, motions W0"),
-    "uplift": ((*scenes.motions(), LIFTING), {}, "Arrays A1, A2, motion UP"),
-    "clearance": (None, {"clearances": [GAP("A1", "A2", 0.5 * FOOT)]}, "Clearance A1 to A2: 6.0"),
-    "no row": (None, {"objects": [NEAR]}, "A1, clearance A1 to RTU-9"),
-    "strength": (None, BARE, "A1, interconnection strength"),
+    "risk category": (None, {"site": stand_in.site(risk_category="IV", i_e=1.5)}, "Risk category"),
+    "stories": (None, {"site": stand_in.site(stories=7)}, "Number of stories: 7"),
+    "slope": (None, {"arrays": [ARRAY("A1", 8.0), WIDE["arrays"][1]]}, "Roof slope, any ballasted"),
+    "friction below the slope": (WEAK, SLIPPERY, "Number of components of each motion"),
+    "uplift": ((*scenes.motions(), LIFTING), {}, "Design displacement, A1, A2: none"),
+    "clearance": (None, {"clearances": [GAP("A1", "A2", 0.5 * FOOT)]}, "Clearance, A1 to A2: 6.0"),
+    "no row": (None, {"objects": [NEAR]}, "Clearance as on the plan, A1 to RTU-9"),
+    "strength": (None, BARE, "Interconnection strength, A1"),
     "too few": (None, {"options": {"statistic": "mean"}, "arrays": [ARRAY("A1", 4.0)],
-                       "clearances": []}, "A1, 3 motions are given, and the statistic 'mean'"),
+                       "clearances": []}, "Design displacement, A1: none"),
 }  # fmt: skip
 
 
@@ -51,7 +51,7 @@ def test_the_reason_stands_first_wherever_the_verdict_does(name):
     made = scenes.package(shaking or scenes.motions(), **WIDE | changes)
     done = made.assessment
     assert done.verdict is Verdict.NG
-    first = next(reasons(done))
+    first = sentence(done.open[0], us_first=True)
     failed = [check for check in done.checks if check.verdict is Verdict.NG]
     title = lowered(failed[0].title)
     for page in ("letter", "summary"):
@@ -75,18 +75,17 @@ def test_the_reason_stands_first_wherever_the_verdict_does(name):
 def test_what_is_not_ng_has_no_reason_and_what_slides_on_no_longer_record():
     done = scenes.package(**WIDE).assessment
     assert done.verdict is Verdict.CONDITIONS
-    assert list(reasons(done)) == []
+    assert all(check.verdict is Verdict.CONDITION for check in done.open)
     done = scenes.package(WEAK, **WIDE | SLIPPERY).assessment
-    (found,) = done.warnings
-    assert found.would_do.startswith(
-        "the friction coefficient is not above tan θ of the roof slope"
-    )
-    assert "longer record" not in found.would_do
+    (found,) = (check for check in done.open if check.id == "runs")
+    assert "the friction coefficient is not above tan θ of the roof slope" in found.remedy
+    assert "longer record" not in found.remedy
     cut = tuple(
         stand_in.motion(f"C{k}", np.full(100, 8.0), dt_s=0.01, signs=(1,)) for k in range(3)
     )
-    (other,) = scenes.package(cut, **WIDE).assessment.warnings
-    assert other.would_do.startswith("give a longer record")
+    done = scenes.package(cut, **WIDE).assessment
+    (other,) = (check for check in done.open if check.id == "runs")
+    assert other.remedy.startswith("Enter a longer record")
 
 
 @pytest.mark.quick
@@ -151,7 +150,7 @@ def test_the_motions_and_the_review_are_notes_and_not_counted():
     assert not notes & {row.id for row in done.conditions}
     assert all(row.verdict is Verdict.NOTE for row in done.notes)
     first = printed(package, "summary")
-    assert f"{len(done.alike_conditions)} open conditions below must be closed" in first
+    assert f"{len(done.open)} open conditions below must be closed" in first
     noted = first.line("Not satisfied, without effect on the design displacement: ")
     assert all(lowered(row.title) in noted for row in done.notes)
     table = printed(package, "limits").table("All checks")

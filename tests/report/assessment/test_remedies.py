@@ -126,7 +126,7 @@ def test_where_the_motions_do_not_permit_an_analysis_motions_that_do_are_named()
         assert f"{lack}): the package takes the prescriptive displacement, 81.6 in" in words
         assert "At 40.8 in (1036 mm), all of the four clearances" in words
         assert f"note: {words}" in summary(done)
-        assert words[1:] in printed(scenes.package_data(done), "summary")
+        assert words[1:] in printed(scenes.package_data(done), "limits")
     assert without_analysis(altered.assessed("short clearance")) == ""
 
 
@@ -353,7 +353,7 @@ def test_of_many_clearances_the_worst_have_remedies_and_the_summary_says_so():
     found = of_kind(beside.assessment, RemedyKind.SEPARATION)
     assert [one.checks[0].subject for one in found] == [f"A1 to U{k}" for k in range(MOST)]
     said = f"Searched for the {MOST} with the largest ratio of {count} that are NG."
-    assert said in printed(beside, "summary")
+    assert said in printed(beside, "limits")
 
 
 def test_friction_is_assessed_as_entered_and_not_beyond_its_tests():
@@ -402,5 +402,5 @@ def test_terminal_page_and_package_have_one_sentence_of_it():
     at = lines.index(f"remedy: {words}")
     assert lines[at - 1].startswith("NG: ")
     assert {"level": "remedy", "text": words} in answer(given, is_provisional=False)["reasons"]
-    assert f"Clearance, A1 to RTU-1: {words}" in printed(scenes.package_data(given), "summary")
+    assert f"Clearance, A1 to RTU-1: {words}" in printed(scenes.package_data(given), "limits")
     assert not any(line.startswith("remedy") for line in summary(beside(x=150.0)))

@@ -8,8 +8,10 @@ import inputs
 import scenes
 import stand_in
 from nightly import by_day
-from report.assessment.requirement_rows import fire_lane_rows
-from report.assessment.verdict import OVERRIDDEN, Verdict, override_rows
+from report.assessment.checks.check import found_and_limit
+from report.assessment.checks.limits import of_overrides
+from report.assessment.checks.plan import of_roof
+from report.assessment.verdict import OVERRIDDEN, Verdict
 from report.sheet.checking.covered import to_record
 from report.sheet.schema.fields import Place
 from solver.rules.limit import Consequence
@@ -27,32 +29,40 @@ def rows(*x_ft, section=SECTION, units="US", **site):
     given = stand_in.site(fire_code_section=section, **site)
     head = stand_in.project().project.model_dump() | {"units_first": units}
     data = stand_in.project(arrays=arrays, clearances=[], site=given, project=head)
-    return {row.subject: row for row in fire_lane_rows(data)}
+    return sections_of(data)
+
+
+def sections_of(data):
+    return {row.subject: row for row in of_roof(data) if row.id == "fire_lanes"}
+
+
+def texts(check, *, us_first=True):
+    return found_and_limit(check, us_first)
 
 
 @pytest.mark.parametrize(("to_ft", "verdict"), [(150.0, Verdict.OK), (150.1, Verdict.CONDITION)])
 @pytest.mark.quick
 def test_fire_lanes_limit_an_array_to_150_feet_by_the_section_given(to_ft, verdict):
     (row,) = rows((0, to_ft)).values()
-    assert (row.verdict, row.basis) == (verdict, f"{SECTION}†")
-    assert row.found.startswith(f"{to_ft:.2f} ft (45.7")
+    assert (row.verdict, row.clause) == (verdict, f"{SECTION}†")
+    assert texts(row)[0].startswith(f"{to_ft:.2f} ft (45.7")
     (row,) = rows((0, to_ft), units="SI").values()
-    assert row.limit == "≤ 45.72 m (150.00 ft)"
+    assert texts(row, us_first=False)[1] == "≤ 45.72 m (150.00 ft)†"
 
 
 @pytest.mark.quick
 def test_arrays_closer_than_a_lane_by_their_shapes_are_one():
     found = rows((0, 80), (83.9, 163.9), (167.9, 200))
-    assert [(row.found, row.verdict) for row in found.values()] == [
-        *[("A1, A2 together: 163.90 ft (49.96 m)", Verdict.CONDITION)] * 2,
+    assert [(texts(row)[0], row.verdict) for row in found.values()] == [
+        *[("163.90 ft (49.96 m) (A1, A2)", Verdict.CONDITION)] * 2,
         ("60.00 ft (18.29 m)", Verdict.OK),
     ]
-    assert found["A1"].title.endswith("between fire lanes of 4.00 ft (1.22 m)")
-    assert found["A1"].remedy.startswith("Divide the arrays by a fire lane")
+    assert found["A1"].title.endswith("without a fire pathway of 4.00 ft (1.22 m)")
+    assert found["A1"].remedy.startswith("Separate the arrays with a fire pathway")
     assert found["A1"].places[0] == Place("arrays", 0, "x_from_m")
     # Through a neighbor, in any order.
     found = rows((0, 60), (126, 186), (63, 123))
-    assert {row.found for row in found.values()} == {"A1 to A3 together: 186.00 ft (56.69 m)"}
+    assert {texts(row)[0] for row in found.values()} == {"186.00 ft (56.69 m) (A1 to A3)"}
     # A ring of an outline around another array is one with it only where it is near.
     ring = [(0, 0), (140, 0), (140, 140), (130, 140), (130, 10), (10, 10), (10, 140), (0, 140)]
     outlines = [{"name": "A1", "x_m": x * FOOT, "y_m": y * FOOT} for x, y in ring]
@@ -63,7 +73,7 @@ def test_arrays_closer_than_a_lane_by_their_shapes_are_one():
     ]  # fmt: skip
     site = stand_in.site(fire_code_section=SECTION)
     data = stand_in.project(arrays=arrays, outlines=outlines, clearances=[], site=site)
-    found = {row.subject: row.found for row in fire_lane_rows(data)}
+    found = {id: texts(row)[0] for id, row in sections_of(data).items()}
     assert found["A1"].startswith("140.00 ft")
     assert found["A2"].startswith("130.00 ft")
 
@@ -79,17 +89,15 @@ def test_a_gap_that_is_a_lane_within_rounding_is_one(gap_m, lane_m, is_one):
     assert [row.is_satisfied for row in found.values()] == [not is_one] * 2
 
 
-def test_without_a_section_the_row_says_so_and_is_a_condition():
+def test_without_a_section_of_the_fire_code_all_arrays_have_a_condition():
+    site = stand_in.site(fire_code_section="")
+    (found,) = (row for row in of_roof(stand_in.project(site=site)) if row.id == "fire_code")
+    assert (found.verdict, found.arrays) == (Verdict.CONDITION, ("A1", "A2", "A3"))
+    assert found.remedy == "Enter the section of the fire code on the Site worksheet."
+    assert found.places == (Place("site", 0, "fire_code_section"),)
     found = rows((0, 80), (90, 150), (160, 320), section="")
-    assert {row.verdict for row in found.values()} == {Verdict.CONDITION}
-    assert {row.basis for row in found.values()} == {"fire code, section not given†"}
-    fits, long = found["A2"], found["A3"]
-    assert (found["A1"].asked, found["A1"].found) == (fits.asked, fits.found)
-    assert fits.found == "at most 80.00 ft (24.38 m); section not given"
-    assert fits.remedy == "State on the sheet Site the section of the fire code."
-    assert long.found == "160.00 ft (48.77 m); section not given"
-    assert "by a fire lane" in long.remedy
-    assert long.places == (Place("site", 0, "fire_code_section"),)
+    assert [row.is_satisfied for row in found.values()] == [True, True, False]
+    assert {row.clause for row in found.values()} == {"fire code†"}
 
 
 def overrides(**values):
@@ -120,22 +128,23 @@ def overridden(options=None, **values):
 )  # fmt: skip
 @pytest.mark.quick
 def test_an_override_that_requires_less_is_a_condition(key, less, more):
-    (found,) = override_rows(stand_in.project(overrides=overrides(**{key: less})))
+    (found,) = of_overrides(stand_in.project(overrides=overrides(**{key: less})))
     assert (found.is_satisfied, found.consequence) == (False, Consequence.CONDITION)
     assert found.verdict is Verdict.CONDITION
     assert "consent of the authority having jurisdiction" in found.remedy
     assert OVERRIDDEN in found.found
     assert "agreed" in found.found
-    assert override_rows(stand_in.project(overrides=overrides(**{key: more}))) == ()
+    (safe,) = of_overrides(stand_in.project(overrides=overrides(**{key: more})))
+    assert safe.is_satisfied
 
 
 @pytest.mark.quick
 def test_an_override_is_a_row_with_both_numbers_and_a_condition():
-    (found,) = override_rows(stand_in.project(overrides=overrides(prescriptive_minimum_in=3.0)))
+    (found,) = of_overrides(stand_in.project(overrides=overrides(prescriptive_minimum_in=3.0)))
     assert found.title == "Override of the minimum prescriptive displacement"
     assert (found.found, found.limit) == ("3 in‡, agreed", "≥ 6 in")
-    assert found.basis == "PV1-2012"
-    (slope,) = override_rows(stand_in.project(overrides=overrides(analysis_max_slope_deg=10.0)))
+    assert found.clause == "PV1-2012"
+    (slope,) = of_overrides(stand_in.project(overrides=overrides(analysis_max_slope_deg=10.0)))
     assert slope.limit == "≤ 7 deg"
     plain, done = overridden(), overridden(separation_fixed=0.5)
     more = [row for row in done.conditions if row not in plain.conditions]
@@ -147,10 +156,10 @@ def test_an_override_is_a_row_with_both_numbers_and_a_condition():
 def test_a_mean_without_factor_departs_from_a_rule_set_that_states_a_statistic(rule_set, count):
     site = stand_in.site(rule_set=rule_set)
     data = stand_in.project(site=site, options={"statistic": "mean"})
-    rows = override_rows(data)
+    rows = list(of_overrides(data))
     assert [row.verdict for row in rows] == [Verdict.CONDITION] * count
     assert [row.title for row in rows] == ["Design value statistic"] * count
-    assert override_rows(stand_in.project(options={"statistic": "1.1 x largest"})) == ()
+    assert not list(of_overrides(stand_in.project(options={"statistic": "1.1 x largest"})))
 
 
 def marks(done):
@@ -207,7 +216,8 @@ def assessed(**changes):
 
 
 def row(done, key):
-    return next((item for item in done.rows if item.id == key), None)
+    found = [item for item in done.checks if item.id == key]
+    return next((item for item in found if not item.is_satisfied), found[0] if found else None)
 
 
 ISSUED = inputs.HEAD["date"]
@@ -219,7 +229,7 @@ LATER = ISSUED + dt.timedelta(days=1)
     by_day([
         ({"options": scenes.REVIEW | {"peer_date": LATER}}, "peer review"),
         ({"friction_tests": {"date": LATER}}, "friction report"),
-        ({"site": inputs.SITE | {"hazard_date": LATER}}, "hazard"),
+        ({"site": inputs.SITE | {"hazard_date": LATER}}, "seismic parameters"),
         ({"project": inputs.HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": LATER}},
          "confirmation of the drawing"),
         (scenes.CONFIRMED | {"confirmation": scenes.CONFIRMED["confirmation"] | {"date": LATER}},
@@ -229,9 +239,10 @@ LATER = ISSUED + dt.timedelta(days=1)
 def test_what_is_dated_later_than_the_package_is_a_condition(changes, what):
     late = row(assessed(**changes), "dates")
     assert (late.title, late.verdict) == (f"Date of the {what}", Verdict.CONDITION)
-    assert (late.found, late.limit) == (str(LATER), f"not later than the package, {ISSUED}")
+    assert late.found == str(LATER)
+    assert late.limit == f"not later than the package, {ISSUED}, and for these inputs"
     issued = {"project": inputs.HEAD | changes.get("project", {}) | {"date": LATER}}
-    assert row(assessed(**changes | issued), "dates") is None
+    assert row(assessed(**changes | issued), "dates").is_satisfied
 
 
 def test_a_review_that_is_dated_later_removes_no_floor_and_confirms_no_distance():
@@ -262,17 +273,18 @@ def on_record(**changes):
 
 
 def outdated_row(title, **changes):
-    rows = [row for row in assessed(**changes).rows if row.title == title]
+    rows = [row for row in assessed(**changes).checks if row.title == f"Date of the {title}"]
+    rows = [row for row in rows if not row.is_satisfied]
     assert len(rows) < 2
     return next(iter(rows), None)
 
 
 def test_a_review_given_before_an_array_changed_removes_no_floor_and_is_a_condition():
     reviewed = on_record(options=scenes.REVIEW)
-    assert outdated_row("Peer review", **reviewed) is None
+    assert outdated_row("peer review", **reviewed) is None
     assert not any(item.floor_m for item in assessed(**reviewed).arrays)
     arrays = [stand_in.array("A1", 0.5, mu=0.42), *stand_in.project().model_dump()["arrays"][1:]]
-    found = outdated_row("Peer review", **reviewed, arrays=arrays)
+    found = outdated_row("peer review", **reviewed, arrays=arrays)
     assert found.verdict is Verdict.CONDITION
     assert found.found == "2026-03-01, given before these inputs changed: sheet Arrays"
     assert found.remedy.startswith("Have it confirmed for these inputs, and enter the new date")
@@ -285,7 +297,7 @@ def test_a_review_given_before_an_array_changed_removes_no_floor_and_is_a_condit
     # Less friction is a variation of the input as it is, which is still reviewed.
     assert not any(item.floor_m for item in assessed(**reviewed).at_reduced_friction.arrays)
     again = reviewed["options"] | {"peer_date": dt.date(2026, 3, 2)}
-    assert outdated_row("Peer review", options=again, arrays=arrays) is None
+    assert outdated_row("peer review", options=again, arrays=arrays) is None
 
 
 def test_values_that_changed_after_their_document_are_a_condition_until_they_are_compared():
@@ -293,8 +305,9 @@ def test_values_that_changed_after_their_document_are_a_condition_until_they_are
     tests = {"friction_tests": scenes.TESTS, "friction_runs": [RUN]}
     given = on_record(site=site, **tests)
     for title, change, sheet, label, cell in (
-        ("Hazard", {"site": given["site"] | {"s_ds_g": 1.6}}, "Site", "Hazard", "hazard"),
-        ("Friction report", {"friction_runs": [RUN | {"mu": 0.47}]}, "Friction tests",
+        ("seismic parameters", {"site": given["site"] | {"s_ds_g": 1.6}}, "Site", "Hazard",
+         "hazard"),
+        ("friction report", {"friction_runs": [RUN | {"mu": 0.47}]}, "Friction tests",
          "Test report", "tests"),
     ):  # fmt: skip
         assert outdated_row(title, **given) is None
@@ -349,7 +362,8 @@ def test_a_later_change_of_what_was_confirmed_brings_the_marks_back(change, shee
     rows = {key: given[key] | part for key, part in change.items() if key in given}
     done = assessed(**given | change | rows)
     assert done.project.confirmed == ""
-    (said,) = (row for row in done.rows if row.title == "Confirmation of the provisions")
+    title = "Date of the confirmation of the provisions"
+    (said,) = (row for row in done.checks if row.title == title)
     assert said.verdict is Verdict.CONDITION
     assert said.found == f"2026-03-01, given before these inputs changed: {sheet}"
     again = given | change | rows

@@ -9,7 +9,7 @@ import scenes
 import stand_in
 from inputs import motion
 from places import RECORDS
-from report.assessment.conditions import MOST_DRIFT_M, MOST_END_MPS, drift_limits
+from report.assessment.checks.motions import MOST_DRIFT_M, MOST_END_MPS, drift_limits
 from report.assessment.verdict import Verdict
 from report.motions.prepare import prepare
 from report.sheet.reading.read import read
@@ -33,11 +33,11 @@ def ended(displacement_m, velocity_mps=0.0, basis=""):
 @pytest.mark.parametrize(
     ("displacement_m", "velocity_mps", "basis", "is_accepted", "verdict"),
     [
-        (0.0, 0.0, "", True, None),
+        (0.0, 0.0, "", True, Verdict.OK),
         (0.4, 0.0, "", True, Verdict.CONDITION),
         (-0.6, 0.0, "", False, Verdict.CONDITION),
         (-0.6, 0.0, "RG, SE, GNSS at the station", True, Verdict.CONDITION),
-        (0.0, -0.11, "", False, None),
+        (0.0, -0.11, "", False, Verdict.OK),
         (0.6, 0.11, "RG, SE, GNSS at the station", False, Verdict.CONDITION),
     ],
 )
@@ -46,21 +46,21 @@ def test_a_record_that_ends_elsewhere_is_not_accepted_unless_the_displacement_is
 ):
     done = ended(displacement_m, velocity_mps, basis)
     assert done.acceptance.qualifies is is_accepted
-    said = {row.title: row for row in done.rows if row.subject == "M2"}
-    drift = said.get("Final displacement of the record")
-    assert (drift.verdict if drift else None) is verdict
-    if drift is not None:
-        assert (basis in drift.found, "Baseline" in drift.remedy) == (True, False)
-        assert ("correct its baseline" in drift.remedy) is not bool(basis)
+    (drift,) = (each for each in done.checks if (each.id, each.subject) == ("drift", "M2"))
+    assert drift.verdict is verdict
+    if not drift.is_satisfied:
+        assert basis in drift.note
+        assert ("Correct the baseline" in drift.remedy) is not bool(basis)
     refused = [
         row
-        for row in done.rows
-        if row.title.startswith(("Final displacement of each", "Final velocity"))
+        for row in done.checks
+        if not row.is_satisfied
+        and row.title.startswith(("Final displacement of each", "Final velocity"))
     ]
     assert bool(refused) is not is_accepted
     for row in refused:
         assert "Correct the baseline of M2 " in row.remedy
-        assert (row.verdict, row.basis) == (Verdict.NG, "limit of this program")
+        assert (row.verdict, row.clause) == (Verdict.NG, "limit set by this program")
     assert all(item.is_permitted is is_accepted for item in done.arrays)
 
 

@@ -16,7 +16,7 @@ from inputs import FT, NO_SIDES, clearance
 from places import ROOT
 from recalculated import recalculated
 from report.assessment.assess import assess, changed
-from report.assessment.causes import reasons
+from report.assessment.checks.check import sentence
 from report.assessment.routes import Route
 from report.assessment.verdict import Verdict
 from report.cli.check import checked, lines
@@ -62,12 +62,14 @@ def test_all_take_the_prescriptive_displacement_and_what_is_not_permitted_is_ng(
     assert given.array_verdict(first) is Verdict.NG
     assert math.isnan(first.permitted_m)
     assert {gap.verdict for gap in given.gaps_of("A1")} == {Verdict.NONE}
-    said = next(reasons(given))
-    assert said.startswith("array A1, friction coefficient, prescriptive route: 0.350; at least 0.")
-    assert said.endswith("; or give motions on the sheet Motions, for an analysis")
-    found = [said for said in reasons(with_arrays(slope_value=8.0)) if said.startswith("array A1")]
-    assert found
-    assert not any("give motions" in said for said in found)
+    failed = {check.id: check for check in given.open if check.verdict is Verdict.NG}
+    said = sentence(failed["prescriptive_min_mu"], us_first=True)
+    assert said.startswith("Friction coefficient, prescriptive route, A1")
+    assert ": 0.350. Required: at least 0." in said
+    way = "Enter motions on the Motions worksheet, for an analysis."
+    assert failed["design"].remedy == way
+    steep = with_arrays(slope_value=8.0)
+    assert not any(check.remedy == way for check in steep.open if "A1" in check.arrays)
 
 
 def test_pages_and_plan_are_those_that_need_no_run():

@@ -15,7 +15,7 @@ import packages
 import scenes
 import stand_in
 from printed import printed
-from report.assessment.verdict import STRENGTH_ROW, Requirement
+from report.assessment.verdict import Verdict
 from report.pages.symbols import SYMBOLS
 from report.typeset.pdf import lay_out
 from solver.rules.limit import Consequence
@@ -27,13 +27,11 @@ MOTIONS = scenes.motions(3, seconds=4.0)
 
 
 def with_open(done, rows):
-    """The assessment with these requirements open alone; the strength of every array has one."""
-    strength = (row for row in done.rows if row.id == STRENGTH_ROW)
-    met = (
-        Requirement(**row.model_dump(exclude={"verdict"}) | {"is_satisfied": True})
-        for row in strength
-    )
-    return replace(done, rows=(*met, *rows))
+    """The assessment with these checks open alone."""
+    met = (replace(check, is_satisfied=True) for check in done.checks)
+    other = replace(done)
+    object.__setattr__(other, "checks", (*met, *rows))
+    return other
 
 
 def plain(text):
@@ -95,20 +93,20 @@ def test_the_letter_is_one_page(n_arrays):
 )  # fmt: skip
 def test_the_letter_says_where_open_requirements_are_listed(n_conditions, n_severe, text):
     done = scenes.package().assessment
-    row = next(row for row in done.conditions if row.id != STRENGTH_ROW)
-    assert row.consequence is Consequence.CONDITION
-    severe = Requirement(**row.model_dump(exclude={"verdict"}) | {"consequence": Consequence.NG})
+    row = next(check for check in done.checks if check.id == "roof_outline")
+    assert row.verdict is Verdict.CONDITION
+    severe = replace(row, consequence=Consequence.NG)
     every = (row,) * n_conditions + (severe,) * n_severe
-    rows = tuple(one.model_copy(update={"title": str(k)}) for k, one in enumerate(every))
+    rows = tuple(replace(one, title=str(k)) for k, one in enumerate(every))
     assert printed(with_open(done, rows), "letter").line(text)
 
 
 def test_what_is_said_of_several_arrays_counts_once_wherever_conditions_are_counted():
     done = scenes.package().assessment
-    row = next(row for row in done.conditions if row.id != STRENGTH_ROW)
-    rows = tuple(row.model_copy(update={"subject": item.id}) for item in done.arrays)
-    alike = replace(with_open(done, rows), clearances=())
-    assert len(alike.conditions) > 1
+    row = next(check for check in done.checks if check.id == "roof_outline")
+    rows = tuple(replace(row, subject=item.id) for item in done.arrays)
+    alike = with_open(done, rows)
+    assert len([check for check in alike.checks if check.is_open]) > 1
     assert "One requirement is open" in printed(alike, "letter")
     assert "One condition of part 1 is to be met first." in printed(alike, "notes")
 

@@ -8,8 +8,8 @@ import scenes
 import stand_in
 from inputs import LB
 from printed import printed
-from report.assessment.requirement_rows import friction_rows
-from report.assessment.requirement_rows import tested as series_of
+from report.assessment.checks.friction import of_tests
+from report.assessment.tested import tested as series_of
 from report.assessment.verdict import Verdict
 from report.drawing.items import drawn_slope_deg
 from report.figures.charts import friction_by_velocity
@@ -18,9 +18,9 @@ from scenes import TESTS as REPORT
 from solver.friction_tests import fit_law
 
 AT = "at 1.00 in/s (25.4 mm/s)"
-ON_FILE = "Friction test report stated"
-STANDARD = "Tested to ASTM G115"
-REPEATS = "Wet and dry, three runs at each velocity"
+ON_FILE = "Friction test report"
+STANDARD = "Friction test standard"
+REPEATS = "Friction test repeats"
 VELOCITIES = (0.0025, 0.0254, 0.0508, 0.1016)
 
 
@@ -41,7 +41,7 @@ def page(**changes):
 
 
 def row(title, **changes):
-    return next(r for r in friction_rows(stand_in.project(**changes)) if r.title == title)
+    return next(r for r in of_tests(stand_in.project(**changes)) if r.title == title)
 
 
 APART = [run("dry", k, 0.6, velocity_mps=v) for k, v in enumerate(VELOCITIES[1:], 1)]
@@ -55,7 +55,7 @@ OTHER_REPORT = run("wet", 1, 0.5, report="FT-9", velocity_mps=0.0254)
     ("title", "report", "given", "is_satisfied", "found"),
     [
         (ON_FILE, {}, [], True, "Example Laboratories; FT-118; 2025-06-12"),
-        (ON_FILE, {"laboratory": ""}, [], False, "FT-118; 2025-06-12; laboratory not given"),
+        (ON_FILE, {"laboratory": ""}, [], False, "FT-118; 2025-06-12; laboratory missing"),
         (STANDARD, {}, [], True, "standard ASTM G115-10; accreditation ISO/IEC 17025, no. 1234.01"),
         (STANDARD, {"standard": "astm g 115-10 (2018)"}, [], True, "standard astm"),
         (STANDARD, {"standard": "ASTM D1894"}, [], False, "standard ASTM D1894"),

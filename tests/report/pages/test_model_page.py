@@ -160,8 +160,8 @@ def test_a_row_is_ng_by_one_block_and_stiffer_links_may_help(both):
     near = replace(near, rigid=far.rigid, linked=far.linked)
     assert near.design.array.mu == min(near.row.mus)
     done = replace(both.assessment, linked=(near,))
-    text = printed(done, "model").line("Array A2: a row of linked blocks slides")
-    assert text.endswith(". Provide stiffer links.")
+    text = printed(done, "model").line("Design displacement as a row of linked blocks, A2: ")
+    assert text.endswith("To close: provide stiffer links between the parts of the array.")
 
 
 @pytest.mark.quick
@@ -173,7 +173,9 @@ def test_a_row_without_a_displacement_or_a_limit_says_so():
     page, rows, designs = held(linked([stand_in.links("A1", "0.40, 0.50", 50)], shaking))
     assert rows[0][6:] == ("none",) * 7
     assert designs[0][5:] == (*("none",) * 5, "NG")
-    assert page.line("Array A1 as a row of linked blocks, UP record +: ")
+    assert page.line(
+        "Design displacement as a row of linked blocks, A1: not every block comes to rest (UP)"
+    )
     assert not re.search(r"\bnan\b", page)
     pushed = np.concatenate([0.25 * stand_in.G * np.sin(np.arange(400) / 10.0), np.zeros(600)])
     shaking = (stand_in.motion("M", pushed),) * 3
@@ -181,7 +183,7 @@ def test_a_row_without_a_displacement_or_a_limit_says_so():
     page, _, designs = held(linked([row], shaking, arrays=[stand_in.array("A1", 2.0, mu=0.3)]))
     assert designs[0][5:] == ("∞", "none", "none", "∞", "∞", "NG")
     assert " = no limit" in page
-    assert "in one axis, one rigid block does not slide" in page
+    assert "one rigid block does not slide in one axis" in page
 
 
 FOOT = stand_in.FOOT

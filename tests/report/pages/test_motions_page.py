@@ -125,7 +125,7 @@ def test_friction_beyond_its_tests_has_one_verdict_in_each_table():
     for count, verdict in ((2, "note"), (3, "Condition")):
         arrays = [stand_in.array("A1", 0.5 if count == 2 else 2.0)]
         package = scenes.package(scenes.motions(count, 4.0), arrays=arrays, **given)
-        title = "Friction beyond the velocities tested"
+        title = "Friction at the sliding velocity"
         assert printed(package, "limits").table("All checks").row(title)["Verdict"] == verdict
         first = printed(package, "summary")
         opened = " ".join(first.table("Open conditions").column("Condition"))

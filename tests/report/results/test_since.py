@@ -130,8 +130,9 @@ def test_a_revision_that_was_issued_with_other_inputs_is_a_condition(document, c
     for row in found:
         assert row.verdict is Verdict.CONDITION
         assert (row.title, row.found) == ("Revision 0", "issued with other inputs, 2026-03-05")
-        assert row.remedy.startswith("Raise the revision on the sheet Project")
-    raised = replace(done, project=made(project=parts_of.HEAD | {"revision": "1"}).project)
+        assert row.remedy.startswith("Raise the revision on the Project worksheet")
+    head = parts_of.HEAD | {"revision": "1"}
+    raised = replace(done, project=made(**change, project=head).project)
     assert reissue(raised, document) == []
 
 

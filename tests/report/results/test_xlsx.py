@@ -12,7 +12,7 @@ import scenes
 import stand_in
 from cells import address, cell
 from recalculated import recalculated
-from report.assessment.checks.check import alike
+from report.assessment.checks.check import alike, found_and_limit
 from report.assessment.spectra import spectra
 from report.entities.shown import Column
 from report.provenance.files import fingerprint
@@ -214,7 +214,8 @@ def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(usual)
     rows = [row[:6] for row in values["Requirements"].iter_rows(min_row=5, values_only=True)]
     for row in assessment.rows:
         item = row.subject or "Project"
-        cells = (item, row.title, row.found, row.limit, row.basis, row.verdict)
+        found, limit = found_and_limit(row, us_first=True)
+        cells = (item, row.title, found, limit, row.clause, row.verdict)
         assert rows.count(cells) == 1
     assert rows[-1] == cells  # after the limits, as in the package
     limits = [c for item in assessment.arrays for c in item.limits]

@@ -1,7 +1,7 @@
 """The existing building that takes the arrays: the weight added beside its own loads.
 
 The existing-building code has a rule of 5 % for gravity and one of 10 % for lateral loads. Neither
-section was compared with its text: hence †. Read `existing_roof_rows`.
+section was compared with its text: hence †. Read `of_existing_roof`.
 """
 
 from __future__ import annotations
@@ -9,22 +9,23 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from report.assessment.verdict import NOT_GIVEN, Requirement, condition
+from report.assessment.checks.check import Check, Sense, condition
+from report.assessment.verdict import NOT_GIVEN
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import BuildingCode
 from report.sheet.schema.fields import Place
-from report.text.amounts import capacity, demand, in_order
+from report.text.amounts import capacity, demand
 from report.text.counts import lowered
 from report.text.units import Quantity, pair
 
 _NOISE = 1e-9  # a weight in other units is no more than itself
 _REMEDY = (
     "Have the engineer of the existing building evaluate it with the weight added, and enter who"
-    " did on the sheet Site."
+    " did on the Site worksheet."
 )
 
 
-def existing_roof_rows(data: ProjectInput) -> Iterator[Requirement]:
+def of_existing_roof(data: ProjectInput) -> Iterator[Check]:
     """Yield the weight added as a share of the roof's own loads, and what is not entered."""
     site, heaviest = data.site, max(data.arrays, key=lambda array: array.weight_pa)
     added_n = math.fsum(array.weight_n for array in data.arrays)
@@ -42,16 +43,17 @@ def existing_roof_rows(data: ProjectInput) -> Iterator[Requirement]:
             lacking[field] = load
             continue
         percent = 100.0 * added / own
-        share, most = in_order(demand(percent), capacity(most_percent), 1, is_at_least=False)
         first, second = (pair(value, quantity, data.us_first) for value in (added, own))
-        found = f"{share} % ({of}: {first} of {second})"
         is_met = percent <= most_percent * (1.0 + _NOISE)
         yield condition(
             id=field,
             title=f"Weight added / {load}",
-            found=f"{found}; {evaluated}" if evaluated and not is_met else found,
-            limit=f"≤ {most} %, or an evaluation",
-            basis=f"{code} {section}{year}†",
+            found=demand(percent, Quantity.PERCENT),
+            note=f"{of}: {first} of {second}"
+            + ("" if is_met or not evaluated else f"; {evaluated}"),
+            limit=capacity(most_percent, Quantity.PERCENT, mark=", or an evaluation"),
+            sense=Sense.AT_MOST,
+            clause=f"{code} {section}{year}†",
             is_satisfied=is_met or bool(evaluated),
             remedy=_REMEDY,
             places=(Place("site", 0, field), Place("site", 0, "roof_evaluation")),
@@ -62,9 +64,9 @@ def existing_roof_rows(data: ProjectInput) -> Iterator[Requirement]:
             title="Existing building with the weight added",
             found=evaluated or f"not checked: {', '.join(lacking.values())} {NOT_GIVEN}",
             limit="its loads, for the rules of 5 % and 10 %, or an evaluation",
-            basis=f"{code} 503.3, 503.4{year}†",
+            clause=f"{code} 503.3, 503.4{year}†",
             is_satisfied=bool(evaluated),
-            remedy=f"Enter its loads on the sheet Site, or {lowered(_REMEDY)}",
+            remedy=f"Enter its loads on the Site worksheet, or {lowered(_REMEDY)}",
             places=(*(Place("site", 0, field) for field in lacking),
                     Place("site", 0, "roof_evaluation")),
         )  # fmt: skip
