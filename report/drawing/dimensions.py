@@ -16,13 +16,15 @@ from report.drawing.sheet import BASE_IN, LINE_IN, Gap, Paper, PlanSheet
 from report.entities.shown import UnitFormat
 from report.sheet.schema.shapes import Point, Rectangle, between
 from report.text.amounts import capacity, demand, shown_in_order
-from report.text.counts import grouped_by
+from report.text.counts import grouped_by, joined
 from report.text.units import Quantity, round_below
+from solver.rules.provisions import Neighbor
 
 RADIUS_IN = 0.1
 NG_TALL_IN = TYPE_PT / 72.0 + 0.03
 _STEP_IN = 0.06  # by which a label slides
 _ALIGNED_IN = 1e-6
+_MOST_NAMED = 4  # gaps of several kinds that one dimension names
 _OVERHANG_IN = 0.6  # of a dimension beyond the facing sides, where they are short
 
 
@@ -60,9 +62,21 @@ def draw_numbers(plan: PlanSheet) -> Sequence[Lane]:
 
 
 def draw_dimensions(plan: PlanSheet, lanes: Sequence[Lane]) -> None:
-    """Write what is provided, once for all gaps that are equal."""
-    for words, equal in grouped_by(lanes, lambda lane: _provided(plan, lane.gap)).items():
-        _dimension(plan, words, equal)
+    """Write what is provided, once for all equal gaps; where they differ in kind, for which."""
+    for provided, equal in grouped_by(lanes, lambda lane: _provided(plan, lane.gap)).items():
+        kinds = grouped_by(equal, lambda lane: _kind(plan, lane.gap))
+        if len(kinds) > 1 and len(equal) <= _MOST_NAMED:
+            numbers = sorted(lane.gap.of.number for lane in equal)
+            _dimension(plan, f"{provided}: No. {joined([*map(str, numbers)])}", equal)
+            continue
+        for some in kinds.values():
+            _dimension(plan, f"{provided} typ. of {len(some)}" if some[1:] else provided, some)
+
+
+def _kind(plan: PlanSheet, gap: Gap) -> Neighbor | None:
+    """Return what is across a clearance; None of a gap without one."""
+    of = gap.of
+    return plan.assessment.clearances[of.number - 1].neighbor if of.is_given else None
 
 
 def lane_of(paper: Paper, gap: Gap) -> Lane:
@@ -153,9 +167,8 @@ def _provided(plan: PlanSheet, gap: Gap) -> str:
     return f"not given; in plan {provided}, required {required}{mark}"
 
 
-def _dimension(plan: PlanSheet, provided: str, equal: Sequence[Lane]) -> None:
+def _dimension(plan: PlanSheet, words: str, equal: Sequence[Lane]) -> None:
     """Write what is provided in one of the gaps that are equal, beside its number."""
-    words = f"{provided} typ. of {len(equal)}" if equal[1:] else provided
     long = width_in(words) + 0.06
     tall = LINE_IN - 0.02
     for overhang in (0.0, _OVERHANG_IN):

@@ -241,6 +241,13 @@ def name_spot(plan: PlanSheet, item: RoofObject) -> Frame | None:
     return centered(*frame.middle, wide, tall) if is_room else None
 
 
+def own_frame(plan: PlanSheet, item: RoofObject) -> Frame | None:
+    """Return the frame of an object that has no room for its name; None of others."""
+    shape = plan.shapes[item.id]
+    is_small = isinstance(shape, Rectangle) and name_spot(plan, item) is None
+    return plan.paper.frame(shape) if is_small and isinstance(shape, Rectangle) else None
+
+
 def label_object(plan: PlanSheet, item: RoofObject) -> None:
     """Name an object inside of it, or beside it with a leader."""
     frame = plan.room(item.id)
@@ -248,7 +255,13 @@ def label_object(plan: PlanSheet, item: RoofObject) -> None:
     wide, tall = text_size(lines)
     label = plan.paper.placer.place(wide, tall, frame.middle, _inner(frame))
     if label is None:
+        own = own_frame(plan, item)
+        # The leader to its name begins in it.
+        if own:
+            plan.paper.placer.release(own)
         plan.name_beside(frame, lines)
+        if own:
+            plan.paper.placer.take(own)
         return
     plan.paper.box(Mark.BACKING, label)
     plan.paper.label(label, lines)

@@ -22,6 +22,7 @@ from report.drawing.labels import (
     label_edges,
     label_object,
     name_spot,
+    own_frame,
     reserve_name,
 )
 from report.drawing.placer import Frame, Placer, centered
@@ -240,6 +241,10 @@ def _draw(plan: PlanSheet, extent: Rectangle) -> None:
         plan.paper.placer.take_segment(a, b)
     if plan.size.is_full or plan.size.is_screen:
         draw_dimensions(plan, lanes)
+    # A small object would disappear between two names: none covers it.
+    for item in plan.placed:
+        if own := own_frame(plan, item):
+            plan.paper.placer.take(own)
     for array, name in zip(plan.assessment.arrays, names, strict=True):
         if name is not None:
             plan.paper.placer.release(name)

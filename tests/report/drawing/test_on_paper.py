@@ -166,6 +166,42 @@ def test_the_page_has_each_number_once_in_its_gap_and_equal_gaps_dimensioned_onc
 
 
 @pytest.mark.quick
+def test_equal_gaps_of_several_kinds_are_dimensioned_once_with_their_numbers():
+    """Of the example: 96 in from A1 to A2, an array, and to NORTH, a roof edge."""
+    shown = [text.words for text in words_of(printed_plan(scenes.shipped("example")).plan)]
+    assert shown.count("96.0 in: No. 1 and 3") == 1
+    assert not [words for words in shown if "typ." in words]
+
+
+@cache
+def vents():
+    """Small vents in rows between two arrays, so close that their names have no room between."""
+    objects = [
+        stand_in.roof_object(f"VENT-{k}", "fixed object", x, x + 3, y, y + 3, height=1.0)
+        for k, (x, y) in enumerate(itertools.product(range(80, 140, 7), range(60, 100, 7)))
+    ]
+    arrays = [stand_in.array("A1", 1.0) | sides(0, 60, 0, 160),
+              stand_in.array("A2", 1.0) | sides(160, 220, 0, 160)]  # fmt: skip
+    roof = sides(-10, 230, -10, 170)
+    return scenes.package(arrays=arrays, objects=objects, clearances=[], roof=roof).assessment
+
+
+@pytest.mark.quick
+def test_no_label_covers_an_object_that_is_smaller_than_a_name():
+    paper = printed_plan(vents()).plan
+    outlines = [item for item in paper.items if isinstance(item, Outline)]
+    small = [shapely.Polygon(item.points) for item in outlines if item.look is Layer.OBJECT]
+    labels = [
+        shapely.Polygon(item.points)
+        for item in outlines
+        if item.look in (Mark.FRAME, Mark.BACKING, Mark.NG)
+    ]
+    assert len(small) == len(vents().project.objects)
+    assert len(labels) > len(small) / 2
+    assert not [one for one in small if shapely.union_all(labels).intersects(one)]
+
+
+@pytest.mark.quick
 def test_equal_gaps_are_dimensioned_once_and_those_not_satisfied_marked():
     shown = [text.words for text in words_of(printed_plan(thirty()).plan)]
     assert shown.count("48.0 in typ. of 49") == 1
