@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import replace
 from functools import cache, partial
 from typing import Any
 
 from report.assessment.arrays import ArrayAssessment, assess_array
-from report.assessment.causes import outcome
 from report.assessment.checks.limits import building_limits
 from report.assessment.clearances import by_id, check_clearance, largest_separation_m, minimum_gap
 from report.assessment.friction import (
@@ -28,6 +27,7 @@ from report.assessment.friction import (
 from report.assessment.links import assess_linked
 from report.assessment.neighbors import PlanNeighbor, plan_pairs, reaches_of
 from report.assessment.precheck import shaking_acceptance
+from report.assessment.prices import prices
 from report.assessment.project import THREADS, Assessment
 from report.assessment.runs import (
     MotionRun,
@@ -37,7 +37,7 @@ from report.assessment.runs import (
     run_motion,
     scene_key,
 )
-from report.assessment.verdict import SHIFT, rule_set_of, under_code
+from report.assessment.verdict import SHIFT, rule_set_of
 from report.motions.history import targets
 from report.motions.prepare import Shaking
 from report.sheet.checking.checks import faults
@@ -89,24 +89,27 @@ def assess(
             return whole(reduced, begun=less, has_pairs=False) if is_whole else None
 
         done = whole(data, begun=begun, slow=slow, reduced_friction=at_reduced_friction)
-        other = under_code(data)
-        if other is data or project is not None or not is_whole:
+        if project is not None or not is_whole:
             return done
-        acceptance = shaking_acceptance(shaking, targets(other))  # of another edition maybe
-        return _beside(whole(other, begun=begun, acceptance=acceptance), done)
 
+        def without(other: ProjectInput, motions: Collection[str]) -> Assessment:
+            """Assess another input, without some motions."""
+            fewer = replace(
+                shaking,
+                motions=tuple(each for each in shaking.motions if each.id not in motions),
+                prepared=tuple(each for each in shaking.prepared if each.motion_id not in motions),
+            )
+            former = [
+                replace(item, motions=tuple(m for m in item.motions if m.motion.id not in motions))
+                for item in (*done.arrays, *done.low_velocity.arrays)
+            ]
+            # The targets may be those of another edition.
+            is_same = not motions and other.site is data.site
+            limits = acceptance if is_same else shaking_acceptance(fewer, targets(other))
+            runs = begin_runs(pool, run_motion, other, fewer.motions, former=former)
+            return _assess(sheet, fewer, other, acceptance=limits, pool=pool, begun=runs)
 
-def _beside(other: Assessment, assessment: Assessment) -> Assessment:
-    """Return an assessment with the outcome by the rule set of its building code."""
-    linked = tuple(
-        replace(row, design=by_id(other.arrays, row.design.id)) for row in assessment.linked
-    )
-    own, by_code = ((each.project.overrides, each.project.options) for each in (assessment, other))
-    how = "the same motions and S_DS" if assessment.has_motions else "the same S_DS"
-    how += "" if own == by_code else ", without overrides and departures"
-    result = outcome(replace(other, linked=linked)).words(assessment.project.us_first)
-    text = f"Under {other.rules.name} 13.6.12, with {how}: {result}."
-    return replace(assessment, otherwise={"rule_set": text, "edition_name": text})
+        return replace(done, otherwise=prices(done, without))
 
 
 def reassess(assessment: Assessment, project: ProjectInput) -> Assessment:

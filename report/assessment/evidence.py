@@ -17,7 +17,7 @@ from report.assessment.clearances import ClearanceCheck, by_id, check_clearance
 from report.assessment.friction import InputCase, with_friction
 from report.assessment.project import THREADS, Assessment
 from report.assessment.remedies import Remedies, remedies
-from report.assessment.routes import Route, statistic_basis
+from report.assessment.routes import Route, lacking_motions, statistic_basis
 from report.assessment.runs import MotionRun, run_motion
 from report.assessment.spectra import Spectra, spectra
 from report.assessment.trials import resting
@@ -33,9 +33,10 @@ from report.text.counts import lowered
 from report.text.units import number
 from solver.building.structure import MOST_PERIOD_S
 from solver.model import SlideHistory
-from solver.rules.limit import Limit
+from solver.rules.limit import Consequence, Limit
 from solver.rules.provisions import (
     AnalysisValue,
+    Basis,
     analysis_floor_m,
     analysis_value,
     review_lifts_slope,
@@ -290,9 +291,15 @@ class Saving:
     n_satisfied: int  # of them, with the arrays that may be analyzed at the floor
 
 
-def _lack(missed: Limit, us_first: bool) -> str:
-    found, limit = limit_texts(missed, us_first)
-    return f"{lowered(missed.title)}: {found}, required {missed.sign} {limit}"
+def _lacks(assessment: Assessment, item: ArrayAssessment) -> Iterator[str]:
+    """Yield what the motions of a project lack for an analysis."""
+    for limit in (*assessment.acceptance.missed, *item.analysis_checks):
+        if not limit.ok and limit.consequence is Consequence.NG:
+            found, wanted = limit_texts(limit, assessment.project.us_first)
+            yield f"{lowered(limit.title)}: {found}, required {limit.sign} {wanted}"
+    if item.analysis.basis is Basis.TOO_FEW and all(each.ok for each in item.analysis_checks):
+        basis, count = statistic_basis(assessment.project), len(assessment.shaking.motions)
+        yield lacking_motions(assessment.rules, basis, count)
 
 
 def saving(assessment: Assessment) -> Saving:
@@ -307,10 +314,8 @@ def saving(assessment: Assessment) -> Saving:
     ]
     short = [gap.clearance for gap in assessment.clearances if not gap.ok]
     checks = [check_clearance(assessment.project, assessment.rules, at_floor, row) for row in short]
-    has_motions = assessment.has_motions
-    missed = [*assessment.acceptance.missed, *(few for few in first.analysis_checks if not few.ok)]
     return Saving(
-        lacks=[_lack(each, assessment.project.us_first) for each in missed if has_motions],
+        lacks=list(dict.fromkeys(_lacks(assessment, first))) if assessment.has_motions else [],
         ids=ids,
         others=[item.id for item in without if not item.may_be_analyzed],
         is_lifted_by_review=review_lifts_slope(assessment.rules, assessment.project.site.sdc),

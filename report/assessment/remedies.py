@@ -13,13 +13,11 @@ from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property, partial, reduce
-from typing import NamedTuple
 
-from report.assessment.arrays import ArrayAssessment
 from report.assessment.assess import changed, entered, refused
 from report.assessment.causes import ProjectOutcome, outcome
 from report.assessment.checks.check import Check, by_ratio
-from report.assessment.clearances import ClearanceCheck, by_id, slides_m
+from report.assessment.clearances import ClearanceCheck, by_id
 from report.assessment.friction import mu_words
 from report.assessment.moves import Change, moves
 from report.assessment.neighbors import ComparedGap
@@ -39,7 +37,7 @@ from report.assessment.trials import (
 from report.assessment.verdict import PLAN_ROW, STRENGTH_ROW, Verdict
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.scene import Clearance
-from report.text.amounts import Amount, capacity, compared_pairs, demand
+from report.text.amounts import Amount, amount_texts, capacity, demand
 from report.text.amounts import entered as entered_amount
 from report.text.counts import capitalized, grouped_by, joined, lowered, name_order, ranged
 from report.text.units import Quantity, no_less, pair
@@ -61,7 +59,7 @@ class RemedyKind(StrEnum):
     SEPARATION = "provided separation"
     REVIEW = "design displacement by peer review"
     FRICTION = "friction coefficient"
-    HEIGHT = "height of the center of gravity"
+    HEIGHT = "center of gravity"
     CAPACITY = "roof capacity"
     SLACK = "electrical slack"
     STRENGTH = "interconnection strength"
@@ -109,23 +107,17 @@ def _came(outcome: ProjectOutcome, us_first: bool) -> str:
     return f"Project verdict: {outcome.words(us_first)}."
 
 
-def remedies(assessment: Assessment) -> Remedies:
-    """Return the remedies of each check that is NG, and the smallest set that is enough."""
-    if assessment.verdict.is_permitted:
-        return Remedies()
-    with ThreadPoolExecutor(THREADS) as pool:
-        state = _State(assessment, pool, {})
-        own = tuple(state.own())
-        return replace(_enough(state, own), own=own)
+def remedies(assessment: Assessment, *, may_run: bool = True) -> Remedies:
+    """Return the remedies of each check that is NG, and the smallest set that is enough.
 
-
-def sufficient(assessment: Assessment, *, may_run: bool = True) -> Remedies:
-    """Return the smallest set of changes that is enough, with runs for friction or without."""
+    Friction takes runs: without them it is no remedy.
+    """
     if assessment.verdict.is_permitted:
         return Remedies()
     with ThreadPoolExecutor(THREADS) as pool:
         state = _State(assessment, pool, {} if may_run else None)
-        return _enough(state, state.own())
+        own = tuple(state.own())
+        return replace(_enough(state, own), own=own)
 
 
 def _enough(state: _State, own: Iterable[Remedy]) -> Remedies:
@@ -211,15 +203,10 @@ def _key(check: Check) -> Hashable:
 def _separations(state: _State, check: Check) -> Iterator[Remedy]:
     """Yield what widens a clearance, a pair of the plan without one, or a fire pathway."""
     gap = _gap(state.done, check)
-    if gap is None:
-        return
-    lack_m = gap.required_m - gap.provided_m
-    if check.id == "fire_pathway" and isinstance(gap, ClearanceCheck):
-        left_m = gap.provided_m - math.fsum(slides_m(state.done.arrays, gap))
-        lack_m = (gap.clearance.pathway_m or 0.0) - left_m
-    if lack_m > 0.0:
-        for words, change in moves(state.done, gap, lack_m):
-            yield Remedy(kind=RemedyKind.SEPARATION, checks=(check,), words=words, change=change)
+    if gap and isinstance(check.found, Amount) and isinstance(check.limit, Amount):
+        for words, change in moves(state.done, gap, check.limit.value - check.found.value):
+            kind = RemedyKind.SEPARATION
+            yield Remedy(kind=kind, checks=(check,), words=words, change=change)
 
 
 def _gap(done: Assessment, check: Check) -> ComparedGap | None:
@@ -333,74 +320,46 @@ def _may_help(trials: Trials, row: Clearance | None) -> bool:
     return row is None or single_array_check(assessment, assessment.project, at_rest, row).ok
 
 
-class _Value(NamedTuple):
-    """A value of an array that a check compares, and the value that satisfies it."""
-
-    kind: RemedyKind
-    field: str
-    quantity: Quantity
-    needed: Callable[[ArrayAssessment], float]
-    words: str  # of the change; at most where it is lowered, else at least
-
-
-def _low_profile_m(item: ArrayAssessment) -> float:
-    return next(limit.limit for limit in item.checks if limit.key == "low_profile_in")
-
-
-_HEIGHT = RemedyKind.HEIGHT, "cg_height_m", Quantity.SIZE
-_LOWER = "Lower the center of gravity to at most"
-
-# By the id of the check.
+# The value of an array that a check compares, by the id of the check.
 _VALUES = {
-    "low_profile_in": _Value(*_HEIGHT, _low_profile_m, _LOWER),
-    "tipping": _Value(*_HEIGHT, lambda item: item.array.cg_height_m / item.tipping.ratio, _LOWER),
-    "roof_capacity": _Value(
-        RemedyKind.CAPACITY,
-        "roof_capacity_pa",
-        Quantity.PRESSURE,
-        lambda item: item.array.weight_pa,
-        "Show a roof capacity of at least",
-    ),
-    "electrical_slack": _Value(
-        RemedyKind.SLACK,
-        "slack_m",
-        Quantity.SIZE,
-        lambda item: item.permitted_m,
-        "Provide electrical slack of at least",
-    ),
-    STRENGTH_ROW: _Value(
-        RemedyKind.STRENGTH,
-        "interconnection_n",
-        Quantity.WEIGHT,
-        lambda item: item.interconnection_n,
-        "Provide interconnection strength of at least",
-    ),
+    "low_profile_in": (RemedyKind.HEIGHT, "cg_height_m"),
+    "tipping": (RemedyKind.HEIGHT, "cg_height_m"),
+    "roof_capacity": (RemedyKind.CAPACITY, "roof_capacity_pa"),
+    "electrical_slack": (RemedyKind.SLACK, "slack_m"),
+    STRENGTH_ROW: (RemedyKind.STRENGTH, "interconnection_n"),
 }
 
 
-def _value(state: _State, check: Check) -> Iterator[Remedy]:
+def _needed(check: Check, given: float) -> Amount:
+    """Return the value with which a check is satisfied."""
+    if check.id == "roof_capacity" and isinstance(check.found, Amount):
+        return demand(check.found.value, Quantity.PRESSURE)
+    if check.id == "tipping" and isinstance(check.found, Amount):
+        # Divided by a ratio and multiplied again it is no more than its limit.
+        return capacity(given / check.found.value * (1.0 - _NOISE), Quantity.SIZE)
+    return replace(check.limit, mark="") if isinstance(check.limit, Amount) else demand(math.nan)
+
+
+def _values(state: _State, check: Check) -> Iterator[Remedy]:
     """Yield the values that satisfy a check of one array and the like of others."""
-    kind, field, quantity, needed, words = _VALUES[check.id]
+    kind, field = _VALUES[check.id]
     is_least = kind is not RemedyKind.HEIGHT
     checks = tuple(each for each in state.failed if each.id == check.id)
     values, texts = dict[str, float](), dict[str, tuple[str, str]]()
-    for item in (by_id(state.done.arrays, each.arrays[0]) for each in checks):
-        # A height that is divided by a ratio and multiplied again is no more than its limit.
-        values[item.id] = needed(item) * (1.0 if is_least else 1.0 - _NOISE)
-        texts[item.id] = compared_pairs(
-            entered_amount(getattr(item.array, field)),
-            (demand if is_least else capacity)(values[item.id]),
-            quantity,
-            state.data.us_first,
-            is_at_least=is_least,
-        )
+    for each in checks:
+        given = getattr(by_id(state.done.arrays, each.subject).array, field)
+        needed = _needed(each, given)
+        values[each.subject] = needed.value
+        amounts = entered_amount(given, needed.quantity), needed
+        texts[each.subject] = amount_texts(*amounts, state.data.us_first, is_at_least=is_least)
     alike = grouped_by(texts, texts.__getitem__)
     parts = [f"{wanted} for {ranged(of)} (given {had})" for (had, wanted), of in alike.items()]
+    words = "Provide {} of at least" if is_least else "Lower the {} to at most"
     if not any(map(math.isnan, values.values())):
         yield Remedy(
             kind=kind,
             checks=checks,
-            words=f"{words} {joined(parts)}",
+            words=f"{words.format(kind.value)} {joined(parts)}",
             change=partial(_with_values, field=field, values=values),
         )
 
@@ -421,5 +380,5 @@ _WAYS: Mapping[str, Sequence[Callable[[_State, Check], Iterator[Remedy]]]] = {
     "analysis_max_slope_deg": (_review,),
     "prescriptive_min_mu": (_prescriptive_mu,),
     "runs": (_frictions,),
-    **dict.fromkeys(_VALUES, (_value,)),
+    **dict.fromkeys(_VALUES, (_values,)),
 }

@@ -181,7 +181,7 @@ def condition_table(sheet: FirstSheet, done: Assessment, numbers: Mapping[str, s
         cells = title, found, f"{limit} ({check.clause})", check.actor.value
         rows.append(_row(*cells, _sheet(check, numbers, f"{OPEN}{count}")))
         if check.otherwise:
-            rows.append(_below(f"If not met: {check.otherwise}", len(cells) + 1))
+            rows.append(_below(f"If not met, {lowered(check.otherwise)}", len(cells) + 1))
     return replace(_CONDITION_HEADS, rows=tuple(rows))
 
 

@@ -22,7 +22,7 @@ from report.assessment.project import Assessment, ChangeKind, Changes
 from report.assessment.remedies import Remedies
 from report.assessment.routes import Route
 from report.assessment.tested import tested
-from report.assessment.verdict import LOWERING
+from report.assessment.verdict import LOWERING, VELOCITY_ROW
 from report.pages.checks import (
     FirstSheet,
     condition_table,
@@ -100,10 +100,11 @@ def _enough(done: Assessment, found: Remedies) -> str:
 
 def _what_if(package: PackageData, evidence: Evidence) -> Iterator[str]:
     """Yield what another input comes to; of a condition its own row says it."""
-    said = {check.otherwise for check in package.assessment.checks}
+    done = package.assessment
     for case in evidence.cases:
-        if (text := case.words(package.fmt.us_first)) not in said:
-            yield text
+        is_slow = done.low_velocity.of(case.array.id) is case.array
+        if not (is_slow and VELOCITY_ROW in done.otherwise):
+            yield case.words(package.fmt.us_first)
 
 
 def basis(package: PackageData) -> Mapping[str, object]:

@@ -16,7 +16,7 @@ from report.assessment.checks.check import alike, sentence, subjects
 from report.assessment.evidence import saving
 from report.assessment.precheck import findings
 from report.assessment.project import Assessment
-from report.assessment.remedies import MOST, Remedies, sufficient
+from report.assessment.remedies import MOST, Remedies, remedies
 from report.assessment.routes import NOT_PERMITTED
 from report.assessment.verdict import MEANING, Verdict
 from report.document.templates import sentence as of_template
@@ -134,7 +134,7 @@ def attention(assessment: Assessment, *, may_run: bool = True) -> Iterator[Conce
     for check in failed:
         yield Concern(Consequence.NG.value, sentence(check, us_first))
     # The verdict with a remedy depends on less friction as well.
-    if is_best_due and (found := sufficient(assessment, may_run=may_run)).together:
+    if is_best_due and (found := remedies(assessment, may_run=may_run)).together:
         yield Concern("remedy", found.sentence(us_first))
     for check in assessment.open[len(failed) :]:
         yield Concern(check.consequence.value, sentence(check, us_first))

@@ -44,7 +44,7 @@ def every(done: Assessment) -> tuple[Check, ...]:
         *plan.of_pathways(data, done.pairs),
         *plan.of_neighbors(done),
         *noted(
-            friction.of_velocities(data, done.arrays, done.low_velocity) if has_variations else (),
+            friction.of_velocities(data, done.arrays) if has_variations else (),
             by_runs,
         ),
         *friction.of_less(done),

@@ -8,12 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from report.assessment.checks.check import Actor, Check, Sense, condition, stated
-from report.assessment.friction import (
-    MOST_BEYOND,
-    LowVelocityAssessment,
-    VelocityCheck,
-    velocity_check,
-)
+from report.assessment.friction import MOST_BEYOND, VelocityCheck, velocity_check
 from report.assessment.tested import LEAST_RUNS, STANDARD, is_complete, runs_by_velocity, tested
 from report.assessment.verdict import NOT_GIVEN, SHIFT, VELOCITY_ROW
 from report.sheet.schema import ProjectInput
@@ -110,18 +105,13 @@ def _runs(by_surface: Mapping[Surface, Series | None], us_first: bool) -> Iterat
         yield f"{' and '.join(alike)} {said}"
 
 
-def of_velocities(
-    data: ProjectInput, arrays: Sequence[ArrayAssessment], slow: LowVelocityAssessment
-) -> Iterator[Check]:
+def of_velocities(data: ProjectInput, arrays: Sequence[ArrayAssessment]) -> Iterator[Check]:
     """Yield for each array whether friction beyond the velocities tested is shown by tests."""
     for item in arrays:
-        yield _velocity(item.id, velocity_check(data, item), slow, data.us_first)
+        yield _velocity(item.id, velocity_check(data, item), data.us_first)
 
 
-def _velocity(
-    array_id: str, check: VelocityCheck, slow: LowVelocityAssessment, us_first: bool
-) -> Check:
-    case = slow.case_of(array_id)
+def _velocity(array_id: str, check: VelocityCheck, us_first: bool) -> Check:
     return _row(
         id=VELOCITY_ROW,
         title="Friction at the sliding velocity",
@@ -133,7 +123,6 @@ def _velocity(
         is_capacity=False,
         # No coefficient is offered but the one that is run: with less friction it may be NG.
         remedy="Obtain friction tests at the sliding velocities.",
-        otherwise=case.words(us_first) if case and not check.is_satisfied else "",
     )
 
 

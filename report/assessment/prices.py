@@ -1,0 +1,93 @@
+"""What a project comes to where a condition is not met: each is taken out of its input.
+
+Runs nothing: `report.assessment.assess` assesses the inputs, with the runs that it has. Read
+`prices`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from report.assessment.causes import outcome
+from report.assessment.clearances import by_id
+from report.assessment.friction import at_low_velocity, mus_words
+from report.assessment.verdict import (
+    LOWERING,
+    VELOCITY_ROW,
+    Verdict,
+    as_adopted,
+    nan_is_worst,
+    under_code,
+)
+from report.sheet.schema import ProjectInput
+from report.text.counts import capitalized, ranged
+from report.text.units import Quantity, no_less, pair
+
+if TYPE_CHECKING:
+    from report.assessment.project import Assessment
+
+_REVIEW = "peer_review"
+
+
+def prices(
+    done: Assessment, assessed: Callable[[ProjectInput, Collection[str]], Assessment]
+) -> Mapping[str, str]:
+    """Return what a project comes to without what checks ask for, by their ids.
+
+    Of checks that are open, where a displacement or a verdict is another one then; of a peer
+    review on file, too. `assessed` is given an input, and the motions that it is without.
+    """
+    found = dict[str, str]()
+    wanted = {check.id for check in done.checks if check.is_open} | {_REVIEW}
+    for ids, other, motions, how in _others(done):
+        if (motions or other is not done.project) and not wanted.isdisjoint(ids):
+            found |= dict.fromkeys(ids, _price(done, assessed(other, motions), how))
+    return {id: text for id, text in found.items() if text}
+
+
+def _others(
+    done: Assessment,
+) -> Iterator[tuple[Sequence[str], ProjectInput, Collection[str], str]]:
+    """Yield ids of checks, the input and the motions without what they ask for, and words."""
+    data = done.project
+    code = under_code(data)
+    same = "the same motions and S_DS" if done.has_motions else "the same S_DS"
+    if (code.overrides, code.options) != (data.overrides, data.options):
+        same += ", without overrides and departures"
+    how = f"under {code.site.rule_set} 13.6.12, with {same}"
+    yield ("rule_set", "edition_name"), code, (), how
+    yield LOWERING, as_adopted(data), (), "without overrides and departures"
+    if data.is_peer_reviewed:
+        options = data.options.model_copy(update={"peer_reviewed": False})
+        other = data.model_copy(update={"options": options})
+        yield (_REVIEW,), other, (), "without peer review"
+    slow = [array for array in data.arrays if array.friction.is_by_velocity]
+    if slow and done.has_motions:
+        arrays = tuple(at_low_velocity(a) if a in slow else a for a in data.arrays)
+        mus = mus_words([at_low_velocity(array) for array in slow])
+        how = f"with the low-velocity friction coefficient alone ({mus})"
+        yield (VELOCITY_ROW,), data.model_copy(update={"arrays": arrays}), (), how
+    drifting = {c.subject for c in done.checks if c.id == "drift" and c.is_open}
+    if drifting:
+        yield ("drift",), data, drifting, f"without {ranged(sorted(drifting))}"
+
+
+def _price(done: Assessment, other: Assessment, how: str) -> str:
+    """Return what an input comes to as a sentence; none where it changes nothing."""
+    # What a row of linked blocks does is not run again.
+    linked = [replace(row, design=by_id(other.arrays, row.design.id)) for row in done.linked]
+    other = replace(other, linked=tuple(linked))
+
+    def came(each: Assessment) -> Sequence[object]:
+        return [(item.permitted_m, each.array_verdict(item) is Verdict.NG) for item in each.arrays]
+
+    if repr(came(done)) == repr(came(other)):
+        return ""
+    us_first = done.project.us_first
+    largest_m = max((item.permitted_m for item in other.arrays), key=nan_is_worst)
+    delta = f"; Δ up to {pair(largest_m, Quantity.DISPLACEMENT, us_first, no_less)}"
+    result = outcome(other).words(us_first) + ("" if math.isnan(largest_m) else delta)
+    return f"{capitalized(how)}: {result}."

@@ -1,0 +1,82 @@
+"""What a project comes to where a condition is not met: as if its input had been so."""
+
+from dataclasses import replace
+
+import pytest
+
+import altered
+import scenes
+from nightly import nightly
+from printed import printed
+from report.assessment.assess import assess
+from report.assessment.causes import outcome
+from report.assessment.friction import at_low_velocity
+from report.assessment.verdict import VELOCITY_ROW, as_adopted, under_code
+from report.text.units import Quantity, no_less, pair
+
+BY_DAY = ("campus", "peer review", "overrides", "short clearance", "motions without vertical")
+CASES = [name if name in BY_DAY else nightly(name) for name, _ in altered.copies()]
+
+
+def others(data):
+    """By the id of a check, the input that does not meet it."""
+    reviewed = data.options.model_copy(update={"peer_reviewed": False})
+    slow = [at_low_velocity(row) if row.friction.is_by_velocity else row for row in data.arrays]
+    return {
+        "rule_set": under_code(data),
+        "override": as_adopted(data),
+        "peer_review": data.model_copy(update={"options": reviewed}),
+        VELOCITY_ROW: data.model_copy(update={"arrays": tuple(slow)}),
+    }
+
+
+def designs(done):
+    """What the arrays may slide [m], in words: NaN is itself."""
+    return str([item.permitted_m for item in done.arrays])
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_price_is_what_the_project_comes_to_with_that_input(name):
+    done = altered.assessed(name)
+    open_ids = {check.id for check in done.checks if check.is_open}
+    for id, other in others(done.project).items():
+        after = assess(done.sheet, done.shaking, project=other)
+        text = done.otherwise.get(id, "")
+        if not text:
+            assert id not in open_ids or designs(after) == designs(done)
+            continue
+        gap, us_first = outcome(after).gap, done.project.us_first
+        assert gap is None or gap.words(us_first) in text
+        assert f": {after.verdict.value}" in text
+        largest_m = max(item.permitted_m for item in after.arrays)
+        shown = pair(largest_m, Quantity.DISPLACEMENT, us_first, no_less)
+        assert ("Δ up to" not in text) or text.endswith(f"; Δ up to {shown}.")
+
+
+def test_a_price_stands_with_its_condition_and_beside_a_review_that_removes_the_floor():
+    done = altered.assessed("peer review")
+    priced = {check.id for check in done.checks if check.is_open and check.otherwise}
+    assert priced == {"rule_set", VELOCITY_ROW}
+    line = done.otherwise["peer_review"]
+    assert line.startswith("Without peer review: OK with conditions, A1 to RTU-1 40.8 ≤ ")
+    assert line.endswith("; Δ up to 47.4 in (1204 mm).")
+    assert line in printed(scenes.package_data(done), "summary")
+    # What is not reviewed has its floor, and what changes nothing no price.
+    assert "peer_review" not in altered.assessed("reviewer's name alone").otherwise
+    assert "override" not in done.otherwise
+
+
+def test_a_record_that_drifts_is_priced_by_the_project_without_it():
+    base = scenes.shipped("example")
+    first, *rest = base.shaking.prepared
+    far = {name: replace(m, final_displacement_m=0.2) for name, m in first.measures.items()}
+    drifting = replace(base.shaking, prepared=(replace(first, measures=far), *rest))
+    done = assess(base.sheet, drifting)
+    fewer = replace(base.shaking, motions=base.shaking.motions[1:], prepared=tuple(rest))
+    without = assess(base.sheet, fewer, project=base.project)
+    assert designs(without) != designs(done)
+    largest_m = max(item.permitted_m for item in without.arrays)
+    text = done.otherwise["drift"]
+    assert text.startswith(f"Without {first.motion_id}: {without.verdict.value}, ")
+    assert text.endswith(f"; Δ up to {pair(largest_m, Quantity.DISPLACEMENT, True, no_less)}.")
+    assert [c.otherwise for c in done.checks if c.id == "drift" and c.is_open] == [text]
