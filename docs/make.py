@@ -221,7 +221,8 @@ def _results() -> Iterator[str]:
         yield f"| `{key}` | {_type(field, models)} | {_text(meaning(key, field, said))} |"
     yield (
         "\n`schema_version` is raised where a key changes its name or meaning. "
-        "`report --since` reads files of the same version.\n"
+        "`report --since` reads files of this version and of the one before, whose checks it "
+        "leaves out.\n"
     )
 
 

@@ -20,7 +20,7 @@ from report.assessment.project import Assessment, ChangeKind
 from report.assessment.routes import SEAOC, Route, prescriptive_of
 from report.assessment.verdict import NOT_GIVEN, ItemVerdict
 from report.entities.motion import PeakResult, RunResult, peak_result, run_result
-from report.entities.requirement import LimitResult, Marked
+from report.entities.requirement import Marked
 from report.entities.shown import (
     Column,
     Entity,
@@ -229,12 +229,6 @@ class ArrayResult(ArrayRow):
     """Uplift, for the run with the least normal force."""
     route: Route
     """Route by which the design displacement was obtained."""
-    checks: tuple[LimitResult, ...]
-    """Limits that apply to both routes."""
-    analysis_checks: tuple[LimitResult, ...]
-    """Limits on the route by analysis."""
-    prescriptive_checks: tuple[LimitResult, ...]
-    """Limits on the prescriptive route."""
     runs: tuple[RunResult, ...]
     """All runs."""
     governing_gap: Annotated[str, words("Clearance to", 1.4)] = printed("none given")

@@ -1,7 +1,7 @@
-"""Requirements, limits and warnings as they are written and shown.
+"""Checks and warnings as they are written and shown.
 
-Computes nothing. Read `LimitResult`; a requirement is written as it is
-(`report.assessment.verdict`) and shown as a `RequirementRow`. `Marked` marks the numbers.
+Computes nothing. Read `CheckResult`, which results.json has; a `RequirementRow` is a row of a
+table. `Marked` marks the numbers.
 """
 
 from __future__ import annotations
@@ -9,31 +9,27 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any
-
-from pydantic import BeforeValidator, model_validator
+from typing import Annotated
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis
-from report.assessment.checks.check import Check, dagger, found_and_limit
+from report.assessment.checks.check import Actor, Check, dagger, found_and_limit, texts
 from report.assessment.project import Assessment
 from report.assessment.routes import SEAOC
 from report.assessment.verdict import ItemVerdict, Verdict
 from report.entities.shown import (
-    LEFT_OUT,
-    Beside,
     Column,
     Entity,
-    OfUnit,
+    Number,
     UnitFormat,
-    at,
     centered,
     words,
 )
 from report.sheet.checking.findings import located
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Finding, Level, Place
+from report.text.amounts import Amount
 from report.text.units import Quantity, no_less
-from solver.rules.limit import Consequence, Limit
+from solver.rules.limit import Consequence
 from solver.rules.provisions import PrescriptiveBasis
 
 
@@ -64,71 +60,6 @@ class RequirementRow(Entity):
     remedy: Annotated[str, Column("What must be done")]
 
 
-class _FoundAndLimit(Entity):
-    """A value found and its limit, each under the key of its unit."""
-
-    title: str
-    """The limit in words."""
-    found: OfUnit
-    """Value found: a count or a ratio."""
-    found_deg: OfUnit
-    """Value found: an angle."""
-    found_m: OfUnit
-    """Value found: a length."""
-    found_s: OfUnit
-    """Value found: a time."""
-    found_mps: OfUnit
-    """Value found: a velocity."""
-    limit: OfUnit
-    """Limit: a count or a ratio."""
-    limit_deg: OfUnit
-    """Limit: an angle."""
-    limit_m: OfUnit
-    """Limit: a length."""
-    limit_s: OfUnit
-    """Limit: a time."""
-    limit_mps: OfUnit
-    """Limit: a velocity."""
-
-    @model_validator(mode="before")
-    @classmethod
-    def _with_units(cls, row: Any) -> Any:
-        # Read back from results.json it is a mapping with these keys already.
-        if not isinstance(row, Limit):
-            return row
-        unit = f"_{row.measure.unit}".rstrip("_")
-        plain = {"found": LEFT_OUT, "limit": LEFT_OUT}
-        return Beside(row, plain | {f"found{unit}": row.found, f"limit{unit}": row.limit})
-
-
-class LimitResult(_FoundAndLimit):
-    """A limit of the rule set, with the value found."""
-
-    clause: Annotated[str, at("provision.clause")]
-    """Clause that states it."""
-    is_overridden: Annotated[bool, at("provision.reason"), BeforeValidator(bool)]
-    """Whether the workbook overrides its number."""
-    ok: bool
-    """Whether the value is permitted."""
-    by_exception: Annotated[bool, at("passes_by_exception")]
-    """Whether it is permitted beyond the limit."""
-
-
-class AcceptanceResult(_FoundAndLimit):
-    """A limit on the motions, with the value found."""
-
-    is_at_least: bool
-    """Whether the limit is the least value accepted, not the largest."""
-    worst: str
-    """Motion, component and frequency of the value found; empty for that of all."""
-    is_in_no_code: Annotated[bool, at("is_program_limit")]
-    """Whether it is a limit of this program alone."""
-    ok: bool
-    """Whether the value is within the limit."""
-    consequence: Consequence
-    """What follows if it is not."""
-
-
 def finding_results(
     findings: Iterable[Finding], addresses: Mapping[Place, str]
 ) -> Iterator[FindingResult]:
@@ -138,38 +69,68 @@ def finding_results(
         yield FindingResult.of(finding, cell=cell)
 
 
-class Requirement(Entity):
-    """A requirement compared with the project, besides the numeric limits."""
+class CheckResult(Entity):
+    """A check as results.json has it: everything that is required, satisfied or not."""
 
     id: str
-    """Kind of requirement."""
+    """Kind of check, such as `max_stories`, `clearance` or `peer_review`."""
     title: str
     """As printed."""
-    found: str
-    """As printed."""
-    limit: str
-    """As printed."""
-    basis: Annotated[str, at("clause")]
-    """Document and clause, or whose practice it is."""
+    subject: str
+    """Array, motion or clearance, as printed; empty for the project."""
+    arrays: tuple[str, ...]
+    """Ids of the arrays whose verdict it is part of."""
+    found: Number
+    """Value found, in the unit; null where it is words, or no value."""
+    limit: Number
+    """Value required, in the unit; null where it is words."""
+    unit: str
+    """Unit of both; empty for a count or a ratio."""
+    found_text: str
+    """As printed, in both systems of units."""
+    limit_text: str
+    """As printed, with its sign."""
+    note: str
+    """Where or from what it was found."""
+    clause: str
+    """Section of the code with its mark, or whose practice it is."""
     is_satisfied: bool
     """Whether the project satisfies it."""
     consequence: Consequence
     """Where it is not satisfied."""
-    subject: str
-    """Id of the array or motion that it concerns; empty for the project."""
-    remedy: str
-    """What the engineer must do where it is not satisfied, as a sentence."""
-    outcome: Annotated[str, at("otherwise")]
-    """What another input in its place comes to, as a sentence."""
     verdict: ItemVerdict
-    """Of this requirement alone."""
+    """Of this check alone."""
+    ratio: Number
+    """Demand / capacity; null for words, and where a required number is not entered."""
+    actor: Actor
+    """Who must act where it is not satisfied."""
+    remedy: str
+    """What they must do, as a sentence; empty where it is satisfied."""
+    otherwise: str
+    """What the project comes to if it is not met, as a sentence."""
+    cells: tuple[str, ...]
+    """Cells of the workbook."""
 
 
-def requirements(checks: Iterable[Check], us_first: bool) -> Iterator[Requirement]:
-    """Yield checks as results.json has them."""
-    for check in checks:
-        found, limit = found_and_limit(check, us_first)
-        yield Requirement.of(check, found=found, limit=limit)
+def check_results(assessment: Assessment) -> Iterator[CheckResult]:
+    """Yield the checks of a project, in their order."""
+    us_first, addresses = assessment.project.us_first, assessment.sheet.addresses
+    for check in assessment.checks:
+        found_text, limit_text = texts(check, us_first)
+        amounts = [x for x in (check.found, check.limit) if isinstance(x, Amount)]
+        yield CheckResult.of(
+            check,
+            found=_value(check.found),
+            limit=_value(check.limit),
+            unit=amounts[0].quantity.base if amounts else "",
+            found_text=found_text,
+            limit_text=limit_text,
+            cells=[addresses[place] for place in check.places if place in addresses],
+        )
+
+
+def _value(amount: Amount | str) -> float:
+    return amount.value if isinstance(amount, Amount) else math.nan
 
 
 def requirement_rows(checks: Iterable[Check], us_first: bool) -> Iterator[RequirementRow]:

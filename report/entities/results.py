@@ -33,18 +33,16 @@ from report.entities.evidence import (
 )
 from report.entities.motion import MotionResult, RecordResult, motion_result
 from report.entities.requirement import (
-    AcceptanceResult,
+    CheckResult,
     FindingResult,
-    LimitResult,
-    Requirement,
+    check_results,
     finding_results,
-    requirements,
 )
 from report.entities.shown import Entity, WrittenSchema, at
 from report.sheet.schema import ProjectInput
 
 # Raised where a key of results.json changes its name or meaning; 0.1 wrote none.
-SCHEMA_VERSION = 2
+SCHEMA_VERSION = 3
 
 
 class WorkbookResult(Entity):
@@ -98,8 +96,8 @@ class Compared(Entity):
     """Name of the rule set."""
     verdict: Verdict
     """Verdict on the project."""
-    requirements: tuple[Requirement, ...]
-    """Requirements besides the numeric limits."""
+    checks: tuple[CheckResult, ...] = ()
+    """Everything that is required, satisfied or not; version 0.3 wrote none."""
     arrays: tuple[ArrayResult, ...]
     """Arrays in the order of the workbook."""
     clearances: tuple[ClearanceResult, ...]
@@ -113,7 +111,6 @@ class Results(Compared):
     first: ClassVar[tuple[str, ...]] = (
         "schema_version", "roofslip_version", "workbook", "records", "documents", "motions",
         "input", "s_ds_g", "sdc_is_confirmed", "rule_set", "verdict", "warnings", "findings",
-        "building_checks",
     )  # fmt: skip
 
     schema_version: int
@@ -130,14 +127,10 @@ class Results(Compared):
     """Warnings of the runs, as sentences."""
     findings: tuple[FindingResult, ...]
     """Warnings and notes on the input."""
-    building_checks: tuple[LimitResult, ...]
-    """Limits on the building."""
     low_velocity: LowVelocity
     """The same with friction at low velocity alone."""
     linked: tuple[LinkedResult, ...]
     """Arrays as rows of linked blocks."""
-    acceptance: Annotated[tuple[AcceptanceResult, ...], at("acceptance.rows")]
-    """Limits on the motions."""
     neighbors: tuple[NeighborResult, ...]
     """Pairs in plan that are near or have a clearance."""
     remedies: tuple[RemedyResult, ...]
@@ -165,7 +158,7 @@ def _compared(assessment: Assessment) -> dict[str, Any]:
     return {
         "roofslip_version": version("roofslip"),
         "arrays": tuple(array_result(assessment, item) for item in assessment.arrays),
-        "requirements": tuple(requirements(assessment.rows, assessment.project.us_first)),
+        "checks": tuple(check_results(assessment)),
     }
 
 

@@ -10,10 +10,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
 from typing import Annotated, ClassVar
 
+from report.assessment.checks.check import alike
 from report.assessment.links import LinkedArray
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra
-from report.assessment.verdict import OVERRIDDEN
 from report.entities.evidence import LinkedResult, LinkedRunResult, NeighborResult, linked_result
 from report.entities.motion import MotionResult, RecordResult, RunResult, motion_result, run_result
 from report.entities.requirement import RequirementRow, requirement_rows
@@ -33,10 +33,8 @@ from report.results.sheets import (
     write_table,
 )
 from report.sheet.schema.choices import Direction
-from report.text.amounts import limit_texts
 from report.text.units import G_MPS2
 from solver.model import INCH_M
-from solver.rules.limit import Limit
 from solver.sliding.least_model import DEFAULT
 
 
@@ -120,39 +118,15 @@ class RequirementLine(SheetRow, RequirementRow):
 
 
 def write_requirements(pages: Pages, assessment: Assessment) -> None:
-    """Write each requirement of the project and each limit of the rule set and on the motions."""
+    """Write the checks but the clearances, which have a sheet; those that ask the same as one."""
+    others = alike(check for check in assessment.checks if check.id != "clearance")
+    rows = requirement_rows(others, assessment.project.us_first)
     write_live(
         pages,
         RequirementLine,
-        list(map(RequirementLine.beside, _rows(assessment))),
-        "Requirements and limits",
+        list(map(RequirementLine.beside, rows)),
+        "Checks",
         "Satisfied or not. The verdict on the project and on each array is on the sheet Summary.",
-    )
-
-
-def _rows(assessment: Assessment) -> Iterator[RequirementRow]:
-    for check in assessment.building_checks:
-        yield _limit(assessment, "Building", check)
-    for item in assessment.arrays:
-        for check in item.limits:
-            yield _limit(assessment, item.id, check)
-    # In the order of the package, so that both can be laid side by side.
-    for check in assessment.acceptance.rows:
-        yield _limit(assessment, "Motions", check)
-    yield from requirement_rows(assessment.rows, assessment.project.us_first)
-
-
-def _limit(assessment: Assessment, item: str, row: Limit) -> RequirementRow:
-    shown, limit = limit_texts(row, assessment.project.us_first)
-    is_excepted = row.passes_by_exception
-    return RequirementRow(
-        subject=item,
-        title=row.title,
-        found=shown + (f" ({row.worst})" if row.worst else ""),
-        limit=f"{row.sign} {limit}{OVERRIDDEN if row.provision.reason else ''}",
-        basis=row.provision.clause,
-        verdict=assessment.limit_verdict(row),
-        remedy=f"over the limit, permitted: {row.provision.note}" if is_excepted else "",
     )
 
 

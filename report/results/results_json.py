@@ -42,6 +42,9 @@ def results_json(assessment: Assessment, evidence: Evidence) -> bytes:
     return json.dumps(finite(document), indent=1, ensure_ascii=False).encode() + b"\n"
 
 
+# Version 0.3 wrote 2, without `checks`.
+READ_VERSIONS = (2, SCHEMA_VERSION)
+
 GIVE = "give the results.json of a former revision"
 AGAIN = "write it again with `report` of this version, from the workbook of that revision"
 
@@ -83,11 +86,10 @@ def former_from(content: bytes, path: Path) -> Compared:
         raise InputError(f"{path}: is no results.json or is damaged (no object); {AGAIN}")
     version = document.get("schema_version")
     # True equals 1, and 2.0 equals 2: only a whole number is a version.
-    if type(version) is not int or version != SCHEMA_VERSION:
+    if type(version) is not int or version not in READ_VERSIONS:
         stated = f"{version!r:.40}" if version is not None else "missing"
-        raise InputError(
-            f"{path}: schema_version is {stated}; this version reads {SCHEMA_VERSION}; {AGAIN}"
-        )
+        known = " and ".join(map(str, READ_VERSIONS))
+        raise InputError(f"{path}: schema_version is {stated}; this version reads {known}; {AGAIN}")
     try:
         # Strict: "1.0" is no number, and true is none either.
         former = Compared.model_validate_json(content, strict=True)
@@ -157,13 +159,7 @@ def changes(former: Compared, assessment: Assessment) -> Changes:
     items = [
         *_given(former, now, assessment),
         *_one(ChangeKind.SOFTWARE, "Roofslip", former.roofslip_version, now.roofslip_version),
-        *_rows(
-            ChangeKind.REQUIREMENT,
-            former.requirements,
-            now.requirements,
-            "{row.subject}, {row.title}",
-            "{row.found}: {row.verdict}",
-        ),
+        *_checks(former, now),
         *_one(ChangeKind.VERDICT, "Project", former.verdict, now.verdict),
         *_results((*arrays, *gaps), UnitFormat(us_first=assessment.project.us_first)),
     ]
@@ -185,6 +181,19 @@ def changes(former: Compared, assessment: Assessment) -> Changes:
             if gap and any(_differing(gap, old))
         ),
     )
+
+
+# What changed of them is listed with the clearances and the design displacements.
+_LISTED = ("clearance", "design")
+
+
+def _checks(former: Compared, now: Compared) -> Iterator[Change]:
+    # Version 0.3 wrote none.
+    if "checks" not in former.model_fields_set:
+        return
+    before, after = ([row for row in of.checks if row.id not in _LISTED] for of in (former, now))
+    text = "{row.found_text}: {row.verdict}"
+    yield from _rows(ChangeKind.REQUIREMENT, before, after, "{row.subject}, {row.title}", text)
 
 
 def with_reissue(assessment: Assessment, former: Compared) -> Assessment:

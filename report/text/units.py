@@ -97,6 +97,11 @@ class Quantity(Enum):
         return self.us != self.si
 
     @property
+    def base(self) -> str:
+        """The unit of a value that is kept, such as `m`; empty for a ratio or a count."""
+        return _BASE.get(self, self.si.symbol)
+
+    @property
     def us(self) -> Unit:
         """The US unit."""
         return self.value[0]
@@ -105,6 +110,18 @@ class Quantity(Enum):
     def si(self) -> Unit:
         """The SI unit."""
         return self.value[1]
+
+
+_BASE = {
+    Quantity.DISPLACEMENT: "m",
+    Quantity.DRIFT: "m",
+    Quantity.WEIGHT: "N",
+    Quantity.STIFFNESS: "N/m",
+    Quantity.VELOCITY: "m/s",
+    Quantity.PRESSURE: "Pa",
+    Quantity.ANGLE: "deg",
+    Quantity.ACCELERATION: "m/s2",
+}
 
 
 def number(value: float, decimals: int) -> str:

@@ -8,8 +8,10 @@ import pytest
 import inputs
 import scenes
 import stand_in
+from report.assessment.checks.check import sentence
 from report.results.results_json import results_json
 from report.sheet.schema.choices import Direction
+from report.text.amounts import Amount
 
 
 def made(assessment):
@@ -160,9 +162,14 @@ def test_json_has_what_would_do_margins_angles_and_neighbors(supported):
     missing = [row["is_missing"] for row in rows.values()]
     assert missing == [near.is_missing for near in assessment.neighbors]
     assert rows["A1", "RTU-1"]["contradictions"]
-    satisfied = [row["ok"] for row in document["acceptance"]]
-    assert satisfied == [row.ok for row in assessment.acceptance.rows]
-    assert {"found_s", "limit_s"} <= {key for row in document["acceptance"] for key in row}
+    rows = document["checks"]
+    assert [row["id"] for row in rows] == [check.id for check in assessment.checks]
+    for row, check in zip(rows, assessment.checks, strict=True):
+        assert (row["is_satisfied"], row["verdict"]) == (check.is_satisfied, check.verdict)
+        is_number = isinstance(check.limit, Amount)
+        assert row["limit"] == (check.limit.value if is_number else None)
+        assert row["limit_text"] in sentence(check, True) or is_number
+    assert {"", "m", "s", "deg", "N"} <= {row["unit"] for row in rows}
 
 
 @pytest.mark.quick

@@ -131,8 +131,7 @@ def test_a_revision_that_was_issued_with_other_inputs_is_a_condition(document, c
         assert row.verdict is Verdict.CONDITION
         assert (row.title, row.found) == ("Revision 0", "issued with other inputs, 2026-03-05")
         assert row.remedy.startswith("Raise the revision on the Project worksheet")
-    head = parts_of.HEAD | {"revision": "1"}
-    raised = replace(done, project=made(**change, project=head).project)
+    raised = made(**change, project=parts_of.HEAD | {"revision": "1"})
     assert reissue(raised, document) == []
 
 
@@ -225,13 +224,24 @@ def marked(package, id):
     ]
 
 
+def test_results_of_version_0_3_are_compared_without_their_checks(assessment, document):
+    """It wrote limits and requirements in other words, and no `checks`."""
+    del document["checks"]
+    document |= {"schema_version": 2, "requirements": [], "building_checks": [], "acceptance": []}
+    document["verdict"] = "OK"
+    found = changes(former(document), assessment)
+    assert [item.kind for item in found.items] == [ChangeKind.VERDICT]
+
+
 @pytest.mark.parametrize(
     ("version", "found"),
-    [(3, "is 3"), ("2", "is '2'"), (True, "is True"), (None, "is missing")],
+    [(4, "is 4"), ("2", "is '2'"), (True, "is True"), (None, "is missing")],
 )
 def test_another_version_is_named(document, version, found):
     document["schema_version"] = version
-    with pytest.raises(InputError, match=rf"schema_version {found}.*reads 2[\s\S]*write it again"):
+    with pytest.raises(
+        InputError, match=rf"schema_version {found}.*reads 2 and 3[\s\S]*write it again"
+    ):
         former(document)
 
 
@@ -346,14 +356,14 @@ def test_an_array_that_is_new_and_has_no_value_has_none():
 
 @pytest.mark.nightly
 def test_more_changes_than_can_be_laid_out_are_refused_with_both_limits(assessment, document):
-    row = document["requirements"][0]
-    document["requirements"] += [row | {"title": f"T{k}"} for k in range(MOST_CHANGES)]
+    row = next(row for row in document["checks"] if row["id"] == "max_stories")
+    document["checks"] += [row | {"title": f"T{k}"} for k in range(MOST_CHANGES)]
     check_listed(changes(former(document), assessment))
-    document["requirements"] += [row | {"title": f"U{k}"} for k in range(58_000)]
+    document["checks"] += [row | {"title": f"U{k}"} for k in range(58_000)]
     with pytest.raises(
         InputError, match=r"--since: .* 60,000 rows of .*; at most 2,000 of .*; give"
     ):
         check_listed(changes(former(document), assessment))
-    document["requirements"] = [row | {"found": "x " * 2_500_000}]
+    document["checks"] = [row | {"found_text": "x " * 2_500_000}]
     with pytest.raises(InputError, match=r"--since: .* rows of 5,\d\d\d,\d\d\d letters"):
         check_listed(changes(former(document), assessment))
