@@ -203,7 +203,8 @@ def words(check: Check) -> str:
     name += f" {check.subject}" if check.id in PAIRS else ""
     if math.isinf(check.ratio) and isinstance(check.found, str):
         return f"{name} {check.found}"
-    return f"{name} {ratio(check.ratio)}" if math.isfinite(check.ratio) else name
+    has_ratio = check.is_capacity and math.isfinite(check.ratio)
+    return f"{name} {ratio(check.ratio)}" if has_ratio else name
 
 
 def alike(checks: Iterable[Check]) -> Sequence[Check]:
