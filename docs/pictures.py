@@ -22,7 +22,7 @@ from matplotlib.figure import Figure
 from PIL import Image, ImageChops
 
 import report
-from report.figures.base import ACCENT, FAMILY, style
+from report.figures.base import ACCENT, style
 from report.figures.plan import array_section
 from solver import Model
 
@@ -156,7 +156,7 @@ def _faces() -> str:
     """Return where a browser finds the fonts of the charts."""
     weights = {"Regular": 400, "Semibold": 600}
     return "".join(
-        f"@font-face {{ font-family: '{FAMILY}'; font-weight: {weight};"
+        f"@font-face {{ font-family: 'Source Sans 3'; font-weight: {weight};"
         f" src: url('{(ROOT / 'templates/fonts').as_uri()}/SourceSans3-{name}.ttf') }}"
         for name, weight in weights.items()
     )

@@ -10,6 +10,7 @@ import datetime as dt
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from solver.files import write_whole
 from solver.records.record import write_record
 from solver.synthesis.suite import SuiteMotion
 
@@ -22,6 +23,7 @@ ENGINEER, FIRM, LICENSE = "Engineer of record", "Example firm", "S0000"
 def issued(
     name: str, number: str, client: str, address: str, units: str, *,
     date: dt.date, revision: str = "0", description: str = "Issued for plan check",
+    **more: object,
 ) -> dict[str, object]:  # fmt: skip
     """Return the sheet Project: its block, and its one revision."""
     return {
@@ -37,6 +39,7 @@ def issued(
             "date": date,
             "revision": revision,
             "units_first": units,
+            **more,
         },
         "revisions": [
             {"revision": revision, "date": date, "description": description, "by": ENGINEER}
@@ -81,3 +84,27 @@ def write_motions(
         for letter in components:
             path = folder / f"{prefix}{number}-{letter}.csv"
             write_record(path, getattr(made, letter), hold_s=made.hold_s)
+
+
+def write_document(path: Path, lines: Iterable[str]) -> None:
+    """Write lines of ASCII text as a PDF of one page, in place of a document of others."""
+    escaped = (line.translate({ord(c): f"\\{c}" for c in "\\()"}) for line in lines)
+    text = "".join(f"({line}) Tj T* " for line in escaped)
+    stream = f"BT /F1 10 Tf 54 738 Td 14 TL {text}ET".encode("ascii")
+    objects = (
+        b"<< /Type /Catalog /Pages 2 0 R >>",
+        b"<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
+        b"<< /Type /Page /Parent 2 0 R /MediaBox [0 0 612 792] /Contents 4 0 R"
+        b" /Resources << /Font << /F1 5 0 R >> >> >>",
+        b"<< /Length %d >>\nstream\n%s\nendstream" % (len(stream), stream),
+        b"<< /Type /Font /Subtype /Type1 /BaseFont /Courier >>",
+    )
+    pdf, starts = b"%PDF-1.4\n", []
+    for number, content in enumerate(objects, start=1):
+        starts.append(len(pdf))
+        pdf += b"%d 0 obj\n%s\nendobj\n" % (number, content)
+    table = b"".join(b"%010d 00000 n \n" % start for start in starts)
+    count = len(objects) + 1
+    trailer = b"trailer\n<< /Size %d /Root 1 0 R >>\nstartxref\n%d\n%%%%EOF\n" % (count, len(pdf))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(path, pdf + b"xref\n0 %d\n0000000000 65535 f \n%s%s" % (count, table, trailer))

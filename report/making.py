@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from report.assessment.project import Assessment, Changes
@@ -32,13 +32,23 @@ class Step:
         return f"{self.doing} ({self.hint})" if self.hint else self.doing
 
 
+class Made(NamedTuple):
+    """A package that was written."""
+
+    assessment: Assessment
+    folder: Path
+    files: Mapping[str, bytes]  # by name
+    changes: Changes
+    sheets: int  # of the PDF
+
+
 def make(
     source: Path,
     out: Path | None,
     since: Path | None,
     progress: Callable[[Step], None],
     on_record: Callable[[str], None] | None = None,
-) -> tuple[Assessment, Path, Mapping[str, bytes], Changes]:
+) -> Made:
     """Read a workbook, run its motions, and write the package and the tables.
 
     With `on_record`, the workbook gets what its confirmations cover, and `on_record` a line on
@@ -81,12 +91,13 @@ def make(
     results = results_json(assessment, evidence)
 
     progress(Step("laying out the package"))
-    pdf = lay_out(html, attachments(files, results, fingerprint(sheet, shaking)))
+    sheets: list[int] = []
+    pdf = lay_out(html, attachments(files, results, fingerprint(sheet, shaking)), sheets.append)
 
     progress(Step("writing the result tables"))
     made = dict(zip(OUTPUTS, (pdf, plan, tables, results), strict=True))
     publish(made, folder)
-    return assessment, folder, made, changes
+    return Made(assessment, folder, made, changes, *sheets)
 
 
 def _former(since: Path | None) -> tuple[Compared | None, bytes]:

@@ -98,6 +98,12 @@ COPIES: Mapping[str, tuple[str, Mapping[str, Change]]] = {
     "two motions": ("example", {"motions": {ROWS: slice(2)}}),
     "motions without vertical": ("example", {"motions": {ALL: {"vertical": None}}}),
     "friction tests deleted": ("example", {"friction_runs": {ROWS: []}}),
+    "little evidence": (
+        "example",
+        {"site": {"hazard_printout": "", "acceptance_letter": ""},
+         "friction_runs": {ROWS: [*_runs({"dry": 0.55, "wet": 0.46}, 0.1, count=1),
+                                  *_runs({"dry": 0.60, "wet": 0.55}, 4.0, count=1)]}},
+    ),
     "complete friction tests": ("example", {"friction_runs": {ROWS: COMPLETE}}),
     "slow friction tests": (
         "example", {"friction_runs": {ROWS: _runs({"dry": 0.60, "wet": 0.52}, 0.1)}}),

@@ -222,7 +222,9 @@ def type_into(path: Path, cells: Mapping[str, object]) -> Path:
 
 def without_motions(folder: Path) -> Path:
     """Copy the shipped example into a folder, the rows of its sheet Motions emptied, no record."""
-    path = Path(shutil.copy(ROOT / "projects" / "example" / "input.xlsx", folder))
+    example = ROOT / "projects" / "example"
+    shutil.copytree(example / "documents", folder / "documents")
+    path = Path(shutil.copy(example / "input.xlsx", folder))
     cells = read(path).addresses.items()
     return type_into(
         path, {at: None for place, at in cells if place.section == "motions" and place.field}

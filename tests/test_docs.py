@@ -135,17 +135,25 @@ def test_every_command_of_readme_and_docs_runs_as_it_is_pasted_and_the_study_has
 def test_a_report_leaves_four_files_and_their_hashes_and_prints_where(reported):
     names = {path.name for path in reported.out.iterdir()}
     assert names == {"calc-package.pdf", "plan.dxf", "results.json", "results.xlsx", STAMP}
-    for name in ("calc-package.pdf", "results.xlsx", "results.json"):
-        assert f"projects/example/out/{name}" in reported.stdout.splitlines()
+    *lines, last = reported.stdout.splitlines()
+    for name in ("plan.dxf", "results.xlsx", "results.json"):
+        assert f"projects/example/out/{name}" in lines
         assert (reported.out / name).stat().st_size > 1000
+    sheets = len(PdfDocument(reported.out / "calc-package.pdf"))
+    assert last.endswith(f"; projects/example/out/calc-package.pdf, {sheets} sheets")
+    assert last in README
+    page = DOCS[ROOT / "docs" / "first-package.md"]
+    assert f"for a plan check, {sheets} sheets; of one array" in page
 
 
 def test_the_readme_and_the_answers_show_what_the_example_prints(results_alone):
     lines = results_alone.stdout.splitlines()
-    verdict = next(line for line in lines if line.startswith("verdict: "))
-    shown = "\n".join([*lines[:4], verdict])
-    assert f"```text\n{shown}\n```" in README
-    assert shown.count("81.6 in (2072 mm)") == shown.count("  Condition: ") == 3
+    # Elsewhere than in a checkout, and without layout one sheet.
+    last = lines[-1].replace(f"{results_alone.project.parents[1]}/", "").removesuffix("1 sheet")
+    shown = "\n".join([*lines[:4], last])
+    assert f"```text\n{shown}" in README
+    assert "verdict: OK, largest D/C 0.85; " in shown
+    assert shown.count("81.6 in (2072 mm)") == shown.count("  OK\n") == 3
     assert all(line.startswith("[") for line in results_alone.stderr.splitlines())  # where piped
     page = DOCS[ROOT / "docs" / "questions.md"]
     found = json.loads((results_alone.out / "results.json").read_text())

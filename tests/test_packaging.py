@@ -58,13 +58,20 @@ def test_wheel_and_sdist_hold_what_is_theirs_and_no_projects(built):
     assert ours == {"solver", "report", "roofslip.py"}
     assert any(re.fullmatch(r"report/templates/.*\.html", name) for name in names)
     assert any(re.fullmatch(r"report/templates/fonts/.*OFL.*", name) for name in names)
-    web = ("static/index.html", "static/app.js", "example/input.xlsx", "example/records/RM7-z.csv")
+    web = (
+        "static/index.html",
+        "static/app.js",
+        "example/input.xlsx",
+        "example/records/RM7-z.csv",
+        "example/documents/hazard.pdf",
+    )
     assert {f"report/web/{name}" for name in web} <= names
     with tarfile.open(next(built.glob("*.tar.gz"))) as sdist:
         names = sdist.getnames()
     assert not [name for name in names if "/projects/" in name and "/projects/example/" not in name]
     assert not [name for name in names if "/projects/example/out" in name]
-    assert any(name.endswith("solver/kernels/one_axis.py") for name in names)
+    for held in ("solver/kernels/one_axis.py", "projects/example/documents/hazard.pdf"):
+        assert any(name.endswith(held) for name in names)
 
 
 def test_the_top_level_and_benchmarks_are_as_planned_and_every_dependency_imported(tracked):

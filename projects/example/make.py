@@ -1,6 +1,7 @@
-"""Makes the example that `roofslip new --example` copies: seven roof motions, and the workbook.
+"""Makes the example that `roofslip new --example` copies: motions, documents and the workbook.
 
-A warehouse roof with three arrays, and motions from seeded noise.
+A warehouse roof with three arrays, and motions from seeded noise. Its evidence is complete; each
+document says of itself that it is an example's.
 
 Run from the repository root: .venv/bin/python projects/example/make.py
 """
@@ -18,6 +19,7 @@ from projects.rows import (
     motion,
     rectangle,
     roof_object,
+    write_document,
     write_motions,
 )
 from report.sheet.schema import ProjectInput
@@ -33,12 +35,26 @@ PSF = POUND / FOOT**2
 S_DS_G = 1.566
 COUNT, SEED = 7, 1566
 SOURCE = f"AC156 spectrum at the roof, seed {SEED}"
+HAZARD, ACCEPTANCE, FRICTION = (
+    f"documents/{name}.pdf" for name in ("hazard", "acceptance", "friction-report")
+)
+# Kinetic coefficients, three runs at each velocity [in/s].
+TESTED = {
+    "dry": {
+        0.1: (0.548, 0.556, 0.551), 2.0: (0.589, 0.596, 0.592), 8.0: (0.611, 0.618, 0.607),
+    },
+    "wet": {
+        0.1: (0.504, 0.512, 0.508), 2.0: (0.528, 0.533, 0.529), 8.0: (0.545, 0.551, 0.547),
+    },
+}  # fmt: skip
 
 
 def main() -> None:
-    """Write records/ and input.xlsx beside this file."""
+    """Write records/, documents/ and input.xlsx beside this file."""
     write_motions(HERE / "records", "RM", suite(COUNT))
-    write_template(HERE / "input.xlsx", units=UnitsFirst.US, example=project())
+    for name, lines in documents(data := project()).items():
+        write_document(HERE / name, lines)
+    write_template(HERE / "input.xlsx", units=UnitsFirst.US, example=data)
 
 
 def suite(count: int) -> list[SuiteMotion]:
@@ -65,6 +81,9 @@ def project() -> ProjectInput:
                 "Los Angeles, California",
                 "US",
                 date=dt.date(2025, 11, 20),  # California adopts ASCE 7-22 from 2026
+                firm_contact="Example street 1, Los Angeles",
+                plan_number="S-101, example",
+                plan_date=dt.date(2025, 11, 10),
             ),
             "site": {
                 "rule_set": "SEAOC PV1-2012",
@@ -79,6 +98,7 @@ def project() -> ProjectInput:
                 "hazard_source": "ASCE 7 Hazard Tool, example values",
                 "hazard_date": dt.date(2025, 11, 2),
                 "hazard_covered": "2025-11-02: Site 1b1eb2",
+                "hazard_printout": HAZARD,
                 "sdc": "D",
                 "force_factor": 1.0,
                 "force_divisor": 1.5,
@@ -88,10 +108,10 @@ def project() -> ProjectInput:
                 "building_code": "CBC",
                 "building_code_year": 2022,
                 "jurisdiction": "City of Los Angeles",
+                "acceptance_letter": ACCEPTANCE,
                 "fire_code_section": "2022 CFC, example section",
                 "latitude_deg": 34.0362,
                 "longitude_deg": -118.2334,
-                "roof_load_pa": 32.0 * PSF,
                 "seismic_weight_n": 3.0e6 * POUND,
                 "roof_evaluation": "Example engineer, 2025-10-20, not an evaluation",
             },
@@ -104,15 +124,17 @@ def project() -> ProjectInput:
                 "standard": "ASTM G115-10",
                 "report": "EX-FT-1",
                 "date": dt.date(2025, 9, 15),
-                "tests_covered": "2025-09-15: Friction tests c82ab7",
+                "tests_covered": "2025-09-15: Friction tests 205647",
                 "membrane": "TPO, 60 mil",
                 "support": "EPDM pad",
+                "report_file": FRICTION,
+                "contact_pressure_pa": 180.0 * PSF,
             },
             "friction_runs": _friction_runs(),
             "arrays": [
                 _array("A1", 0.5, 0.50, (30, 150), (140, 232)),
                 _array("A2", 2.0, 0.50, (30, 150), (30, 132)),
-                # Velocity-dependent friction: less friction at low velocity than at high velocity.
+                # Friction by velocity, on the safe side of the tests: less at low velocity.
                 _array("A3", 3.0, 0.40, (200, 350), (30, 180), mu_fast=0.50, mu_rate_s_per_m=20.0),
             ],
             "objects": [
@@ -151,6 +173,7 @@ def _array(name: str, slope: float, mu: float, x: Range, y: Range, **more: objec
         "cg_height_m": 9 * INCH,
         "support_spacing_m": 40 * INCH,
         "base_m": 60 * INCH,
+        "contact_pressure_pa": 180.0 * PSF,
         "interconnection_n": 14_000 * POUND,
         "slack_m": 60 * INCH,
         "roof_capacity_pa": 6.0 * PSF,
@@ -162,22 +185,65 @@ def _array(name: str, slope: float, mu: float, x: Range, y: Range, **more: objec
 
 
 def _friction_runs() -> list[Row]:
-    """Return four runs on a dry and four on a wet surface: velocity [in/s], kinetic, static."""
-    runs = {
-        "dry": ((0.1, 0.535, 0.58), (1.0, 0.578, 0.60), (2.0, 0.603, 0.62), (4.0, 0.620, 0.64)),
-        "wet": ((0.1, 0.457, 0.50), (1.0, 0.495, 0.53), (2.0, 0.525, 0.54), (4.0, 0.541, 0.56)),
-    }
+    """Return the runs on a dry and on a wet surface, three at each velocity."""
     return [
         {
             "surface": surface,
             "number": number,
             "velocity_mps": velocity * INCH,
             "mu": mu,
-            "mu_static": static,
+            "mu_static": round(mu + 0.025, 3),
         }
-        for surface, rows in runs.items()
-        for number, (velocity, mu, static) in enumerate(rows, start=1)
+        for surface, by_velocity in TESTED.items()
+        for number, (velocity, mu) in enumerate(
+            ((velocity, mu) for velocity, mus in by_velocity.items() for mu in mus), start=1
+        )
     ]
+
+
+def documents(data: ProjectInput) -> dict[str, list[str]]:
+    """Return the lines of each document that the workbook attaches, by its name."""
+    issue, site, tests = data.project, data.site, data.friction_tests
+    head = [f"Project {issue.number}, {issue.name}", issue.address, ""]
+    hazard = site.parameters
+    values = {
+        "S_S": site.s_s_g, "S_1": site.s_1_g, "F_a": site.f_a, "F_v": site.f_v,
+        "S_MS": hazard.s_ms, "S_M1": hazard.s_m1, "S_DS": hazard.s_ds, "S_D1": hazard.s_d1,
+    }  # fmt: skip
+    return {
+        HAZARD: [
+            "EXAMPLE, IN PLACE OF THE PRINTOUT OF A HAZARD TOOL. NOT FOR ANY SITE.",
+            "",
+            *head,
+            f"{site.edition.name}, {site.hazard_date}",
+            f"Risk category {site.risk_category}, site class {site.site_class}",
+            "",
+            *(f"{symbol:5} {value:7.4f}" for symbol, value in values.items()),
+            f"T_L   {data.target.t_l_s:4.1f} s",
+        ],
+        ACCEPTANCE: [
+            "EXAMPLE, IN PLACE OF A LETTER OF THE JURISDICTION. NOBODY ACCEPTED ANYTHING.",
+            "",
+            *head,
+            f"{site.jurisdiction}, {site.code_text}",
+            "",
+            f"{site.rule_set} is accepted as an alternative to {site.edition.name} 13.6.12",
+            "for the ballasted arrays of this project.",
+        ],
+        FRICTION: [
+            "EXAMPLE, IN PLACE OF A TEST REPORT. NOTHING WAS TESTED.",
+            "",
+            f"{tests.report}, {tests.date}: {tests.laboratory}",
+            f"{tests.standard}; {tests.support} on {tests.membrane}",
+            "",
+            "surface  run  velocity [in/s]  kinetic  static",
+            *(
+                f"{run.surface:7}  {run.number:3}  {run.velocity_mps / INCH:15.1f}"
+                f"  {run.mu:7.3f}  {run.mu_static:6.3f}"
+                for run in data.friction_runs
+            ),
+        ],
+    }
 
 
 def _object(name: str, kind: str, x: Range, y: Range, height_in: float | None) -> Row:

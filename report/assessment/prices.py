@@ -29,7 +29,7 @@ from report.text.units import Quantity, no_less, pair
 if TYPE_CHECKING:
     from report.assessment.project import Assessment
 
-_REVIEW = "peer_review"
+_REVIEW, _RULE_SET = "peer_review", "rule_set"
 
 
 def prices(
@@ -38,10 +38,11 @@ def prices(
     """Return what a project comes to without what checks ask for, by their ids.
 
     Of checks that are open, where a displacement or a verdict is another one then; of a peer
-    review on file, too. `assessed` is given an input, and the motions that it is without.
+    review and a letter of acceptance on file, too. `assessed` is given an input, and the motions
+    that it is without.
     """
     found = dict[str, str]()
-    wanted = {check.id for check in done.checks if check.is_open} | {_REVIEW}
+    wanted = {check.id for check in done.checks if check.is_open} | {_REVIEW, _RULE_SET}
     for ids, other, motions, how in _others(done):
         if (motions or other is not done.project) and not wanted.isdisjoint(ids):
             found |= dict.fromkeys(ids, _price(done, assessed(other, motions), how))
@@ -58,7 +59,7 @@ def _others(
     if (code.overrides, code.options) != (data.overrides, data.options):
         same += ", without overrides and departures"
     how = f"under {code.site.rule_set} 13.6.12, with {same}"
-    yield ("rule_set", "edition_name"), code, (), how
+    yield (_RULE_SET, "edition_name"), code, (), how
     yield LOWERING, as_adopted(data), (), "without overrides and departures"
     if data.is_peer_reviewed:
         options = data.options.model_copy(update={"peer_reviewed": False})

@@ -33,10 +33,11 @@ from report.cli.terminal import (
     warn_of_others,
 )
 from report.making import OUTPUTS
-from report.text.counts import command
+from report.text.counts import command, numbered
 
 if TYPE_CHECKING:
     from report.assessment.project import Assessment, Changes
+    from report.making import Made
 
 
 @click.command()
@@ -129,12 +130,12 @@ def report(
     lines: list[str] = []
     made = package(source, out, since, quiet=quiet, as_json=as_json, on_record=lines.append)
     if as_json:
-        print_json(_document(*made))
+        print_json(_document(made))
     elif not quiet:
-        show(*made)
         for line in lines:
             say(line)
-    if fail_on_ng and made[0].verdict != "OK":
+        show(made)
+    if fail_on_ng and made.assessment.verdict != "OK":
         sys.exit(NOT_OK)
 
 
@@ -146,7 +147,7 @@ def package(
     quiet: bool = False,
     as_json: bool = False,
     on_record: Callable[[str], None] | None = None,
-) -> tuple[Assessment, Path, Mapping[str, bytes], Changes]:
+) -> Made:
     """Make a package as `make` does; an input error is printed, and ends with exit code 2."""
     from report.making import STEPS, make
 
@@ -155,32 +156,31 @@ def package(
         Progress(STEPS, quiet=quiet) as progress,
     ):
         made = make(source, out, since, progress, on_record)
-    warn_of_others(made[1] / "calc-package.pdf")
+    warn_of_others(made.folder / OUTPUTS[0])
     return made
 
 
-def show(
-    assessment: Assessment, folder: Path, files: Mapping[str, bytes], changed: Changes
-) -> None:
-    """Print the summary of a package, and its files."""
+def show(made: Made) -> None:
+    """Print the summary of a package and its files; last the verdict, with the package."""
     from report.pages.summary import summary
 
-    for line in summary(assessment):
+    *lines, verdict = summary(made.assessment)
+    for line in lines:
         say(line)
-    if changed.is_asked_for:
-        _print_changes(assessment, changed)
+    if made.changes.is_asked_for:
+        _print_changes(made.assessment, made.changes)
     click.echo("")
-    for name in files:
-        click.echo(folder / name)
+    package, *tables = (made.folder / name for name in made.files)
+    for path in tables:
+        click.echo(path)
+    say(f"{verdict}; {package}, {numbered(made.sheets, 'sheet')}")
 
 
-def _document(
-    assessment: Assessment, folder: Path, files: Mapping[str, bytes], changed: Changes
-) -> Mapping[str, object]:
+def _document(made: Made) -> Mapping[str, object]:
     from report.pages import summary
 
-    written = {"files": [str(folder / name) for name in files]}
-    return document(assessment.sheet.path) | summary.document(assessment) | written
+    written = {"files": [str(made.folder / name) for name in made.files]}
+    return document(made.assessment.sheet.path) | summary.document(made.assessment) | written
 
 
 def _print_changes(assessment: Assessment, changed: Changes) -> None:
@@ -231,14 +231,14 @@ def report_again(workbook: Path, out: Path | None, former: bytes) -> bytes:
     """Report, print what changed since the former results.json, and return the new one."""
     from report.results.results_json import changes, former_from
 
-    made = assessment, folder, files, _ = package(workbook, out)
-    show(*made)
+    made = package(workbook, out)
+    show(made)
     if former:
-        items = changes(former_from(former, folder), assessment).items
+        items = changes(former_from(former, made.folder), made.assessment).items
         say(f"changes since the round before: {len(items)}")
         for item in items[:MOST_CHANGES]:
             say(f"  {item.title} {item.cell}".rstrip() + f": {item.before} -> {item.now}")
-    return files["results.json"]
+    return made.files["results.json"]
 
 
 def settled(workbook: Path) -> set[tuple[str, int, int]]:

@@ -203,7 +203,7 @@ def _proof(
 
 def made_again(workbook: Path, out: Path, former: list[Path], progress: Progress) -> bytes:
     """Return the package of a workbook."""
-    _, _, files, _ = make(workbook, out, former[0] if former else None, progress)
+    files = make(workbook, out, former[0] if former else None, progress).files
     return files["calc-package.pdf"]
 
 

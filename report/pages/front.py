@@ -101,6 +101,10 @@ def _enough(done: Assessment, found: Remedies) -> str:
 def _what_if(package: PackageData, evidence: Evidence) -> Iterator[str]:
     """Yield what another input comes to; of a condition its own row says it."""
     done = package.assessment
+    # Of a rule set that the jurisdiction accepts no row says it.
+    says = {check.id for check in done.checks if check.is_open} & {"rule_set", "edition_name"}
+    if "rule_set" in done.otherwise and not says:
+        yield done.otherwise["rule_set"]
     for case in evidence.cases:
         is_slow = done.low_velocity.of(case.array.id) is case.array
         if not (is_slow and VELOCITY_ROW in done.otherwise):

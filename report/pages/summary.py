@@ -7,6 +7,7 @@ What would satisfy each clearance and array marked NG, in sentences.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -77,7 +78,9 @@ def summary(assessment: Assessment) -> Iterator[str]:
         yield MEANING
     for line in attention(assessment):
         yield f"{line.level}: {line.text}"
-    yield f"verdict: {assessment.verdict.value}"
+    gap = assessment.governing_gap()
+    largest = f", largest D/C {gap.ratio_words}" if gap and not math.isnan(gap.required_m) else ""
+    yield f"verdict: {assessment.verdict.value}{largest}"
 
 
 def without_analysis(assessment: Assessment) -> str:

@@ -12,7 +12,7 @@ import logging
 import sys
 import tempfile
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -34,9 +34,12 @@ _NO_DATE = dt.datetime(1980, 1, 1)
 _SCHEME = "shipped:"
 
 
-def lay_out(html: str, attached: Sequence[Attached] = ()) -> bytes:
+def lay_out(
+    html: str, attached: Sequence[Attached] = (), tell: Callable[[int], object] = int
+) -> bytes:
     """Return the PDF of an HTML document; `shipped:/NAME` addresses a file of the templates.
 
+    `tell` is told the number of its sheets.
     Raises `DefectError` with what the renderer logs as a warning or worse, and `ParseError` where
     the markup is not well-formed as XML.
     """
@@ -47,7 +50,7 @@ def lay_out(html: str, attached: Sequence[Attached] = ()) -> bytes:
     with _clean_log(), warnings.catch_warnings(), _no_fonts_left():
         # The renderer leaves the file of its color profile to the garbage collector.
         warnings.simplefilter("ignore", ResourceWarning)
-        return _laid_out(tree, files)
+        return _laid_out(tree, files, tell)
 
 
 def places_of(html: str) -> Mapping[str, float]:
@@ -67,8 +70,11 @@ def places_of(html: str) -> Mapping[str, float]:
     return {name: box[1] for name, box in page.anchors.items()}
 
 
-def _laid_out(tree: ElementTree.Element, files: Sequence[Attached]) -> bytes:
+def _laid_out(
+    tree: ElementTree.Element, files: Sequence[Attached], tell: Callable[[int], object]
+) -> bytes:
     pages = _parsed(tree).render()
+    tell(len(pages.pages))
     created = pages.metadata.created
     date = dt.datetime.fromisoformat(created) if created else _NO_DATE
     pdf: bytes = pages.write_pdf(

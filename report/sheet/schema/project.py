@@ -178,8 +178,7 @@ class Site(Frozen):
     jurisdiction: Annotated[Text, Cell("Jurisdiction", "City of Los Angeles")] = ""
     """Building department. Printed on the cover."""
     acceptance_letter: Annotated[Text, Cell("Letter of acceptance", "acceptance.pdf")] = ""
-    """The jurisdiction's, of a rule set or an edition of ASCE 7 that the building code does not
-    reference: a PDF in the workbook's folder; the package attaches it."""
+    """The jurisdiction's, of what its building code does not reference: a PDF, to attach."""
     fire_code_section: Annotated[
         Text, Cell("Fire code section", "Section of the 2022 CFC, as adopted")
     ] = ""

@@ -261,9 +261,12 @@ EXAMPLE = next(path for path in _HOMES if path.is_dir())
 
 
 def example_files(units: UnitsFirst) -> dict[str, bytes]:
-    """Return records/, as they are shipped, and input.xlsx in a system of units, by their names."""
-    records = sorted((EXAMPLE / "records").iterdir())
-    files = {f"records/{path.name}": path.read_bytes() for path in records}
+    """Return records/ and documents/ as shipped, and input.xlsx in a system of units, by name."""
+    files = {
+        f"{folder}/{path.name}": path.read_bytes()
+        for folder in ("records", "documents")
+        for path in sorted((EXAMPLE / folder).iterdir())
+    }
     project = read(EXAMPLE).project
     issue = project.project.model_copy(update={"units_first": units})
     example = project.model_copy(update={"project": issue})

@@ -24,7 +24,7 @@ export function note(text) {
 
 /** Make the head of a table. */
 export function headings(texts, attributes = {}) {
-  return html("thead", attributes, html("tr", {}, texts.map((text) => html("th", { scope: "col" }, text))));
+  return html("thead", attributes, html("tr", {}, texts.map((text) => (text ? html("th", { scope: "col" }, text) : html("td")))));
 }
 
 /** Replace all that is in an element. */

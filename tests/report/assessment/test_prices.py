@@ -54,11 +54,14 @@ def test_a_price_is_what_the_project_comes_to_with_that_input(name):
 
 
 def test_a_price_stands_with_its_condition_and_beside_a_review_that_removes_the_floor():
-    done = altered.assessed("peer review")
+    done = altered.assessed("little evidence")
     priced = {check.id for check in done.checks if check.is_open and check.otherwise}
     assert priced == {"rule_set", VELOCITY_ROW}
+    # Of a letter of acceptance on file the first sheet says what comes without it, too.
+    assert {"rule_set"} <= scenes.shipped("example").otherwise.keys()
+    done = altered.assessed("peer review")
     line = done.otherwise["peer_review"]
-    assert line.startswith("Without peer review: OK with conditions, A1 to RTU-1 40.8 ≤ ")
+    assert line.startswith("Without peer review: OK, A1 to RTU-1 40.8 ≤ ")
     assert line.endswith("; Δ up to 47.4 in (1204 mm).")
     assert line in printed(scenes.package_data(done), "summary")
     # What is not reviewed has its floor, and what changes nothing no price.
@@ -73,7 +76,7 @@ def test_a_record_that_drifts_is_priced_by_the_project_without_it():
     drifting = replace(base.shaking, prepared=(replace(first, measures=far), *rest))
     done = assess(base.sheet, drifting)
     fewer = replace(base.shaking, motions=base.shaking.motions[1:], prepared=tuple(rest))
-    without = assess(base.sheet, fewer, project=base.project)
+    without = assess(base.sheet, fewer, project=base.project, is_whole=False)
     assert designs(without) != designs(done)
     largest_m = max(item.permitted_m for item in without.arrays)
     text = done.otherwise["drift"]

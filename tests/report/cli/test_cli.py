@@ -75,7 +75,7 @@ def test_new_writes_a_workbook_or_the_example_and_never_overwrites_one(tmp_path)
     made = tmp_path / "example"
     printed("new", "--example", made)
     names = {path.relative_to(made) for path in made.rglob("*.*")}
-    assert len(names) == 22
+    assert len(names) == 25  # the workbook, 21 records and three documents
     for name in names - {Path("input.xlsx")}:
         assert (made / name).read_bytes() == (EXAMPLE / name).read_bytes()
     with ZipFile(made / "input.xlsx") as one, ZipFile(EXAMPLE / "input.xlsx") as other:
@@ -83,7 +83,7 @@ def test_new_writes_a_workbook_or_the_example_and_never_overwrites_one(tmp_path)
         for part in set(parts) - {"docProps/core.xml"}:
             assert one.read(part) == other.read(part), part
     told = printed("check", made)
-    assert "no errors, 3 warnings. 3 arrays, 6 clearances, 7 motions, S_DS 1.566 g" in told
+    assert "no problems found. 3 arrays, 6 clearances, 7 motions, S_DS 1.566 g" in told
 
 
 def test_input_errors_and_failed_runs_leave_the_older_package(tmp_path, monkeypatch):

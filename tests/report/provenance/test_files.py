@@ -52,7 +52,7 @@ def attached(found):
 def test_workbook_records_and_a_document_are_attached_once_as_they_lie(job, tmp_path):
     found = sources(*job)
     assert [source.path for source in found[:2]] == ["input.xlsx", "records/RM1-x.csv"]
-    assert len(found) == 22
+    assert len(found) == 25
     contents, listed = attached(found)
     assert contents.keys() == {*(source.path for source in found), "results.json", "roofslip.json"}
     assert listed["roofslip_version"] == version("roofslip")
@@ -120,8 +120,7 @@ OTHER = b"another file"
 @pytest.mark.parametrize("name", by_day(["input.xlsx", "records/RM1-x.csv", "letter.pdf"], 1))
 def test_what_was_read_is_attached_whatever_lies_there_by_then(tmp_path, monkeypatch, name):
     project = tmp_path / "project"
-    shutil.copytree(EXAMPLE / "records", project / "records")
-    shutil.copy(EXAMPLE / "input.xlsx", project)
+    shutil.copytree(EXAMPLE, project, ignore=shutil.ignore_patterns("out", "*.py", "__pycache__"))
     (project / "letter.pdf").write_bytes(LETTER)
     type_into(project / "input.xlsx", {"Options/Letter of review": "letter.pdf"})
     was = {path: path.read_bytes() for path in project.rglob("*") if path.is_file()}
@@ -162,7 +161,9 @@ def test_former_results_are_attached_as_they_were_compared(tmp_path, monkeypatch
     kept = {}
     monkeypatch.setattr(
         "report.typeset.pdf.lay_out",
-        lambda _, files: kept.update({file.name: file.content for file in files}) or b"%PDF",
+        lambda _, files, tell: (
+            kept.update({file.name: file.content for file in files}) or tell(1) or b"%PDF"
+        ),
     )
     replaced = lambda _: (tmp_path / "results.json").write_bytes(OTHER)  # noqa: E731
     making.make(EXAMPLE, tmp_path / "out", tmp_path / "results.json", print, replaced)
@@ -179,7 +180,8 @@ def test_records_are_kept_up_to_the_limit_and_hashed_beyond_it(job, monkeypatch)
     monkeypatch.setattr(files, "MOST_RECORDS", 1_000_000)
     assert not holds_records(shaking.records)
     contents, listed = attached(sources(sheet, shaking))
-    assert contents.keys() == {"input.xlsx", "results.json", "roofslip.json"}
+    named = {document.path for document in sheet.documents}
+    assert contents.keys() == {"input.xlsx", "results.json", "roofslip.json", *named}
     assert listed["has_records"] is False
     assert sum(entry["kind"] == "record" for entry in listed["files"]) == 21
     book = opened(EXAMPLE / "input.xlsx").sheet.book

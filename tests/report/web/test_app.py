@@ -4,6 +4,8 @@ import errno
 import io
 import json
 import math
+import re
+import shutil
 import time
 import zipfile
 from pathlib import Path
@@ -55,8 +57,9 @@ def test_a_first_visit_shows_the_example_with_its_answer(client):
     state = state_of(client)
     assert state["project"]["is_example"]
     assert state["problems"] == []
-    assert state["answer"]["verdict"]["text"] == "OK with conditions"
-    assert "conditions listed here must be met" in state["answer"]["verdict_text"]
+    assert state["answer"]["verdict"]["text"] == "OK"
+    assert re.fullmatch(r"All \d+ checks are satisfied\.", state["answer"]["verdict_text"])
+    assert state["answer"]["reasons"] == []
     assert state["answer"]["model_text"].startswith("Full model")
     rows = state["answer"]["arrays"]["rows"]
     assert [cells[0]["text"] for cells in rows] == state["views"]["arrays"]
@@ -80,7 +83,7 @@ def test_a_value_that_the_workbook_could_not_have_is_refused_with_its_cell(clien
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
-        ({"friction": 9.0}, "Friction is 9.0; give a number from 0.5 to 1.01"),
+        ({"friction": 9.0}, "Friction is 9.0; give a number from 0.5 to 1.06"),
         ({"friction": "0.9"}, "Friction is 0.9; give a number"),
         ({"friction": math.nan}, "Friction is nan; give a number"),
         ({"friction": math.inf}, "Friction is inf; give a number"),
@@ -148,7 +151,7 @@ def test_views_answer_from_the_values_of_the_sliders(client):
 
 
 def folder_of(project):
-    paths = [project / "input.xlsx", *(project / "records").iterdir()]
+    paths = [project / "input.xlsx", *project.glob("records/*"), *project.glob("documents/*")]
     return [(f"{project.name}/{p.relative_to(project).as_posix()}", p.read_bytes()) for p in paths]
 
 
@@ -168,7 +171,7 @@ def test_a_folder_and_its_zip_give_the_same_state(client):
     assert first.pop("opened") != second.pop("opened")
     assert first == second
     assert not first["project"]["is_example"]
-    assert first["answer"]["verdict"]["text"] == "OK with conditions"
+    assert first["answer"]["verdict"]["text"] == "OK"
     assert client.post("/api/example").json()["project"]["is_example"]
 
 
@@ -195,7 +198,7 @@ def test_an_upload_that_cannot_be_read_leaves_open_what_was_open(client, session
     assert sent(client, [("records/x.csv", b"0")]).status_code == 422
     state = state_of(client)
     assert state["opened"] == before
-    assert state["answer"]["verdict"]["text"] == "OK with conditions"
+    assert state["answer"]["verdict"]["text"] == "OK"
     assert uploads(session) == [before]
 
 
@@ -288,6 +291,7 @@ def test_the_workbook_with_the_values_is_read_back_as_what_was_assessed(client, 
     values = {"friction": 0.93, "slope": 0.7, "intensity": 1.06, "clearance": -3.0}
     answer = client.post("/api/workbook", json={"values": values})
     assert answer.headers["content-disposition"] == 'attachment; filename="input.xlsx"'
+    shutil.copytree(EXAMPLE / "documents", tmp_path / "documents")
     path = tmp_path / "input.xlsx"
     path.write_bytes(answer.content)
     shown = asked(client, values).json()["shown"]
