@@ -60,6 +60,8 @@ class FirstSheet:
     """Conditions without room."""
     has_effects: bool = True
     """Whether there is room for the effect of other inputs, which is in the comparison as well."""
+    has_remedies: bool = True
+    """Whether there is room for what would satisfy each NG, which the part on checks says too."""
 
 
 def first_sheet(done: Assessment) -> FirstSheet:
@@ -106,12 +108,14 @@ def fitted(sheet: FirstSheet, tops: Mapping[str, float], bottom: float) -> First
     while over > 0.0 and conditions > 1:
         over -= height(OPEN, conditions)
         conditions -= 1
+    # A remedy below each NG, and what else that part says, are the last to go.
     return replace(
         sheet,
         largest=sheet.largest[:largest],
         conditions=sheet.conditions[:conditions],
         n_more=len(sheet.conditions) - conditions,
         has_effects=has_effects,
+        has_remedies=over <= 0.0,
     )
 
 
@@ -166,7 +170,8 @@ def governing_table(sheet: FirstSheet, done: Assessment, numbers: Mapping[str, s
         found, limit = texts(check, us_first, is_both=False)
         cells = check.title, subject, found, limit, _ratio(check), check.clause
         rows.append(_row(*cells, check.verdict, _sheet(check, numbers, place)))
-        if under := " ".join(filter(None, (check.remedy, check.otherwise))):
+        under = " ".join(filter(None, (check.remedy, check.otherwise)))
+        if under and sheet.has_remedies:
             rows.append(_below(under, len(cells) + 2))
     return replace(_GOVERNING_HEADS, rows=tuple(rows))
 

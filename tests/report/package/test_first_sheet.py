@@ -1,0 +1,37 @@
+"""The first sheet decides on one page, whatever a project comes to."""
+
+import re
+from xml.etree import ElementTree
+
+import pytest
+
+import altered
+from nightly import by_day
+from report.assessment.evidence import support
+from report.assessment.verdict import Verdict
+from report.libraries import load_renderer
+from report.package.html import first
+from report.pages.checks import open_checks
+from report.pages.registry import package_data
+from report.typeset.pdf import _parsed
+
+COPIES = dict(altered.copies())
+# With most that is NG, most conditions, none of either, and without motions.
+FIRST = ("two causes and a slope", "conditions", "plainly OK", "no motions")
+
+
+@pytest.mark.parametrize("name", by_day([*FIRST, *(n for n in COPIES if n not in FIRST)], 4))
+def test_the_first_sheet_is_one_page_with_all_that_is_ng(name):
+    done = COPIES[name]()
+    html = first(package_data(done), support(done))
+    load_renderer()
+    pages = _parsed(ElementTree.fromstring(html)).render().pages
+    assert len(pages) == 1
+    words = " ".join(re.sub(r"<[^>]+>", " ", html).split())
+    opened = open_checks(done)
+    failed = [check for check in opened if check.verdict is Verdict.NG]
+    assert words.count("NG") >= bool(failed)
+    left = re.search(r"(\d+) more conditions?:", words)
+    table = html.partition("Open conditions")[2].partition("</table>")[0]
+    shown = len(re.findall(r'id="open-', table))
+    assert shown + int(left[1] if left else 0) == len(opened) - len(failed)
