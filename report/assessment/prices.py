@@ -90,5 +90,8 @@ def _price(done: Assessment, other: Assessment, how: str) -> str:
     us_first = done.project.us_first
     largest_m = max((item.permitted_m for item in other.arrays), key=nan_is_worst)
     delta = f"; Δ up to {pair(largest_m, Quantity.DISPLACEMENT, us_first, no_less)}"
-    result = outcome(other).words(us_first) + ("" if math.isnan(largest_m) else delta)
-    return f"{capitalized(how)}: {result}."
+    result, came_to = outcome(other), outcome(other).words(us_first)
+    # Which conditions are left, such as on less friction, is not looked at again.
+    if result.verdict.is_permitted:
+        came_to = ", ".join(filter(None, ("not NG", result.causes(us_first))))
+    return f"{capitalized(how)}: {came_to}{'' if math.isnan(largest_m) else delta}."

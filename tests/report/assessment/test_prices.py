@@ -47,7 +47,7 @@ def test_a_price_is_what_the_project_comes_to_with_that_input(name):
             continue
         gap, us_first = outcome(after).gap, done.project.us_first
         assert gap is None or gap.words(us_first) in text
-        assert f": {after.verdict.value}" in text
+        assert f": {'not NG' if after.verdict.is_permitted else 'NG'}" in text
         largest_m = max(item.permitted_m for item in after.arrays)
         shown = pair(largest_m, Quantity.DISPLACEMENT, us_first, no_less)
         assert ("Δ up to" not in text) or text.endswith(f"; Δ up to {shown}.")
@@ -61,7 +61,7 @@ def test_a_price_stands_with_its_condition_and_beside_a_review_that_removes_the_
     assert {"rule_set"} <= scenes.shipped("example").otherwise.keys()
     done = altered.assessed("peer review")
     line = done.otherwise["peer_review"]
-    assert line.startswith("Without peer review: OK, A1 to RTU-1 40.8 ≤ ")
+    assert line.startswith("Without peer review: not NG, A1 to RTU-1 40.8 ≤ ")
     assert line.endswith("; Δ up to 47.4 in (1204 mm).")
     assert line in printed(scenes.package_data(done), "summary")
     # What is not reviewed has its floor, and what changes nothing no price.
@@ -80,6 +80,7 @@ def test_a_record_that_drifts_is_priced_by_the_project_without_it():
     assert designs(without) != designs(done)
     largest_m = max(item.permitted_m for item in without.arrays)
     text = done.otherwise["drift"]
-    assert text.startswith(f"Without {first.motion_id}: {without.verdict.value}, ")
+    assert without.verdict.is_permitted
+    assert text.startswith(f"Without {first.motion_id}: not NG, ")
     assert text.endswith(f"; Δ up to {pair(largest_m, Quantity.DISPLACEMENT, True, no_less)}.")
     assert [c.otherwise for c in done.checks if c.id == "drift" and c.is_open] == [text]

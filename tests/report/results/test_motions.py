@@ -126,7 +126,7 @@ def test_a_zip_is_checked_and_unpacked_elsewhere(library, tmp_path, name):
 def test_a_folder_that_is_not_there_is_asked_about_and_one_elsewhere_is_no_record(
     library, tmp_path
 ):
-    assert f"did you mean '{library}'?" in commands.refused(*rows(tmp_path / "libary"))
+    assert f"did you mean '{library}'?" in commands.refused(*rows(tmp_path / "librar"))
     path = make(tmp_path / "p")
     assert "is outside the workbook's folder" in "".join(
         problems(type_into(path, {"Motions/M1/Horizontal record": str(library / "PET-x.csv")}))
