@@ -71,7 +71,7 @@ def assess_project(source: str | Path | Sheet) -> Assessment:
     >>> from report import assess_project
     >>> assessment = assess_project("projects/conditions")
     >>> assessment
-    Assessment: NG; 2 arrays, 6 clearances, 12 conditions
+    Assessment: NG; 2 arrays, 6 clearances, 15 open checks
     >>> assessment.clearances[1]
     ClearanceCheck: A2 to RTU-1, 549 mm required, 305 mm provided, NG
     """

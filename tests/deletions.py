@@ -131,15 +131,17 @@ def improved(before: Assessment, after: Assessment, deletion: Deletion) -> Itera
     of. Rows of a route that is not taken any more are notes.
     """
     deleted = set(deletion.places)
-    failed = any(row.verdict is Verdict.NG and deleted & set(row.places) for row in before.rows)
+    failed = any(row.verdict is Verdict.NG and deleted & set(row.places) for row in before.checks)
     new, old = _verdicts(after), _verdicts(before)
     for key, was in old.items():
         if key in new and _is_milder(was, new[key], failed):
             yield f"{' '.join(key)}: {was} to {new[key]}"
     taken = [[(item.id, item.route) for item in done.arrays] for done in (before, after)]
-    for row in before.conditions:
+    for row in (check for check in before.checks if check.is_open):
         left = [
-            each for each in after.rows if each.subject == row.subject and _kind(each) == _kind(row)
+            each
+            for each in after.checks
+            if each.subject == row.subject and _kind(each) == _kind(row)
         ]
         left = [each for each in left if each.title == row.title] or left
         now = max((each.verdict for each in left), key=_badness, default=Verdict.OK)

@@ -41,7 +41,7 @@ axes.figure.savefig("clearances.png")
 # What is not satisfied, and what follows from it.
 
 # %%
-for row in assessment.conditions:
+for row in assessment.open:
     print(f"{row.verdict.value}: {row.title}")
 
 # %% [markdown]

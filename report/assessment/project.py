@@ -17,26 +17,17 @@ from report.assessment.friction import LowVelocityAssessment
 from report.assessment.links import LinkedArray
 from report.assessment.neighbors import ComparedGap, PlanNeighbor
 from report.assessment.runs import scene_key
-from report.assessment.verdict import (
-    BY_CONSEQUENCE,
-    MOTIONS_ID,
-    Verdict,
-    nan_is_worst,
-    severity,
-)
+from report.assessment.verdict import Verdict, nan_is_worst, severity
 from report.motions.history import Targets
 from report.motions.prepare import Shaking
 from report.sheet.reading.read import Sheet
 from report.sheet.schema import ProjectInput
 from report.text.counts import grouped_by
-from solver.model import Status
 from solver.records.acceptance import Acceptance
 from solver.rules.limit import Limit
 from solver.rules.provisions import RuleSet
 
 THREADS = 2
-
-_APART = ("clearance", "design", "runs", "tipping", "links")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,7 +75,7 @@ class Assessment:
 
     def __repr__(self) -> str:
         counts = f"{len(self.arrays)} arrays, {len(self.clearances)} clearances"
-        return f"Assessment: {self.verdict.value}; {counts}, {len(self.conditions)} conditions"
+        return f"Assessment: {self.verdict.value}; {counts}, {len(self.open)} open checks"
 
     @property
     def has_motions(self) -> bool:
@@ -110,19 +101,6 @@ class Assessment:
         """Return the verdict on an array: the worst of its checks."""
         return verdict_of(self.checks, item.id)
 
-    def limit_verdict(self, limit: Limit) -> Verdict:
-        """Return the verdict on a limit on the motions, or of the rule set."""
-        missed = (c.verdict for c in self.checks if c.id == MOTIONS_ID and c.title == limit.title)
-        return Verdict.OK if limit.ok else next(missed, BY_CONSEQUENCE[limit.consequence])
-
-    def is_sound(self, item: ArrayAssessment) -> bool:
-        """Whether an array satisfies its limits, and its runs are final."""
-        return (
-            item.tipping.is_ok
-            and item.satisfies_limits
-            and all(run.result.status is Status.OK for run in item.runs)
-        )
-
     @property
     def open(self) -> Sequence[Check]:
         """What is NG, then the conditions; those that ask the same of several are one."""
@@ -130,24 +108,10 @@ class Assessment:
         return alike(sorted(checks, key=lambda check: -severity(check.verdict)))
 
     @property
-    def rows(self) -> tuple[Check, ...]:
-        """The checks beside the limits, clearances and runs, which have tables of their own."""
-        apart = {*self.rules.values, *_APART}
-        return tuple(
-            check
-            for check in self.checks
-            if check.id not in apart and not (check.id == MOTIONS_ID and check.is_satisfied)
-        )
-
-    @property
-    def conditions(self) -> tuple[Check, ...]:
-        """The rows that are not satisfied and not only a note."""
-        return tuple(row for row in self.rows if row.is_open)
-
-    @property
-    def notes(self) -> tuple[Check, ...]:
-        """The rows on the analysis that are not satisfied, where nothing follows from it."""
-        return tuple(row for row in self.rows if row.verdict is Verdict.NOTE)
+    def notes(self) -> Sequence[Check]:
+        """What is not satisfied on the analysis, where nothing follows from it; of no limit."""
+        notes = (check for check in self.checks if check.verdict is Verdict.NOTE)
+        return [check for check in notes if check.id not in self.rules.values]
 
     @property
     def is_overridden(self) -> bool:
@@ -159,10 +123,6 @@ class Assessment:
                 *(gap.mark for gap in self.missing_gaps),
             )
         )
-
-    def rows_of(self, array_id: str) -> Sequence[Check]:
-        """Return the rows that are part of the verdict on an array."""
-        return [row for row in self.rows if array_id in row.arrays]
 
     def is_rigid_enough(self, item: ArrayAssessment) -> bool:
         """Whether one rigid block is adequate for an array, where the workbook asks."""

@@ -11,9 +11,10 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 
-from report.assessment.checks.check import dagger
+from report.assessment.checks.check import THIS_PROGRAM, texts
 from report.assessment.spectra import LEAST_MEAN, Spectra
-from report.document.tables import Column, Table, listed, stamp
+from report.assessment.verdict import MOTIONS_ID
+from report.document.tables import Column, Table, by_place, listed, stamp
 from report.entities.shown import plain, text, words
 from report.motions.components import RecordFile
 from report.pages.parts import MOTION_ROWS, PackageData
@@ -22,7 +23,6 @@ from report.provenance.files import SHORT, holds_records, record_bytes, record_p
 from report.sheet.schema.motions import MotionInput
 from report.text.units import number
 from solver.records.acceptance import Acceptance, MotionStrength
-from solver.rules.limit import Limit
 
 _COMPONENTS = ("x", "y", "z")
 _PAIRS = ("x-y", "x-z", "y-z")
@@ -32,17 +32,24 @@ _STRENGTHS = (("Arias intensity, m/s", 2, "arias_mps"), ("D5-95, s", 1, "d5_95_s
 def acceptance_table(package: PackageData) -> Table:
     """Return every limit on the motions: found, limit, where, OK or what follows."""
 
-    def limit(row: Limit) -> str:
-        return f"{row.sign} {package.limit_of(row)}{dagger(row.provision)}"
-
-    columns = (
-        (words("Limit", 4.75), lambda row: f"{row.title} *" if row.is_program_limit else row.title),
-        (text("Found", share=0.7), package.found_of),
-        (text("Limit value", share=0.95), limit),
-        (words("Worst", 1.5), lambda row: row.worst or "—"),
-        (words("Verdict", 1.05), lambda row: stamp(package.assessment.limit_verdict(row))),
+    columns = by_place(
+        words("Limit", 4.75),
+        text("Found", share=0.7),
+        text("Limit value", share=0.95),
+        words("Worst", 1.5),
+        words("Verdict", 1.05),
     )
-    return listed(package.assessment.acceptance.rows, columns, package.fmt, kind="compact")
+    rows = [
+        (
+            f"{check.title} *" if check.clause == THIS_PROGRAM else check.title,
+            *texts(check, package.fmt.us_first),
+            check.note or "—",
+            stamp(check.verdict),
+        )
+        for check in package.assessment.checks
+        if check.id == MOTIONS_ID
+    ]
+    return listed(rows, columns, package.fmt, kind="compact")
 
 
 def lowest_between(

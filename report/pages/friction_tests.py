@@ -143,7 +143,7 @@ def _velocities(package: PackageData) -> Table:
         centered("Verdict", 1.8),
     )
     assessment = package.assessment
-    verdicts = {row.subject: row.verdict for row in assessment.rows if row.id == VELOCITY_ROW}
+    verdicts = {row.subject: row.verdict for row in assessment.checks if row.id == VELOCITY_ROW}
     rows = [_velocity(package.data, item, verdicts) for item in assessment.arrays]
     return listed(rows, columns, package.fmt, kind="compact")
 

@@ -57,7 +57,7 @@ def letter(package: PackageData) -> Mapping[str, object]:
     return {
         "verdict": verdict_sentence(package.assessment, f"in {package.part('summary')}"),
         # What asks for less than the rule set stands in the letter, too.
-        "lowered": [row for row in package.assessment.rows if row.id in LOWERING],
+        "lowered": [row for row in package.assessment.checks if row.id in LOWERING],
         "review": _review(package),
     }
 

@@ -136,8 +136,8 @@ def _inputs(assessment: Assessment) -> Iterator[_Input]:
     yield provision("interconnection_min", "Interconnection / W1, minimum", strength)
 
 
-# Ids of the requirements that follow here by formula.
-_LIVE_ROWS = ("electrical_slack", "interconnection")
+# Ids of the checks that follow here by formula.
+_LIVE = ("clearance", "design", "electrical_slack", "interconnection", "links")
 
 _MEAN, _LARGEST, _PLAIN, _FEW = (
     f'"{basis.value}"'
@@ -251,7 +251,7 @@ def _row(
     is_flat = prescriptive.governs is PrescriptiveBasis.LOW_CATEGORY
     is_mean = item.analysis.basis is Basis.MEAN
     # Those that live formulas decide would count twice, and keep an old verdict.
-    others = (row for row in assessment.rows_of(item.id) if row.id not in _LIVE_ROWS)
+    others = (c for c in assessment.checks if item.id in c.arrays and c.id not in _LIVE)
     formulas = {"verdict": _verdict(results)}
     # There the factor is 1, and an input cell would seem to change something.
     if rules.importance_in_separation:
@@ -290,8 +290,8 @@ def _row(
         statistic=item.analysis.basis,
         others=worst(
             [
-                Verdict.OK if assessment.is_sound(item) else Verdict.NG,
-                *(row.verdict for row in others),
+                Verdict.OK if item.is_permitted else Verdict.NG,
+                *(check.verdict for check in others),
             ]
         ),
         slack_m=item.array.slack_m,

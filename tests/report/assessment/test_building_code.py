@@ -90,11 +90,11 @@ def test_both_conditions_say_what_an_assessment_by_the_rule_set_of_the_code_give
     done = assessed("2025 CBC", **changes)
     rule_set = {"rule_set": "ASCE 7-22", "f_a": None, "f_v": None}
     by_code = assessed("2025 CBC", **rule_set)
-    assert listed(by_code.conditions) == {}
+    assert listed(by_code.open) == {}
     gaps = [gap for gap in by_code.clearances if gap.demand_capacity > 0.0]
     worst = max(gaps, key=lambda gap: gap.demand_capacity)
     verdict, between = by_code.verdict, f"{worst.clearance.array} to {worst.clearance.object}"
-    rows = listed(done.conditions)
+    rows = listed(done.open)
     assert len(rows) == (1 if changes == OF_22 else 2)
     text = f"Under ASCE 7-22 13.6.12, with the same motions and S_DS: {verdict}, {between} "
     for row in rows.values():
@@ -106,7 +106,7 @@ def test_both_conditions_say_what_an_assessment_by_the_rule_set_of_the_code_give
 def test_the_outcome_says_other_reasons_and_takes_no_override_over():
     sections = {"overrides": [{"provision": "max_stories", "value": 9, "reason": "Agreed"}]}
     done = assessed("2022 CBC", sections=sections, stories=8)
-    outcome = listed(done.conditions)["rule_set"].otherwise
+    outcome = listed(done.open)["rule_set"].otherwise
     assert "S_DS, without overrides and departures: NG, " in outcome
     assert "; number of stories" in outcome
 

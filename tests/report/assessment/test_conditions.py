@@ -172,7 +172,7 @@ def test_whether_there_is_a_fire_pathway_is_asked_of_each_clearance():
 
     def found(*rows):
         done = assessed(arrays=[stand_in.array("A1", 0.5)], objects=units, clearances=rows)
-        (asked,) = (row for row in done.rows if row.title == "Fire pathways along the clearances")
+        (asked,) = (row for row in done.checks if row.title == "Fire pathways along the clearances")
         return asked.verdict, asked.found
 
     for answered in gaps[:2]:

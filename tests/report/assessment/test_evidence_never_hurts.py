@@ -55,7 +55,7 @@ def test_what_is_not_given_any_more_is_a_condition(what, name, verdicts, tmp_pat
     (deletion,) = (each for each in project.deletions() if each.what == what)
     rows = {"arrays 1 slack_m": "electrical_slack", "friction_runs 5": "friction_velocity"}
     found = [
-        next(row.verdict for row in done.rows if (row.id, row.subject) == (rows[what], "A1"))
+        next(row.verdict for row in done.checks if (row.id, row.subject) == (rows[what], "A1"))
         for done in (project.done, project.without(deletion))
     ]
     assert found == verdicts

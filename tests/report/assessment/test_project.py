@@ -129,8 +129,6 @@ def test_a_run_without_a_final_displacement_withholds_that_of_its_array(done, st
     item = assess_array(done.project, done.rules, done.arrays[0].array, runs, motions_qualify=True)
     assert item.worst.governing is lost
     assert math.isnan(item.design_m)
-    assert done.is_sound(done.arrays[0])
-    assert not done.is_sound(item)
     (check,) = run_checks(item, us_first=True)
     assert (check.verdict, check.note) == (Verdict.NG, "M1")
     assert check.found.startswith(f"1 of {len(item.runs)} {status.sentence.split(':')[0]}")

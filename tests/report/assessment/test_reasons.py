@@ -147,7 +147,7 @@ def test_the_motions_and_the_review_are_notes_and_not_counted():
     assert {item.route for item in done.arrays} == {Route.PRESCRIPTIVE}
     notes = {row.id for row in done.notes}
     assert {"motions", "peer_review"} <= notes
-    assert not notes & {row.id for row in done.conditions}
+    assert not notes & {row.id for row in done.open}
     assert all(row.verdict is Verdict.NOTE for row in done.notes)
     first = printed(package, "summary")
     assert f"{len(done.open)} open conditions below must be closed" in first
@@ -163,7 +163,7 @@ def test_by_analysis_they_are_what_they_were():
     steep = [row | {"slope_value": 4.0} for row in FLAT]
     done = made(arrays=steep).assessment
     assert not done.notes
-    assert any(row.id == "motions" and row.verdict is Verdict.NG for row in done.rows)
+    assert any(row.id == "motions" and row.verdict is Verdict.NG for row in done.checks)
 
 
 @pytest.mark.parametrize("shaking", [
@@ -176,6 +176,6 @@ def test_a_design_that_follows_from_a_run_keeps_its_conditions(shaking):
     assert {item.route for item in done.arrays} == {Route.PRESCRIPTIVE}
     assert any(item.is_by_runs for item in done.arrays)
     assert not done.notes
-    assert any(row.id == "motions" for row in done.conditions)
+    assert any(row.id == "motions" for row in done.open)
     words = printed(package, "basis")
     assert "design displacements are prescriptive" not in words

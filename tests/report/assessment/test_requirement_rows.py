@@ -147,9 +147,9 @@ def test_an_override_is_a_row_with_both_numbers_and_a_condition():
     (slope,) = of_overrides(stand_in.project(overrides=overrides(analysis_max_slope_deg=10.0)))
     assert slope.limit == "≤ 7 deg"
     plain, done = overridden(), overridden(separation_fixed=0.5)
-    more = [row for row in done.conditions if row not in plain.conditions]
+    more = [row for row in done.open if row not in plain.open]
     assert [row.id for row in more] == ["override"]
-    assert [row for row in done.conditions if row not in more] == list(plain.conditions)
+    assert [row for row in done.open if row not in more] == plain.open
 
 
 @pytest.mark.parametrize(("rule_set", "count"), [("SEAOC PV1-2012", 1), ("ASCE 7-16", 0)])
@@ -192,7 +192,7 @@ def test_a_lowered_floor_marks_what_it_governed_alone():
     done = scenes.package(strong, overrides=lower, clearances=[]).assessment
     assert {item.governs for item in done.arrays} == {"analysis"}
     assert not done.is_overridden
-    assert "override" in [row.id for row in done.conditions]
+    assert "override" in [row.id for row in done.open]
 
 
 def test_a_route_and_the_mean_that_an_override_alone_permits_are_marked():

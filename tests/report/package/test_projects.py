@@ -166,7 +166,7 @@ def test_each_document_of_the_example_says_that_it_is_one_and_has_the_values_of_
 def test_without_its_evidence_the_example_has_a_condition_for_each_part_of_it():
     done = altered.assessed("little evidence")
     assert done.verdict is Verdict.CONDITIONS
-    assert {(check.id, check.subject) for check in done.conditions} == {
+    assert {(check.id, check.subject) for check in done.open} == {
         *((id, "") for id in ("rule_set", "hazard_source", "friction_tests")),
         *(("friction_velocity", name) for name in ("A1", "A2", "A3")),
     }

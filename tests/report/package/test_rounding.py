@@ -176,7 +176,7 @@ def test_what_is_not_enough_reads_as_less_in_both_units_in_every_output(tmp_path
     had = pair(short.clearance.provided_m, Quantity.SIZE, "down", us_first=True)
     needed = pair(short.required_m, Quantity.SIZE, "up", us_first=True)
     assert f"{had} provided; {needed}" in said
-    rows = {(row.id, row.subject): row for row in done.rows}
+    rows = {(row.id, row.subject): row for row in done.checks}
     for id, subject in (
         ("electrical_slack", "A1"), ("interconnection", "A1"), ("roof_capacity", "A1"),
         ("wind_weight", "A2"),

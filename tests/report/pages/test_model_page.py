@@ -279,7 +279,7 @@ def drawn(**changes):
 @pytest.mark.quick
 def test_drawing_distances_are_conditions_until_confirmed():
     package = drawn()
-    (row,) = (row for row in package.assessment.rows if row.id == "drawing_distances")
+    (row,) = (row for row in package.assessment.checks if row.id == "drawing_distances")
     assert (row.subject, row.found, row.is_satisfied) == ("A1", "not confirmed", False)
     assert row.verdict is Verdict.CONDITION
     made = printed(package, "plan")
@@ -289,7 +289,7 @@ def test_drawing_distances_are_conditions_until_confirmed():
     assert line.endswith("because their distance is from the drawing and not confirmed: No. 1.")
     confirmed = {"drawing_confirmed_by": "MT", "drawing_confirmed_date": inputs.HEAD["date"]}
     package = drawn(project=inputs.HEAD | confirmed)
-    (row,) = (row for row in package.assessment.rows if row.id == "drawing_distances")
+    (row,) = (row for row in package.assessment.checks if row.id == "drawing_distances")
     assert row.is_satisfied
     assert row.found == "confirmed by MT, 2026-03-05"
     made = printed(package, "plan")

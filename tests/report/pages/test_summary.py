@@ -62,7 +62,7 @@ def test_what_is_alike_of_several_arrays_or_clearances_is_said_once():
     rows = [stand_in.clearance("A1", "A2", 2.0), stand_in.clearance("A2", "A3", 2.0)]
     data = stand_in.project(arrays=arrays, clearances=rows, objects=[])
     done = stand_in.assess_input(data, stand_in.motions(1, seconds=4.0))
-    differing = [row for row in done.conditions if row.id == "neighbors"]
+    differing = [row for row in done.checks if row.id == "neighbors"]
     (one,) = [check for check in done.open if check.id == "neighbors"]
     assert (len(differing), one.subject) == (2, "A1 to A2 and A2 to A3")
     assert one.remedy.startswith("Correct the clearance")

@@ -110,7 +110,7 @@ def test_an_input_with_its_results_and_verdicts_is_found(assessment, document):
 
 
 def reissue(done, document):
-    rows = with_reissue(done, former(document)).rows
+    rows = with_reissue(done, former(document)).checks
     return [row for row in rows if row.id == "revision"]
 
 
