@@ -141,7 +141,7 @@ def improved(before: Assessment, after: Assessment, deletion: Deletion) -> Itera
         left = [
             each
             for each in after.checks
-            if each.subject == row.subject and _kind(each) == _kind(row)
+            if _kind(each) == _kind(row) and _subject(each) == _subject(row)
         ]
         left = [each for each in left if each.title == row.title] or left
         now = max((each.verdict for each in left), key=_badness, default=Verdict.OK)
@@ -154,6 +154,11 @@ def improved(before: Assessment, after: Assessment, deletion: Deletion) -> Itera
 def _kind(row: Check) -> str:
     # A width of a fire pathway, and whether there is one.
     return row.id.removesuffix("s")
+
+
+def _subject(row: Check) -> str:
+    # Whether there is one is asked of an array, for all its clearances.
+    return row.arrays[0] if _kind(row) == "fire_pathway" else row.subject
 
 
 def _is_milder(was: Verdict, now: Verdict, is_given_no_more: bool) -> bool:

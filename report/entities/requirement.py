@@ -125,6 +125,7 @@ def check_results(assessment: Assessment) -> Iterator[CheckResult]:
             unit=amounts[0].quantity.base if amounts else "",
             found_text=found_text,
             limit_text=limit_text,
+            remedy=check.to_close,
             cells=[addresses[place] for place in check.places if place in addresses],
         )
 

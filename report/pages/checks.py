@@ -12,13 +12,16 @@ from dataclasses import dataclass, replace
 
 from markupsafe import Markup
 
-from report.assessment.checks.check import MOST_NAMED, Check, alike, by_ratio, texts
+from report.assessment.checks.check import Check, alike, by_ratio, texts
 from report.assessment.project import Assessment
 from report.assessment.verdict import MOTIONS_ID, NO_DESIGN, Verdict, nan_is_worst
 from report.document.tables import Table, TableRow, Wide, headed, stamp
 from report.pages.symbols import with_symbols
 from report.text.counts import capitalized, counted, grouped_by, lowered, numbered
 from report.text.units import ratio
+
+# Checks that are NG which a sentence names.
+MOST_NAMED = 4
 
 # The part with the numbers behind a kind of check; of the others the part on checks.
 _PARTS = {
@@ -170,7 +173,7 @@ def governing_table(sheet: FirstSheet, done: Assessment, numbers: Mapping[str, s
         found, limit = texts(check, us_first, is_both=False)
         cells = check.title, subject, found, limit, _ratio(check), check.clause
         rows.append(_row(*cells, check.verdict, _sheet(check, numbers, place)))
-        under = " ".join(filter(None, (check.remedy, check.otherwise)))
+        under = " ".join(filter(None, (check.to_close, check.otherwise)))
         if under and sheet.has_remedies:
             rows.append(_below(under, len(cells) + 2))
     return replace(_GOVERNING_HEADS, rows=tuple(rows))
@@ -203,8 +206,8 @@ def all_checks(done: Assessment) -> Table:
         found += f" ({check.note})" if check.note else ""
         cells = check.subject or "project", check.title, found, limit, _ratio(check), check.clause
         rows.append(_row(*cells, check.verdict))
-        if check.is_open and check.remedy:
-            rows.append(_below(f"To close: {check.remedy}", len(cells) + 1))
+        if check.is_open and check.to_close:
+            rows.append(_below(f"To close: {check.to_close}", len(cells) + 1))
     return replace(_ALL_HEADS, rows=tuple(rows))
 
 

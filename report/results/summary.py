@@ -164,7 +164,7 @@ def _governing(assessment: Assessment) -> Iterator[Sequence[_Value]]:
 def _open(assessment: Assessment) -> Iterator[Sequence[_Value]]:
     """Yield what is not satisfied, with who must act and what they must do."""
     for check in alike(check for check in by_ratio(assessment.checks) if check.is_open):
-        yield (*_said(assessment, check), check.actor, check.remedy, check.verdict.value)
+        yield (*_said(assessment, check), check.actor, check.to_close, check.verdict.value)
 
 
 def _said(assessment: Assessment, check: Check) -> tuple[str, str, str, str]:

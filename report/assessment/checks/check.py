@@ -25,7 +25,7 @@ from report.assessment.verdict import (
 )
 from report.sheet.schema.fields import Place
 from report.text.amounts import Amount, amount_text, amount_texts
-from report.text.counts import capitalized, grouped_by, joined, lowered, ranged
+from report.text.counts import capitalized, grouped_by, lowered, ranged
 from report.text.units import Rounding, ratio
 from solver.rules.limit import PROGRAM, Consequence
 from solver.rules.provisions import Provision
@@ -33,8 +33,6 @@ from solver.rules.provisions import Provision
 THIS_PROGRAM = PROGRAM.clause
 # Kinds whose subjects are pairs, which do not count on as A1 to A3 do.
 PAIRS = ("clearance", "neighbors", "fire_pathway")
-# Pairs that a sentence names.
-MOST_NAMED = 4
 # By so much may a ratio be above 1 by rounding.
 _NOISE = 1e-6
 
@@ -102,20 +100,21 @@ class Check:
     """Where or from what it was found: `RM1 y, 1.41 Hz`, `96.0 in − 40.8 in`."""
     actor: Actor = Actor.ENGINEER
     remedy: str = ""
-    """What they must do where it is not satisfied, as a sentence; empty where it is."""
+    """What they must do to satisfy it, as a sentence."""
     otherwise: str = ""
     """What the project comes to if it is not met, or with another input, as a sentence."""
     places: tuple[Place, ...] = ()
     """Cells of the workbook."""
 
-    def __post_init__(self) -> None:
-        if self.is_satisfied:  # nothing is to be done
-            object.__setattr__(self, "remedy", "")
-
     @property
     def verdict(self) -> Verdict:
         """Of this check alone."""
         return Verdict.OK if self.is_satisfied else BY_CONSEQUENCE[self.consequence]
+
+    @property
+    def to_close(self) -> str:
+        """The remedy of what is not satisfied; empty where nothing is to be done."""
+        return "" if self.is_satisfied else self.remedy
 
     @property
     def is_note(self) -> bool:
@@ -178,7 +177,7 @@ def sentence(check: Check, us_first: bool) -> str:
     found += f" ({check.note})" if check.note else ""
     if isinstance(check.limit, Amount):
         limit = f"{check.sense.words} {limit}"
-    close = f"To close: {lowered(check.remedy)}" if check.remedy else ""
+    close = f"To close: {lowered(check.to_close)}" if check.to_close else ""
     parts = f"{of}: {found}.", f"Required: {limit} ({check.clause}).", close, check.otherwise
     return capitalized(" ".join(filter(None, parts)))
 
@@ -274,13 +273,11 @@ def _found(group: Sequence[Check]) -> str:
 
 
 def subjects(group: Sequence[Check]) -> str:
-    """Return what checks of one kind are of, such as `A1 to A3`."""
+    """Return what checks of one kind are of: `A1 to A3`, or the worst pair and how many more."""
     names = list(dict.fromkeys(check.subject for check in group))
-    if group[0].id not in PAIRS:
+    if group[0].id not in PAIRS or len(names) == 1:
         return ranged(names)
-    if len(names) > MOST_NAMED:
-        names = [*names[:MOST_NAMED], f"{len(names) - MOST_NAMED} more"]
-    return joined(names)
+    return f"{max(group, key=_size).subject} and {len(names) - 1} more"
 
 
 def by_ratio(checks: Iterable[Check]) -> Sequence[Check]:

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 from report.assessment.checks.check import Actor, Check, Sense, condition, dagger
 from report.assessment.clearances import slides_m
+from report.assessment.plan_clearances import direction_of
 from report.assessment.verdict import NO_DESIGN, NOT_GIVEN, PLAN_ROW, STAYS, Verdict
 from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import ClearanceSource, DistanceBasis
+from report.sheet.schema.choices import ClearanceSource, Direction, DistanceBasis
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import SIDES, Array
 from report.sheet.schema.shapes import around, gap_m
@@ -86,18 +87,22 @@ def _pathway(done: Assessment, gap: ClearanceCheck, pathway_m: float, index: int
 def of_pathways(data: ProjectInput, pairs: Sequence[PlanNeighbor] = ()) -> Iterator[Check]:
     """Yield for each array whether its clearances say if a fire pathway runs along them.
 
-    The pairs of the plan that lack a clearance do not say so, if they are given.
+    The pairs of the plan that lack a clearance do not say so, if they are given: those that are
+    near, and those that face each other where a pathway may be left too narrow.
     """
+    silent = [near for near in pairs if near.is_missing or _may_narrow(near, data.site.fire_lane_m)]
     for array in data.arrays:
         rows = [(index, row) for index, row in enumerate(data.clearances) if row.array == array.id]
         blank = [index for index, row in rows if row.pathway_m is None]
-        count = len(blank) + sum(near.is_missing and near.array == array.id for near in pairs)
+        without_row = [near.names for near in silent if near.array == array.id]
+        count = len(blank) + len(without_row)
         yield condition(
             id="fire_pathways",
             title="Fire pathways along the clearances",
             subject=array.id,
             arrays=(array.id,),
             found=f"{numbered(count, 'clearance')} without an answer" if count else "answered",
+            note=f"no row: {', '.join(without_row)}" if without_row else "",
             limit="none or a width, for each clearance",
             clause="fire code, as entered",
             is_satisfied=not count,
@@ -106,6 +111,13 @@ def of_pathways(data: ProjectInput, pairs: Sequence[PlanNeighbor] = ()) -> Itera
             places=tuple(Place("clearances", index, "pathway_m") for index in blank)
             or (Place("clearances"),),
         )
+
+
+def _may_narrow(near: PlanNeighbor, lane_m: float) -> bool:
+    """Whether no clearance is given where a fire pathway [m] may be left too narrow."""
+    is_within = not near.given and near.gap_m <= near.reach_m + lane_m
+    # Those that face each other: a pathway does not run across corners.
+    return is_within and direction_of(near, 0.0) is not Direction.ANY
 
 
 def of_neighbors(done: Assessment) -> Iterator[Check]:

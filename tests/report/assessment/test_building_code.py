@@ -56,7 +56,7 @@ def test_the_cbc_references_what_the_ibc_of_the_year_before_does(year):
 def test_the_letter_of_the_jurisdiction_satisfies_what_it_accepts(code):
     accepted = before_runs(code, acceptance_letter="acceptance.pdf")
     assert list(accepted) == list(before_runs(code))
-    assert all(row.verdict is Verdict.OK and not row.remedy for row in accepted.values())
+    assert all(row.verdict is Verdict.OK and not row.to_close for row in accepted.values())
     letter = "; acceptance.pdf, attached"
     assert [id for id, row in accepted.items() if row.found.endswith(letter)] == [
         *not_so(before_runs(code))

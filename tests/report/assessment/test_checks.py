@@ -82,7 +82,7 @@ def test_a_check_is_one_sentence_and_a_cell():
 
 @pytest.mark.quick
 def test_nothing_is_to_be_done_of_what_is_satisfied():
-    assert check(is_satisfied=True).remedy == ""
+    assert check(is_satisfied=True).to_close == ""
 
 
 @pytest.mark.quick

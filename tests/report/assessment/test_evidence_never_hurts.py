@@ -59,3 +59,10 @@ def test_what_is_not_given_any_more_is_a_condition(what, name, verdicts, tmp_pat
         for done in (project.done, project.without(deletion))
     ]
     assert found == verdicts
+
+
+@pytest.mark.parametrize("what", ["clearances 3 pathway_m", "clearances 3"])
+def test_a_fire_pathway_that_fails_cannot_be_left_out(what, tmp_path):
+    project = Deletable.of(altered.workbook("each stated value fails", tmp_path / "project"))
+    (deletion,) = (each for each in project.deletions() if each.what == what)
+    assert milder(project, [deletion]) == ([], 1)

@@ -64,7 +64,7 @@ def test_what_is_alike_of_several_arrays_or_clearances_is_said_once():
     done = stand_in.assess_input(data, stand_in.motions(1, seconds=4.0))
     differing = [row for row in done.checks if row.id == "neighbors"]
     (one,) = [check for check in done.open if check.id == "neighbors"]
-    assert (len(differing), one.subject) == (2, "A1 to A2 and A2 to A3")
+    assert (len(differing), one.subject) == (2, "A1 to A2 and 1 more")
     assert one.remedy.startswith("Correct the clearance")
     rows = printed(done, "limits").table("All checks").rows
     found = [row["Found"] for row in rows if row["Required"] == "as on the plan"]
