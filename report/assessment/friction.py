@@ -10,6 +10,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment, assess_array
+from report.assessment.checks.arrays import slack_check
+from report.assessment.checks.check import words
 from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.routes import NOT_PERMITTED
 from report.assessment.runs import PendingRuns
@@ -175,7 +177,7 @@ class InputCase:
             yield NOT_PERMITTED
         failed = [gap.words(us_first) for gap in self.short]
         if self.array.lacks_slack:
-            failed.append("electrical slack too short")
+            failed.append(words(slack_check(self.array.array, self.array.design_m, 0)))
         if failed:
             yield f"NG: {', '.join(failed)}"
         elif self.gaps and all(gap.ok for gap in self.gaps):

@@ -1,7 +1,6 @@
-"""Checks and warnings as they are written and shown.
+"""Checks and warnings as results.json has them, and an assessment with the marks of its numbers.
 
-Computes nothing. Read `CheckResult`, which results.json has; a `RequirementRow` is a row of a
-table. `Marked` marks the numbers.
+Computes nothing. Read `CheckResult`, then `Marked`.
 """
 
 from __future__ import annotations
@@ -9,20 +8,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Annotated
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis
-from report.assessment.checks.check import Actor, Check, dagger, found_and_limit, texts
+from report.assessment.checks.check import Actor, dagger, texts
 from report.assessment.project import Assessment
 from report.assessment.routes import SEAOC
-from report.assessment.verdict import ItemVerdict, Verdict
+from report.assessment.verdict import ItemVerdict
 from report.entities.shown import (
-    Column,
     Entity,
     Number,
     UnitFormat,
-    centered,
-    words,
 )
 from report.sheet.checking.findings import located
 from report.sheet.schema import ProjectInput
@@ -46,18 +41,6 @@ class FindingResult(Entity):
     """What was found."""
     reason: str
     """Why a warning is acknowledged; empty if it is not."""
-
-
-class RequirementRow(Entity):
-    """A requirement or a limit in a table of both."""
-
-    subject: Annotated[str, words("Item", 0.95), Column()]
-    title: Annotated[str, words("Requirement", 3.1), Column()]
-    found: Annotated[str, words("Found", 3.95), Column()]
-    limit: Annotated[str, words("Required", 2.45), Column()]
-    basis: Annotated[str, words("Basis", 1.85), Column()]
-    verdict: Annotated[Verdict, centered("Verdict", 1.1), Column()]
-    remedy: Annotated[str, Column("What must be done")]
 
 
 def finding_results(
@@ -132,16 +115,6 @@ def check_results(assessment: Assessment) -> Iterator[CheckResult]:
 
 def _value(amount: Amount | str) -> float:
     return amount.value if isinstance(amount, Amount) else math.nan
-
-
-def requirement_rows(checks: Iterable[Check], us_first: bool) -> Iterator[RequirementRow]:
-    """Yield checks as rows of a table."""
-    for check in checks:
-        found, limit = found_and_limit(check, us_first)
-        subject = check.subject or "Project"
-        yield RequirementRow.of(
-            check, subject=subject, found=found, limit=limit, basis=check.clause
-        )
 
 
 UNVERIFIED = (

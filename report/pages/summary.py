@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from report.assessment.causes import causes
@@ -57,14 +56,6 @@ def remedy_lines(assessment: Assessment, found: Remedies) -> Iterator[str]:
 _COLUMNS = ("array", "computed", "prescriptive", "design", "governing clearance to", "D/C", "")
 
 
-@dataclass(frozen=True, slots=True)
-class Concern:
-    """Something that needs attention: its weight (NG, condition, warning) and what it is."""
-
-    level: str
-    text: str
-
-
 def summary(assessment: Assessment) -> Iterator[str]:
     """Yield the table of the arrays, what needs attention, and the verdict."""
     # A terminal has no note at its foot that would say what a dagger means.
@@ -76,8 +67,8 @@ def summary(assessment: Assessment) -> Iterator[str]:
     yield from aligned(rows)
     if assessment.is_overridden:
         yield MEANING
-    for line in attention(assessment):
-        yield f"{line.level}: {line.text}"
+    for level, text in attention(assessment):
+        yield f"{level}: {text}"
     gap = assessment.governing_gap()
     largest = f", largest D/C {gap.ratio_words}" if gap and not math.isnan(gap.required_m) else ""
     yield f"verdict: {assessment.verdict.value}{largest}"
@@ -97,7 +88,7 @@ def document(assessment: Assessment) -> dict[str, Any]:
     return {
         "verdict": assessment.verdict.value,
         "arrays": [_array(assessment, item) for item in assessment.arrays],
-        "attention": [{"level": line.level, "text": line.text} for line in attention(assessment)],
+        "attention": [{"level": level, "text": text} for level, text in attention(assessment)],
     }
 
 
@@ -130,24 +121,27 @@ def _row(fmt: UnitFormat, item: ArrayResult) -> tuple[str, ...]:
     )
 
 
-def attention(assessment: Assessment, *, may_run: bool = True) -> Iterator[Concern]:
-    """Yield what is not satisfied, what makes it NG first, and what would do, with runs or not."""
+def attention(assessment: Assessment, *, may_run: bool = True) -> Iterator[tuple[str, str]]:
+    """Yield what is not satisfied, NG first, and what would do, with runs or not; each its level.
+
+    Levels are NG, remedy, condition, note and warning.
+    """
     us_first, is_best_due = assessment.project.us_first, assessment.at_reduced_friction is not None
     failed = [check for check in assessment.open if not check.verdict.is_permitted]
     for check in failed:
-        yield Concern(Consequence.NG.value, sentence(check, us_first))
+        yield Consequence.NG.value, sentence(check, us_first)
     # The verdict with a remedy depends on less friction as well.
     if is_best_due and (found := remedies(assessment, may_run=may_run)).together:
-        yield Concern("remedy", found.sentence(us_first))
+        yield "remedy", found.sentence(us_first)
     for check in assessment.open[len(failed) :]:
-        yield Concern(check.consequence.value, sentence(check, us_first))
+        yield check.consequence.value, sentence(check, us_first)
     if lacks := without_analysis(assessment):
-        yield Concern(Consequence.NOTE.value, lacks)
+        yield Consequence.NOTE.value, lacks
     for check in alike(assessment.notes):
-        yield Concern(Consequence.NOTE.value, sentence(check, us_first))
+        yield Consequence.NOTE.value, sentence(check, us_first)
     listed = findings(assessment.sheet, assessment.shaking)
     for line in lines(listed, assessment.sheet.addresses):
         if line.finding.level is Level.WARNING:
             reason = line.finding.reason
             answer = f" Acknowledged: {reason}" if reason else ""
-            yield Concern("warning", f"{line.cells}: {line.finding.text} [{line.names}]{answer}")
+            yield "warning", f"{line.cells}: {line.finding.text} [{line.names}]{answer}"

@@ -10,13 +10,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
 from typing import Annotated, ClassVar
 
-from report.assessment.checks.check import alike
+from report.assessment.checks.check import Check, alike, found_and_limit
 from report.assessment.links import LinkedArray
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra
+from report.assessment.verdict import Verdict
 from report.entities.evidence import LinkedResult, LinkedRunResult, NeighborResult, linked_result
 from report.entities.motion import MotionResult, RecordResult, RunResult, motion_result, run_result
-from report.entities.requirement import RequirementRow, requirement_rows
 from report.entities.shown import Column, Number, columns_of, up_column
 from report.motions.prepare import Shaking
 from report.results.sheets import (
@@ -111,23 +111,36 @@ def _motions(shaking: Shaking) -> Iterator[MotionRow]:
             )
 
 
-class RequirementLine(SheetRow, RequirementRow):
-    """A requirement or a limit as a row of the sheet."""
+class CheckRow(SheetRow):
+    """A check as a row of the sheet, or checks that ask the same."""
 
     sheet: ClassVar[str] = "Requirements"
+
+    subject: Annotated[str, Column("Item")]
+    title: Annotated[str, Column("Requirement")]
+    found: Annotated[str, Column("Found")]
+    limit: Annotated[str, Column("Required")]
+    clause: Annotated[str, Column("Basis")]
+    verdict: Annotated[Verdict, Column("Verdict")]
+    to_close: Annotated[str, Column("What must be done")]
 
 
 def write_requirements(pages: Pages, assessment: Assessment) -> None:
     """Write the checks but the clearances, which have a sheet; those that ask the same as one."""
     others = alike(check for check in assessment.checks if check.id != "clearance")
-    rows = requirement_rows(others, assessment.project.us_first)
+    rows = [_check_row(check, assessment.project.us_first) for check in others]
     write_live(
         pages,
-        RequirementLine,
-        list(map(RequirementLine.beside, rows)),
+        CheckRow,
+        rows,
         "Checks",
         "Satisfied or not. The verdict on the project and on each array is on the sheet Summary.",
     )
+
+
+def _check_row(check: Check, us_first: bool) -> CheckRow:
+    found, limit = found_and_limit(check, us_first)
+    return CheckRow.of(check, subject=check.subject or "Project", found=found, limit=limit)
 
 
 def _spectra(spectra: Sequence[Spectra]) -> Mapping[str, Sequence[float]]:

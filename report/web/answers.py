@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import Any
 
 from report.assessment.causes import outcome
@@ -68,7 +68,9 @@ def answer(
         else verdict_sentence(assessment, "here"),
         "reasons": []
         if is_provisional
-        else list(map(asdict, attention(assessment, may_run=False))),
+        else [
+            {"level": level, "text": text} for level, text in attention(assessment, may_run=False)
+        ],
         # Of what is not whole, the rest is asked next.
         "pending": "" if is_whole else _LESS,
         "arrays": {

@@ -177,7 +177,9 @@ def sentence(check: Check, us_first: bool) -> str:
     found += f" ({check.note})" if check.note else ""
     if isinstance(check.limit, Amount):
         limit = f"{check.sense.words} {limit}"
-    close = f"To close: {lowered(check.to_close)}" if check.to_close else ""
+    close = check.to_close  # of a note it says what does not follow
+    if check.is_open and close:
+        close = f"To close: {lowered(close)}"
     parts = f"{of}: {found}.", f"Required: {limit} ({check.clause}).", close, check.otherwise
     return capitalized(" ".join(filter(None, parts)))
 

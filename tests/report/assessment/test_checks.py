@@ -83,6 +83,8 @@ def test_a_check_is_one_sentence_and_a_cell():
 @pytest.mark.quick
 def test_nothing_is_to_be_done_of_what_is_satisfied():
     assert check(is_satisfied=True).to_close == ""
+    note = check(consequence=Consequence.NOTE, remedy="The route is permitted.")
+    assert sentence(note, us_first=True).endswith("(PV1-2012†). The route is permitted.")
 
 
 @pytest.mark.quick

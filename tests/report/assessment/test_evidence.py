@@ -183,7 +183,7 @@ def test_the_low_velocity_coefficient_is_a_case_where_the_slack_is_then_too_shor
         return support(assessed(9.0, arrays=[stand_in.array("A1", 2.0, slack_m=slack_m, **LAW)]))
 
     (case,) = by_velocity_with(0.99 * alone_m).cases
-    assert case.words(us_first=True).endswith(", NG: electrical slack too short.")
+    assert case.words(us_first=True).endswith(", NG: electrical slack 1.02.")
     assert by_velocity_with(1.01 * alone_m).cases == ()
 
 
