@@ -314,7 +314,7 @@ def test_a_required_separation_that_an_override_lowers_is_marked_without_a_row_t
     unlisted = lowered(**near)
     (gap,) = plan_gaps(unlisted)
     assert (gap.number, gap.mark) == (0, "‡")
-    (row,) = (row for row in unlisted.rows if row.id == "neighbors")
+    (row,) = (row for row in unlisted.checks if row.id == "neighbors")
     assert re.search(r"^≥ [\d.]+ in \([\d.]+ mm\)‡", texts(row, us_first=True)[1])
     assert unlisted.is_overridden
     designs = {item.id: {"text": ""} for item in unlisted.arrays}
