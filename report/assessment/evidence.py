@@ -13,6 +13,8 @@ from functools import partial
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.assess import reassess
+from report.assessment.checks.check import Check
+from report.assessment.checks.limits import of_limit
 from report.assessment.clearances import ClearanceCheck, by_id, check_clearance
 from report.assessment.friction import InputCase, with_friction
 from report.assessment.project import THREADS, Assessment
@@ -33,7 +35,7 @@ from report.text.counts import lowered
 from report.text.units import number
 from solver.building.structure import MOST_PERIOD_S
 from solver.model import SlideHistory
-from solver.rules.limit import Consequence, Limit
+from solver.rules.limit import Consequence
 from solver.rules.provisions import (
     AnalysisValue,
     Basis,
@@ -58,11 +60,11 @@ class Accuracy:
         return tuple(after for before, after in pairs if before.ok and not after.ok)
 
     @property
-    def newly_limited(self) -> tuple[tuple[ArrayAssessment, Limit], ...]:
+    def newly_limited(self) -> tuple[Check, ...]:
         """Limits of the routes taken that are satisfied as given but not with less friction."""
         pairs = zip(self.entered.arrays, self.at_reduced_friction.arrays, strict=True)
         return tuple(
-            (after, check)
+            of_limit(check, after.id)
             for before, after in pairs
             if all(check.ok for check in before.limits)
             # With less friction another route may be taken, whose limits are other ones.

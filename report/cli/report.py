@@ -36,7 +36,7 @@ from report.making import OUTPUTS
 from report.text.counts import command, numbered
 
 if TYPE_CHECKING:
-    from report.assessment.project import Assessment, Changes
+    from report.assessment.project import Changes
     from report.making import Made
 
 
@@ -168,7 +168,7 @@ def show(made: Made) -> None:
     for line in lines:
         say(line)
     if made.changes.is_asked_for:
-        _print_changes(made.assessment, made.changes)
+        _print_changes(made.changes)
     click.echo("")
     package, *tables = (made.folder / name for name in made.files)
     for path in tables:
@@ -183,7 +183,7 @@ def _document(made: Made) -> Mapping[str, object]:
     return document(made.assessment.sheet.path) | summary.document(made.assessment) | written
 
 
-def _print_changes(assessment: Assessment, changed: Changes) -> None:
+def _print_changes(changed: Changes) -> None:
     from report.pages.front import counted
 
     before = {item.title: plain(item.before) for item in changed.items if item.cell}

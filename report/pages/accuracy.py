@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.checks.check import sentence
 from report.assessment.clearances import by_id
 from report.assessment.evidence import Accuracy, Cumulative, Evidence
 from report.assessment.friction import mu_words
@@ -116,6 +117,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     return {
         "found": accuracy,
         "margins": margins(package, evidence),
+        "limited": [sentence(check, package.fmt.us_first) for check in accuracy.newly_limited],
         "percent": _PERCENT,
         "no_slip": Model.NO_SLIP,
         "two_axes": Model.TWO_AXES,

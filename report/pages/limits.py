@@ -89,7 +89,8 @@ def check_table(
 
 def limits(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the part on limits and requirements."""
-    excepted = [check for _, check in package.checks if check.passes_by_exception]
+    limits = (check for item in package.assessment.arrays for check in item.limits)
+    excepted = [check for check in limits if check.passes_by_exception]
     return {
         "checks": all_checks(package.assessment),
         "remedies": list(remedy_lines(package.assessment, evidence.remedies)),

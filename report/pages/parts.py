@@ -82,15 +82,6 @@ class PackageData(Marked):
         return sum(len(motion.runs) for item in self.assessment.arrays for motion in item.motions)
 
     @property
-    def checks(self) -> tuple[tuple[str, Limit], ...]:
-        """Every limit with the item that it applies to."""
-        assessment = self.assessment
-        return (
-            *(("Building", check) for check in assessment.building_checks),
-            *((item.id, check) for item in assessment.arrays for check in item.limits),
-        )
-
-    @property
     def friction_sources(self) -> Mapping[tuple[str, str], Sequence[str]]:
         """The arrays by the basis of their friction and the test report named for it."""
         return ids_by(self.data.arrays, lambda array: (self.friction_basis(array), array.mu_report))
