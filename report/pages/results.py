@@ -14,18 +14,19 @@ from operator import attrgetter, methodcaller
 from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.checks.check import Check, alike, texts
 from report.assessment.evidence import Evidence
 from report.assessment.runs import MotionRun
-from report.assessment.verdict import nan_is_worst
-from report.document.tables import Column, Table, TableRow, Wide, listed, table_of
+from report.assessment.verdict import STRENGTH_ROW, severity
+from report.document.tables import Column, Table, TableRow, Wide, listed, stamp, table_of
 from report.drawing.items import drawn_slope_deg
 from report.entities.shown import Shown, UnitFormat, required, text, words
 from report.pages.parts import PackageData, statistic
 from report.sheet.schema.choices import Direction
-from report.text.counts import named
-from report.text.units import Quantity, no_less, number
+from report.text.counts import grouped_by, named
+from report.text.units import Quantity, no_less, number, ratio
 from solver.model import Orientation, Status
-from solver.rules.provisions import SEPARATION_KEYS, Neighbor
+from solver.rules.provisions import SEPARATION_KEYS
 
 _Alike = Sequence[ArrayAssessment]
 _WAYS = (Direction.DOWN, Direction.UP, Direction.ACROSS)
@@ -229,26 +230,71 @@ def _weights(package: PackageData) -> Mapping[str, object]:
 
 
 def _design(package: PackageData) -> Mapping[str, object]:
-    array = package.governing
+    array, checks = package.governing, package.assessment.checks
+    strengths = [check for check in checks if check.id == STRENGTH_ROW]
+    strength = max(strengths, key=_exceeds)
+    arrays = package.assessment.arrays
     return {
         "statistic": statistic(array.analysis.basis),
         "analysis_mark": array.mark(lambda item: item.analysis.value_m),
-        "interconnection_mark": array.mark(lambda item: item.interconnection_n),
+        "by_routes": [
+            (check.subject, stamp(check.verdict))
+            for check in alike(check for check in checks if check.id == "design")
+        ],
+        "interconnected": next(item for item in arrays if item.id == strength.subject).array,
+        "strength": _compared(strength, package.fmt.us_first),
     }
 
 
+def _exceeds(check: Check) -> tuple[float, float]:
+    """Return what the governing of checks has most of; one that is not given has no ratio."""
+    is_known = math.isfinite(check.ratio)
+    return severity(check.verdict) if is_known else -1.0, check.ratio if is_known else 0.0
+
+
+def _compared(check: Check, us_first: bool) -> tuple[str, Markup]:
+    """Return the number of a check that an equation ends in, and how it compares: its verdict.
+
+    That number is the demand; of a pathway, which is the narrower the more an array slides, it is
+    what is left.
+    """
+    is_left = check.id == "fire_pathway"
+    both, short = texts(check, us_first), texts(check, us_first, is_both=False)
+    place = 0 if is_left else 1
+    result, other = (each[k].removeprefix(f"{check.sense} ") for each, k in ((both, place), (short, 1 - place)))
+    if not math.isfinite(check.ratio):
+        return result, Markup("; provided: {}, {}").format(other, stamp(check.verdict))
+    sign = ("≥" if is_left else "≤") if check.is_satisfied else ("<" if is_left else ">")
+    parts = sign, other, ratio(check.ratio), stamp(check.verdict)
+    return result, Markup(" {} {}, D/C {}, {}").format(*parts)
+
+
 def _separations(package: PackageData) -> Mapping[str, object]:
-    """Return the largest required separation of each condition that occurs, and the clauses."""
-    gaps, rules = package.assessment.clearances, package.assessment.rules
-    clauses = {rules.values[key].clause for key in SEPARATION_KEYS.values()}
-    alike = {kind: [gap for gap in gaps if gap.neighbor is kind] for kind in Neighbor}
+    """Return the governing clearance of each condition that occurs, and what else Δ narrows.
+
+    What has no permitted displacement has no equation: `unknown` are the arrays.
+    """
+    done, us_first = package.assessment, package.fmt.us_first
+    clauses = {done.rules.values[key].clause for key in SEPARATION_KEYS.values()}
+    of_kind = grouped_by(done.checks, attrgetter("id"))
+    finite = [
+        (gap, check)
+        for gap, check in zip(done.clearances, of_kind.get("clearance", ()), strict=True)
+        if math.isfinite(check.ratio)
+    ]
+    largest = sorted(finite, key=lambda pair: -pair[1].ratio)
+    kinds = grouped_by(largest, lambda pair: pair[0].neighbor)
+    others = [
+        max(known, key=_exceeds)
+        for kind in ("electrical_slack", "fire_pathway")
+        if (known := [each for each in of_kind.get(kind, ()) if math.isfinite(each.ratio)])
+    ]
     return {
         "separation_clauses": sorted(clauses),
         "separations": [
-            # Of each condition the largest, as an example of its equation; one that is not known
-            # comes first.
-            (max(some, key=lambda gap: nan_is_worst(gap.required_m)), SEPARATION_KEYS[kind])
-            for kind, some in alike.items()
-            if some
+            (some[0][0], SEPARATION_KEYS[kind], _compared(some[0][1], us_first))
+            for kind, some in kinds.items()
         ],
+        "others": [(check, _compared(check, us_first)) for check in others],
+        "unknown": [item.id for item in done.arrays if math.isnan(item.permitted_m)],
     }
