@@ -223,8 +223,8 @@ _CONDITION_HEADS = headed(
     ("Who acts", 0.95), ("Sheet", 0.45, "right"), kind="compact",
 )  # fmt: skip
 _ALL_HEADS = headed(
-    ("Of", 0.95), ("Check", 2.5), ("Found", 2.9), ("Required", 1.9), ("Ratio", 0.5, "right"),
-    ("Section of the code", 1.6), ("Verdict", 0.9, "center"), kind="compact",
+    ("Of", 0.75), ("Check", 2.35), ("Found", 2.7), ("Required", 2.5), ("Ratio", 0.5, "right"),
+    ("Section of the code", 1.7), ("Verdict", 0.85, "center"), kind="compact",
 )  # fmt: skip
 
 

@@ -30,7 +30,7 @@ from report.pages.checks import (
     governing_table,
     verdict_sentence,
 )
-from report.pages.limits import analysis_faults, check_table
+from report.pages.limits import analysis_faults
 from report.pages.parts import PackageData, statistic
 from report.pages.symbols import friction_standard
 from report.sheet.reading.linked_files import StudyYears, YearsOfArray
@@ -164,12 +164,10 @@ def page(package: PackageData) -> Mapping[str, object]:
 def comparison(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return what the comparison needs beside the arrays."""
     arrays = package.assessment.arrays
-    checks = [(item.id, check) for item in arrays for check in item.prescriptive_checks]
     return {
         "cases": evidence.cases,
         "faults": {item.id: analysis_faults(package, item) for item in arrays},
         "years": list(_years(package)),
-        "routes": check_table(package, checks, ("satisfied", "not satisfied")),
     }
 
 

@@ -25,9 +25,9 @@ from report.drawing.labels import alike_arrays
 from report.drawing.sheet import unit_format
 from report.entities.evidence import NeighborResult
 from report.entities.requirement import UNVERIFIED
-from report.entities.shown import Shown, centered, length, provided, text, words
+from report.entities.shown import Shown, length, provided, text, words
 from report.pages.checks import all_checks
-from report.pages.parts import NG, OK, PackageData, verdict
+from report.pages.parts import PackageData
 from report.pages.summary import remedy_lines
 from report.sheet.checking.findings import lines
 from report.sheet.schema.choices import ObjectKind
@@ -37,11 +37,8 @@ from report.sheet.schema.shapes import Polygon, Shape
 from report.text.counts import grouped_by
 from report.text.units import Quantity
 from report.typeset.equations import symbol
-from solver.rules.limit import Consequence, Limit
+from solver.rules.limit import Consequence
 from solver.rules.provisions import OVERRIDABLE, Basis, Neighbor
-
-EXCEPTED = "permitted*"
-"""Verdict on a value beyond a limit that the rule set permits to be exceeded."""
 
 
 def analysis_faults(package: PackageData, array: ArrayAssessment) -> Sequence[str]:
@@ -57,34 +54,6 @@ def analysis_faults(package: PackageData, array: ArrayAssessment) -> Sequence[st
 def _motion_faults(package: PackageData) -> Sequence[str]:
     missed = package.assessment.acceptance.missed
     return [row.title for row in missed if row.consequence is Consequence.NG]
-
-
-def check_table(
-    package: PackageData,
-    checks: Sequence[tuple[str, Limit]],
-    outcomes: tuple[str, str] = (OK, NG),
-) -> Table:
-    """Return limits and values of the project; `outcomes` are satisfied and not satisfied."""
-
-    def limit(check: Limit) -> str:
-        return package.limit_of(check) + dagger(check.provision)
-
-    columns = (
-        (words("Item", 0.9), lambda row: row[0]),
-        (words("Quantity", 3.9), lambda row: row[1].title),
-        (text("Value", share=1.45), lambda row: package.found_of(row[1])),
-        # A value beyond its limit that the rule set permits: the sign of the limit would be false.
-        (centered("", 0.3), lambda row: ">" if row[1].passes_by_exception else row[1].sign),
-        (text("Limit", share=1.6), lambda row: limit(row[1])),
-        (words("Clause", 2.1), lambda row: row[1].provision.clause + dagger(row[1].provision)),
-        (
-            centered("Verdict", 1.3),
-            lambda row: verdict(
-                row[1].ok, (EXCEPTED, NG) if row[1].passes_by_exception else outcomes
-            ),
-        ),
-    )
-    return listed(checks, columns, package.fmt, kind="compact")
 
 
 def limits(package: PackageData, evidence: Evidence) -> Mapping[str, object]:

@@ -70,8 +70,8 @@ BELOW_INPUTS = (
 PAGES = (
     Page("summary", "Summary", front.summary),
     Page("comparison", "Comparison with the prescriptive displacement", front.comparison),
-    Page("plan", "Roof plan and schedule of clearances", _alone(limits.plan)),
     Page("basis", "Basis and limits of the method", _alone(front.basis)),
+    Page("plan", "Roof plan and schedule of clearances", _alone(limits.plan)),
     Page("model", "Model used", _alone(model.page)),
     Page("limits", "Limits and requirements", limits.limits),
     Page("provisions", "Provisions and overrides", _alone(limits.provisions)),
@@ -106,7 +106,10 @@ def pages_of(
     """Return the pages of a package: with the changes only where they are asked for."""
     left_out = frozenset() if has_motions else OF_MOTIONS
     editions = PackageEdition.PLAN_CHECK, edition
-    pages = tuple(page for page in PAGES if page.edition in editions and page.id not in left_out)
+    pages = [page for page in PAGES if page.edition in editions and page.id not in left_out]
+    if not has_motions:
+        # The plan begins a sheet: the few words on the basis would have one to themselves.
+        pages[1:3] = pages[2], pages[1]
     title = f"Changes since revision {since.revision}"
     changed = (replace(CHANGES, title=title),) if since.is_asked_for else ()
     return (*pages[:1], *changed, *pages[1:])

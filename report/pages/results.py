@@ -259,9 +259,9 @@ def _compared(check: Check, us_first: bool) -> tuple[str, Markup]:
     what is left.
     """
     is_left = check.id == "fire_pathway"
-    both, short = texts(check, us_first), texts(check, us_first, is_both=False)
-    place = 0 if is_left else 1
-    result, other = (each[k].removeprefix(f"{check.sense} ") for each, k in ((both, place), (short, 1 - place)))
+    both, first = texts(check, us_first), texts(check, us_first, is_both=False)
+    result, other = (both[0], first[1]) if is_left else (both[1], first[0])
+    result, other = (each.removeprefix(f"{check.sense} ") for each in (result, other))
     if not math.isfinite(check.ratio):
         return result, Markup("; provided: {}, {}").format(other, stamp(check.verdict))
     sign = ("≥" if is_left else "≤") if check.is_satisfied else ("<" if is_left else ">")
