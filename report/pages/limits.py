@@ -25,7 +25,7 @@ from report.drawing.labels import alike_arrays
 from report.drawing.sheet import unit_format
 from report.entities.evidence import NeighborResult
 from report.entities.requirement import UNVERIFIED
-from report.entities.shown import Shown, length, provided, text, words
+from report.entities.shown import Shown, UnitFormat, length, provided, text, words
 from report.pages.checks import all_checks
 from report.pages.parts import PackageData
 from report.pages.summary import remedy_lines
@@ -107,7 +107,7 @@ def plan(package: PackageData) -> Mapping[str, object]:
         "factors": _factors(package),
         "clauses": dict.fromkeys(row.clause for row in package.clearances),
         "parapets": _parapets(package),
-        "places": _places(package),
+        "places": _places(package, fmt),
         # By id, with the number of vertices: the table of places has only the rectangle around.
         "outlined": [
             (row.id, len(row.placed.points)) for row in placed if isinstance(row.placed, Polygon)
@@ -154,23 +154,24 @@ def _parapets(package: PackageData) -> Table:
     return listed(rows, columns, package.fmt, kind="compact")
 
 
-def _places(package: PackageData) -> Table:
-    """Return where arrays, objects and roof edges are in plan, and how high the latter."""
+def _places(package: PackageData, fmt: UnitFormat) -> Sequence[Table]:
+    """Return where arrays, objects and roof edges are in plan, and how high the latter, halved."""
     data = package.data
     rows = [
         *((array.id, "array", None, array.placed) for array in data.arrays if array.placed),
         *((item.id, item.kind.value, item.height_m, item.placed) for item in data.objects),
     ]
     columns = (
-        (words("Item", 1.2), lambda row: row[0]),
-        (words("Kind", 2.5), lambda row: row[1]),
+        (words("Item", 1.1), lambda row: row[0]),
+        (words("Kind", 1.9), lambda row: row[1]),
         (length("Height"), lambda row: "—" if row[2] is None else row[2]),
         (_in_plan("x from"), lambda row: _sides(row[3])[0]),
         (_in_plan("x to"), lambda row: _sides(row[3])[1]),
         (_in_plan("y from"), lambda row: _sides(row[3])[2]),
         (_in_plan("y to"), lambda row: _sides(row[3])[3]),
     )
-    return listed(rows, columns, package.fmt, kind="compact")
+    middle = (len(rows) + 1) // 2
+    return [listed(half, columns, fmt, kind="compact") for half in (rows[:middle], rows[middle:])]
 
 
 def _sides(shape: Shape | None) -> tuple[Any, ...]:
