@@ -71,11 +71,11 @@ def _pressures(data: ProjectInput) -> Mapping[float | None, Sequence[str]]:
 
 
 def drawings(package: PackageData) -> Sequence[str]:
-    """Return the runs over velocity, where any run reports its velocity."""
+    """Return the runs over velocity, where any reports it and an array slides at one."""
     from report.figures.charts import friction_by_velocity
 
     data = package.data
-    if not _n_drawn(data):
+    if not (package.assessment.has_motions and _n_drawn(data)):
         return ()
     runs = [run for series in tested(data) for run in series.runs]
     fits = {series.surface: fit for series, fit in _fits(package) if fit.is_determined}

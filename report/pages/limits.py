@@ -189,13 +189,17 @@ def _in_plan(head: str) -> Shown:
 def provisions(package: PackageData) -> Mapping[str, object]:
     """Return every number of the rule set in two columns, and the overrides."""
     rules = package.assessment.rules
-    named = [(_sentence_case(OVERRIDABLE[key]), value) for key, value in rules.values.items()]
+    named = [
+        (_sentence_case(OVERRIDABLE[key]), value)
+        for key, value in rules.values.items()
+        if package.assessment.has_motions or key not in _OF_MOTIONS
+    ]
     # The heading names the rule set: its name before each clause would need a second line.
     own = rules.name.removeprefix("SEAOC ") + " "  # before its clauses
     columns = (
         (words("Provision", 5.4), lambda row: row[0]),
         (text("Value", share=0.8), lambda row: f"{row[1].value:.4g}" + dagger(row[1])),
-        (words("Clause", 1.6), lambda row: row[1].clause.removeprefix(own)),
+        (words("Clause", 2.0), lambda row: row[1].clause.removeprefix(own)),
     )
     # Two columns of the page; the left one has the odd row.
     middle = (len(named) + 1) // 2
@@ -209,6 +213,9 @@ def provisions(package: PackageData) -> Mapping[str, object]:
             for row in package.data.overrides
         ],
     }
+
+
+_OF_MOTIONS = ("analysis_factor", "analysis_min_motions", "analysis_mean_motions")
 
 
 def _sentence_case(name: str) -> Markup:

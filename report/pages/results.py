@@ -260,7 +260,7 @@ def _compared(check: Check, us_first: bool) -> tuple[str, Markup]:
     """
     is_left = check.id == "fire_pathway"
     both, first = texts(check, us_first), texts(check, us_first, is_both=False)
-    result, other = (both[0], first[1]) if is_left else (both[1], first[0])
+    result, other = first if is_left else (both[1], first[0])
     result, other = (each.removeprefix(f"{check.sense} ") for each in (result, other))
     if not math.isfinite(check.ratio):
         return result, Markup("; provided: {}, {}").format(other, stamp(check.verdict))

@@ -66,7 +66,7 @@ def _dates(data: ProjectInput) -> Iterator[Check]:
             id="dates",
             title=f"Date of the {what}",
             found=f"{date}" + (f", given before these inputs changed: {sheets}" if sheets else ""),
-            limit=f"not later than the package, {issued}, and for these inputs",
+            limit=f"not later than {issued}, and for these inputs",
             clause="plan check",
             is_satisfied=not (is_later or sheets),
             remedy="Correct the date, or date the package later." if is_later else remedy,

@@ -240,7 +240,7 @@ def test_what_is_dated_later_than_the_package_is_a_condition(changes, what):
     late = row(assessed(**changes), "dates")
     assert (late.title, late.verdict) == (f"Date of the {what}", Verdict.CONDITION)
     assert late.found == str(LATER)
-    assert late.limit == f"not later than the package, {ISSUED}, and for these inputs"
+    assert late.limit == f"not later than {ISSUED}, and for these inputs"
     issued = {"project": inputs.HEAD | changes.get("project", {}) | {"date": LATER}}
     assert row(assessed(**changes | issued), "dates").is_satisfied
 
