@@ -20,7 +20,7 @@ from report.assessment.friction import mus_words
 from report.assessment.neighbors import Cover
 from report.assessment.plan_clearances import plan_gaps
 from report.assessment.precheck import findings
-from report.document.tables import Table, listed
+from report.document.tables import LONG_NAME, Table, listed
 from report.drawing.labels import alike_arrays
 from report.drawing.sheet import unit_format
 from report.entities.evidence import NeighborResult
@@ -163,14 +163,16 @@ def _places(package: PackageData, fmt: UnitFormat) -> Sequence[Table]:
     ]
     columns = (
         (words("Item", 1.1), lambda row: row[0]),
-        (words("Kind", 1.9), lambda row: row[1]),
+        (words("Kind", 2.4), lambda row: row[1]),
         (length("Height"), lambda row: "—" if row[2] is None else row[2]),
         (_in_plan("x from"), lambda row: _sides(row[3])[0]),
         (_in_plan("x to"), lambda row: _sides(row[3])[1]),
         (_in_plan("y from"), lambda row: _sides(row[3])[2]),
         (_in_plan("y to"), lambda row: _sides(row[3])[3]),
     )
-    middle = (len(rows) + 1) // 2
+    # Long names have no room in half the sheet: then all are in the first.
+    is_short = max((len(row[0]) for row in rows), default=0) <= LONG_NAME
+    middle = (len(rows) + 1) // 2 if is_short else len(rows)
     return [listed(half, columns, fmt, kind="compact") for half in (rows[:middle], rows[middle:])]
 
 

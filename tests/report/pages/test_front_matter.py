@@ -113,7 +113,7 @@ def test_what_is_said_of_several_arrays_counts_once_wherever_conditions_are_coun
 
 def test_every_document_is_listed_exactly_where_it_is_cited(html):
     body = html[html.index("<body>") :]
-    start = body.index('<h2 class="plain">References')
+    start = body.index('<p class="references">References')
     before, listed = plain(body[:start]), plain(body[start:])
     for name in ("PV1-2012", "ASCE 7-16", "IBC 1613.3", "AC156", "Housner", "Ishiyama", "G115-10"):
         assert name in before, name
