@@ -16,7 +16,7 @@ from openpyxl.utils import coordinate_to_tuple
 from report.assessment.assess import assess
 from report.assessment.checks.check import Check
 from report.assessment.project import Assessment
-from report.assessment.verdict import Verdict
+from report.assessment.verdict import PLAN_ROW, Verdict
 from report.motions.prepare import Shaking, prepare
 from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.read import Sheet, read_book
@@ -152,8 +152,8 @@ def improved(before: Assessment, after: Assessment, deletion: Deletion) -> Itera
 
 
 def _kind(row: Check) -> str:
-    # A width of a fire pathway, and whether there is one.
-    return row.id.removesuffix("s")
+    # A width of a fire pathway, and whether there is one; a clearance, and a gap without one.
+    return {"fire_pathways": "fire_pathway", "clearance": PLAN_ROW}.get(row.id, row.id)
 
 
 def _subject(row: Check) -> str:
