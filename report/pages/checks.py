@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from markupsafe import Markup
 
-from report.assessment.checks.check import Check, alike, by_ratio, texts
+from report.assessment.checks.check import Check, alike, by_ratio, found_and_limit, texts
 from report.assessment.project import Assessment
 from report.assessment.verdict import MOTIONS_ID, NO_DESIGN, Verdict, nan_is_worst
 from report.document.tables import Table, TableRow, Wide, headed, stamp
@@ -69,8 +69,7 @@ class FirstSheet:
 
 def first_sheet(done: Assessment) -> FirstSheet:
     """Return what is NG, the conditions, and the largest ratio of every other kind."""
-    open_ = open_checks(done)
-    failed = [check for check in open_ if check.verdict is Verdict.NG]
+    failed = [check for check in done.open if check.verdict is Verdict.NG]
     causes = [check for check in failed if not _follows(check)] or failed
     satisfied = (
         check
@@ -82,7 +81,7 @@ def first_sheet(done: Assessment) -> FirstSheet:
         failed=sorted(causes, key=lambda check: -nan_is_worst(check.ratio)),
         n_following=len(failed) - len(causes),
         largest=[group[0] for group in kinds.values()],
-        conditions=[check for check in open_ if check.verdict is not Verdict.NG],
+        conditions=[check for check in done.open if check.verdict is not Verdict.NG],
     )
 
 
@@ -135,7 +134,7 @@ def _follows(check: Check) -> bool:
 def verdict_sentence(done: Assessment, conditions: str = "below") -> str:
     """Return what the verdict on a project rests on, and where its conditions are listed."""
     failed = [check for check in done.checks if check.is_open and check.verdict is Verdict.NG]
-    n_open = sum(check.verdict is not Verdict.NG for check in open_checks(done))
+    n_open = sum(check.verdict is not Verdict.NG for check in done.open)
     total = len(done.checks)
     if failed:
         causes = [c for c in alike(failed) if not _follows(c)] or alike(failed)
@@ -154,11 +153,6 @@ def verdict_sentence(done: Assessment, conditions: str = "below") -> str:
     else:
         text = f"All {total} checks are satisfied."
     return text if done.clearances else f"{text} No clearance is entered, and none is checked."
-
-
-def open_checks(done: Assessment) -> Sequence[Check]:
-    """Return what is NG or a condition, those that ask the same as one."""
-    return alike(check for check in done.checks if check.is_open)
 
 
 def governing_table(sheet: FirstSheet, done: Assessment, numbers: Mapping[str, str]) -> Table:
@@ -202,8 +196,7 @@ def all_checks(done: Assessment) -> Table:
     others = (check for check in done.checks if check.id not in APART)
     rows = []
     for check in alike(others):
-        found, limit = texts(check, us_first)
-        found += f" ({check.note})" if check.note else ""
+        found, limit = found_and_limit(check, us_first)
         cells = check.subject or "project", check.title, found, limit, _ratio(check), check.clause
         rows.append(_row(*cells, check.verdict))
         if check.is_open and check.to_close:

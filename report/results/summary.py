@@ -11,9 +11,10 @@ from operator import itemgetter
 
 from xlsxwriter.worksheet import Worksheet
 
-from report.assessment.checks.check import Check, alike, by_ratio, texts
+from report.assessment.checks.check import Check, found_and_limit
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict, worst
+from report.pages.checks import first_sheet
 from report.provenance.files import fingerprint
 from report.results.clearances import GapRow
 from report.results.design import DesignRow, any_of
@@ -152,22 +153,21 @@ def _gap(rows: Sequence[GapRow]) -> Sequence[_Value]:
 
 def _governing(assessment: Assessment) -> Iterator[Sequence[_Value]]:
     """Yield the satisfied check with the largest ratio of each kind but clearances."""
-    first: dict[str, Check] = {}
-    for check in by_ratio(assessment.checks):
-        first.setdefault(check.id, check)
-    for id_, check in first.items():
-        if id_ != "clearance" and not check.is_open:
+    for check in first_sheet(assessment).largest:
+        if check.id != "clearance":
             largest = float(ratio(check.ratio))
             yield (*_said(assessment, check), largest, check.clause, check.verdict.value)
 
 
 def _open(assessment: Assessment) -> Iterator[Sequence[_Value]]:
     """Yield what is not satisfied, with who must act and what they must do."""
-    for check in alike(check for check in by_ratio(assessment.checks) if check.is_open):
+    for check in assessment.open:
         yield (*_said(assessment, check), check.actor, check.to_close, check.verdict.value)
 
 
 def _said(assessment: Assessment, check: Check) -> tuple[str, str, str, str]:
-    found, limit = texts(check, assessment.project.us_first)
-    found += f" ({check.note})" if check.note else ""
-    return check.title, check.subject or "project", found, limit
+    return (
+        check.title,
+        check.subject or "project",
+        *found_and_limit(check, assessment.project.us_first),
+    )

@@ -11,7 +11,6 @@ from report.assessment.evidence import support
 from report.assessment.verdict import Verdict
 from report.libraries import load_renderer
 from report.package.html import first
-from report.pages.checks import open_checks
 from report.pages.registry import package_data
 from report.typeset.pdf import _parsed
 
@@ -28,7 +27,7 @@ def test_the_first_sheet_is_one_page_with_all_that_is_ng(name):
     pages = _parsed(ElementTree.fromstring(html)).render().pages
     assert len(pages) == 1
     words = " ".join(re.sub(r"<[^>]+>", " ", html).split())
-    opened = open_checks(done)
+    opened = done.open
     failed = [check for check in opened if check.verdict is Verdict.NG]
     assert words.count("NG") >= bool(failed)
     left = re.search(r"(\d+) more conditions?:", words)
