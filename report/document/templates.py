@@ -45,7 +45,6 @@ OF_PACKAGE = (
     "both",
     "both_up",
     "clause",
-    "found_of",
     "friction_basis",
     "limit_of",
     "mark",

@@ -33,7 +33,6 @@ from solver.rules.rulesets import ALLOWED
 
 BAR = "changed"
 """Style of what changed since a former revision: a bar in the margin."""
-OK, NG = "OK", "NG"
 # Up to as many rows, eleven pairs of components, a table of motions stays on one sheet.
 MOTION_ROWS = 22
 
@@ -43,7 +42,7 @@ def statistic(basis: Basis) -> str:
     return basis.value.replace(" x ", " × ")
 
 
-def verdict(ok: bool, words: tuple[str, str] = (OK, NG)) -> Markup:
+def verdict(ok: bool, words: tuple[str, str] = ("OK", "NG")) -> Markup:
     """Return OK, or NG highlighted."""
     good, bad = words
     return stamp(Verdict.OK, good) if ok else stamp(Verdict.NG, bad)
@@ -130,10 +129,6 @@ class PackageData(Marked):
         show = no_more if ALLOWED[key].is_maximum else no_less
         length = self.fmt.both(self.assessment.rules.length_m(key), show=show)
         return length + self.mark(key)
-
-    def found_of(self, check: Limit) -> str:
-        """Return what a limit finds, with the units of its measure."""
-        return limit_texts(check, self.fmt.us_first)[0]
 
     def limit_of(self, check: Limit) -> str:
         """Return the limit itself."""
