@@ -15,7 +15,7 @@ from report.assessment.checks.check import words
 from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.routes import NOT_PERMITTED
 from report.assessment.runs import PendingRuns
-from report.assessment.tested import is_complete, tested
+from report.assessment.tested import MOST_BEYOND, is_complete, tested
 from report.assessment.verdict import Verdict
 from report.sheet.checking.motion_checks import MU_TOLERANCE
 from report.sheet.schema import ProjectInput
@@ -25,9 +25,6 @@ from report.text.units import Quantity, Rounding, no_less, number, pair
 from solver.friction_tests import Series, governing
 from solver.model import Friction
 from solver.rules.provisions import RuleSet
-
-# Sliding velocity / largest velocity tested above which no test shows the friction: in no code.
-MOST_BEYOND = 10.0
 
 
 def coefficient(mu: float) -> str:

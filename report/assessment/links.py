@@ -112,10 +112,15 @@ class LinkedArray:
         return self.is_final and self.is_within and self.design.is_permitted
 
     @property
+    def most_m(self) -> float:
+        """Design displacement with the model tolerance [m], which the estimate may reach."""
+        design_m = self.design.design_m
+        return design_m + least_model.DEFAULT.bound_m(design_m)
+
+    @property
     def is_within(self) -> bool:
         """Whether the estimate exceeds the design by no more than the model tolerance."""
-        design = self.design.design_m
-        return self.estimated_m <= design + least_model.DEFAULT.bound_m(design)
+        return self.estimated_m <= self.most_m
 
     @property
     def is_final(self) -> bool:

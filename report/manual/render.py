@@ -39,7 +39,7 @@ from report.text.formats import (
 from report.typeset.pdf import TEMPLATES, lay_out
 from solver.verification import evidence, model_study
 from solver.verification.building import BY_HEIGHT
-from solver.verification.evidence import Check, Verification
+from solver.verification.evidence import Verification, Verified
 from solver.verification.features import statuses
 from solver.verification.workprecision import RUN, SINGLE, TIME
 
@@ -77,7 +77,7 @@ def summary(verification: Verification) -> Section:
     )
 
 
-def _used(rows: Sequence[Check]) -> str:
+def _used(rows: Sequence[Verified]) -> str:
     # A tolerance of 0 is met or not: there is no share of it.
     shares = [row.error / row.tolerance for row in rows if row.tolerance > 0.0]
     return f"{100.0 * max(shares):.2g} %" if shares else "—"
@@ -113,7 +113,7 @@ _CHECK_COLUMNS = (
 def checks(verification: Verification) -> Section:
     """Return every check, a table for each section."""
 
-    def source(row: Check) -> str:
+    def source(row: Verified) -> str:
         return f"{row.id}. Source: {lettered(row.source)}"
 
     return section(
@@ -126,7 +126,7 @@ def checks(verification: Verification) -> Section:
     )
 
 
-def _quantity(row: Check) -> str:
+def _quantity(row: Verified) -> str:
     return row.quantity if row.unit == "1" else f"{row.quantity} [{lettered(row.unit)}]"
 
 

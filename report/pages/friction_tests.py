@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import by_id
-from report.assessment.friction import MOST_BEYOND, mu_words, velocity_check
-from report.assessment.tested import tested
+from report.assessment.friction import mu_words, velocity_check
+from report.assessment.tested import MOST_BEYOND, tested
 from report.assessment.verdict import NOT_GIVEN, VELOCITY_ROW, Verdict
 from report.document.tables import Table, Wide, by_place, listed, stamp
 from report.entities.shown import Shown, centered, text, words

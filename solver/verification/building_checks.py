@@ -23,7 +23,7 @@ from solver.building.structure import (
 from solver.model import Floats
 from solver.records.record import Record
 from solver.verification.building import FloorRecords
-from solver.verification.evidence import ROUNDING, Check, RoofComparison
+from solver.verification.evidence import ROUNDING, RoofComparison, Verified
 
 STORIES, PERIOD_S, DAMPING, ALPHA0 = 24, 1.2, 0.04, 6.0
 """The model building."""
@@ -32,7 +32,7 @@ STORIES, PERIOD_S, DAMPING, ALPHA0 = 24, 1.2, 0.04, 6.0
 _BENDING = ((1.875104069, 0.734095514), (4.694091133, 1.018467319), (7.854757438, 0.999224497))
 
 
-def building_checks(made: FloorRecords, comparison: RoofComparison) -> Iterator[Check]:
+def building_checks(made: FloorRecords, comparison: RoofComparison) -> Iterator[Verified]:
     """Run the checks, including those of the model building's comparison."""
     yield from _steps()
     yield from _steady_waves()
@@ -105,7 +105,7 @@ def _exponential(matrix: Floats) -> Floats:
     return total
 
 
-def _steps() -> Iterator[Check]:
+def _steps() -> Iterator[Verified]:
     source = "Oscillator of period T: 1 - exp(-D t) (cos(W t) - D / W sin(W t)) at t = 1.37 s; "
     source += "D = zeta omega, W = damped frequency"
     for period_s, zeta in ((0.9, 0.03), (0.05, 0.2), (6.0, 0.005)):
@@ -115,10 +115,10 @@ def _steps() -> Iterator[Check]:
         expected = 1.0 - math.exp(-zeta * w * t) * wave
         peak = float(absolute_accelerations(np.ones(138), 0.01, [period_s], [zeta])[-1, 0])
         name = f"Unit step, T = {period_s:g} s, zeta = {zeta:g}"
-        yield Check("RM-1", source, "Acceleration", "m/s2", name, expected, peak)
+        yield Verified("RM-1", source, "Acceleration", "m/s2", name, expected, peak)
 
 
-def _steady_waves() -> Iterator[Check]:
+def _steady_waves() -> Iterator[Verified]:
     dt, period_s, zeta = 0.001, 0.5, 0.1
     source = "Transmissibility sqrt((1 + d) / ((1 - r^2)^2 + d)), d = (2 zeta r)^2; one story, "
     source += "damping ratio 0.1, step 0.001 s"
@@ -131,10 +131,10 @@ def _steady_waves() -> Iterator[Check]:
         expected = math.sqrt((1.0 + damped) / ((1.0 - ratio**2) ** 2 + damped))
         amplitude = float(np.abs(roof[-round(1.0 / dt) :]).max())
         name = f"Harmonic, frequency ratio r = {ratio:g}"
-        yield Check("RM-2", source, "Roof / ground", "1", name, expected, amplitude, 1e-4)
+        yield Verified("RM-2", source, "Roof / ground", "1", name, expected, amplitude, 1e-4)
 
 
-def _limits() -> Iterator[Check]:
+def _limits() -> Iterator[Verified]:
     table = "Blevins (1979), Table 8-1: ratios of squared gamma, and 4 sigma / gamma"
     closed = "Shear beam: 2 n - 1, and 4 / ((2 n - 1) pi) with alternating sign"
     bending, shear = beam_modes(0.0, 3), beam_modes(math.inf, 3)
@@ -147,7 +147,7 @@ def _limits() -> Iterator[Check]:
         yield from _mode("RM-4", closed, "Cantilever in shear", shear, n, odd, factor, ROUNDING)
 
 
-def _coupled() -> Iterator[Check]:
+def _coupled() -> Iterator[Verified]:
     source = "64 cubic finite elements with consistent mass"
     for alpha0 in (2.0, 12.0):
         name, modes = f"Cantilever, stiffness ratio {alpha0:g}", beam_modes(alpha0, 3)
@@ -165,14 +165,14 @@ def _mode(
     ratio: float,
     factor: float,
     tolerance: float,
-) -> Iterator[Check]:
+) -> Iterator[Verified]:
     """Yield the rows of a mode: period ratio, 1 by definition for the first, and factor."""
     name = f"{problem}, mode {n}"
     if n > 1:
         computed = float(1.0 / modes.period_ratios[n - 1])
-        yield Check(id, source, "Period ratio T1 / Tn", "1", name, ratio, computed, tolerance)
+        yield Verified(id, source, "Period ratio T1 / Tn", "1", name, ratio, computed, tolerance)
     computed = float(modes.factors[n - 1, 0])
-    yield Check(id, source, "Roof factor", "1", name, factor, computed, tolerance)
+    yield Verified(id, source, "Roof factor", "1", name, factor, computed, tolerance)
 
 
 def _finite_elements(alpha0: float, count: int = 64) -> tuple[list[float], list[float]]:
@@ -201,7 +201,7 @@ def _finite_elements(alpha0: float, count: int = 64) -> tuple[list[float], list[
     return np.sqrt(squares / squares[0]).tolist(), (rigid @ shapes * shapes[-2]).tolist()
 
 
-def _sums() -> Iterator[Check]:
+def _sums() -> Iterator[Verified]:
     source = "1, the limit of a rigid building; mean of the sums of 399 and 400 modes"
     for alpha0, kind in (
         (0.0, " in bending"),
@@ -210,10 +210,10 @@ def _sums() -> Iterator[Check]:
     ):
         sums = np.cumsum(beam_modes(alpha0, 400).factors[:, 0])
         total, name = float(0.5 * (sums[-1] + sums[-2])), f"Cantilever{kind}, all modes"
-        yield Check("RM-6", source, "Sum of roof factors", "1", name, 1.0, total, 1e-4)
+        yield Verified("RM-6", source, "Sum of roof factors", "1", name, 1.0, total, 1e-4)
 
 
-def _stories() -> Iterator[Check]:
+def _stories() -> Iterator[Verified]:
     source = "Mode shape sin((2 n - 1) pi k / (2 N + 1)) at floor k"
     for stories in (1, 2, 5):
         angle = math.pi / (2.0 * stories + 1.0)
@@ -221,20 +221,20 @@ def _stories() -> Iterator[Check]:
         expected = float(shape.sum() * shape[-1] / (shape**2).sum())
         factor = float(story_modes(math.inf, stories).factors[0, 0])
         name = f"Shear building, stories: {stories}, first mode"
-        yield Check("RM-7", source, "Roof factor", "1", name, expected, factor, 1e-9)
+        yield Verified("RM-7", source, "Roof factor", "1", name, expected, factor, 1e-9)
 
 
-def _whole_building(made: FloorRecords) -> Check:
+def _whole_building(made: FloorRecords) -> Verified:
     building = building_of_periods([PERIOD_S], damping=[DAMPING], alpha0=ALPHA0, stories=STORIES)
     roof = roof_motion(made.ground_mps2, made.dt_s, building, share=0.0)
     stepped = made.floors_mps2[:, -1]
     off = float(np.abs(roof[: stepped.size] - stepped).max() / np.abs(stepped).max())
     name = "Model building, all modes"
     source = "Direct integration of all floors by one matrix exponential"
-    return Check("RM-8", source, "Largest difference / peak", "1", name, 0.0, off, 1e-7)
+    return Verified("RM-8", source, "Largest difference / peak", "1", name, 0.0, off, 1e-7)
 
 
-def _identified(comparison: RoofComparison) -> Iterator[Check]:
+def _identified(comparison: RoofComparison) -> Iterator[Verified]:
     best, name = comparison.predictions[0], "Model building, fitted"
     source = "Properties of the model building, as a beam half a story taller; fitted to two floors"
     ratio = ALPHA0 * (1.0 + 0.5 / STORIES)
@@ -244,4 +244,4 @@ def _identified(comparison: RoofComparison) -> Iterator[Check]:
         ("Lateral stiffness ratio", "1", ratio, best.alpha0, 0.025),
         ("Unexplained fraction", "1", 0.0, best.unexplained, 0.01),
     ):
-        yield Check("RM-9", source, quantity, unit, name, expected, computed, tolerance)
+        yield Verified("RM-9", source, quantity, unit, name, expected, computed, tolerance)

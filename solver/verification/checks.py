@@ -19,7 +19,7 @@ from solver.records.record import Record
 from solver.rivals.methods import METHODS
 from solver.sliding.checked import slide, slide_history
 from solver.verification import reference, study
-from solver.verification.evidence import ROUNDING, Check, percent_of
+from solver.verification.evidence import ROUNDING, Verified, percent_of
 from solver.verification.reference import Reference
 from solver.verification.study import Case, run, runnable_methods, scale_to
 
@@ -39,14 +39,14 @@ def slip_checks(
     expected: SlideResult | Reference,
     result: SlideResult,
     tolerance: float = ROUNDING,
-) -> Iterator[Check]:
+) -> Iterator[Verified]:
     """Yield the rows of PRD and residual."""
     # A residual may nearly cancel after meters of travel, so both errors are relative to the PRD.
     for quantity, known, value in (
         ("PRD", expected.prd_m, result.prd_m),
         ("Residual (error relative to the PRD)", expected.residual_m, result.residual_m),
     ):
-        yield Check(id, source, quantity, "m", problem, known, value, tolerance, expected.prd_m)
+        yield Verified(id, source, quantity, "m", problem, known, value, tolerance, expected.prd_m)
 
 
 def trapezoid(peak: float, plateau: int, rest: int) -> Floats:
@@ -54,8 +54,8 @@ def trapezoid(peak: float, plateau: int, rest: int) -> Floats:
     return np.concatenate([[0.0], np.full(plateau + 1, peak), np.zeros(rest + 1)])
 
 
-def closed_forms() -> Iterator[Check]:
-    """Check against `solver.verification.reference`, all with g = 9.81 m/s2."""
+def closed_forms() -> Iterator[Verified]:
+    """Verified against `solver.verification.reference`, all with g = 9.81 m/s2."""
     yield from _pulses_on_a_flat_roof()
     yield from _pulses_on_a_slope()
     yield from _half_sines()
@@ -65,7 +65,7 @@ def closed_forms() -> Iterator[Check]:
     yield _self_locking()
 
 
-def _pulses_on_a_flat_roof() -> Iterator[Check]:
+def _pulses_on_a_flat_roof() -> Iterator[Verified]:
     # Newmark's pulse has no ramps; here each is so short that its effect is the tolerance.
     dt, ramps = 0.01, 3000
     newmark = f"Newmark, Geotechnique 15 (1965); each ramp is 1/{ramps} of the pulse"
@@ -75,19 +75,19 @@ def _pulses_on_a_flat_roof() -> Iterator[Check]:
         expected = reference.pulse_travel(a * G, mu * G, plateau * dt, dt)
         result = slide(trapezoid(-a * G, plateau, 400), dt, slope_rad=0.0, mu=mu, g_mps2=G)
         pulse = f"Trapezoidal pulse {name}"
-        yield Check("CF-1", PIECEWISE, "PRD", "m", pulse, expected, result.prd_m)
+        yield Verified("CF-1", PIECEWISE, "PRD", "m", pulse, expected, result.prd_m)
         expected = (a * G * lasts) ** 2 / (2.0 * G * mu) * (1.0 - mu / a)
         ax = trapezoid(-a * G, ramps - 1, 10 * ramps)
         result = slide(ax, lasts / ramps, slope_rad=0.0, mu=mu, g_mps2=G)
         # A ramp shortens the slip by mu / A of its length; the factor 1.5 is a margin on that.
         tolerance = 1.5 * mu / a / ramps
         pulse = f"Rectangular pulse {name}"
-        yield Check("CF-2", newmark, "PRD", "m", pulse, expected, result.prd_m, tolerance)
+        yield Verified("CF-2", newmark, "PRD", "m", pulse, expected, result.prd_m, tolerance)
 
 
-def _pulses_on_a_slope() -> Iterator[Check]:
+def _pulses_on_a_slope() -> Iterator[Verified]:
     dt = 0.01
-    row = partial(Check, "CF-3", PIECEWISE, *_DOWNSLOPE)
+    row = partial(Verified, "CF-3", PIECEWISE, *_DOWNSLOPE)
     for degrees, mu, a, lasts in ((5, 0.4, 0.6, 0.3), (10, 0.5, 0.8, 0.15)):
         slope, plateau = math.radians(degrees), round(lasts / dt)
         for b in (0.0, -0.3, 0.3):
@@ -99,7 +99,7 @@ def _pulses_on_a_slope() -> Iterator[Check]:
             yield row(f"{name}mu = {mu:g}, slope {degrees} deg", expected, result.down_m)
 
 
-def _half_sines() -> Iterator[Check]:
+def _half_sines() -> Iterator[Verified]:
     chords = "Closed-form integration of the sine; record sampled at 400 points"
     second = "Errors with 200 and 400 samples: linear interpolation is second order"
     for a, mu, freq in ((0.5, 0.2, 1.0), (0.8, 0.4, 2.0), (1.0, 0.1, 1.0)):
@@ -113,17 +113,17 @@ def _half_sines() -> Iterator[Check]:
             travels_m.append(slide(ax, dt, slope_rad=0.0, mu=mu, g_mps2=G).prd_m)
         # Straight chords of a sine lose the share (step in radians)^2 / 12 of its area.
         tolerance = 2.0 * a / mu * (math.pi / 400) ** 2 / 12.0
-        yield Check("CF-4", chords, "PRD", "m", name, expected, travels_m[-1], tolerance)
+        yield Verified("CF-4", chords, "PRD", "m", name, expected, travels_m[-1], tolerance)
         order = math.log2(abs(travels_m[1] - expected) / abs(travels_m[2] - expected))
-        yield Check("CF-5", second, "Order of convergence", "1", name, 2.0, order, 0.025)
+        yield Verified("CF-5", second, "Order of convergence", "1", name, 2.0, order, 0.025)
 
 
-def _harmonic() -> Check:
+def _harmonic() -> Verified:
     dt = 1.0 / 2000
     ax = 0.5 * G * np.sin(2.0 * np.pi * np.arange(80 * 2000 + 1) * dt)
     history = slide_history(ax, dt, slope_rad=0.0, mu=0.2, g_mps2=G)
     stops = [event.u_m for event in history.events if event.kind is EventKind.STOP]
-    return Check(
+    return Verified(
         "CF-6",
         "(2 A / omega^2) sqrt(1 - (pi eta / 2)^2), eta = mu g / A; sampled at 0.0005 s",
         "Travel per half cycle",
@@ -135,19 +135,19 @@ def _harmonic() -> Check:
     )
 
 
-def _free_slide(id: str, degrees: float, mu: float, time_s: float) -> Check:
+def _free_slide(id: str, degrees: float, mu: float, time_s: float) -> Verified:
     slope = math.radians(degrees)
     steps = round(time_s / 0.01)
     result = slide(np.zeros(steps + 1), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
     expected = reference.free_slide_travel(slope, mu, time_s, G) * math.cos(slope)
     name = f"No shaking, slope {degrees:g} deg, mu = {mu:g}: slides from rest for {time_s:g} s"
     source = "0.5 (g sin(theta) - mu g cos(theta)) t^2, the paper's physical check 2"
-    return Check(id, source, *_DOWNSLOPE, name, expected, result.down_m)
+    return Verified(id, source, *_DOWNSLOPE, name, expected, result.down_m)
 
 
-def _yield_accelerations() -> Iterator[Check]:
+def _yield_accelerations() -> Iterator[Verified]:
     source = "-g tan(phi - theta) and g tan(phi + theta), phi = atan(mu); computed by bisection"
-    row = partial(Check, "CF-8", source, "Yield acceleration", "m/s2", tolerance=1e-9)
+    row = partial(Verified, "CF-8", source, "Yield acceleration", "m/s2", tolerance=1e-9)
     for degrees, mu in ((0.0, 0.4), (4.0, 0.4), (-7.0, 0.2), (30.0, 1.0)):
         slope = math.radians(degrees)
         limits = reference.yield_accelerations(slope, mu, G)
@@ -168,18 +168,18 @@ def _limit_by_bisection(slope: float, mu: float, limit: float) -> float:
     return 0.5 * (least + most)
 
 
-def _self_locking() -> Check:
+def _self_locking() -> Verified:
     ax = np.array([0.0, 50.0, 50.0, 50.0, 0.0])
     prd_m = slide(ax, 0.1, slope_rad=math.radians(60), mu=3.0, g_mps2=G).prd_m
     name = "Self-locking: slope 60 deg, mu = 3, horizontal acceleration 50 m/s2"
     source = "mu sin(theta) >= cos(theta): no horizontal acceleration causes slip"
-    return Check("CF-9", source, "PRD", "m", name, 0.0, prd_m, 0.0)
+    return Verified("CF-9", source, "PRD", "m", name, 0.0, prd_m, 0.0)
 
 
-def physical_checks(record: Record) -> Iterator[Check]:
+def physical_checks(record: Record) -> Iterator[Verified]:
     """Run the four physical checks of the paper."""
     slope, dt = math.radians(30), 0.01
-    row = partial(Check, "PH-1", "Paper, Physical Checks (1): slope 30 deg, mu = 1", "PRD", "m")
+    row = partial(Verified, "PH-1", "Paper, Physical Checks (1): slope 30 deg, mu = 1", "PRD", "m")
     still = slide(np.zeros(500), dt, slope_rad=slope, mu=1.0, g_mps2=G)
     yield row("No shaking: no slip", 0.0, still.prd_m, 0.0)
     drive, resist = reference.slope_pulse(slope, 1.0, 0.6, 0.0, G)
@@ -188,7 +188,7 @@ def physical_checks(record: Record) -> Iterator[Check]:
     yield row("A pulse of 0.6 g for 0.3 s causes slip", expected, loose.prd_m)
     yield _free_slide("PH-2", 7.0, 0.1, 5.0)
     down, up = (run(record, Case(slope_deg, 0.4, 1.5)) for slope_deg in (4.0, -4.0))
-    yield Check(
+    yield Verified(
         "PH-3",
         "Paper, Physical Checks (3): the deflections differ",
         "PRDs differ by more than 1 % (1 = yes)",
@@ -201,7 +201,7 @@ def physical_checks(record: Record) -> Iterator[Check]:
     yield from _critical_friction()
 
 
-def _critical_friction() -> Iterator[Check]:
+def _critical_friction() -> Iterator[Verified]:
     slope, time_s = math.radians(0.5), 5.0
     source = "Paper, Physical Checks (4): slides at 0.999 tan(theta), no slip at 1.000 tan(theta)"
     less, just = 0.999 * math.tan(slope), math.tan(slope)
@@ -213,7 +213,7 @@ def _critical_friction() -> Iterator[Check]:
     ):
         result = slide(np.zeros(501), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
         name = f"No shaking, slope 0.5 deg, mu = {factor:.3f} tan(theta), 5 s"
-        yield Check("PH-4", source, "PRD", "m", name, expected, result.prd_m, tolerance)
+        yield Verified("PH-4", source, "PRD", "m", name, expected, result.prd_m, tolerance)
 
 
 CASES = (*study.CASES[:4], Case(-7.0, 0.05, 1.0), Case(0.0, 0.0, 0.2))
@@ -259,7 +259,7 @@ def random_blocks() -> Iterator[KnownBlock]:
         yield _block(f"Random record {k}", ax, az if k % 2 else None, dt_s=0.02, **place)
 
 
-def fifty_digits(blocks: Iterable[KnownBlock]) -> Iterator[Check]:
+def fifty_digits(blocks: Iterable[KnownBlock]) -> Iterator[Verified]:
     """Compare PRD and residual of the exact method with `reference`."""
     source = "Decimal arithmetic, Eqs. 12-18 of the paper; shares no code with the solver"
     for block in blocks:
@@ -287,10 +287,10 @@ def rival_errors(kinds: Mapping[str, Sequence[KnownBlock]]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def claims(errors: pd.DataFrame) -> Iterator[Check]:
+def claims(errors: pd.DataFrame) -> Iterator[Verified]:
     """Check that methods which are said never to be invalid have no error but rounding."""
     source = "Decimal arithmetic, as DA-1: what section 4 says, never invalid, and as accurate"
-    row = partial(Check, "ME-2", source, "Largest error of PRD and residual", "1")
+    row = partial(Verified, "ME-2", source, "Largest error of PRD and residual", "1")
     runnable = runnable_methods()
     for method in METHODS.values():
         for kind in (RANDOM, ROOF) if method.invalid_when.startswith("Never") else ():

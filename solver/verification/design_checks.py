@@ -26,7 +26,7 @@ from solver.rules.provisions import (
 )
 from solver.sliding.checked import scene
 from solver.sliding.uplift import Supports, tipping, uplift
-from solver.verification.evidence import Check
+from solver.verification.evidence import Verified
 
 _INCH, _FOOT = 0.0254, 0.3048
 _PUBLISHED = "Published permit calculation, S_DS = 1.0 g, I_e = 1.25, SEAOC PV1-2012"
@@ -37,7 +37,7 @@ _PRINTED = 4.5e-4
 _FILTER_HZ, _FILTER_ORDER = 1.0, 4
 
 
-def design_checks() -> Iterator[Check]:
+def design_checks() -> Iterator[Verified]:
     """Run the checks."""
     yield from _prescriptive()
     yield from _published()
@@ -49,9 +49,9 @@ def design_checks() -> Iterator[Check]:
     yield from _filters()
 
 
-def _prescriptive() -> Iterator[Check]:
+def _prescriptive() -> Iterator[Verified]:
     source = "60 in (S_DS - 0.4)^2 >= 6 in; 5 I_e (S_DS - 0.4)^2 ft >= 24 in"
-    row = partial(Check, "DV-1", source, "Prescriptive displacement", "in")
+    row = partial(Verified, "DV-1", source, "Prescriptive displacement", "in")
     for code, s_ds_g, importance, inches in (
         ("SEAOC PV1-2012", 1.0, 1.25, 60.0 * 0.6**2),
         ("SEAOC PV1-2012", 0.6, 1.0, 6.0),
@@ -68,8 +68,8 @@ def _displacement_m(code: str, s_ds_g: float, importance: float) -> float:
     return prescriptive_displacement(rules, s_ds_g=s_ds_g, sdc="D", importance=importance).value_m
 
 
-def _published() -> Iterator[Check]:
-    rules, row = RULE_SETS["SEAOC PV1-2012"], partial(Check, "DV-2", _PUBLISHED)
+def _published() -> Iterator[Verified]:
+    rules, row = RULE_SETS["SEAOC PV1-2012"], partial(Verified, "DV-2", _PUBLISHED)
     delta_m = _displacement_m("SEAOC PV1-2012", 1.0, 1.25)
     for kind, importance, inches in (
         (Neighbor.LIKE, 1.0, 10.8),
@@ -86,7 +86,7 @@ def _published() -> Iterator[Check]:
         yield row("Strength", "lb", name, strength_lb, found_lb, _PRINTED)
 
 
-def _permit_sheet() -> Iterator[Check]:
+def _permit_sheet() -> Iterator[Verified]:
     rules, by_hand = RULE_SETS["ASCE 7-16"], "By hand: larger of 0.133 S_DS W1 and 0.1 W1"
     delta_m = _displacement_m("ASCE 7-16", 2.0 / 3.0 * 1.2 * 1.313, 1.0)
     for kind, feet in (
@@ -97,34 +97,37 @@ def _permit_sheet() -> Iterator[Check]:
     ):
         found_m = required_separation(rules, kind, design_m=delta_m, importance=1.0)
         name, found_ft = f"Separation from a neighbor, ASCE 7-16: {kind}", found_m / _FOOT
-        yield Check("DV-8", _SHEET, "Separation", "ft", name, feet, found_ft, 0.005 / feet)
+        yield Verified("DV-8", _SHEET, "Separation", "ft", name, feet, found_ft, 0.005 / feet)
     for s_ds_g, factor in ((1.5, 0.133 * 1.5), (0.5, 0.1)):
         found_lb = interconnection_strength_n(rules, s_ds_g=s_ds_g, w1_n=1000.0)
         name = f"Interconnection, 1000 lb on the lighter side, S_DS = {s_ds_g:g} g"
-        yield Check("DV-8", by_hand, "Strength", "lb", name, 1000.0 * factor, found_lb)
+        yield Verified("DV-8", by_hand, "Strength", "lb", name, 1000.0 * factor, found_lb)
 
 
-def _statistics() -> Iterator[Check]:
+def _statistics() -> Iterator[Verified]:
     for peaks_m, words, expected_m in (
         ((1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0), "7 motions: 1.1 x mean", 1.1 * 4.0),
         ((1.0, 2.0, 3.0), "3 motions: 1.1 x largest", 1.1 * 3.0),
     ):
         found_m = analysis_value(RULE_SETS["ASCE 7-16"], peaks_m).value_m
         name = f"Peaks of 1 m to {len(peaks_m)} m, {words}"
-        yield Check("DV-3", "By hand", "Value from analysis", "m", name, expected_m, found_m)
+        yield Verified("DV-3", "By hand", "Value from analysis", "m", name, expected_m, found_m)
 
 
-def _uplift() -> Check:
+def _uplift() -> Verified:
     az = np.array([0.0, -2.0, 0.0]) * STANDARD_GRAVITY_MPS2
     rising = scene(np.zeros(3), 1.0, slope_rad=math.radians(5.0), mu=0.4, az_mps2=az)
     name = "Vertical acceleration falls to -2 g within 1 s, slope 5 deg"
     source = "N = (g + a_v) cos(theta): zero after 0.5 s"
-    return Check("DV-4", source, "Time of uplift", "s", name, 0.5, uplift(rising).t_first_s)
+    return Verified("DV-4", source, "Time of uplift", "s", name, 0.5, uplift(rising).t_first_s)
 
 
-def _tipping() -> Iterator[Check]:
+def _tipping() -> Iterator[Verified]:
     row = partial(
-        Check, "DV-5", "min(a_h / g, mu) / (b / (2 h))", "Ratio of shear to tipping shear"
+        Verified,
+        "DV-5",
+        "min(a_h / g, mu) / (b / (2 h))",
+        "Ratio of shear to tipping shear",
     )
     # Tall and rough enough to tip before it slides; then the same with less friction.
     supports = Supports(height_m=1.0, spacing_m=1.5)
@@ -135,17 +138,17 @@ def _tipping() -> Iterator[Check]:
         yield row("1", name, shear / 0.75, ratio)
 
 
-def _spectrum() -> Iterator[Check]:
+def _spectrum() -> Iterator[Verified]:
     zeta, dt = 0.05, 0.001
     source = "1 + exp(-zeta pi / sqrt(1 - zeta^2)); sampled at 0.001 s"
     expected = 1.0 + math.exp(-zeta * math.pi / math.sqrt(1.0 - zeta**2))
     for period_s in (0.1, 1.0):
         spectrum = response_spectrum(np.ones(round(3.0 * period_s / dt)), dt, [period_s])
         name = f"Unit step, T = {period_s:g} s, zeta = {zeta:g}"
-        yield Check("DV-6", source, "S_a / a", "1", name, expected, float(spectrum[0]), 1e-5)
+        yield Verified("DV-6", source, "S_a / a", "1", name, expected, float(spectrum[0]), 1e-5)
 
 
-def _filters() -> Iterator[Check]:
+def _filters() -> Iterator[Verified]:
     source = "1 / sqrt(1 + (f / fc)^(2 n)), or with fc / f; middle of a sine of 200 s"
     dt, t = 0.005, np.arange(40001) * 0.005
     for kind, settings, sign in (
@@ -159,4 +162,4 @@ def _filters() -> Iterator[Check]:
             amplitude = float(np.abs(made[made.size // 2 - 4000 : made.size // 2 + 4000]).max())
             expected = 1.0 / math.sqrt(1.0 + ratio ** (sign * 2 * _FILTER_ORDER))
             name = f"{kind} of order {_FILTER_ORDER}, sine at {ratio:g} times the corner"
-            yield Check("DV-7", source, "Amplitude", "1", name, expected, amplitude, 1e-9)
+            yield Verified("DV-7", source, "Amplitude", "1", name, expected, amplitude, 1e-9)

@@ -117,7 +117,7 @@ def percent_off(computed_m: Floats | float, exact_m: Floats | float) -> Floats:
 
 
 @dataclass(frozen=True, slots=True)
-class Check:
+class Verified:
     """One expected value and the computed value."""
 
     # of the group of checks to which it belongs, such as ``CF-1``; the manual prints it, and
@@ -271,8 +271,8 @@ class RoofComparison:
 class Verification:
     """The complete result of `verify`."""
 
-    checks: tuple[Check, ...]
-    left_out: tuple[Check, ...]  # not run, as SciPy is not installed
+    checks: tuple[Verified, ...]
+    left_out: tuple[Verified, ...]  # not run, as SciPy is not installed
     rivals: pd.DataFrame  # see `solver.verification.checks.rival_errors`
     work: pd.DataFrame  # see `solver.verification.workprecision.work_points`
     maps: tuple[StabilityMap, ...]

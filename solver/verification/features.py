@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from solver.verification.evidence import Check
+from solver.verification.evidence import Verified
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,12 +102,12 @@ class FeatureStatus:
         return bool(self.ids) and not self.missing and self.n_passed == self.n_checks
 
 
-def statuses(checks: Sequence[Check]) -> tuple[FeatureStatus, ...]:
+def statuses(checks: Sequence[Verified]) -> tuple[FeatureStatus, ...]:
     """Return the status of every feature, of the checks that ran."""
     return tuple(_status(feature, checks) for feature in FEATURES)
 
 
-def _status(feature: Feature, checks: Sequence[Check]) -> FeatureStatus:
+def _status(feature: Feature, checks: Sequence[Verified]) -> FeatureStatus:
     ran = {row.id for row in checks}
     wanted = (*feature.checks, *(id for id in feature.extra if id in ran))
     rows = [row for row in checks if row.id in wanted]

@@ -21,7 +21,7 @@ from solver.sliding import least_model, one_axis, two_axes
 from solver.sliding.least_model import Model, Settings
 from solver.sliding.row import BlockRow, slide_row
 from solver.verification.checks import slip_checks
-from solver.verification.evidence import Check
+from solver.verification.evidence import Verified
 from solver.verification.random_pairs import KINDS, UNBOUNDED, pair
 from solver.verification.study import (
     MODEL_CASES,
@@ -48,7 +48,7 @@ PAIRS = (40, 1000)
 """Random pairs of each kind, quick and full."""
 
 
-def model_checks(triples: Sequence[Motion], *, quick: bool) -> Iterator[Check]:
+def model_checks(triples: Sequence[Motion], *, quick: bool) -> Iterator[Verified]:
     """Run the checks; the first motion, a generated one, is used where one motion is enough.
 
     Motions whose vertical component lifts the block in one of `MODEL_CASES` are excluded.
@@ -77,7 +77,7 @@ def stays(triple: Motion) -> bool:
     return all(run.status is not Status.UPLIFT for run in runs)
 
 
-def _one_axis(triple: Motion) -> Iterator[Check]:
+def _one_axis(triple: Motion) -> Iterator[Verified]:
     source = "Exact method, one axis with vertical"
     for case in MODEL_CASES:
         scene = scene_of(triple, case, coulomb(case.mu), second=False)
@@ -86,8 +86,8 @@ def _one_axis(triple: Motion) -> Iterator[Check]:
         yield from slip_checks("TA-1", source, name, exact, plane, AGREES)
 
 
-def _turned(triple: Motion) -> Iterator[Check]:
-    row = partial(Check, "TA-2", "Flat roof: the displacement rotates with the motion")
+def _turned(triple: Motion) -> Iterator[Verified]:
+    row = partial(Verified, "TA-2", "Flat roof: the displacement rotates with the motion")
     case = MODEL_CASES[0]
     flat = scene_of(triple, case, coulomb(case.mu))
     plain = two_axes.run(flat, TIGHT)
@@ -100,13 +100,13 @@ def _turned(triple: Motion) -> Iterator[Check]:
         yield row("Residual, rotated back: difference / PRD", "1", name, 0.0, off, AGREES)
 
 
-def _in_proportion(triple: Motion) -> Check:
+def _in_proportion(triple: Motion) -> Verified:
     case = MODEL_CASES[0]
     scene = scene_of(triple, case, coulomb(case.mu), second=False)
     exact, line = one_axis.run(scene), two_axes.run(_turned_by(scene, 53.0), TIGHT)
     name = f"One component rotated by 53 degrees: {triple.id}, {case}"
     source = "Proportional components cause slip along one line: exact method, one axis"
-    return Check("TA-3", source, "PRD", "m", name, exact.prd_m, line.prd_m, AGREES)
+    return Verified("TA-3", source, "PRD", "m", name, exact.prd_m, line.prd_m, AGREES)
 
 
 def _turned_by(scene: Scene, degrees: float) -> Scene:
@@ -120,7 +120,7 @@ def _turn(pair: Floats, degrees: float) -> Floats:
     return np.array([[cs, -sn], [sn, cs]]) @ pair
 
 
-def _circle() -> Iterator[Check]:
+def _circle() -> Iterator[Verified]:
     # In the rotating frame v is constant: A^2 = (mu g)^2 + (w v)^2.
     a, omega, mu, count, turns = 6.0, 2.0 * math.pi, 0.3, 2000, 12
     dt = 1.0 / count
@@ -140,8 +140,8 @@ def _circle() -> Iterator[Check]:
         "Steady state: speed sqrt(A^2 - (mu g)^2) / ω, radius speed / ω; 2000 samples per cycle"
     )
     final = math.hypot(float(history.v_mps[-1]), float(history.across_mps[-1]))
-    yield Check("TA-4", source, "Speed", "m/s", name, speed, final, AGREES)
-    yield Check("TA-4", source, "Diameter", "m", name, 2.0 * speed / omega, across, AGREES)
+    yield Verified("TA-4", source, "Speed", "m/s", name, speed, final, AGREES)
+    yield Verified("TA-4", source, "Diameter", "m", name, 2.0 * speed / omega, across, AGREES)
 
 
 def stopped_scene() -> Scene:
@@ -151,7 +151,7 @@ def stopped_scene() -> Scene:
     return flat_scene(ax, ay, 0.01, coulomb(0.4))
 
 
-def _stop() -> Iterator[Check]:
+def _stop() -> Iterator[Verified]:
     scene = stopped_scene()
     history = two_axes.run_history(scene, TIGHT)
     at, push, c = 6, 2.0, 0.4 * STANDARD_GRAVITY_MPS2
@@ -174,10 +174,10 @@ def _stop() -> Iterator[Check]:
         ("Transverse displacement", "m", ahead, across_m),
         ("Longitudinal displacement", "m", -aside, along_m),
     ):
-        yield Check("TA-5", source, quantity, unit, name, known, computed, AGREES)
+        yield Verified("TA-5", source, quantity, unit, name, known, computed, AGREES)
 
 
-def _friction_by_speed(triple: Motion) -> Iterator[Check]:
+def _friction_by_speed(triple: Motion) -> Iterator[Verified]:
     source = "Converges to two axes with one coefficient: within 50 times the difference"
     case = MODEL_CASES[1]
     plain = two_axes.run(scene_of(triple, case, coulomb(case.mu)), TIGHT)
@@ -186,10 +186,10 @@ def _friction_by_speed(triple: Motion) -> Iterator[Check]:
         law = Friction(mu_slow=slow, mu_fast=case.mu, rate_s_per_m=30.0, mu_static=slow)
         run = two_axes.run(scene_of(triple, case, law), TIGHT)
         name = f"Low-velocity friction lower by {100.0 * drop:.4g} %: {triple.id}, {case}"
-        yield Check("TA-6", source, "PRD", "m", name, plain.prd_m, run.prd_m, 50.0 * drop)
+        yield Verified("TA-6", source, "PRD", "m", name, plain.prd_m, run.prd_m, 50.0 * drop)
 
 
-def _static_friction(triple: Motion) -> Iterator[Check]:
+def _static_friction(triple: Motion) -> Iterator[Verified]:
     # A delay of the onset of slip changes the velocity by its square.
     case = MODEL_CASES[1]
     both = scene_of(triple, case, coulomb(case.mu))
@@ -205,13 +205,13 @@ def _static_friction(triple: Motion) -> Iterator[Check]:
             name = f"Static friction {100.0 * excess:g} % above kinetic, {axes}: {triple.id}, "
             found_m = two_axes.run(replace(scene, friction=law), TIGHT).prd_m
             tolerance = 50.0 * excess**2
-            yield Check(id, source, "PRD", "m", f"{name}{case}", kinetic_m, found_m, tolerance)
+            yield Verified(id, source, "PRD", "m", f"{name}{case}", kinetic_m, found_m, tolerance)
 
 
-def _one_block(triple: Motion) -> Iterator[Check]:
+def _one_block(triple: Motion) -> Iterator[Verified]:
     # Rows that move as one block: one block, and three identical ones with unloaded links.
     source = "Exact method, one axis with vertical: the links carry no force"
-    row = partial(Check, "TA-9", source, "PRD, largest of the blocks", "m")
+    row = partial(Verified, "TA-9", source, "PRD, largest of the blocks", "m")
     case = MODEL_CASES[1]
     scene = scene_of(triple, case, coulomb(case.mu), second=False)
     exact = one_axis.run(scene)
@@ -221,7 +221,7 @@ def _one_block(triple: Motion) -> Iterator[Check]:
         yield row(name, exact.prd_m, max(blocks.prd_m), AGREES)
 
 
-def _left_out(triple: Motion, *, quick: bool) -> Check:
+def _left_out(triple: Motion, *, quick: bool) -> Verified:
     # Counts scenes in which the neglected component matters more than the stated estimate.
     over = count = 0
     for share in (0.3, 0.1, 0.03, 0.01, 0.003):
@@ -236,12 +236,12 @@ def _left_out(triple: Motion, *, quick: bool) -> Check:
     name = f"Effect of the neglected component: {triple.id}, {count} cases"
     source = "Two axes with vertical, second component times 0.3, 0.1, 0.03, 0.01 and 0.003"
     exceeding = "Cases that exceed the stated effect"
-    return Check("TA-10", source, exceeding, "1", name, 0.0, float(over), 0.0)
+    return Verified("TA-10", source, exceeding, "1", name, 0.0, float(over), 0.0)
 
 
-def _random_pairs(*, quick: bool) -> Iterator[Check]:
+def _random_pairs(*, quick: bool) -> Iterator[Verified]:
     source = "Both runs of a pair have a result, and they agree within the sum of their error "
-    row = partial(Check, "TA-11", f"{source}bounds", "Failed pairs", "1")
+    row = partial(Verified, "TA-11", f"{source}bounds", "Failed pairs", "1")
     count = PAIRS[not quick]
     for kind in KINDS:
         if kind not in UNBOUNDED:
@@ -256,7 +256,7 @@ def _agrees(kind: str, index: int) -> bool:
         return False
 
 
-def _choices(triple: Motion) -> Iterator[Check]:
+def _choices(triple: Motion) -> Iterator[Verified]:
     source = "Number of the simplest sufficient model (section 12)"
     case = MODEL_CASES[1]
     full = scene_of(triple, case, coulomb(case.mu))
@@ -273,12 +273,12 @@ def _choices(triple: Motion) -> Iterator[Check]:
     ):
         name = f"{what}: {triple.id}, {case.slope_deg:g}°, PPA = {case.ppa_g:g} g"
         chosen = float(least_model.solve(scene, Settings()).model)
-        yield Check("TA-12", source, "Model chosen", "1", name, float(model), chosen, 0.0)
+        yield Verified("TA-12", source, "Model chosen", "1", name, float(model), chosen, 0.0)
 
 
-def _against_scipy(triple: Motion, samples: int) -> Iterator[Check]:
+def _against_scipy(triple: Motion, samples: int) -> Iterator[Verified]:
     source = "SciPy DOP853, relative tolerance 10⁻¹², restarted at every sample and event"
-    row = partial(Check, "TA-13", source, "Position error / PRD", "1")
+    row = partial(Verified, "TA-13", source, "Position error / PRD", "1")
     case, part = MODEL_CASES[1], cut(triple, samples)
     scene = scene_of(part, case, coulomb(case.mu))
     names = {t: f"Tolerance of 1 / {1.0 / t:,.0f}: {part.id}, {case}" for t in SCIPY_TOLERANCES}

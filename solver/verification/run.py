@@ -22,7 +22,7 @@ from solver.verification import (
     workprecision,
 )
 from solver.verification.building import FloorRecords
-from solver.verification.evidence import Check, Verification
+from solver.verification.evidence import Verification, Verified
 from solver.verification.study import compared_runs, own_records, own_triples
 
 
@@ -104,7 +104,7 @@ def verify(
     )
 
 
-def _rows(record: Record, roof: Sequence[checks.KnownBlock]) -> Iterator[Check]:
+def _rows(record: Record, roof: Sequence[checks.KnownBlock]) -> Iterator[Verified]:
     yield from checks.closed_forms()
     yield from checks.physical_checks(record)
     yield from checks.fifty_digits(roof)

@@ -9,6 +9,7 @@ import gc
 import itertools
 import json
 import math
+import shutil
 import statistics
 import sys
 import tempfile
@@ -85,6 +86,7 @@ def stage_seconds() -> dict[str, float]:
 def make(folder: Path, arrays: int, motions: int, length: int) -> None:
     """Write a project of this size."""
     (folder / "records").mkdir(parents=True)
+    shutil.copytree(EXAMPLE / "documents", folder / "documents")
     for path in (EXAMPLE / "records").iterdir():
         record = read_record(path)
         a_g = np.tile(record.a_mps2 / 9.80665, length)

@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from report.assessment.checks.check import THIS_PROGRAM, Actor, Check, Sense, condition
+from report.assessment.checks.check import THIS_PROGRAM, Actor, Check, Sense, condition, dagger
 from report.assessment.routes import Route, lacking_motions, statistic_basis
-from report.assessment.verdict import NO_DESIGN, NOT_GIVEN, STRENGTH_ROW
+from report.assessment.verdict import NO_DESIGN, NOT_GIVEN, STRENGTH_ROW, rule_set_of
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import Array
@@ -18,7 +18,6 @@ from report.text.units import Quantity, measured, no_less, pair
 from solver.model import Status
 from solver.rules.limit import Consequence
 from solver.rules.provisions import review_lifts_slope
-from solver.sliding.least_model import DEFAULT
 
 if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment
@@ -48,13 +47,14 @@ def before_runs(data: ProjectInput, array: Array, required_n: float) -> Iterator
 
 def _interconnection(data: ProjectInput, array: Array, required_n: float) -> Check:
     # PV1-2012 section 6: the larger of 0.133 S_DS W1 and 0.1 W1, W1 the lighter side.
+    strength = rule_set_of(data).values["interconnection_sds"]
     return Check(
         id=STRENGTH_ROW,
         title="Interconnection strength",
         subject=array.id,
         arrays=(array.id,),
         **_provided(array.interconnection_n, required_n, Quantity.WEIGHT),
-        clause=data.site.rule_set,
+        clause=strength.clause + dagger(strength),
         actor=Actor.SUPPLIER,
         remedy="Show that the racking provides the required strength between its parts, and enter "
         "it on the Arrays worksheet.",
@@ -205,14 +205,13 @@ def run_checks(item: ArrayAssessment, us_first: bool) -> Iterator[Check]:
     outcomes = grouped_by(named, lambda each: (each[1].result.status, _would_do(each[1])))
     failed = {key: of for key, of in outcomes.items() if key[0] is not Status.OK}
     for (status, remedy), of in (failed or outcomes).items():
+        outcome = _outcome(status, [run for _, run in of], us_first)
         yield Check(
             id="runs",
             title="Runs that come to rest",
             subject=item.id,
             arrays=(item.id,),
-            found=f"{len(of)} of {len(named)} {_outcome(status, [run for _, run in of], us_first)}"
-            if failed
-            else "all",
+            found=f"{len(of)} of {len(named)} runs: {outcome}" if failed else "all",
             note=ranged(name for name, _ in of) if failed else "",
             limit="all",
             clause=THIS_PROGRAM,
@@ -251,7 +250,6 @@ def _tipping(item: ArrayAssessment) -> Check:
 def of_links(linked: LinkedArray) -> Check:
     """Return whether one rigid block is adequate for an array, where the workbook asks."""
     design, estimated_m = linked.design, linked.estimated_m
-    most_m = design.design_m + DEFAULT.bound_m(design.design_m)
     found: Amount | str = demand(estimated_m, Quantity.DISPLACEMENT)
     note = "one rigid block does not slide in one axis" if math.isinf(estimated_m) else ""
     if not linked.is_final:
@@ -260,7 +258,8 @@ def of_links(linked: LinkedArray) -> Check:
         note = ranged(each.motion.id for each in lost)
     elif math.isnan(estimated_m):
         found = "none"
-    has_limit = not math.isnan(most_m)
+    has_limit = not math.isnan(linked.most_m)
+    limit = capacity(linked.most_m, Quantity.DISPLACEMENT)
     return Check(
         id="links",
         title="Design displacement as a row of linked blocks",
@@ -268,7 +267,7 @@ def of_links(linked: LinkedArray) -> Check:
         arrays=(design.id,),
         found=found,
         note=note,
-        limit=capacity(most_m, Quantity.DISPLACEMENT) if has_limit else "that of one rigid block",
+        limit=limit if has_limit else "that of one rigid block",
         sense=Sense.AT_MOST if has_limit else Sense.STATED,
         clause=THIS_PROGRAM,
         # That the design is permitted is a check of its own.

@@ -8,8 +8,14 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from report.assessment.checks.check import Actor, Check, Sense, condition, stated
-from report.assessment.friction import MOST_BEYOND, VelocityCheck, velocity_check
-from report.assessment.tested import LEAST_RUNS, STANDARD, is_complete, runs_by_velocity, tested
+from report.assessment.tested import (
+    LEAST_RUNS,
+    MOST_BEYOND,
+    STANDARD,
+    is_complete,
+    runs_by_velocity,
+    tested,
+)
 from report.assessment.verdict import NOT_GIVEN, SHIFT, VELOCITY_ROW
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Place
@@ -21,6 +27,7 @@ from solver.rules.limit import Consequence
 
 if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment
+    from report.assessment.friction import VelocityCheck
     from report.assessment.project import Assessment
 
 _row = partial(condition, clause="friction tests", actor=Actor.LABORATORY)
@@ -107,6 +114,9 @@ def _runs(by_surface: Mapping[Surface, Series | None], us_first: bool) -> Iterat
 
 def of_velocities(data: ProjectInput, arrays: Sequence[ArrayAssessment]) -> Iterator[Check]:
     """Yield for each array whether friction beyond the velocities tested is shown by tests."""
+    # What knows of runs loads the compiler: the other checks here do without.
+    from report.assessment.friction import velocity_check
+
     for item in arrays:
         yield _velocity(item.id, velocity_check(data, item), data.us_first)
 

@@ -165,7 +165,7 @@ def test_runs_that_never_stop_are_one_sentence_with_their_count_and_us_speed():
     speed = (12.0 - 0.45 * 9.80665) * 0.99
     assert (found.subject, found.note, found.limit) == ("A1, A2", "", "all")
     found = re.fullmatch(
-        r"11 of 11 still sliding at the end of the record, at (\d+\.\d\d) in/s "
+        r"11 of 11 runs: still sliding at the end of the record, at (\d+\.\d\d) in/s "
         r"\(\d+\.\d mm/s\); CUT0 to CUT10",
         found.found,
     )

@@ -22,7 +22,7 @@ from report.text import formats
 from report.text.counts import lettered
 from solver.model import Status
 from solver.rivals.methods import METHODS
-from solver.verification.evidence import Check
+from solver.verification.evidence import Verified
 from verified import only
 
 pytestmark = pytest.mark.skipif(
@@ -240,7 +240,10 @@ def test_a_verification_of_two_checks_is_laid_out_and_the_one_that_failed_ends_w
     tmp_path, monkeypatch
 ):
     of = {"source": "S", "quantity": "PRD", "unit": "m", "problem": "P", "expected": 2.0}
-    rows = (Check(id="CF-1", computed=2.0, **of), Check(id="PH-1", computed=1.5, **of))
+    rows = (
+        Verified(id="CF-1", computed=2.0, **of),
+        Verified(id="PH-1", computed=1.5, **of),
+    )
     found = only(checks=rows, left_out=rows[:1] * 7)
     monkeypatch.setattr(solver.verification.run, "verify", lambda *_, **__: found)
     monkeypatch.setattr(render, "sections", lambda v: (render.summary(v), render.checks(v)))

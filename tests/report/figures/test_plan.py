@@ -154,7 +154,8 @@ def test_arrays_objects_and_clearances_are_drawn_marked_and_named(done):
         heavy = [p for p in drawn.axes[0].patches if (p.get_hatch() or "").startswith("xxx")]
         assert len(heavy) == marked
     assert words(legend(done)).count("NG") == 1
-    satisfied = replace(done, clearances=tuple(gap for gap in done.clearances if gap.ok))
+    gaps = tuple(gap for gap in done.clearances if gap.ok)
+    satisfied = replace(done, clearances=gaps, at_reduced_friction=None)
     assert "NG" not in words(roof_plan(satisfied, LETTER))
     lost = replace(done, arrays=tuple(replace(a, design_m=math.nan) for a in done.arrays))
     found = words(roof_plan(lost, LETTER))

@@ -9,7 +9,7 @@ import printed
 from report.document.templates import section
 from report.text.formats import VALIDATION
 from solver.verification.design_checks import design_checks
-from solver.verification.evidence import SECTIONS, Check
+from solver.verification.evidence import SECTIONS, Verified
 from solver.verification.features import FEATURES, statuses
 from verified import only
 
@@ -19,7 +19,7 @@ RELEASE = re.compile(r"Version (?P<version>\S+) as released: (?P<count>\d+) erro
 
 
 def row(id, *, passed=True):
-    return Check(id, "s", "q", "1", "p", 1.0, 1.0 if passed else 1.5, tolerance=0.0)
+    return Verified(id, "s", "q", "1", "p", 1.0, 1.0 if passed else 1.5, tolerance=0.0)
 
 
 def every():

@@ -13,6 +13,7 @@ import scenes
 import stand_in
 from nightly import by_day
 from printed import printed
+from report.assessment.checks.check import texts as check_texts
 from report.assessment.clearances import beside
 from report.assessment.spectra import spectra
 from report.drawing.plan import plan_drawing
@@ -175,14 +176,14 @@ def test_what_is_not_enough_reads_as_less_in_both_units_in_every_output(tmp_path
     (short, *_) = done.clearances
     had = pair(short.clearance.provided_m, Quantity.SIZE, "down", us_first=True)
     needed = pair(short.required_m, Quantity.SIZE, "up", us_first=True)
-    assert f"{had} provided; {needed}" in said
+    assert f"{had}. Required: at least {needed}" in said
     rows = {(row.id, row.subject): row for row in done.checks}
     for id, subject in (
         ("electrical_slack", "A1"), ("interconnection", "A1"), ("roof_capacity", "A1"),
         ("wind_weight", "A2"),
     ):  # fmt: skip
         row = rows[id, subject]
-        found, limit = (re.findall(r"[\d.]+", text) for text in (row.found, row.limit))
+        found, limit = (re.findall(r"[\d.]+", text) for text in check_texts(row, True))
         assert not row.is_satisfied
         is_at_most = id == "roof_capacity"
         for have, need in zip(map(float, found), map(float, limit), strict=True):

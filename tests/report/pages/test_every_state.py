@@ -259,7 +259,7 @@ def test_confirmed_provisions_have_no_mark_and_are_said_by_whom(shown):
             assert "≥ 3†" in text
         elif page not in ("provisions", "cover"):
             # Nor those of the fire code and of the existing-building code.
-            others = "fire lanes", "motions for analysis", "Existing building"
+            others = "fire pathway", "motions for analysis", "Existing building"
             lines = [line for line in text.splitlines() if not any(of in line for of in others)]
             assert ("†" in "".join(lines)) is not is_confirmed, page
     marks = {value[-1] == "†" for value in values(shown["provisions"])}

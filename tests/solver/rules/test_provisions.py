@@ -356,7 +356,7 @@ def made(found, limit=20.0, **more):
 
 
 def test_limits_have_units_and_say_whose_they_are():
-    assert [measure.unit for measure in Measure] == ["deg", "m", "s", "", ""]
+    assert [measure.unit for measure in Measure] == ["deg", "m", "s", "mps", "", ""]
     assert made(1.0, provision=PROGRAM).is_program_limit
     assert not made(1.0, provision=MOTIONS).is_program_limit
     assert not MOTIONS.verified

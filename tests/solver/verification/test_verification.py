@@ -12,7 +12,13 @@ from solver.rivals import by_scipy
 from solver.rivals.methods import METHODS
 from solver.sliding.checked import slide
 from solver.verification import checks, paper_studies, reference, study
-from solver.verification.evidence import ROUNDING, SECTIONS, Check, DesignCurves, percent_off
+from solver.verification.evidence import (
+    ROUNDING,
+    SECTIONS,
+    DesignCurves,
+    Verified,
+    percent_off,
+)
 from solver.verification.features import FEATURES, statuses
 from solver.verification.model_checks import model_checks
 from solver.verification.reference import (
@@ -193,9 +199,9 @@ def test_records_of_the_project_are_the_same_every_time_and_read_only():
 def test_errors_have_a_floor_of_a_millimeter_and_are_absolute_where_nothing_is_expected():
     off = percent_off(np.array([1.01, 1e-4, math.nan]), np.array([1.0, 0.0, 1.0]))
     assert off == pytest.approx([1.0, 10.0, math.nan], nan_ok=True)
-    row = Check("CF-1", "c", "d", "m", "b", 0.0, -3e-4, 1e-3)
+    row = Verified("CF-1", "c", "d", "m", "b", 0.0, -3e-4, 1e-3)
     assert (row.error, row.passed) == (3e-4, True)
-    assert Check("CF-1", "c", "d", "m", "b", 2.0, 2.1, 0.04).error == pytest.approx(0.05)
+    assert Verified("CF-1", "c", "d", "m", "b", 2.0, 2.1, 0.04).error == pytest.approx(0.05)
 
 
 # The paper's figures
