@@ -131,7 +131,7 @@ def test_a_run_without_a_final_displacement_withholds_that_of_its_array(done, st
     assert math.isnan(item.design_m)
     (check,) = run_checks(item, us_first=True)
     assert (check.verdict, check.note) == (Verdict.NG, "M1")
-    assert check.found.startswith(f"1 of {len(item.runs)} {status.sentence.split(':')[0]}")
+    assert check.found.startswith(f"1 of {len(item.runs)} runs: {status.sentence.split(':')[0]}")
 
 
 @pytest.mark.quick
