@@ -117,7 +117,7 @@ def test_a_steep_roof_is_ng_with_its_value_and_limit_everywhere(steep, reported,
         " (IBC 1613.3†)."
     ) in lines
     assert any("[weight A1] Acknowledged: Frames alone" in line for line in lines)
-    assert lines[-1].startswith("verdict: NG, largest D/C ")
+    assert lines[-1].startswith("verdict: NG; ")
     assert lines[-1].endswith("calc-package.pdf, 1 sheet")
 
 
