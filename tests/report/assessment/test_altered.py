@@ -14,5 +14,5 @@ def test_the_copies_are_more_than_thirty_and_have_every_verdict():
     assert projects == [Verdict.OK, Verdict.CONDITIONS, Verdict.NG, Verdict.NG, Verdict.NG]
     clearances = {gap.verdict for each in done for gap in each.clearances}
     assert clearances == {Verdict.OK, Verdict.NG, Verdict.NONE}
-    rows = {row.verdict for each in done for row in each.rows}
+    rows = {row.verdict for each in done for row in each.checks}
     assert rows == {Verdict.OK, Verdict.CONDITION, Verdict.NG, Verdict.NOTE}
