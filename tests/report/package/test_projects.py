@@ -80,7 +80,7 @@ def test_the_required_separation_of_a_clearance_stands_in_four_places_at_most():
 
 
 @pytest.mark.nightly
-def test_one_array_with_one_clearance_has_at_most_12_sheets(tmp_path):
+def test_one_array_with_one_clearance_has_at_most_14_sheets(tmp_path):
     given = read(PROJECTS / "example" / "input.xlsx").project.model_dump()
     first, gap = given["arrays"][:1], given["clearances"][1:2]
     near = [row for row in given["objects"] if row["id"] == gap[0]["object"]]
@@ -91,7 +91,7 @@ def test_one_array_with_one_clearance_has_at_most_12_sheets(tmp_path):
         shutil.copytree(PROJECTS / "example" / name, tmp_path / name)
     write_template(tmp_path / "input.xlsx", units=project.project.units_first, example=project)
     make(tmp_path / "input.xlsx", tmp_path / "out", None, lambda _: None)
-    assert len(PdfReader(tmp_path / "out" / "calc-package.pdf").pages) <= 12
+    assert len(PdfReader(tmp_path / "out" / "calc-package.pdf").pages) <= 14
 
 
 @pytest.fixture(scope="module")
@@ -285,7 +285,7 @@ def test_the_campus_is_ok_and_none_has_more_sheets_than_are_read(
     assert "NG" not in {campus.results["verdict"], *(array["verdict"] for array in arrays)}
     assert results_of_clearances(campus.book) == ["OK"] * 61
     counts = [len(done.pdf.pages) for done in (school, conditions, campus, example)]
-    assert all(count <= most for count, most in zip(counts, (14, 12, 18, 15), strict=True))
+    assert all(count <= most for count, most in zip(counts, (15, 13, 18, 16), strict=True))
 
 
 # The incomplete warehouse.
