@@ -137,8 +137,7 @@ def verdict_sentence(done: Assessment, conditions: str = "below") -> str:
     n_open = sum(check.verdict is not Verdict.NG for check in done.open)
     total = len(done.checks)
     if failed:
-        causes = [c for c in alike(failed) if not _follows(c)] or alike(failed)
-        causes = sorted(causes, key=lambda check: -nan_is_worst(check.ratio))
+        causes = first_sheet(done).failed
         names = [", ".join(filter(None, (c.subject, lowered(c.title)))) for c in causes]
         more = [numbered(len(names) - MOST_NAMED, "more check")] if names[MOST_NAMED:] else []
         are = "is" if len(failed) == 1 else "are"

@@ -172,8 +172,10 @@ def _design(done: Assessment, item: ArrayAssessment) -> Check:
 def _way_out(done: Assessment, item: ArrayAssessment) -> str:
     """Return what gives a permitted displacement: motions, if the project has none."""
     if done.has_motions:
-        is_few = item.route is Route.ANALYSIS
-        return "Complete or replace the motions." if is_few else ""
+        # Runs that do not come to rest, and slopes, have checks of their own.
+        is_of_motions = item.lacks_motions or not done.acceptance.qualifies
+        is_analyzed = item.route is Route.ANALYSIS
+        return "Complete or replace the motions." if is_analyzed and is_of_motions else ""
     is_lifted = review_lifts_slope(done.rules, done.project.site.sdc)
     if not (item.may_be_analyzed or is_lifted):
         return ""

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import altered
 import inputs
 import scenes
 import stand_in
@@ -179,3 +180,12 @@ def test_a_design_that_follows_from_a_run_keeps_its_conditions(shaking):
     assert any(row.id == "motions" for row in done.open)
     words = printed(package, "basis")
     assert "design displacements are prescriptive" not in words
+
+
+def test_what_slides_without_end_is_not_told_to_replace_its_motions():
+    done = altered.assessed("slides without end")
+    (design,) = (c for c in done.checks if c.id == "design" and not c.is_satisfied)
+    assert done.acceptance.qualifies
+    assert design.remedy == ""
+    (runs,) = (c for c in done.checks if c.id == "runs" and not c.is_satisfied)
+    assert runs.remedy.startswith("Provide more friction")
