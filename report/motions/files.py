@@ -22,7 +22,7 @@ from report.sheet.reading.positions import MAX_COLUMNS, CellPosition, cells_belo
 from report.sheet.reading.unseen import Unseen, unseen
 from report.sheet.schema.fields import Place
 from solver.formats import MotionFile, read_motion_file
-from solver.formats.layout import Heading, Kind, is_spectral, parse
+from solver.formats.phrases import Heading, Kind, is_spectral, parse
 from solver.formats.source import Source
 from solver.formats.times import sampled
 from solver.model import InputError, Problem
@@ -129,8 +129,8 @@ def _check_times(book: OpenBook, heading: CellPosition, count: int, dt_s: float)
     with suppress(InputError):
         sampled(replace(source, dt_s=dt_s), t_s, none, int, unit_s)
         return [found_at(book, at), *cells]
-    even = sampled(source, t_s, none, int, unit_s)
-    if even.notes:
+    of_times_s, _, notes = sampled(source, t_s, none, int, unit_s)
+    if notes:
         steps = np.diff(t_s)
         usual = np.median(steps)
         i = int(np.abs(steps - usual).argmax())
@@ -140,7 +140,7 @@ def _check_times(book: OpenBook, heading: CellPosition, count: int, dt_s: float)
             " as a file, which is resampled"
         )
     raise InputError(
-        f"{at.address} has times at a step of {even.dt_s:.6g} s, but the time step is"
+        f"{at.address} has times at a step of {of_times_s:.6g} s, but the time step is"
         f" {dt_s:.6g} s; correct one of them"
     )
 

@@ -1,11 +1,11 @@
 """Record files in common formats: the format is identified by content, never by file name.
 
-The public names are listed here. Knows no code rules and changes no sample. Read
-`reader.read_motion_file` first, then one format, such as `peer`.
+The public names are listed here; `FORMATS` is the list of readers. Knows no code rules and changes
+no sample. Read `reader.read_motion_file` first, then one format, such as `peer`.
 """
 
 from solver.formats.channels import MotionFile
-from solver.formats.reader import read_motion_file, read_record
+from solver.formats.reader import FORMATS, Format, read_motion_file, read_record
 from solver.records.record import UNIT_CHOICES
 
-__all__ = ["UNIT_CHOICES", "MotionFile", "read_motion_file", "read_record"]
+__all__ = ["FORMATS", "UNIT_CHOICES", "Format", "MotionFile", "read_motion_file", "read_record"]

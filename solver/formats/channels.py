@@ -122,16 +122,6 @@ _OF_RECORDER = re.compile(
 )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Channel:
-    """One component as read."""
-
-    name: str  # as printed in the file; empty if it has none
-    dt_s: float
-    a_mps2: Floats  # shape (n,)
-    notes: tuple[str, ...]
-
-
 def parts_of(source: Source, heading: re.Pattern[str]) -> list[range]:
     """Lines of each part of a file, by index; it begins with the first line of a heading."""
     starts = [index for index, line in enumerate(source.lines) if heading.match(line)]
@@ -142,11 +132,13 @@ def parts_of(source: Source, heading: re.Pattern[str]) -> list[range]:
 def motion_file(
     source: Source,
     form: str,
-    channels: Sequence[Channel],
+    channels: Sequence[Record],
     notes: Sequence[str] = (),
     start: dt.datetime | None = None,
 ) -> MotionFile:
-    """Build the result of a reader, with distinct names, and notes that name their channel.
+    """Build the result of a reader from records as printed: unnamed, or with names that repeat.
+
+    Names of the result are distinct, and notes name their channel.
 
     `start` is when the record begins, where its heading says so in a way of its format.
     """
@@ -168,8 +160,8 @@ def motion_file(
         # A constant is no shaking with gravity in it.
         shakes = has_gravity(a_mps2) and np.ptp(a_mps2) > 0.0
         gravity = ("the mean is about 1 g: gravity is in it",) if shakes else ()
-        records.append(Record(name=name, dt_s=float(channel.dt_s), a_mps2=a_mps2))
         told = (*gravity, *channel.notes)
+        records.append(Record(name=name, dt_s=float(channel.dt_s), a_mps2=a_mps2, notes=told))
         all_notes += told if alone else [f"{name}: {note}" for note in told]
     mean = np.array([record.a_mps2.mean() for record in records])
     if (
@@ -211,7 +203,7 @@ def _start(source: Source) -> dt.datetime | None:
     return None
 
 
-def _check_size(source: Source, channel: Channel) -> None:
+def _check_size(source: Source, channel: Record) -> None:
     """Raise if a step or a value is none of an accelerogram: the units or the scale are wrong."""
     check_gaps(source.name, channel.a_mps2)
     check_peak(source.name, channel.a_mps2)

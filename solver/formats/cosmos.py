@@ -18,7 +18,7 @@ from solver.formats.channels import MotionFile
 from solver.formats.numbers import Block, each, fixed_values, header_values, layout_of, printed
 from solver.formats.source import Source, Stated
 from solver.model import InputError
-from solver.records.record import raise_any, shown, unit_size
+from solver.records.record import Record, raise_any, shown, unit_size
 
 # Source: COSMOS Strong Motion Programs Board, COSMOS strong motion data format, version 1.20, 2001:
 # tables 1 (quantity) and 2 (units); real numbers 34 (step of the record [s]), 62 (step of the
@@ -73,9 +73,9 @@ class _Part:
     line: re.Match[str]
 
 
-def recognizes(lines: Sequence[str]) -> bool:
+def recognizes(source: Source) -> bool:
     """Whether the first line names the quantity and the version of the format."""
-    return bool(lines and _FIRST.match(lines[0]))
+    return bool(_FIRST.match(source.line(0)))
 
 
 def read(source: Source) -> MotionFile:
@@ -140,7 +140,7 @@ def _heading_problems(source: Source, series: Sequence[_Part]) -> Iterator[str]:
                 )
 
 
-def _channel(source: Source, part: _Part) -> channels.Channel:
+def _channel(source: Source, part: _Part) -> Record:
     line, layout = part.line, layout_of(part.line[6])
     if not layout:
         raise InputError(f"{source.at(part.at)}: found format ({line[6]}); give one as (8F10.3)")
@@ -164,7 +164,7 @@ def _channel(source: Source, part: _Part) -> channels.Channel:
     notes = (*notes, *channels.peak_notes(source, peak.index, peak.value * scale, values))
     top, *heading = source.lines[part.first : part.at]
     is_uncorrected = top.strip().upper().startswith("UN")
-    return channels.Channel(
+    return Record(
         name=next((text for text in heading if _NAME.match(text)), ""),
         dt_s=dt_s,
         a_mps2=values,

@@ -11,8 +11,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from solver.formats import channels
 from solver.formats.channels import MotionFile
@@ -28,8 +27,8 @@ from solver.formats.numbers import (
 )
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
-from solver.model import Floats, InputError
-from solver.records.record import unit_size
+from solver.model import InputError
+from solver.records.record import Record, unit_size
 
 # Source: A.F. Shakal and M.J. Huang, Standard tape format for CSMIP strong-motion data tapes,
 # California Division of Mines and Geology, OSMS 85-03, 1985.
@@ -87,10 +86,9 @@ _ONE = _Volume(
 _TWO = _Volume(first=_VOLUME_2, text=25, reals=100, length=44, even=(_STEP_LINE,), peak=_PEAK_2)
 
 
-def recognizes(lines: Sequence[str]) -> bool:
+def recognizes(source: Source) -> bool:
     """Whether the first line is that of a volume of CSMIP."""
-    first = lines[0] if lines else ""
-    return any(pattern.match(first) for pattern in (_VOLUME_1, _VOLUME_2, _VOLUME_3))
+    return any(pattern.match(source.line(0)) for pattern in (_VOLUME_1, _VOLUME_2, _VOLUME_3))
 
 
 def read(source: Source) -> MotionFile:
@@ -107,13 +105,13 @@ def read(source: Source) -> MotionFile:
     return channels.motion_file(source, form, read, channels.recorder_notes(source, len(parts)))
 
 
-def _channel(source: Source, part: range, volume: _Volume) -> channels.Channel:
+def _channel(source: Source, part: range, volume: _Volume) -> Record:
     places = (_search(source, part, pattern) for pattern in volume.even)
     place = next(filter(None, places), None)
     if place:
-        dt_s, values, notes = _even_values(source, part, volume, *place)
+        record = _even_values(source, part, volume, *place)
     elif volume is _ONE:
-        dt_s, values, notes = _pair_values(source, part)
+        record = _pair_values(source, part)
     else:
         raise InputError(
             f"{source.at(part.start)}: found no line ... POINTS OF ACCEL DATA EQUALLY SPACED AT"
@@ -121,17 +119,15 @@ def _channel(source: Source, part: range, volume: _Volume) -> channels.Channel:
         )
     at, peak = _search(source, part, volume.peak) or (part.start, None)
     peak_mps2 = printed(peak[1], at).value * unit_size(peak[2]) if peak else 0.0
-    notes = (*notes, *channels.peak_notes(source, at, peak_mps2, values))
+    notes = (*record.notes, *channels.peak_notes(source, at, peak_mps2, record.a_mps2))
+    if volume is _ONE:
+        notes += channels.offset_notes(record.a_mps2)
     heading = (source.lines[index] for index in part[: volume.text])
-    return channels.Channel(
-        name=next((line for line in heading if line.strip().upper().startswith("CHAN")), ""),
-        dt_s=dt_s,
-        a_mps2=values,
-        notes=(*notes, *channels.offset_notes(values)) if volume is _ONE else notes,
-    )
+    name = next((line for line in heading if line.strip().upper().startswith("CHAN")), "")
+    return replace(record, name=name, notes=notes)
 
 
-def _pair_values(source: Source, part: range) -> tuple[float, Floats, tuple[str, ...]]:
+def _pair_values(source: Source, part: range) -> Record:
     """Pairs of time and acceleration, ten numbers per line."""
     points = _search(source, part, _POINTS)
     unit = _search(source, part, _PAIR_UNIT)
@@ -149,15 +145,16 @@ def _pair_values(source: Source, part: range) -> tuple[float, Floats, tuple[str,
     if len(pairs) < 2:
         raise InputError(f"{source.at(points[0])}: found {len(pairs)} points; give at least 2")
     per_line = _PAIRS.per_line // 2
-    even = sampled(source, pairs[:, 0], pairs[:, 1:].T, lambda i: first + i // per_line)
+    times, columns = pairs[:, 0], pairs[:, 1:].T
+    dt_s, columns, notes = sampled(source, times, columns, lambda i: first + i // per_line)
     length = _real(source, part, _ONE, _ONE.length)
-    channels.check_length(source, length, float(pairs[-1, 0]), even.dt_s)
-    return even.dt_s, even.columns[0] * scale, (*even.notes, *ended)
+    channels.check_length(source, length, float(times[-1]), dt_s)
+    return Record(name="", dt_s=dt_s, a_mps2=columns[0] * scale, notes=(*notes, *ended))
 
 
 def _even_values(
     source: Source, part: range, volume: _Volume, at: int, line: re.Match[str]
-) -> tuple[float, Floats, tuple[str, ...]]:
+) -> Record:
     """Evenly spaced values after a line with their count, rate or step, unit and maybe format."""
     # Where a line is lost, the real numbers are not where they are looked for.
     if at - part.start != volume.heading:
@@ -178,7 +175,7 @@ def _even_values(
     values = numbers * source.scale(line[3], at)
     length = _real(source, part, volume, volume.length)
     channels.check_length(source, length, len(values) * dt_s, dt_s)
-    return dt_s, values, ended
+    return Record(name="", dt_s=dt_s, a_mps2=values, notes=ended)
 
 
 def _step(source: Source, part: range, volume: _Volume, at: int, line: re.Match[str]) -> Stated:

@@ -11,7 +11,6 @@ import re
 from collections.abc import Mapping, Sequence
 
 from solver.formats.channels import (
-    Channel,
     MotionFile,
     centered_peak_notes,
     check_length,
@@ -22,7 +21,7 @@ from solver.formats.channels import (
 from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.source import Source
 from solver.model import InputError
-from solver.records.record import raise_any, shown
+from solver.records.record import Record, raise_any, shown
 
 # Source: INGV, DYNA 1.0 and 1.2, the heading of the Engineering Strong-Motion database, esm-db.eu,
 # and of ITACA, whose older files name the component `COMPONENT`; AFAD's text (STRONG GROUND MOTION
@@ -41,9 +40,9 @@ _NAME = re.compile(r"[A-Z]-?[A-Z]?", re.IGNORECASE)
 _Heading = Mapping[str, tuple[str, int]]
 
 
-def recognizes(lines: Sequence[str]) -> bool:
+def recognizes(source: Source) -> bool:
     """Whether the first lines name the count and the step."""
-    heading = _heading(lines)
+    heading = _heading(source.lines)
     return any(key in heading for key in _COUNTS) and any(key in heading for key in _STEPS)
 
 
@@ -72,7 +71,7 @@ def read(source: Source) -> MotionFile:
     return motion_file(source, form, channels, start=time_in(begins, *_START_FORMATS))
 
 
-def _asc(source: Source, heading: _Heading, dt_s: float, block: Block) -> list[Channel]:
+def _asc(source: Source, heading: _Heading, dt_s: float, block: Block) -> list[Record]:
     quantity, at = heading.get(_QUANTITY, ("ACCELERATION", 0))
     if "ACCELERATION" not in quantity.upper() or "SPECTRUM" in quantity.upper():
         raise InputError(f"{source.at(at)}: found {quantity.lower()}; give a file of acceleration")
@@ -83,12 +82,12 @@ def _asc(source: Source, heading: _Heading, dt_s: float, block: Block) -> list[C
     peak, at = heading.get(_PEAK, ("", 0))
     name, _ = heading.get("STREAM", heading.get("COMPONENT", ("", 0)))
     notes = centered_peak_notes(source, at, 0.01 * printed(peak, at).value, values)
-    return [Channel(name=name, dt_s=dt_s, a_mps2=values, notes=notes)]
+    return [Record(name=name, dt_s=dt_s, a_mps2=values, notes=notes)]
 
 
 def _afad(
     source: Source, heading: _Heading, names: Sequence[str], dt_s: float, block: Block
-) -> list[Channel]:
+) -> list[Record]:
     peaks = next(((m, *heading[key]) for key in heading if (m := _PEAKS.fullmatch(key))), None)
     if not peaks:
         raise InputError(f"{source.name}: found no line RAW PGA VALUES; give the whole heading")
@@ -102,7 +101,7 @@ def _afad(
     columns = free_values(source, block).reshape(-1, len(names)).T * scale
     stated = {m[1]: printed(m[2], at).value * scale for m in _NAMED_PEAK.finditer(text.upper())}
     return [
-        Channel(name=name, dt_s=dt_s, a_mps2=values, notes=(*notes, *offset_notes(values)))
+        Record(name=name, dt_s=dt_s, a_mps2=values, notes=(*notes, *offset_notes(values)))
         for name, values in zip(names, columns, strict=True)
         for notes in (centered_peak_notes(source, at, stated.get(name.upper(), 0.0), values),)
     ]

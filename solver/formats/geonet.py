@@ -15,6 +15,7 @@ from solver.formats.channels import MotionFile
 from solver.formats.numbers import Block, FieldFormat, each, fixed_values, header_values, printed
 from solver.formats.source import Source, Stated
 from solver.model import InputError
+from solver.records.record import Record
 
 # Source: GeoNet, Strong motion file formats, geonet.org.nz/data/supplementary/
 # strong_motion_file_formats (W.J. Cousins, GNS accelerogram data files, 2008): integers 34, 35 and
@@ -43,11 +44,10 @@ _STEP, _PEAK_1, _PEAK_2 = 26, 31, 36
 _LENGTH_LINE, _UNIT_LINE, _COMPONENT_LINE, _PEAK_LINE = 10, 11, 13, 14
 
 
-def recognizes(lines: Sequence[str]) -> bool:
+def recognizes(source: Source) -> bool:
     """Whether the first two lines are those of a GNS accelerogram."""
-    if len(lines) < 2 or not _FIRST.match(lines[0]):
-        return False
-    return "GNS" in lines[0] or bool(_SITE.match(lines[1]))
+    first, second = source.line(0), source.line(1)
+    return bool(_FIRST.match(first)) and ("GNS" in first or bool(_SITE.match(second)))
 
 
 def read(source: Source) -> MotionFile:
@@ -64,7 +64,7 @@ def read(source: Source) -> MotionFile:
     return channels.motion_file(source, "GeoNet V1A" if is_raw else "GeoNet V2A", read)
 
 
-def _component(source: Source, part: range, is_raw: bool) -> channels.Channel:
+def _component(source: Source, part: range, is_raw: bool) -> Record:
     whole = header_values(source, part.start + _TEXT, _WHOLES, _WHOLE)
     real = header_values(source, part.start + _TEXT + _WHOLE.lines(_WHOLES), _REALS, _WHOLE)
     count = whole[_ACCELERATIONS - 1]
@@ -89,7 +89,7 @@ def _component(source: Source, part: range, is_raw: bool) -> channels.Channel:
         *_rest(source, part, whole),
         *channels.peak_notes(source, peak.index, peak.value * scale, values),
     )
-    return channels.Channel(
+    return Record(
         name=source.line(part.start + _COMPONENT_LINE - 1),
         dt_s=dt_s,
         a_mps2=values,

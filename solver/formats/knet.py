@@ -9,10 +9,8 @@ of the instrument. Read `read` first.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 
 from solver.formats.channels import (
-    Channel,
     MotionFile,
     centered_peak_notes,
     motion_file,
@@ -22,8 +20,8 @@ from solver.formats.channels import (
 from solver.formats.numbers import COMPARED, Block, check_last, dated_table, free_values, printed
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
-from solver.model import InputError
-from solver.records.record import shown
+from solver.model import Floats, InputError
+from solver.records.record import Record, shown
 
 # Source: NIED, About K-NET ASCII format, www.kyoshin.bosai.go.jp/kyoshin/man/knetform_en.html, and
 # the KiK-net notes there (channels 1 to 3 in the borehole, 4 to 6 at the surface; the stated peak
@@ -42,11 +40,11 @@ _BOREHOLE = "the sensor is in the borehole, not at the surface"
 _KIK_NET = {"1": "NS1", "2": "EW1", "3": "UD1", "4": "NS2", "5": "EW2", "6": "UD2"}
 
 
-def recognizes(lines: Sequence[str]) -> bool:
+def recognizes(source: Source) -> bool:
     """Whether the heading has origin time and scale factor, or the columns of the CSV."""
-    near = lines[:_HEADING_LINES]
+    near = source.lines[:_HEADING_LINES]
     begins = bool(near) and near[0].startswith("Origin Time")
-    is_csv = any(map(_COLUMNS.match, lines[:_CSV_HEADING_LINES]))
+    is_csv = any(map(_COLUMNS.match, source.lines[:_CSV_HEADING_LINES]))
     return is_csv or (begins and any(line.startswith("Scale Factor") for line in near))
 
 
@@ -64,19 +62,24 @@ def _csv(source: Source, at: int) -> MotionFile:
         raise InputError(f"{source.at(at)}: found {len(rows)} rows below it; give the whole file")
     table = dated_table(source, rows, len(heads))
     check_last(source, rows[-1][0], [fields[-1].strip() for _, fields in rows[-COMPARED:]])
-    even = sampled(source, table[:, 0], table[:, 1:].T, lambda i: rows[i][0])
-    channels = []
-    for head, values in zip(heads[2:], even.columns, strict=True):
-        unit = _IN_UNIT.fullmatch(head)
-        if not unit:
-            raise InputError(f"{source.at(at)}: found {shown(head)}; give a column as N-S(gal)")
-        name, a_mps2 = _KIK_NET.get(unit[1], unit[1]), values * source.scale(unit[2], at)
-        borehole = (_BOREHOLE,) if name.endswith("1") else ()
-        notes = (*offset_notes(a_mps2), *borehole)
-        channels.append(Channel(name=name, dt_s=even.dt_s, a_mps2=a_mps2, notes=notes))
-    form = "KiK-net CSV" if channels and channels[0].name[-1:].isdecimal() else "K-NET CSV"
-    notes = (*even.notes, *_length_notes(source, len(table) * even.dt_s))
+    dt_s, columns, notes = sampled(source, table[:, 0], table[:, 1:].T, lambda i: rows[i][0])
+    channels = [
+        _component(source, at, head, dt_s, values)
+        for head, values in zip(heads[2:], columns, strict=True)
+    ]
+    form = "KiK-net CSV" if channels[0].name[-1:].isdecimal() else "K-NET CSV"
+    notes += _length_notes(source, len(table) * dt_s)
     return motion_file(source, form, channels, notes, time_in(rows[0][1][0], _START))
+
+
+def _component(source: Source, at: int, head: str, dt_s: float, values: Floats) -> Record:
+    """Return a column of the CSV as a record by its heading, a name with its unit."""
+    unit = _IN_UNIT.fullmatch(head)
+    if not unit:
+        raise InputError(f"{source.at(at)}: found {shown(head)}; give a column as N-S(gal)")
+    name, a_mps2 = _KIK_NET.get(unit[1], unit[1]), values * source.scale(unit[2], at)
+    borehole = (_BOREHOLE,) if name.endswith("1") else ()
+    return Record(name=name, dt_s=dt_s, a_mps2=a_mps2, notes=(*offset_notes(a_mps2), *borehole))
 
 
 def _length_notes(source: Source, length_s: float) -> tuple[str, ...]:
@@ -110,7 +113,7 @@ def _counts(source: Source) -> MotionFile:
     if name.endswith("1"):
         notes.append(_BOREHOLE)
     form = "KiK-net" if direction in _KIK_NET else "K-NET"
-    channel = Channel(name=name, dt_s=dt_s, a_mps2=values, notes=tuple(notes))
+    channel = Record(name=name, dt_s=dt_s, a_mps2=values, notes=tuple(notes))
     return motion_file(source, form, [channel])
 
 

@@ -14,12 +14,11 @@ import re
 from collections.abc import Sequence
 
 from solver.formats import phrases
-from solver.formats.channels import Channel, MotionFile, motion_file
-from solver.formats.layout import ACCELERATION
+from solver.formats.channels import MotionFile, motion_file
 from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.source import Source
 from solver.model import InputError
-from solver.records.record import shown
+from solver.records.record import Record, shown
 
 # Source: the files of the Pacific Earthquake Engineering Research Center, peer.berkeley.edu (there
 # is no written definition); eqsig.loader (label, then count and step, then a value a line); the
@@ -37,9 +36,9 @@ _COUNT_LINE = re.compile(r"(?!\s*#).*\bNPTS\b", re.IGNORECASE)
 _BARE = re.compile(r"(\d{1,9})[,\s]++(\d*\.\d+(?:[eE]-?\d+)?)(?:[,\s]++\d+)?[,\s]*+", re.ASCII)
 
 
-def recognizes(lines: Sequence[str]) -> bool:
+def recognizes(source: Source) -> bool:
     """Whether a line near the top gives the count as NPTS, or count and step alone."""
-    return max(_count_line(lines), _bare_line(lines)) >= 0
+    return max(_count_line(source.lines), _bare_line(source.lines)) >= 0
 
 
 def read(source: Source) -> MotionFile:
@@ -61,7 +60,7 @@ def read(source: Source) -> MotionFile:
     units: list[tuple[str, int]] = []
     for index, line in enumerate(source.lines[: at + 1]):
         # The name of a station may have the letters of a unit in brackets.
-        if ACCELERATION.search(line) or phrases.stated_units(line):
+        if phrases.ACCELERATION.search(line) or phrases.stated_units(line):
             units += [(unit, index) for unit in phrases.units_in(line)]
     scale = source.stated_scale(units)
     step = printed(counted[2], at) if counted.re is not _NAMED else None
@@ -71,7 +70,7 @@ def read(source: Source) -> MotionFile:
     # The second line has event, date, station and component.
     _, comma, component = heading[1].rpartition(",") if len(heading) > 1 else ("", "", "")
     name = component.strip() if comma else ""
-    channel = Channel(name=name, dt_s=dt_s, a_mps2=values, notes=())
+    channel = Record(name=name, dt_s=dt_s, a_mps2=values, notes=())
     return motion_file(source, form, [channel])
 
 

@@ -6,24 +6,29 @@ Contains the list of formats and their order. Read `read_motion_file` first.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
 from solver.formats import cosmos, csmip, esm, geonet, knet, peer, seed, smc, text
 from solver.formats.channels import MotionFile
-from solver.formats.source import Source, open_source, waveform_format
+from solver.formats.source import Source, open_source
 from solver.records.record import Record
 
 
-class _Format(Protocol):
-    def recognizes(self, lines: Sequence[str], /) -> bool: ...
-    def read(self, source: Source, /) -> MotionFile: ...
+class Format(Protocol):
+    """A module that reads files of one format."""
+
+    def recognizes(self, source: Source, /) -> bool:
+        """Whether a file is of this format, by its content."""
+
+    def read(self, source: Source, /) -> MotionFile:
+        """Read all channels; raises `InputError` with every problem."""
 
 
-# GeoNet precedes CSMIP, whose first line is similar; text is last because it accepts every file.
-_FORMATS: tuple[_Format, ...] = (cosmos, geonet, csmip, smc, knet, esm, peer, text)
+FORMATS: tuple[Format, ...] = (seed, cosmos, geonet, csmip, smc, knet, esm, peer, text)
+"""All formats, asked in this order: GeoNet before CSMIP, whose first line is similar; text, which
+accepts every file, last."""
 
 
 def read_motion_file(
@@ -78,9 +83,8 @@ def read_motion_file(
         values_per_line=values_per_line,
         response=str(response),
     )
-    reader = next(form for form in _FORMATS if form.recognizes(source.lines))
-    motion_file = (seed if waveform_format(source.content) else reader).read(source)
-    return replace(motion_file, content=source.content)
+    reader = next(form for form in FORMATS if form.recognizes(source))
+    return replace(reader.read(source), content=source.content)
 
 
 def read_record(

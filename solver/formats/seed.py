@@ -18,11 +18,11 @@ import numpy as np
 
 from solver.bounds import SENSITIVITY
 from solver.files import read_file
-from solver.formats.channels import Channel, MotionFile, motion_file, offset_notes
+from solver.formats.channels import MotionFile, motion_file, offset_notes
 from solver.formats.source import MAX_BYTES, Source, Stated, waveform_format
 from solver.formats.times import round_step
 from solver.model import Floats, InputError
-from solver.records.record import shown, unit_size
+from solver.records.record import Record, shown, unit_size
 
 # Source: SEED reference manual, version 2.4 (data records); SAC manual, data file format (IDEP: 6
 # displacement, 7 velocity, 8 acceleration, whose unit by the manual, nm/s2, is often not kept);
@@ -36,6 +36,11 @@ _INSTALL = (
     " that ends with .mseed or .sac (the launcher installs it then), or: pip install"
     " 'roofslip[seismic]'"
 )
+
+
+def recognizes(source: Source) -> bool:
+    """Whether the first bytes are those of a record of miniSEED, or the version that of SAC."""
+    return bool(waveform_format(source.content))
 
 
 def read(source: Source) -> MotionFile:
@@ -75,7 +80,7 @@ def _damaged(source: Source, form: str) -> InputError:
     return InputError(f"{source.name}: damaged or cut {_NAMES[form]}; give the whole file")
 
 
-def _channel(source: Source, obspy: Any, trace: Any) -> Channel:
+def _channel(source: Source, obspy: Any, trace: Any) -> Record:
     sac = trace.stats.get("sac")
     quantity = _OTHER_SAC.get(int(sac.get("idep", 0))) if sac else None
     if quantity or trace.data.dtype.kind not in "if":
@@ -92,7 +97,7 @@ def _channel(source: Source, obspy: Any, trace: Any) -> Channel:
     scale, notes = _scale(source, obspy, trace, values)
     a_mps2 = values * scale
     notes = (*notes, *(offset_notes(a_mps2) if a_mps2.any() else ()))
-    return Channel(name=trace.id, dt_s=source.step(step), a_mps2=a_mps2, notes=notes)
+    return Record(name=trace.id, dt_s=source.step(step), a_mps2=a_mps2, notes=notes)
 
 
 def _scale(source: Source, obspy: Any, trace: Any, values: Floats) -> tuple[float, tuple[str, ...]]:

@@ -15,11 +15,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from solver.formats.channels import Channel, MotionFile, motion_file, offset_notes, peak_notes
+from solver.formats.channels import MotionFile, motion_file, offset_notes, peak_notes
 from solver.formats.numbers import Block, FieldFormat, fixed_rows, fixed_values, header_values
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
-from solver.model import Floats, InputError
+from solver.model import InputError
+from solver.records.record import Record
 
 # Source: U.S. Geological Survey, National Strong-Motion Program, SMC- and BBF-format data files,
 # escweb.wr.usgs.gov/nsmp-data/smcfmt.html: integers 1 (code of an unknown one), 16 (comments), 17
@@ -44,9 +45,9 @@ _RATE, _LARGEST, _SMALLEST = 2, 30, 32
 _UNKNOWN = 1e30
 
 
-def recognizes(lines: Sequence[str]) -> bool:
+def recognizes(source: Source) -> bool:
     """Whether the first line is a type number with the name of the type."""
-    return bool(lines and _FIRST.match(lines[0]))
+    return bool(_FIRST.match(source.line(0)))
 
 
 def read(source: Source) -> MotionFile:
@@ -63,21 +64,20 @@ def read(source: Source) -> MotionFile:
     rate = real[_RATE - 1]
     if _known(rate) > 0.0:
         dt_s = source.step(Stated(value=1.0 / rate.value, index=rate.index))
-        values, told = fixed_values(source, block, _VALUES), tuple[str, ...]()
+        record = Record(name="", dt_s=dt_s, a_mps2=fixed_values(source, block, _VALUES) * scale)
     else:
-        dt_s, values, told = _uneven(source, block)
-    # The heading has peaks in the unit of the values, so both get one scale.
-    values, notes = values * scale, [*more, *told]
+        record = _uneven(source, block, scale)
+    notes = [*more, *record.notes]
     if whole[_FLAG - 1].value == 1.0:
         notes.append("the heading flags a problem with this record: read its comments")
+    # The heading has peaks in the unit of the values.
     peak = max(abs(_known(real[_LARGEST - 1])), abs(_known(real[_SMALLEST - 1]))) * scale
-    notes += peak_notes(source, real[_LARGEST - 1].index, peak, values)
+    notes += peak_notes(source, real[_LARGEST - 1].index, peak, record.a_mps2)
     if kind.startswith("UNCORRECTED"):
-        notes += offset_notes(values)
+        notes += offset_notes(record.a_mps2)
     named = _COMPONENT.search(source.line(5))
     name = named[1].strip() if named else ""
-    channel = Channel(name=name, dt_s=dt_s, a_mps2=values, notes=tuple(notes))
-    return motion_file(source, "USGS SMC", [channel])
+    return motion_file(source, "USGS SMC", [replace(record, name=name, notes=tuple(notes))])
 
 
 def _block(source: Source, whole: Sequence[Stated]) -> tuple[Block, tuple[str, ...]]:
@@ -103,7 +103,7 @@ def _block(source: Source, whole: Sequence[Stated]) -> tuple[Block, tuple[str, .
     return block, (note,) if more else ()
 
 
-def _uneven(source: Source, block: Block) -> tuple[float, Floats, tuple[str, ...]]:
+def _uneven(source: Source, block: Block, scale: float) -> Record:
     """Pairs of time and acceleration; a line may have fewer than four."""
     fields = [_VALUES.fields(line) for line in source.lines[block.first : block.stop]]
     last = max((i for i, number in enumerate(fields) if number), default=0)
@@ -137,8 +137,8 @@ def _uneven(source: Source, block: Block) -> tuple[float, Floats, tuple[str, ...
         repeated = len(pairs) - len(times)
         notes += (f"times that stand twice: {repeated}; the mean of their values is taken",)
         pairs, rows = np.column_stack((times, means)), [rows[i] for i in first]
-    even = sampled(source, pairs[:, 0], pairs[:, 1:].T, rows.__getitem__)
-    return even.dt_s, even.columns[0], (*notes, *even.notes)
+    dt_s, columns, told = sampled(source, pairs[:, 0], pairs[:, 1:].T, rows.__getitem__)
+    return Record(name="", dt_s=dt_s, a_mps2=columns[0] * scale, notes=(*notes, *told))
 
 
 def _known(number: Stated) -> float:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -33,13 +32,8 @@ _MANY, _ROUNDED_WITHIN = 10, 0.9
 _RATES_HZ = (200, 100, 50, 250, 500, 1000, 400, 125, 128, 256, 512, 80, 120, 150, 75, 300, 5000)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Sampled:
-    """Columns at an even step."""
-
-    dt_s: float
-    columns: Floats  # shape (k, n)
-    notes: tuple[str, ...]  # one or more if the columns were resampled
+# Step [s], columns of shape (k, n), and notes: one or more if they were resampled.
+Even = tuple[float, Floats, tuple[str, ...]]
 
 
 def sampled(
@@ -48,7 +42,7 @@ def sampled(
     columns: Floats,
     line_of: Callable[[int], int],
     unit_s: float = 1.0,
-) -> Sampled:
+) -> Even:
     """Columns at an even step: unchanged if the times are even, otherwise resampled.
 
     The record is linear between its samples, so resampling is by linear interpolation. The step is
@@ -66,7 +60,7 @@ def sampled(
     step, blur = _even_step(t_s, unit_s)
     if not math.isnan(step):
         stated = Stated(value=round_step(step, blur), rounding=blur, index=line_of(0))
-        return Sampled(dt_s=source.step(stated), columns=columns, notes=())
+        return source.step(stated), columns, ()
     if not math.isnan(source.dt_s):
         found = f"{source.name}: found uneven times but the time step given is {source.dt_s:.6g} s"
         raise InputError(Problem(found, "give none, and the record is resampled", about="dt_s"))
@@ -78,7 +72,7 @@ def is_even(t_s: Floats, unit_s: float = 1.0) -> bool:
     return bool((np.diff(t_s) > 0.0).all()) and not math.isnan(_even_step(t_s, unit_s)[0])
 
 
-def _rounded(source: Source, t_s: Floats, columns: Floats, unit_s: float) -> Sampled | None:
+def _rounded(source: Source, t_s: Floats, columns: Floats, unit_s: float) -> Even | None:
     """Columns at the caller's step where even times are rounded to stand twice; else None."""
     n, resolution = len(t_s) - 1, _resolution(t_s, unit_s)
     step = (t_s[-1] - t_s[0]) / n
@@ -92,7 +86,7 @@ def _rounded(source: Source, t_s: Floats, columns: Floats, unit_s: float) -> Sam
     note = f"the times are rounded to {resolution:g} s"
     if abs(source.dt_s - step) <= blur:
         told = f"{note}: the time step is the one given, and a missing sample would not show"
-        return Sampled(dt_s=source.dt_s, columns=columns, notes=(told,))
+        return source.dt_s, columns, (told,)
     usual = (1.0 / rate for rate in _RATES_HZ if abs(1.0 / rate - step) <= blur)
     found = f"{source.name}: {note}, {n} steps over {t_s[-1] - t_s[0]:.6g} s"
     wanted = f"give the time step dt, such as {next(usual, step):.9g}"
@@ -138,9 +132,7 @@ def round_step(step: float, blur: float) -> float:
     return whole if abs(whole - step) <= blur + 1e-9 * step else float(f"{step:.9g}")
 
 
-def _resampled(
-    source: Source, t_s: Floats, columns: Floats, line_of: Callable[[int], int]
-) -> Sampled:
+def _resampled(source: Source, t_s: Floats, columns: Floats, line_of: Callable[[int], int]) -> Even:
     steps = np.diff(t_s)
     # Rounded, because differences of times have errors in their last binary digits.
     usual, length = float(f"{np.median(steps):.9g}"), float(t_s[-1] - t_s[0])
@@ -167,7 +159,7 @@ def _resampled(
         f"times are uneven, steps of {steps.min():.4g} to {steps.max():.4g} s: resampled at"
         f" {step:g} s by linear interpolation, which changes no sample{moved}"
     )
-    return Sampled(dt_s=step, columns=even, notes=(note, *_gaps(source, t_s, usual, line_of)))
+    return step, even, (note, *_gaps(source, t_s, usual, line_of))
 
 
 def _loss(t_s: Floats, columns: Floats, even: Floats, step: float) -> float:

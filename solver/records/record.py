@@ -54,11 +54,14 @@ class Record:
         Sampling interval [s], > 0.
     a_mps2 : array, shape (n,)
         Acceleration [m/s2], read-only, n >= 2.
+    notes : tuple of str
+        On how it was read, such as that uneven times were resampled.
     """
 
     name: str
     dt_s: float
     a_mps2: Floats
+    notes: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return f"Record({self.name!r}, {len(self.a_mps2)} samples at {self.dt_s:g} s)"

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from solver.formats.layout import parse
+from solver.formats.phrases import parse
 from solver.model import Floats, Friction, InputError, Motion, Scene, coulomb
 from solver.records.record import NO_RECORD, UNITS, Record, has_gravity, raise_any, read_only
 from solver.records.record import unit_size as records_unit

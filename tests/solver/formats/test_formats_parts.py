@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 
 from refused import refused
 from solver.formats import read_motion_file
-from solver.formats.channels import Channel, distinct, motion_file, offset_notes, peak_notes
-from solver.formats.layout import Kind, parse, remark, settled, words
+from solver.formats.channels import distinct, motion_file, offset_notes, peak_notes
 from solver.formats.numbers import (
     Block,
     FieldFormat,
@@ -22,10 +21,10 @@ from solver.formats.numbers import (
     layout_of,
     printed,
 )
-from solver.formats.phrases import units_in
+from solver.formats.phrases import Kind, parse, remark, settled, units_in, words
 from solver.formats.source import Source
 from solver.model import InputError
-from solver.records.record import UNIT_CHOICES, UNITS, is_other_unit, unit_size
+from solver.records.record import UNIT_CHOICES, UNITS, Record, is_other_unit, unit_size
 
 pytestmark = pytest.mark.quick
 
@@ -35,7 +34,7 @@ SOURCE = Source(name="a.v2", lines=[], units="", dt_s=math.nan)
 
 def made(*names, notes=()):
     channels = [
-        Channel(name=name, dt_s=0.01, a_mps2=np.array([0.0, float(i)]), notes=notes)
+        Record(name=name, dt_s=0.01, a_mps2=np.array([0.0, float(i)]), notes=notes)
         for i, name in enumerate(names, start=1)
     ]
     return motion_file(SOURCE, "made", channels, ["of the file"])
@@ -78,7 +77,7 @@ def test_names_and_notes_of_channels_differ_and_long_lists_are_cut():
     assert made("x", "y", notes=("odd",)).notes == ("of the file", "x: odd", "y: odd")
     (problem,) = refused(made)
     assert problem.startswith("a.v2: found no acceleration in this made file; give a")
-    short = Channel(name="x", dt_s=0.01, a_mps2=np.zeros(1), notes=())
+    short = Record(name="x", dt_s=0.01, a_mps2=np.zeros(1), notes=())
     (problem,) = refused(motion_file, SOURCE, "made", [short])
     assert problem == "a.v2: found 1 sample; give at least 2"
 

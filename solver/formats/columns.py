@@ -1,0 +1,69 @@
+"""What the columns of a table show by their numbers, whatever their headings say.
+
+Knows no heading and no format. Read `rising`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from solver.model import Floats
+
+# No shaking rises from line to line. Fewer rows than `_FEW` show nothing; in `_MANY` a column need
+# not rise evenly, as times of loggers do not.
+_FEW, _MANY = 5, 12
+_EVEN_WITHIN, _OFTEN = 0.01, 0.1  # of a step, of all steps
+_MAGNITUDE_WITHIN = 0.01  # of its peak: digits are printed apart
+
+
+def rising(table: Floats) -> list[int]:
+    """Indexes of the columns that rise from row to row, evenly where there are few rows."""
+    rows = len(table)
+    if rows < _FEW:
+        return []
+    steps = np.diff(table, axis=0)
+    usual = (table[-1] - table[0]) / (rows - 1)
+    # Rounded times stand twice; zeros up to a last pulse are no times.
+    rises = (steps >= 0.0).all(axis=0) & ((steps > 0.0).mean(axis=0) > _OFTEN)
+    if rows < _MANY:
+        rises &= np.abs(steps - usual).max(axis=0) <= _EVEN_WITHIN * usual
+    return [int(column) for column in np.flatnonzero(rises)]
+
+
+def magnitudes(table: Floats, columns: Sequence[int], named: Sequence[int]) -> list[int]:
+    """Those of some columns that are the length of the vector of the columns before them.
+
+    By their numbers, the root of the sum of squares, or as their headings name them.
+    """
+    found: list[int] = []
+    for i in columns:
+        values = table[:, i]
+        before = [k for k in columns if k != i and k not in found]
+        # Loggers write the length behind two or three components, or behind all of them.
+        vectors = [before[:count] for count in (2, 3, len(before)) if 1 < count <= len(before)]
+        roots = (np.linalg.norm(table[:, vector], axis=1) for vector in vectors)
+        within = _MAGNITUDE_WITHIN * values.max()
+        if (
+            values.min() >= 0.0
+            and values.any()
+            and (i in named or any(np.abs(values - root).max() <= within for root in roots))
+        ):
+            found.append(i)
+    return found
+
+
+def remedy(table: Floats) -> str:
+    """Return what would do for a table of two or more columns without headings."""
+    heading = f"a heading such as time_s,x_g{',y_g' * (table.shape[1] > 2)}"
+    if not (columns := rising(table)):
+        return (
+            f"give {heading}, or put one on each line, or give the values per line to motion"
+            f" convert (--values-per-line {table.shape[1]})"
+        )
+    which = ", ".join(str(column + 1) for column in columns)
+    return (
+        f"times or line numbers rise in column {which}: put each time first on a line with its"
+        f" values, below {heading}; delete line numbers"
+    )
