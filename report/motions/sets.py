@@ -41,6 +41,8 @@ VERTICAL = re.compile(
 )
 
 _NAMED = {word: component for component, words in _SPELLED.items() for word in words.split()}
+# Of SEED: network, station, location (whose digits are no azimuth) and channel.
+_IDENTITY = re.compile(r"([a-z0-9]+\.[a-z0-9]+\.[a-z0-9]*)\.([befhs][gln])([enz12])")
 # Of SEED, after band and instrument; of KiK-net, before the number of the sensor.
 _WITHIN = re.compile(r"([befhs][gln])([enz12])|(ns|ew|ud)(\d)")
 _BEARING = re.compile(r"([ns])(\d{1,2})([ew])")
@@ -52,6 +54,9 @@ _END = re.compile(
     r"(.*?)(?:(?:^|(?<![-_. ])[-_. ]+)(u-d|n-s|e-w|[a-z]+\d?|[ns]\d+[ew]|\d\d\d?)|(?<!\d)(\d{3}))",
     re.IGNORECASE,
 )
+_MARKS = "-_. "
+_FIELD = re.compile(rf"[^{_MARKS}]+")
+_GLUED_ENDS = "...$", "..$"
 _GLUED = re.compile(r"(.+?)(dwn|vrt|vert|[ns]\d\d[ew])", re.IGNORECASE)
 
 
@@ -140,7 +145,7 @@ def sets_of(
         if why := next(_unclear(group, without_vertical), ""):
             left.append((_listed(group), why))
         else:
-            name = stem or PurePosixPath(parent).name or whole or folder.resolve().name
+            name = _short(stem) or PurePosixPath(parent).name or whole or folder.resolve().name
             clear.append((name, f"{name} {rest}".strip(), group))
     clear = list(_corrected(clear, left))
     plain = Counter(name for name, _, _ in clear)
@@ -179,6 +184,12 @@ def _corrected(clear: Sequence[_Clear], left: list[Left]) -> Iterator[_Clear]:
             left.append((_listed(each[2]), "uncorrected; the corrected records are taken"))
         else:
             yield each
+
+
+def _short(name: str) -> str:
+    """Return as many fields of a name as an ID holds."""
+    ends = [field.end() for field in _FIELD.finditer(name) if field.end() <= MOST_NAME]
+    return name[: max(ends, default=None)] if len(name) > MOST_NAME else name
 
 
 def _unclear(group: Sequence[Candidate], without_vertical: bool) -> Iterator[str]:
@@ -224,7 +235,7 @@ def _channels(file: str, motion_file: MotionFile) -> Sequence[Candidate]:
         if of_heading and of_name and _differ(of_heading, of_name):
             raise InputError(f"its heading ({said}) and its name have different components")
         if not of_name:
-            stem = _unglued(stem, family, degrees)
+            stem = _without(stem, family, degrees)
         channels.append(
             Candidate(
                 file=file,
@@ -241,16 +252,18 @@ def _channels(file: str, motion_file: MotionFile) -> Sequence[Candidate]:
     return channels
 
 
-def _unglued(stem: str, family: str, degrees: int) -> str:
-    """Return a name without the word for a component at its end, of three letters or two."""
-    for count in (3, 2):
-        word = stem[-count:].casefold()
-        if (
-            len(stem) > count
-            and (direction := _by_word(word))
-            and direction[:2] == (family, degrees)
-        ):
-            return stem[:-count]
+def _without(stem: str, family: str, degrees: int) -> str:
+    """Return a name without the word for a component: the last of its fields, or glued to its end.
+
+    Glued are three letters or two.
+    """
+    words = [*reversed([*_FIELD.finditer(stem)]), *(re.search(end, stem) for end in _GLUED_ENDS)]
+    for word in words:
+        if word and len(word[0]) < len(stem):
+            direction = _by_word(word[0].casefold())
+            if direction and direction[:2] == (family, degrees):
+                rest = stem[: word.start()] + stem[word.end() :].lstrip(_MARKS)
+                return rest.rstrip(_MARKS)
     return stem
 
 
@@ -266,6 +279,8 @@ def _differ(first: _Meant, second: _Meant) -> bool:
 
 def _by_heading(text: str) -> _Meant | None:
     """Return the first component that a heading names, with its other words."""
+    if identity := _IDENTITY.fullmatch(text.casefold()):
+        return *_NAMED[identity[3]], f"{identity[2]} {identity[1]}"
     words = re.findall(r"[a-z0-9]+(?:-[a-z](?![a-z]))?", _CHANNEL.sub(" ", text.casefold()))
     for k, word in enumerate(words):
         if direction := _by_word(word):

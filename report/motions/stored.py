@@ -107,24 +107,25 @@ class _Room:
 def _unpack(content: IO[bytes], room: _Room, below: str = "") -> None:
     """Write the files of a zip; refuse a link, and what is encrypted or damaged."""
     archive = zip_of(content, "the zip is damaged; make it again")
-    members = [info for info in archive.infolist() if not info.filename.endswith("/")]
-    for info in members:
+    # Some programs of Windows write backslashes.
+    named = [(info.filename.replace("\\", "/"), info) for info in archive.infolist()]
+    members = [(path, info) for path, info in named if not path.endswith("/")]
+    for path, info in members:
         # The upper half is the mode of Unix; 0 where a zip was made elsewhere.
-        kind, name = stat.S_IFMT(info.external_attr >> 16), printable(info.filename)
+        kind, name = stat.S_IFMT(info.external_attr >> 16), printable(path)
         if kind not in (0, stat.S_IFREG):
             raise InputError(f"{name}: a link, not a file; put the file into the zip")
         if info.flag_bits & _ENCRYPTED:
             raise InputError("the zip has a password; make it without one")
-    for info in members:
+    for path, info in members:
         try:
             with archive.open(info) as member:
-                room.take(below + info.filename, member)
+                room.take(below + path, member)
         except Exception as error:  # zlib, lzma and bz2 raise errors of their own
             # What the system refuses has a number, as on a full disk.
             if isinstance(error, InputError) or getattr(error, "errno", None):
                 raise
-            name = printable(info.filename)
-            raise InputError(f"{name}: damaged in the zip; make it again") from error
+            raise InputError(f"{printable(path)}: damaged in the zip; make it again") from error
 
 
 def _workbook(paths: Sequence[Path]) -> Path:

@@ -56,6 +56,44 @@ def test_sets_of_three_are_told_by_the_ends_of_names(tmp_path, names, motion):
     assert found[1][2] == vertical
 
 
+def asc(path, component):
+    """A record as ESM and ITACA give it, whose heading names its component."""
+    values = "\n".join(f"{10 * np.sin(0.3 * k):.6f}" for k in range(100))
+    heading = f"SAMPLING_INTERVAL_S: 0.01\nNDATA: 100\nSTREAM: {component}\nUNITS: cm/s^2\n"
+    path.write_text(f"{heading}{values}\n")
+
+
+@pytest.mark.parametrize(
+    ("name", "motion"),
+    [
+        ("HI.ARS1..{}.D.20190728.010101.C.ACC.MP", "HI.ARS1..D.20190728.010101.C.ACC.MP"),
+        ("E.ABC.{}.D.2001", "E.ABC.D.2001"),
+        ("{}_2001-01-01_ABC", "2001-01-01_ABC"),
+        ("ABC__{}__2001", "ABC__2001"),
+    ],
+)
+def test_the_word_of_the_heading_is_taken_out_wherever_it_stands_in_the_name(
+    tmp_path, name, motion
+):
+    words = ("E", "N", "Z") if name.startswith("E.") else ("HNE", "HNN", "HNZ")
+    for word in words:
+        asc(tmp_path / f"{name.format(word)}.ASC", word)
+    expected = [f"{name.format(word)}.ASC" for word in words]
+    assert taken(tmp_path) == ({motion: expected}, {})
+
+
+def test_the_location_in_the_identity_of_a_channel_is_no_azimuth(tmp_path):
+    times = "20180101T000000Z__20180101T000200Z"
+    for word in ("HNE", "HNN", "HNZ"):
+        asc(tmp_path / f"BK.TCAS.00.{word}__{times}.asc", f"BK.TCAS.00.{word}")
+    sets, left = taken(tmp_path)
+    assert left == {}
+    ((motion, group),) = sets.items()
+    # An ID has at most 40 letters.
+    assert motion == "BK.TCAS.00.20180101T000000Z"
+    assert [name.split("__")[0][-3:] for name in group] == ["HNE", "HNN", "HNZ"]
+
+
 @pytest.mark.parametrize(
     ("names", "why"),
     [

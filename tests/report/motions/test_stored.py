@@ -64,6 +64,12 @@ def test_a_path_that_leaves_its_folder_on_any_system_is_refused(name, tmp_path):
     assert not (tmp_path.parent / "input.xlsx").exists()
 
 
+def test_a_zip_of_windows_may_have_backslashes_in_its_names(tmp_path):
+    members = [("set\\", b""), ("set\\input.xlsx", b"1"), ("set\\records\\x.csv", b"2")]
+    assert store(packed(members), tmp_path) == tmp_path / "set" / "input.xlsx"
+    assert (tmp_path / "set" / "records" / "x.csv").read_bytes() == b"2"
+
+
 def test_a_link_in_a_zip_is_refused(tmp_path):
     link = zipfile.ZipInfo("records/x.csv")
     link.external_attr = (stat.S_IFLNK | 0o777) << 16
