@@ -15,6 +15,7 @@ from report.assessment.neighbors import EDGE_STRIP_M, bare_sides
 from report.drawing.items import Layer
 from report.drawing.modules import GAP_M, MOST_TEXTS, SIDES_M, Known, joined
 from report.drawing.roof_drawing import (
+    ABOVE_ROOF,
     Drawn,
     RoofDrawing,
     Unread,
@@ -375,7 +376,7 @@ def _height_m(
     notes.append(f"{height.word} {pair(height.value_m, Quantity.SIZE, us_first)}")
     if not height.has_unit:
         notes.append("no unit given, so in that of the drawing")
-    if height.word == "ELEV":
+    if height.word not in ABOVE_ROOF:
         notes.append("taken as above the roof")
     return height.value_m
 

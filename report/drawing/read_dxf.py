@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
@@ -103,7 +103,21 @@ def _read(document: Document, repairs: str, unit_m: float | None) -> RoofDrawing
     )
     reader = _Reader(drawing, size_m, hidden)
     reader.take_all(document.modelspace())
+    _check_degrees([point for line in drawing.lines for point in line.points])
     return drawing
+
+
+def _check_degrees(points: Sequence[Point]) -> None:
+    """Refuse a plan that would be smaller than 1 in any unit and lies far from its origin."""
+    if not points:
+        return
+    (west, east), (south, north) = ((min(v), max(v)) for v in zip(*points, strict=True))
+    far = max(abs(west + east), abs(south + north)) / 2.0
+    if max(east - west, north - south) < 0.5 and 1.0 < far <= 180.0:
+        raise InputError(
+            f"the drawing is in degrees: {west:.5f}, {south:.5f} is a longitude and latitude;"
+            " export it in ft or m, such as in State Plane or UTM coordinates"
+        )
 
 
 def _drawn_layouts(document: Document, unit_m: float, hidden: Mapping[str, str]) -> Iterator[str]:

@@ -120,6 +120,22 @@ OTHER_UNITS: Mapping[int, tuple[str, str]] = {
 }  # fmt: skip
 
 DAMAGED = "not a DXF drawing, or damaged; open it in CAD and save it again"
+# What else is given as one, by how it begins, and what would do.
+_OTHER_FILES = (
+    (rb"AC10", "a DWG drawing; save it as DXF (R12 to R2018)"),
+    (rb"AutoCAD Binary DXF", "a binary DXF; save it as DXF in text"),
+    (rb"%PDF", "a PDF; give the DXF that it was plotted from"),
+    (rb"PK\x03\x04", "a zip; unpack it and give the DXF in it"),
+    (
+        rb"\x89PNG|\xff\xd8\xff|II\*\x00|MM\x00\*|GIF8|BM",
+        "a picture; give the drawing as DXF",
+    ),
+    (rb"ISO-10303-21", "an IFC or STEP model; export its roof plan as DXF"),
+    (rb"\xd0\xcf\x11\xe0", "a model of Revit, or an old Office file; export its roof plan as DXF"),
+    (rb"(?:<[?!][^>]*>\s*){0,9}<svg", "an SVG; save it as DXF"),
+    (rb"<", "XML or a web page; export the roof plan as DXF"),
+    (rb"[{\[]", "JSON, such as GeoJSON; export the roof plan as DXF in ft or m"),
+)
 _ENDED = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*EOF\s*\Z")
 _ENTITY = re.compile(rb"^[ \t]*0[ \t]*\r?\n[ \t]*[A-Z3_]", re.MULTILINE)
 
@@ -139,10 +155,10 @@ def _read(path: Path) -> bytes:
     if not path.exists():
         raise InputError(f"no such file; {meant(path) or 'give a DXF drawing'}")
     data = read_file(path, MAX_BYTES, too_large="save the roof plan alone")
-    if data.startswith(b"AC10"):
-        raise InputError("a DWG drawing; save it as DXF (R12 to R2018)")
-    if data.startswith(b"AutoCAD Binary DXF"):
-        raise InputError("a binary DXF; save it as DXF in text")
+    begin = data[:1000].removeprefix(b"\xef\xbb\xbf").lstrip()
+    for pattern, told in _OTHER_FILES:
+        if re.match(pattern, begin, re.IGNORECASE):
+            raise InputError(told)
     # By counting bytes: the library builds all entities before anything can be refused.
     values = data.count(b"\n") // 2  # each after a line with its code
     limit(values, MAX_VALUES, "values")
@@ -244,13 +260,21 @@ def drawn_on(drawing: RoofDrawing, layer: str) -> str:
 
 
 _NUMBER, _SHARE = r"\d{1,6}(?:\.\d{1,6})?", r"\d{1,2}/[1-9]\d?"
-_KEYWORD = re.compile(r"\b(?:(HT|HGT|HEIGHT|ELEV)(?: OF)?[.:= ]*|(H) ?[=:] ?)(?=\d)", re.IGNORECASE)
+_TOP = r"(?:TOP(?: OF [A-Z]{1,12})?|T(?:\.O\.(?:[A-Z]\.)?|/O)(?: [A-Z]{1,12})?)"
+_KEYWORD = re.compile(
+    rf"(?<!\w)(?:(HT|HGT|HEIGHT|(?:{_TOP} ?)?EL(?:EV(?:ATION)?)?|{_TOP})(?: OF)?[.:=@ ]*(?:\+ ?)?"
+    r"|([HZ]) ?[=:] ?(?:\+ ?)?)(?=\d)|(?:(?<=[\s(])|^)(\+|\+/-|±) ?(?=\d)",
+    re.IGNORECASE,
+)
+# Heights above the roof; what other words give may be above a datum.
+ABOVE_ROOF = ("H", "HT", "HGT", "HEIGHT")
+_ALSO_A_NAME = ("TOP", "+", "+/-", "±")  # before a number without a unit
 _DIGITS = r"\d(?:[\d .'/#^-]|,(?=\d)){0,16}?"
 # As sizes of equipment are written: a number with its unit before a lone H.
 _BEFORE = re.compile(
     rf"(?<![\w./'\"#^-])(?P<value>(?:{_DIGITS}(?:ft|feet)\.?[ -]{{0,3}})?"
     rf"{_DIGITS}(?:['\"]|(?:ft|feet|inches|inch|in|mm|cm|m)\.?))"
-    r"[ -]?(?:H|HT|HIGH|TALL)\b(?![.:= ]*\d)",
+    r"[ -]?(?:H|HT|HIGH|TALL|ABOVE|A\.?F\.?R)\b(?![.:= ]*\d)",
     re.IGNORECASE,
 )
 _OTHER_SIZES = re.compile(r"(?:[\d.'\"/-]{1,12}+ ?+[WLD]?+ ?+[x×] ?+){1,3}+$", re.IGNORECASE)
@@ -280,16 +304,19 @@ def read_line(text: str, unit_m: float) -> tuple[str, Height | None]:
     text = _METRIC.sub(r"\1.\2", plain_marks(text))
     word = _KEYWORD.search(text)
     if word:
-        match, start, said = _VALUE.match(text, word.end()), word.start(), word[1] or word[2]
+        match, start, said = _VALUE.match(text, word.end()), word.start(), word[word.lastindex or 0]
     elif before := _BEFORE.search(text):
         match, start, said = _VALUE.fullmatch(before["value"]), before.start(), "H"
     else:
         return text, None
-    name = _OTHER_SIZES.sub("", text[:start]).strip(" ,;:-(@")
+    name = _OTHER_SIZES.sub("", text[:start]).lstrip(" ,;:-").rstrip(" ,;:-(@")
+    name = name if ")" in name else name.lstrip("(")  # `(N) RTU-1` is one
     unclear = Height(math.nan, said.upper(), False)
     if not match or not match[0]:
         return name, unclear
     unit = match["unit"] or ('"' if match["feet"] else "")
+    if not unit and said.upper() in _ALSO_A_NAME:
+        return text, None
     if word and not unit and text[match.end() :].lstrip()[:1].isalnum():
         return name, unclear  # such as `42 yd` or `42 1/0`
     value, feet = (

@@ -54,6 +54,17 @@ def test_large_files_and_long_names_are_refused(file):
     [
         (b"AC1032\x00\x00", "a DWG drawing"),
         (b"AutoCAD Binary DXF\r\n\x1a\x00", "a binary DXF"),
+        (b"%PDF-1.7\n", "a PDF; give the DXF that it was plotted from"),
+        (b"PK\x03\x04\x14\x00", "a zip; unpack it and give the DXF in it"),
+        (
+            b'\xef\xbb\xbf<?xml version="1.0"?>\n<!-- made -->\n<svg width="9">',
+            "an SVG; save it as DXF",
+        ),
+        (b'<?xml version="1.0"?><kml>', "XML or a web page; export the roof plan as DXF"),
+        (b'\n {"type": "FeatureCollection"}', "JSON, such as GeoJSON; export the roof plan as DXF"),
+        (b"\x89PNG\r\n\x1a\n", "a picture; give the drawing as DXF"),
+        (b"ISO-10303-21;\n", "an IFC or STEP model; export its roof plan as DXF"),
+        (b"\xd0\xcf\x11\xe0\xa1\xb1", "a model of Revit, or an old Office file; export"),
         (b"", "not a DXF drawing"),
         (LIBRECAD_R12[:200].encode(), "not a DXF drawing"),
         (b"\x00\xff" * 1000, "not a DXF drawing"),
@@ -61,6 +72,21 @@ def test_large_files_and_long_names_are_refused(file):
 )
 def test_what_is_no_drawing_is_refused(file, content, start):
     assert hostile(file, content).startswith(start)
+
+
+@pytest.mark.parametrize("unit", ["m", "ft"])
+@pytest.mark.parametrize("corner", [(-118.25, 34.05), (34.05, -118.25), (151.2, -33.87)])
+def test_a_drawing_in_degrees_is_refused_as_such(tmp_path, unit, corner):
+    sketch = Sketch(unit=unit)
+    x, y = corner
+    for wide, tall in ((3e-4, 2e-4), (2e-5, 1e-5)):
+        points = [(x, y), (x + wide, y), (x + wide, y + tall), (x, y + tall)]
+        sketch.space.add_lwpolyline(points, close=True, dxfattribs={"layer": "ARRAY"})
+    (problem,) = refused(read_dxf, sketch.saved(tmp_path))
+    assert problem == (
+        f"the drawing is in degrees: {x:.5f}, {y:.5f} is a longitude and latitude; export it in ft"
+        " or m, such as in State Plane or UTM coordinates"
+    )
 
 
 def written(sketch):

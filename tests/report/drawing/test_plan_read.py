@@ -256,6 +256,26 @@ UNIT_M = 1.0
         ('RTU-1,42" HIGH', "RTU-1", 42 * INCH, True),
         ("HT 4'-1/2\"", "", 48.5 * INCH, True),
         ("RTU-1 4' 1/2\" HIGH", "RTU-1", 48.5 * INCH, True),
+        ('(N) RTU-1, HT 42"', "(N) RTU-1", 42 * INCH, True),
+        ('(E) AHU (48"H)', "(E) AHU", 48 * INCH, True),
+        ('(RTU-1, 48"H)', "RTU-1", 48 * INCH, True),
+        ('RTU-1 +48"', "RTU-1", 48 * INCH, True),
+        ("RTU-1 (+4'-6\")", "RTU-1", 4.5 * FT, True),
+        ('RTU-1 ±48"', "RTU-1", 48 * INCH, True),
+        ('RTU-1 HT +48"', "RTU-1", 48 * INCH, True),
+        ('T.O. 48"', "", 48 * INCH, True),
+        ('T.O. CURB = 18"', "", 18 * INCH, True),
+        ('T.O.P. +30"', "", 30 * INCH, True),
+        ('T/O UNIT 48"', "", 48 * INCH, True),
+        ("RTU-1 TOP EL. +4'-0\"", "RTU-1", 4 * FT, True),
+        ('TOP OF PARAPET EL: 30"', "", 30 * INCH, True),
+        ('TOP 48"', "", 48 * INCH, True),
+        ("EL. 1.2 m", "", 1.2, True),
+        ("ELEVATION 1.2 m", "", 1.2, True),
+        ("Z=1.2", "", 1.2, False),
+        ("Z = 1200 mm", "", 1.2, True),
+        ('RTU-1 48" ABOVE ROOF', "RTU-1", 48 * INCH, True),
+        ('48" A.F.R.', "", 48 * INCH, True),
     ],
 )
 def test_a_height_is_read_with_its_unit_or_that_of_the_drawing(text, name, value_m, has_unit):
@@ -277,7 +297,8 @@ def test_a_number_that_is_not_read_whole_is_no_height(text):
 
 @pytest.mark.parametrize(
     "text", ["HT-1", "HEIGHT VARIES", "WEIGHT 42", "ELEVATOR 2", "42 in", "H-1", "H 42", "PH=7",
-             "42H", "RTU-12 H", '60x48"H', "480V 60 Hz", "12 HIGH ST"]
+             "42H", "RTU-12 H", '60x48"H', "480V 60 Hz", "12 HIGH ST", "ROOF TOP 2", "EF-1 + 2",
+             "ROOF-TOP UNIT 2", "GEL 5", "MODEL 48", "UP TO 48 V", "C++ 2", "(N) RTU-1"]
 )  # fmt: skip
 def test_a_number_that_no_word_calls_a_height_is_none(text):
     assert read_line(text, UNIT_M)[1] is None
@@ -296,6 +317,14 @@ def test_the_first_line_is_the_name_and_the_first_height_counts(tmp_path):
     (item,) = plan(sketch.saved(tmp_path)).objects
     assert (item.name, item.note) == ("RTU-7", "HT 48.0 in (1219 mm)")
     assert item.height_m == pytest.approx(48 * INCH)
+
+
+def test_a_height_that_may_be_above_a_datum_is_said_as_above_the_roof(tmp_path):
+    sketch = Sketch()
+    sketch.ring("OBJECT", UNIT_FT, '(N) RTU-1 T.O. 48"')
+    (item,) = plan(sketch.saved(tmp_path)).objects
+    assert item.name == "(N) RTU-1"
+    assert item.note == "T.O. 48.0 in (1219 mm); taken as above the roof"
 
 
 @pytest.mark.parametrize(
