@@ -36,13 +36,15 @@ MAX_MEMBERS = 2000
 # Deflate reaches at most 1032; sheets with identical rows reach about 100.
 MAX_RATIO = 200
 
+MOST_ASKED = 3  # workbooks
+_CSV = "a text file"
 OTHER_KINDS = {
     ".xls": "an old Excel workbook",
     ".xlsm": "a workbook with macros",
     ".xlsb": "a binary Excel workbook",
     ".xltx": "an Excel template",
     ".ods": "an OpenDocument sheet",
-    ".csv": "a text file",
+    ".csv": _CSV,
     ".numbers": "a Numbers sheet",
 }
 _WORKBOOK = "xl/workbook.xml"
@@ -123,22 +125,33 @@ def book_of(path: Path, data: bytes) -> OpenBook:
 
 def located(path: Path) -> Path:
     """Return the path of a workbook, or of `input.xlsx` in a folder; raises as `open_book`."""
-    asked = meant(path)
+    asked = _workbook_in(path, path.parent) if path.is_dir() else meant(path)
     if path.is_dir():
-        # Excel puts ~$NAME beside a workbook that is open.
-        books = [each for each in path.glob("*.xlsx") if not each.name.startswith("~$")]
-        asked = f"did you mean '{books[0]}'?" if len(books) == 1 else ""
         path = path / "input.xlsx"
     if not path.exists():
         check_length(path)
         wanted = "give a workbook, or a folder that holds input.xlsx"
-        raise InputError(f"no such file; {asked or wanted}")
+        raise InputError(f"no such file; {asked or _workbook_in(path.parent) or wanted}")
     if not path.is_file():
         raise InputError("not a file; give a workbook, or a folder that holds input.xlsx")
     if path.suffix.lower() != ".xlsx":
         kind = OTHER_KINDS.get(path.suffix.lower(), "not a workbook file name")
         raise InputError(f"{kind} ({path.suffix or 'no extension'}); {SAVE_AS}")
     return path
+
+
+def _workbook_in(*folders: Path) -> str:
+    """Ask for the workbooks of the first folder that has some, or name one of another kind."""
+    for folder in filter(Path.is_dir, folders):
+        # Excel puts ~$NAME beside a workbook that is open.
+        files = sorted(each for each in folder.iterdir() if not each.name.startswith("~$"))
+        if books := [each for each in files if each.suffix.lower() == ".xlsx"]:
+            shown = " or ".join(f"'{each}'" for each in books)
+            return f"did you mean {shown}?" if len(books) <= MOST_ASKED else ""
+        others = [each for each in files if OTHER_KINDS.get(each.suffix.lower(), _CSV) != _CSV]
+        if len(others) == 1:
+            return f"'{others[0]}' is {OTHER_KINDS[others[0].suffix.lower()]}; {SAVE_AS}"
+    return ""
 
 
 def _zip(data: bytes) -> zipfile.ZipFile:

@@ -26,7 +26,7 @@ from report.sheet.reading.positions import (
     labels,
     labels_of,
     merged,
-    sheet_titled,
+    sheets_titled,
     unit_size,
 )
 from report.sheet.schema import layout
@@ -124,8 +124,8 @@ def _table_named(book: OpenBook, section: SheetSection) -> _Place | None:
 
 def _headings(book: OpenBook, section: SheetSection) -> _Place:
     """Return the row with the most headings of a section; its own sheet is searched first."""
-    own, fields = sheet_titled(book, section.sheet), fields_by_label(section)
-    for sheet in [own] if own else book.book.worksheets:
+    own, fields = sheets_titled(book, section.sheet), fields_by_label(section)
+    for sheet in own or book.book.worksheets:
         rows: dict[int, list[int]] = {}
         taken = _rows_of_others(sheet, section)
         for position, label in labels(book, sheet):
@@ -298,7 +298,7 @@ def added_later(book: OpenBook, section: SheetSection) -> tuple[Entry, ...]:
 def is_absent(book: OpenBook, section: SheetSection) -> bool:
     """Whether a workbook has neither names nor labels of a section."""
     if section.is_table:
-        return sheet_titled(book, section.sheet) is None and table_area(book, section) is None
+        return not sheets_titled(book, section.sheet) and table_area(book, section) is None
     return not any(_position(book, section, entry) for entry in entries(section.model))
 
 
@@ -341,5 +341,5 @@ def _labels(book: OpenBook, section: SheetSection) -> Iterator[tuple[CellPositio
     """Yield what may be a label of a block, from its sheets."""
     titles = [section.sheet_of(entry.name) for entry in entries(section.model)]
     for title in dict.fromkeys(titles):
-        if sheet := sheet_titled(book, title):
+        for sheet in sheets_titled(book, title):
             yield from labels(book, sheet)

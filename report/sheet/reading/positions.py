@@ -88,10 +88,14 @@ def cells_below(book: OpenBook, heading: CellPosition) -> list[Found]:
     ]
 
 
-def sheet_titled(book: OpenBook, title: str) -> Worksheet | None:
-    """Return the sheet with a title, ignoring case."""
+def sheets_titled(book: OpenBook, title: str) -> list[Worksheet]:
+    """Return the sheet with a title, ignoring case; else those that Numbers made of its tables."""
     wanted = title.strip().casefold()
-    return next((s for s in book.book.worksheets if s.title.strip().casefold() == wanted), None)
+    titles = {sheet.title.strip().casefold(): sheet for sheet in book.book.worksheets}
+    if wanted in titles:
+        return [titles[wanted]]
+    # Such as `Arrays - Table 1`: without names and tables of Excel, but with the headings.
+    return [each for name, each in titles.items() if re.match(rf"{re.escape(wanted)} [-–] ", name)]
 
 
 def labels(book: OpenBook, sheet: Worksheet) -> Sequence[tuple[CellPosition, str]]:

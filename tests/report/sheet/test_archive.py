@@ -160,6 +160,26 @@ def test_tags_are_counted_before_anything_is_parsed(tmp_path):
     assert line.endswith(f" XML tags, more than {MAX_TAGS:,}; {BESIDE}")
 
 
+@pytest.mark.quick
+@pytest.mark.parametrize(
+    ("there", "asked", "told"),
+    [
+        ("job/Input.XLSX", "job", "did you mean '{}/job/Input.XLSX'?"),
+        ("job/input.xls", "job", "'{}/job/input.xls' is an old Excel workbook; " + SAVE_AS),
+        ("job/My Project.xlsx", "job", "did you mean '{}/job/My Project.xlsx'?"),
+        ("job/input.xlsx", "job/records", "did you mean '{}/job/input.xlsx'?"),
+        ("job/A 101.xlsx", "job/roof.xlsx", "did you mean '{}/job/A 101.xlsx'?"),
+        ("job.xlsx", "job", "did you mean '{}/job.xlsx'?"),
+        ("job/~$input.xlsx", "job",
+         "give a workbook, or a folder that holds input.xlsx"),
+    ],
+)  # fmt: skip
+def test_a_workbook_that_is_there_is_suggested(tmp_path, there, asked, told):
+    (tmp_path / "job" / "records").mkdir(parents=True)
+    (tmp_path / there).write_bytes(b"")
+    assert problems(tmp_path / asked) == (f"no such file; {told.format(tmp_path)}",)
+
+
 def test_a_missing_file_is_reported(tmp_path):
     wanted = "give a workbook, or a folder that holds input.xlsx"
     assert problems(tmp_path / "none.xlsx") == (f"no such file; {wanted}",)

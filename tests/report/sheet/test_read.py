@@ -153,6 +153,21 @@ def move_second_array(book, rows):
     first.parent.move_range(f"{first.coordinate}:{last.coordinate}", rows=rows)
 
 
+def as_by_numbers(book):
+    """Rename each sheet as Numbers does, without names and tables, and split one by its tables."""
+    book.defined_names.clear()
+    heading = cell(book, "Options/heading/Provision")
+    other = book.create_sheet("Options - Table 1-1")
+    for row in heading.parent.iter_rows(min_row=heading.row):
+        for found in row:
+            other[found.coordinate].value, found.value = found.value, None
+    for sheet in book.worksheets:
+        sheet.tables.clear()
+        if sheet is not other:
+            sheet.title = f"{sheet.title} - Table 1"
+    book.create_sheet("Export Summary", 0)["A1"] = "This document was exported from Numbers."
+
+
 # Together where each can be told apart: no two move the same table or forget what finds it.
 CHANGES = {
     "a table without heading row": lambda book: setattr(
@@ -168,6 +183,7 @@ CHANGES = {
     "table moved": lambda book: move_table(book, "Arrays", 4, 10),
     "tables forgotten": lambda book: [sheet.tables.clear() for sheet in book.worksheets],
     "names forgotten": lambda book: book.defined_names.clear(),
+    "exported by Numbers": as_by_numbers,
     "rows typed below the table": lambda book: move_second_array(book, 30),
 }  # fmt: skip
 
