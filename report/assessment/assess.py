@@ -43,7 +43,7 @@ from report.motions.prepare import Shaking
 from report.sheet.checking.checks import faults
 from report.sheet.checking.covered import outdated
 from report.sheet.reading.read import Sheet
-from report.sheet.schema import SECTIONS, ProjectInput
+from report.sheet.schema import SECTIONS, ProjectInput, linked
 from report.sheet.schema.fields import Draft, Finding
 from report.sheet.schema.scene import Array
 from solver.model import Motion
@@ -231,7 +231,7 @@ def refused(data: ProjectInput, changed: ProjectInput) -> list[Finding]:
 
 def changed(data: ProjectInput, **sections: Any) -> ProjectInput:
     """Return an input with other sections."""
-    return ProjectInput(**(dict(data) | sections))
+    return linked(data.model_copy(update=sections))
 
 
 def entered(assessment: Assessment, project: ProjectInput) -> Assessment | None:

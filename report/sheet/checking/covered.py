@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 
 from report.sheet.schema import SECTION, SECTIONS, ProjectInput, layout
 from report.sheet.schema.choices import ClearanceSource
-from report.sheet.schema.fields import Frozen, Place
+from report.sheet.schema.fields import Frozen, Place, entries
 from report.sheet.schema.scene import SIDES, WEIGHT_PARTS
 from report.text.counts import grouped_by
 
@@ -24,8 +24,8 @@ _Hashes = Mapping[str, str]
 
 
 def _all_but(**left_out: str) -> _Covers:
-    models = {key: SECTION[key].model.model_fields for key in left_out}
-    return {key: models[key].keys() - names.split() for key, names in left_out.items()}
+    fields = {key: {entry.name for entry in entries(SECTION[key].model)} for key in left_out}
+    return {key: fields[key] - {*names.split()} for key, names in left_out.items()}
 
 
 # What the design displacements follow from.
@@ -76,7 +76,7 @@ def outdated(data: ProjectInput, records: Sequence[str]) -> ProjectInput:
         other = min(_changed(then, now), _changed(then, earlier), key=len)
         if recorded and other:
             changed[place.section] = f"sheet{'s' * (len(other) > 1)} {', '.join(other)}"
-    return data.with_outdated(changed)
+    return data.model_copy(update={"changed_sheets": tuple(changed.items())})
 
 
 def _changed(then: _Hashes, now: _Hashes) -> Sequence[str]:

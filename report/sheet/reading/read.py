@@ -106,7 +106,7 @@ class SheetOf(Generic[Whole]):
         for part in sections_of(self.whole):
             rows = tuple(part.model(**row) for row in self.draft[part.key])
             parts[part.key] = rows if part.is_table else rows[0]
-        return self.whole(**parts)
+        return self.whole.model_validate(parts)
 
     @cached_property
     def units(self) -> Mapping[str, str]:

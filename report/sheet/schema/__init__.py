@@ -6,10 +6,10 @@ Template, reader and input echo all come from these models; values are SI.
 from __future__ import annotations
 
 import datetime as dt
-from collections.abc import Mapping
-from typing import Annotated
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any
 
-from pydantic import AfterValidator, PrivateAttr, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from report.sheet.schema.choices import (
     ClearanceSource,
@@ -249,41 +249,12 @@ class ProjectInput(Frozen):
     ] = ()
     """Optional: one row for each warning of `roofslip check` that is intended as it is. It is then
     printed with the reason."""
-    _outdated: Mapping[str, str] = PrivateAttr({})
+    changed_sheets: Annotated[tuple[tuple[str, str], ...], Field(exclude=True)] = ()
+    """Each section whose confirmation is outdated, with the sheets that changed, in words."""
 
     @model_validator(mode="after")
-    def _spell_ids_alike(self) -> ProjectInput:
-        # Capitals do not distinguish ids: each reference gets the spelling of its row.
-        ids = {row.id.casefold(): row.id for row in self.arrays}
-        ids |= {row.id.casefold(): row.id for row in self.objects}
-
-        def spelled(name: str) -> str:
-            return ids.get(name.casefold(), name)
-
-        for key, fields in _NAMING.items():
-            rows = tuple(
-                row.model_copy(update={name: spelled(getattr(row, name)) for name in fields})
-                for row in getattr(self, key)
-            )
-            object.__setattr__(self, key, rows)  # the model itself is frozen
-        return self
-
-    @model_validator(mode="after")
-    def _place(self) -> ProjectInput:
-        """Give arrays, objects and the roof their outlines."""
-        rings: dict[str, list[Point]] = {}
-        for row in self.outlines:
-            name = ROOF if row.name.casefold() == ROOF else row.name
-            rings.setdefault(name, []).append((row.x_m, row.y_m))
-        outlines = {name: ring(points) for name, points in rings.items()}
-        for section in ("arrays", "objects"):
-            placed = tuple(row.outlined(outlines.get(row.id, ())) for row in getattr(self, section))
-            object.__setattr__(self, section, placed)
-        object.__setattr__(self, "roof", self.roof.outlined(outlines.get(ROOF, ())))
-        lost = [row.id for row in self.arrays if row.placed is None]
-        if lost:
-            raise ValueError(f"no rectangle and no outline of {', '.join(lost)}")
-        return self
+    def _linked(self) -> ProjectInput:
+        return linked(self)
 
     @property
     def us_first(self) -> bool:
@@ -298,16 +269,10 @@ class ProjectInput(Frozen):
             return not self.us_first
         return paper in (PlanPaper.A4, PlanPaper.A3)
 
-    def with_outdated(self, sheets: Mapping[str, str]) -> ProjectInput:
-        """Return the same with the sheets that a confirmation does not cover, by its section."""
-        other = self.model_copy()
-        other._outdated = sheets
-        return other
-
     @property
     def outdated(self) -> Mapping[str, str]:
         """By section, in words, the sheets that have changed since its confirmation."""
-        return self._outdated
+        return dict(self.changed_sheets)
 
     @property
     def is_peer_reviewed(self) -> bool:
@@ -332,6 +297,34 @@ class ProjectInput(Frozen):
             is_confirmed &= "project" not in self.outdated
             return DistanceBasis.CONFIRMED if is_confirmed else DistanceBasis.DRAWN
         return DistanceBasis.ENTERED if row.source is None else DistanceBasis.MEASURED
+
+
+def linked(data: ProjectInput) -> ProjectInput:
+    """Return an input whose names are spelled as their rows are, and whose outlines are placed."""
+    # Capitals do not distinguish ids.
+    ids = {row.id.casefold(): row.id for row in data.arrays}
+    ids |= {row.id.casefold(): row.id for row in data.objects}
+    parts: dict[str, Any] = {}
+    for key, fields in _NAMING.items():
+        parts[key] = tuple(_spelled(row, fields, ids) for row in getattr(data, key))
+
+    rings: dict[str, list[Point]] = {}
+    for row in parts["outlines"]:
+        name = ROOF if row.name.casefold() == ROOF else row.name
+        rings.setdefault(name, []).append((row.x_m, row.y_m))
+    outlines = {name: ring(points) for name, points in rings.items()}
+    arrays = tuple(row.outlined(outlines.get(row.id, ())) for row in data.arrays)
+    parts["objects"] = tuple(item.outlined(outlines.get(item.id, ())) for item in data.objects)
+    parts["roof"] = data.roof.outlined(outlines.get(ROOF, ()))
+    parts["arrays"] = arrays
+    if lost := [row.id for row in arrays if row.placed is None]:
+        raise ValueError(f"no rectangle and no outline of {', '.join(lost)}")
+    return data.model_copy(update=parts)
+
+
+def _spelled(row: Frozen, fields: Sequence[str], ids: Mapping[str, str]) -> Frozen:
+    names = {field: getattr(row, field) for field in fields}
+    return row.model_copy(update={key: ids.get(n.casefold(), n) for key, n in names.items()})
 
 
 SECTIONS = sections_of(ProjectInput)

@@ -188,11 +188,15 @@ class SheetSection:
 @cache
 def sections_of(whole: type[Frozen]) -> tuple[SheetSection, ...]:
     """Return the parts of the workbook of a whole input, in its order; rows are a table."""
-    return tuple(_section(whole, key, field) for key, field in whole.model_fields.items())
+    return tuple(
+        _section(whole, key, field, part)
+        for key, field in whole.model_fields.items()
+        for part in field.metadata
+        if isinstance(part, OnSheet)
+    )
 
 
-def _section(whole: type[Frozen], key: str, field: FieldInfo) -> SheetSection:
-    (part,) = (item for item in field.metadata if isinstance(item, OnSheet))
+def _section(whole: type[Frozen], key: str, field: FieldInfo, part: OnSheet) -> SheetSection:
     is_table = get_origin(field.annotation) is tuple
     model: Any = get_args(field.annotation)[0] if is_table else field.annotation
     return SheetSection(key=key, model=model, is_table=is_table, whole=whole, **asdict(part))

@@ -11,7 +11,7 @@ from functools import lru_cache
 from operator import attrgetter
 from typing import Annotated, Any, Self
 
-from pydantic import Field, PrivateAttr
+from pydantic import Field
 
 from report.sheet.schema.choices import (
     ClearanceSource,
@@ -74,19 +74,18 @@ def _edge(side: str, example: float) -> Cell:
 class Placed(Frozen):
     """What has a place in roof plan: by the four sides of a rectangle, or by an outline."""
 
-    _outline: tuple[Point, ...] = PrivateAttr(())
+    outline_m: Annotated[tuple[Point, ...], Field(exclude=True)] = ()
+    """Vertices of an outline in place of the rectangle: rows of another table."""
 
     def outlined(self, points: tuple[Point, ...]) -> Self:
         """Return the same with an outline [m] in place of a rectangle; empty for none."""
-        other = self.model_copy()
-        other._outline = points
-        return other
+        return self.model_copy(update={"outline_m": points})
 
     @property
     def placed(self) -> Shape | None:
         """Its shape in roof plan, if given."""
-        if self._outline:
-            return Polygon(self._outline)
+        if self.outline_m:
+            return Polygon(self.outline_m)
         sides = _sides_of(self)
         return None if None in sides else Rectangle(*sides)
 

@@ -29,9 +29,12 @@ BARE_SITE.pop("s_ds_g")
 
 @pytest.mark.quick
 def test_sections_are_parts_of_the_input_with_labels_and_choices_of_their_own():
-    assert [section.key for section in SECTIONS] == list(ProjectInput.model_fields)
+    def fields(model):
+        return [name for name, field in model.model_fields.items() if not field.exclude]
+
+    assert [section.key for section in SECTIONS] == fields(ProjectInput)
     for section in SECTIONS:
-        assert [item.name for item in entries(section.model)] == list(section.model.model_fields)
+        assert [item.name for item in entries(section.model)] == fields(section.model)
         labels = [item.cell.label.casefold() for item in entries(section.model)]
         assert len(labels) == len(set(labels))
         assert not any(set("[]*!") & set(label) for label in labels)
@@ -59,6 +62,8 @@ def test_models_are_frozen_with_rectangles_of_arrays_and_objects():
         with pytest.raises(ValidationError):
             Site(**BARE_SITE, **wrong)
     data = project()
+    with pytest.raises(ValidationError):
+        data.arrays[0].outline_m = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0))
     assert data.arrays[0].shape.x_to_m == pytest.approx(30.48)
     assert data.objects[1].placed is None
     assert data.objects[0].placed.y_from_m == pytest.approx(24.384)
