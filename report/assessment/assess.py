@@ -16,7 +16,6 @@ from functools import cache, partial
 from typing import Any
 
 from report.assessment.arrays import ArrayAssessment, assess_array
-from report.assessment.checks.limits import building_limits
 from report.assessment.clearances import by_id, check_clearance, largest_separation_m, minimum_gap
 from report.assessment.friction import (
     NOT_BY_VELOCITY,
@@ -198,7 +197,6 @@ def _assess(
         project=data,
         rules=rules,
         targets=targets(data),
-        building_checks=building_limits(data, rules),
         arrays=arrays,
         clearances=clearances,
         linked=linked,

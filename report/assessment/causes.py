@@ -1,22 +1,71 @@
-"""What gives an array its verdict, in a few words for its row in a table, and what gives an NG.
+"""The checks that govern an assessment, and those that give an array its verdict.
 
-Draws no verdict: the checks do (`report.assessment.checks`). Read `unshown_cause`, then `outcome`.
+Draws no verdict: the checks do (`report.assessment.checks`). Read `failed`, then `governing_words`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from report.assessment.checks.check import alike, words
-from report.assessment.verdict import Verdict
-from report.text.counts import ids_by, numbered, ranged
+from report.assessment.checks.check import Check, alike, by_ratio, words
+from report.assessment.verdict import MOTIONS_ID, Verdict, nan_is_worst
+from report.text.counts import grouped_by, numbered
 
 if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment
-    from report.assessment.neighbors import ComparedGap
     from report.assessment.project import Assessment
+
+# Checks that a sentence names.
+MOST_NAMED = 4
+
+
+def failed(done: Assessment) -> Sequence[Check]:
+    """Return what is NG, the largest ratio first, without what follows from no displacement."""
+    of_all = [check for check in done.open if check.verdict is Verdict.NG]
+    # Only of what lacks nothing but a design displacement another check says why.
+    causes = [check for check in of_all if not check.lacks_design] or of_all
+    # That no displacement is permitted follows from the others, too.
+    return sorted(causes, key=lambda check: (check.id == "design", -nan_is_worst(check.ratio)))
+
+
+def largest(done: Assessment) -> Sequence[Check]:
+    """Return of each kind of capacity that is satisfied the check with the largest ratio."""
+    satisfied = (
+        check
+        for check in done.checks
+        if check.is_satisfied and check.is_capacity and check.id != MOTIONS_ID
+    )
+    kinds = grouped_by(by_ratio(satisfied), lambda check: check.id)
+    return [group[0] for group in kinds.values()]
+
+
+def governing_words(done: Assessment) -> str:
+    """Return what is NG in a few words each, or else the clearance with the largest ratio."""
+    clearance = [check for check in largest(done) if check.id == "clearance"]
+    return "; ".join(named(failed(done) or clearance))
+
+
+def came_to(done: Assessment) -> str:
+    """Return the verdict on a project with what governs, such as `OK, clearance A1 to A2 …`."""
+    return ", ".join(filter(None, (done.verdict.value, governing_words(done))))
+
+
+def named(checks: Sequence[Check]) -> Sequence[str]:
+    """Return the first few checks in a few words each, and how many more there are."""
+    count = len(checks) - MOST_NAMED
+    more = [numbered(count, "more check")] if count > 0 else []
+    return [*map(words, checks[:MOST_NAMED]), *more]
+
+
+def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
+    """Return what gives an array its verdict, in a few words each; nothing for OK."""
+    verdict = assessment.array_verdict(item)
+    of_array = [check for check in assessment.checks if item.id in check.arrays]
+    found = alike(check for check in of_array if check.is_open and check.verdict is verdict)
+    # That there is no permitted displacement follows from the others.
+    ordered = sorted(found, key=lambda check: check.id == "design")
+    return [words(check, item.id) for check in ordered]
 
 
 def unshown_cause(assessment: Assessment, item: ArrayAssessment) -> str:
@@ -27,49 +76,3 @@ def unshown_cause(assessment: Assessment, item: ArrayAssessment) -> str:
         return ""
     first, *others = found
     return f"{first} and {numbered(len(others), 'more item')}" if others else first
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ProjectOutcome:
-    """What an input comes to: verdict, governing clearance, and what else makes it NG."""
-
-    verdict: Verdict
-    gap: ComparedGap | None  # none without a required separation
-    others: tuple[str, ...]
-
-    def words(self, us_first: bool) -> str:
-        """Return it in a few words, such as `NG, A3 to RTU-2 60.4 > 60.0 in`."""
-        mark = "; " if self.gap is None else ", "
-        return mark.join(filter(None, (self.verdict.value, self.causes(us_first))))
-
-    def causes(self, us_first: bool) -> str:
-        """Return the same without the verdict; what is NG before a clearance that is satisfied."""
-        if self.gap is None:
-            return "; ".join(self.others)
-        gap, is_short = self.gap.words(us_first), self.gap.demand_capacity > 1.0
-        return "; ".join((gap, *self.others) if is_short else (*self.others, gap))
-
-
-def outcome(done: Assessment) -> ProjectOutcome:
-    """Return what an assessment comes to."""
-    gaps = [gap for gap in (*done.clearances, *done.missing_gaps) if gap.demand_capacity >= 0.0]
-    failed = (item for item in done.arrays if done.array_verdict(item) is Verdict.NG)
-    groups = ids_by(failed, lambda item: unshown_cause(done, item))
-    of_all = [c for c in done.checks if not c.arrays and not c.verdict.is_permitted]
-    return ProjectOutcome(
-        verdict=done.verdict,
-        gap=max(gaps, key=lambda gap: gap.demand_capacity, default=None),
-        others=(
-            *map(words, of_all),
-            *(f"{ranged(ids)}: {cause}" for cause, ids in groups.items() if cause),
-        ),
-    )
-
-
-def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
-    """Return what gives an array its verdict, in a few words each; nothing for OK."""
-    verdict = assessment.array_verdict(item)
-    of_array = [check for check in assessment.checks if item.id in check.arrays]
-    found = alike(check for check in of_array if check.is_open and check.verdict is verdict)
-    # That there is no permitted displacement follows from the others.
-    return list(map(words, sorted(found, key=lambda check: check.id == "design")))

@@ -16,7 +16,7 @@ from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import Direction, DistanceBasis, ObjectKind
 from report.sheet.schema.scene import Array, Clearance, RoofObject
 from solver.rules import provisions
-from solver.rules.provisions import Neighbor, RuleSet
+from solver.rules.provisions import Neighbor, Provision, RuleSet
 
 if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment
@@ -51,6 +51,7 @@ class ClearanceCheck(ComparedGap):
     importance: float  # I_e or I_p, as the rule set takes it; 1 where the displacement includes it
     governing_array: str  # between arrays that with the larger design displacement
     design_m: float  # governing design displacement [m]; NaN without a permitted one
+    separation: Provision  # of the rule set, on what is across it
     factor: float  # separation / design displacement, with the importance factor
     minimum_m: float  # minimum separation of the rule set for this neighbor [m]; 0 for none
     required_m: float  # required separation [m]; NaN without a permitted displacement
@@ -109,6 +110,7 @@ def check_clearance(
     rows: Sequence[Array | RoofObject] = (*data.arrays, *data.objects)
     other = next(each for each in rows if each.id == row.object)
     neighbor, importance = _across(data, rules, near, other)
+    key = provisions.SEPARATION_KEYS[neighbor]
     check = ClearanceCheck(
         clearance=row,
         basis=data.basis_of(row),
@@ -117,7 +119,8 @@ def check_clearance(
         governing_array=governing.id,
         design_m=design_m,
         # PV1-2012 has the importance factor here, ASCE 7 in the displacement; never both.
-        factor=rules[provisions.SEPARATION_KEYS[neighbor]] * importance,
+        separation=rules.values[key],
+        factor=rules[key] * importance,
         minimum_m=provisions.minimum_separation_m(rules, neighbor),
         required_m=provisions.required_separation(
             rules, neighbor, design_m=design_m, importance=importance

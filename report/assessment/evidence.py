@@ -19,7 +19,7 @@ from report.assessment.clearances import ClearanceCheck, by_id, check_clearance
 from report.assessment.friction import InputCase, with_friction
 from report.assessment.project import THREADS, Assessment
 from report.assessment.remedies import Remedies, remedies
-from report.assessment.routes import Route, lacking_motions, statistic_basis
+from report.assessment.routes import Route, statistic_basis
 from report.assessment.runs import MotionRun, run_motion
 from report.assessment.spectra import Spectra, spectra
 from report.assessment.trials import resting
@@ -30,15 +30,11 @@ from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import Direction
 from report.sheet.schema.motions import BuildingInput, MotionInput
 from report.sheet.schema.scene import Array
-from report.text.amounts import limit_texts
-from report.text.counts import lowered
 from report.text.units import number
 from solver.building.structure import MOST_PERIOD_S
 from solver.model import SlideHistory
-from solver.rules.limit import Consequence
 from solver.rules.provisions import (
     AnalysisValue,
-    Basis,
     analysis_floor_m,
     analysis_value,
     review_lifts_slope,
@@ -293,17 +289,6 @@ class Saving:
     n_satisfied: int  # of them, with the arrays that may be analyzed at the floor
 
 
-def _lacks(assessment: Assessment, item: ArrayAssessment) -> Iterator[str]:
-    """Yield what the motions of a project lack for an analysis."""
-    for limit in (*assessment.acceptance.missed, *item.analysis_checks):
-        if not limit.ok and limit.consequence is Consequence.NG:
-            found, wanted = limit_texts(limit, assessment.project.us_first)
-            yield f"{lowered(limit.title)}: {found}, required {limit.sign} {wanted}"
-    if item.analysis.basis is Basis.TOO_FEW and all(each.ok for each in item.analysis_checks):
-        basis, count = statistic_basis(assessment.project), len(assessment.shaking.motions)
-        yield lacking_motions(assessment.rules, basis, count)
-
-
 def saving(assessment: Assessment) -> Saving:
     """Return what an analysis could save, of a project without motions that permit one."""
     first = assessment.arrays[0]  # the prescriptive displacement is the same for every array
@@ -317,7 +302,7 @@ def saving(assessment: Assessment) -> Saving:
     short = [gap.clearance for gap in assessment.clearances if not gap.ok]
     checks = [check_clearance(assessment.project, assessment.rules, at_floor, row) for row in short]
     return Saving(
-        lacks=list(dict.fromkeys(_lacks(assessment, first))) if assessment.has_motions else [],
+        lacks=assessment.against_analysis(first) if assessment.has_motions else [],
         ids=ids,
         others=[item.id for item in without if not item.may_be_analyzed],
         is_lifted_by_review=review_lifts_slope(assessment.rules, assessment.project.site.sdc),

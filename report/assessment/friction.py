@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from report.assessment.arrays import ArrayAssessment, assess_array
 from report.assessment.checks.arrays import slack_check
 from report.assessment.checks.check import words
+from report.assessment.checks.plan import clearance_check
 from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.routes import NOT_PERMITTED
 from report.assessment.runs import PendingRuns
@@ -128,11 +129,6 @@ class VelocityCheck:
         """Smallest friction tested, for print."""
         return Rounding.DOWN.text(self.minimum_mu, 3)
 
-    @property
-    def verdict(self) -> Verdict:
-        """OK, or OK with conditions."""
-        return Verdict.OK if self.is_satisfied else Verdict.CONDITION
-
 
 def velocity_check(data: ProjectInput, assessed: ArrayAssessment) -> VelocityCheck:
     """Return the friction of an array beyond the velocities tested."""
@@ -172,11 +168,11 @@ class InputCase:
         )
         if self.array.has_unpermitted_value:
             yield NOT_PERMITTED
-        failed = [gap.words(us_first) for gap in self.short]
+        failed = [clearance_check(gap) for gap in self.short]
         if self.array.lacks_slack:
-            failed.append(words(slack_check(self.array.array, self.array.design_m, 0)))
+            failed.append(slack_check(self.array.array, self.array.design_m, 0))
         if failed:
-            yield f"NG: {', '.join(failed)}"
+            yield f"NG: {', '.join(words(check, self.array.id) for check in failed)}"
         elif self.gaps and all(gap.ok for gap in self.gaps):
             yield "all its clearances OK" if len(self.gaps) > 1 else "its clearance OK"
 

@@ -20,8 +20,7 @@ from report.sheet.schema.choices import DistanceBasis, ObjectKind
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import Array, Clearance
 from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape, gap_m, sides, spans_near
-from report.text.amounts import capacity, demand, shown_in_order
-from report.text.units import Quantity, ratio
+from report.text.units import ratio
 from solver.model import INCH_M
 
 if TYPE_CHECKING:
@@ -113,15 +112,6 @@ class ComparedGap(ABC):
     def ratio_words(self) -> str:
         """Required / provided separation for print, with its mark."""
         return ratio(self.demand_capacity) + self.mark
-
-    def words(self, us_first: bool) -> str:
-        """Return what is required beside what is there, such as `A3 to RTU-2 60.4 > 60.0 in`."""
-        required_m, had_m = self.required_m, self.provided_m
-        unit = Quantity.SIZE.us if us_first else Quantity.SIZE.si
-        shows = shown_in_order(capacity(had_m), demand(required_m))
-        had, required = (show(math.nan, unit) for show in shows)
-        sign = "≤" if required_m <= had_m else ">"
-        return f"{' to '.join(self.between)} {required}{self.mark} {sign} {had} {unit.symbol}"
 
     def involves(self, array_id: str) -> bool:
         """Whether an array is on either side of the gap."""

@@ -14,6 +14,7 @@ from functools import partial
 from report.assessment.checks.arrays import slack_check
 from report.assessment.checks.check import Check, sentence
 from report.assessment.checks.every import before_runs
+from report.assessment.checks.limits import against_analysis
 from report.assessment.checks.motions import drift_limits
 from report.assessment.checks.plan import of_pathways
 from report.assessment.neighbors import REACH_FACTOR, NearbyKind
@@ -36,12 +37,10 @@ from report.sheet.reading.unseen import warnings
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import RecordedAt
 from report.sheet.schema.fields import Finding, Place
-from report.text.counts import lowered, numbered, quoted
+from report.text.counts import numbered, quoted
 from report.text.units import Quantity, no_less, no_more, pair
 from solver.records.acceptance import POINTS_HZ, Acceptance, SpectraOf, acceptance, one_by_one
 from solver.records.block_spectra import together
-from solver.rules import provisions
-from solver.rules.provisions import Basis
 
 # Pairs without a clearance that are named; the nearest.
 MOST_NAMED = 50
@@ -64,16 +63,14 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
     spectra_of = partial(together, periods_s=1.0 / POINTS_HZ)
     acceptance = shaking_acceptance(shaking, targets(data), spectra_of)
     basis = statistic_basis(data)
-    # Only the statistic counts, not its value, which the runs give.
-    few = provisions.analysis_value(rules, [0.0] * len(shaking.motions), basis).basis
-    lacking = lacking_motions(rules, basis, len(shaking.motions)) if few is Basis.TOO_FEW else ""
+    lacking = lacking_motions(rules, basis, len(shaking.motions))
     routes = [
         limits_of(
             data,
             rules,
             array,
             n_motions=len(shaking.motions),
-            has_value=acceptance.qualifies and few is not Basis.TOO_FEW,
+            has_value=acceptance.qualifies and not lacking,
         )
         for array in data.arrays
     ]
@@ -82,13 +79,9 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
         yield limit(f"{lacking}: {Verdict.NG.value}", statistic)
     for array, limits in zip(data.arrays, routes, strict=True):
         if limits.route is Route.PRESCRIPTIVE and shaking.motions:
-            missed = [check for check in limits.analysis_checks if not check.ok]
-            why = lacking or "the motions do not satisfy the limits for analysis"
-            why = "; ".join(lowered(check.title) for check in missed) or why
-            yield note(
-                statistic if lacking and not missed else Place("motions"),
-                f"{array.id} uses the prescriptive displacement: {why}",
-            )
+            why = against_analysis(data, rules, limits, acceptance, len(shaking.motions))
+            place = statistic if why == [lacking] else Place("motions")
+            yield note(place, f"{array.id} uses the prescriptive displacement: {'; '.join(why)}")
     if not shaking.motions:
         yield from _not_run(data)
     pairs = zip(data.arrays, routes, strict=True)

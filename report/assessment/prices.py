@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from report.assessment.causes import outcome
+from report.assessment.causes import came_to, governing_words
 from report.assessment.clearances import by_id
 from report.assessment.friction import at_low_velocity, mus_words
 from report.assessment.verdict import (
@@ -90,8 +90,8 @@ def _price(done: Assessment, other: Assessment, how: str) -> str:
     us_first = done.project.us_first
     largest_m = max((item.permitted_m for item in other.arrays), key=nan_is_worst)
     delta = f"; Δ up to {pair(largest_m, Quantity.DISPLACEMENT, us_first, no_less)}"
-    result, came_to = outcome(other), outcome(other).words(us_first)
+    text = came_to(other)
     # Which conditions are left, such as on less friction, is not looked at again.
-    if result.verdict.is_permitted:
-        came_to = ", ".join(filter(None, ("not NG", result.causes(us_first))))
-    return f"{capitalized(how)}: {came_to}{'' if math.isnan(largest_m) else delta}."
+    if other.verdict.is_permitted:
+        text = ", ".join(filter(None, ("not NG", governing_words(other))))
+    return f"{capitalized(how)}: {text}{'' if math.isnan(largest_m) else delta}."

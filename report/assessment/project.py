@@ -12,6 +12,7 @@ from enum import StrEnum
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.checks.check import Check, alike, verdict_of
 from report.assessment.checks.every import every
+from report.assessment.checks.limits import against_analysis
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.friction import LowVelocityAssessment
 from report.assessment.links import LinkedArray
@@ -24,7 +25,6 @@ from report.sheet.reading.read import Sheet
 from report.sheet.schema import ProjectInput
 from report.text.counts import grouped_by
 from solver.records.acceptance import Acceptance
-from solver.rules.limit import Limit
 from solver.rules.provisions import RuleSet
 
 THREADS = 2
@@ -39,7 +39,6 @@ class Assessment:
     project: ProjectInput  # as assessed: that of the sheet, except with changed friction
     rules: RuleSet
     targets: Targets  # target spectra of the motions: AC156 or project-specific
-    building_checks: tuple[Limit, ...]
     arrays: tuple[ArrayAssessment, ...]
     clearances: tuple[ClearanceCheck, ...]
     linked: tuple[LinkedArray, ...]  # whose rigid-block model the workbook asks to be checked
@@ -123,6 +122,11 @@ class Assessment:
                 *(gap.mark for gap in self.missing_gaps),
             )
         )
+
+    def against_analysis(self, item: ArrayAssessment) -> Sequence[str]:
+        """Return what does not permit the analysis of an array, in a few words each."""
+        count = len(self.shaking.motions)
+        return against_analysis(self.project, self.rules, item, self.acceptance, count)
 
     def is_rigid_enough(self, item: ArrayAssessment) -> bool:
         """Whether one rigid block is adequate for an array, where the workbook asks."""

@@ -15,7 +15,7 @@ from enum import StrEnum
 from functools import cached_property, partial, reduce
 
 from report.assessment.assess import changed, entered, refused
-from report.assessment.causes import ProjectOutcome, outcome
+from report.assessment.causes import came_to
 from report.assessment.checks.check import Check, by_ratio
 from report.assessment.clearances import ClearanceCheck, by_id
 from report.assessment.friction import mu_words
@@ -73,16 +73,17 @@ class Remedy:
     checks: tuple[Check, ...]
     words: str  # the change, without what comes of it
     change: Change
-    outcome: ProjectOutcome | None = None  # of the project with this change alone
+    done: Assessment | None = None  # the project with this change alone
 
     @property
     def is_enough(self) -> bool:
         """Whether the project is not NG with it alone."""
-        return self.outcome is not None and self.outcome.verdict.is_permitted
+        return self.done is not None and self.done.verdict.is_permitted
 
-    def sentence(self, us_first: bool) -> str:
-        """Return the change, and what the project comes to where that is enough."""
-        came = f" {_came(self.outcome, us_first)}" if self.outcome and self.is_enough else ""
+    @property
+    def sentence(self) -> str:
+        """The change, and what the project comes to where that is enough."""
+        came = f" {_came(self.done)}" if self.done and self.is_enough else ""
         return f"{self.words}.{came}"
 
 
@@ -93,18 +94,19 @@ class Remedies:
     own: tuple[Remedy, ...] = ()  # of each check, each by itself
     # the changes that are enough together, none of which may be left out; empty if none are
     together: tuple[Remedy, ...] = ()
-    outcome: ProjectOutcome | None = None  # of the project with those
+    done: Assessment | None = None  # the project with those
 
-    def sentence(self, us_first: bool) -> str:
-        """Return the changes that are enough together, and what comes of them; empty if none."""
-        if self.outcome is None:
+    @property
+    def sentence(self) -> str:
+        """The changes that are enough together, and what comes of them; empty if none."""
+        if self.done is None:
             return ""
         changes = joined([lowered(each.words) for each in self.together])
-        return f"{capitalized(changes)}. {_came(self.outcome, us_first)}"
+        return f"{capitalized(changes)}. {_came(self.done)}"
 
 
-def _came(outcome: ProjectOutcome, us_first: bool) -> str:
-    return f"Project verdict: {outcome.words(us_first)}."
+def _came(done: Assessment) -> str:
+    return f"Project verdict: {came_to(done)}."
 
 
 def remedies(assessment: Assessment, *, may_run: bool = True) -> Remedies:
@@ -125,7 +127,7 @@ def _enough(state: _State, own: Iterable[Remedy]) -> Remedies:
     if any(check.id in _OF_THE_BUILDING for check in state.failed):
         return Remedies()
     if alone := next((each for each in own if each.is_enough), None):
-        return Remedies(together=(alone,), outcome=alone.outcome)
+        return Remedies(together=(alone,), done=alone.done)
     now, taken = state, list[Remedy]()
     while now.failed:
         ways = (list(now.ways(check)) for check in now.failed)
@@ -142,7 +144,7 @@ def _enough(state: _State, own: Iterable[Remedy]) -> Remedies:
         without = entered(state.done, data)
         if without is not None and without.verdict.is_permitted:
             taken, done = fewer, without
-    return Remedies(together=tuple(taken), outcome=outcome(done))
+    return Remedies(together=tuple(taken), done=done)
 
 
 class _State:
@@ -161,7 +163,7 @@ class _State:
             kinds = {kind for kind, of in told if of is check}
             for remedy, now in self.ways(check, kinds):
                 told |= {(remedy.kind, each) for each in remedy.checks}
-                yield replace(remedy, outcome=outcome(now.done))
+                yield replace(remedy, done=now.done)
 
     def ways(
         self, check: Check, told: Iterable[RemedyKind] = ()

@@ -107,9 +107,11 @@ def statistic_basis(data: ProjectInput) -> Basis | None:
 
 
 def lacking_motions(rules: RuleSet, basis: Basis | None, count: int) -> str:
-    """Return which statistic the motions are too few for."""
+    """Return which statistic the motions are too few for; nothing where there are enough."""
     asked = Basis.LARGEST_FACTORED if basis is None else basis
     least = provisions.minimum_motions(rules, asked)
+    if count >= least:
+        return ""
     return f"{count} motions are given, and the statistic '{asked}' needs {least:.0f} or more"
 
 

@@ -33,7 +33,7 @@ from report.entities.shown import (
 )
 from report.sheet.schema.choices import Direction, DistanceBasis
 from report.text.amounts import capacity, demand, shown_in_order
-from report.text.units import ratio
+from report.text.units import ratio, round_up
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
 _REQUIRED = '=IF(ISTEXT({design_m}),"none",MAX({design_m}*{factor},{minimum_m}))'
@@ -45,7 +45,7 @@ _OK = '=IF(ISTEXT({required_m}),"{unknown}",IF({required_m}<={provided_m},"OK","
 
 # The value beside the formula is rounded as the formula is, and as the page.
 def _as_printed(value: float) -> float:
-    return float(ratio(value)) if math.isfinite(value) else math.nan
+    return round_up(value, 2) if math.isfinite(value) else math.nan
 
 
 class ClearanceResult(Entity):

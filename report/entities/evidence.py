@@ -13,6 +13,7 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator
 
+from report.assessment.causes import came_to
 from report.assessment.links import LinkedArray
 from report.assessment.neighbors import Cover, NearbyKind
 from report.assessment.remedies import Remedies, RemedyKind
@@ -65,7 +66,7 @@ class RemedyResult(Entity):
     verdict: Verdict
     """On the project with it."""
     governing: str
-    """The same with the clearance that then governs, in words."""
+    """The same with the checks that then govern, in words."""
 
 
 class GivenResult(Entity):
@@ -203,11 +204,11 @@ def variation_result(building: BuildingInput, value: AnalysisValue) -> Variation
     return VariationResult.of(building, **asdict(value))
 
 
-def remedy_results(found: Remedies, us_first: bool) -> Iterator[RemedyResult]:
+def remedy_results(found: Remedies) -> Iterator[RemedyResult]:
     """Yield the remedies of each check, then the changes that are enough together, if several."""
-    own = [((remedy,), remedy.outcome) for remedy in found.own]
-    for remedies, outcome in [*own, (found.together[len(found.together) == 1 :], found.outcome)]:
-        if remedies and outcome:
+    own = [((remedy,), remedy.done) for remedy in found.own]
+    for remedies, done in [*own, (found.together[len(found.together) == 1 :], found.done)]:
+        if remedies and done:
             yield RemedyResult(
                 quantities=tuple(remedy.kind for remedy in remedies),
                 checks=tuple(
@@ -216,8 +217,8 @@ def remedy_results(found: Remedies, us_first: bool) -> Iterator[RemedyResult]:
                     for check in remedy.checks
                 ),
                 change=joined([remedy.words for remedy in remedies]),
-                verdict=outcome.verdict,
-                governing=outcome.words(us_first),
+                verdict=done.verdict,
+                governing=came_to(done),
             )
 
 

@@ -178,7 +178,7 @@ def results(assessment: Assessment, evidence: Evidence) -> Results:
             for check in assessment.open
             if check.id == "runs"
         ),
-        remedies=tuple(remedy_results(evidence.remedies, assessment.project.us_first)),
+        remedies=tuple(remedy_results(evidence.remedies)),
         certainty=evidence.uncertainty and uncertainty_result(evidence.uncertainty),
         cumulative=evidence.cumulative,
         building_variations=tuple(starmap(variation_result, evidence.building)),

@@ -12,16 +12,14 @@ from dataclasses import dataclass, replace
 
 from markupsafe import Markup
 
-from report.assessment.checks.check import Check, alike, by_ratio, found_and_limit, texts
+from report.assessment.causes import failed, governing_words, largest
+from report.assessment.checks.check import Check, alike, found_and_limit, texts
 from report.assessment.project import Assessment
-from report.assessment.verdict import MOTIONS_ID, NO_DESIGN, Verdict, nan_is_worst
+from report.assessment.verdict import MOTIONS_ID, Verdict
 from report.document.tables import Table, TableRow, Wide, headed, stamp
 from report.pages.symbols import with_symbols
-from report.text.counts import capitalized, counted, grouped_by, lowered, numbered
+from report.text.counts import capitalized, counted, lowered, numbered
 from report.text.units import ratio
-
-# Checks that are NG which a sentence names.
-MOST_NAMED = 4
 
 # The part with the numbers behind a kind of check; of the others the part on checks.
 _PARTS = {
@@ -69,18 +67,11 @@ class FirstSheet:
 
 def first_sheet(done: Assessment) -> FirstSheet:
     """Return what is NG, the conditions, and the largest ratio of every other kind."""
-    failed = [check for check in done.open if check.verdict is Verdict.NG]
-    causes = [check for check in failed if not _follows(check)] or failed
-    satisfied = (
-        check
-        for check in done.checks
-        if check.is_satisfied and check.is_capacity and check.id != MOTIONS_ID
-    )
-    kinds = grouped_by(by_ratio(satisfied), lambda check: check.id)
+    causes = failed(done)
     return FirstSheet(
-        failed=sorted(causes, key=lambda check: -nan_is_worst(check.ratio)),
-        n_following=len(failed) - len(causes),
-        largest=[group[0] for group in kinds.values()],
+        failed=causes,
+        n_following=sum(check.verdict is Verdict.NG for check in done.open) - len(causes),
+        largest=largest(done),
         conditions=[check for check in done.open if check.verdict is not Verdict.NG],
     )
 
@@ -126,23 +117,14 @@ LARGEST, OPEN, EFFECTS, END = "largest-", "open-", "effects-", "front-end"
 _LINE_PX, _MARGIN_PX = 18.0, 8.0
 
 
-def _follows(check: Check) -> bool:
-    """Whether a check only lacks a design displacement, whose own check says why."""
-    return NO_DESIGN in (check.found, check.limit)
-
-
 def verdict_sentence(done: Assessment, conditions: str = "below") -> str:
     """Return what the verdict on a project rests on, and where its conditions are listed."""
-    failed = [check for check in done.checks if check.is_open and check.verdict is Verdict.NG]
+    n_failed = sum(check.verdict is Verdict.NG for check in done.checks)
     n_open = sum(check.verdict is not Verdict.NG for check in done.open)
     total = len(done.checks)
-    if failed:
-        causes = first_sheet(done).failed
-        names = [", ".join(filter(None, (c.subject, lowered(c.title)))) for c in causes]
-        more = [numbered(len(names) - MOST_NAMED, "more check")] if names[MOST_NAMED:] else []
-        are = "is" if len(failed) == 1 else "are"
-        text = f"{len(failed)} of {total} checks {are} not satisfied: "
-        text += f"{'; '.join([*names[:MOST_NAMED], *more])}."
+    if n_failed:
+        are = "is" if n_failed == 1 else "are"
+        text = f"{n_failed} of {total} checks {are} not satisfied: {governing_words(done)}."
         return text + (f" {capitalized(numbered(n_open, 'open condition'))}." if n_open else "")
     if n_open:
         opened = f"{capitalized(counted(n_open, 'open condition'))} {conditions}"

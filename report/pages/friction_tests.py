@@ -53,7 +53,7 @@ def page(package: PackageData) -> Mapping[str, object]:
         ],
         "compared": _compared(package, all_series) if all_series else {},
         "fits": [(series, fit, _scatter(series)) for series, fit in _fits(package)],
-        "velocities": _velocities(package),
+        "velocities": _velocities(package) if assessment.has_motions else None,
         "tolerance": MU_TOLERANCE,
         "most_beyond": MOST_BEYOND,
         "alone": [
@@ -153,7 +153,7 @@ def _velocity(
 ) -> tuple[object, ...]:
     check = velocity_check(data, item)
     about = item.id, mu_words(item.array.friction), item.fastest_mps
-    verdict = stamp(verdicts.get(item.id, check.verdict))
+    verdict = stamp(verdicts[item.id])
     if check.tests is None:
         return *about, "no runs", "—", "—", verdict
     tested_mps = "not given" if math.isnan(check.tested_mps) else check.tested_mps

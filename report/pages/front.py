@@ -16,7 +16,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.checks.check import alike
+from report.assessment.checks.check import alike, words
+from report.assessment.checks.limits import building_limits, of_limit
 from report.assessment.evidence import Evidence
 from report.assessment.project import Assessment, ChangeKind, Changes
 from report.assessment.remedies import Remedies
@@ -30,7 +31,6 @@ from report.pages.checks import (
     governing_table,
     verdict_sentence,
 )
-from report.pages.limits import analysis_faults
 from report.pages.parts import PackageData, statistic
 from report.pages.symbols import friction_standard
 from report.sheet.reading.linked_files import StudyYears, YearsOfArray
@@ -95,7 +95,7 @@ def _enough(done: Assessment, found: Remedies) -> str:
     """Return what is enough for a project that is NG, in a sentence; or that nothing found is."""
     if found.own and not found.together:
         return "No set of the changes that were tried is enough."
-    return found.sentence(done.project.us_first)
+    return found.sentence
 
 
 def _what_if(package: PackageData, evidence: Evidence) -> Iterator[str]:
@@ -163,10 +163,19 @@ def page(package: PackageData) -> Mapping[str, object]:
 
 def comparison(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return what the comparison needs beside the arrays."""
-    arrays = package.assessment.arrays
+    done = package.assessment
+    building = building_limits(done.project, done.rules)
     return {
         "cases": evidence.cases,
-        "faults": {item.id: analysis_faults(package, item) for item in arrays},
+        "against_analysis": {item.id: done.against_analysis(item) for item in done.arrays},
+        "against_prescriptive": {
+            item.id: [
+                words(of_limit(limit))
+                for limit in (*item.prescriptive_checks, *item.checks, *building)
+                if not limit.ok
+            ]
+            for item in done.arrays
+        },
         "years": list(_years(package)),
     }
 

@@ -13,7 +13,6 @@ from typing import Any
 
 from markupsafe import Markup, escape
 
-from report.assessment.arrays import ArrayAssessment
 from report.assessment.checks.check import dagger
 from report.assessment.evidence import Evidence
 from report.assessment.friction import mus_words
@@ -37,23 +36,7 @@ from report.sheet.schema.shapes import Polygon, Shape
 from report.text.counts import grouped_by
 from report.text.units import Quantity
 from report.typeset.equations import symbol
-from solver.rules.limit import Consequence
-from solver.rules.provisions import OVERRIDABLE, Basis, Neighbor
-
-
-def analysis_faults(package: PackageData, array: ArrayAssessment) -> Sequence[str]:
-    """Return why the analysis route of an array is not permitted, in a few words each."""
-    few = ["too few motions"] if array.analysis.basis is Basis.TOO_FEW else []
-    return [
-        *(check.title for check in array.analysis_checks if not check.ok),
-        *_motion_faults(package),
-        *few,
-    ]
-
-
-def _motion_faults(package: PackageData) -> Sequence[str]:
-    missed = package.assessment.acceptance.missed
-    return [row.title for row in missed if row.consequence is Consequence.NG]
+from solver.rules.provisions import OVERRIDABLE, Neighbor
 
 
 def limits(package: PackageData, evidence: Evidence) -> Mapping[str, object]:

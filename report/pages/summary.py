@@ -37,13 +37,12 @@ if TYPE_CHECKING:
 
 def remedy_lines(assessment: Assessment, found: Remedies) -> Iterator[str]:
     """Yield the set of changes that is enough, then what would satisfy each check that is NG."""
-    us_first = assessment.project.us_first
     if len(found.together) > 1:
-        yield found.sentence(us_first)
+        yield found.sentence
     for checks, own in grouped_by(found.own, lambda remedy: remedy.checks).items():
         titles = grouped_by(checks, lambda check: check.title)
         names = (", ".join(filter(None, (title, subjects(of)))) for title, of in titles.items())
-        yield f"{'; '.join(names)}: {' '.join(each.sentence(us_first) for each in own)}"
+        yield f"{'; '.join(names)}: {' '.join(each.sentence for each in own)}"
     failed = sum(check.verdict is Verdict.NG for check in assessment.checks)
     if found.own and failed > MOST:
         yield f"Searched for the {MOST} with the largest ratio of {failed} that are NG."
@@ -132,7 +131,7 @@ def attention(assessment: Assessment, *, may_run: bool = True) -> Iterator[tuple
         yield Consequence.NG.value, sentence(check, us_first)
     # The verdict with a remedy depends on less friction as well.
     if is_best_due and (found := remedies(assessment, may_run=may_run)).together:
-        yield "remedy", found.sentence(us_first)
+        yield "remedy", found.sentence
     for check in assessment.open[len(failed) :]:
         yield check.consequence.value, sentence(check, us_first)
     if lacks := without_analysis(assessment):

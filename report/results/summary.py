@@ -11,10 +11,10 @@ from operator import itemgetter
 
 from xlsxwriter.worksheet import Worksheet
 
+from report.assessment.causes import largest
 from report.assessment.checks.check import Check, found_and_limit
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict, worst
-from report.pages.checks import first_sheet
 from report.provenance.files import fingerprint
 from report.results.clearances import GapRow
 from report.results.design import DesignRow, any_of
@@ -153,10 +153,10 @@ def _gap(rows: Sequence[GapRow]) -> Sequence[_Value]:
 
 def _governing(assessment: Assessment) -> Iterator[Sequence[_Value]]:
     """Yield the satisfied check with the largest ratio of each kind but clearances."""
-    for check in first_sheet(assessment).largest:
+    for check in largest(assessment):
         if check.id != "clearance":
-            largest = float(ratio(check.ratio))
-            yield (*_said(assessment, check), largest, check.clause, check.verdict.value)
+            shown = float(ratio(check.ratio))
+            yield (*_said(assessment, check), shown, check.clause, check.verdict.value)
 
 
 def _open(assessment: Assessment) -> Iterator[Sequence[_Value]]:

@@ -236,8 +236,10 @@ def ratio(value: float) -> str:
     """Return a demand/capacity ratio, rounded up so that 1.00 never hides a failure."""
     if math.isnan(value):
         return "none"
+    if value > 100.0:  # of almost no capacity more digits say nothing
+        return "∞" if math.isinf(value) else "> 100"
     # Less 1e-7, or a ratio of 1 could print as 1.01 by rounding error.
-    return "∞" if math.isinf(value) else number(math.ceil(value * 100.0 - 1e-7) / 100.0, 2)
+    return number(math.ceil(value * 100.0 - 1e-7) / 100.0, 2)
 
 
 def round_below(value: float) -> float:

@@ -7,10 +7,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
-from report.assessment.causes import outcome
+from report.assessment.causes import governing_words
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.project import Assessment
 from report.assessment.routes import NOT_PERMITTED
@@ -61,7 +60,7 @@ def answer(
         "verdict": {"text": "OK so far", "look": "provisional"}
         if may_change
         else verdict(assessment.verdict, assessment.verdict.value),
-        "line": "" if is_provisional else _LESS if may_change else _line(assessment),
+        "line": "" if is_provisional else _LESS if may_change else governing_words(assessment),
         # What it rests on; the reasons are listed below it.
         "verdict_text": None
         if is_provisional or may_change
@@ -96,16 +95,6 @@ def answer(
         "tips": _tips(assessment, arrays, designs, gaps),
         "plan": plan(assessment, designs, (gaps, missing), fmt, verdict, room_px),
     }
-
-
-def _line(assessment: Assessment) -> str:
-    """Return the worst clearance, the first other cause and how many there are, for one line."""
-    causes = outcome(assessment)
-    n_short = sum(not gap.verdict.is_permitted for gap in assessment.clearances)
-    if more := causes.others[1:]:
-        causes = replace(causes, others=(f"{causes.others[0]} and {len(more)} more items",))
-    words = causes.causes(assessment.project.us_first)
-    return f"{words}; {n_short} clearances NG" if n_short > 1 else words
 
 
 def _design(item: ArrayRow, fmt: UnitFormat, is_provisional: bool) -> Cell:

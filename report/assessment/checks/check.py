@@ -16,6 +16,7 @@ from typing import Any
 
 from report.assessment.verdict import (
     BY_CONSEQUENCE,
+    NO_DESIGN,
     NOT_GIVEN,
     OVERRIDDEN,
     Verdict,
@@ -26,7 +27,7 @@ from report.assessment.verdict import (
 from report.sheet.schema.fields import Place
 from report.text.amounts import Amount, amount_text, amount_texts
 from report.text.counts import capitalized, grouped_by, lowered, ranged
-from report.text.units import Rounding, ratio
+from report.text.units import Quantity, Rounding, ratio
 from solver.rules.limit import PROGRAM, Consequence
 from solver.rules.provisions import Provision
 
@@ -127,6 +128,11 @@ class Check:
         return not self.is_satisfied and not self.is_note
 
     @property
+    def lacks_design(self) -> bool:
+        """Whether it only lacks a design displacement, whose own check says why."""
+        return NO_DESIGN in (self.found, self.limit)
+
+    @property
     def is_excepted(self) -> bool:
         """Whether it is satisfied beyond its limit, as its note says."""
         has_numbers = isinstance(self.found, Amount) and isinstance(self.limit, Amount)
@@ -198,14 +204,17 @@ def _texts(check: Check, us_first: bool, *, is_both: bool = True) -> tuple[str, 
     return first, second
 
 
-def words(check: Check) -> str:
-    """Return a check in a few words for one cell, such as `roof slope 1.29`."""
+def words(check: Check, array: str = "") -> str:
+    """Return a check in a few words, such as `roof slope A1 (D/C 1.29)`; in the row of an array."""
     name = lowered(check.title)
-    name += f" {check.subject}" if check.id in PAIRS else ""
+    name += f" {check.subject}" if check.subject not in ("", array) else ""
     if math.isinf(check.ratio) and isinstance(check.found, str):
         return f"{name} {check.found}"
-    has_ratio = check.is_capacity and math.isfinite(check.ratio)
-    return f"{name} {ratio(check.ratio)}" if has_ratio else name
+    if isinstance(check.limit, Amount) and check.limit.quantity is Quantity.COUNT:
+        found, limit = _texts(check, us_first=True)
+        return f"{name} ({found}, {check.sense.words} {limit})"
+    has_ratio = check.is_capacity and not math.isnan(check.ratio)
+    return f"{name} (D/C {ratio(check.ratio)})" if has_ratio else name
 
 
 def alike(checks: Iterable[Check]) -> Sequence[Check]:

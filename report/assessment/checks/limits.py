@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
-from report.assessment.checks.check import Actor, Check, Sense, condition, dagger
-from report.assessment.routes import Route, RouteLimits
+from report.assessment.checks.check import Actor, Check, Sense, condition, dagger, words
+from report.assessment.routes import Route, RouteLimits, lacking_motions, statistic_basis
 from report.assessment.verdict import OVERRIDDEN, OVERRIDE_ID, STAYS, takes_plain_mean
 from report.sheet.schema import Override, ProjectInput, provision_name, provision_unit
 from report.sheet.schema.fields import Place
 from report.text.amounts import limit_amounts
 from report.text.counts import lowered
+from solver.records.acceptance import Acceptance
 from solver.rules.limit import Consequence, Limit, Measure
 from solver.rules.provisions import RULE_SETS, RuleSet, building_checks
 from solver.rules.rulesets import ALLOWED, Provision
@@ -49,6 +50,16 @@ def of_array(item: RouteLimits, index: int, id: str, *, has_motions: bool) -> It
         # Without motions nobody takes the analysis: how many there are says nothing.
         if is_analysis or has_motions:
             yield replace(of(limit), consequence=Consequence.NOTE, remedy="")
+
+
+def against_analysis(
+    data: ProjectInput, rules: RuleSet, item: RouteLimits, acceptance: Acceptance, n_motions: int
+) -> Sequence[str]:
+    """Return what does not permit the analysis of an array, in a few words each."""
+    limits = (*acceptance.missed, *item.analysis_checks)
+    missed = [each for each in limits if not each.ok and each.consequence is Consequence.NG]
+    lacking = lacking_motions(rules, statistic_basis(data), n_motions)
+    return [words(of_limit(each)) for each in missed] or [lacking] * bool(lacking)
 
 
 def of_limit(limit: Limit, subject: str = "") -> Check:

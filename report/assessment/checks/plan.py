@@ -19,7 +19,6 @@ from report.text.amounts import Amount, capacity, demand, entered
 from report.text.counts import numbered, ranged
 from report.text.units import Quantity, no_less, no_more, pair
 from solver.rules.limit import Consequence
-from solver.rules.provisions import SEPARATION_KEYS, RuleSet
 
 if TYPE_CHECKING:
     from report.assessment.clearances import ClearanceCheck
@@ -33,15 +32,15 @@ def of_clearances(done: Assessment) -> Iterator[Check]:
     """Yield whether each clearance is as wide as is required, and what is left of a pathway."""
     ids = [item.id for item in done.arrays]
     for index, gap in enumerate(done.clearances):
-        yield _clearance(gap, done.rules, index, ids)
+        yield clearance_check(gap, index, ids)
     for index, gap in enumerate(done.clearances):
         if gap.clearance.pathway_m:
             yield _pathway(done, gap, gap.clearance.pathway_m, index)
 
 
-def _clearance(gap: ClearanceCheck, rules: RuleSet, index: int, ids: Sequence[str]) -> Check:
-    row, separation = gap.clearance, rules.values[SEPARATION_KEYS[gap.neighbor]]
-    has_limit, mark = not math.isnan(gap.required_m), dagger(separation)
+def clearance_check(gap: ClearanceCheck, index: int = 0, ids: Sequence[str] = ()) -> Check:
+    """Return whether a clearance is as wide as is required; of the arrays among `ids`."""
+    row, has_limit = gap.clearance, not math.isnan(gap.required_m)
     return Check(
         id="clearance",
         title="Clearance",
@@ -50,7 +49,7 @@ def _clearance(gap: ClearanceCheck, rules: RuleSet, index: int, ids: Sequence[st
         found=capacity(row.provided_m, Quantity.SIZE),
         limit=demand(gap.required_m, Quantity.SIZE, gap.mark) if has_limit else NO_DESIGN,
         sense=Sense.AT_LEAST if has_limit else Sense.STATED,
-        clause=separation.clause + mark,
+        clause=gap.separation.clause + dagger(gap.separation),
         # Beside an array without a permitted route it has no verdict of its own.
         is_satisfied=gap.verdict is Verdict.OK,
         remedy="Widen the clearance, or reduce the displacement.",

@@ -69,7 +69,7 @@ STATES = {
         "No clearance is entered, and none is checked.",
         "One ballasted array (A1) was analyzed",
     ),
-    "one motion": (of(MOTIONS[:1]), "; too few motions)"),
+    "one motion": (of(MOTIONS[:1]), "number of motions (1, at least 3†)"),
     "no vertical": (of(LEVEL), "there is no vertical component to reverse"),
     "no transverse": (of(scenes.along(MOTIONS)), "No motion has a second horizontal component"),
     "prescriptive": (of(scenes.along(MOTIONS)), "Arrays A1, A2: the prescriptive route is taken"),

@@ -8,6 +8,7 @@ import pytest
 import inputs
 import scenes
 import stand_in
+from report.assessment.causes import came_to
 from report.assessment.checks.check import sentence
 from report.results.results_json import results_json
 from report.sheet.schema.choices import Direction
@@ -142,9 +143,9 @@ def test_json_has_what_would_do_margins_angles_and_neighbors(supported):
     found = evidence.remedies
     assert [row["change"] for row in rows[: len(found.own)]] == [each.words for each in found.own]
     for row, each in zip(rows, found.own, strict=False):
-        assert row["verdict"] == each.outcome.verdict
+        assert row["verdict"] == each.done.verdict
         assert row["quantities"] == [each.kind]
-        assert row["governing"] == each.outcome.words(us_first=True)
+        assert row["governing"] == came_to(each.done)
     assert rows[0]["checks"] == ["Clearance, A1 to RTU-1"]
     check_units(document)
     margins = document["certainty"]["margins"]

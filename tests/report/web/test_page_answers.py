@@ -81,7 +81,7 @@ def test_short_clearances_are_one_cause_with_the_worst(assessed):
     shown = answer(assessed, is_provisional=False)
     texts = [reason["text"] for reason in shown["reasons"]]
     assert sum(text.startswith("Clearance, ") for text in texts) == 1
-    assert shown["line"].startswith("A1 to A2 ")
+    assert shown["line"].startswith("clearance A1 to A2 ")
 
 
 def test_the_plan_tells_of_arrays_objects_and_clearances(assessed):
