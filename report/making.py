@@ -136,7 +136,7 @@ def _prepared(sheet: Sheet) -> Shaking:
 
     shaking = prepare(sheet)
     for line in lines(other_sources(sheet), sheet.addresses):
-        warnings.warn(f"{line.cells}: {line.finding.text}", stacklevel=2)
+        warnings.warn(f"{line.cell}: {line.text}", stacklevel=2)
     return shaking
 
 

@@ -135,11 +135,10 @@ def lines(sheet: Sheet, listed: Iterable[Finding]) -> Iterator[str]:
     """Yield findings as lines: level, cells, what was found, the names of warnings."""
     from report.sheet.checking import findings
 
-    for line in findings.lines(listed, sheet.addresses):
-        finding = line.finding
-        name = f" [{line.names}]" if line.names else ""
+    for finding in findings.lines(listed, sheet.addresses):
+        name = f" [{finding.id}]" if finding.id else ""
         answered = f" Acknowledged: {finding.reason}" if finding.reason else ""
-        yield f"{finding.level}: {line.cells}: {finding.text}{name}{answered}"
+        yield f"{finding.level}: {finding.cell}: {finding.text}{name}{answered}"
 
 
 def _document(sheet: Sheet, findings: Iterable[Finding]) -> dict[str, Any]:

@@ -210,11 +210,11 @@ def print_json(document: Any) -> None:
 
 def say_problems(source: Path, problems: Sequence[Problem]) -> None:
     """Print the problems of an input, one per line; those of several cells once."""
-    from report.sheet.checking.findings import grouped
+    from report.sheet.checking.findings import grouped, line_of
 
     click.echo(f"{plain(source)}: {numbered(len(problems), 'problem')} found.", err=True)
-    for problem in grouped(problems):
-        click.echo(f"  {as_typed(plain(problem.line))}", err=True)
+    for equal in grouped(problems):
+        click.echo(f"  {as_typed(plain(line_of(equal)))}", err=True)
 
 
 def say_next(project: Path, has_formulas: bool) -> None:

@@ -61,7 +61,7 @@ def _warnings(package: PackageData) -> Iterator[Sequence[str]]:
     listed = findings(sheet, package.assessment.shaking)
     warnings = [finding for finding in listed if finding.level is Level.WARNING]
     for line in lines(warnings, sheet.addresses):
-        yield line.cells, f"{line.finding.text}.", line.finding.reason or "not acknowledged"
+        yield line.cell, f"{line.text}.", line.reason or "not acknowledged"
 
 
 # Of pairs whose clearance is not given, or not as in the plan: the others need no table.

@@ -140,7 +140,6 @@ def attention(assessment: Assessment, *, may_run: bool = True) -> Iterator[tuple
         yield Consequence.NOTE.value, sentence(check, us_first)
     listed = findings(assessment.sheet, assessment.shaking)
     for line in lines(listed, assessment.sheet.addresses):
-        if line.finding.level is Level.WARNING:
-            reason = line.finding.reason
-            answer = f" Acknowledged: {reason}" if reason else ""
-            yield "warning", f"{line.cells}: {line.finding.text} [{line.names}]{answer}"
+        if line.level is Level.WARNING:
+            answer = f" Acknowledged: {line.reason}" if line.reason else ""
+            yield "warning", f"{line.cell}: {line.text} [{line.id}]{answer}"

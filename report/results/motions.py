@@ -174,7 +174,7 @@ def said_near(folder: Path) -> Iterator[str]:
             sheet = read(path)
             sources = () if path.name.endswith(BEFORE) else other_sources(sheet)
             for line in lines(sources, sheet.addresses):
-                yield f"{path}: {line.cells}: {line.finding.text}"
+                yield f"{path}: {line.cell}: {line.text}"
 
 
 def _source(record: Path) -> str:

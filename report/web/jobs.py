@@ -26,7 +26,7 @@ from report.drawing.plan_read import known_layers
 from report.drawing.read_dxf import read_dxf
 from report.drawing.roof_drawing import drawn_on, proposed
 from report.motions.history import targets
-from report.sheet.checking.findings import Group, grouped, listed
+from report.sheet.checking.findings import grouped, line_of, listed
 from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.locate import find_table
 from report.sheet.reading.parts import changed
@@ -43,7 +43,7 @@ from report.web.answers import answer
 from report.web.controls import Opened, check, controls, opened, shown, with_values
 from report.web.plan import USUAL_PX, stamp
 from report.web.values import Values
-from solver.model import InputError
+from solver.model import InputError, Problem
 from solver.records.acceptance import Acceptance
 
 _MOST_COLUMNS, _BESIDE = 40, 2  # of a sheet that are read, and of those the ones around a cell
@@ -55,20 +55,22 @@ def problems(path: Path, error: InputError) -> list[Mapping[str, Any]]:
         book = open_book(path)
     except InputError:
         book = None
-    return [_shown(path, book, problem) for problem in grouped(error.parts)]
+    return [_shown(path, book, equal) for equal in grouped(error.parts)]
 
 
-def _shown(path: Path, book: OpenBook | None, problem: Group) -> Mapping[str, Any]:
-    cell = next(iter(problem.cells), "")
+def _shown(path: Path, book: OpenBook | None, equal: Sequence[Problem]) -> Mapping[str, Any]:
+    first = equal[0]
+    sheet, _, at = first.where.rpartition("!")
+    cell = at if sheet else ""
     return {
         "file": path.name,
-        "text": problem.line,
-        "found": problem.found,
-        "remedy": problem.first.remedy,
-        "sheet": problem.sheet,
+        "text": line_of(equal),
+        "found": first.found if sheet or not at else f"{at}: {first.found}",
+        "remedy": first.remedy,
+        "sheet": sheet,
         "cell": cell,
-        "cells": listed(problem.cells),
-        "row": _row(book, problem.sheet, cell) if book and cell else None,
+        "cells": listed(each.where.removeprefix(f"{sheet}!") for each in equal) if sheet else "",
+        "row": _row(book, sheet, cell) if book and cell else None,
     }
 
 

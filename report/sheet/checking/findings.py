@@ -6,7 +6,7 @@ Owns ids and acknowledgments. Read `report.sheet.checking.plausible` next.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -33,37 +33,19 @@ from solver.suggestions import nearest
 MOST_LISTED = 3
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
-    """A problem of one cell, of several of a sheet, or of none."""
-
-    first: Problem
-    sheet: str  # empty for a problem of no cell
-    cells: tuple[str, ...]
-
-    @property
-    def found(self) -> str:
-        """What was found; with the sheet where there is no cell to name it."""
-        at = "" if self.sheet or not self.first.where else f"{self.first.where}: "
-        return f"{at}{self.first.found}"
-
-    @property
-    def line(self) -> str:
-        """The problem with its cells, as it is printed."""
-        addresses = listed(f"{self.sheet}!{cell}" for cell in self.cells)
-        return f"{addresses}: {self.first.text}" if addresses else str(self.first)
-
-
-def grouped(problems: Iterable[Problem]) -> Iterator[Group]:
-    """Yield problems in order; equal ones of a sheet once, where the first is."""
+def grouped(problems: Iterable[Problem]) -> Iterable[Sequence[Problem]]:
+    """Return problems in order; equal ones of a sheet together, where the first is."""
     alike: dict[tuple[str, str, int], list[Problem]] = {}
     for number, problem in enumerate(problems):
         sheet, has_cell, _ = problem.where.rpartition("!")
         # Without a cell nothing but its own line tells a problem: none is left out.
         alike.setdefault((sheet, problem.text, 0 if has_cell else number), []).append(problem)
-    for (sheet, _, _), those in alike.items():
-        cells = [each.where.removeprefix(f"{sheet}!") for each in those] if sheet else []
-        yield Group(those[0], sheet, tuple(cells))
+    return alike.values()
+
+
+def line_of(equal: Sequence[Problem]) -> str:
+    """Return equal problems as one line, with their cells."""
+    return str(replace(equal[0], where=listed(each.where for each in equal)))
 
 
 def listed(names: Iterable[str], most: int = MOST_LISTED) -> str:
@@ -146,17 +128,8 @@ def located(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iter
         yield finding.cell or listed(cells, _MOST_CELLS)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FindingGroup:
-    """Findings that differ only in their cells and ids, printed as one."""
-
-    finding: Finding  # the first of them
-    cells: str  # the first few addresses, with the count of the others
-    names: str  # the same of their ids; empty if there are none
-
-
-def lines(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterator[FindingGroup]:
-    """Yield findings with their cells, in order; equal ones once, at the place of the first."""
+def lines(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterator[Finding]:
+    """Yield findings in order; equal ones once, with the first few of their cells and ids."""
     all_findings = tuple(findings)
     alike: dict[tuple[str, ...], list[tuple[Finding, str]]] = {}
     for finding, cell in zip(all_findings, located(all_findings, addresses), strict=True):
@@ -165,7 +138,7 @@ def lines(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterat
         alike.setdefault(key, []).append((finding, cell))
     for group in alike.values():
         cells, names = listed(cell for _, cell in group), listed(each.id for each, _ in group)
-        yield FindingGroup(finding=group[0][0], cells=cells, names=names)
+        yield replace(group[0][0], cell=cells, id=names)
 
 
 _MOST_CELLS = 4  # of one finding

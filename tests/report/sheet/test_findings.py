@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from inputs import FT, INCH, LB, sides
 from nightly import by_day
 from report.cli.main import main
-from report.sheet.checking.findings import grouped, lines, note, unusual, warning
+from report.sheet.checking.findings import grouped, line_of, lines, note, unusual, warning
 from report.sheet.checking.plausible import implausible
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import ObjectKind
@@ -185,11 +185,11 @@ def test_equal_findings_are_one_line_with_a_count():
     addresses = {place: f"cell {i}" for i, place in enumerate(places)}
     answered = replace(found[0], reason="Seen")
     equal, other = lines([*found[1:], answered], addresses)
-    assert equal.cells == "cell 1, cell 2, cell 3 and 1,496 more"
-    assert equal.names == "usual 1, usual 2, usual 3 and 1,496 more"
-    assert (other.finding, other.cells, other.names) == (answered, "cell 0", "usual 0")
+    assert equal.cell == "cell 1, cell 2, cell 3 and 1,496 more"
+    assert equal.id == "usual 1, usual 2, usual 3 and 1,496 more"
+    assert other == replace(answered, cell="cell 0")
     (note_of_two,) = lines([note(place, "read") for place in places[:2]], addresses)
-    assert (note_of_two.cells, note_of_two.names) == ("cell 0, cell 1", "")
+    assert (note_of_two.cell, note_of_two.id) == ("cell 0, cell 1", "")
 
 
 @pytest.mark.nightly
@@ -288,14 +288,14 @@ OTHER = "weight is 0; give a number of more than 0 [lb]"
 
 @pytest.mark.quick
 def test_equal_errors_are_one_line_and_others_stay_apart():
-    (line,) = grouped(Problem(IS_WET, NUMBER, f"Arrays!E{row}") for row in range(8, 1508))
-    assert line.line == f"Arrays!E8, Arrays!E9, Arrays!E10 and 1,497 more: {WRONG}"
-    assert line.cells[-1] == "E1507"
+    (equal,) = grouped(Problem(IS_WET, NUMBER, f"Arrays!E{row}") for row in range(8, 1508))
+    assert line_of(equal) == f"Arrays!E8, Arrays!E9, Arrays!E10 and 1,497 more: {WRONG}"
+    assert equal[-1].where == "Arrays!E1507"
     first, second, elsewhere = (
         Problem(IS_WET, NUMBER, cell) for cell in ("Arrays!E8", "Arrays!E9", "Objects!E8")
     )
     no_file, weight = Problem("no such file"), Problem.of(OTHER).at("Arrays!H8")
-    lines = [each.line for each in grouped([no_file, first, weight, second, elsewhere, no_file])]
+    lines = [*map(line_of, grouped([no_file, first, weight, second, elsewhere, no_file]))]
     apart = list(map(str, (no_file, weight, elsewhere, no_file)))
     assert lines == [apart[0], f"Arrays!E8, Arrays!E9: {WRONG}", *apart[1:]]
 
