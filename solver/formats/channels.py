@@ -8,7 +8,7 @@ from __future__ import annotations
 import datetime as dt
 import math
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 
@@ -104,6 +104,8 @@ MAX_CHANNELS = 1000
 _PEAK_WITHIN = 0.01
 _PEAK_FACTOR = 2.0
 _OFFSET = 0.01
+# A peak / those of the other channels: no component of shaking, but a gal or a milli-g among g.
+_OTHER_UNIT = 300.0
 
 # A length may count the step after the last sample, and may be rounded.
 _LENGTH_STEPS = 2.0
@@ -163,6 +165,7 @@ def motion_file(
         told = (*gravity, *channel.notes)
         records.append(Record(name=name, dt_s=float(channel.dt_s), a_mps2=a_mps2, notes=told))
         all_notes += told if alone else [f"{name}: {note}" for note in told]
+    all_notes += _unit_notes(records)
     mean = np.array([record.a_mps2.mean() for record in records])
     if (
         len(mean) == 3
@@ -177,6 +180,15 @@ def motion_file(
         notes=tuple(dict.fromkeys(all_notes)),
         start=start or _start(source),
     )
+
+
+def _unit_notes(records: Sequence[Record]) -> Iterator[str]:
+    """Note a channel whose peak is that of others in another unit."""
+    peaks = sorted((float(np.abs(record.a_mps2).max()), record.name) for record in records)
+    (below, _), (peak, name) = peaks[-2:] if len(peaks) > 1 else ((0.0, ""), peaks[0])
+    if 0.0 < below * _OTHER_UNIT <= peak:
+        times = f"{peak / below:.0f} times the peaks of the others"
+        yield f"{name} reaches {times}: is it in their unit?"
 
 
 def time_in(text: str, *formats: str) -> dt.datetime | None:

@@ -1,6 +1,6 @@
 """What the columns of a table show by their numbers, whatever their headings say.
 
-Knows no heading and no format. Read `rising`.
+One look for all readers and messages; knows no heading and no format. Read `rising`.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ from solver.model import Floats
 # No shaking rises from line to line. Fewer rows than `_FEW` show nothing; in `_MANY` a column need
 # not rise evenly, as times of loggers do not.
 _FEW, _MANY = 5, 12
-_EVEN_WITHIN, _OFTEN = 0.01, 0.1  # of a step, of all steps
+_EVEN_WITHIN, _OFTEN, _NEARLY = 0.01, 0.1, 0.9  # of a step, of all steps
+SIDE_BY_SIDE = "tables side by side; give one of them"
 _MAGNITUDE_WITHIN = 0.01  # of its peak: digits are printed apart
 
 
@@ -54,6 +55,23 @@ def magnitudes(table: Floats, columns: Sequence[int], named: Sequence[int]) -> l
     return found
 
 
+def counting(table: Floats) -> list[int]:
+    """Indexes of the columns that count the rows, as the numbers of cards do."""
+    return [column for column in rising(table) if (np.diff(table[:, column]) == 1.0).all()]
+
+
+def pairs(values: Floats, per_line: int) -> Floats | None:
+    """Times and values, shape (n, 2), where nearly every second value across lines rises evenly."""
+    if per_line < 4 or per_line % 2 or values.size % 2 or values.size < 2 * _MANY:
+        return None
+    table = values.reshape(-1, 2)
+    steps = np.diff(table[:, 0])
+    usual = np.median(steps)
+    is_usual = np.abs(steps - usual) <= _EVEN_WITHIN * usual
+    # A gap, or a line that is there twice, is told with the times.
+    return table if usual > 0.0 and is_usual.mean() > _NEARLY else None
+
+
 def remedy(table: Floats) -> str:
     """Return what would do for a table of two or more columns without headings."""
     heading = f"a heading such as time_s,x_g{',y_g' * (table.shape[1] > 2)}"
@@ -62,6 +80,16 @@ def remedy(table: Floats) -> str:
             f"give {heading}, or put one on each line, or give the values per line to motion"
             f" convert (--values-per-line {table.shape[1]})"
         )
+    if counts := counting(table):
+        which = ", ".join(str(column + 1) for column in counts)
+        told = f"column {which} counts the lines: delete it"
+        if len(counts) > 1:
+            told = f"columns {which} count the lines: delete them"
+        rest = np.delete(table, counts, axis=1)
+        then = remedy(rest) if rest.shape[1] > 1 else "give the time step dt"
+        return f"{told}; then {then}"
+    if same := [i for i in columns[1:] if np.array_equal(table[:, i], table[:, columns[0]])]:
+        return f"columns {columns[0] + 1} and {same[0] + 1} are the same: {SIDE_BY_SIDE}"
     which = ", ".join(str(column + 1) for column in columns)
     return (
         f"times or line numbers rise in column {which}: put each time first on a line with its"

@@ -16,7 +16,7 @@ import numpy as np
 
 from solver.formats import phrases
 from solver.formats.channels import MotionFile, motion_file
-from solver.formats.columns import magnitudes, remedy, rising
+from solver.formats.columns import SIDE_BY_SIDE, magnitudes, pairs, remedy, rising
 from solver.formats.headings import Layout, content_of, laid_out
 from solver.formats.numbers import COMPARED, DECIMAL_COMMA, field_problems, is_cut_short, number_in
 from solver.formats.phrases import Kind
@@ -42,7 +42,7 @@ def read(source: Source) -> MotionFile:
     layout = laid_out(source)
     source = layout.source
     table = _table(layout)
-    _check_count(layout, len(table))
+    _check_count(layout, table)
     _check_last(layout)
     if layout.headings and (named := phrases.of_a_spectrum(layout.headings)):
         raise InputError(
@@ -74,6 +74,8 @@ def read(source: Source) -> MotionFile:
         for i, values in zip(taken, columns, strict=True)
     ]
     notes = list(told)
+    if in_line := _pairs_in_line(layout, table):
+        notes.append(f"each line has {in_line} pairs of time and value")
     for i, why in left.items():
         notes.append(f"column {shown(layout.headings[i].text)} is ignored: it is {why}")
     if not source.is_ended:
@@ -94,8 +96,11 @@ def _table(layout: Layout) -> Floats:
     # numpy reads a sound file at once; one with an error is read row by row, to name its lines.
     table = _read_fast(layout)
     if table is None:
-        _check_shape(layout)
+        if (table := _shaped(layout)) is not None:
+            return table
         table = _read_slowly(layout)
+    if not layout.headings and (paired := pairs(table.ravel(), layout.width)) is not None:
+        return paired
     if len(table) < 2:
         raise InputError(f"{source.name}: found 1 sample; give at least 2")
     if layout.misfit:
@@ -136,18 +141,24 @@ def _row_problems(layout: Layout) -> Iterator[str]:
             yield f"{source.at(index)}: found {columns}; give {width} as in the first row"
 
 
-def _check_shape(layout: Layout) -> None:
-    """Raise for rows that are no columns: values across the lines, or a first row unlike all."""
+def _shaped(layout: Layout) -> Floats | None:
+    """Read pairs across the lines whose last line is short; None for rows of another shape.
+
+    Raises `InputError` for other values across the lines, and for a first row unlike all.
+    """
     source, start, width = layout.source, layout.start, layout.width
     (first, _), *others = [(i, len(layout.fields(row))) for i, row in layout.rows()]
     heading = content_of(source.lines[start - 1]) if start else ""
     is_headed = bool(heading) and len(phrases.words(heading, layout.separator)) == width
     if len(others) < 2:
-        return
+        return None
     *middle, (last, left) = others
     widths = {numbers for _, numbers in middle}
     if not is_headed and widths == {width} and left < width:
-        table = _across(layout, width)[:-left].reshape(-1, width)
+        values = _across(layout, width)
+        if values.shape[1] == 2:
+            return values
+        table = values[:-left].reshape(-1, width)
         raise InputError(
             f"{source.at(last)}: found {left} values after lines of {width}: values across the"
             f" lines, not in columns; {remedy(table)}"
@@ -157,10 +168,11 @@ def _check_shape(layout: Layout) -> None:
             f"{source.at(first)}: found {width} numbers above rows of {min(widths)}; if they are no"
             " samples, put # before them, and give the time step"
         )
+    return None
 
 
 def _across(layout: Layout, due: int) -> Floats:
-    """Return values across the lines, as many in each but the last, as one column, shape (n, 1)."""
+    """Return values across the lines, as many in each but the last: one column, or pairs."""
     source = layout.source
     rows = [(i, layout.fields(row.rstrip(",;"))) for i, row in layout.rows()]
     raise_any(
@@ -170,17 +182,27 @@ def _across(layout: Layout, due: int) -> Floats:
     )
     raise_any(problem for i, fields in rows for problem in field_problems(source, i, fields))
     values = np.array([number_in(field) for _, fields in rows for field in fields])
+    if (paired := pairs(values, due)) is not None:
+        return paired
     table = values[: values.size // due * due].reshape(-1, due)
     if due > 1 and rising(table):
         raise InputError(f"{source.name}: found no values across the lines; {remedy(table)}")
     return values.reshape(-1, 1)
 
 
-def _check_count(layout: Layout, samples: int) -> None:
+def _pairs_in_line(layout: Layout, table: Floats) -> int:
+    """Return how many pairs of time and value are in each line; 0 for columns and for values."""
+    return layout.width // 2 if 1 < table.shape[1] < layout.width else 0
+
+
+def _check_count(layout: Layout, table: Floats) -> None:
     """Compare the number of rows with the number of samples that a remark states."""
+    samples = len(table)
+    # Of pairs, times may be counted as well.
+    counts = {-1, samples, table.size if _pairs_in_line(layout, table) else samples}
     for index, line in layout.remarks:
         stated = phrases.count_in(line)
-        if stated not in (-1, samples):
+        if stated not in counts:
             remedy = "give the whole file" if samples < stated else "correct the count"
             raise InputError(
                 f"{layout.source.at(index)}: states {stated} samples, found {samples}; {remedy}"
@@ -244,6 +266,10 @@ def _has_times(layout: Layout, table: Floats) -> bool:
     kinds = [heading.kind for heading in layout.headings]
     if Kind.TIME in kinds[1:]:
         place = kinds.index(Kind.TIME, 1) + 1
+        if kinds[0] is Kind.TIME and np.array_equal(table[:, 0], table[:, place - 1]):
+            raise InputError(
+                f"{layout.source.name}: found times in columns 1 and {place}: {SIDE_BY_SIDE}"
+            )
         raise InputError(
             f"{layout.source.name}: found times in column {place}; give them in the first, and once"
         )
@@ -267,12 +293,13 @@ def _untimed_step(layout: Layout, columns: int) -> float:
 def _timed(layout: Layout, table: Floats, columns: Floats) -> Even:
     """Columns by the times in the first one, which must agree with a step that is stated."""
     source, stated = layout.source, layout.step()
+    in_line = _pairs_in_line(layout, table) or 1
     unit_s = _unit_of_times(layout, table)
     t_s = unit_s * table[:, 0]
     _check_decimal_comma(layout, t_s)
 
     def line_of(row: int) -> int:
-        return next(islice(layout.rows(), row, None))[0]
+        return next(islice(layout.rows(), row // in_line, None))[0]
 
     dt_s, columns, notes = sampled(source, t_s, columns, line_of, unit_s)
     # Where the times are even, they have the step that a remark states.

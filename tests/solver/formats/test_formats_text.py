@@ -147,7 +147,7 @@ def lines_of(fields, per_line):
 
 CARDS = [f"{line} {k}" for k, line in enumerate(lines_of(WAVED, 8), start=1)]
 TIMED = [f"{0.01 * k:.2f} {line}" for k, line in enumerate(lines_of(WAVED, 3)[:-1])]
-PAIRS = lines_of([field for k in range(200) for field in (0.01 * k, WAVED[k])], 8)
+TIMES_AND_VALUES = [field for k in range(200) for field in (0.01 * k, WAVED[k])]
 JITTER = [f"{0.01 * k + 2e-3 * (k % 3):.3f} {row}" for k, row in enumerate(lines_of(WAVED, 2))]
 
 
@@ -155,16 +155,12 @@ JITTER = [f"{0.01 * k + 2e-3 * (k % 3):.3f} {row}" for k, row in enumerate(lines
 @pytest.mark.parametrize(
     ("rows", "due", "told"),
     [
-        (CARDS, 9, "9"),
-        ([f"{k} {row}" for k, row in enumerate(CARDS)], 10, "1, 10"),
         (TIMED, 4, "1"),
         (JITTER, 3, "1"),
         (JITTER[:12], 3, "1"),
         (TIMED[:5], 4, "1"),
         ([" ".join(row.split()[::-1]) for row in TIMED], 4, "4"),
         ([" ".join(row.split()[1::-1]) for row in TIMED], 2, "2"),
-        (PAIRS, 8, "1, 3, 5, 7"),
-        ([row.replace(" ", ", ") for row in PAIRS], 8, "1, 3, 5, 7"),
         ([f"{a} {b}" for a, b in zip(JITTER[::2], JITTER[1::2], strict=True)], 6, "1, 4"),
     ],
 )
@@ -175,6 +171,63 @@ def test_where_a_column_rises_no_values_run_across_the_lines(file, rows, due, to
         (problem,) = problems_of(file(content), dt_s=0.01, **how)
         assert f"; times or line numbers rise in column {told}: put each time first" in problem
         assert "per line" not in problem
+
+
+@pytest.mark.parametrize("head", [[], ["Kobe in g"], ["# number of points: 200"], ["# NPTS 400"]])
+@pytest.mark.parametrize("mark", [" ", ", "])
+@pytest.mark.parametrize("kept", [50, 49.5])
+def test_where_every_second_value_rises_evenly_they_are_pairs_of_time_and_value(
+    file, head, mark, kept
+):
+    samples = int(4 * kept)
+    rows = [row.replace(" ", mark) for row in lines_of(TIMES_AND_VALUES[: 2 * samples], 8)]
+    if head and "number of points" in head[0]:
+        head = [f"# number of points: {samples}"]
+    if head and "NPTS" in head[0]:
+        head = [f"# NPTS {2 * samples}"]
+    path = file("\n".join([*head, *rows]) + "\n")
+    for how in ({}, {"dt_s": 0.01}, {"values_per_line": 8}):
+        motion_file = read_motion_file(path, units="g", **how)
+        assert motion_file.channels[0].dt_s == 0.01
+        expected = [G * value for value in WAVED[:samples]]
+        assert motion_file.channels[0].a_mps2 == pytest.approx(expected, abs=1e-4)
+        assert motion_file.notes == ("each line has 4 pairs of time and value",)
+
+
+def test_a_line_of_pairs_that_is_there_twice_is_named(file):
+    rows = lines_of(TIMES_AND_VALUES, 8)
+    (problem,) = problems_of(file("\n".join([*rows, rows[49]]) + "\n"))
+    assert problem.startswith("roof.csv:51: found time 1.96 s after 1.99 s, with a typical step of")
+
+
+def test_what_the_message_on_a_column_that_counts_the_lines_advises_works(file):
+    for rows, told in (
+        (CARDS, "column 9 counts the lines: delete it"),
+        ([f"{k} {row}" for k, row in enumerate(CARDS)], "columns 1, 10 count the lines: delete"),
+    ):
+        for how in ({}, {"values_per_line": len(rows[0].split())}):
+            (problem,) = problems_of(file("\n".join(rows)), dt_s=0.01, **how)
+            assert f"; {told}" in problem
+            assert "--values-per-line 8" in problem
+
+
+def test_two_tables_side_by_side_are_told(file):
+    rows = [f"{0.01 * k:.2f} {a:.4f} {0.01 * k:.2f} {-a:.4f}" for k, a in enumerate(WAVED)]
+    (problem,) = problems_of(file("\n".join(rows)))
+    assert problem.endswith("; columns 1 and 3 are the same: tables side by side; give one of them")
+    heads = "time_s,a_g,time_s,b_g"
+    (problem,) = problems_of(file("\n".join([heads, *(row.replace(" ", ",") for row in rows)])))
+    assert problem == (
+        "roof.csv: found times in columns 1 and 3: tables side by side; give one of them"
+    )
+
+
+@pytest.mark.parametrize(("factor", "is_told"), [(981.0, True), (30.0, False)])
+def test_a_column_that_reaches_many_times_the_others_is_noted(file, factor, is_told):
+    rows = [f"{0.01 * k:.2f},{a:.5f},{factor * a:.4f},{a:.5f}" for k, a in enumerate(WAVED)]
+    notes = read_motion_file(file("\n".join(["t_s,x,y,z", *rows, ""])), units="cm/s2").notes
+    told = "y reaches 981 times the peaks of the others: is it in their unit?"
+    assert notes[:1] == ((told,) if is_told else ())
 
 
 def test_what_the_message_on_values_across_the_lines_advises_works(file):
