@@ -57,7 +57,7 @@ SAGITTA_M = 0.003
 JOIN_M = 0.005
 
 _TEXTS = ("TEXT", "MTEXT", "ATTRIB")
-_HEIGHTS = ("HT", "HEIGHT", "ELEV")
+_HEIGHTS = ("HT", "HGT", "HEIGHT", "EL", "ELEV", "ELEVATION")
 
 # A code of a text of lines, with what it stacks: one above the other, with or without a line.
 _STACKED = re.compile(r"\\(?:S((?:\\.|[^;\\])*);?|.)", re.DOTALL)

@@ -260,21 +260,29 @@ def drawn_on(drawing: RoofDrawing, layer: str) -> str:
 
 
 _NUMBER, _SHARE = r"\d{1,6}(?:\.\d{1,6})?", r"\d{1,2}/[1-9]\d?"
-_TOP = r"(?:TOP(?: OF [A-Z]{1,12})?|T(?:\.O\.(?:[A-Z]\.)?|/O)(?: [A-Z]{1,12})?)"
+_TOP = r"(?:TO[CPW]|TOP(?: OF(?: [A-Z]{1,12}){1,2})?|T(?:\.O\.(?:[A-Z]\.)?|/O?) ?(?:[A-Z]{1,12})?)"
+_ABOUT = r"(?:\+/-|[+±~])"
 _KEYWORD = re.compile(
-    rf"(?<!\w)(?:(HT|HGT|HEIGHT|(?:{_TOP} ?)?EL(?:EV(?:ATION)?)?|{_TOP})(?: OF)?[.:=@ ]*(?:\+ ?)?"
-    r"|([HZ]) ?[=:] ?(?:\+ ?)?)(?=\d)|(?:(?<=[\s(])|^)(\+|\+/-|±) ?(?=\d)",
+    rf"(?<!\w)(?:(HT|HGT|HEIGHT(?: ABOVE ROOF)?|(?:{_TOP} ?)?EL(?:EV(?:ATION)?)?|{_TOP})(?: OF)?"
+    rf"[.:=@ ]*(?:{_ABOUT} ?)?|([HZ]) ?[=:] ?(?:{_ABOUT} ?)?)(?=\d)"
+    rf"|(?:(?<=[\s(])|^)({_ABOUT}) ?(?=\d)",
     re.IGNORECASE,
 )
+# What may be a height as well, before or behind a number with a unit: it is said.
+_LIKE_ONE = re.compile(
+    r"(?<![\w./])(?:H|H(?:EIG)?HT|HGT|T[./]O|TO[CPW]|EL|ELEV|Z|ABV|ABOVE|A\.?F\.?F)(?![a-z])",
+    re.IGNORECASE,
+)
+_LENGTH = re.compile(r"\d ?(?:[\"']|(?:ft|feet|inch|inches|in|mm|cm|m)\b)", re.IGNORECASE)
 # Heights above the roof; what other words give may be above a datum.
-ABOVE_ROOF = ("H", "HT", "HGT", "HEIGHT")
-_ALSO_A_NAME = ("TOP", "+", "+/-", "±")  # before a number without a unit
+ABOVE_ROOF = ("H", "HT", "HGT", "HEIGHT", "HEIGHT ABOVE ROOF")
+_ALSO_A_NAME = ("TOP", "TOC", "TOW", "T/", "+", "+/-", "±", "~")  # before no unit
 _DIGITS = r"\d(?:[\d .'/#^-]|,(?=\d)){0,16}?"
 # As sizes of equipment are written: a number with its unit before a lone H.
 _BEFORE = re.compile(
     rf"(?<![\w./'\"#^-])(?P<value>(?:{_DIGITS}(?:ft|feet)\.?[ -]{{0,3}})?"
     rf"{_DIGITS}(?:['\"]|(?:ft|feet|inches|inch|in|mm|cm|m)\.?))"
-    r"[ -]?(?:H|HT|HIGH|TALL|ABOVE|A\.?F\.?R)\b(?![.:= ]*\d)",
+    r"[ -]?\(?(?:H|HT|HIGH|TALL|ABOVE|ABV|A\.?(?:F\.?)?R)\b(?![.:= ]*\d)",
     re.IGNORECASE,
 )
 _OTHER_SIZES = re.compile(r"(?:[\d.'\"/-]{1,12}+ ?+[WLD]?+ ?+[x×] ?+){1,3}+$", re.IGNORECASE)
@@ -304,11 +312,13 @@ def read_line(text: str, unit_m: float) -> tuple[str, Height | None]:
     text = _METRIC.sub(r"\1.\2", plain_marks(text))
     word = _KEYWORD.search(text)
     if word:
-        match, start, said = _VALUE.match(text, word.end()), word.start(), word[word.lastindex or 0]
+        match, start = _VALUE.match(text, word.end()), word.start()
+        said = word[word.lastindex or 0].strip()
     elif before := _BEFORE.search(text):
         match, start, said = _VALUE.fullmatch(before["value"]), before.start(), "H"
     else:
-        return text, None
+        is_like = _LIKE_ONE.search(text) and _LENGTH.search(text)
+        return text, Height(math.nan, "", False) if is_like else None
     name = _OTHER_SIZES.sub("", text[:start]).lstrip(" ,;:-").rstrip(" ,;:-(@")
     name = name if ")" in name else name.lstrip("(")  # `(N) RTU-1` is one
     unclear = Height(math.nan, said.upper(), False)
