@@ -232,12 +232,14 @@ def _listed_cells(
     return tuple(cells)
 
 
-def grouped(groups: Mapping[str, Iterable[Any]], columns: Sequence[Column]) -> Table:
+def grouped(
+    groups: Mapping[str, Iterable[Any]], columns: Sequence[Column], fmt: UnitFormat = PLAIN
+) -> Table:
     """Return a compact table of the same, with a row that names each group of items."""
-    table, rows = listed((), columns, kind="compact"), []
+    table, rows = listed((), columns, fmt, kind="compact"), []
     for name, items in groups.items():
         rows.append(TableRow(cells=(Wide(name, len(table.columns)),), kind="total"))
-        rows += listed(items, columns).rows
+        rows += listed(items, columns, fmt).rows
     return replace(table, rows=tuple(rows))
 
 

@@ -33,11 +33,11 @@ def acceptance_table(package: PackageData) -> Table:
     """Return every limit on the motions: found, limit, where, OK or what follows."""
 
     columns = by_place(
-        words("Limit", 4.75),
-        text("Found", share=0.7),
-        text("Limit value", share=0.95),
-        words("Worst", 1.5),
-        words("Verdict", 1.05),
+        words("Limit", 4.4),
+        text("Found", share=1.35),
+        text("Limit value", share=1.35),
+        words("Worst", 1.1),
+        words("Verdict", 0.75),
     )
     rows = [
         (

@@ -197,8 +197,8 @@ _CONDITION_HEADS = headed(
     ("Who acts", 0.95), ("Sheet", 0.45, "right"), kind="compact",
 )  # fmt: skip
 _ALL_HEADS = headed(
-    ("Of", 0.95), ("Check", 2.3), ("Found", 2.65), ("Required", 2.4), ("Ratio", 0.5, "right"),
-    ("Section of the code", 1.7), ("Verdict", 0.85, "center"), kind="compact",
+    ("Of", 0.9), ("Check", 2.6), ("Found", 2.5), ("Required", 2.35), ("Ratio", 0.5, "right"),
+    ("Section of the code", 1.65), ("Verdict", 0.85, "center"), kind="compact",
 )  # fmt: skip
 
 

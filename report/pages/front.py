@@ -22,7 +22,6 @@ from report.assessment.evidence import Evidence
 from report.assessment.project import Assessment, ChangeKind, Changes
 from report.assessment.remedies import Remedies
 from report.assessment.routes import Route
-from report.assessment.tested import tested
 from report.assessment.verdict import LOWERING, VELOCITY_ROW
 from report.pages.checks import (
     FirstSheet,
@@ -115,7 +114,6 @@ def basis(package: PackageData) -> Mapping[str, object]:
     """Return what the page on basis and limits needs beside the package."""
     return {
         "motions": [run.motion for run in package.governing.motions],
-        "is_tested": bool(tested(package.data)),
         "validation": VALIDATION,
     }
 

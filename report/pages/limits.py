@@ -19,7 +19,7 @@ from report.assessment.friction import mus_words
 from report.assessment.neighbors import Cover
 from report.assessment.plan_clearances import plan_gaps
 from report.assessment.precheck import findings
-from report.document.tables import LONG_NAME, Table, listed
+from report.document.tables import LONG_NAME, Table, grouped, listed
 from report.drawing.labels import alike_arrays
 from report.drawing.sheet import unit_format
 from report.entities.evidence import NeighborResult
@@ -146,7 +146,6 @@ def _places(package: PackageData, fmt: UnitFormat) -> Sequence[Table]:
     ]
     columns = (
         (words("Item", 1.1), lambda row: row[0]),
-        (words("Kind", 2.4), lambda row: row[1]),
         (length("Height"), lambda row: "—" if row[2] is None else row[2]),
         (_in_plan("x from"), lambda row: _sides(row[3])[0]),
         (_in_plan("x to"), lambda row: _sides(row[3])[1]),
@@ -156,7 +155,8 @@ def _places(package: PackageData, fmt: UnitFormat) -> Sequence[Table]:
     # Long names have no room in half the sheet: then all are in the first.
     is_short = max((len(row[0]) for row in rows), default=0) <= LONG_NAME
     middle = (len(rows) + 1) // 2 if is_short else len(rows)
-    return [listed(half, columns, fmt, kind="compact") for half in (rows[:middle], rows[middle:])]
+    halves = rows[:middle], rows[middle:]
+    return [grouped(grouped_by(half, lambda row: row[1]), columns, fmt) for half in halves]
 
 
 def _sides(shape: Shape | None) -> tuple[Any, ...]:
@@ -177,14 +177,15 @@ def provisions(package: PackageData) -> Mapping[str, object]:
     named = [
         (_sentence_case(OVERRIDABLE[key]), value)
         for key, value in rules.values.items()
-        if package.assessment.has_motions or key not in _OF_MOTIONS
+        # Without an analysis only its floor is said, as what it could save.
+        if package.assessment.has_motions or key == "analysis_floor" or "analysis" not in key
     ]
     # The heading names the rule set: its name before each clause would need a second line.
     own = rules.name.removeprefix("SEAOC ") + " "  # before its clauses
     columns = (
-        (words("Provision", 5.4), lambda row: row[0]),
-        (text("Value", share=0.8), lambda row: f"{row[1].value:.4g}" + dagger(row[1])),
-        (words("Clause", 2.0), lambda row: row[1].clause.removeprefix(own)),
+        (words("Provision", 6.0), lambda row: row[0]),
+        (text("Value", share=0.75), lambda row: f"{row[1].value:.4g}" + dagger(row[1])),
+        (words("Clause", 1.7), lambda row: row[1].clause.removeprefix(own)),
     )
     # Two columns of the page; the left one has the odd row.
     middle = (len(named) + 1) // 2
@@ -198,9 +199,6 @@ def provisions(package: PackageData) -> Mapping[str, object]:
             for row in package.data.overrides
         ],
     }
-
-
-_OF_MOTIONS = ("analysis_factor", "analysis_min_motions", "analysis_mean_motions")
 
 
 def _sentence_case(name: str) -> Markup:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.runs import OrientedRun
+from report.assessment.tested import tested
 from report.assessment.verdict import nan_is_worst
 from report.document.tables import Table, Wide, by_place, listed
 from report.entities.evidence import linked_result
@@ -45,6 +46,7 @@ _NOT_KNOWN = Wide("not known", 4), ""
 def page(package: PackageData) -> Mapping[str, object]:
     """Return the page on the models."""
     return {
+        "is_tested": bool(tested(package.data)),
         "models": list(Model),
         "matters": DEFAULT,
         "matters_in": DEFAULT.matters_m / INCH_M,

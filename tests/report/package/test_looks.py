@@ -16,11 +16,14 @@ import pikepdf
 import pytest
 from PIL import Image
 
+import altered
 import looked
 import packages
 import stand_in
 from commands import printed
 from places import ROOT
+from report.assessment.evidence import support
+from report.package.html import pages
 from report.typeset.finish import FIELD, Attached
 from report.typeset.pdf import lay_out
 
@@ -29,6 +32,8 @@ pytestmark = pytest.mark.quick
 
 PROJECTS = tuple(path.parent.name for path in sorted(ROOT.glob("projects/*/input.xlsx")))
 LEAST_FILLED = 0.4
+# Altered copies, and the sheets that each may have.
+COPIES = {"too steep": 16, "no motions": 8, "prescriptive at the least friction": 7}
 FILES = (
     Attached(name="input.xlsx", content=b"workbook", mime="application/vnd.ms-excel",
              relationship="Source", description="Input workbook"),
@@ -86,6 +91,17 @@ def test_plan_and_notes_begin_a_sheet_and_captions_and_equations_stay_whole(shee
         equations = takewhile(lambda b: b.kind == "Figure", of[at + 1 :])
         # The last follow from one another: value from analysis, floor, design displacement.
         assert len({b.sheet for b in list(equations)[-3:]}) == 1, title
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("name", COPIES)
+def test_packages_that_are_ng_or_prescriptive_have_no_short_sheet(name, tmp_path):
+    done = altered.assessed(name)
+    made = tmp_path / "made.pdf"
+    made.write_bytes(lay_out(pages(done, support(done))))
+    sheets = looked.sheets(made)
+    assert looked.short_sheets(sheets, LEAST_FILLED) == []
+    assert len(sheets) <= COPIES[name]
 
 
 SVG = (
