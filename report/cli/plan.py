@@ -338,8 +338,8 @@ def ballast(
         arrays = {row["id"]: row for row in sheet.draft["arrays"] if row.get("id") in shapes}
         blocks, outside = loads(rows, {name: shapes[name] for name in arrays})
         if not blocks:
-            # Most likely other units, or another origin than that of the plan.
-            raise InputError("no block of the map is within an array of the plan")
+            what = "no block of the map is within an array of the plan"
+            raise InputError(f"{what}; give --units of the map, or x and y from the plan's origin")
         weights = {name: load.blocks * block_n for name, load in blocks.items()}
         # What is not on the map any more goes only where that is asked for.
         bare = [name for name in arrays if name not in blocks] if replace else []

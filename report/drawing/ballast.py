@@ -68,7 +68,7 @@ def read_map(path: Path, unit_m: float) -> Any:
         unit = "".join(units)
         if name in ("x", "y") and unit and LENGTHS.get(unit_named(unit)) != unit_m:
             text = f"line 1: the heading is '{cut(heading)}'"
-            raise InputError(f"{text}, and --units says another unit")
+            raise InputError(f"{text}, and --units says another unit; give that of x and y")
     if missing := [name for name in COLUMNS if heads.count(name) != 1]:
         raise InputError(f"line 1: not one heading {', '.join(missing)}; give x, y and blocks")
     if len(rows) > MAX_ROWS:

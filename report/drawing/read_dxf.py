@@ -8,9 +8,10 @@ from __future__ import annotations
 import math
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -103,12 +104,12 @@ def _read(document: Document, repairs: str, unit_m: float | None) -> RoofDrawing
     )
     reader = _Reader(drawing, size_m, hidden)
     reader.take_all(document.modelspace())
-    _check_degrees([point for line in drawing.lines for point in line.points])
     return drawing
 
 
-def _check_degrees(points: Sequence[Point]) -> None:
+def _check_degrees(lines: Iterable[Drawn]) -> None:
     """Refuse a plan that would be smaller than 1 in any unit and lies far from its origin."""
+    points = [*chain.from_iterable(line.points for line in lines)]
     if not points:
         return
     (west, east), (south, north) = ((min(v), max(v)) for v in zip(*points, strict=True))
@@ -185,6 +186,8 @@ class _Reader:
         """Add all of model space, or of a layout."""
         for entity in space:
             self.take(entity, _Block())
+        # Before lines are joined: in degrees, the ends of all of them would be near each other.
+        _check_degrees(chain(self.drawing.lines, *self.opened.values()))
         self._take_joined()
 
     def take(self, entity: Any, block: _Block) -> None:

@@ -233,7 +233,7 @@ _OF_OTHERS = re.compile(
     r"\bPG[VD]\b|\bprobabilit|\breturn period|\bSa ?\( ?(?!1(?:\.0+)? ?s?\))", re.IGNORECASE
 )
 _MEASURE = {False: "PGA [g]", True: "Sa(1 s) [g]"}
-_RATE = "annual rate [1/year] (-ln(1 - p) / n of a probability p in n years)"
+_RATE = "annual rate [1/year] (1 / T of a return period T, -ln(1 - p) / n of p in n years)"
 
 _TWO = "give intensity and annual rate in two columns, or the CSV of the USGS hazard tool"
 

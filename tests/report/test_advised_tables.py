@@ -106,13 +106,14 @@ KINDS = {
     "probabilities in 50 years": curve(
         table("PGA [g],probability of exceedance in 50 years",
               [(x, 1.0 - math.exp(-50.0 * rate)) for x, rate in CURVE]),
-        r"\(-ln\(1 - p\) / n of a probability p in n years\)",
+        r"-ln\(1 - p\) / n of p in n years",
         table("PGA [g],annual rate",
               [(x, -math.log(1.0 - (1.0 - math.exp(-50.0 * rate))) / 50.0) for x, rate in CURVE]),
     ),
     "return periods": curve(
         table("PGA [g],return period [years]", [(x, 1.0 / rate) for x, rate in CURVE]),
-        r"give annual rate \[1/year\]", RATES,
+        r"\(1 / T of a return period T,",
+        table("PGA [g],annual rate", [(x, 1.0 / (1.0 / rate)) for x, rate in CURVE]),
     ),
     "a curve of Sa": curve(
         table("Sa(1 s) [g],annual rate", CURVE), r"give PGA \[g\]", then={"is_spectral": True}
@@ -174,7 +175,7 @@ KINDS = {
         table("E,N,blocks", BLOCKS), "give x, y and blocks", MAP
     ),
     "a map in feet with --units m": ballast(
-        table("x [ft],y [ft],blocks", BLOCKS), "and --units says another unit",
+        table("x [ft],y [ft],blocks", BLOCKS), "another unit; give that of x and y",
         given={"unit_m": 1.0},
     ),
     "half a block": ballast(MAP + "1.0,1.0,0.5\n", "give a whole number from 0 to", MAP),

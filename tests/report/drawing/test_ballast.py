@@ -30,7 +30,7 @@ pytestmark = pytest.mark.quick
               for row, found in ((2, "2.5"), (3, "-1"), (4, "1e+09"))),
         ]),
         ("x [m],y [ft],blocks\n", ["line 1: the heading is 'y [ft]', and --units says another"
-                                   " unit"]),
+                                   " unit; give that of x and y"]),
         (b"x,y,blocks\n\xff\n", ["not a CSV in UTF-8 or UTF-16; save it as one"]),
         ("x,y,blocks\n" + "1,2,3\n" * 20_000, ["20,001 lines, more than 20,000; add up "
                                                "neighboring blocks"]),
@@ -108,8 +108,10 @@ def test_the_ballast_weight_is_filled_in_and_gives_the_weight(tmp_path):
         *words, exit_code=2
     )
     ran(*words, "--replace")
-    path.write_text("x,y,blocks\n-1,30,3\n")
-    assert "no block of the map is within an array" in ran(*words, "--replace", exit_code=2)
+    path.write_text("x,y,blocks\n12.192,12.192,300\n18.288,14.630,200\n")  # in m
+    refused = ran(*words, "--replace", exit_code=2)
+    assert "no block of the map is within an array of the plan; give --units of the map" in refused
+    assert "A1: 500 blocks, 16000 lb" in ran(*words[:3], "m", *words[4:], "--replace")
 
 
 @pytest.mark.nightly

@@ -75,13 +75,14 @@ def test_what_is_no_drawing_is_refused(file, content, start):
 
 
 @pytest.mark.parametrize("unit", ["m", "ft"])
+@pytest.mark.parametrize("close", [True, False])
 @pytest.mark.parametrize("corner", [(-118.25, 34.05), (34.05, -118.25), (151.2, -33.87)])
-def test_a_drawing_in_degrees_is_refused_as_such(tmp_path, unit, corner):
+def test_a_drawing_in_degrees_is_refused_as_such(tmp_path, unit, close, corner):
     sketch = Sketch(unit=unit)
     x, y = corner
     for wide, tall in ((3e-4, 2e-4), (2e-5, 1e-5)):
         points = [(x, y), (x + wide, y), (x + wide, y + tall), (x, y + tall)]
-        sketch.space.add_lwpolyline(points, close=True, dxfattribs={"layer": "ARRAY"})
+        sketch.space.add_lwpolyline(points, close=close, dxfattribs={"layer": "ARRAY"})
     (problem,) = refused(read_dxf, sketch.saved(tmp_path))
     assert problem == (
         f"the drawing is in degrees: {x:.5f}, {y:.5f} is a longitude and latitude; export it in ft"
