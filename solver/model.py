@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import astuple, dataclass, field
+from dataclasses import astuple, dataclass
 from enum import StrEnum
+from functools import cached_property
 from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -387,7 +388,7 @@ class Orientation:
         return f"{self.component} {'+' if self.polarity > 0 else '−'}"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)  # without slots, for what is computed once
 class Motion(Accelerations):
     """A roof motion ready to run; ax is the horizontal record, ay the transverse component.
 
@@ -402,15 +403,16 @@ class Motion(Accelerations):
     id: str
     source: str
     signs: tuple[int, ...]
-    # The horizontal components reversed. Scenes share all their arrays with the motion: a package
-    # has hundreds of scenes, and gives them to another process.
-    _reversed: tuple[Floats, Floats] = field(init=False, repr=False)
 
-    def __post_init__(self) -> None:
+    # Scenes share all their arrays with the motion: a package has hundreds of scenes, and gives
+    # them to another process.
+    @cached_property
+    def _reversed(self) -> tuple[Floats, Floats]:
+        """The horizontal components reversed."""
         backward = (-self.ax_mps2, -self.ay_mps2)
         for component in backward:
             component.setflags(write=False)
-        object.__setattr__(self, "_reversed", backward)
+        return backward
 
     def __repr__(self) -> str:
         samples = f"{len(self.ax_mps2)} samples of {self.dt_s:g} s"

@@ -210,25 +210,23 @@ class PlanNeighbor(ComparedGap):
             row for row in self.given if abs(row.clearance.provided_m - self.gap_m) > AGREES_M
         )
 
-    def shortcomings(self) -> tuple[str, ...]:
-        """Return what is to be done where it is missing or contradicts the plan, by its cell."""
+    def shortcomings(self) -> tuple[tuple[str, str], ...]:
+        """Return each cell where it is missing or contradicts the plan, with what is to be done."""
         if self.is_missing:
             what = (
                 "add the edge as an object, and a clearance to it"
                 if self.kind is NearbyKind.BARE_EDGE
                 else "add a row with their clearance, or run roofslip plan clearances"
             )
-            return (f"{self.to_add}: {what}",)
+            return ((self.to_add, what),)
         are_boxes = isinstance(self.near, Rectangle) and isinstance(self.far, Rectangle)
         shortcomings = []
         for row in self.contradictions:
             provided_m = row.clearance.provided_m
             breaks = self.gap_m < self.required_m <= provided_m  # sufficient only as given
-            shortcomings.append(
-                f"{row.cell}: correct the clearance or the"
-                f" {'rectangles' if are_boxes else 'outlines'}"
-                f"{'; as measured, it would be NG' if breaks else ''}"
-            )
+            shapes = "rectangles" if are_boxes else "outlines"
+            outcome = "; as measured, it would be NG" if breaks else ""
+            shortcomings.append((row.cell, f"correct the clearance or the {shapes}{outcome}"))
         return tuple(shortcomings)
 
 
@@ -351,11 +349,12 @@ def _candidates(
 def reaches_of(arrays: Sequence[ArrayAssessment]) -> Sequence[tuple[Array, float]]:
     """Return each array with its reach [m]."""
     # Where no displacement is permitted, the prescriptive one says what may be near.
-    return [
-        (item.array, REACH_FACTOR * (item.prescriptive.value_m if math.isnan(m) else m))
-        for item in arrays
-        for m in (item.permitted_m,)
-    ]
+    reaches = []
+    for item in arrays:
+        is_permitted = not math.isnan(item.permitted_m)
+        slides_m = item.permitted_m if is_permitted else item.prescriptive.value_m
+        reaches.append((item.array, REACH_FACTOR * slides_m))
+    return reaches
 
 
 def _rows(

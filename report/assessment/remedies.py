@@ -214,10 +214,9 @@ def _separations(state: _State, check: Check) -> Iterator[Remedy]:
 def _gap(done: Assessment, check: Check) -> ComparedGap | None:
     """Return the gap that a check is of."""
     rows = [place.row for place in check.places if place.section == "clearances"]
-    if rows and check.id != PLAN_ROW:
+    if rows:
         return done.clearances[rows[0]]
-    words = check.subject, check.title.removeprefix("Clearance ")
-    return next((gap for gap in done.missing_gaps if gap.names in words), None)
+    return next((gap for gap in done.missing_gaps if gap.names == check.subject), None)
 
 
 def _reviewed(data: ProjectInput) -> ProjectInput:

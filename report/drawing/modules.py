@@ -190,7 +190,8 @@ def _parallel(
     for equal in _equal(long, short, np.flatnonzero(fits), alike):
         if len(equal) >= LEAST_ALIKE:
             # Those of a drawing along its axes are as it has them.
-            for same in (equal,) if is_turned else _equal(long, short, equal, ALIKE_M):
+            groups = [equal] if is_turned else _equal(long, short, equal, ALIKE_M)
+            for same in groups:
                 sizes[same] = long[same].mean(), short[same].mean()
     step = step if is_turned else 0.0
     parallel_deg = _PARALLEL_DEG + _DEG_PER_M * step

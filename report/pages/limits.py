@@ -36,7 +36,8 @@ from report.sheet.schema.shapes import Polygon, Shape
 from report.text.counts import grouped_by
 from report.text.units import Quantity
 from report.typeset.equations import symbol
-from solver.rules.provisions import OVERRIDABLE, Neighbor
+from solver.rules.provisions import Neighbor
+from solver.rules.rulesets import ALLOWED
 
 
 def limits(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
@@ -175,7 +176,7 @@ def provisions(package: PackageData) -> Mapping[str, object]:
     """Return every number of the rule set in two columns, and the overrides."""
     rules = package.assessment.rules
     named = [
-        (_sentence_case(OVERRIDABLE[key]), value)
+        (_sentence_case(ALLOWED[key].meaning), value)
         for key, value in rules.values.items()
         # Without an analysis only its floor is said, as what it could save.
         if package.assessment.has_motions or key == "analysis_floor" or "analysis" not in key
@@ -195,7 +196,7 @@ def provisions(package: PackageData) -> Mapping[str, object]:
         "noted": [(name, provision) for name, provision in named if provision.note],
         "unverified": UNVERIFIED,
         "overrides": [
-            (_sentence_case(OVERRIDABLE[row.provision]), f"{row.value:.6g}†‡", row.reason)
+            (_sentence_case(ALLOWED[row.provision].meaning), f"{row.value:.6g}†‡", row.reason)
             for row in package.data.overrides
         ],
     }

@@ -14,7 +14,6 @@ from typing import TypeVar
 from solver.model import Floats
 from solver.rules.limit import Limit, Measure, at_least
 from solver.rules.rulesets import ALLOWED, LowProfileLength
-from solver.rules.rulesets import OVERRIDABLE as OVERRIDABLE
 from solver.rules.rulesets import RULE_SETS as RULE_SETS
 from solver.rules.rulesets import Confidence as Confidence
 from solver.rules.rulesets import Provision as Provision

@@ -10,6 +10,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import partial
 
 from solver.model import INCH_M, InputError
 
@@ -41,12 +42,13 @@ class Provision:
         return self.confidence is Confidence.CONFIRMED and not self.reason
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Allowed:
-    """Range of a value that may replace a number of a rule set."""
+    """Range of a value that may replace a number of a rule set, and what the number is."""
 
     low: float
     high: float
+    meaning: str  # with its unit in brackets
     is_whole: bool = False
     is_maximum: bool = False  # limits a project from above: a larger number requires less of it
 
@@ -69,46 +71,57 @@ class Allowed:
         return f"{self.low:.3g} to {self.high:.3g}"
 
 
-# What a workbook may override: lowest and highest value, whether it is a whole number or a limit
-# from above ("max"), meaning and unit. Outside of these, a number has another unit or no meaning. A
-# factor below 1 on the peaks would give less than was computed.
-_OVERRIDABLE = """
-prescriptive_factor_in 1 600 - factor on (S_DS - 0.4)^2 in the prescriptive displacement [in]
-prescriptive_minimum_in 0 240 - minimum prescriptive displacement [in]
-prescriptive_low_sdc_in 0 240 - prescriptive displacement in SDC A, B, C [in]
-prescriptive_max_slope_deg 0 30 max maximum slope for the prescriptive route [deg]
-prescriptive_min_mu 0 1.5 - minimum friction coefficient for the prescriptive route
-analysis_max_slope_deg 0 30 max maximum slope for the analysis route [deg]
-ibc_max_slope_deg 0 30 max maximum slope of any ballasted system [deg]
-max_stories 1 200 whole,max maximum number of stories of the building
-max_risk_category 1 4 whole,max highest risk category (I = 1 ... IV = 4)
-low_profile_in 1 120 max maximum height of the center of gravity [in]
-low_profile_ratio 0.01 5 max maximum height of the center of gravity / least base or support spacing
-analysis_min_motions 1 100 whole minimum number of motions for the analysis route
-analysis_mean_motions 1 100 whole minimum number of motions for a value from the mean
-analysis_factor 1 10 - factor on the mean or on the largest peak
-analysis_floor 0 1 - minimum fraction of the prescriptive displacement without peer review
-separation_like 0 10 - separation between like arrays / design displacement
-separation_fixed 0.1 10 - separation to a fixed object or unlike array / design displacement
-separation_parapet 0 10 - separation to an edge with a qualifying parapet / design displacement
-separation_edge 0.1 10 - separation to an edge without qualifying parapet / design displacement
-separation_edge_min_in 0 600 - minimum separation to an edge without a qualifying parapet [in]
-parapet_height_in 0 240 - minimum height of a qualifying parapet above the roof [in]
-parapet_over_cg_in 0 240 - minimum height of a qualifying parapet above the array's c.g. [in]
-interconnection_sds 0 2 - interconnection strength / (S_DS W1)
-interconnection_min 0 2 - minimum interconnection strength / W1
-"""
+_at_most, _whole = partial(Allowed, is_maximum=True), partial(Allowed, is_whole=True)
+_whole_at_most = partial(Allowed, is_whole=True, is_maximum=True)
 
-ALLOWED: dict[str, Allowed] = {}
-OVERRIDABLE: dict[str, str] = {}
-for _row in _OVERRIDABLE.strip().splitlines():
-    _key, _low, _high, _kind, OVERRIDABLE[_key] = _row.split(maxsplit=4)
-    ALLOWED[_key] = Allowed(
-        low=float(_low),
-        high=float(_high),
-        is_whole="whole" in _kind,
-        is_maximum="max" in _kind,
-    )
+# What a workbook may override. Outside of its range a number has another unit or no meaning. A
+# factor below 1 on the peaks would give less than was computed.
+ALLOWED: Mapping[str, Allowed] = {
+    "prescriptive_factor_in": Allowed(
+        1, 600, "factor on (S_DS - 0.4)^2 in the prescriptive displacement [in]"
+    ),
+    "prescriptive_minimum_in": Allowed(0, 240, "minimum prescriptive displacement [in]"),
+    "prescriptive_low_sdc_in": Allowed(0, 240, "prescriptive displacement in SDC A, B, C [in]"),
+    "prescriptive_max_slope_deg": _at_most(0, 30, "maximum slope for the prescriptive route [deg]"),
+    "prescriptive_min_mu": Allowed(
+        0, 1.5, "minimum friction coefficient for the prescriptive route"
+    ),
+    "analysis_max_slope_deg": _at_most(0, 30, "maximum slope for the analysis route [deg]"),
+    "ibc_max_slope_deg": _at_most(0, 30, "maximum slope of any ballasted system [deg]"),
+    "max_stories": _whole_at_most(1, 200, "maximum number of stories of the building"),
+    "max_risk_category": _whole_at_most(1, 4, "highest risk category (I = 1 ... IV = 4)"),
+    "low_profile_in": _at_most(1, 120, "maximum height of the center of gravity [in]"),
+    "low_profile_ratio": _at_most(
+        0.01, 5, "maximum height of the center of gravity / least base or support spacing"
+    ),
+    "analysis_min_motions": _whole(1, 100, "minimum number of motions for the analysis route"),
+    "analysis_mean_motions": _whole(1, 100, "minimum number of motions for a value from the mean"),
+    "analysis_factor": Allowed(1, 10, "factor on the mean or on the largest peak"),
+    "analysis_floor": Allowed(
+        0, 1, "minimum fraction of the prescriptive displacement without peer review"
+    ),
+    "separation_like": Allowed(0, 10, "separation between like arrays / design displacement"),
+    "separation_fixed": Allowed(
+        0.1, 10, "separation to a fixed object or unlike array / design displacement"
+    ),
+    "separation_parapet": Allowed(
+        0, 10, "separation to an edge with a qualifying parapet / design displacement"
+    ),
+    "separation_edge": Allowed(
+        0.1, 10, "separation to an edge without qualifying parapet / design displacement"
+    ),
+    "separation_edge_min_in": Allowed(
+        0, 600, "minimum separation to an edge without a qualifying parapet [in]"
+    ),
+    "parapet_height_in": Allowed(
+        0, 240, "minimum height of a qualifying parapet above the roof [in]"
+    ),
+    "parapet_over_cg_in": Allowed(
+        0, 240, "minimum height of a qualifying parapet above the array's c.g. [in]"
+    ),
+    "interconnection_sds": Allowed(0, 2, "interconnection strength / (S_DS W1)"),
+    "interconnection_min": Allowed(0, 2, "minimum interconnection strength / W1"),
+}
 
 
 class LowProfileLength(StrEnum):
@@ -172,77 +185,85 @@ class RuleSet:
         return replace(self, values=values)
 
 
+# By key: value, confidence and clause.
+_Rows = Mapping[str, tuple[float, Confidence, str]]
+
+
 def _table(
-    rows: str, document: str, notes: Mapping[str, str], *, is_compared: bool = True
+    rows: _Rows, document: str, notes: Mapping[str, str], *, is_compared: bool = True
 ) -> dict[str, Provision]:
-    """Read rows of `key value confidence clause`; without a clause the document is cited.
+    """Return the numbers of a document; one without a clause cites the document.
 
     An edition that was not compared inherits no confirmation.
     """
-    table = {}
-    for row in rows.strip().splitlines():
-        key, value, confidence, clause = row.split(maxsplit=3)
-        table[key] = Provision(
+    table = {
+        key: Provision(
             value=float(value),
-            clause=document if clause == "-" else f"{document} {clause}",
-            confidence=Confidence(confidence) if is_compared else Confidence.LOW,
+            clause=f"{document} {clause}".rstrip(),
+            confidence=confidence if is_compared else Confidence.LOW,
             note=notes.get(key, ""),
         )
+        for key, (value, confidence, clause) in rows.items()
+    }
     return table | _IBC
 
 
-# Clause numbers of PV1 other than Sec. 4 to 6 are not known: "-" cites the document alone.
-_PV1 = """
-prescriptive_factor_in      60     C  -
-prescriptive_minimum_in     6      C  -
-prescriptive_low_sdc_in     6      C  -
-prescriptive_max_slope_deg  3      K  -
-prescriptive_min_mu         0.4    K  -
-analysis_max_slope_deg      7      K  -
-max_stories                 6      K  -
-max_risk_category           3      K  -
-low_profile_in              36     K  Sec. 5
-low_profile_ratio           0.5    K  Sec. 5
-analysis_min_motions        3      K  -
-analysis_mean_motions       7      K  -
-analysis_factor             1.1    K  -
-analysis_floor              0.5    K  -
-separation_like             0.5    C  Sec. 6
-separation_fixed            1.0    C  Sec. 6
-separation_parapet          1.0    C  Sec. 6
-separation_edge             1.5    C  Sec. 6
-separation_edge_min_in      0      K  Sec. 6
-parapet_height_in           24     K  -
-parapet_over_cg_in          6      K  -
-interconnection_sds         0.133  C  Sec. 6
-interconnection_min         0.1    C  Sec. 6
-"""
+C, K, L = Confidence.CONFIRMED, Confidence.KNOWN, Confidence.LOW
+
+# Clause numbers of PV1 other than Sec. 4 to 6 are not known: the document alone is cited.
+_PV1: _Rows = {
+    "prescriptive_factor_in": (60, C, ""),
+    "prescriptive_minimum_in": (6, C, ""),
+    "prescriptive_low_sdc_in": (6, C, ""),
+    "prescriptive_max_slope_deg": (3, K, ""),
+    "prescriptive_min_mu": (0.4, K, ""),
+    "analysis_max_slope_deg": (7, K, ""),
+    "max_stories": (6, K, ""),
+    "max_risk_category": (3, K, ""),
+    "low_profile_in": (36, K, "Sec. 5"),
+    "low_profile_ratio": (0.5, K, "Sec. 5"),
+    "analysis_min_motions": (3, K, ""),
+    "analysis_mean_motions": (7, K, ""),
+    "analysis_factor": (1.1, K, ""),
+    "analysis_floor": (0.5, K, ""),
+    "separation_like": (0.5, C, "Sec. 6"),
+    "separation_fixed": (1.0, C, "Sec. 6"),
+    "separation_parapet": (1.0, C, "Sec. 6"),
+    "separation_edge": (1.5, C, "Sec. 6"),
+    "separation_edge_min_in": (0, K, "Sec. 6"),
+    "parapet_height_in": (24, K, ""),
+    "parapet_over_cg_in": (6, K, ""),
+    "interconnection_sds": (0.133, C, "Sec. 6"),
+    "interconnection_min": (0.1, C, "Sec. 6"),
+}
+
+_ONE_IN_20_DEG = math.degrees(math.atan(1 / 20))
 
 # The maximum slope is 1 in 20. No parapet height above the c.g. is stated.
-_ASCE = f"""
-prescriptive_factor_in      60     C  13.6.12
-prescriptive_minimum_in     24     K  13.6.12
-prescriptive_max_slope_deg  {math.degrees(math.atan(1 / 20))!r}  K  13.6.12
-prescriptive_min_mu         0.4    K  13.6.12
-analysis_max_slope_deg      {math.degrees(math.atan(1 / 20))!r}  L  13.6.12
-max_stories                 6      K  13.6.12
-max_risk_category           3      K  13.6.12
-low_profile_in              36     K  13.6.12
-low_profile_ratio           0.5    K  13.6.12
-analysis_min_motions        3      L  13.6.12
-analysis_mean_motions       7      L  13.6.12
-analysis_factor             1.1    L  13.6.12
-analysis_floor              0.8    K  13.6.12
-separation_like             0.5    C  13.6.12
-separation_fixed            1.0    C  13.6.12
-separation_parapet          1.0    C  13.6.12
-separation_edge             2.0    C  13.6.12
-separation_edge_min_in      48     K  13.6.12
-parapet_height_in           12     K  13.6.12
-parapet_over_cg_in          0      K  13.6.12
-interconnection_sds         0.133  K  13.6.12
-interconnection_min         0.1    K  13.6.12
-"""
+_ASCE: _Rows = {
+    "prescriptive_factor_in": (60, C, "13.6.12"),
+    "prescriptive_minimum_in": (24, K, "13.6.12"),
+    "prescriptive_max_slope_deg": (_ONE_IN_20_DEG, K, "13.6.12"),
+    "prescriptive_min_mu": (0.4, K, "13.6.12"),
+    "analysis_max_slope_deg": (_ONE_IN_20_DEG, L, "13.6.12"),
+    "max_stories": (6, K, "13.6.12"),
+    "max_risk_category": (3, K, "13.6.12"),
+    "low_profile_in": (36, K, "13.6.12"),
+    "low_profile_ratio": (0.5, K, "13.6.12"),
+    "analysis_min_motions": (3, L, "13.6.12"),
+    "analysis_mean_motions": (7, L, "13.6.12"),
+    "analysis_factor": (1.1, L, "13.6.12"),
+    "analysis_floor": (0.8, K, "13.6.12"),
+    "separation_like": (0.5, C, "13.6.12"),
+    "separation_fixed": (1.0, C, "13.6.12"),
+    "separation_parapet": (1.0, C, "13.6.12"),
+    "separation_edge": (2.0, C, "13.6.12"),
+    "separation_edge_min_in": (48, K, "13.6.12"),
+    "parapet_height_in": (12, K, "13.6.12"),
+    "parapet_over_cg_in": (0, K, "13.6.12"),
+    "interconnection_sds": (0.133, K, "13.6.12"),
+    "interconnection_min": (0.1, K, "13.6.12"),
+}
 
 
 # Limits every ballasted system, beside all rule sets: 1 in 12.

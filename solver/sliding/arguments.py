@@ -1,7 +1,7 @@
 """Checks what a run is given: records, motions, friction, numbers, the method and its parameters.
 
 Every error is collected before one is raised. Runs nothing: see `solver.sliding.checked`. Read
-`checked_scene`.
+`scene_of`.
 """
 
 from __future__ import annotations
@@ -10,7 +10,8 @@ import math
 import warnings
 from collections.abc import Callable, Mapping
 from numbers import Real
-from typing import Any
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -31,44 +32,43 @@ _WEAK = 0.05  # of what slips a block: weaker shaking is more probably in anothe
 _LARGEST = 1e120
 
 
-def checked_scene(
-    ax_mps2: Given,
-    ay_mps2: ArrayLike | Record | None,
-    az_mps2: ArrayLike | Record | None,
-    dt_s: float | None,
+class GivenShaking(NamedTuple):
+    """How a roof is shaken, as a caller says it: nothing is checked."""
+
+    ax_mps2: Given
+    ay_mps2: ArrayLike | Record | None
+    az_mps2: ArrayLike | Record | None
+    dt_s: float | None
+    scale: float
+    units: str | None
+
+
+def scene_of(
+    shaking: GivenShaking,
     slope_rad: float,
     mu: float | Friction,
-    scale: float,
     g_mps2: float,
     method: str | Method = "exact",
-    units: str | None = None,
-    /,
-    **parameters: float,
+    parameters: Parameters = MappingProxyType({}),
 ) -> Scene:
     """Return the scene with read-only contiguous records, or raise with every error found.
 
     Warns of arrays that are far too weak to slip anything, and so may be in g.
     """
     problems: list[str] = []
+    ax_mps2, ay_mps2, az_mps2, dt_s, scale, units = shaking
     components = {"ax_mps2": ax_mps2, "ay_mps2": ay_mps2, "az_mps2": az_mps2}
     records, dt_s, factor = unpacked(components, dt_s, problems)
     size = unit_size(components, units, problems)
     ax, ay, az = checked_records(records, problems, size)
     friction = checked_friction("mu", mu, problems)
-    numbers = {
-        name: checked_number(name, value, wanted, fits, problems)
-        for name, value, wanted, fits in (
-            ("dt_s", dt_s, "a number of seconds above 0", lambda v: 0.0 < v < math.inf),
-            (
-                "slope_rad",
-                slope_rad,
-                "an angle between -pi/2 and pi/2",
-                lambda v: abs(v) < math.pi / 2,
-            ),
-            ("scale", scale, "a finite factor", math.isfinite),
-            ("g_mps2", g_mps2, "a number of m/s2 above 0", lambda v: 0.0 < v < math.inf),
-        )
-    }
+    step = "a number of seconds above 0"
+    dt_s = checked_number("dt_s", dt_s, step, _is_positive, problems)
+    angle = "an angle between -pi/2 and pi/2"
+    slope_rad = checked_number("slope_rad", slope_rad, angle, _is_slope, problems)
+    scale = checked_number("scale", scale, "a finite factor", math.isfinite, problems)
+    gravity = "a number of m/s2 above 0"
+    g_mps2 = checked_number("g_mps2", g_mps2, gravity, _is_positive, problems)
     if not isinstance(method, Method) and not (isinstance(method, str) and method in METHODS):
         problems.append(f"method is {shown(method)}; give one of {', '.join(METHODS)}")
     elif records["ay_mps2"] is not None or not friction.is_constant:
@@ -76,8 +76,16 @@ def checked_scene(
     else:
         problems += _faults(method_of(method), parameters, records["az_mps2"] is not None)
     raise_any(problems)
-    numbers["scale"] *= factor
-    run = Scene(ax_mps2=ax, ay_mps2=ay, az_mps2=az, friction=friction, **numbers)
+    run = Scene(
+        dt_s=dt_s,
+        ax_mps2=ax,
+        ay_mps2=ay,
+        az_mps2=az,
+        scale=scale * factor,
+        slope_rad=slope_rad,
+        friction=friction,
+        g_mps2=g_mps2,
+    )
     raise_any(overflow(run))
     # It would count twice: g is added to az.
     if az.size and has_gravity(az):
@@ -254,6 +262,14 @@ def checked_friction(name: str, mu: float | Friction, problems: list[str]) -> Fr
             f"mu_static is {checked.mu_static:g}; give mu_slow, {checked.mu_slow:g}, or more"
         )
     return checked
+
+
+def _is_positive(value: float) -> bool:
+    return 0.0 < value < math.inf
+
+
+def _is_slope(value: float) -> bool:
+    return abs(value) < math.pi / 2
 
 
 def is_zero_or_more(value: float) -> bool:

@@ -27,7 +27,7 @@ from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
 from solver.rivals.methods import Method
 from solver.sliding import least_model, one_axis, two_axes
-from solver.sliding.arguments import Given, checked_scene, method_of, shown
+from solver.sliding.arguments import Given, GivenShaking, method_of, scene_of, shown
 from solver.sliding.least_model import DEFAULT, Settings, Solution
 from solver.sliding.quick import quick_slide
 
@@ -108,10 +108,8 @@ def slide(
         result = quick_slide(ax_mps2, slope_rad, mu, scale, g_mps2)
         if result is not None:
             return result
-    components = ax_mps2, ay_mps2, az_mps2
-    run = checked_scene(
-        *components, dt_s, slope_rad, mu, scale, g_mps2, method, units, **parameters
-    )
+    shaking = GivenShaking(ax_mps2, ay_mps2, az_mps2, dt_s, scale, units)
+    run = scene_of(shaking, slope_rad, mu, g_mps2, method, parameters)
     if _is_followed_in_plane(run):
         return two_axes.run(run, **parameters)
     return one_axis.run(run, method_of(method), **parameters)
@@ -163,10 +161,8 @@ def slide_history(
     0.4  0.0016  0.0000
     0.5  0.0016  0.0000
     """
-    components = ax_mps2, ay_mps2, az_mps2
-    run = checked_scene(
-        *components, dt_s, slope_rad, mu, scale, g_mps2, method, units, **parameters
-    )
+    shaking = GivenShaking(ax_mps2, ay_mps2, az_mps2, dt_s, scale, units)
+    run = scene_of(shaking, slope_rad, mu, g_mps2, method, parameters)
     if _is_followed_in_plane(run):
         return two_axes.run_history(run, **parameters)
     return one_axis.run_history(run, method_of(method), **parameters)
@@ -205,8 +201,8 @@ def scene(
     >>> scene([0.0, 4.0, -4.0, 0.0], 0.1, slope_rad=0.0, mu=0.2)
     Scene(1 component of 4 samples at 0.1 s, slope 0 deg, mu 0.2, scale 1)
     """
-    components = ax_mps2, ay_mps2, az_mps2
-    return checked_scene(*components, dt_s, slope_rad, mu, scale, g_mps2, "exact", units)
+    shaking = GivenShaking(ax_mps2, ay_mps2, az_mps2, dt_s, scale, units)
+    return scene_of(shaking, slope_rad, mu, g_mps2)
 
 
 def motion(
@@ -256,11 +252,9 @@ def motion(
     >>> motion([0.0, 4.0, -4.0, 0.0], az_mps2=up, dt_s=0.1, id="pulse", scale=1.5)
     Motion: pulse, x and z, 4 samples of 0.1 s, scale 1.5
     """
-    components = ax_mps2, ay_mps2, az_mps2
+    shaking = GivenShaking(ax_mps2, ay_mps2, az_mps2, dt_s, scale, units)
     # A motion has no slope and no friction: zeros pass every check.
-    checked = checked_scene(
-        *components, dt_s, 0.0, 0.0, scale, STANDARD_GRAVITY_MPS2, "exact", units
-    )
+    checked = scene_of(shaking, 0.0, 0.0, STANDARD_GRAVITY_MPS2)
     x = ax_mps2
     if signs is None:
         signs = x.signs if isinstance(x, Motion) else (1, -1)
@@ -348,8 +342,8 @@ def _rechecked(scene: Scene) -> Scene:
     # It may be made by hand, without `scene`. The unit is said, so that nothing warns again of weak
     # shaking.
     ay, az = (a if np.size(a) else None for a in (scene.ay_mps2, scene.az_mps2))
-    numbers = scene.dt_s, scene.slope_rad, scene.friction, scene.scale, scene.g_mps2
-    return checked_scene(scene.ax_mps2, ay, az, *numbers, "exact", "m/s2")
+    shaking = GivenShaking(scene.ax_mps2, ay, az, scene.dt_s, scene.scale, "m/s2")
+    return scene_of(shaking, scene.slope_rad, scene.friction, scene.g_mps2)
 
 
 def _is_followed_in_plane(scene: Scene) -> bool:

@@ -11,7 +11,7 @@ from bisect import bisect
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,7 +50,7 @@ class Capacities:
     runs: NDArray[np.int64]  # for all limits together
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Curve:
     """The PRD of one motion, the largest of its orientations, over intensity."""
 
@@ -58,11 +58,11 @@ class Curve:
     slope_rad: float
     mu: float
     known: dict[float, float] = field(default_factory=dict)  # PRD by intensity, of runs so far
-    # PRD by intensity of each orientation; first the one that decided last.
-    _alone: list[tuple[Track, dict[float, float]]] = field(init=False, repr=False)
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "_alone", [(track, {}) for track in self.tracks])
+    @cached_property
+    def _alone(self) -> list[tuple[Track, dict[float, float]]]:
+        """PRD by intensity of each orientation; first the one that decided last."""
+        return [(track, {}) for track in self.tracks]
 
     @property
     def runs(self) -> int:

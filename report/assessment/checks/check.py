@@ -8,11 +8,11 @@ the parts of it in columns. Read `Check`, then `sentence`.
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import partial
-from typing import Any
+from typing import NamedTuple
 
 from report.assessment.verdict import (
     BY_CONSEQUENCE,
@@ -318,13 +318,17 @@ def dagger(provision: Provision) -> str:
 condition = partial(Check, consequence=Consequence.CONDITION)
 
 
-def stated(section: str, **parts: tuple[str, object]) -> Mapping[str, Any]:
-    """Return what a block states of several parts, name and value by field, and what it lacks."""
+class Stated(NamedTuple):
+    """What a block states of several parts, and the cells of those that it lacks."""
+
+    found: str
+    missing: tuple[Place, ...]
+
+
+def stated(section: str, **parts: tuple[str, object]) -> Stated:
+    """Return what a block states of its parts, each a name and a value by its field."""
     values = [str(value) for _, value in parts.values() if value]
     missing = {field: name for field, (name, value) in parts.items() if not value}
     lacks = [f"{', '.join(missing.values())} missing"] if missing else []
-    return {
-        "found": "; ".join([*values, *lacks]) if values else NOT_GIVEN,
-        "is_satisfied": not missing,
-        "places": tuple(Place(section, 0, field) for field in missing),
-    }
+    found = "; ".join([*values, *lacks]) if values else NOT_GIVEN
+    return Stated(found, tuple(Place(section, 0, field) for field in missing))

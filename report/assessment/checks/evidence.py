@@ -21,14 +21,17 @@ def of_confirmations(data: ProjectInput) -> Iterator[Check]:
 def of_building_code(data: ProjectInput) -> Check:
     """Return whether building code and jurisdiction are entered."""
     site = data.site
+    adopted = stated(
+        "site",
+        building_code=("building code", site.code_text),
+        jurisdiction=("jurisdiction", site.jurisdiction),
+    )
     return condition(
         id="building_code",
         title="Building code and jurisdiction",
-        **stated(
-            "site",
-            building_code=("building code", site.code_text),
-            jurisdiction=("jurisdiction", site.jurisdiction),
-        ),
+        found=adopted.found,
+        is_satisfied=not adopted.missing,
+        places=adopted.missing,
         limit="code with its year, and jurisdiction",
         clause="plan check",
         remedy="Enter the adopted building code, its year and the jurisdiction on the Site "
@@ -95,13 +98,21 @@ def _peer_review(data: ProjectInput) -> Iterator[Check]:
     if not (options.peer_reviewed and data.motions):
         return
     # A plan checker asks for the reviewer by name and license, and for the letter itself.
-    fields = ("reviewer", "license", "date", "letter")
+    review = stated(
+        "options",
+        peer_reviewer=("reviewer", options.peer_reviewer),
+        peer_license=("license", options.peer_license),
+        peer_date=("date", options.peer_date),
+        peer_letter=("letter", options.peer_letter),
+    )
     lifts_slope = review_lifts_slope(RULE_SETS[data.site.rule_set], data.site.sdc)
     back = "floor and the slope limit of the analysis route apply"
     yield condition(
         id="peer_review",
         title="Peer review of the analysis",
-        **stated("options", **{f"peer_{x}": (x, getattr(options, f"peer_{x}")) for x in fields}),
+        found=review.found,
+        is_satisfied=not review.missing,
+        places=review.missing,
         limit="reviewer, license, date and letter",
         clause=data.site.rule_set,
         actor=Actor.REVIEWER,

@@ -42,7 +42,7 @@ def of_tests(data: ProjectInput) -> Iterator[Check]:
 
 def _on_file(data: ProjectInput) -> Check:
     tests = data.friction_tests
-    said = stated(
+    on_file = stated(
         "friction_tests",
         laboratory=("laboratory", tests.laboratory),
         report=("report number", tests.report),
@@ -52,7 +52,9 @@ def _on_file(data: ProjectInput) -> Check:
     return _row(
         id="friction_tests",
         title="Friction test report",
-        **{**said, "found": said["found"] + attached},
+        found=on_file.found + attached,
+        is_satisfied=not on_file.missing,
+        places=on_file.missing,
         limit="laboratory, report number and date",
         remedy="Obtain the friction test report, and enter it on the Friction tests worksheet.",
     )

@@ -84,27 +84,33 @@ def _source(site: Site) -> Check:
     # A number typed from a tool cannot be traced; its printout can.
     file = site.hazard_printout and f"{site.hazard_printout}, attached"
     if site.hazard is not HazardBasis.SITE_SPECIFIC:
+        traced = stated(
+            "site", hazard_source=source, hazard_date=date, hazard_printout=("printout", file)
+        )
         return condition(
             id="hazard_source",
             title="Source, date and printout of the seismic parameters",
-            **stated(
-                "site", hazard_source=source, hazard_date=date, hazard_printout=("printout", file)
-            ),
+            found=traced.found,
+            is_satisfied=not traced.missing,
+            places=traced.missing,
             limit="source, date and printout",
             clause="plan check",
             remedy="Enter source and date on the Site worksheet, and attach the printout of the "
             "tool.",
         )
+    traced = stated(
+        "site",
+        hazard_source=source,
+        hazard_report=("report number", site.hazard_report),
+        hazard_date=date,
+        hazard_printout=("report", file),
+    )
     return condition(
         id="hazard_source",
         title="Report on the site-specific hazard analysis",
-        **stated(
-            "site",
-            hazard_source=source,
-            hazard_report=("report number", site.hazard_report),
-            hazard_date=date,
-            hazard_printout=("report", file),
-        ),
+        found=traced.found,
+        is_satisfied=not traced.missing,
+        places=traced.missing,
         limit="source, report number, date and the report attached",
         clause=site.edition.clause("site_specific"),
         remedy="Obtain the report, attach it, and enter its author, number and date on the Site "

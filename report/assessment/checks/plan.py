@@ -121,10 +121,8 @@ def _may_narrow(near: PlanNeighbor, lane_m: float) -> bool:
 
 def of_neighbors(done: Assessment) -> Iterator[Check]:
     """Yield what the plan shows near an array and no clearance covers, or contradicts."""
-    wrong = [(near, text) for near in done.neighbors for text in near.shortcomings()]
-    for near, text in wrong:
-        # With cells before it, which a sentence names as they are.
-        cell, words = text.split(": ", 1)
+    wrong = [(near, *short) for near in done.neighbors for short in near.shortcomings()]
+    for near, cell, words in wrong:
         found, limit = _found_and_required(near, done.project.us_first)
         yield Check(
             id=PLAN_ROW,

@@ -30,7 +30,7 @@ from report.text.units import Quantity, no_more, pair
 from solver.model import INCH_M
 from solver.rules import hazard
 from solver.rules.hazard import LEAST_I_E, Edition, HazardBasis
-from solver.rules.rulesets import ALLOWED, OVERRIDABLE, RULE_SETS
+from solver.rules.rulesets import ALLOWED, RULE_SETS
 from solver.rules.site_coefficients import F_A, F_V, CoefficientTable, site_coefficient
 from solver.suggestions import nearest
 
@@ -211,7 +211,7 @@ def _smaller_events(draft: Draft, where: Where) -> Iterator[Finding]:
 
 def _overrides(draft: Draft, where: Where) -> Iterator[Finding]:
     keys = list(column(draft, ("overrides",), "provision"))
-    names = {key: provision_name(key) for key in OVERRIDABLE}
+    names = {key: provision_name(key) for key in ALLOWED}
     # Where the rule set could not be read, no provision is missing from it.
     rules = next((RULE_SETS[name] for _, name in column(draft, ("site",), "rule_set")), None)
     for place, key in keys:
@@ -231,7 +231,7 @@ def _overrides(draft: Draft, where: Where) -> Iterator[Finding]:
         key = draft["overrides"][place.row].get("provision", "")
         allowed = ALLOWED.get(key)
         if allowed and not allowed.has(value):
-            fault = f"value is {value:g} for the {OVERRIDABLE[key]}"
+            fault = f"value is {value:g} for the {ALLOWED[key].meaning}"
             yield Finding.error(place, fault, f"give {allowed.words}")
 
 

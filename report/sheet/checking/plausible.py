@@ -25,8 +25,7 @@ from report.text.units import (
     no_more,
     pair,
 )
-from solver.rules.provisions import OVERRIDABLE
-from solver.rules.rulesets import usual
+from solver.rules.rulesets import ALLOWED, usual
 from solver.rules.site_coefficients import F_A, F_V, site_coefficient
 
 # Usual weight of a ballasted array on its plan area [Pa]: modules alone weigh 2 to 3 psf.
@@ -205,7 +204,7 @@ def _overrides(data: ProjectInput) -> Iterator[Finding]:
         expected = usual(row.provision)
         if not expected.has(row.value):
             text = (
-                f"value is {row.value:g} for the {OVERRIDABLE[row.provision]};"
+                f"value is {row.value:g} for the {ALLOWED[row.provision].meaning};"
                 f" {expected.span} is usual: correct the value or its unit"
             )
             yield warning(f"override {row.provision}", Place("overrides", index, "value"), text)

@@ -34,7 +34,8 @@ from report.sheet.schema.motions import (
 from report.sheet.schema.project import FrictionTestRow, FrictionTests, Project, Revision, Site
 from report.sheet.schema.scene import ROOF, Array, Clearance, DrawingLayer, Roof, RoofObject, Vertex
 from report.sheet.schema.shapes import Point, ring
-from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, OVERRIDABLE
+from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS
+from solver.rules.rulesets import ALLOWED
 
 # Most smaller events whose displacements are added.
 MAX_EVENTS = 20
@@ -42,16 +43,17 @@ MAX_EVENTS = 20
 
 def provision_name(key: str) -> str:
     """Return the name of a provision in words, as on the sheet Provisions; without its unit."""
-    words = OVERRIDABLE[key].partition(" [")[0]
+    words = ALLOWED[key].meaning.partition(" [")[0]
     return words[:1].upper() + words[1:]
 
 
 def provision_unit(key: str) -> str:
     """Return the unit of a provision, as a cell names it; empty for none."""
-    return OVERRIDABLE.get(_provision_key(key), "").partition(" [")[2].rstrip("]")
+    allowed = ALLOWED.get(_provision_key(key))
+    return allowed.meaning.partition(" [")[2].rstrip("]") if allowed else ""
 
 
-_KEYS_BY_NAME = {provision_name(key).casefold(): key for key in OVERRIDABLE}
+_KEYS_BY_NAME = {provision_name(key).casefold(): key for key in ALLOWED}
 
 
 def _provision_key(text: str) -> str:

@@ -27,7 +27,7 @@ from report.sheet.writing import style
 from report.text.units import LENGTHS
 from solver.model import INCH_M
 from solver.rules import hazard
-from solver.rules.provisions import OVERRIDABLE, SEPARATION_KEYS
+from solver.rules.provisions import SEPARATION_KEYS
 from solver.rules.rulesets import ALLOWED, RULE_SETS, Confidence, RuleSet, usual
 from solver.rules.site_coefficients import F_A, F_V, CoefficientTable
 
@@ -202,13 +202,11 @@ def write_rules(book: Workbook, tables: layout.Tables) -> None:
         sheet.column_dimensions[get_column_letter(column)].width = width
     sheet.row_dimensions[head].height = 32
     first = head + 1
-    for row, key in enumerate(OVERRIDABLE, start=first):
+    for row, key in enumerate(ALLOWED, start=first):
         _write_rule(sheet, tables["overrides"], row, key)
-    last = first + len(OVERRIDABLE) - 1
+    last = first + len(ALLOWED) - 1
     layout.name_range("rule_names", sheet, f"$A${first}:$A${last}")
-    separations = [
-        first + [*OVERRIDABLE].index(key) for key in dict.fromkeys(SEPARATION_KEYS.values())
-    ]
+    separations = [first + [*ALLOWED].index(key) for key in dict.fromkeys(SEPARATION_KEYS.values())]
     layout.name_range("rule_separations", sheet, f"$C${separations[0]}:$C${separations[-1]}")
     _write_facts(sheet, tables["overrides"], last + 2)
     sheet.freeze_panes = f"B{first}"

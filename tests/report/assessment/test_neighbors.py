@@ -102,8 +102,8 @@ def test_a_gap_of_the_plan_that_contradicts_the_clearance_by_an_inch_is_named(
     neighbor = by_pair(having(done, clearances=rows))["A1", "RTU-1"]
     assert bool(neighbor.contradictions) is is_named
     assert len(neighbor.shortcomings()) == is_named
-    for text in neighbor.shortcomings():
-        assert text.endswith(": correct the clearance or the rectangles")
+    for _, words in neighbor.shortcomings():
+        assert words == "correct the clearance or the rectangles"
 
 
 @pytest.mark.parametrize(
@@ -122,7 +122,7 @@ def test_a_clearance_covers_a_neighbor_as_the_plan_has_it(done, design_ft, provi
 def test_cells_are_those_of_the_workbook_or_the_sheet_to_add_to(done, tmp_path):
     neighbor = by_pair(having(done, design_m=10.5 * FT))["A1", "A2"]
     assert neighbor.shortcomings() == (
-        "Clearances: add a row with their clearance, or run roofslip plan clearances",
+        ("Clearances", "add a row with their clearance, or run roofslip plan clearances"),
     )
     sheet = read(make(tmp_path, clearances=[project().clearances[2].model_dump()]))
     listed = of(assess(sheet, prepare(sheet)))
@@ -141,8 +141,8 @@ def test_an_edge_of_the_roof_that_no_object_covers_is_a_neighbor(done):
     assert len(edges) == 3
     for neighbor in edges:
         assert (neighbor.is_missing, neighbor.gap_m) == (True, pytest.approx(20 * FT))
-    (text,) = edges[0].shortcomings()
-    assert text == "Objects: add the edge as an object, and a clearance to it"
+    added = "add the edge as an object, and a clearance to it"
+    assert edges[0].shortcomings() == (("Objects", added),)
 
 
 @pytest.mark.parametrize(
@@ -232,8 +232,8 @@ def test_a_unit_in_the_notch_of_an_outlined_array_is_as_far_as_its_nearer_leg(do
                   objects=[unit], clearances=rows)  # fmt: skip
     pair = by_pair(near)["A1", "RTU-1"]
     assert pair.gap_m == pytest.approx(5 * FT)
-    (text,) = pair.shortcomings()
-    assert text.endswith("correct the clearance or the outlines")
+    ((_, words),) = pair.shortcomings()
+    assert words == "correct the clearance or the outlines"
 
 
 def test_an_oblique_edge_is_covered_by_an_oblique_strip():

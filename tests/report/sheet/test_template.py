@@ -20,7 +20,7 @@ from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.fields import entries
 from report.sheet.writing.template import write_template
 from sheets import arrays, blank, formula_cells, make, project, type_into
-from solver.rules.provisions import OVERRIDABLE
+from solver.rules.rulesets import ALLOWED
 
 SHEETS = [
     "Start", "Project", "Site", "Building", "Arrays", "Friction tests", "Objects", "Clearances",
@@ -145,7 +145,7 @@ def test_validations_offer_choices_and_ranges(fresh):
     assert validation(fresh, "Options/1/Provision").formula1 == "rule_names"
     cells = fresh.defined_names["rule_names"].attr_text.partition("!")[2].replace("$", "")
     names = [row[0].value for row in fresh["Provisions"][cells]]
-    assert names == [provision_name(key) for key in OVERRIDABLE]
+    assert names == [provision_name(key) for key in ALLOWED]
 
 
 def test_no_cell_has_two_validations_and_all_fits_excel(fresh):
