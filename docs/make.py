@@ -21,6 +21,7 @@ from click.shell_completion import get_completion_class
 
 import report
 from report.cli.main import VARIABLE, main
+from report.cli.options import SectionedGroup
 from report.entities import results
 from report.sheet.schema import SECTIONS
 from report.sheet.schema.fields import Entry, entries
@@ -101,8 +102,8 @@ def _completions() -> Parts:
 
 def _named(command: click.Command, words: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Any]]:
     yield words, command
-    if isinstance(command, click.Group):
-        for name, below in sorted(command.commands.items()):
+    if isinstance(command, SectionedGroup):
+        for name, below in sorted(command.every().items()):
             yield from _named(below, (*words, name))
 
 

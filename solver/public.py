@@ -19,10 +19,11 @@ from solver.records.measures import Measures, measures
 from solver.records.processing import Processing, process
 from solver.records.record import Record, record_from_values, write_record
 from solver.records.spectrum import ResponseSpectrum, design_spectrum, factor_to_target, spectrum
-from solver.rivals.methods import METHODS, Method, Outcome
+from solver.rivals.methods import METHODS
 from solver.rules.hazard import EDITIONS, RequiredSpectrum, ac156_horizontal, ac156_vertical
 from solver.sliding.checked import history, motion, scene, slide, slide_history, solve
 from solver.sliding.least_model import Model, Settings, Solution
+from solver.sliding.method import Method, Outcome
 from solver.sliding.sweep import Sweep, sweep, sweep_all
 from solver.studies.study import StudyRuns, study
 from solver.synthesis.suite import SuiteMotion, make_suite

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from ezdxf.filemanagement import new
 
 from inputs import FT, INCH
-from report.drawing.plan_read import plan_of
-from report.drawing.read_dxf import read_dxf
+from report.drawing_read.plan_read import plan_of
+from report.drawing_read.read_dxf import read_dxf
 
 UNITS = {"in": (1, INCH), "ft": (2, FT), "mm": (4, 1e-3), "m": (6, 1.0)}
 """Code of $INSUNITS and size [m] of units."""

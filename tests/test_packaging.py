@@ -223,7 +223,7 @@ def test_the_launcher_looks_for_no_package_where_it_is_called_and_for_libraries_
     assert '"$venv/bin/roofslip" "$@"' in launcher
     launcher = (ROOT / "roofslip").read_text()
     names = ("report", "watch", "serve", "study", "verify", "verify-package")
-    assert set(names) <= set(main.commands)
+    assert set(names) <= set(main.every())
     assert f"{' | '.join(names)} | test) native_libraries" in launcher
 
 

@@ -23,11 +23,8 @@ import click
 from report.cli.check import check
 from report.cli.motion import motion
 from report.cli.options import SectionedGroup
-from report.cli.plan import plan
 from report.cli.report import new, report, watch
-from report.cli.serve import serve
 from report.cli.slide import slide
-from report.cli.study import study
 from report.cli.terminal import (
     INPUT_ERROR,
     INTERRUPTED,
@@ -39,7 +36,6 @@ from report.cli.terminal import (
     suit_windows,
     unwritten,
 )
-from report.cli.verify import sign, verify, verify_package
 from report.libraries import stay_apart
 from report.text.counts import called
 
@@ -132,7 +128,7 @@ def _checks() -> Iterator[tuple[str, Callable[[str], str | None], str]]:
 
 def _slipped(_: str) -> str:
     """Run a block whose displacement is known in closed form: mu g (0.8 s)^2 / 6."""
-    from solver import slide
+    from solver.sliding.checked import slide
 
     slipped_m = slide([-0.2, 0.05], 1.0, slope_rad=0.0, mu=0.1, units="g").prd_m
     is_right = abs(slipped_m - 0.1 * 9.80665 * 0.8**2 / 6.0) < 1e-9
@@ -212,9 +208,11 @@ def main() -> None:
     stay_apart()
 
 
-main.add_section("Package", report, watch, serve, schema)
-main.add_section("Sheet", new, check, plan)
+# Those of the extras by their place: nothing of the core imports them.
+main.add_section("Package", report, watch, "report.cli.serve:serve", schema)
+main.add_section("Sheet", new, check, "report.cli.plan:plan")
 main.add_section("Motions", motion, slide)
-main.add_section("Studies", study)
-main.add_section("Trust", verify, verify_package, sign)
+main.add_section("Studies", "report.cli.study:study")
+TRUST = (f"report.cli.verify:{name}" for name in ("verify", "verify_package", "sign"))
+main.add_section("Trust", *TRUST)
 main.add_section("Installation", doctor, completion, test)

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import inspect
 import math
+from collections.abc import Mapping
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -81,29 +83,54 @@ class SectionedGroup(click.Group):
     def __init__(self, *arguments: Any, **options: Any) -> None:
         super().__init__(*arguments, **options)
         self._titles: dict[str, str] = {}
+        self._extras: dict[str, str] = {}  # module and attribute of commands not loaded, by name
 
-    def add_section(self, title: str, *commands: click.Command) -> None:
-        """Add commands under a title."""
+    def add_section(self, title: str, *commands: click.Command | str) -> None:
+        """Add commands under a title; those of an extra by their place, as `add_extra` has it."""
         for command in commands:
-            self.add_command(command)
-            self._titles[str(command.name)] = title
+            if isinstance(command, str):
+                name = self.add_extra(command)
+            else:
+                self.add_command(command)
+                name = str(command.name)
+            self._titles[name] = title
+
+    def add_extra(self, place: str) -> str:
+        """Add a command that is loaded when it is asked for; return its name.
+
+        The place is that of its function: `report.cli.verify:verify_package`.
+        """
+        name = place.partition(":")[2].replace("_", "-")
+        self._extras[name] = place
+        return name
+
+    def get_command(self, ctx: click.Context | None, cmd_name: str) -> click.Command | None:
+        """Return a command by its name; one of an extra is loaded."""
+        if place := self._extras.pop(cmd_name, ""):
+            module, _, attribute = place.partition(":")
+            self.add_command(getattr(import_module(module), attribute))
+        return self.commands.get(cmd_name)
+
+    def every(self) -> Mapping[str, click.Command]:
+        """Return all commands by name, in the order in which they are listed."""
+        for name in list(self._extras):
+            self.get_command(None, name)
+        untitled = sorted(self.commands.keys() - self._titles.keys())
+        return {name: self.commands[name] for name in (*self._titles, *untitled)}
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names in the order of their sections."""
-        return [
-            *self._titles,
-            *(name for name in sorted(self.commands) if name not in self._titles),
-        ]
+        return list(self.every())
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write each section."""
         sections: dict[str, list[tuple[str, str]]] = {}
-        names = self.list_commands(ctx)
+        commands = self.every()
         # The same in every section.
-        width = max(map(len, names))
-        for name in names:
+        width = max(map(len, commands))
+        for name, command in commands.items():
             rows = sections.setdefault(self._titles.get(name, "Commands"), [])
-            rows.append((name.ljust(width), _first_sentence(self.commands[name])))
+            rows.append((name.ljust(width), _first_sentence(command)))
         for title, rows in sections.items():
             with formatter.section(title):
                 formatter.write_dl(rows)

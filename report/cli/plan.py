@@ -19,9 +19,9 @@ from report.text.counts import command, numbered
 
 if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment
-    from report.drawing.ballast import Load
-    from report.drawing.plan_read import DrawnOutline
-    from report.drawing.roof_drawing import RoofDrawing
+    from report.drawing_read.ballast import Load
+    from report.drawing_read.plan_read import DrawnOutline
+    from report.drawing_read.roof_drawing import RoofDrawing
     from report.sheet.schema.choices import LayerKind
     from report.sheet.schema.fields import DraftRow
     from report.sheet.writing.filled import WorkbookChange
@@ -59,8 +59,8 @@ def choose(
     Raises `InputError` if a layer that is given is not in the drawing; or, after a table of them,
     if layers with closed lines are not known.
     """
-    from report.drawing.plan_read import known_layers
-    from report.drawing.roof_drawing import proposed
+    from report.drawing_read.plan_read import known_layers
+    from report.drawing_read.roof_drawing import proposed
     from report.sheet.schema.choices import LayerKind
     from report.text.counts import numbered
     from solver.model import InputError, Problem
@@ -91,7 +91,7 @@ def choose(
 def _table(
     drawing: RoofDrawing, outlines: Mapping[str, int], kinds: Mapping[str, LayerKind | None]
 ) -> Iterator[str]:
-    from report.drawing.roof_drawing import drawn_on
+    from report.drawing_read.roof_drawing import drawn_on
     from report.text.formats import aligned
 
     rows = [("layer", "closed lines", "drawn", "proposed")]
@@ -150,7 +150,7 @@ def read(
     blocks. Equal rectangles of the size of modules are joined into arrays. Everything else in the
     workbook is kept. If it has no other errors, the clearances follow as by plan clearances.
     """
-    from report.drawing.fill import changes, layers_of, plan_as_rows, unread
+    from report.drawing_read.fill import changes, layers_of, plan_as_rows, unread
     from report.sheet.checking.plan_checks import us_first
     from report.sheet.writing.filled import changing, withdrawn
     from report.text.units import LENGTHS
@@ -252,7 +252,7 @@ def _add_clearances(change: WorkbookChange) -> Sequence[str]:
 
 def _read(drawing: Path, units: str | None) -> tuple[RoofDrawing, float]:
     """Read the drawing; return it and the size of its unit [m]."""
-    from report.drawing.read_dxf import read_dxf
+    from report.drawing_read.read_dxf import read_dxf
     from report.text.units import LENGTHS
     from solver.model import InputError
 
@@ -286,7 +286,7 @@ def _turned(drawn: RoofDrawing, rotate: float) -> tuple[RoofDrawing, list[str]]:
 
 
 def _line(place: DrawnOutline, gap_m: float, is_us: bool) -> str:
-    from report.drawing.plan_read import own_axes
+    from report.drawing_read.plan_read import own_axes
     from report.text.units import Quantity, pair
 
     *sides, angle = own_axes(place.shape)
@@ -320,8 +320,8 @@ def ballast(
 
     Coordinates are those of the plan. Prints the center of gravity of each array in plan.
     """
-    from report.drawing.ballast import loads, read_map
-    from report.drawing.fill import ballast_changes
+    from report.drawing_read.ballast import loads, read_map
+    from report.drawing_read.fill import ballast_changes
     from report.sheet.checking.findings import listed
     from report.sheet.checking.plan_checks import shapes_of, us_first
     from report.sheet.reading.read import read_book
@@ -361,7 +361,7 @@ def ballast(
 
 def _balance(row: DraftRow, load: Load, ballast_n: float, is_us: bool) -> str:
     """Return the ballast of an array and its center of gravity, as far as weights are known."""
-    from report.drawing.ballast import center_of_gravity
+    from report.drawing_read.ballast import center_of_gravity
     from report.text.units import Quantity, pair
 
     modules, each_n = row.get("modules"), row.get("module_weight_n")

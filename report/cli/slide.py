@@ -134,7 +134,7 @@ def _scale(record: Record | None, ppa_g: float | None, factor: float | None) -> 
 
 
 def _scene(records: list[Record | None], slope_deg: float, mu: float, scale: float) -> Scene:
-    from solver import scene
+    from solver.sliding.checked import scene
 
     x, y, z = records
     assert x is not None  # the argument is required

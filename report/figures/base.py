@@ -10,7 +10,7 @@ from __future__ import annotations
 import io
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
@@ -26,7 +26,6 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocat
 from report.text import counts
 from report.typeset.pdf import TEMPLATES
 from solver.model import Floats
-from solver.rivals.methods import METHODS
 
 WIDTH_IN = 7.0
 INK, GRAY, PALE, ACCENT = "#1a1a1a", "#707070", "#d9d9d9", "#1f4e79"
@@ -231,35 +230,3 @@ def ticks(axis: Axis, values: Sequence[float]) -> None:
     axis.set_major_locator(FixedLocator([value for value in values if low <= value <= high]))
     axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
     axis.set_minor_locator(NullLocator())
-
-
-_LONG = (0, (9, 2))
-# Marker, line style, color, and color within the marker, in the order of the methods.
-_STYLES = (
-    ("*", "none", INK, INK),
-    ("o", "-", ACCENT, "white"),
-    ("s", DASHED, INK, "white"),
-    ("^", DASHDOT, ACCENT, ACCENT),
-    ("v", DOTTED, INK, INK),
-    ("D", _LONG, GRAY, GRAY),
-    ("<", "none", ACROSS, ACROSS),
-    (">", "none", ACROSS, "white"),
-    ("h", "none", ACCENT, ACCENT),
-    ("p", "none", ACCENT, "white"),
-    ("X", DASHED, GRAY, GRAY),
-    ("P", "none", GRAY, GRAY),
-)
-
-
-# Keywords for a line with markers, by the name of the method: the same in package and manual.
-LOOKS: Mapping[str, dict[str, Any]] = {
-    method.name: {
-        "label": method.label,
-        **dict(zip(("marker", "linestyle", "color", "markerfacecolor"), style, strict=True)),
-        "markeredgecolor": style[2],
-        "markersize": 4.5,
-        "markeredgewidth": 0.9,
-        "linewidth": 1.1,
-    }
-    for method, style in zip(METHODS.values(), _STYLES, strict=True)
-}

@@ -10,7 +10,7 @@ import numpy as np
 from report.document.tables import Column, Table, compared_with, listed
 from report.document.templates import Section, section
 from report.entities.shown import plain, text, words
-from report.figures import manual as figures
+from report.manual import figures
 from report.text.counts import capitalized
 from report.text.formats import scientific, slug, ten_digits
 from report.text.units import G_MPS2, number

@@ -16,9 +16,10 @@ import pandas as pd
 from report.document.tables import Column, Table, listed
 from report.document.templates import Section, section
 from report.entities.shown import text, words
-from report.figures import manual, paper
-from report.figures import work as figures
 from report.figures.base import power_of_ten
+from report.manual import figures as stability_figures
+from report.manual import paper_figures
+from report.manual import work_figures as figures
 from report.text.counts import capitalized, grouped_by, lettered
 from report.text.formats import percent, seconds, slug
 from solver.rivals.methods import METHODS
@@ -128,15 +129,15 @@ def stability(verification: Verification) -> Section:
     # Numbered through all charts: the notes name a map by its number.
     counted = list(enumerate(verification.maps, start=1))
     by_chart = {
-        f"stability-{at // manual.MOST + 1}": counted[at : at + manual.MOST]
-        for at in range(0, len(counted), manual.MOST)
+        f"stability-{at // stability_figures.MOST + 1}": counted[at : at + stability_figures.MOST]
+        for at in range(0, len(counted), stability_figures.MOST)
     }
     return section(
         "manual/stability",
         "Stability",
         by_chart=by_chart,
         charts={
-            name: manual.stability([sweep for _, sweep in maps], first=maps[0][0])
+            name: stability_figures.stability([sweep for _, sweep in maps], first=maps[0][0])
             for name, maps in by_chart.items()
         },
     )
@@ -165,11 +166,11 @@ def convergence(verification: Verification) -> Section:
         "manual/convergence",
         "The paper's convergence study (Fig. 5)",
         scenarios=len(paper_studies.CONVERGENCE_CASES),
-        paper_percent=paper.PAPER_P64_PERCENT,
+        paper_percent=paper_figures.PAPER_P64_PERCENT,
         errors=orders,
         charts={
             # Three rows to a chart, which stays on one page.
-            f"convergence-{at // 3 + 1}": paper.convergence(orders[at : at + 3])
+            f"convergence-{at // 3 + 1}": paper_figures.convergence(orders[at : at + 3])
             for at in range(0, len(orders), 3)
         },
     )
@@ -186,7 +187,7 @@ def links(verification: Verification) -> Section:
         worst_mm=worst_mm,
         PAPER_WORST_PERCENT=PAPER_WORST_PERCENT,
         PAPER_MEAN_PERCENT=PAPER_MEAN_PERCENT,
-        charts={name: paper.links(rows) for name, rows in by_chart.items()},
+        charts={name: paper_figures.links(rows) for name, rows in by_chart.items()},
     )
 
 
@@ -199,12 +200,12 @@ def worst_mm(link: LinkComparison) -> float:
 
 def curves(verification: Verification) -> Section:
     """Return the paper's Figs. 10 to 12."""
-    slope_deg, wanted_m = paper.READ_OFF
+    slope_deg, wanted_m = paper_figures.READ_OFF
     names = [slug(study.record) for study in verification.curves]
     return section(
         "manual/curves",
         "Design curves (Figs. 10 to 12)",
-        ppa_g=paper.FIG_12_PPA_G,
+        ppa_g=paper_figures.FIG_12_PPA_G,
         slope_deg=slope_deg,
         wanted_mm=1e3 * wanted_m,
         studies=[
@@ -216,17 +217,17 @@ def curves(verification: Verification) -> Section:
             chart: svg
             for study, name in zip(verification.curves, names, strict=True)
             for chart, svg in (
-                (f"curves-{name}", paper.curves(study)),
-                (f"contours-{name}", paper.contours(study)),
+                (f"curves-{name}", paper_figures.curves(study)),
+                (f"contours-{name}", paper_figures.contours(study)),
             )
         },
     )
 
 
 def _least_mu(study: DesignCurves) -> float:
-    slope_deg, wanted_m = paper.READ_OFF
-    return study.minimum_mu(slope_deg, paper.FIG_12_PPA_G, wanted_m)
+    slope_deg, wanted_m = paper_figures.READ_OFF
+    return study.minimum_mu(slope_deg, paper_figures.FIG_12_PPA_G, wanted_m)
 
 
 def _prd_mm(study: DesignCurves) -> float:
-    return 1e3 * float(np.interp(0.5, study.mus, study.prd(4.0, paper.FIG_12_PPA_G)))
+    return 1e3 * float(np.interp(0.5, study.mus, study.prd(4.0, paper_figures.FIG_12_PPA_G)))

@@ -75,13 +75,12 @@ def building_part(
 
 def _modes(package: PackageData, components: Sequence[_Transferred]) -> Table:
     """Return the slowest modes of the building in each direction."""
-    rows = [
-        (name, of[0].roof.building, mode, mode < included)
-        for name, of in grouped_by(components, lambda item: item.name).items()
-        for included in (max(item.roof.n_modes for item in of),)
+    rows = []
+    for name, of in grouped_by(components, lambda item: item.name).items():
+        building, included = of[0].roof.building, max(item.roof.n_modes for item in of)
         # One more than included: a reader sees what the first omitted mode would add.
-        for mode in range(min(max(SHOWN_MODES, included + 1), of[0].roof.building.periods_s.size))
-    ]
+        printed = min(max(SHOWN_MODES, included + 1), building.periods_s.size)
+        rows += [(name, building, mode, mode < included) for mode in range(printed)]
     columns = (
         (words("Direction", 1.3), lambda row: row[0] if row[2] == 0 else ""),
         (text("Mode", share=0.6), lambda row: row[2] + 1),

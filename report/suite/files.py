@@ -4,8 +4,6 @@ Prints nothing and writes no file; `solver.synthesis` generates the motions. Rea
 `suite_files` first.
 
 The acceptance of a generated suite: its rows as text and as data.
-
-Output of `roofslip motion info`: measures of the records of a file, and their table.
 """
 
 from __future__ import annotations
@@ -13,8 +11,8 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from importlib.metadata import version
 from typing import Any
@@ -25,6 +23,7 @@ from report.assessment.spectra import Spectra
 from report.figures.base import png_bytes
 from report.figures.spectra import spectra
 from report.motions.history import TargetSpectrum
+from report.motions.measured import facts, without_noise
 from report.suite.inputs import Seeds, SuiteTargets
 from report.text.amounts import limit_texts
 from report.text.formats import aligned
@@ -52,14 +51,17 @@ def suite_acceptance(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> Acc
 
 def acceptance_lines(rows: Sequence[Limit]) -> list[str]:
     """Return a line for each row: OK or what follows, title, value found, limit, where."""
-    return [
-        f"{'OK' if row.ok else row.consequence.value}: {row.title}: "
-        f"{found}, {'at least' if row.is_at_least else 'at most'} {limit}"
-        f"{f' ({row.worst})' if row.worst else ''}"
-        f"{'; not a code requirement, limit set by this program' if row.is_program_limit else ''}"
-        for row in rows
-        for found, limit in (limit_texts(row, us_first=True),)  # none is a length
-    ]
+    lines = []
+    for row in rows:
+        found, limit = limit_texts(row, us_first=True)  # none is a length
+        where = f" ({row.worst})" if row.worst else ""
+        ours = "; not a code requirement, limit set by this program"
+        lines.append(
+            f"{'OK' if row.ok else row.consequence.value}: {row.title}: "
+            f"{found}, {'at least' if row.is_at_least else 'at most'} {limit}{where}"
+            f"{ours if row.is_program_limit else ''}"
+        )
+    return lines
 
 
 def acceptance_facts(rows: Sequence[Limit]) -> list[dict[str, Any]]:
@@ -78,64 +80,6 @@ def acceptance_facts(rows: Sequence[Limit]) -> list[dict[str, Any]]:
         }
         for row in rows
     ]
-
-
-# Heading, key of the number, and factor for the printed unit.
-_MEASURES = (
-    ("dt [s]", "dt_s", 1.0),
-    ("samples", "npts", 1.0),
-    ("length [s]", "duration_s", 1.0),
-    ("PGA [g]", "pga_g", 1.0),
-    ("PGV [cm/s]", "pgv_mps", 100.0),
-    ("PGD [cm]", "pgd_m", 100.0),
-    ("Arias [m/s]", "arias_mps", 1.0),
-    ("D5-95 [s]", "d5_95_s", 1.0),
-    ("final v [cm/s]", "final_velocity_mps", 100.0),
-    ("final d [cm]", "final_displacement_m", 100.0),
-)
-
-# A drift below this fraction of the peak is rounding error.
-_NO_DRIFT = 1e-9
-
-
-def summary(record: Record) -> dict[str, Any]:
-    """Return the measures of a record, in SI except g, with units in the keys."""
-    values = measures(record)
-    npts = len(record.a_mps2)
-    return {
-        "name": record.name,
-        "dt_s": record.dt_s,
-        "npts": npts,
-        "duration_s": (npts - 1) * record.dt_s,
-        **facts(values),
-    }
-
-
-def facts(values: Measures) -> dict[str, float]:
-    """Return measures, in SI except g, with units in the keys."""
-    options = asdict(values)
-    return {"pga_g": options.pop("pga_mps2") / G_MPS2, **options}
-
-
-def table(channels: Sequence[Mapping[str, Any]]) -> Iterator[str]:
-    """Return summaries as lines of a table, one channel per line, under a heading."""
-    rows = [("", "channel", *(heading for heading, _, _ in _MEASURES))]
-    rows += [(str(count), *_row(channel)) for count, channel in enumerate(channels, start=1)]
-    return aligned(rows, (">", "<", *(">" for _ in _MEASURES)))
-
-
-def _row(channel: Mapping[str, Any]) -> tuple[str, ...]:
-    shown = without_noise(channel)
-    values = ((shown[key] * size, ".0f" if key == "npts" else ".4g") for _, key, size in _MEASURES)
-    return (channel["name"], *(f"{value:{form}}" for value, form in values))
-
-
-def without_noise(measured: Mapping[str, Any]) -> dict[str, Any]:
-    """Return measures with 0 for what is rounding error at the end of a record."""
-    peaks = {"final_velocity_mps": "pgv_mps", "final_displacement_m": "pgd_m"}
-    # Beside its peak: its digits differ by machine, and would look like a drift.
-    lost = (end for end, peak in peaks.items() if abs(measured[end]) <= _NO_DRIFT * measured[peak])
-    return {**measured, **dict.fromkeys(lost, 0.0)}
 
 
 # Limits on every component's ratios to its target, at 1/12 octave. AC156 allows 90 % at 1/6-octave

@@ -21,10 +21,10 @@ from report.assessment.plan_clearances import missing_rows
 from report.assessment.precheck import shaking_acceptance
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
-from report.drawing.fill import changes, layers_of, plan_as_rows, unread
-from report.drawing.plan_read import known_layers
-from report.drawing.read_dxf import read_dxf
-from report.drawing.roof_drawing import drawn_on, proposed
+from report.drawing_read.fill import changes, layers_of, plan_as_rows, unread
+from report.drawing_read.plan_read import known_layers
+from report.drawing_read.read_dxf import read_dxf
+from report.drawing_read.roof_drawing import drawn_on, proposed
 from report.motions.history import targets
 from report.sheet.checking.findings import grouped, line_of, listed
 from report.sheet.reading.archive import OpenBook, open_book

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 from typing import Protocol
 
-from solver.formats import cosmos, csmip, esm, geonet, knet, peer, seed, smc, text
+from solver.formats import text
 from solver.formats.channels import MotionFile
 from solver.formats.source import Source, open_source
 from solver.records.record import Record
@@ -26,9 +27,8 @@ class Format(Protocol):
         """Read all channels; raises `InputError` with every problem."""
 
 
-FORMATS: tuple[Format, ...] = (seed, cosmos, geonet, csmip, smc, knet, esm, peer, text)
-"""All formats, asked in this order: GeoNet before CSMIP, whose first line is similar; text, which
-accepts every file, last."""
+FORMATS: tuple[Format, ...] = (*import_module("solver.formats.networks").NETWORKS, text)
+"""All formats, asked in this order: text, which accepts every file, last."""
 
 
 def read_motion_file(

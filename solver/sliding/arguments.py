@@ -20,8 +20,8 @@ from solver.formats.phrases import parse
 from solver.model import Floats, Friction, InputError, Motion, Scene, coulomb
 from solver.records.record import NO_RECORD, UNITS, Record, has_gravity, raise_any, read_only
 from solver.records.record import unit_size as records_unit
-from solver.rivals.methods import ANY_NUMBER, METHODS, WANTED, Method, Parameters
 from solver.sliding import two_axes
+from solver.sliding.method import ANY_NUMBER, EXACT, WANTED, Method, Parameters, methods
 
 # Shaking as it is: a row of accelerations with a step beside it, a record, or a whole motion.
 Given = ArrayLike | Record | Motion
@@ -69,8 +69,8 @@ def scene_of(
     scale = checked_number("scale", scale, "a finite factor", math.isfinite, problems)
     gravity = "a number of m/s2 above 0"
     g_mps2 = checked_number("g_mps2", g_mps2, gravity, _is_positive, problems)
-    if not isinstance(method, Method) and not (isinstance(method, str) and method in METHODS):
-        problems.append(f"method is {shown(method)}; give one of {', '.join(METHODS)}")
+    if not is_method(method):
+        problems.append(f"method is {shown(method)}; give one of {', '.join(methods())}")
     elif records["ay_mps2"] is not None or not friction.is_constant:
         problems += _plane_faults(method, parameters)
     else:
@@ -163,9 +163,17 @@ def _warn_if_in_g(run: Scene) -> None:
         )
 
 
+def is_method(method: object) -> bool:
+    """Whether it is a method or the name of one."""
+    is_name = isinstance(method, str) and (method == EXACT.name or method in methods())
+    return is_name or isinstance(method, Method)
+
+
 def method_of(method: str | Method) -> Method:
     """Return a method, by its name or as it is."""
-    return method if isinstance(method, Method) else METHODS[method]
+    if isinstance(method, Method):
+        return method
+    return EXACT if method == EXACT.name else methods()[method]
 
 
 def unpacked(

@@ -25,10 +25,10 @@ from solver.model import (
 )
 from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
-from solver.rivals.methods import Method
 from solver.sliding import least_model, one_axis, two_axes
 from solver.sliding.arguments import Given, GivenShaking, method_of, scene_of, shown
 from solver.sliding.least_model import DEFAULT, Settings, Solution
+from solver.sliding.method import Method
 from solver.sliding.quick import quick_slide
 
 

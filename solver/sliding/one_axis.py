@@ -1,7 +1,7 @@
 """Models 1 and 2: one block along the slope, by the exact method or another one.
 
 Checks no input (`solver.sliding.arguments`) and computes no physics (`solver.kernels.one_axis`,
-`solver.rivals`). Read `run` first.
+`solver.sliding.method`). Read `run` first.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from solver.forces import components
 from solver.kernels import one_axis as kernel
 from solver.model import Event, EventKind, Floats, Scene, SlideHistory, SlideResult, Status
 from solver.records.record import NO_RECORD
-from solver.rivals.methods import (
-    METHODS,
+from solver.sliding.method import (
+    EXACT,
     AxisScene,
     Method,
     Outcome,
@@ -24,8 +24,6 @@ from solver.rivals.methods import (
     exact_events,
     minimum_normal,
 )
-
-EXACT = METHODS["exact"]
 
 _NO_HISTORY = np.empty((2, 0))
 

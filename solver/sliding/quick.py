@@ -17,9 +17,9 @@ import numpy as np
 from solver.kernels import one_axis as kernel
 from solver.model import Floats, SlideResult
 from solver.records.record import Record, read_only
-from solver.rivals.methods import Outcome
 from solver.sliding import one_axis
 from solver.sliding.arguments import is_in_range
+from solver.sliding.method import Outcome
 
 _NUMBERS = {float, np.float64, int}
 _ROOM = 64  # records that are kept: a few suites

@@ -22,7 +22,7 @@ from solver.model import (
     SlideResult,
     Status,
 )
-from solver.rivals.methods import minimum_normal
+from solver.sliding.method import minimum_normal
 from solver.sliding.one_axis import (
     RecordBounds,
     bounds_of,

@@ -35,10 +35,11 @@ from solver.model import (
 )
 from solver.records.record import NO_RECORD, Record, read_only
 from solver.rivals import by_scipy
-from solver.rivals.methods import METHODS, AxisScene, Method
+from solver.rivals.methods import METHODS
 from solver.rules.hazard import Target
 from solver.sliding import checked, one_axis, two_axes
 from solver.sliding.checked import motion
+from solver.sliding.method import AxisScene, Method
 from solver.synthesis.suite import SuiteMotion, make_suite
 
 SEED = 2003

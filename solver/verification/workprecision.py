@@ -24,8 +24,9 @@ from solver.kernels.one_axis import bounds
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Motion, Scene, SlideResult, Status, coulomb
 from solver.records.record import Record
 from solver.rivals import by_scipy
-from solver.rivals.methods import METHODS, AxisScene, Method
+from solver.rivals.methods import METHODS
 from solver.sliding import two_axes
+from solver.sliding.method import AxisScene, Method
 from solver.sliding.one_axis import RecordBounds, bounds_of
 from solver.verification.evidence import percent_off
 from solver.verification.study import (

@@ -18,8 +18,8 @@ from PIL import Image
 
 import peers
 from peers import PeerPoint
-from report.figures.base import INK, LOOKS, png_bytes
-from report.figures.work import overview
+from report.figures.base import INK, png_bytes
+from report.manual.work_figures import LOOKS, overview
 from solver.formats import read_record
 from solver.rivals.methods import METHODS
 from solver.sliding.two_axes import DEFAULT_TOLERANCE

@@ -19,7 +19,7 @@ from openpyxl import Workbook
 from inputs import FT
 from nightly import by_day
 from refused import refused
-from report.drawing.ballast import read_map
+from report.drawing_read.ballast import read_map
 from report.study.shaking import points_of
 from report.suite.target_table import read_target
 

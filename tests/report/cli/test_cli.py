@@ -164,7 +164,7 @@ def test_the_help_lists_every_command_under_a_title_with_its_whole_first_sentenc
     titles = [line[:-1] for line in lines if re.fullmatch(r"[A-Z]\w+:", line)]
     assert titles == ["Options", "Package", "Sheet", "Motions", "Studies", "Trust", "Installation"]
     words = " ".join(" ".join(lines).split())
-    for name, command in main.commands.items():
+    for name, command in main.every().items():
         first = " ".join(command.help.partition("\n\n")[0].split())
         assert f" {name} {first}" in words
     for group in ("motion", "plan"):
@@ -278,7 +278,7 @@ def test_a_broken_renderer_or_solver_is_a_finding(monkeypatch):
     assert done.stderr == (
         "Error: test page: install what is missing above, or the program again\n"
     )
-    monkeypatch.setattr("solver.slide", lambda *_, **__: SimpleNamespace(prd_m=0.1))
+    monkeypatch.setattr("solver.sliding.checked.slide", lambda *_, **__: SimpleNamespace(prd_m=0.1))
     done = run("doctor")
     assert done.exit_code == 1
     assert re.search(r"test run +fails: 0\.100000000 m", done.stdout)

@@ -154,7 +154,7 @@ TABLES = [DAY, pytest.param(NIGHT, marks=pytest.mark.nightly)]
 
 def test_each_command_of_the_help_is_here():
     def named(group, *words):
-        for name, command in group.commands.items():
+        for name, command in group.every().items():
             below = isinstance(command, click.Group)
             yield from named(command, *words, name) if below else [" ".join((*words, name))]
 

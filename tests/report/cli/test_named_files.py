@@ -71,7 +71,7 @@ KINDS = ("pipe", "device", "socket", "circle", "huge", "folder")
 
 
 def leaves(group, name=""):
-    for word, command in group.commands.items():
+    for word, command in group.every().items():
         if isinstance(command, click.Group):
             yield from leaves(command, f"{name} {word}")
         else:

@@ -80,7 +80,7 @@ EVERY_COMMAND = """
 import sys, click
 from report.cli.main import main
 def below(group, *words):
-    for name, command in group.commands.items():
+    for name, command in group.every().items():
         if isinstance(command, click.Group):
             yield from below(command, *words, name)
         else:

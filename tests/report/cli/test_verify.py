@@ -16,8 +16,8 @@ from pypdf import PdfReader
 import solver.verification.run
 import verified
 from commands import refused, run
-from report.figures import work
 from report.manual import render
+from report.manual import work_figures as work
 from report.text import formats
 from report.text.counts import lettered
 from solver.model import Status

@@ -20,10 +20,12 @@ from plans import SMALL, roof_plan
 from report.assessment.spectra import spectra
 from report.drawing.sheet import LETTER
 from report.figures import charts as figures
-from report.figures import history, manual, work
+from report.figures import history
 from report.figures.history import STEP_IN, PanelScale, hodographs, path_of, thinned
 from report.figures.records import accelerations
 from report.figures.spectra import spectra as drawn_spectra
+from report.manual import figures as manual
+from report.manual import work_figures as work
 from report.pages.registry import draw_assessment, draw_plotted
 from report.sheet.schema.choices import UnitsFirst
 from report.study import figures as study

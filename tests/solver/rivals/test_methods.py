@@ -15,9 +15,10 @@ from blocks import block, readonly, trapezoid
 from nightly import by_day
 from solver.model import InputError, Status, coulomb
 from solver.rivals import by_scipy
-from solver.rivals.methods import METHODS, link_frequency
+from solver.rivals.methods import METHODS
 from solver.sliding import one_axis
 from solver.sliding.checked import slide, slide_history
+from solver.sliding.method import link_frequency
 from solver.verification import reference
 from solver.verification.model_checks import stopped_scene
 from solver.verification.study import Case, cut, own_triples, samples_of, scene_of

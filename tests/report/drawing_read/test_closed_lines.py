@@ -8,8 +8,8 @@ import shapely
 from ezdxf.render.forms import cube
 
 from inputs import FT
-from report.drawing.closed_lines import BRANCHED, OPEN, curve, join
-from report.drawing.read_dxf import read_dxf
+from report.drawing_read.closed_lines import BRANCHED, OPEN, curve, join
+from report.drawing_read.read_dxf import read_dxf
 from report.sheet.schema.shapes import Polygon, ring
 from sketch import BOX_FT, ROOF_FT, UNIT_FT, Sketch, plan
 

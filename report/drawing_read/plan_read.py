@@ -1,6 +1,7 @@
 """What a roof drawing says of the plan: arrays, objects, edges and the roof, by layer and name.
 
-Knows no file and no cells (`report.drawing.read_dxf`, `report.drawing.fill`). Read `plan_of` first.
+Knows no file and no cells (`report.drawing_read.read_dxf`, `report.drawing_read.fill`). Read
+`plan_of` first.
 """
 
 from __future__ import annotations
@@ -13,8 +14,8 @@ from itertools import zip_longest
 
 from report.assessment.neighbors import EDGE_STRIP_M, bare_sides
 from report.drawing.items import Layer
-from report.drawing.modules import GAP_M, MOST_TEXTS, SIDES_M, Known, joined
-from report.drawing.roof_drawing import (
+from report.drawing_read.modules import GAP_M, MOST_TEXTS, SIDES_M, Known, joined
+from report.drawing_read.roof_drawing import (
     ABOVE_ROOF,
     Drawn,
     RoofDrawing,

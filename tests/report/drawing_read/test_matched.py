@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from commands import ended, printed, refused
 from inputs import FT
-from report.drawing.fill import MOST_TOLD, matched
-from report.drawing.plan_read import DrawnOutline, RoofPlan
+from report.drawing_read.fill import MOST_TOLD, matched
+from report.drawing_read.plan_read import DrawnOutline, RoofPlan
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import ClearanceSource, LayerKind, UnitsFirst
 from report.sheet.schema.scene import SIDES

@@ -1,6 +1,6 @@
 """Which row of a workbook each outline of a drawing is, and which cells the plan as drawn fills.
 
-Reads no drawing and writes no file (`report.drawing.plan_read`, `report.sheet.reading.parts`).
+Reads no drawing and writes no file (`report.drawing_read.plan_read`, `report.sheet.reading.parts`).
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import NoReturn
 
-from report.drawing.modules import GAP_M
-from report.drawing.moved import SAME_M, Move, whole_move
-from report.drawing.plan_read import (
+from report.drawing_read.modules import GAP_M
+from report.drawing_read.moved import SAME_M, Move, whole_move
+from report.drawing_read.plan_read import (
     DrawnOutline,
     RoofPlan,
     check_size,
@@ -23,7 +23,7 @@ from report.drawing.plan_read import (
     plan_of,
     unit_asked,
 )
-from report.drawing.roof_drawing import RoofDrawing
+from report.drawing_read.roof_drawing import RoofDrawing
 from report.sheet.checking.findings import listed
 from report.sheet.checking.plan_checks import far_off, roof_of, shapes_of, us_first
 from report.sheet.reading.archive import OpenBook

@@ -15,8 +15,8 @@ from commands import ended
 from growth import grows_faster
 from nightly import by_day, nightly
 from refused import refused
-from report.drawing.read_dxf import MAX_LETTERS, read_dxf
-from report.drawing.roof_drawing import MAX_ENTITIES, MAX_VALUES
+from report.drawing_read.read_dxf import MAX_LETTERS, read_dxf
+from report.drawing_read.roof_drawing import MAX_ENTITIES, MAX_VALUES
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import LayerKind
 from sheets import make
@@ -184,7 +184,7 @@ def test_what_cannot_be_printed_is_neither_printed_nor_written(tmp_path, letter)
 def test_the_library_prints_nothing_of_its_own(file):
     path = file(LIBRECAD_R12.replace("\nVERTEX\n", "\nVERTEX\n5\n1F\n"))
     code = (
-        "import sys; from pathlib import Path; from report.drawing.read_dxf import read_dxf;"
+        "import sys; from pathlib import Path; from report.drawing_read.read_dxf import read_dxf;"
         "print(len(read_dxf(Path(sys.argv[1]), 1.0).lines))"
     )
     done = subprocess.run(

@@ -1,6 +1,6 @@
 """How a plan as a whole has moved between a workbook and a drawing: shift, turn, factor, mirror.
 
-Knows no cells (`report.drawing.fill`). Read `whole_move` first. Points are complex.
+Knows no cells (`report.drawing_read.fill`). Read `whole_move` first. Points are complex.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from report.drawing.plan_read import boxed
+from report.drawing_read.plan_read import boxed
 from report.sheet.schema.shapes import Polygon, Shape, ring, solid
 from report.text.units import Unit
 

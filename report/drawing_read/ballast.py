@@ -1,6 +1,6 @@
 """A ballast map: how many blocks lie where, and what each array carries by it.
 
-Knows no workbook (`report.drawing.fill`). Read `read_map`, then `loads`.
+Knows no workbook (`report.drawing_read.fill`). Read `read_map`, then `loads`.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from report.drawing.roof_drawing import MB
+from report.drawing_read.roof_drawing import MB
 from report.sheet.reading.typed_text import number_in, separator, unit_named, with_point
 from report.sheet.schema.shapes import Point, Shape, solid
 from report.text.counts import cut

@@ -1,6 +1,7 @@
 """Modules of a roof drawing, joined into the arrays that they make up, each with its outline.
 
-Knows no file and no texts (`report.drawing.plan_read`). Read `joined` first. Points are complex.
+Knows no file and no texts (`report.drawing_read.plan_read`). Read `joined` first. Points are
+complex.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from report.drawing.roof_drawing import Drawn
+from report.drawing_read.roof_drawing import Drawn
 from report.sheet.reading.locate import MAX_ROWS
 from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.shapes import Polygon, Rectangle, Shape, mean, ring, solid

@@ -1,6 +1,7 @@
 """Reads a roof drawing: its closed lines with their layers and names, and what else there is.
 
-Knows no workbook and no kinds (`report.drawing.plan_read`). `report.drawing.roof_drawing` loads it.
+Knows no workbook and no kinds (`report.drawing_read.plan_read`).
+`report.drawing_read.roof_drawing` loads it.
 """
 
 from __future__ import annotations
@@ -15,7 +16,8 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from report.drawing.closed_lines import (
+from report.drawing.items import APPLICATION
+from report.drawing_read.closed_lines import (
     CURVES,
     HATCHES,
     MAX_POINTS,
@@ -28,8 +30,7 @@ from report.drawing.closed_lines import (
     outlines,
     polygons,
 )
-from report.drawing.items import APPLICATION
-from report.drawing.roof_drawing import (
+from report.drawing_read.roof_drawing import (
     DAMAGED,
     MAX_ENTITIES,
     UNITS,

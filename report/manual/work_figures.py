@@ -9,8 +9,54 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from report.figures.base import LOOKS, T, labeled, logarithmic, panels, style, svg_text
+from report.figures.base import (
+    ACCENT,
+    ACROSS,
+    DASHDOT,
+    DASHED,
+    DOTTED,
+    GRAY,
+    INK,
+    T,
+    labeled,
+    logarithmic,
+    panels,
+    style,
+    svg_text,
+)
+from solver.rivals.methods import METHODS
 from solver.verification.workprecision import FIXED, OURS, SINGLE, TIME
+
+_LONG = (0, (9, 2))
+# Marker, line style, color, and color within the marker, in the order of the methods.
+_STYLES = (
+    ("*", "none", INK, INK),
+    ("o", "-", ACCENT, "white"),
+    ("s", DASHED, INK, "white"),
+    ("^", DASHDOT, ACCENT, ACCENT),
+    ("v", DOTTED, INK, INK),
+    ("D", _LONG, GRAY, GRAY),
+    ("<", "none", ACROSS, ACROSS),
+    (">", "none", ACROSS, "white"),
+    ("h", "none", ACCENT, ACCENT),
+    ("p", "none", ACCENT, "white"),
+    ("X", DASHED, GRAY, GRAY),
+    ("P", "none", GRAY, GRAY),
+)
+
+
+# Keywords for a line with markers, by the name of the method.
+LOOKS: Mapping[str, dict[str, Any]] = {
+    method.name: {
+        "label": method.label,
+        **dict(zip(("marker", "linestyle", "color", "markerfacecolor"), style, strict=True)),
+        "markeredgecolor": style[2],
+        "markersize": 4.5,
+        "markeredgewidth": 0.9,
+        "linewidth": 1.1,
+    }
+    for method, style in zip(METHODS.values(), _STYLES, strict=True)
+}
 
 _LARGE = {"markersize": 10}
 _SINGLE = {"markerfacecolor": "white", "label": "exact, a single run"}

@@ -10,9 +10,9 @@ import pytest
 from commands import ended, refused
 from inputs import INCH
 from nightly import by_day
-from report.drawing.modules import GAP_M
-from report.drawing.plan_read import plan_of
-from report.drawing.read_dxf import read_dxf
+from report.drawing_read.modules import GAP_M
+from report.drawing_read.plan_read import plan_of
+from report.drawing_read.read_dxf import read_dxf
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.shapes import Rectangle

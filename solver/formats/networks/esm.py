@@ -100,11 +100,12 @@ def _afad(
     )
     columns = free_values(source, block).reshape(-1, len(names)).T * scale
     stated = {m[1]: printed(m[2], at).value * scale for m in _NAMED_PEAK.finditer(text.upper())}
-    return [
-        Record(name=name, dt_s=dt_s, a_mps2=values, notes=(*notes, *offset_notes(values)))
-        for name, values in zip(names, columns, strict=True)
-        for notes in (centered_peak_notes(source, at, stated.get(name.upper(), 0.0), values),)
-    ]
+    records = []
+    for name, values in zip(names, columns, strict=True):
+        notes = centered_peak_notes(source, at, stated.get(name.upper(), 0.0), values)
+        notes = (*notes, *offset_notes(values))
+        records.append(Record(name=name, dt_s=dt_s, a_mps2=values, notes=notes))
+    return records
 
 
 def _heading(lines: Sequence[str]) -> _Heading:

@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 
 from commands import ended, printed
 from inputs import FT
-from report.drawing.fill import matched
-from report.drawing.plan_read import plan_of
-from report.drawing.roof_drawing import Drawn, RoofDrawing
+from report.drawing_read.fill import matched
+from report.drawing_read.plan_read import plan_of
+from report.drawing_read.roof_drawing import Drawn, RoofDrawing
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.scene import SIDES

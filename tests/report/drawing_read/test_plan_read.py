@@ -12,12 +12,12 @@ import scenes
 import stand_in
 from architect import at
 from inputs import FT, INCH, NO_SIDES
-from report.drawing.closed_lines import OPEN
 from report.drawing.items import Layer, write_dxf
 from report.drawing.plan import plan_drawing
-from report.drawing.plan_read import LAYERS, own_axes
-from report.drawing.read_dxf import read_dxf
-from report.drawing.roof_drawing import first_height, proposed, read_line
+from report.drawing_read.closed_lines import OPEN
+from report.drawing_read.plan_read import LAYERS, own_axes
+from report.drawing_read.read_dxf import read_dxf
+from report.drawing_read.roof_drawing import first_height, proposed, read_line
 from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.shapes import Polygon, Rectangle
 from sketch import BOX_FT, L_FT, LIBRECAD_R12, ROOF_FT, UNIT_FT, UNITS, Sketch, plan

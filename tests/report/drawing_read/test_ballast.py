@@ -8,7 +8,7 @@ import pytest
 from commands import ended
 from inputs import FT, LB
 from refused import refused
-from report.drawing.ballast import MAX_BYTES, center_of_gravity, loads, read_map
+from report.drawing_read.ballast import MAX_BYTES, center_of_gravity, loads, read_map
 from report.sheet.checking.plausible import implausible
 from report.sheet.reading.read import read
 from report.sheet.schema.shapes import Polygon, Rectangle

@@ -1,8 +1,8 @@
 """What a roof drawing consists of, as data; its file: loaded, repaired, or refused; what names say.
 
-`report.drawing.read_dxf` fills it, and `report.drawing.plan_read` says what of it is the plan. A
-layer's name proposes what is drawn on it, which counts when it is taken (`report.cli.plan`); lines
-of text such as `RTU-1, height 42 in` have names and heights.
+`report.drawing_read.read_dxf` fills it, and `report.drawing_read.plan_read` says what of it is the
+plan. A layer's name proposes what is drawn on it, which counts when it is taken
+(`report.cli.plan`); lines of text such as `RTU-1, height 42 in` have names and heights.
 """
 
 from __future__ import annotations

@@ -1,0 +1,1 @@
+"""A roof plan read from a drawing into the workbook. Read `report.drawing_read.fill`."""
