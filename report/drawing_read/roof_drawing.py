@@ -326,7 +326,7 @@ def read_line(text: str, unit_m: float) -> tuple[str, Height | None]:
         return name, unclear
     unit = match["unit"] or ('"' if match["feet"] else "")
     if not unit and said.upper() in _ALSO_A_NAME:
-        return text, None
+        return text, None if said[0] in "Tt" else unclear
     if word and not unit and text[match.end() :].lstrip()[:1].isalnum():
         return name, unclear  # such as `42 yd` or `42 1/0`
     value, feet = (

@@ -296,7 +296,7 @@ def test_a_height_is_read_with_its_unit_or_that_of_the_drawing(text, name, value
     "text", ["HT 42x60", "HT 42-48 in", "HT 42.5.1", "HEIGHT 12345678", "HT 42 yd", "HT 1,200 mm",
              'RTU 1,42" HIGH', "TANK 1,200 mm high", 'HT 481#2"', 'RTU 481#2" HIGH', 'HT 481^2"',
              "HT 42a", r'HT 48{\S1#2;}"', 'HT 48" 1/2', '60x48"H', 'H 48"', 'TOP/CURB 18"',
-             '48" A.F.F.']
+             '48" A.F.F.', "RTU-1 +48", "EF-1 + 2"]
 )  # fmt: skip
 def test_a_number_that_is_not_read_whole_is_no_height(text):
     assert math.isnan(read_line(text, UNIT_M)[1].value_m)
@@ -304,7 +304,7 @@ def test_a_number_that_is_not_read_whole_is_no_height(text):
 
 @pytest.mark.parametrize(
     "text", ["HT-1", "HEIGHT VARIES", "WEIGHT 42", "ELEVATOR 2", "42 in", "H-1", "H 42", "PH=7",
-             "42H", "RTU-12 H", 'DUCT TO 48"', "480V 60 Hz", "12 HIGH ST", "ROOF TOP 2", "EF-1 + 2",
+             "42H", "RTU-12 H", 'DUCT TO 48"', "480V 60 Hz", "12 HIGH ST", "ROOF TOP 2",
              "ROOF-TOP UNIT 2", "GEL 5", "MODEL 48", "UP TO 48 V", "C++ 2", "(N) RTU-1"]
 )  # fmt: skip
 def test_a_number_that_no_word_calls_a_height_is_none(text):
