@@ -294,9 +294,9 @@ def _timed(layout: Layout, table: Floats, columns: Floats) -> Even:
     """Columns by the times in the first one, which must agree with a step that is stated."""
     source, stated = layout.source, layout.step()
     in_line = _pairs_in_line(layout, table) or 1
+    _check_decimal_comma(layout, table[:, 0])
     unit_s = _unit_of_times(layout, table)
     t_s = unit_s * table[:, 0]
-    _check_decimal_comma(layout, t_s)
 
     def line_of(row: int) -> int:
         return next(islice(layout.rows(), row // in_line, None))[0]
@@ -319,9 +319,10 @@ def _unit_of_times(layout: Layout, table: Floats) -> float:
     step = float(np.median(np.diff(table[:, 0])))
     if not (heading and heading.unit) and step >= _LONGEST_STEP and len(table) > _FEW:
         what = shown(heading.text) if heading else "a first column"
+        or_none = "" if heading else ", or delete the column if it counts the samples"
         raise InputError(
             f"{layout.source.at(max(layout.heading_index, 0))}: found {what} with steps of"
-            f" {step:g}; give the unit of the times, such as time_s or time_ms"
+            f" {step:g}; give the unit of the times, such as time_s or time_ms{or_none}"
         )
     return unit_s
 
@@ -345,11 +346,11 @@ def _check_is_time(layout: Layout, table: Floats) -> None:
         )
 
 
-def _check_decimal_comma(layout: Layout, t_s: Floats) -> None:
+def _check_decimal_comma(layout: Layout, times: Floats) -> None:
     """Raise for rows such as `0,12` and `0,13`: one column with decimal commas, not two."""
     rows = list(islice(layout.rows(), _LOOKED_AT))
     # `0,12` may be two columns, times and values: even times say that it is.
-    if is_even(t_s) or not all(DECIMAL_COMMA.fullmatch(content) for _, content in rows):
+    if is_even(times) or not all(DECIMAL_COMMA.fullmatch(content) for _, content in rows):
         return
     index, content = rows[0]
     raise InputError(

@@ -5,6 +5,7 @@ import io
 import json
 import re
 import zipfile
+from ast import literal_eval
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -47,9 +48,10 @@ def table(*columns, head="", mark=","):
     return lines(*([head] if head else []), *(mark.join(row) for row in zip(*columns, strict=True)))
 
 
-def across(values, per_line, head=()):
+def across(values, per_line, head=(), *, numbered=False):
     starts = range(0, len(values), per_line)
-    return lines(*head, *("  ".join(values[k : k + per_line]) for k in starts))
+    rows = ["  ".join(values[k : k + per_line]) for k in starts]
+    return lines(*head, *(f"{row}  {k}" if numbered else row for k, row in enumerate(rows, 1)))
 
 
 def zipped(name, text):
@@ -113,6 +115,27 @@ KINDS = {
         table(map(str, range(COUNT)), V, head="n,acc_g"),
         "give times in seconds, such as time_s", PLAIN,
     ),
+    "numbers of samples without a heading": Kind(
+        table(map(str, range(COUNT)), V, mark=" "), "or delete the column if it counts the samples",
+        COLUMN, given=IN_G, then=BOTH,
+    ),
+    "lines with their numbers": Kind(
+        across(V, 8, numbered=True),
+        r"column 9 counts the lines: delete it; .*--values-per-line (\d+)", across(V, 8),
+        given=BOTH, then=BOTH | {"values_per_line": "1"},
+    ),
+    "lines with their numbers before times": Kind(
+        table(map(str, range(COUNT)), T, V, mark=" "), "column 1 counts the lines: delete it",
+        table(T, V, mark=" "), given=IN_G, then=IN_G,
+    ),
+    "tables side by side": Kind(
+        table(T, V, T, GAL, mark=" "), "tables side by side; give one of them",
+        table(T, V, mark=" "), given=IN_G, then=IN_G,
+    ),
+    "rounded times": Kind(
+        table([f"{float(t):.1f}" for t in T], V, head="time_s,acc_g"),
+        r"give the time step dt, such as ([\d.]+)", then={"dt_s": "1"},
+    ),
     "times in microseconds": Kind(
         table([f"{10_000 * k}" for k in range(COUNT)], V, head="time_us,acc_g"),
         "give them in s, ms or min, such as time_s", PLAIN,
@@ -161,6 +184,10 @@ KINDS = {
     "a decimal comma": Kind(
         table(T, [value.replace(".", ",") for value in V], mark=" "),
         "give a number with a decimal point", table(T, V, mark=" "), given=IN_G, then=IN_G,
+    ),
+    "a column with decimal commas": Kind(
+        lines(*(value.replace(".", ",") for value in V)), "give a number with a decimal point",
+        COLUMN, given=BOTH, then=BOTH,
     ),
     "commas for thousands": Kind(
         table(T, [f"{10.0 * float(value):,.3f}" for value in GAL], head="time_s a_mm/s2", mark=" "),
@@ -269,7 +296,8 @@ def test_what_the_refusal_of_a_record_says_would_do_does(file, name):
     said = "\n".join(map(str, refused(read_record, file(kind.content), **kind.given)))
     advised = re.search(kind.advice, said)
     assert advised, said
-    then = {key: int(advised[1]) if value == "1" else value for key, value in kind.then.items()}
+    then = {key: literal_eval(advised[1]) if value == "1" else value
+            for key, value in kind.then.items()}  # fmt: skip
     record = read_record(file(kind.followed or kind.content), **then)
     assert record.dt_s == pytest.approx(DT_S, rel=1e-12)
     assert record.a_mps2 == pytest.approx(G * TRUTH_G, abs=1e-5)
