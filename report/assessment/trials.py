@@ -21,9 +21,6 @@ from report.sheet.schema import ProjectInput
 from report.sheet.schema.scene import Array, Clearance
 from solver.model import Status
 
-# Resolution of the searches for a friction coefficient.
-HUNDREDTH = 0.01
-
 # Hundredths between the values of each pass of a search: coarse first, as each value takes runs.
 STRIDES = (5, 1)
 

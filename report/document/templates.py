@@ -46,7 +46,6 @@ OF_PACKAGE = (
     "both_up",
     "clause",
     "friction_basis",
-    "limit_of",
     "mark",
     "rule_length",
 )

@@ -16,7 +16,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.checks.check import alike, words
+from report.assessment.checks.check import alike, sentence, words
 from report.assessment.checks.limits import building_limits, of_limit
 from report.assessment.evidence import Evidence
 from report.assessment.project import Assessment, ChangeKind, Changes
@@ -39,15 +39,12 @@ from report.text.formats import VALIDATION
 
 
 def _review(package: PackageData) -> Mapping[str, object]:
-    """Return the arrays that peer review concerns: by analysis, and on roofs over a slope limit."""
-    arrays = package.assessment.arrays
-    excepted = {
-        item.id: check for item in arrays for check in item.limits if check.passes_by_exception
-    }
+    """Return the arrays that peer review concerns, and what it lets exceed a limit."""
+    done = package.assessment
+    excepted = alike(check for check in done.checks if check.is_excepted)
     return {
-        "by_analysis": [item.id for item in arrays if item.route is Route.ANALYSIS],
-        "steeper": list(excepted),
-        "slope_limit": next(iter(excepted.values()), None),
+        "by_analysis": [item.id for item in done.arrays if item.route is Route.ANALYSIS],
+        "excepted": [sentence(check, done.project.us_first) for check in excepted],
     }
 
 

@@ -42,13 +42,9 @@ from solver.rules.rulesets import ALLOWED
 
 def limits(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the part on limits and requirements."""
-    limits = (check for item in package.assessment.arrays for check in item.limits)
-    excepted = [check for check in limits if check.passes_by_exception]
     return {
         "checks": all_checks(package.assessment),
         "remedies": list(remedy_lines(package.assessment, evidence.remedies)),
-        # One note explains the exception, however many arrays take it.
-        "excepted": excepted[:1],
         "warnings": list(_warnings(package)),
     }
 

@@ -24,10 +24,8 @@ from report.entities.requirement import Marked
 from report.provenance.files import fingerprint
 from report.sheet.schema.choices import PackageEdition, RecordedAt
 from report.sheet.schema.scene import Array
-from report.text.amounts import limit_texts
 from report.text.counts import ids_by
 from report.text.units import no_less, no_more
-from solver.rules.limit import Limit
 from solver.rules.provisions import Basis
 from solver.rules.rulesets import ALLOWED
 
@@ -129,10 +127,6 @@ class PackageData(Marked):
         show = no_more if ALLOWED[key].is_maximum else no_less
         length = self.fmt.both(self.assessment.rules.length_m(key), show=show)
         return length + self.mark(key)
-
-    def limit_of(self, check: Limit) -> str:
-        """Return the limit itself."""
-        return limit_texts(check, self.fmt.us_first)[1]
 
     def friction_basis(self, array: Array) -> str:
         """Return where the friction of an array comes from."""

@@ -183,7 +183,7 @@ def test_the_low_velocity_coefficient_is_a_case_where_the_slack_is_then_too_shor
         return support(assessed(9.0, arrays=[stand_in.array("A1", 2.0, slack_m=slack_m, **LAW)]))
 
     (case,) = by_velocity_with(0.99 * alone_m).cases
-    assert case.words(us_first=True).endswith(", NG: electrical slack 1.02.")
+    assert case.words(us_first=True).endswith(", NG: electrical slack (D/C 1.02).")
     assert by_velocity_with(1.01 * alone_m).cases == ()
 
 
@@ -196,7 +196,7 @@ def test_the_low_velocity_coefficient_is_a_case_only_where_it_changes_something(
     assert [gap.verdict for gap in case.short] == [Verdict.NG]
     words = case.words(us_first=True)
     assert words.startswith("A1 with μ = 0.20 at every velocity: design displacement ")
-    assert ", NG: A1 to RTU-1 " in words
+    assert ", NG: clearance A1 to RTU-1 (D/C " in words
     done = by_velocity(1.01 * alone_m)
     assert done.arrays[0].prescriptive.value_m > alone_m
     assert support(done).cases == ()

@@ -111,7 +111,7 @@ def test_a_steep_roof_is_ng_with_its_value_and_limit_everywhere(steep, reported,
     assert (finding["cell"], finding["reason"]) == (at("Arrays/A1/Weight"), REASON["reason"])
     # An NG that is not of the clearance says what it is of.
     (of_the_array,) = (line for line in lines if line.startswith("A1 "))
-    assert "NG: roof slope, any ballasted system 1.68 and " in of_the_array
+    assert "NG: roof slope, any ballasted system (D/C 1.68) and " in of_the_array
     assert (
         "NG: Roof slope, any ballasted system, A1: 8.00° (14.1 %). Required: at most 4.76° (8.3 %)†"
         " (IBC 1613.3†)."
@@ -126,7 +126,7 @@ def test_report_as_json_has_arrays_causes_and_files(steep):
     assert (document["schema_version"], document["verdict"], document["errors"]) == (1, "NG", [])
     first = document["arrays"][0]
     assert (first["id"], first["verdict"]) == ("A1", "NG")
-    assert "roof slope, analysis route 1.15" in first["causes"]
+    assert "roof slope, analysis route (D/C 1.15)" in first["causes"]
     assert any(name.endswith("calc-package.pdf") for name in document["files"])
     assert {line["level"] for line in document["attention"]} >= {"NG", "warning"}
 

@@ -54,7 +54,7 @@ STATES = {
         "no limit the normal force falls below zero, which no model covers none",
         "A1, A2 −0.40 0.996 no limit",  # minimum normal force, time of uplift, demand
     ),
-    "NG": (of(**NARROW), " checks is not satisfied: A1 to A2, clearance."),
+    "NG": (of(**NARROW), " checks is not satisfied: clearance A1 to A2 (D/C "),
     "plan check": (
         of(options={"package_edition": "plan check", "letter": False}),
         "A Records, software",

@@ -98,10 +98,11 @@ def test_an_array_that_is_ng_by_a_missing_clearance_says_so_in_its_row():
         clearances=[stand_in.clearance("A2", "A1", 40.0)],
     )
     verdicts = printed(made, "letter").table("Results").column("Verdict")
-    assert verdicts == ["NG clearance as on the plan A1 to RTU-9 3.40", "Condition"]
+    assert verdicts == ["NG clearance as on the plan A1 to RTU-9 (D/C 3.40)", "Condition"]
     assert printed(made, "summary").table("Arrays").column("Verdict") == ["NG", "Condition"]
     assert any(
-        "NG: clearance as on the plan A1 to RTU-9 3.40" in line for line in summary(made.assessment)
+        "NG: clearance as on the plan A1 to RTU-9 (D/C 3.40)" in line
+        for line in summary(made.assessment)
     )
 
 
@@ -160,7 +161,7 @@ def test_the_letter_and_the_cause_say_what_is_not_given():
         "The clearance is not satisfied. The plan shows it without a row in the workbook." in said
     )
     given = scenes.package(arrays=[stand_in.array("A1", 0.5)], objects=[], clearances=[])
-    rows = {check.id: words(check) for check in given.assessment.checks}
+    rows = {check.id: words(check, "A1") for check in given.assessment.checks}
     assert rows["electrical_slack"] == "electrical slack not given"
     assert rows["interconnection"] == "interconnection strength not given"
 
@@ -168,11 +169,11 @@ def test_the_letter_and_the_cause_say_what_is_not_given():
 @pytest.mark.parametrize(
     ("array", "gap", "cause"),
     [
-        ({"slack_m": 0.001}, {}, "electrical slack 1035.99"),
-        ({"interconnection_n": 1.0}, {}, "interconnection strength 19455.81"),
-        ({"roof_capacity_pa": 1.0}, {}, "weight per plan area 418.96"),
-        ({}, {"pathway_m": 8.9}, "fire pathway after displacement A1 to RTU-1 1.12"),
-        ({"slope_value": 6.9}, {}, "roof slope, any ballasted system 1.45"),
+        ({"slack_m": 0.001}, {}, "electrical slack (D/C > 100)"),
+        ({"interconnection_n": 1.0}, {}, "interconnection strength (D/C > 100)"),
+        ({"roof_capacity_pa": 1.0}, {}, "weight per plan area (D/C > 100)"),
+        ({}, {"pathway_m": 8.9}, "fire pathway after displacement A1 to RTU-1 (D/C 1.12)"),
+        ({"slope_value": 6.9}, {}, "roof slope, any ballasted system (D/C 1.45)"),
     ],
 )
 def test_a_cause_says_what_is_wrong_and_not_what_is_compared(array, gap, cause):
