@@ -23,8 +23,8 @@ import report
 from report.cli.main import VARIABLE, main
 from report.cli.options import SectionedGroup
 from report.entities import results
-from report.sheet.schema import SECTIONS
-from report.sheet.schema.fields import Entry, entries
+from report.sheet.workbook import SECTIONS
+from report.sheet.workbook.entries import Entry, rows_of
 from solver import public
 
 HERE = Path(__file__).resolve().parent
@@ -157,11 +157,11 @@ def _first_cell(path: Path) -> list[str]:
 def _fields() -> Parts:
     for section in SECTIONS:
         place = "a table" if section.is_table else "single cells"
-        fields = entries(section.model) if section.is_table else [row for _, row in section.rows]
+        fields = [entry for _, entry in rows_of(section, SECTIONS)]
         rows = "\n".join(map(_field, fields))
         yield (
             f"{section.sheet}: {section.title}",
-            f"{_text(section.instruction)} ({place})\n\n"
+            f"{_text(section.note)} ({place})\n\n"
             f"| field | need | unit | accepted | meaning |\n|---|---|---|---|---|\n{rows}",
         )
 
@@ -171,11 +171,11 @@ def _field(entry: Entry) -> str:
     units = [unit.symbol for unit in dict.fromkeys(quantity.value)] if quantity else []
     accepted = ", ".join(entry.choices) or _range(entry)
     cells = (
-        entry.cell.label,
-        entry.need,
-        " or ".join(units) if quantity else str(entry.cell.unit),
+        entry.heading,
+        entry.needed,
+        " or ".join(units) if quantity else str(entry.unit),
         accepted,
-        entry.help,
+        entry.note,
     )
     return f"| {' | '.join(map(_text, cells))} |"
 

@@ -20,8 +20,9 @@ from report.assessment.assess import assess
 from report.assessment.project import Assessment
 from report.motions.prepare import prepare
 from report.sheet.reading.read import Sheet
-from report.sheet.schema import SECTION, ProjectInput
+from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Frozen
+from report.sheet.workbook import SECTION
 from report.sheet.writing.template import write_template
 
 PSF = LB / FT**2

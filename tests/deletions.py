@@ -20,8 +20,8 @@ from report.assessment.verdict import PLAN_ROW, Verdict
 from report.motions.prepare import Shaking, prepare
 from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.read import Sheet, read_book
-from report.sheet.schema import SECTION
 from report.sheet.schema.fields import Place
+from report.sheet.workbook import SECTION
 from report.text.counts import grouped_by
 from solver.model import InputError
 

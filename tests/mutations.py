@@ -23,8 +23,7 @@ from report.sheet.reading.cells import LARGEST, Found, read_cell
 from report.sheet.reading.parts import changed
 from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.read import read
-from report.sheet.schema import SECTIONS
-from report.sheet.schema.fields import entries
+from report.sheet.workbook import SECTIONS
 from sheets import make
 from solver import InputError, slide
 from solver.formats import read_motion_file
@@ -174,7 +173,7 @@ def _argument(rng):
 
 @cache
 def _fields():
-    return tuple((section, entry) for section in SECTIONS for entry in entries(section.model))
+    return tuple((section, entry) for section in SECTIONS for entry in section.entries)
 
 
 def _value(rng):

@@ -7,8 +7,8 @@ from pathlib import Path
 from openpyxl import load_workbook
 
 from report.sheet.reading.read import read
-from report.sheet.schema import SECTIONS
-from report.sheet.schema.fields import Place, entries
+from report.sheet.schema.fields import Place
+from report.sheet.workbook import SECTIONS
 
 
 def typed_cells(workbook: Path) -> dict[str, dict[str, str]]:
@@ -21,7 +21,7 @@ def typed_cells(workbook: Path) -> dict[str, dict[str, str]]:
     found: dict[str, dict[str, str]] = {section.sheet: {} for section in SECTIONS}
     for section in SECTIONS:
         for row, values in enumerate(sheet.draft[section.key]):
-            for entry in entries(section.model):
+            for entry in section.entries:
                 if values.get(entry.name) not in (None, "", entry.default):
                     address = sheet.where(Place(section.key, row, entry.name))
                     title, _, at = address.rpartition("!")

@@ -42,9 +42,10 @@ from report.motions.prepare import Shaking
 from report.sheet.checking.checks import faults
 from report.sheet.checking.covered import outdated
 from report.sheet.reading.read import Sheet
-from report.sheet.schema import SECTIONS, ProjectInput, linked
+from report.sheet.schema import ProjectInput, linked
 from report.sheet.schema.fields import Draft, Finding
 from report.sheet.schema.scene import Array
+from report.sheet.workbook import SECTIONS
 from solver.model import Motion
 from solver.records.acceptance import Acceptance
 from solver.rules.provisions import RuleSet

@@ -108,12 +108,12 @@ def _without_motions(sheet: Sheet, shaking: Shaking) -> Iterator[Finding]:
 def _computed(sheet: Sheet) -> Iterator[Finding]:
     """Yield what blank cells of the site stand for, by which rule."""
     from report.sheet.checking.findings import note
-    from report.sheet.schema import SECTION
     from report.sheet.schema.fields import Place
+    from report.sheet.workbook import SECTION
 
     site = SECTION["site"]
     blank = {row.address: row.value for row in sheet.echo if not row.typed}
-    for name in site.model.computed_last:
+    for name in (entry.name for entry in site.entries if entry.rule):
         place = Place("site", 0, name)
         value = blank.get(sheet.addresses[place], "")
         if "(computed" in value:

@@ -30,7 +30,6 @@ from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.locate import cell_as_column, find_cell, is_absent
 from report.sheet.reading.parts import DIGITS, GrowingTable, Value
 from report.sheet.reading.positions import CellPosition, found_at
-from report.sheet.schema import SECTION
 from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.fields import Draft, DraftRow
 from report.sheet.schema.scene import DRAWING, DRAWN_MODULES, ROOF, SIDES
@@ -44,6 +43,7 @@ from report.sheet.schema.shapes import (
     sides,
     solid,
 )
+from report.sheet.workbook import SECTION
 from report.text.counts import grouped_by
 from report.text.formats import aligned
 from report.text.units import LENGTHS, Quantity, Unit

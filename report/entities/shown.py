@@ -6,10 +6,13 @@ The value of a field is that of the attribute of the assessment with its name, o
 
 from __future__ import annotations
 
+import ast
+import inspect
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
+from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Self, TypeVar
 
 from pydantic import (
@@ -25,7 +28,9 @@ from pydantic import (
 from pydantic.json_schema import GenerateJsonSchema, SkipJsonSchema
 
 from report.assessment.project import ChangeKind
-from report.sheet.schema.fields import Cell, docstrings
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.fields import Frozen
+from report.sheet.workbook import SECTION, SECTIONS
 from report.text.units import (
     NEWTONS_PER_POUND,
     NOISE,
@@ -333,7 +338,7 @@ class Entity(BaseModel):
 
 def _title(said: object) -> str:
     match said:
-        case Shown(head=title) | Cell(label=title):
+        case Shown(head=title):
             return title
         case Column():
             return said.head.partition("[")[0].strip()
@@ -345,8 +350,10 @@ class WrittenSchema(GenerateJsonSchema):
 
     def model_schema(self, schema: Any) -> dict[str, Any]:
         """Return the schema of a model, each field with its docstring or that of a base class."""
-        # The heading of a field, or the label of its cell, is its title.
-        written, model = super().model_schema(schema), schema["cls"]
+        written: dict[str, Any] = super().model_schema(schema)
+        model = schema["cls"]
+        if issubclass(model, Frozen):
+            return _with_notes(written, model)
         for name in written["properties"]:
             if title := next(filter(None, map(_title, model.model_fields[name].metadata)), ""):
                 written["properties"][name]["title"] = title
@@ -360,6 +367,35 @@ class WrittenSchema(GenerateJsonSchema):
     def field_is_present(self, field: Any) -> bool:
         """Return whether a field is written."""
         return not field.get("serialization_exclude")
+
+
+def _with_notes(written: dict[str, Any], model: type[Frozen]) -> dict[str, Any]:
+    """Return the schema of a model of the workbook with the headings and notes of its inputs."""
+    if model is ProjectInput:
+        for name, of in written["properties"].items():
+            of["description"] = SECTION[name].note
+    for section in SECTIONS:
+        for entry in section.entries if section.model is model else ():
+            of = written["properties"][entry.name]
+            of["title"] = entry.heading
+            of["description"] = entry.note
+    return written
+
+
+@cache
+def docstrings(model: type[BaseModel]) -> Mapping[str, str]:
+    """Return the docstrings of the fields that a model and those it extends have."""
+    # As `use_attribute_docstrings` of pydantic, which takes its time whenever a model is imported.
+    (definition,) = ast.parse(inspect.getsource(model)).body
+    assert isinstance(definition, ast.ClassDef)
+    texts: dict[str, str] = {}
+    for base in model.__bases__:
+        texts |= docstrings(base) if getattr(base, "model_fields", None) else {}
+    for field, text in pairwise(definition.body):
+        match field, text:
+            case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=said)):
+                texts[name] = " ".join(str(said).split())
+    return texts
 
 
 # Hides an attribute of an item: its field keeps the default.

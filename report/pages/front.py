@@ -33,8 +33,8 @@ from report.pages.checks import (
 from report.pages.parts import PackageData, statistic
 from report.pages.symbols import friction_standard
 from report.sheet.reading.linked_files import StudyYears, YearsOfArray
-from report.sheet.schema import SECTION
 from report.sheet.schema.project import Revision
+from report.sheet.workbook import SECTION
 from report.text.formats import VALIDATION
 
 
@@ -178,7 +178,7 @@ def comparison(package: PackageData, evidence: Evidence) -> Mapping[str, object]
 def _years(package: PackageData) -> Iterator[Mapping[str, object]]:
     """Yield the study of years with its file, and the arrays of both; nothing without one."""
     sheet = package.assessment.sheet
-    label = SECTION["options"].entry("study_years").cell.label
+    label = SECTION["options"].entry("study_years").heading
     # Ids are the same in any case, as in the workbook.
     by_id = {array.id.casefold(): array for array in package.assessment.arrays}
     for document in sheet.documents:

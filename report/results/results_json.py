@@ -23,8 +23,9 @@ from report.entities.array import ArrayResult
 from report.entities.results import SCHEMA_VERSION, Compared, compared, results
 from report.entities.shown import Entity, Told, UnitFormat, marks_of
 from report.sheet.checking.covered import COVERED
-from report.sheet.schema import SECTIONS
-from report.sheet.schema.fields import Entry, Frozen, Place, SheetSection, YesNo, entries
+from report.sheet.schema.fields import Frozen, Place, YesNo
+from report.sheet.workbook import SECTIONS
+from report.sheet.workbook.entries import Entry, SheetSection
 from report.text.counts import UNPRINTABLE, cut
 from report.text.formats import finite
 from report.text.units import in_us_order
@@ -282,7 +283,7 @@ def _cells(section: SheetSection, index: int, assessment: Assessment) -> Mapping
     addresses = assessment.sheet.addresses
     return {
         entry: addresses.get(Place(section.key, index, entry.name), "")
-        for entry in entries(section.model)
+        for entry in section.entries
         if entry.name not in COVERED
     }
 
@@ -313,7 +314,7 @@ def _fields(
     for entry, cell in cells.items():
         before, now = getattr(old, entry.name), getattr(new, entry.name)
         if not _same(before, now):
-            title = f"{name}: {entry.cell.label}" if name else entry.cell.label
+            title = f"{name}: {entry.heading}" if name else entry.heading
             shown = [_shown(entry, value, us_first) for value in (before, now)]
             yield _input(title, shown[0], shown[1], cell)
 
@@ -335,7 +336,7 @@ def _shown(entry: Entry, value: Any, us_first: bool) -> str:
         if entry.quantity:
             unit = UnitFormat(us_first).units(entry.quantity)[0]
             return f"{value / unit.si:.8g} {unit.symbol}"
-        return f"{value:.8g} {entry.cell.unit}".rstrip()
+        return f"{value:.8g} {entry.unit}".rstrip()
     return str(value)
 
 

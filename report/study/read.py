@@ -15,18 +15,18 @@ from report.sheet.reading.archive import open_book
 from report.sheet.reading.locate import is_absent
 from report.sheet.reading.read import SheetOf, read_as
 from report.sheet.schema.choices import RecordedAt, UnitsFirst
-from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where, entries, sections_of
+from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
 from report.sheet.writing.template import book_of, saved
 from report.study.schema import (
     MOST_CASES,
     MOST_VALUES,
-    Hazard,
     Intensity,
     Sampling,
     StudyInput,
     tested,
     values,
 )
+from report.study.workbook import HAZARD, STUDY, STUDY_SECTIONS
 from solver.files import write_whole
 from solver.model import InputError
 
@@ -46,13 +46,12 @@ def read_study(path: Path) -> StudySheet:
     Raises `InputError` if it is not a study workbook, or with every problem by its cell.
     """
     book = open_book(path)
-    study = sections_of(StudyInput)[0]
-    if is_absent(book, study):
+    if is_absent(book, STUDY):
         raise InputError(
-            f"{book.path}: has no sheet {study.sheet}; write a study workbook with: "
+            f"{book.path}: has no sheet {STUDY.sheet}; write a study workbook with: "
             "roofslip new DIR --study"
         )
-    sheet = read_as(StudyInput, book, _faults)
+    sheet = read_as(StudyInput, STUDY_SECTIONS, book, _faults)
     sheet.refuse(())
     return sheet
 
@@ -170,7 +169,7 @@ _OF_CURVE = ("site", "source", "edition", "vs30_mps", "site_vs30_mps")
 def _about_hazard(study: DraftRow, draft: Draft) -> Iterator[Finding]:
     """Yield what a hazard curve lacks, and what is given without one."""
     hazard = draft["hazard"][0] if draft["hazard"] else {}
-    labels = {entry.name: entry.spoken for entry in entries(Hazard)}
+    labels = {entry.name: entry.spoken for entry in HAZARD.entries}
 
     def at(field: str, found: str, remedy: str) -> Finding:
         return Finding.error(Place("hazard", 0, field), f"{labels[field]} {found}", remedy)
@@ -217,6 +216,5 @@ _NEEDLESS = {
 
 def write_study(path: Path, *, units: UnitsFirst, example: StudyInput | None = None) -> None:
     """Write or replace a study workbook, with the values of a study or blank but for defaults."""
-    sections = sections_of(StudyInput)
-    book, _ = book_of(sections, sections[0].sheet, units, example)
+    book, _ = book_of(STUDY_SECTIONS, STUDY.sheet, units, example)
     write_whole(path, saved(book, units))

@@ -27,9 +27,8 @@ from report.sheet.schema.choices import (
     Text,
     UnitsFirst,
 )
-from report.sheet.schema.fields import Cell, Frozen, OnSheet
+from report.sheet.schema.fields import Frozen
 from report.sheet.schema.project import FrictionTestRow
-from report.text.units import Quantity
 from solver.friction_tests import FrictionRun, Series, Surface, series
 from solver.studies.uncertainty import Spread, spread_of_tests
 
@@ -118,166 +117,88 @@ Dispersion = Annotated[float, Field(gt=0, le=2)]
 class Study(Frozen):
     """What is studied."""
 
-    title: Annotated[RequiredText, Cell("Title", "Mats of product X")]
-    """Printed on the first page."""
-    prepared_by: Annotated[Text, Cell("Prepared by", "RG")] = ""
-    """Printed on the first page."""
-    date: Annotated[dt.date, Cell("Date", dt.date(2026, 3, 1))]
-    """Printed on every page."""
-    units_first: Annotated[UnitsFirst, Cell("Primary units", "US")] = UnitsFirst.US
-    """Units printed first."""
-    slopes_deg: Annotated[RequiredText, Cell("Slopes", "0 to 7 by 1", "deg")]
-    """Increasing, 0 or more: a list with a blank after each comma, or from, to and step."""
-    mus: Annotated[Text, Cell("Friction coefficients", "0.3 to 0.8 by 0.05")] = ""
-    """Increasing, above 0, in addition to those of the mats. Required without mats."""
-    intensity: Annotated[Intensity, Cell("Intensity measure", "PPA [g]")] = Intensity.PPA
-    """The motions are scaled to each intensity: PPA and PPV are peaks of the horizontal record at
-    the roof, PGA of a ground motion; S_DS scales from the S_DS below."""
-    intensities: Annotated[RequiredText, Cell("Intensities", "0.1 to 2 by 0.1")]
-    """Increasing, above 0, given like the slopes."""
-    s_ds_g: Annotated[float | None, Field(gt=0, le=5), Cell("S_DS of the motions", 1.0, "g")] = None
-    """S_DS that the records represent. Required with S_DS."""
-    rule_set: Annotated[RuleSetName, Cell("Rule set", "SEAOC PV1-2012")] = RuleSetName(
-        "SEAOC PV1-2012"
-    )
-    """For the prescriptive displacement beside the curves."""
-    allowed_m: Annotated[Positive | None, Cell("Allowed displacement", 24.0, Quantity.SIZE)] = None
-    """Gives the least friction and the largest slope. Blank for none."""
-    folder: Annotated[Text, Cell("Folder of motions", "records")] = ""
-    """Every record in it is a motion; files that differ only in an ending -x, -y or -z are the
-    components of one. Blank if the sheet Motions lists them."""
-    units: Annotated[AccelUnit, Cell("Record units", "from file")] = AccelUnit.FROM_FILE
-    """If the files do not state them."""
-    dt_s: Annotated[float | None, Field(gt=0, le=1), Cell("Time step", 0.01, "s")] = None
-    """If the files do not state it."""
-    polarity: Annotated[Polarity, Cell("Polarity", "both")] = Polarity.BOTH
-    """Signs in which each horizontal record is run."""
-    recorded_at: Annotated[RecordedAt, Cell("Recorded at", "roof")] = RecordedAt.ROOF
-    """Ground motions are carried through each building."""
-    no_value: Annotated[NoValue, Cell("Run without a value", "exceedance")] = NoValue.EXCEEDANCE
-    """Uplift, or sliding at the end of the record: counted in a fragility as an exceedance, or
-    censored at that intensity."""
-    site_intensity: Annotated[
-        Positive | None,
-        Cell(
-            "Intensity at the site",
-            1.0,
-            unit_from=("intensity", lambda text: Intensity(text).unit if text else ""),
-        ),
-    ] = None
-    """Median; gives the probability that a clearance is exceeded. Blank for none."""
-    intensity_beta: Annotated[float, Field(ge=0, le=2), Cell("Dispersion of intensity", 0.2)] = 0.0
-    """Standard deviation of its logarithm."""
-    slope_tolerance_deg: Annotated[
-        float, Field(ge=0, le=5), Cell("Tolerance of slope", 0.25, "deg")
-    ] = 0.0
-    """Half the width of a uniform distribution."""
-    sampling: Annotated[Sampling, Cell("Sampling", "Latin hypercube")] = Sampling.LATIN_HYPERCUBE
-    """Latin hypercube of friction, slope and intensity; or every tested friction with the slope at
-    its tolerances and middle, and the median intensity."""
-    samples: Annotated[int, Field(ge=10, le=5000), Cell("Samples", 200)] = 200
-    """Of the Latin hypercube, each under every motion."""
-    seed: Annotated[int, Field(ge=0, le=2**31), Cell("Seed", 1)] = 1
-    """The same seed gives the same samples."""
-    record_beta: Annotated[Dispersion | None, Cell("Record-to-record dispersion", 0.4)] = None
-    """Of the exported fragilities, in place of that of the motions. Required for motions matched to
-    one spectrum. Blank: that of the motions."""
-    record_source: Annotated[Text, Cell("Record-to-record source", "Hazard analysis, 2026")] = ""
-    """Required with the value."""
-    modeling_beta: Annotated[Dispersion | None, Cell("Modeling dispersion", 0.25)] = None
-    """Of the exported fragilities. FEMA P-58 has about 0.1 to 0.5. Blank: not included."""
-    quality_beta: Annotated[Dispersion | None, Cell("Quality of data dispersion", 0.25)] = None
-    """Of the exported fragilities. FEMA P-58 has about 0.1 to 0.5. Blank: not included."""
+    title: RequiredText
+    prepared_by: Text = ""
+    date: dt.date
+    units_first: UnitsFirst = UnitsFirst.US
+    slopes_deg: RequiredText
+    mus: Text = ""
+    intensity: Intensity = Intensity.PPA
+    intensities: RequiredText
+    s_ds_g: Annotated[float | None, Field(gt=0, le=5)] = None
+    rule_set: RuleSetName = RuleSetName("SEAOC PV1-2012")
+    allowed_m: Positive | None = None
+    folder: Text = ""
+    units: AccelUnit = AccelUnit.FROM_FILE
+    dt_s: Annotated[float | None, Field(gt=0, le=1)] = None
+    polarity: Polarity = Polarity.BOTH
+    recorded_at: RecordedAt = RecordedAt.ROOF
+    no_value: NoValue = NoValue.EXCEEDANCE
+    site_intensity: Positive | None = None
+    intensity_beta: Annotated[float, Field(ge=0, le=2)] = 0.0
+    slope_tolerance_deg: Annotated[float, Field(ge=0, le=5)] = 0.0
+    sampling: Sampling = Sampling.LATIN_HYPERCUBE
+    samples: Annotated[int, Field(ge=10, le=5000)] = 200
+    seed: Annotated[int, Field(ge=0, le=2**31)] = 1
+    record_beta: Dispersion | None = None
+    record_source: Text = ""
+    modeling_beta: Dispersion | None = None
+    quality_beta: Dispersion | None = None
 
 
 class Mat(Frozen):
     """A mat: its friction coefficient, or tested values."""
 
-    id: Annotated[Id, Cell("ID", "EPDM pad")]
-    """Short and unique."""
-    mu: Annotated[float | None, Field(gt=0, le=2), Cell("Friction coefficient", 0.5)] = None
-    """Blank: the geometric mean of the tested values."""
-    tested: Annotated[Text, Cell("Tested values", "0.47, 0.50, 0.53")] = ""
-    """Three or more, in any order; blank for none."""
-    report: Annotated[Text, Cell("Report", "Lab 12")] = ""
-    """Printed."""
+    id: Id
+    mu: Annotated[float | None, Field(gt=0, le=2)] = None
+    tested: Text = ""
+    report: Text = ""
 
 
 class StudyArray(Frozen):
     """An array for which fragilities are made."""
 
-    id: Annotated[Id, Cell("ID", "A1")]
-    """Short and unique."""
-    mat: Annotated[Id, Cell("Mat", "EPDM pad")]
-    """ID on the sheet Mats."""
-    slope_deg: Annotated[float, Field(ge=0, le=45), Cell("Slope", 2.0, "deg")]
-    """Of the roof."""
-    clearance_m: Annotated[Positive, Cell("Clearance", 24.0, Quantity.SIZE)]
-    """To the nearest object or edge."""
-    reaches: Annotated[Text, Cell("Object", "RTU-1")] = ""
-    """What it strikes, or the edge it reaches."""
+    id: Id
+    mat: Id
+    slope_deg: Annotated[float, Field(ge=0, le=45)]
+    clearance_m: Positive
+    reaches: Text = ""
 
 
 class StudyMotion(Frozen):
     """A motion of a study."""
 
-    id: Annotated[Id, Cell("ID", "M1")]
-    """Short and unique."""
-    record: Annotated[RequiredText, Cell("Horizontal record", "records/m1-x.csv")]
-    """A file beside this workbook, or file | channel."""
-    transverse: Annotated[RequiredText | None, Cell("Transverse record", "records/m1-y.csv")] = None
-    """Second horizontal component."""
-    vertical: Annotated[RequiredText | None, Cell("Vertical record", "records/m1-z.csv")] = None
-    """Positive upward."""
-    source: Annotated[Text, Cell("Source", "Kobe 1995, JMA")] = ""
-    """Event and station."""
+    id: Id
+    record: RequiredText
+    transverse: RequiredText | None = None
+    vertical: RequiredText | None = None
+    source: Text = ""
 
 
 class StudyBuilding(Frozen):
     """A building of the family through which ground motions reach the roof."""
 
-    id: Annotated[Id, Cell("ID", "T 0.3 s")]
-    """Short and unique."""
-    period_s: Annotated[float, Field(gt=0, le=10), Cell("Period T1", 0.3, "s")]
-    """First mode."""
-    damping_percent: Annotated[float, Field(ge=1, le=50), Cell("Damping", 5.0, "%")] = 5.0
-    """Of all modes."""
-    stiffness_ratio: Annotated[
-        float | None, Field(ge=0, le=1000), Cell("Lateral stiffness ratio", 4.0)
-    ] = None
-    """H sqrt(GA/EI). Blank: shear deformation only."""
-    stories: Annotated[int, Field(ge=1, le=200), Cell("Stories", 1)] = 1
-    """Of equal height."""
+    id: Id
+    period_s: Annotated[float, Field(gt=0, le=10)]
+    damping_percent: Annotated[float, Field(ge=1, le=50)] = 5.0
+    stiffness_ratio: Annotated[float | None, Field(ge=0, le=1000)] = None
+    stories: Annotated[int, Field(ge=1, le=200)] = 1
 
 
 class Hazard(Frozen):
     """The hazard at the site, from which rates in years follow."""
 
-    file: Annotated[Text, Cell("Hazard curve file", "hazard-pga.csv")] = ""
-    """CSV beside this workbook: intensity and annual rate of exceedance in two columns, or as saved
-    by the USGS hazard tool. Blank: the table below, or no hazard."""
-    site: Annotated[Text, Cell("Site", "Los Angeles, 34.05, -118.25")] = ""
-    """Of the curve: name and coordinates. Required with a curve."""
-    source: Annotated[Text, Cell("Source of the curve", "USGS, nshmp-haz")] = ""
-    """Who computed it. Required with a curve."""
-    edition: Annotated[Text, Cell("Hazard model", "NSHM 2018, western US")] = ""
-    """Name and edition. Required with a curve."""
-    vs30_mps: Annotated[float | None, Field(gt=0), Cell("Vs30 of the curve", 760, "m/s")] = None
-    """Required with a curve."""
-    site_vs30_mps: Annotated[float | None, Field(gt=0), Cell("Vs30 of the site", 260, "m/s")] = None
-    """Required with a curve."""
-    site_factor: Annotated[Positive | None, Cell("Factor to the site", 1.2)] = None
-    """Intensity at the site / that of the curve. Required where their Vs30 differ."""
-    site_basis: Annotated[Text, Cell("Basis of this factor", "ASCE 7-16 Table 11.8-1")] = ""
-    """Required with the factor."""
-    roof_factor: Annotated[Positive | None, Cell("Factor to the roof", 3.0)] = None
-    """Intensity at the roof / that at the site. Required with roof motions; ground motions are
-    carried through the buildings."""
-    roof_basis: Annotated[Text, Cell("Basis of that factor", "ASCE 7-16 13.3.1, z/h = 1")] = ""
-    """Required with the factor."""
-    recenter_m: Annotated[Positive | None, Cell("Re-centering above", 6.0, Quantity.SIZE)] = None
-    """Distance above which an array is put back after an event, beside never and always. Blank:
-    those alone."""
+    file: Text = ""
+    site: Text = ""
+    source: Text = ""
+    edition: Text = ""
+    vs30_mps: Annotated[float | None, Field(gt=0)] = None
+    site_vs30_mps: Annotated[float | None, Field(gt=0)] = None
+    site_factor: Positive | None = None
+    site_basis: Text = ""
+    roof_factor: Positive | None = None
+    roof_basis: Text = ""
+    recenter_m: Positive | None = None
 
     @property
     def factor(self) -> float:
@@ -293,46 +214,27 @@ class Hazard(Frozen):
 class HazardPoint(Frozen):
     """A point of the hazard curve."""
 
-    intensity: Annotated[Positive, Cell("Intensity", 0.5)]
-    """PGA or Sa(1 s) [g]: as the intensity measure."""
-    annual_rate: Annotated[float, Field(ge=0), Cell("Annual rate", 0.0021)]
-    """At which it is exceeded [1/year]."""
+    intensity: Positive
+    annual_rate: Annotated[float, Field(ge=0)]
 
 
 class StudyFrictionRun(FrictionTestRow):
     """One run of a friction test of a mat."""
 
-    mat: Annotated[Id, Cell("Mat", "EPDM pad")]
-    """ID on the sheet Mats."""
+    mat: Id
 
 
 class StudyInput(Frozen):
     """The complete input of a study workbook."""
 
-    study: Annotated[Study, OnSheet("Study", "Study")]
-    """Fill in, then run roofslip study FOLDER."""
-    mats: Annotated[tuple[Mat, ...], OnSheet("Mats", "Mats")] = ()
-    """One row for each mat; optional."""
-    study_arrays: Annotated[tuple[StudyArray, ...], OnSheet("Arrays", "Arrays")] = ()
-    """Optional: one row for each fragility."""
-    motions: Annotated[tuple[StudyMotion, ...], OnSheet("Motions", "Motions")] = ()
-    """One row for each motion; leave blank if the sheet Study names a folder."""
-    buildings: Annotated[tuple[StudyBuilding, ...], OnSheet("Buildings", "Buildings")] = ()
-    """Only for ground motions: one row each."""
-    hazard: Annotated[Hazard, OnSheet("Hazard", "Hazard at the site", may_be_absent=True)] = (
-        Hazard()
-    )
-    """Optional: gives rates in years and the displacement of 25 years."""
-    hazard_points: Annotated[
-        tuple[HazardPoint, ...], OnSheet("Hazard", "Hazard curve", may_be_absent=True)
-    ] = ()
-    """In place of a file, from the smallest intensity."""
-    friction_runs: Annotated[
-        tuple[StudyFrictionRun, ...],
-        OnSheet("Friction runs", "Runs of the friction tests", may_be_absent=True),
-    ] = ()
-    """Optional: as on the sheet Friction tests of a project, for each mat. With a hazard they take
-    the place of the tested values."""
+    study: Study
+    mats: tuple[Mat, ...] = ()
+    study_arrays: tuple[StudyArray, ...] = ()
+    motions: tuple[StudyMotion, ...] = ()
+    buildings: tuple[StudyBuilding, ...] = ()
+    hazard: Hazard = Hazard()
+    hazard_points: tuple[HazardPoint, ...] = ()
+    friction_runs: tuple[StudyFrictionRun, ...] = ()
 
     @property
     def slopes_deg(self) -> tuple[float, ...]:

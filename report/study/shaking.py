@@ -20,8 +20,9 @@ from report.motions.components import Components, RecordFile, read_components
 from report.motions.history import SIGNS
 from report.sheet.reading.linked_files import path_beside
 from report.sheet.reading.typed_text import separator
-from report.sheet.schema.fields import Finding, Place, entries
+from report.sheet.schema.fields import Finding, Place
 from report.sheet.schema.motions import MotionInput
+from report.sheet.workbook import SECTION
 from report.study.read import StudySheet
 from report.study.schema import MOST_SAMPLES, Intensity, StudyBuilding, StudyInput
 from report.text.counts import numbered
@@ -92,7 +93,7 @@ def study_motions(sheet: StudySheet) -> StudyMotions:
 
 def _rows(sheet: StudySheet) -> list[dict[str, Any]]:
     study = sheet.project.study
-    defaults = {e.name: e.default for e in entries(MotionInput) if not e.is_required}
+    defaults = {e.name: e.default for e in SECTION["motions"].entries if not e.is_required}
     # What the sheet Study says of all motions: a row of the sheet Motions has no columns for it.
     common = {**defaults, "units": study.units, "dt_s": study.dt_s, "polarity": study.polarity}
     listed: Sequence[Mapping[str, Any]] = [row.model_dump() for row in sheet.project.motions]

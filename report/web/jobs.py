@@ -33,8 +33,8 @@ from report.sheet.reading.parts import changed
 from report.sheet.reading.positions import CellPosition, found_at
 from report.sheet.reading.read import read, read_book
 from report.sheet.reading.what_if import cells
-from report.sheet.schema import SECTIONS
 from report.sheet.schema.choices import LayerKind
+from report.sheet.workbook import SECTIONS
 from report.sheet.writing.filled import WorkbookChange, withdrawn
 from report.text.counts import cut
 from report.text.units import LENGTHS

@@ -9,10 +9,11 @@ import datetime as dt
 import hashlib
 from collections.abc import Iterator, Mapping, Sequence, Set
 
-from report.sheet.schema import SECTION, SECTIONS, ProjectInput, layout
+from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import ClearanceSource
-from report.sheet.schema.fields import Frozen, Place, entries
+from report.sheet.schema.fields import Frozen, Place
 from report.sheet.schema.scene import SIDES, WEIGHT_PARTS
+from report.sheet.workbook import SECTION, SECTIONS, layout
 from report.text.counts import grouped_by
 
 _LETTERS = 6  # of a hash
@@ -24,7 +25,7 @@ _Hashes = Mapping[str, str]
 
 
 def _all_but(**left_out: str) -> _Covers:
-    fields = {key: {entry.name for entry in entries(SECTION[key].model)} for key in left_out}
+    fields = {key: {entry.name for entry in SECTION[key].entries} for key in left_out}
     return {key: fields[key] - {*names.split()} for key, names in left_out.items()}
 
 

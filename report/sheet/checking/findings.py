@@ -10,21 +10,14 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
-from report.sheet.schema import SECTIONS, ProjectInput
+from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import Direction, ObjectKind
-from report.sheet.schema.fields import (
-    Draft,
-    Entry,
-    Finding,
-    Frozen,
-    Level,
-    Place,
-    SheetSection,
-    entries,
-)
+from report.sheet.schema.fields import Draft, Finding, Frozen, Level, Place
 from report.sheet.schema.motions import MotionInput
 from report.sheet.schema.project import FrictionTestRow
 from report.sheet.schema.scene import Array, Clearance, RoofObject
+from report.sheet.workbook import SECTIONS
+from report.sheet.workbook.entries import Entry, SheetSection
 from report.text.counts import foreign_letters, looks
 from solver.model import Problem
 from solver.suggestions import nearest
@@ -165,12 +158,12 @@ ROUNDING = 1e-9
 
 
 @cache
-def _ranged(model: type[Frozen]) -> Sequence[tuple[Entry, float, float]]:
-    """Return the fields of a model with a usual range, and its ends."""
+def _ranged(section: SheetSection) -> Sequence[tuple[Entry, float, float]]:
+    """Return the fields of a section with a usual range, and its ends."""
     return [
         (entry, entry.expected.low * (1.0 - ROUNDING), entry.expected.high * (1.0 + ROUNDING))
-        for entry in entries(model)
-        if entry.cell.usual is not None
+        for entry in section.entries
+        if entry.usual is not None
     ]
 
 
@@ -182,17 +175,17 @@ def unusual(data: ProjectInput) -> Iterator[Finding]:
         for index, row in enumerate(rows if section.is_table else (rows,)):
             # An edge without parapet has height 0, which is no object too low.
             is_bare = getattr(row, "kind", None) is ObjectKind.EDGE_WITHOUT_PARAPET
-            for entry, low, high in _ranged(section.model):
+            for entry, low, high in _ranged(section):
                 value = getattr(row, entry.name)
-                is_none = value == 0.0 and (is_bare or entry.cell.zero)
+                is_none = value == 0.0 and (is_bare or entry.zero)
                 if value is None or low <= value <= high or is_none:
                     continue
                 yield _warning(section, index, entry, row, is_us)
 
 
 def _warning(section: SheetSection, index: int, entry: Entry, row: Frozen, is_us: bool) -> Finding:
-    unit = entry.unit(is_us=is_us)
-    symbol, si = (unit.symbol, unit.si) if unit else (str(entry.cell.unit), 1.0)
+    unit = entry.unit_in(is_us=is_us)
+    symbol, si = (unit.symbol, unit.si) if unit else (str(entry.unit), 1.0)
     value, span = f"{getattr(row, entry.name) / si:.4g}", entry.expected.words(si)
     text = f"{entry.spoken} is {value} {symbol}".rstrip() + f"; {span} {symbol}".rstrip()
     # The sheet Acknowledged answers a warning by this name: reasons of former workbooks depend on

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from itertools import islice
 
 from report.sheet.checking.findings import suggestion
-from report.sheet.schema import SECTION
 from report.sheet.schema.choices import ObjectKind, RecordedAt, Scaling, UnitsFirst
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
 from report.sheet.schema.scene import ROOF, SIDES, WEIGHT_PARTS
@@ -25,6 +24,7 @@ from report.sheet.schema.shapes import (
     outside,
     ring,
 )
+from report.sheet.workbook import SECTION
 from report.text.units import Quantity, pair
 
 # Whether a condition holds for a row of a draft; not where a cell could not be read.

@@ -20,7 +20,8 @@ from pydantic import ValidationError
 
 from report.sheet.reading import typed_text
 from report.sheet.schema.choices import SlopeUnit
-from report.sheet.schema.fields import Entry, YesNo, adapter
+from report.sheet.schema.fields import YesNo
+from report.sheet.workbook.entries import Entry, adapter
 from report.text.counts import SHOWN, UNPRINTABLE, cut, trimmed
 from report.text.units import LENGTHS
 from solver.model import INCH_M, InputError, Problem
@@ -107,15 +108,15 @@ def as_used(value: object, entry: Entry, unit: str) -> str:
     if isinstance(value, bool):
         return str(YesNo.YES if value else YesNo.NO)
     if isinstance(value, float):
-        return (entry.cell.zero if value == 0.0 else "") or f"{value:.6g} {unit}".rstrip()
+        return (entry.zero if value == 0.0 else "") or f"{value:.6g} {unit}".rstrip()
     return "" if value is None else plain(value)
 
 
 def stated_unit(entry: Entry, row: Mapping[str, Any], cells: Mapping[str, Found]) -> str:
     """Return what another cell states of the unit of a number; empty for nothing."""
-    if entry.cell.unit_from is None:
+    if entry.unit_from is None:
         return ""
-    name, unit_of = entry.cell.unit_from
+    name, unit_of = entry.unit_from
     # That cell is among what was read of the row so far, or among the cells of the row.
     text = row[name] if name in row else cells[name].value if name in cells else None
     return "" if text is None else unit_of(plain(text).strip())
@@ -140,6 +141,12 @@ def read_cell(cell: Found, entry: Entry, unit: str, si: float, shown: str = "") 
         return adapter(entry.model, entry.name).validate_python(value)
     except ValidationError as error:
         raise CellError(_is(cell, entry), wanted) from error
+
+
+def blank_value(entry: Entry, row: Mapping[str, Any]) -> Any:
+    """Return what a blank cell stands for, by the fields of its row that were read before it."""
+    value = entry.computed(row) if entry.computed else None
+    return entry.default if value is None else value
 
 
 def check_saved(cell: Found) -> None:
@@ -175,7 +182,7 @@ def wish(entry: Entry, unit: str = "", si: float = 1.0) -> str:
 def wish_for_missing(entry: Entry, unit: str = "", si: float = 1.0) -> str:
     """Return what to write where nothing is: as `wish`, and for a text an example of it."""
     is_text = entry.kind is str and not entry.choices
-    return f"give text such as '{entry.cell.example}'" if is_text else wish(entry, unit, si)
+    return f"give text such as '{entry.example}'" if is_text else wish(entry, unit, si)
 
 
 def _is(cell: Found, entry: Entry) -> str:
@@ -192,7 +199,7 @@ def _quoted(value: object) -> str:
 def _converted(cell: Found, entry: Entry, wanted: str, unit: str, si: float) -> Any:
     if entry.kind in (int, float):
         text = trimmed(cell.value) if isinstance(cell.value, str) else ""
-        if text and text.casefold() == entry.cell.zero:
+        if text and text.casefold() == entry.zero:
             return 0.0
         is_length = entry.quantity is not None and entry.quantity.accepted is LENGTHS
         # Marks of feet and inches say their own unit, whatever the column has.

@@ -19,8 +19,9 @@ from unicodedata import normalize
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError
 
 from report.sheet.reading.archive import OpenBook
-from report.sheet.schema import SECTION
-from report.sheet.schema.fields import Draft, Entry, Finding, Place
+from report.sheet.schema.fields import Draft, Finding, Place
+from report.sheet.workbook import SECTION
+from report.sheet.workbook.entries import Entry
 from report.text.counts import grouped_by
 from solver.files import check_length
 from solver.model import InputError
@@ -181,7 +182,7 @@ def read_documents(book: OpenBook, draft: Draft) -> tuple[tuple[Document, ...], 
 
 
 def _document(book: OpenBook, entry: Entry, name: str, left: int) -> Document:
-    example = str(entry.cell.example)
+    example = str(entry.example)
     content = path_beside(book.path.parent, name, MAX_DOCUMENTS, example).read_bytes()
     if entry.name == "study_years":
         _check_years(name, content)
@@ -193,7 +194,7 @@ def _document(book: OpenBook, entry: Entry, name: str, left: int) -> Document:
     path = posixpath.normpath(name.replace("\\", "/"))
     sha256 = hashlib.sha256(content).hexdigest()
     book.files[sha256] = content
-    return Document(label=entry.cell.label, path=path, size=len(content), sha256=sha256)
+    return Document(label=entry.heading, path=path, size=len(content), sha256=sha256)
 
 
 def _check_years(name: str, content: bytes) -> None:

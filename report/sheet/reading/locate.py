@@ -29,9 +29,9 @@ from report.sheet.reading.positions import (
     sheets_titled,
     unit_size,
 )
-from report.sheet.schema import layout
-from report.sheet.schema.answers import ANSWER_HEADINGS
-from report.sheet.schema.fields import Entry, SheetSection, entries
+from report.sheet.workbook import layout
+from report.sheet.workbook.answers import ANSWER_HEADINGS
+from report.sheet.workbook.entries import Entry, SheetSection
 from solver.model import InputError, Problem
 
 MAX_ROWS = 2000
@@ -133,7 +133,7 @@ def _headings(book: OpenBook, section: SheetSection) -> _Place:
                 rows.setdefault(position.row, []).append(position.column)
         best = max(rows, key=lambda row: len(rows[row]), default=0)
         # A row of another table has some headings in common, and not most of them.
-        if best and len(rows[best]) > len(entries(section.model)) / 2:
+        if best and len(rows[best]) > len(section.entries) / 2:
             return sheet, min(rows[best]), best, max(rows[best]), range(0)
     what = f"no table {section.table_name} and no row of its headings"
     missing = "" if own else "the sheet is missing: "
@@ -176,7 +176,7 @@ def _columns(
         if entry is None:
             others += [position] if text is not None else []
         elif entry.name in places:
-            twice = f"heading '{entry.cell.label}' appears twice, also in {places[entry.name].cell}"
+            twice = f"heading '{entry.heading}' appears twice, also in {places[entry.name].cell}"
             problems.append(Problem(twice, "keep one", position.address))
         else:
             places[entry.name] = position
@@ -190,13 +190,13 @@ def _columns(
             )
     absent: list[str] = []
     following = headings[0]  # where a missing one belongs: after that of the field before it
-    for entry in entries(section.model):
+    for entry in section.entries:
         if entry.name not in places and not entry.is_expected and not others:
             absent.append(entry.name)
         elif entry.name not in places:
             # With an unknown heading no field counts as absent: the heading may be a renamed one.
             instead = f", '{found_at(book, following).value}' found" if following in others else ""
-            missing = f"heading '{entry.cell.label}' is missing{instead}"
+            missing = f"heading '{entry.heading}' is missing{instead}"
             wanted = f"write it here in its own column, or {FRESH}"
             problems.append(Problem(missing, wanted, following.address))
         following = replace(following, column=places.get(entry.name, following).column + 1)
@@ -255,7 +255,7 @@ def find_cell(book: OpenBook, section: SheetSection, entry: Entry) -> CellPositi
     if position is None:
         raise InputError(
             f"{section.sheet_of(entry.name)}: {entry.spoken} is missing"
-            f" (no name {section.cell_name(entry.name)} and no label '{entry.cell.label}'); {FRESH}"
+            f" (no name {section.cell_name(entry.name)} and no label '{entry.heading}'); {FRESH}"
         )
     return position
 
@@ -290,7 +290,7 @@ def added_later(book: OpenBook, section: SheetSection) -> tuple[Entry, ...]:
     """Return the fields that a block lacks because its workbook is of a version before them."""
     return tuple(
         entry
-        for entry in entries(section.model)
+        for entry in section.entries
         if (section.key, entry.name) in layout.ADDED and not _position(book, section, entry)
     )
 
@@ -299,7 +299,7 @@ def is_absent(book: OpenBook, section: SheetSection) -> bool:
     """Whether a workbook has neither names nor labels of a section."""
     if section.is_table:
         return not sheets_titled(book, section.sheet) and table_area(book, section) is None
-    return not any(_position(book, section, entry) for entry in entries(section.model))
+    return not any(_position(book, section, entry) for entry in section.entries)
 
 
 def _named(book: OpenBook, name: str) -> CellPosition | None:
@@ -339,7 +339,7 @@ def gone_cells(
 
 def _labels(book: OpenBook, section: SheetSection) -> Iterator[tuple[CellPosition, str]]:
     """Yield what may be a label of a block, from its sheets."""
-    titles = [section.sheet_of(entry.name) for entry in entries(section.model)]
+    titles = [section.sheet_of(entry.name) for entry in section.entries]
     for title in dict.fromkeys(titles):
         for sheet in sheets_titled(book, title):
             yield from labels(book, sheet)

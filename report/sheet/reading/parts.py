@@ -24,8 +24,8 @@ from report.sheet.reading.cells import Found, escaped
 from report.sheet.reading.locate import MAX_ROWS, TableFound, find_table, table_area
 from report.sheet.reading.positions import FRESH, CellPosition, found_at
 from report.sheet.reading.scan import REOPEN
-from report.sheet.schema import SECTION
-from report.sheet.schema.fields import SheetSection
+from report.sheet.workbook import SECTION
+from report.sheet.workbook.entries import SheetSection
 from solver.model import InputError
 
 
@@ -327,7 +327,7 @@ class GrowingTable:
         """Return where a field of a row is."""
         columns = self.inputs.columns
         if name not in columns:
-            label = self.section.entry(name).cell.label
+            label = self.section.entry(name).heading
             where = self.inputs.heading.address
             raise InputError(f"{where}: heading '{label}' is missing; {FRESH}")
         return CellPosition(self.inputs.heading.sheet, row, columns[name].number)

@@ -18,8 +18,8 @@ from openpyxl.worksheet.worksheet import Worksheet
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.cells import Found
 from report.sheet.reading.scan import LAST_COLUMN, LAST_ROW
-from report.sheet.schema import layout
-from report.sheet.schema.fields import Entry, SheetSection, entries
+from report.sheet.workbook import layout
+from report.sheet.workbook.entries import Entry, SheetSection
 from solver.model import InputError, Problem
 
 MAX_COLUMNS = 200
@@ -157,19 +157,19 @@ def heading_parts(text: object) -> tuple[str, str]:
 def labels_of(section: SheetSection, entry: Entry) -> set[str]:
     """Return the label of a field and its earlier labels, in the form that is compared."""
     earlier = layout.LABELS.get((section.key, entry.name), ())
-    return {label_key(label) for label in (entry.cell.label, *earlier)}
+    return {label_key(label) for label in (entry.heading, *earlier)}
 
 
 @cache
 def fields_by_label(section: SheetSection) -> Mapping[str, Entry]:
     """Return the fields of a section by each of their labels, in the form that is compared."""
-    fields = entries(section.model)
+    fields = section.entries
     return {label: entry for entry in fields for label in labels_of(section, entry)}
 
 
 def unit_size(entry: Entry, unit: str, where: str = "") -> tuple[str, float]:
     """Return a unit's symbol and its size in SI; raise InputError where a field accepts it not."""
-    fixed = "" if entry.quantity else str(entry.cell.unit)
+    fixed = "" if entry.quantity else str(entry.unit)
     accepted = entry.quantity.accepted if entry.quantity else {fixed: 1.0}
     if not entry.quantity and not unit:
         return fixed, 1.0

@@ -21,6 +21,7 @@ from report.sheet.reading.cells import (
     CellError,
     Found,
     as_used,
+    blank_value,
     read_cell,
     stated_unit,
     wish_for_missing,
@@ -35,19 +36,11 @@ from report.sheet.reading.unseen import (
     not_calculated,
     unseen,
 )
-from report.sheet.schema import SECTION, SECTIONS, ProjectInput
-from report.sheet.schema.fields import (
-    Draft,
-    Entry,
-    Finding,
-    Frozen,
-    Place,
-    SheetSection,
-    Where,
-    entries,
-    sections_of,
-)
-from report.sheet.schema.layout import GoneInput
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.fields import Draft, Finding, Frozen, Place, Where
+from report.sheet.workbook import SECTION, SECTIONS
+from report.sheet.workbook.entries import Entry, SheetSection
+from report.sheet.workbook.layout import GoneInput
 from report.text.counts import cut, lowered, quoted, trimmed
 from solver.model import InputError, Problem
 
@@ -88,6 +81,7 @@ class SheetOf(Generic[Whole]):
     sha256: str  # of the workbook
     book: OpenBook  # for columns pasted into it and files beside it
     whole: type[Whole]  # what it is the input of
+    sections: tuple[SheetSection, ...]  # of that
     draft: Draft
     echo: tuple[EchoRow, ...]  # every field, sheet by sheet and row by row
     problems: tuple[tuple[Place, Problem], ...]
@@ -103,7 +97,7 @@ class SheetOf(Generic[Whole]):
         """The input, validated; raises `InputError` with every problem and its cell."""
         self.refuse(())
         parts: dict[str, Any] = {}
-        for part in sections_of(self.whole):
+        for part in self.sections:
             rows = tuple(part.model(**row) for row in self.draft[part.key])
             parts[part.key] = rows if part.is_table else rows[0]
         return self.whole.model_validate(parts)
@@ -128,7 +122,7 @@ class SheetOf(Generic[Whole]):
             For a part or a value that a workbook may not have, and for each problem of this one.
         """
         self.refuse(())
-        sections, draft = {part.key: part for part in sections_of(self.whole)}, dict(self.draft)
+        sections, draft = {part.key: part for part in self.sections}, dict(self.draft)
         if unknown := [key for key in parts if key not in sections]:
             raise InputError(f"no input {', '.join(unknown)}; give some of {', '.join(sections)}")
         for key, replaced in parts.items():
@@ -141,7 +135,8 @@ class SheetOf(Generic[Whole]):
                     f"{key}: {'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors()
                 )
                 raise InputError(list(wrong)) from error
-            draft[key] = [dict(row) for row in checked]
+            names = [entry.name for entry in sections[key].entries]
+            draft[key] = [{name: getattr(row, name) for name in names} for row in checked]
         problems = _located(self.check(draft, self.where), self.addresses, self.unfound)
         other = replace(self, draft=draft, problems=tuple(problems))
         other.refuse(())
@@ -154,9 +149,8 @@ class SheetOf(Generic[Whole]):
     def refuse(self, faults: Iterable[Finding]) -> None:
         """Raise InputError with all problems and further faults, in order, each once, if any."""
         problems = [*self.problems, *_located(faults, self.addresses, self.unfound)]
-        sections = sections_of(self.whole)
-        order = {part.key: count for count, part in enumerate(sections)}
-        names = {part.key: [entry.name for entry in entries(part.model)] for part in sections}
+        order = {part.key: count for count, part in enumerate(self.sections)}
+        names = {part.key: [entry.name for entry in part.entries] for part in self.sections}
 
         def rank(problem: tuple[Place, Problem]) -> tuple[int, int, int]:
             section, row, field = problem[0]
@@ -185,7 +179,7 @@ def read_book(book: OpenBook) -> Sheet:
     if _STUDY in book.scans and SECTIONS[0].sheet not in book.scans:
         run = f"roofslip study {quoted(book.path)}"
         raise InputError(f"{_STUDY}: this is the workbook of a study; run {run}")
-    sheet = read_as(ProjectInput, book, faults)
+    sheet = read_as(ProjectInput, SECTIONS, book, faults)
     documents, wrong = read_documents(book, sheet.draft)
     problems = (*sheet.problems, *_located(wrong, sheet.addresses, sheet.unfound))
     return replace(sheet, documents=documents, problems=problems)
@@ -193,7 +187,7 @@ def read_book(book: OpenBook) -> Sheet:
 
 def without_motions(sheet: Sheet) -> ProjectInput:
     """Return the input, whatever its motions are; its clearances may contradict the plan."""
-    fields, rows = len(entries(SECTION["clearances"].model)), sheet.draft["clearances"]
+    fields, rows = len(SECTION["clearances"].entries), sheet.draft["clearances"]
     # A contradiction has all of its cells.
     passed = {"motions"} | ({"clearances"} if all(len(row) == fields for row in rows) else set())
     problems = (
@@ -206,10 +200,13 @@ def without_motions(sheet: Sheet) -> ProjectInput:
 
 
 def read_as(
-    whole: type[Whole], book: OpenBook, check: Callable[[Draft, Where], Iterable[Finding]]
+    whole: type[Whole],
+    sections: tuple[SheetSection, ...],
+    book: OpenBook,
+    check: Callable[[Draft, Where], Iterable[Finding]],
 ) -> SheetOf[Whole]:
     """Read every field of a whole input, with the errors of single cells and those of a check."""
-    gathered, sections = Gathered(), sections_of(whole)
+    gathered = Gathered()
     for section in sections:
         _read_section(book, section, gathered)
     gathered.take(check(gathered.draft, partial(where, gathered.addresses)))
@@ -220,6 +217,7 @@ def read_as(
         sha256=book.sha256,
         book=book,
         whole=whole,
+        sections=sections,
         check=check,
         draft=gathered.draft,
         echo=tuple(
@@ -295,7 +293,7 @@ def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> 
     gathered.draft[section.key] = []
     is_missing = locate.is_absent(book, section)
     if is_missing and section.may_be_absent:
-        defaults = {entry.name: entry.default for entry in entries(section.model)}
+        defaults = {entry.name: entry.default for entry in section.entries}
         gathered.draft[section.key] += [] if section.is_table else [defaults]
         return
     try:
@@ -318,7 +316,7 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
     typed = locate.beside(book, section)
     gathered.draft[section.key].append(row)
     cells_read: list[tuple[Entry, Place, Found, locate.FieldColumn]] = []
-    for entry in entries(section.model):
+    for entry in section.entries:
         if entry in absent:
             continue
         place = Place(section.key, 0, entry.name)
@@ -332,7 +330,7 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
         # A row that was copied has its label twice: nobody knows which value is meant.
         for at in typed.get(entry.name, ()):
             if at != position and at.column == position.column:
-                twice = f"label '{entry.cell.label}' appears twice, also in {at.address}"
+                twice = f"label '{entry.heading}' appears twice, also in {at.address}"
                 gathered.add(place, [Problem(twice, "keep one", position.address)])
         cell = found_at(book, position)
         if not cell.is_blank and column.heading != position:
@@ -341,9 +339,8 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
     for gone, position in locate.gone_cells(book, section):
         _refuse_gone(gone, Place(section.key), found_at(book, position), gathered)
     # What a blank cell is computed from must have been read.
-    last = section.model.computed_last
     for entry, place, cell, column in sorted(
-        cells_read, key=lambda read: read[2].is_blank and read[0].name in last
+        cells_read, key=lambda read: read[2].is_blank and read[0].computed is not None
     ):
         _read_field(entry, place, cell, column, stated_unit(entry, row, {}), row, gathered)
 
@@ -390,7 +387,7 @@ def _read_row(
     row: dict[str, Any] = {}
     rows = gathered.draft[section.key]
     rows.append(row)
-    for entry in entries(section.model):
+    for entry in section.entries:
         if entry.name in table.absent:
             row[entry.name] = entry.default
         elif entry.name in cells:
@@ -416,21 +413,19 @@ def _read_field(
         elif entry.is_required:
             raise CellError("is missing", wish_for_missing(entry, column.unit, column.si))
         else:
-            computed = entry.model.computed(entry.name, row)
-            value = entry.default if computed is None else computed
+            value = blank_value(entry, row)
     except CellError as error:
         gathered.add(place, [error.parts[0].at(cell.address, entry.spoken)])
         return
     row[entry.name] = value
     shown = as_used(value, entry, column.unit)
     if cell.is_blank and shown:
-        rule = entry.model.computed_last.get(entry.name)
-        computed = f"computed, {rule}" if rule else "computed"
+        computed = f"computed, {entry.rule}" if entry.rule else "computed"
         shown += f" ({'default' if value == entry.default else computed})"
     echoed = EchoRow(
         sheet=cell.sheet,
         cell=cell.cell,
-        label=entry.cell.label,
+        label=entry.heading,
         typed=cell.text,
         unit=column.unit,
         value=shown or "—",

@@ -21,7 +21,8 @@ from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.cells import Found
 from report.sheet.reading.positions import bounds_of, fields_by_label, labels
 from report.sheet.reading.typed_text import shows_nothing
-from report.sheet.schema.fields import Finding, Place, SheetSection
+from report.sheet.schema.fields import Finding, Place
+from report.sheet.workbook.entries import SheetSection
 from report.text.counts import cut
 
 # Cells that are read, each with the place that it is read for.

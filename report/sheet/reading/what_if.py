@@ -12,11 +12,11 @@ from typing import Any
 from openpyxl.utils import coordinate_to_tuple
 
 from report.sheet.checking.checks import faults
-from report.sheet.reading.cells import CellError, Found, read_cell
+from report.sheet.reading.cells import CellError, Found, blank_value, read_cell
 from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.read import Gathered, Sheet
-from report.sheet.schema import SECTION
-from report.sheet.schema.fields import Place, entries
+from report.sheet.schema.fields import Place
+from report.sheet.workbook import SECTION
 
 # What is typed into a cell: a number in the unit of the cell, a text, or nothing.
 Typed = float | str | None
@@ -48,15 +48,14 @@ def _compute(
     blank = {row.address for row in sheet.echo if not row.typed}
     for section, index in {(place.section, place.row) for place in typed}:
         row = draft[section][index]
-        for entry in entries(SECTION[section].model):
+        for entry in SECTION[section].entries:
             place = Place(section, index, entry.name)
             # Emptied here, or blank in the file and left so.
             is_blank = (
                 typed[place] is None if place in typed else sheet.addresses.get(place) in blank
             )
             if entry.name in row and is_blank:
-                value = entry.model.computed(entry.name, row)
-                row[entry.name] = entry.default if value is None else value
+                row[entry.name] = blank_value(entry, row)
 
 
 def size_of_unit(sheet: Sheet, place: Place) -> float:

@@ -25,9 +25,9 @@ from report.sheet.reading.positions import FRESH, CellPosition, area_named, boun
 from report.sheet.reading.read import Sheet, read_book
 from report.sheet.reading.typed_text import references
 from report.sheet.reading.what_if import cells
-from report.sheet.schema import SECTIONS
 from report.sheet.schema.choices import ClearanceSource
 from report.sheet.schema.fields import DraftRow, Finding, Level, Place
+from report.sheet.workbook import SECTIONS
 from report.sheet.writing.style import is_answer
 from report.sheet.writing.template import START
 from report.text.counts import cut, grouped_by

@@ -16,10 +16,11 @@ from openpyxl.worksheet.table import Table, TableColumn, TableFormula, TableStyl
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.schema import provision_name
-from report.sheet.schema.answers import SITE_ANSWERS, SITE_FORMAT, FormulaColumn, table_answers
 from report.sheet.schema.choices import UnitsFirst
-from report.sheet.schema.fields import Entry, Frozen, SheetSection, entries
-from report.sheet.schema.layout import TablePlace, Tables, name_cell
+from report.sheet.schema.fields import Frozen
+from report.sheet.workbook.answers import SITE_ANSWERS, SITE_FORMAT, FormulaColumn, table_answers
+from report.sheet.workbook.entries import Entry, SheetSection, rows_of
+from report.sheet.workbook.layout import TablePlace, Tables, name_cell
 from report.sheet.writing import style
 from report.text.units import Unit
 
@@ -52,14 +53,20 @@ _SOURCES = {
 def _put_section_title(sheet: Worksheet, section: SheetSection) -> tuple[int, bool]:
     """Write heading and hint of a section; return the next free row and whether it is the first."""
     if sheet.max_row == 1:
-        style.put_title(sheet, section.title, section.instruction)
+        style.put_title(sheet, section.title, section.note)
         return 4, True
     row = sheet.max_row + 2
-    style.put_heading(sheet, row, section.title, section.instruction)
+    style.put_heading(sheet, row, section.title, section.note)
     return row + 3, False
 
 
-def write_block(book: Workbook, section: SheetSection, units: UnitsFirst, example: object) -> None:
+def write_block(
+    book: Workbook,
+    section: SheetSection,
+    sections: Sequence[SheetSection],
+    units: UnitsFirst,
+    example: object,
+) -> None:
     """Write a block, with the values that an example has by section, or blank but for defaults."""
     sheet = book[section.sheet]
     top, is_first = _put_section_title(sheet, section)
@@ -67,14 +74,15 @@ def write_block(book: Workbook, section: SheetSection, units: UnitsFirst, exampl
     style.put_values(
         sheet, top, [head if head != unused else "" for head in BLOCK_HEADS], are_heads=True
     )
-    for row, (of, entry) in enumerate(section.rows, start=top + 1):
+    rows = rows_of(section, sections)
+    for row, (of, entry) in enumerate(rows, start=top + 1):
         value = units if entry.kind is UnitsFirst else entry.default
         if example is not None:
             value = getattr(getattr(example, of.key), entry.name)
-        unit = entry.unit(is_us=units.is_us)
+        unit = entry.unit_in(is_us=units.is_us)
         style.put_input(sheet.cell(row, 2), entry, value, unit)
         _write_block_row(sheet, row, of, entry, unit)
-    style.make_plain_when_filled(sheet, f"B{top + 1}:C{top + len(section.rows)}")
+    style.make_plain_when_filled(sheet, f"B{top + 1}:C{top + len(rows)}")
     if is_first:
         for column, width in enumerate(BLOCK_WIDTHS, start=1):
             sheet.column_dimensions[get_column_letter(column)].width = width
@@ -86,9 +94,9 @@ def _write_block_row(
     sheet: Worksheet, row: int, section: SheetSection, entry: Entry, unit: Unit | None
 ) -> None:
     needed = entry.is_required
-    style.put(sheet, row, 1, f"{entry.cell.label}{' *' if needed else ''}", bold=needed)
+    style.put(sheet, row, 1, f"{entry.heading}{' *' if needed else ''}", bold=needed)
     # Bounds of quantities are 0 or open, so they are valid in any unit.
-    texts = (_allowed(entry, unit), _example(entry, unit), entry.help)
+    texts = (_allowed(entry, unit), _example(entry, unit), entry.note)
     for column, text in enumerate(texts, start=5):
         style.put(sheet, row, column, text, color=style.GRAY, italic=column == 6)
     typed = str(sheet.cell(row, 2).value or "")
@@ -102,7 +110,7 @@ def _write_block_row(
         style.put_answer(sheet.cell(row, 4), formula, SITE_FORMAT)
         name_cell(name, sheet, row, 4)
     if entry.quantity is None or unit is None:
-        style.put(sheet, row, 3, str(entry.cell.unit), color=style.GRAY)
+        style.put(sheet, row, 3, str(entry.unit), color=style.GRAY)
         return
     sheet.cell(row, 3).value = unit.symbol
     style.style_input(sheet.cell(row, 3), str)
@@ -123,17 +131,17 @@ class GridColumn:
     @property
     def is_folded(self) -> bool:
         """Whether it is folded at the right."""
-        is_rare = self.entry is not None and self.entry.cell.is_rare
+        is_rare = self.entry is not None and self.entry.is_rare
         return is_rare or (self.answer is not None and self.answer.is_rare)
 
 
 def columns_of(section: SheetSection, units: UnitsFirst) -> list[GridColumn]:
     """Return the columns of a table: what is always needed, the answers, what is rarely needed."""
     fields = []
-    for entry in entries(section.model):
-        unit = entry.unit(is_us=units.is_us)
-        symbol = unit.symbol if unit else str(entry.cell.unit)
-        heading = f"{entry.cell.label} [{symbol}]" if symbol else entry.cell.label
+    for entry in section.entries:
+        unit = entry.unit_in(is_us=units.is_us)
+        symbol = unit.symbol if unit else str(entry.unit)
+        heading = f"{entry.heading} [{symbol}]" if symbol else entry.heading
         fields.append(GridColumn(entry.name, heading, _width(entry), entry=entry))
     answers = [
         GridColumn(answer.name, answer.heading, answer.width, answer=answer)
@@ -169,7 +177,7 @@ def write_table(
         _write_heading(sheet, header, number, column)
         if column.entry is not None:
             values = [_unless_default(getattr(row, column.name), column.entry) for row in rows]
-            unit = column.entry.unit(is_us=units.is_us)
+            unit = column.entry.unit_in(is_us=units.is_us)
             lines.append(_write_column(sheet, place, number, column.entry, values, unit))
     for row, of_row in enumerate(zip(*lines, strict=True), start=header + 1):
         sheet.row_dimensions[row].height = 4 + 14 * min(max(of_row), DATA_LINES)
@@ -201,7 +209,7 @@ def _write_column(
         typed = "" if entry.choices else str(style.in_cell(value, unit) or "")
         lines.append(_lines([typed], [_WIDER * width]))
     if source := _SOURCES.get((place.section.key, entry.name)):
-        style.suggest(sheet, place.cells(entry.name), source, entry.cell.label, entry.help)
+        style.suggest(sheet, place.cells(entry.name), source, entry.heading, entry.note)
     else:
         style.validate(sheet, place.cells(entry.name), entry, unit.si if unit else 1.0)
     style.make_plain_when_filled(sheet, place.cells(entry.name))
@@ -252,8 +260,8 @@ def _write_hints(
 def _hints(column: GridColumn, units: UnitsFirst) -> tuple[str, str, str]:
     if column.entry is None:
         return "computed", column.answer.note if column.answer else "", ""
-    unit = column.entry.unit(is_us=units.is_us)
-    return column.entry.need, _allowed(column.entry, unit), _example(column.entry, unit)
+    unit = column.entry.unit_in(is_us=units.is_us)
+    return column.entry.needed, _allowed(column.entry, unit), _example(column.entry, unit)
 
 
 def _write_heading(sheet: Worksheet, row: int, number: int, column: GridColumn) -> None:
@@ -303,7 +311,7 @@ def _allowed(entry: Entry, unit: Unit | None) -> str:
     if entry.kind in (int, float):
         si = unit.si if unit else 1.0
         words = (entry.bounds.words(si) or "any number") + entry.or_zero
-        if entry.cell.usual is None:
+        if entry.usual is None:
             return words
         usual = (entry.expected.low, entry.expected.high)
         low, high = (float(f"{bound / si:.3g}") for bound in usual)
@@ -312,7 +320,7 @@ def _allowed(entry: Entry, unit: Unit | None) -> str:
 
 
 def _example(entry: Entry, unit: Unit | None) -> str:
-    value = entry.cell.example
+    value = entry.example
     if unit is not None and entry.quantity is not None and isinstance(value, float):
         # 42000 lb keeps all digits; 186.825 kN becomes 187.
         digits = 5 if unit == entry.quantity.us else 3
@@ -322,7 +330,7 @@ def _example(entry: Entry, unit: Unit | None) -> str:
 
 
 def _width(entry: Entry) -> int:
-    longest = max(map(len, entry.cell.label.split())) + 3
+    longest = max(map(len, entry.heading.split())) + 3
     if entry.choices:
         widest = max(map(len, entry.choices)) + 2
         # Many long choices are listed above the heading in a few lines.

@@ -12,8 +12,9 @@ from openpyxl import Workbook
 from openpyxl.utils import get_column_letter, quote_sheetname
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.sheet.schema import SECTION, layout, provision_name, provision_unit
-from report.sheet.schema.answers import (
+from report.sheet.schema import provision_name, provision_unit
+from report.sheet.workbook import SECTION, layout
+from report.sheet.workbook.answers import (
     BY_FORMULA,
     COLUMNS,
     IN_DISPLACEMENT,
@@ -22,7 +23,6 @@ from report.sheet.schema.answers import (
     ONE_VALUE,
     SEPARATION_ROWS,
 )
-from report.sheet.schema.fields import entries
 from report.sheet.writing import style
 from report.text.units import LENGTHS
 from solver.model import INCH_M
@@ -154,9 +154,9 @@ def _write_units(sheet: Worksheet, row: int) -> None:
     rows = [
         (f"{label} [{unit}]", size_m / INCH_M)
         for label in dict.fromkeys(
-            entry.cell.label
+            entry.heading
             for key in ("arrays", "objects", "clearances")
-            for entry in entries(SECTION[key].model)
+            for entry in SECTION[key].entries
             if entry.name in ("cg_height_m", "height_m", "provided_m")
         )
         for unit, size_m in LENGTHS.items()

@@ -20,7 +20,8 @@ from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.reading.cells import escaped, wish
-from report.sheet.schema.fields import Entry, YesNo
+from report.sheet.schema.fields import YesNo
+from report.sheet.workbook.entries import Entry
 from report.text.counts import as_typed
 from report.text.units import Unit
 
@@ -115,7 +116,7 @@ def put_heading(sheet: Worksheet, row: int, title: str, hint: str) -> None:
 def put_input(cell: Any, entry: Entry, value: object, unit: Unit | None) -> None:
     """Format a cell as input of a field, and write a value in SI, if any."""
     style_input(cell, entry.kind)
-    shown = entry.cell.zero if value == 0.0 and entry.cell.zero else in_cell(value, unit)
+    shown = entry.zero if value == 0.0 and entry.zero else in_cell(value, unit)
     if shown is None:
         return
     cell.value = shown
@@ -177,14 +178,14 @@ def in_cell(value: object, unit: Unit | None) -> str | float | int | date | None
 
 def validate(sheet: Worksheet, cells: str, entry: Entry, si: float) -> None:
     """Add the dropdown or the range check of a field to cells, with its messages."""
-    label, message = entry.cell.label, entry.help
+    label, message = entry.heading, entry.note
     if entry.choices:
         offer(sheet, cells, entry.choices, label, message)
     elif entry.kind in (int, float):
         if allowed := entry.bounds.words(si):
             message = f"{message} Allowed: {allowed}{entry.or_zero}."
-        if entry.cell.zero:  # a rule on numbers would refuse the word
-            suggest(sheet, cells, f'"{entry.cell.zero}"', label, message)
+        if entry.zero:  # a rule on numbers would refuse the word
+            suggest(sheet, cells, f'"{entry.zero}"', label, message)
             return
         _add(sheet, cells, _number_rule(entry, si), label, message, wish(entry, "", si))
     elif entry.kind is date:

@@ -8,7 +8,7 @@ formulas. The example comes with its records.
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable
+from collections.abc import Sequence
 from pathlib import Path
 
 from openpyxl import Workbook
@@ -19,10 +19,11 @@ from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.reading.read import read
-from report.sheet.schema import SECTIONS, ProjectInput, answers
+from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import UnitsFirst
-from report.sheet.schema.fields import SheetSection
-from report.sheet.schema.layout import TablePlace, Tables, name_cell
+from report.sheet.workbook import SECTIONS, answers
+from report.sheet.workbook.entries import SheetSection
+from report.sheet.workbook.layout import TablePlace, Tables, name_cell
 from report.sheet.writing import style
 from report.sheet.writing.grids import write_answers, write_block, write_table
 from report.sheet.writing.lookups import write_lookups, write_rules
@@ -47,7 +48,7 @@ def template(units: UnitsFirst, example: ProjectInput | None = None) -> bytes:
 
 
 def book_of(
-    sections: Iterable[SheetSection], first_sheet: str, units: UnitsFirst, example: object
+    sections: Sequence[SheetSection], first_sheet: str, units: UnitsFirst, example: object
 ) -> tuple[Workbook, Tables]:
     """Return a book with the blocks and tables of sections; without an example they are blank."""
     book = Workbook()
@@ -60,7 +61,7 @@ def book_of(
             rows = getattr(example, section.key, ())
             tables[section.key] = write_table(book, section, units, rows)
         else:
-            write_block(book, section, units, example)
+            write_block(book, section, sections, units, example)
     for place in tables.values():
         write_answers(book, tables, place, is_us=units.is_us)
     return book, tables

@@ -18,6 +18,7 @@ from inputs import INCH
 from places import ROOT
 from recalculated import Cell, Sheets, recalculated_sheets
 from report.assessment.clearances import check_clearance
+from report.sheet.reading.cells import blank_value
 from report.sheet.reading.read import read
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import (
@@ -27,14 +28,13 @@ from report.sheet.schema.choices import (
     SiteClass,
     UnitsFirst,
 )
-from report.sheet.schema.fields import entries
 from report.sheet.schema.project import (
-    Site,
     categories,
     category_lacks,
     edition_of,
     site_parameters,
 )
+from report.sheet.workbook import SECTION
 from report.sheet.writing.template import template, write_template
 from report.text.units import Quantity, number, ratio
 from sheets import formula_cells, project, retitle, site
@@ -154,9 +154,10 @@ def at_sites(tmp_path_factory):
 
 def known(given: dict[str, object]) -> dict[str, object]:
     """Return a site with what the package computes where a cell is blank."""
-    row = dict.fromkeys(entry.name for entry in entries(Site)) | given
+    site = SECTION["site"]
+    row = dict.fromkeys(entry.name for entry in site.entries) | given
     for name in ("i_e", "f_a", "sdc"):
-        row[name] = Site.computed(name, row) if row[name] is None else row[name]
+        row[name] = blank_value(site.entry(name), row) if row[name] is None else row[name]
     return row
 
 

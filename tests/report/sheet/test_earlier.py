@@ -13,8 +13,8 @@ from places import DATA, ROOT
 from report.cli.main import main
 from report.sheet.checking.covered import CONFIRMATIONS, outdated
 from report.sheet.reading.read import read
-from report.sheet.schema import SECTION, SECTIONS, ProjectInput, layout
-from report.sheet.schema.fields import entries
+from report.sheet.schema import ProjectInput
+from report.sheet.workbook import SECTION, SECTIONS, layout
 from report.sheet.writing.filled import overwritten
 from report.study.read import read_study
 from report.study.schema import StudyInput
@@ -79,13 +79,13 @@ def test_the_results_are_those_of_then(tmp_path, name):
                 assert row[key] == value, (row, key)
 
 
-PRESENT = [(section, entry) for section in SECTIONS for entry in entries(section.model)]
+PRESENT = [(section, entry) for section in SECTIONS for entry in section.entries]
 
 
 def earlier_labels(book):
     """Replace each renamed label and heading by its oldest name, and remove all defined names."""
     oldest = {
-        (section.sheet, entry.cell.label): layout.LABELS[section.key, entry.name][0]
+        (section.sheet, entry.heading): layout.LABELS[section.key, entry.name][0]
         for section, entry in PRESENT
         if (section.key, entry.name) in layout.LABELS
     }
@@ -150,7 +150,7 @@ def without(section, *fields):
     def change(book):
         for field in fields:
             del book.defined_names[section.cell_name(field)]
-            label = section.entry(field).cell.label
+            label = section.entry(field).heading
             cell(book, f"{section.sheet}/{label}").offset(column=-1).value = None
 
     return change

@@ -14,11 +14,12 @@ from report.cli.main import main
 from report.sheet.checking.checks import site_faults
 from report.sheet.reading.read import read
 from report.sheet.reading.what_if import retyped
-from report.sheet.schema import SECTIONS, ProjectInput
+from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import RuleSetName, SiteClass, SlopeUnit
-from report.sheet.schema.fields import Place, entries
+from report.sheet.schema.fields import Place
 from report.sheet.schema.project import Site
 from report.sheet.schema.scene import slope_rad
+from report.sheet.workbook import SECTIONS
 from sheets import at, make, of, problems, project, said, same, type_into
 from solver.model import InputError
 from solver.rules.hazard import HazardBasis
@@ -34,11 +35,11 @@ def test_sections_are_parts_of_the_input_with_labels_and_choices_of_their_own():
 
     assert [section.key for section in SECTIONS] == fields(ProjectInput)
     for section in SECTIONS:
-        assert [item.name for item in entries(section.model)] == fields(section.model)
-        labels = [item.cell.label.casefold() for item in entries(section.model)]
+        assert [item.name for item in section.entries] == fields(section.model)
+        labels = [item.heading.casefold() for item in section.entries]
         assert len(labels) == len(set(labels))
         assert not any(set("[]*!") & set(label) for label in labels)
-        choices = [choice for item in entries(section.model) for choice in item.choices]
+        choices = [choice for item in section.entries for choice in item.choices]
         assert not any("," in choice for choice in choices)
 
 

@@ -15,9 +15,9 @@ from projects.example.make import project as example
 from recalculated import converted
 from report.drawing.items import TYPE_PT, width_in
 from report.sheet.reading.read import read
-from report.sheet.schema import SECTIONS, provision_name
+from report.sheet.schema import provision_name
 from report.sheet.schema.choices import UnitsFirst
-from report.sheet.schema.fields import entries
+from report.sheet.workbook import SECTIONS
 from report.sheet.writing.template import write_template
 from sheets import arrays, blank, formula_cells, make, project, type_into
 from solver.rules.rulesets import ALLOWED
@@ -57,7 +57,7 @@ def validation(book, name):
 def test_sheets_names_and_tables_are_complete(fresh):
     assert fresh.sheetnames == [*SHEETS, "Provisions", "Tables"]
     names, blocks = fresh.defined_names, [part for part in SECTIONS if not part.is_table]
-    for section, entry in ((part, entry) for part in blocks for entry in entries(part.model)):
+    for section, entry in ((part, entry) for part in blocks for entry in part.entries):
         assert section.cell_name(entry.name) in names
         assert (section.unit_name(entry.name) in names) == (entry.quantity is not None)
     names = tables(fresh)

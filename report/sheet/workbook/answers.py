@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from report.sheet.schema.choices import ObjectKind, SlopeUnit
-from report.sheet.schema.layout import FORMER_ANSWERS, Tables
+from report.sheet.workbook.layout import FORMER_ANSWERS, Tables
 from report.text.units import Quantity, Unit
 from solver.model import INCH_M
 from solver.rules.hazard import NEAR_FAULT_S_1_G, HazardBasis

@@ -14,7 +14,7 @@ from openpyxl.utils import get_column_letter, quote_sheetname
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.sheet.schema.fields import SheetSection
+from report.sheet.workbook.entries import SheetSection
 
 # Last row that dropdowns and conditional formats reach.
 LAST_ROW = 500
