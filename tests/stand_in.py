@@ -19,6 +19,7 @@ from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
 from report.motions.prepare import Shaking
 from report.package.html import pages
+from report.sheet import workbook
 from report.sheet.reading.read import EchoRow, Sheet
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import RecordedAt
@@ -157,9 +158,9 @@ def unpermitted(**changes):
 def sheet(data):
     """What the workbook reader gives for an input."""
     return Made(
-        path=Path("input.xlsx"), sha256="5f" * 32, book=None, whole=ProjectInput, draft={},
-        echo=tuple(_echo(data)), problems=(), addresses={}, unfound=frozenset(), unseen=(),
-        warnings=(), made=data,
+        path=Path("input.xlsx"), sha256="5f" * 32, book=None, whole=ProjectInput,
+        sections=workbook.SECTIONS, draft={}, echo=tuple(_echo(data)), problems=(), addresses={},
+        unfound=frozenset(), unseen=(), warnings=(), made=data,
     )  # fmt: skip
 
 

@@ -217,7 +217,7 @@ def _tested(draft: Draft) -> tuple[Series, ...]:
     if any(field not in row for row in rows for field in fields):
         return ()
     report = _report(draft, {})
-    return series(FrictionTestRow(**row).run(report) for row in rows)
+    return series(FrictionTestRow.model_construct(**row).run(report) for row in rows)
 
 
 def _law(array: DraftRow) -> Friction | None:

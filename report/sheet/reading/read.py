@@ -94,11 +94,12 @@ class SheetOf(Generic[Whole]):
 
     @cached_property
     def project(self) -> Whole:
-        """The input, validated; raises `InputError` with every problem and its cell."""
+        """The input; raises `InputError` with every problem and its cell."""
         self.refuse(())
         parts: dict[str, Any] = {}
         for part in self.sections:
-            rows = tuple(part.model(**row) for row in self.draft[part.key])
+            # Each value was validated when its cell was read, and all together by `check`.
+            rows = tuple(part.model.model_construct(**row) for row in self.draft[part.key])
             parts[part.key] = rows if part.is_table else rows[0]
         return self.whole.model_validate(parts)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Annotated
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from report.sheet.schema.choices import (
     AccelUnit,
@@ -119,12 +119,6 @@ class Links(Frozen):
     friction: Annotated[str, Field(min_length=1, max_length=200)]
     stiffness_n_per_m: Positive
     damping_ratio: Annotated[float, Field(ge=0, le=1)] = 0.0
-
-    @model_validator(mode="after")
-    def _is_row(self) -> Links:
-        if not self.mus:
-            raise ValueError("give the friction coefficients of 2 to 20 blocks")
-        return self
 
     @property
     def mus(self) -> tuple[float, ...]:

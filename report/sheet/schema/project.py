@@ -9,7 +9,7 @@ import datetime as dt
 import math
 from typing import Annotated
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from report.sheet.schema.choices import (
     BuildingCode,
@@ -27,6 +27,7 @@ from report.sheet.schema.choices import (
 )
 from report.sheet.schema.fields import DraftRow, Frozen
 from solver.friction_tests import MOST_MU, FrictionRun, Surface
+from solver.model import DefectError
 from solver.rules.hazard import (
     EDITIONS,
     LEAST_I_E,
@@ -114,12 +115,6 @@ class Site(Frozen):
     seismic_weight_n: Positive | None = None
     roof_evaluation: Text = ""
 
-    @model_validator(mode="after")
-    def _enough_for_s_ds(self) -> Site:
-        if self.parameters.s_ds is None:
-            raise ValueError("give S_DS, S_MS, or S_S and F_a")
-        return self
-
     @property
     def edition(self) -> Edition:
         """The edition of the seismic parameters."""
@@ -134,7 +129,8 @@ class Site(Frozen):
     def s_ds(self) -> float:
         """S_DS [g]."""
         value = self.parameters.s_ds
-        assert value is not None  # checked when made
+        if value is None:  # which `check` refuses
+            raise DefectError("S_DS cannot be derived")
         return value
 
     @property

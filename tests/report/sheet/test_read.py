@@ -15,7 +15,7 @@ from cells import address, cell
 from inputs import FT, INCH
 from nightly import by_day
 from report.assessment.precheck import findings
-from report.sheet import schema
+from report.sheet.schema import Options
 from report.sheet.schema.choices import Polarity, SlopeUnit, UnitsFirst
 from report.sheet.writing.template import write_template
 from sheets import at, edit, make, of, problems, project, read_workbook, said, same, told, type_into
@@ -239,7 +239,7 @@ def test_what_is_blank_or_absent_takes_its_default(tmp_path):
     statistic = "Options/Design value statistic"
     blank = (statistic, "Options/Peer review", "Motions/M2/Polarity")
     book = read_workbook(type_into(make(tmp_path), dict.fromkeys(blank)))
-    assert book.input.options == schema.Options()
+    assert book.input.options == Options()
     assert book.input.motions[1].polarity is Polarity.BOTH
     row = echo(book)[at(statistic)]
     assert (row.typed, row.value) == ("", "rule set (default)")

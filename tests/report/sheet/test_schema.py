@@ -21,7 +21,7 @@ from report.sheet.schema.project import Site
 from report.sheet.schema.scene import slope_rad
 from report.sheet.workbook import SECTIONS
 from sheets import at, make, of, problems, project, said, same, type_into
-from solver.model import InputError
+from solver.model import DefectError, InputError
 from solver.rules.hazard import HazardBasis
 
 BARE_SITE = inputs.SITE | {"rule_set": "ASCE 7-16", "s_1_g": None, "site_class": None}
@@ -51,8 +51,8 @@ def test_slopes_become_angles_and_s_ds_is_unrounded():
         assert math.degrees(slope_rad(value, unit)) == pytest.approx(degrees, rel=1e-12)
     assert Site(**BARE_SITE, s_s_g=1.313, f_a=1.2).s_ds == pytest.approx(1.0504, abs=1e-12)
     assert Site(**BARE_SITE, s_s_g=1.313, f_a=1.2, s_ds_g=1.05).s_ds == 1.05
-    with pytest.raises(ValidationError, match="give S_DS, S_MS, or S_S and F_a"):
-        Site(**BARE_SITE, s_s_g=1.313)
+    with pytest.raises(DefectError, match="S_DS cannot be derived"):
+        assert Site(**BARE_SITE, s_s_g=1.313).s_ds
 
 
 def test_models_are_frozen_with_rectangles_of_arrays_and_objects():
