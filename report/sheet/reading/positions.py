@@ -95,7 +95,7 @@ def sheets_titled(book: OpenBook, title: str) -> list[Worksheet]:
     if wanted in titles:
         return [titles[wanted]]
     # Such as `Arrays - Table 1`: without names and tables of Excel, but with the headings.
-    return [each for name, each in titles.items() if re.match(rf"{re.escape(wanted)} [-–] ", name)]
+    return [each for name, each in titles.items() if wanted in re.split(" [-–] ", name)]
 
 
 def labels(book: OpenBook, sheet: Worksheet) -> Sequence[tuple[CellPosition, str]]:
