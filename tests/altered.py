@@ -171,7 +171,7 @@ def assessed(name: str) -> Assessment:
     project, changes = COPIES[name]
     former, sheet = scenes.shipped(project), _sheet(project, changes)
     if not changes.keys() & _OF_MOTIONS:
-        return assess(sheet, former.shaking, former)
+        return assess(sheet, former.shaking, former.runs, acceptance=former.acceptance)
     return assess(sheet, prepare(sheet))
 
 

@@ -113,7 +113,8 @@ class Deletable:
             sheet = read_book(replace(self.book, labels={}))
             if {place.section for place in deletion.places} & _WITH_MOTIONS:
                 return assess(sheet, prepare(sheet))
-            return assess(sheet, self.shaking, self.done)
+            known = self.done.acceptance
+            return assess(sheet, self.shaking, self.done.runs, acceptance=known)
         except InputError:
             return None
         finally:

@@ -7,8 +7,8 @@ Computes no physics (`report.assessment.runs`) and reads no code rule itself
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from report.assessment.routes import (
@@ -21,7 +21,7 @@ from report.assessment.routes import (
     statistic_basis,
 )
 from report.assessment.runs import MotionRun, OrientedRun
-from report.assessment.verdict import OVERRIDDEN, as_adopted, mark_of, nan_is_worst
+from report.assessment.verdict import OVERRIDDEN, mark_of, nan_is_worst
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.scene import Array
 from solver.rules import provisions
@@ -41,12 +41,38 @@ class DesignBasis(StrEnum):
     NO_VALUE = "none"
 
 
+@dataclass(frozen=True, slots=True)
+class Displacement:
+    """How far an array may slide, for what is near it."""
+
+    design_m: float  # NaN where there is no value
+    is_permitted: bool = True
+
+    @property
+    def permitted_m(self) -> float:
+        """Design displacement that may be used [m]; NaN where no route is permitted."""
+        return self.design_m if self.is_permitted else math.nan
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ArrayAssessment(RouteLimits):
+class ArrayMarks:
+    """The marks of the numbers of an array that an override or a departure changes."""
+
+    prescriptive: str = ""
+    analysis: str = ""
+    floor: str = ""
+    interconnection: str = ""
+    opened: str = ""  # of what is by a route that an override alone permits
+    design: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ArrayAssessment:
     """One array: its runs, the value from analysis, the prescriptive value, the design value."""
 
     array: Array  # its row of the workbook
     motions: tuple[MotionRun, ...]  # the runs under each motion
+    limits: RouteLimits
     analysis: AnalysisValue  # of the PRDs
     prescriptive: Prescriptive
     floor_m: float  # minimum design displacement without peer review [m]; 0 with it
@@ -60,8 +86,7 @@ class ArrayAssessment(RouteLimits):
     tipping: Tipping
     uplift: Uplift
     interconnection_n: float  # required strength between the parts of the array [N]
-    # the same under the rule set as adopted, where the workbook overrides it or departs from it
-    adopted: ArrayAssessment | None
+    overridden: ArrayMarks = ArrayMarks()
 
     def __repr__(self) -> str:
         design = f"design displacement {1e3 * self.design_m:.0f} mm"
@@ -71,6 +96,11 @@ class ArrayAssessment(RouteLimits):
     def id(self) -> str:
         """Name of the array in the workbook."""
         return self.array.id
+
+    @property
+    def route(self) -> Route:
+        """By which the design displacement is obtained."""
+        return self.limits.route
 
     @property
     def runs(self) -> tuple[OrientedRun, ...]:
@@ -95,7 +125,7 @@ class ArrayAssessment(RouteLimits):
     @property
     def satisfies_limits(self) -> bool:
         """Whether it and its route are permitted: every limit that applies is satisfied."""
-        return self.is_permitted and all(check.ok for check in self.limits)
+        return self.is_permitted and all(check.ok for check in self.limits.required)
 
     @property
     def is_by_runs(self) -> bool:
@@ -119,29 +149,19 @@ class ArrayAssessment(RouteLimits):
         return not math.isnan(self.design_m) and not self.is_permitted
 
     @property
-    def permitted_m(self) -> float:
-        """Design displacement that may be used [m]; NaN where no route is permitted."""
-        return self.design_m if self.is_permitted else math.nan
-
-    def mark(self, value: Callable[[ArrayAssessment], float]) -> str:
-        """Return the mark of a number of the array that an override or a departure changes."""
-        return "" if self.adopted is None else mark_of(value(self), value(self.adopted))
+    def displacement(self) -> Displacement:
+        """How far it may slide."""
+        return Displacement(self.design_m, self.is_permitted)
 
     @property
-    def opened_mark(self) -> str:
-        """The mark of what is by a route that an override alone permits."""
-        is_opened = self.adopted is not None and self.is_permitted > self.adopted.is_permitted
-        return OVERRIDDEN if is_opened else ""
+    def permitted_m(self) -> float:
+        """Design displacement that may be used [m]; NaN where no route is permitted."""
+        return self.displacement.permitted_m
 
     def prescriptive_mark(self, refused: str = f", {NOT_PERMITTED}") -> str:
         """Return the mark of the prescriptive displacement, of a route that is refused, too."""
-        is_permitted = all(check.ok for check in self.prescriptive_checks)
-        return self.mark(lambda array: array.prescriptive.value_m) + refused * (not is_permitted)
-
-    @property
-    def design_mark(self) -> str:
-        """The mark of the design displacement."""
-        return self.mark(lambda array: array.design_m) or self.opened_mark
+        is_permitted = all(check.ok for check in self.limits.prescriptive_checks)
+        return self.overridden.prescriptive + refused * (not is_permitted)
 
     @property
     def ratio(self) -> float:
@@ -185,7 +205,7 @@ def assess_array(
     motions_qualify: bool,
 ) -> ArrayAssessment:
     """Return an array checked against the rule set."""
-    adopted, prescriptive = as_adopted(data), prescriptive_of(data, rules)
+    prescriptive = prescriptive_of(data, rules)
     peaks_m = [run.governing.prd_m for run in runs]
     analysis = provisions.analysis_value(rules, peaks_m, statistic_basis(data))
     floor_m = provisions.analysis_floor_m(rules, prescriptive, is_reviewed=data.is_peer_reviewed)
@@ -197,7 +217,7 @@ def assess_array(
         analysis=analysis,
         prescriptive=prescriptive,
         floor_m=floor_m,
-        **{field.name: getattr(limits, field.name) for field in fields(limits)},
+        limits=limits,
         is_permitted=(motions_qualify or limits.route is Route.PRESCRIPTIVE)
         and all(check.ok for check in limits.of_route),
         design_m=_design_m(limits.route, runs, analysis, prescriptive, floor_m),
@@ -208,17 +228,21 @@ def assess_array(
             default=NO_UPLIFT,
         ),
         interconnection_n=interconnection_n(data, rules, array),
-        # The input itself, if it has no override and no departure.
-        adopted=None
-        if adopted is data
-        else assess_array(
-            adopted,
-            provisions.RULE_SETS[data.site.rule_set],
-            array,
-            runs,
-            motions_qualify=motions_qualify,
-        ),
     )
+
+
+def marked(item: ArrayAssessment, adopted: ArrayAssessment) -> ArrayAssessment:
+    """Return an array with the marks of what is another number under the rule set as adopted."""
+    opened = OVERRIDDEN if item.is_permitted > adopted.is_permitted else ""
+    marks = ArrayMarks(
+        prescriptive=mark_of(item.prescriptive.value_m, adopted.prescriptive.value_m),
+        analysis=mark_of(item.analysis.value_m, adopted.analysis.value_m),
+        floor=mark_of(item.floor_m, adopted.floor_m),
+        interconnection=mark_of(item.interconnection_n, adopted.interconnection_n),
+        opened=opened,
+        design=mark_of(item.design_m, adopted.design_m) or opened,
+    )
+    return replace(item, overridden=marks)
 
 
 def _nearest_to_tipping(array: Array, motions: Sequence[MotionRun]) -> Tipping:

@@ -6,20 +6,21 @@ Reads no code rule itself (`solver.rules.provisions`). Read `report.assessment.p
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from report.assessment.neighbors import ComparedGap, NearbyKind, PlanNeighbor
-from report.assessment.verdict import Verdict, as_adopted, mark_of, nan_is_worst
+from report.assessment.verdict import Verdict, mark_of, nan_is_worst
 from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import Direction, DistanceBasis, ObjectKind
+from report.sheet.schema.choices import DistanceBasis, ObjectKind
 from report.sheet.schema.scene import Array, Clearance, RoofObject
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor, Provision, RuleSet
 
 if TYPE_CHECKING:
-    from report.assessment.arrays import ArrayAssessment
+    from report.assessment.arrays import ArrayAssessment, Displacement
+    from report.assessment.project import Assessment
 
 # Tolerance [deg] within which two downslope directions are the same. The live formulas of the sheet
 # have it, too.
@@ -58,8 +59,8 @@ class ClearanceCheck(ComparedGap):
     is_permitted: bool  # whether the arrays beside it have a permitted route; else no verdict
     # of the displacement and of the required separation, where an override or a departure changes
     # them
-    design_mark: str
-    mark: str
+    design_mark: str = ""
+    mark: str = ""
 
     def __repr__(self) -> str:
         gap = f"{self.clearance.array} to {self.clearance.object}"
@@ -98,25 +99,25 @@ class ClearanceCheck(ComparedGap):
 
 
 def check_clearance(
-    data: ProjectInput, rules: RuleSet, arrays: Sequence[ArrayAssessment], row: Clearance
+    data: ProjectInput, rules: RuleSet, displacements: Mapping[str, Displacement], row: Clearance
 ) -> ClearanceCheck:
-    """Return a clearance with its required separation, the larger of the two between arrays."""
-    # Either array may move toward the other: the larger displacement of both governs.
-    sides = beside(arrays, row)
-    governing = max(sides, key=lambda array: nan_is_worst(array.permitted_m))
-    design_m = governing.permitted_m
+    """Return a clearance with its required separation, by the displacement of each array."""
+    names = row.array, row.object
+    sides = {name: displacements[name] for name in names if name in displacements}
+    governing = _governing(displacements, names)
+    design_m = displacements[governing].permitted_m
     # As entered: a trial with other friction on one side does not make them unlike.
     near = next(array for array in data.arrays if array.id == row.array)
     rows: Sequence[Array | RoofObject] = (*data.arrays, *data.objects)
     other = next(each for each in rows if each.id == row.object)
     neighbor, importance = _across(data, rules, near, other)
     key = provisions.SEPARATION_KEYS[neighbor]
-    check = ClearanceCheck(
+    return ClearanceCheck(
         clearance=row,
         basis=data.basis_of(row),
         neighbor=neighbor,
         importance=importance,
-        governing_array=governing.id,
+        governing_array=governing,
         design_m=design_m,
         # PV1-2012 has the importance factor here, ASCE 7 in the displacement; never both.
         separation=rules.values[key],
@@ -125,11 +126,15 @@ def check_clearance(
         required_m=provisions.required_separation(
             rules, neighbor, design_m=design_m, importance=importance
         ),
-        is_permitted=all(array.is_permitted for array in sides),
-        design_mark="",
-        mark="",
+        is_permitted=all(each.is_permitted for each in sides.values()),
     )
-    return _marked(check, data, arrays)
+
+
+def _governing(displacements: Mapping[str, Displacement], between: Sequence[str]) -> str:
+    """Return the array between which and another that slides farther, or has no value."""
+    # Either array may move toward the other: the larger displacement of both governs.
+    arrays = [name for name in between if name in displacements]
+    return max(arrays, key=lambda name: nan_is_worst(displacements[name].permitted_m))
 
 
 def slides_m(arrays: Sequence[ArrayAssessment], gap: ClearanceCheck) -> Sequence[float]:
@@ -154,45 +159,49 @@ def _across(
     return neighbor, _importance(rules, neighbor, i_e=data.site.i_e, i_p=i_p)
 
 
-def _marked(
-    check: ClearanceCheck, data: ProjectInput, arrays: Sequence[ArrayAssessment]
+def with_displacements(
+    done: Assessment, changed: Mapping[str, Displacement], gap: ClearanceCheck
 ) -> ClearanceCheck:
-    # A mark says that the number of the rule set would be another one: so it is computed as well.
-    adopted = as_adopted(data)
-    if adopted is data:
-        return check
-    rules = provisions.RULE_SETS[data.site.rule_set]
-    as_arrays = [array.adopted or array for array in arrays]
-    other = check_clearance(adopted, rules, as_arrays, check.clearance)
-    opened = by_id(arrays, check.governing_array).opened_mark
+    """Return a clearance of a project where some arrays slide otherwise; its marks stay."""
+    slides = {**done.displacements, **changed}
+    check = check_clearance(done.project, done.rules, slides, gap.clearance)
+    return replace(check, design_mark=gap.design_mark, mark=gap.mark)
+
+
+def marked_gap(
+    check: ClearanceCheck, adopted: ClearanceCheck, arrays: Sequence[ArrayAssessment]
+) -> ClearanceCheck:
+    """Return a clearance with the marks of what is another number under the rule set as adopted."""
+    opened = by_id(arrays, check.governing_array).overridden.opened
     return replace(
         check,
-        design_mark=mark_of(check.design_m, other.design_m) or opened,
-        mark=mark_of(check.required_m, other.required_m) or opened,
+        design_mark=mark_of(check.design_m, adopted.design_m) or opened,
+        mark=mark_of(check.required_m, adopted.required_m) or opened,
     )
 
 
-def minimum_gap(
-    data: ProjectInput, rules: RuleSet, arrays: Sequence[ArrayAssessment], near: PlanNeighbor
-) -> tuple[float, str]:
+def minimum_gap(done: Assessment, near: PlanNeighbor) -> tuple[float, str]:
     """Return the separation that the rule set requires between neighbors [m], and its mark."""
-    if near.kind is not NearbyKind.BARE_EDGE:
-        # As a row in any direction; overlapping shapes have a negative gap, which no row may have.
-        row = Clearance(
-            array=near.array,
-            object=near.other,
-            direction=Direction.ANY,
-            provided_m=max(near.gap_m, 0.0),
-        )
-        check = check_clearance(data, rules, arrays, row)
-        return check.required_m, check.mark
-    array, adopted = by_id(arrays, near.array), as_adopted(data)
-    required_m = separation_m(data, rules, array.permitted_m, array.array, None)
-    if adopted is data:
+    required_m = _minimum_m(done, near)
+    if done.adopted is None:
         return required_m, ""
-    other, plain = array.adopted or array, provisions.RULE_SETS[data.site.rule_set]
-    other_m = separation_m(adopted, plain, other.permitted_m, array.array, None)
-    return required_m, mark_of(required_m, other_m) or array.opened_mark
+    governing = by_id(done.arrays, _governing(done.displacements, near.between))
+    return required_m, (
+        mark_of(required_m, _minimum_m(done.adopted, near)) or governing.overridden.opened
+    )
+
+
+def _minimum_m(done: Assessment, near: PlanNeighbor) -> float:
+    data, displacements = done.project, done.displacements
+    rows: dict[str, Array | RoofObject] = {item.id: item for item in data.objects}
+    rows |= {array.id: array for array in data.arrays}
+    return separation_m(
+        data,
+        done.rules,
+        displacements[_governing(displacements, near.between)].permitted_m,
+        by_id(done.arrays, near.array).array,
+        None if near.kind is NearbyKind.BARE_EDGE else rows[near.other],
+    )
 
 
 def separation_m(

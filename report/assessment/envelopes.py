@@ -117,7 +117,7 @@ def keep_clear_mark(assessment: Assessment, array: ArrayAssessment) -> str:
         rules["separation_fixed"]
         for rules in (assessment.rules, provisions.RULE_SETS[assessment.rules.name])
     )
-    return array.design_mark or mark_of(factor, plain)
+    return array.overridden.design or mark_of(factor, plain)
 
 
 def keep_clear(separation_m: float, us_first: bool) -> str:

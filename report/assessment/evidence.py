@@ -7,22 +7,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
 
-from report.assessment.arrays import ArrayAssessment
+from report.assessment.arrays import ArrayAssessment, Displacement
 from report.assessment.assess import reassess
 from report.assessment.checks.check import Check
 from report.assessment.checks.limits import of_limit
-from report.assessment.clearances import ClearanceCheck, by_id, check_clearance
+from report.assessment.clearances import ClearanceCheck, by_id, with_displacements
 from report.assessment.friction import InputCase, with_friction
-from report.assessment.project import THREADS, Assessment
+from report.assessment.project import Assessment
 from report.assessment.remedies import Remedies, remedies
 from report.assessment.routes import Route, statistic_basis
 from report.assessment.runs import MotionRun, run_motion
 from report.assessment.spectra import Spectra, spectra
-from report.assessment.trials import resting
 from report.assessment.uncertainty import Uncertainty, uncertainty
 from report.assessment.verdict import SHIFT, nan_is_worst
 from report.motions.history import PreparedMotion, first_period_s, through_building
@@ -62,9 +60,9 @@ class Accuracy:
         return tuple(
             of_limit(check, after.id)
             for before, after in pairs
-            if all(check.ok for check in before.limits)
+            if all(check.ok for check in before.limits.required)
             # With less friction another route may be taken, whose limits are other ones.
-            for check in replace(after, route=before.route).limits
+            for check in replace(after.limits, route=before.route).required
             if not check.ok
         )
 
@@ -94,12 +92,12 @@ def building_variations(assessment: Assessment) -> Variations:
         return ()
     used = data.building.model_copy(update={"period_s": first_period_s(data)})
     variations = [(used, array.analysis)]
-    with ThreadPoolExecutor(THREADS) as pool:
-        for building in _others(used):
-            other = data.model_copy(update={"building": building})
-            peaks_m = list(pool.map(partial(_prd_m, array.array, other), data.motions, prepared))
-            value = analysis_value(assessment.rules, peaks_m, statistic_basis(data))
-            variations.append((building, value))
+    for building in _others(used):
+        other = data.model_copy(update={"building": building})
+        rows = zip(data.motions, prepared, strict=True)
+        peaks_m = assessment.runs.map(partial(_prd_m, array.array, other), rows)
+        value = analysis_value(assessment.rules, peaks_m, statistic_basis(data))
+        variations.append((building, value))
     return tuple(variations)
 
 
@@ -115,7 +113,8 @@ def _others(used: BuildingInput) -> Iterator[BuildingInput]:
             yield used.model_copy(update={"damping_percent": percent})
 
 
-def _prd_m(array: Array, data: ProjectInput, row: MotionInput, prepared: PreparedMotion) -> float:
+def _prd_m(array: Array, data: ProjectInput, of: tuple[MotionInput, PreparedMotion]) -> float:
+    row, prepared = of
     return run_motion(array, through_building(data, row, prepared)).peak_m(Direction.ANY)
 
 
@@ -137,9 +136,9 @@ def building_case(assessment: Assessment, variations: Variations) -> InputCase |
         else f"{number(building.period_s or math.nan, 2)} s as the period of the building"
     )
     farther = replace(array, analysis=value, design_m=design_m)
-    arrays = [farther if item is array else item for item in assessment.arrays]
-    rows = [gap.clearance for gap in assessment.gaps_of(array.id)]
-    gaps = [check_clearance(assessment.project, assessment.rules, arrays, row) for row in rows]
+    slides = {array.id: farther.displacement}
+    given = assessment.gaps_of(array.id)
+    gaps = [with_displacements(assessment, slides, gap) for gap in given]
     return InputCase(array=farther, changed=changed, gaps=gaps)
 
 
@@ -294,17 +293,14 @@ def saving(assessment: Assessment) -> Saving:
     first = assessment.arrays[0]  # the prescriptive displacement is the same for every array
     floor_m = analysis_floor_m(assessment.rules, first.prescriptive)
     without = [item for item in assessment.arrays if item.route is Route.PRESCRIPTIVE]
-    ids = [item.id for item in without if item.may_be_analyzed]
-    at_floor = [
-        replace(resting(item, floor_m), is_permitted=True) if item.id in ids else item
-        for item in assessment.arrays
-    ]
-    short = [gap.clearance for gap in assessment.clearances if not gap.ok]
-    checks = [check_clearance(assessment.project, assessment.rules, at_floor, row) for row in short]
+    ids = [item.id for item in without if item.limits.may_be_analyzed]
+    at_floor = dict.fromkeys(ids, Displacement(floor_m))
+    short = [gap for gap in assessment.clearances if not gap.ok]
+    checks = [with_displacements(assessment, at_floor, gap) for gap in short]
     return Saving(
         lacks=assessment.against_analysis(first) if assessment.has_motions else [],
         ids=ids,
-        others=[item.id for item in without if not item.may_be_analyzed],
+        others=[item.id for item in without if not item.limits.may_be_analyzed],
         is_lifted_by_review=review_lifts_slope(assessment.rules, assessment.project.site.sdc),
         prescriptive_m=first.prescriptive.value_m,
         floor_m=floor_m,

@@ -8,14 +8,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from report.assessment.arrays import ArrayAssessment, assess_array
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.checks.arrays import slack_check
 from report.assessment.checks.check import words
 from report.assessment.checks.plan import clearance_check
-from report.assessment.clearances import ClearanceCheck, check_clearance
+from report.assessment.clearances import ClearanceCheck, with_displacements
 from report.assessment.routes import NOT_PERMITTED
-from report.assessment.runs import PendingRuns
 from report.assessment.tested import MOST_BEYOND, is_complete, tested
 from report.assessment.verdict import Verdict
 from report.sheet.checking.motion_checks import MU_TOLERANCE
@@ -25,7 +25,9 @@ from report.text.counts import ids_by, ranged
 from report.text.units import Quantity, Rounding, no_less, number, pair
 from solver.friction_tests import Series, governing
 from solver.model import Friction
-from solver.rules.provisions import RuleSet
+
+if TYPE_CHECKING:
+    from report.assessment.project import Assessment
 
 
 def coefficient(mu: float) -> str:
@@ -61,6 +63,14 @@ def array_with_friction(array: Array, factor: float) -> Array:
     return array.model_copy(
         update={name: mu * factor for name, mu in values.items() if mu is not None}
     )
+
+
+def with_low_velocity(data: ProjectInput) -> ProjectInput:
+    """Return the input with the low-velocity coefficient of every array alone; itself if it is."""
+    if not any(array.friction.is_by_velocity for array in data.arrays):
+        return data
+    arrays = [at_low_velocity(a) if a.friction.is_by_velocity else a for a in data.arrays]
+    return data.model_copy(update={"arrays": type(data.arrays)(arrays)})
 
 
 def at_low_velocity(array: Array) -> Array:
@@ -205,31 +215,15 @@ class LowVelocityAssessment:
 NOT_BY_VELOCITY = LowVelocityAssessment(arrays=(), clearances={})
 
 
-def with_low_velocity(data: ProjectInput) -> ProjectInput:
-    """Return an input with those arrays only whose friction depends on velocity, without it."""
-    arrays = [at_low_velocity(array) for array in data.arrays if array.friction.is_by_velocity]
-    return data.model_copy(update={"arrays": type(data.arrays)(arrays)})
-
-
-def low_velocity(
-    data: ProjectInput,
-    rules: RuleSet,
-    arrays: Sequence[ArrayAssessment],
-    begun: PendingRuns,
-    *,
-    motions_qualify: bool,
-) -> LowVelocityAssessment:
-    """Assess the arrays of `with_low_velocity`, whose runs have begun, beside the others."""
-    changed = {
-        array.id: assess_array(data, rules, array, wait(), motions_qualify=motions_qualify)
-        for array, wait in zip(with_low_velocity(data).arrays, begun, strict=True)
-    }
-    every = [changed.get(item.id, item) for item in arrays]
+def low_velocity(done: Assessment, slow: Assessment) -> LowVelocityAssessment:
+    """Return what an assessment of `with_low_velocity` has of the arrays that it changes."""
+    ids = {array.id for array in done.project.arrays if array.friction.is_by_velocity}
     return LowVelocityAssessment(
-        arrays=tuple(changed.values()),
+        arrays=tuple(item for item in slow.arrays if item.id in ids),
+        # Arrays stay unlike that are so as given.
         clearances={
-            count: check_clearance(data, rules, every, row)
-            for count, row in enumerate(data.clearances, start=1)
-            if not changed.keys().isdisjoint((row.array, row.object))
+            count: with_displacements(done, slow.displacements, gap)
+            for count, gap in enumerate(done.clearances, start=1)
+            if not ids.isdisjoint(gap.between)
         },
     )

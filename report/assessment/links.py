@@ -7,11 +7,11 @@ Runs both in one axis with the vertical, where a workbook requests it; computes 
 from __future__ import annotations
 
 import math
-from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import partial
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.runs import Runs
 from report.assessment.verdict import nan_is_worst
 from report.sheet.schema.motions import Links
 from report.sheet.schema.scene import Array
@@ -148,13 +148,11 @@ class LinkedArray:
         return self.block_n * max((run.row.link_force for run in self.runs), key=nan_is_worst)
 
 
-def assess_linked(
-    pool: Executor, rules: RuleSet, links: Links, design: ArrayAssessment
-) -> LinkedArray:
+def assess_linked(runs: Runs, rules: RuleSet, links: Links, design: ArrayAssessment) -> LinkedArray:
     """Run an array under all its motions as a row of linked blocks and as one rigid block."""
     row = links.row(design.array.weight_n)
     run = partial(_run_motion, design.array, row)
-    motions = tuple(pool.map(run, [run.motion for run in design.motions]))
+    motions = tuple(runs.map(run, [run.motion for run in design.motions]))
     basis = design.analysis.basis
     return LinkedArray(
         links=links,

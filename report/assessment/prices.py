@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from report.assessment.causes import came_to, governing_words
 from report.assessment.clearances import by_id
-from report.assessment.friction import at_low_velocity, mus_words
+from report.assessment.friction import at_low_velocity, mus_words, with_low_velocity
 from report.assessment.verdict import (
     LOWERING,
     VELOCITY_ROW,
@@ -33,19 +33,19 @@ _REVIEW, _RULE_SET = "peer_review", "rule_set"
 
 
 def prices(
-    done: Assessment, assessed: Callable[[ProjectInput, Collection[str]], Assessment]
+    done: Assessment, reassess: Callable[[Assessment, ProjectInput, Collection[str]], Assessment]
 ) -> Mapping[str, str]:
     """Return what a project comes to without what checks ask for, by their ids.
 
     Of checks that are open, where a displacement or a verdict is another one then; of a peer
-    review and a letter of acceptance on file, too. `assessed` is given an input, and the motions
-    that it is without.
+    review and a letter of acceptance on file, too. `reassess` is given another input, and the
+    motions that it is without.
     """
     found = dict[str, str]()
     wanted = {check.id for check in done.checks if check.is_open} | {_REVIEW, _RULE_SET}
     for ids, other, motions, how in _others(done):
         if (motions or other is not done.project) and not wanted.isdisjoint(ids):
-            found |= dict.fromkeys(ids, _price(done, assessed(other, motions), how))
+            found |= dict.fromkeys(ids, _price(done, reassess(done, other, motions), how))
     return {id: text for id, text in found.items() if text}
 
 
@@ -67,10 +67,9 @@ def _others(
         yield (_REVIEW,), other, (), "without peer review"
     slow = [array for array in data.arrays if array.friction.is_by_velocity]
     if slow and done.has_motions:
-        arrays = tuple(at_low_velocity(a) if a in slow else a for a in data.arrays)
         mus = mus_words([at_low_velocity(array) for array in slow])
         how = f"with the low-velocity friction coefficient alone ({mus})"
-        yield (VELOCITY_ROW,), data.model_copy(update={"arrays": arrays}), (), how
+        yield (VELOCITY_ROW,), with_low_velocity(data), (), how
     drifting = {c.subject for c in done.checks if c.id == "drift" and c.is_open}
     if drifting:
         yield ("drift",), data, drifting, f"without {ranged(sorted(drifting))}"

@@ -5,19 +5,21 @@ Runs nothing: `report.assessment.assess` does. Runs without a final displacement
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import cached_property
 
-from report.assessment.arrays import ArrayAssessment
+from report.assessment.arrays import ArrayAssessment, Displacement
 from report.assessment.checks.check import Check, alike, verdict_of
 from report.assessment.checks.every import every
 from report.assessment.checks.limits import against_analysis
-from report.assessment.clearances import ClearanceCheck
-from report.assessment.friction import LowVelocityAssessment
+from report.assessment.clearances import ClearanceCheck, largest_separation_m, minimum_gap
+from report.assessment.friction import NOT_BY_VELOCITY, LowVelocityAssessment
 from report.assessment.links import LinkedArray
-from report.assessment.neighbors import ComparedGap, PlanNeighbor
-from report.assessment.runs import scene_key
+from report.assessment.neighbors import ComparedGap, PlanNeighbor, plan_pairs, reaches_of
+from report.assessment.runs import Runs, scene_key
 from report.assessment.verdict import Verdict, nan_is_worst, severity
 from report.motions.history import Targets
 from report.motions.prepare import Shaking
@@ -27,50 +29,63 @@ from report.text.counts import grouped_by
 from solver.records.acceptance import Acceptance
 from solver.rules.provisions import RuleSet
 
-THREADS = 2
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Assessment:
-    """Everything that was computed for a project."""
+    """What was assessed, and what came of it."""
 
     sheet: Sheet  # the workbook as data
     shaking: Shaking  # the motions at the roof
+    runs: Runs = field(compare=False, repr=False)  # of the arrays, and of others that were tried
     project: ProjectInput  # as assessed: that of the sheet, except with changed friction
     rules: RuleSet
     targets: Targets  # target spectra of the motions: AC156 or project-specific
     arrays: tuple[ArrayAssessment, ...]
     clearances: tuple[ClearanceCheck, ...]
-    linked: tuple[LinkedArray, ...]  # whose rigid-block model the workbook asks to be checked
-    # what the plan shows beside each array, with its clearances; none in `at_reduced_friction`
-    pairs: tuple[PlanNeighbor, ...]
     acceptance: Acceptance  # limits on the motions as run, at the roof
-    at_reduced_friction: Assessment | None  # the same with less friction; None in that one itself
-    # arrays with their low-velocity coefficient alone; without any in `at_reduced_friction`, and in
-    # what `reassess` and `anticipate` give
-    low_velocity: LowVelocityAssessment
+    # the same without overrides and departures, where the workbook has any
+    adopted: Assessment | None
+    # What only more than `Extent.ALONE` has. Arrays whose rigid-block model the workbook asks to be
+    # checked:
+    linked: tuple[LinkedArray, ...] = ()
+    low_velocity: LowVelocityAssessment = NOT_BY_VELOCITY
+    at_reduced_friction: Assessment | None = None
     # what the project comes to if a check is not met, as a sentence by the id of the check
     otherwise: Mapping[str, str] = field(default_factory=dict)
     more: tuple[Check, ...] = ()  # checks that do not follow from the input alone
-    # everything that is required, satisfied or not: the verdicts are the worst of it
-    checks: tuple[Check, ...] = field(init=False, compare=False)
-    # What many ask for, once; not when it is asked for first: nothing may change while it is sent.
-    _gaps_by_array: Mapping[str, Sequence[ClearanceCheck]] = field(init=False, compare=False)
-    # what the plan shows near each array, or what a clearance is given to
-    neighbors: tuple[PlanNeighbor, ...] = field(init=False, compare=False)
-    # those without a clearance that are not known to be sufficient
-    missing_gaps: tuple[PlanNeighbor, ...] = field(init=False, compare=False)
 
-    def __post_init__(self) -> None:
-        rows = [gap.clearance for gap in self.clearances]
-        ids = {row.array: None for row in rows} | {row.object: None for row in rows}
-        gaps = {each: [gap for gap in self.clearances if gap.involves(each)] for each in ids}
-        object.__setattr__(self, "_gaps_by_array", gaps)
-        neighbors = tuple(pair for pair in self.pairs if pair.is_listed)
-        object.__setattr__(self, "neighbors", neighbors)
-        missing = tuple(near for near in neighbors if near.is_short)
-        object.__setattr__(self, "missing_gaps", missing)
-        object.__setattr__(self, "checks", (*every(self), *self.more))
+    @cached_property
+    def checks(self) -> tuple[Check, ...]:
+        """Everything that is required, satisfied or not: the verdicts are the worst of it."""
+        return (*every(self), *self.more)
+
+    @cached_property
+    def displacements(self) -> Mapping[str, Displacement]:
+        """How far each array may slide, by its id."""
+        return {item.id: item.displacement for item in self.arrays}
+
+    @cached_property
+    def pairs(self) -> tuple[PlanNeighbor, ...]:
+        """What the plan shows beside each array, with its clearances."""
+        largest_m = largest_separation_m(self.project, self.rules, self.arrays)
+
+        def required(near: PlanNeighbor) -> tuple[float, str]:
+            # Most pairs of a large roof are out of reach, and farther apart than any separation.
+            if not near.given and near.gap_m > max(largest_m, near.reach_m):
+                return math.nan, ""
+            return minimum_gap(self, near)
+
+        return plan_pairs(self.project, reaches_of(self.arrays), self.sheet.addresses, required)
+
+    @cached_property
+    def neighbors(self) -> tuple[PlanNeighbor, ...]:
+        """What the plan shows near each array, or what a clearance is given to."""
+        return tuple(pair for pair in self.pairs if pair.is_listed)
+
+    @cached_property
+    def missing_gaps(self) -> tuple[PlanNeighbor, ...]:
+        """Those without a clearance that are not known to be sufficient."""
+        return tuple(near for near in self.neighbors if near.is_short)
 
     def __repr__(self) -> str:
         counts = f"{len(self.arrays)} arrays, {len(self.clearances)} clearances"
@@ -117,7 +132,7 @@ class Assessment:
         """Whether an override or a departure changes a design displacement or a separation."""
         return any(
             (
-                *(item.design_mark for item in self.arrays),
+                *(item.overridden.design for item in self.arrays),
                 *(gap.mark for gap in self.clearances),
                 *(gap.mark for gap in self.missing_gaps),
             )
@@ -126,7 +141,7 @@ class Assessment:
     def against_analysis(self, item: ArrayAssessment) -> Sequence[str]:
         """Return what does not permit the analysis of an array, in a few words each."""
         count = len(self.shaking.motions)
-        return against_analysis(self.project, self.rules, item, self.acceptance, count)
+        return against_analysis(self.project, self.rules, item.limits, self.acceptance, count)
 
     def is_rigid_enough(self, item: ArrayAssessment) -> bool:
         """Whether one rigid block is adequate for an array, where the workbook asks."""
@@ -134,7 +149,7 @@ class Assessment:
 
     def gaps_of(self, array_id: str) -> Sequence[ClearanceCheck]:
         """Return the clearances that involve an array, on either side."""
-        return self._gaps_by_array.get(array_id, ())
+        return [gap for gap in self.clearances if gap.involves(array_id)]
 
     def governing_gap(self, array_id: str = "") -> ComparedGap | None:
         """Return the gap with the largest D/C, if any; of an array that from either side."""

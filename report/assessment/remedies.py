@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property, partial, reduce
@@ -21,16 +20,14 @@ from report.assessment.clearances import ClearanceCheck, by_id
 from report.assessment.friction import mu_words
 from report.assessment.moves import Change, moves
 from report.assessment.neighbors import ComparedGap
-from report.assessment.project import THREADS, Assessment
+from report.assessment.project import Assessment
 from report.assessment.routes import Route
 from report.assessment.trials import (
-    Runs,
     Trials,
     above,
+    check_alone,
     is_final,
-    resting,
     search,
-    single_array_check,
     trials_of,
     with_mu,
 )
@@ -116,10 +113,9 @@ def remedies(assessment: Assessment, *, may_run: bool = True) -> Remedies:
     """
     if assessment.verdict.is_permitted:
         return Remedies()
-    with ThreadPoolExecutor(THREADS) as pool:
-        state = _State(assessment, pool, {} if may_run else None)
-        own = tuple(state.own())
-        return replace(_enough(state, own), own=own)
+    state = _State(assessment, may_run)
+    own = tuple(state.own())
+    return replace(_enough(state, own), own=own)
 
 
 def _enough(state: _State, own: Iterable[Remedy]) -> Remedies:
@@ -150,10 +146,9 @@ def _enough(state: _State, own: Iterable[Remedy]) -> Remedies:
 class _State:
     """A project, as given or with changes, and what would satisfy what is NG in it."""
 
-    def __init__(self, done: Assessment, pool: Executor, runs: Runs | None) -> None:
+    def __init__(self, done: Assessment, may_run: bool) -> None:
         self.done = done
-        self._pool = pool
-        self._runs = runs  # of other friction, of all states; None where none may be run
+        self._may_run = may_run
         self.failed = by_ratio(check for check in done.checks if check.verdict is Verdict.NG)
 
     def own(self) -> Iterator[Remedy]:
@@ -176,7 +171,7 @@ class _State:
                 continue
             is_review = remedy.change is _reviewed  # the same of every check
             done = self.reviewed if is_review else entered(self.done, remedy.change(self.data))
-            now = done and _State(done, self._pool, self._runs)
+            now = done and _State(done, self._may_run)
             wanted = ok | {*map(_key, remedy.checks)}
             if now and wanted.isdisjoint(map(_key, now.failed)):
                 found.add(remedy.kind)
@@ -190,7 +185,7 @@ class _State:
     @cached_property
     def trials(self) -> Mapping[str, Trials]:
         """The arrays with other friction; none where none may be run."""
-        return {} if self._runs is None else trials_of(self.done, self._pool, self._runs)
+        return trials_of(self.done) if self._may_run else {}
 
     @cached_property
     def reviewed(self) -> Assessment | None:
@@ -255,7 +250,8 @@ def _frictions(state: _State, check: Check) -> Iterator[Remedy]:
     gap, mus = _gap(state.done, check), dict[str, float]()
     row = gap.clearance if isinstance(gap, ClearanceCheck) else None
     for item in (by_id(state.done.arrays, name) for name in check.arrays):
-        if row and is_final(item) and single_array_check(state.done, state.data, item, row).ok:
+        slides = item.displacement
+        if row and is_final(item) and check_alone(state.done, item.id, slides, row).ok:
             continue
         if item.id not in state.trials:
             return
@@ -317,8 +313,8 @@ def _may_help(trials: Trials, row: Clearance | None) -> bool:
         return False
     is_prescriptive = array.route is Route.PRESCRIPTIVE
     least_m = array.prescriptive.value_m if is_prescriptive else array.floor_m
-    at_rest = resting(array, least_m)
-    return row is None or single_array_check(assessment, assessment.project, at_rest, row).ok
+    at_rest = replace(array.displacement, design_m=least_m)
+    return row is None or check_alone(assessment, array.id, at_rest, row).ok
 
 
 # The value of an array that a check compares, by the id of the check.

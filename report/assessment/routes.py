@@ -51,7 +51,7 @@ class RouteLimits:
         return self.analysis_checks if is_analysis else self.prescriptive_checks
 
     @property
-    def limits(self) -> tuple[Limit, ...]:
+    def required(self) -> tuple[Limit, ...]:
         """Every limit that must be satisfied on the route taken."""
         return (*self.checks, *self.of_route)
 

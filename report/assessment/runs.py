@@ -1,15 +1,19 @@
 """One array under one motion: each component along the slope in each polarity; governing run.
 
-Integrates nothing itself (`solver.sliding.least_model` does) and knows no code rule. Read
-`report.assessment.project` next.
+Integrates nothing itself (`solver.sliding.least_model` does) and knows no code rule. Read `Runs`,
+then `report.assessment.assess`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
 from operator import attrgetter
+from typing import TypeVar
 
 from report.assessment.verdict import nan_is_worst
 from report.sheet.schema.choices import Direction
@@ -18,6 +22,17 @@ from solver.model import Motion, Orientation, Scene, SlideHistory, SlideResult, 
 from solver.sliding import least_model
 from solver.sliding.least_model import DEFAULT, Model, Settings, Solution
 from solver.sliding.uplift import Uplift, uplift
+
+THREADS = 2
+
+_T = TypeVar("_T")
+_R = TypeVar("_R")
+
+Names = Mapping[str, Sequence[str]]
+"""Names of orientations by the id of the motion."""
+
+Reference = Mapping[str, Names]
+"""By array and motion, the orientations with the largest PRDs: data for JSON."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,25 +78,18 @@ class OrientedRun:
         }[direction]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class MotionRun:
     """One array under one motion, with each horizontal component in the requested polarities."""
 
     motion: Motion
     runs: tuple[OrientedRun, ...]
     governing: OrientedRun  # the run with the largest PRD, or one without a displacement
-    # Arrays share a run: what follows from it alone is computed once, before it is sent anywhere.
-    uplift: Uplift = field(init=False)  # of the run with the smallest normal force
-    _peaks_m: Mapping[Direction, float] = field(init=False)
 
-    def __post_init__(self) -> None:
-        uplifts = (uplift(run.scene) for run in self.runs)
-        object.__setattr__(self, "uplift", min(uplifts, key=attrgetter("n_min_g")))
-        peaks_m = {
-            direction: max((run.excursion_m(direction) for run in self.runs), key=nan_is_worst)
-            for direction in Direction
-        }
-        object.__setattr__(self, "_peaks_m", peaks_m)
+    @cached_property
+    def uplift(self) -> Uplift:
+        """Uplift of the run with the smallest normal force."""
+        return min((uplift(run.scene) for run in self.runs), key=attrgetter("n_min_g"))
 
     @property
     def seconds(self) -> float:
@@ -90,11 +98,77 @@ class MotionRun:
 
     def peak_m(self, direction: Direction) -> float:
         """Return the largest excursion of all runs in a direction [m]; NaN if any has none."""
-        return self._peaks_m[direction]
+        return max((run.excursion_m(direction) for run in self.runs), key=nan_is_worst)
 
     def history(self) -> SlideHistory:
         """Rerun the governing run for its values at the samples, for plotting only."""
         return least_model.history(self.governing.scene, self.governing.solution)
+
+
+class Runs:
+    """The runs of arrays under the motions of one suite: each is begun once, and kept.
+
+    Arrays with one slope and friction share them. Knows no rule. The orientations `known` of an
+    array under a motion are run alone, which is not for design; nor is a larger tolerance.
+    """
+
+    def __init__(
+        self, known: Reference | None = None, tolerance: float = DEFAULT.tolerance
+    ) -> None:
+        self._known, self._tolerance = known or {}, tolerance
+        # Runs in two axes and of rows release the GIL: two proceed in parallel.
+        self._pool = ThreadPoolExecutor(THREADS)
+        self._begun: dict[Hashable, Future[OrientedRun]] = {}
+        # One result for all arrays that share it: what follows from it alone is computed once.
+        self._done: dict[Hashable, MotionRun] = {}
+
+    def copy(self) -> Runs:
+        """Return the runs that there are; those that follow are kept in the copy alone."""
+        other = Runs(self._known, self._tolerance)
+        other._begun |= self._begun
+        other._done |= self._done
+        return other
+
+    def begin(
+        self, arrays: Iterable[Array], motions: Iterable[Motion], only: Names | None = None
+    ) -> None:
+        """Begin the runs of arrays under motions, without waiting for them."""
+        for array, motion in product(arrays, motions):
+            for each in self._orientations(array, motion, only):
+                key = (scene_key(array), motion.id, each)
+                if key not in self._begun:
+                    run = self._pool.submit(run_oriented, array, motion, each, self._tolerance)
+                    self._begun[key] = run
+
+    def of(
+        self, array: Array, motions: Sequence[Motion], only: Names | None = None
+    ) -> tuple[MotionRun, ...]:
+        """Return the runs of an array, or those in some orientations only, once they are done."""
+        self.begin([array], motions, only)
+        return tuple(
+            self._motion_run(array, motion, self._orientations(array, motion, only))
+            for motion in motions
+        )
+
+    def map(self, do: Callable[[_T], _R], items: Iterable[_T]) -> list[_R]:
+        """Return what becomes of each item, two at a time."""
+        return list(self._pool.map(do, items))
+
+    def _orientations(
+        self, array: Array, motion: Motion, only: Names | None
+    ) -> tuple[Orientation, ...]:
+        by_motion = self._known.get(array.id, {}) if only is None else only
+        names = by_motion.get(motion.id, ())
+        return tuple(o for o in motion.orientations if o.name in names) or motion.orientations
+
+    def _motion_run(
+        self, array: Array, motion: Motion, orientations: Sequence[Orientation]
+    ) -> MotionRun:
+        keys = [(scene_key(array), motion.id, each) for each in orientations]
+        whole = tuple(keys)
+        if whole not in self._done:
+            self._done[whole] = motion_run(motion, [self._begun[key].result() for key in keys])
+        return self._done[whole]
 
 
 def scene_key(array: Array) -> Hashable:
@@ -102,20 +176,9 @@ def scene_key(array: Array) -> Hashable:
     return array.slope_rad, array.friction
 
 
-def run_motion(
-    array: Array,
-    motion: Motion,
-    names: Collection[str] = (),
-    tolerance: float = DEFAULT.tolerance,
-) -> MotionRun:
-    """Run one array under one motion in all of its runs.
-
-    Of the orientations those in `names` are run alone, if the motion has them, which is not for
-    design; nor is a larger tolerance.
-    """
-    wanted = [each for each in motion.orientations if each.name in names] or motion.orientations
-    runs = [run_oriented(array, motion, each, tolerance) for each in wanted]
-    return motion_run(motion, runs)
+def run_motion(array: Array, motion: Motion) -> MotionRun:
+    """Run one array under one motion in all of its runs, which are not kept."""
+    return motion_run(motion, [run_oriented(array, motion, each) for each in motion.orientations])
 
 
 def largest_two(done: MotionRun) -> list[str]:
@@ -136,14 +199,7 @@ def run_oriented(
     orientation: Orientation,
     tolerance: float = DEFAULT.tolerance,
 ) -> OrientedRun:
-    """Run one array under one motion at one orientation; the rest as in `run_motion`."""
+    """Run one array under one motion at one orientation, to a tolerance relative to the PRD."""
     scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
     solution = least_model.solve(scene, Settings(tolerance=tolerance))
     return OrientedRun(orientation=orientation, scene=scene, solution=solution)
-
-
-RunMotion = Callable[[Array, Motion], MotionRun]
-
-
-# Wait for the runs of each array.
-PendingRuns = Sequence[Callable[[], tuple[MotionRun, ...]]]

@@ -7,24 +7,18 @@ it. Read `Trials`, then `search`.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Hashable, Mapping, Sequence
-from concurrent.futures import Executor
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 
-from report.assessment.arrays import ArrayAssessment, assess_array
+from report.assessment.arrays import ArrayAssessment, Displacement, assess_array
 from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.friction import array_with_friction, at_low_velocity
 from report.assessment.project import Assessment
-from report.assessment.runs import MotionRun, motion_run, run_oriented, scene_key
-from report.sheet.schema import ProjectInput
 from report.sheet.schema.scene import Array, Clearance
 from solver.model import Status
 
 # Hundredths between the values of each pass of a search: coarse first, as each value takes runs.
 STRIDES = (5, 1)
-
-Runs = dict[Hashable, tuple[MotionRun, ...]]
 
 
 def above(value: float) -> int:
@@ -64,13 +58,10 @@ def search(satisfies: Callable[[int], bool], start: int, end: int) -> tuple[int,
 class Trials:
     """One array under the motions of a project, with other friction, in hundredths."""
 
-    def __init__(
-        self, assessment: Assessment, array: ArrayAssessment, pool: Executor, runs: Runs
-    ) -> None:
+    def __init__(self, assessment: Assessment, array: ArrayAssessment) -> None:
         self.assessment = assessment
         self.array = array
-        self._pool = pool
-        self._runs = runs  # arrays with one slope and friction share them
+        self._governing = {run.motion.id: [run.governing.orientation.name] for run in array.motions}
         # Several clearances of an array ask for the same ones.
         self._done: dict[tuple[int, bool], ArrayAssessment] = {}
 
@@ -86,7 +77,7 @@ class Trials:
     def required_m(self, row: Clearance, *, mu: int) -> float:
         """Return the separation that the array requires with all runs [m]."""
         trial = self._tried(mu, every=True)
-        return single_array_check(self.assessment, self.assessment.project, trial, row).required_m
+        return check_alone(self.assessment, trial.id, trial.displacement, row).required_m
 
     def failure(self, row: Clearance | None, *, mu: int, every: bool = True) -> str:
         """Return what does not satisfy with all runs, or with the governing ones; else nothing."""
@@ -94,9 +85,9 @@ class Trials:
         if not is_final(trial):
             return "no final value"
         if self.array.satisfies_limits and not trial.satisfies_limits:
-            limits = replace(trial, route=self.array.route).limits  # not those of another route
-            return next(check.title for check in limits if not check.ok)
-        if row and not single_array_check(self.assessment, self.assessment.project, trial, row).ok:
+            limits = replace(trial.limits, route=self.array.route)  # not those of another route
+            return next(check.title for check in limits.required if not check.ok)
+        if row and not check_alone(self.assessment, trial.id, trial.displacement, row).ok:
             return "clearance"
         return ""
 
@@ -104,39 +95,21 @@ class Trials:
         """Return the array with all runs, or with the governing orientation of each motion only."""
         which = (mu, every)
         if which not in self._done:
-            array = with_mu(self.array.array, mu / 100)
-            key = (which, scene_key(self.array.array))
-            if key not in self._runs:
-                self._runs[key] = self._run(array, *which)
+            done, array = self.assessment, with_mu(self.array.array, mu / 100)
+            only = None if every else self._governing
             self._done[which] = assess_array(
-                self.assessment.project,
-                self.assessment.rules,
+                done.project,
+                done.rules,
                 array,
-                self._runs[key],
-                motions_qualify=self.assessment.acceptance.qualifies,
+                done.runs.of(array, done.shaking.motions, only),
+                motions_qualify=done.acceptance.qualifies,
             )
         return self._done[which]
 
-    def _run(self, array: Array, mu: int, every: bool) -> tuple[MotionRun, ...]:
-        # Of all runs the governing ones are done already.
-        before = self._tried(mu, every=False) if every else self.array
-        return tuple(self._pool.map(partial(_runs, array, every), before.motions))
 
-
-def trials_of(
-    assessment: Assessment, pool: Executor, runs: Runs | None = None
-) -> Mapping[str, Trials]:
-    """Return the trials of each array by its id, with the `runs` that others have done."""
-    runs = {} if runs is None else runs
-    return {array.id: Trials(assessment, array, pool, runs) for array in assessment.arrays}
-
-
-def _runs(array: Array, every: bool, before: MotionRun) -> MotionRun:
-    motion, done = before.motion, before.governing
-    if not every:
-        return motion_run(motion, [run_oriented(array, motion, done.orientation)])
-    others = (each for each in motion.orientations if each != done.orientation)
-    return motion_run(motion, [done, *(run_oriented(array, motion, each) for each in others)])
+def trials_of(assessment: Assessment) -> Mapping[str, Trials]:
+    """Return the trials of each array by its id."""
+    return {array.id: Trials(assessment, array) for array in assessment.arrays}
 
 
 def is_final(array: ArrayAssessment) -> bool:
@@ -145,20 +118,15 @@ def is_final(array: ArrayAssessment) -> bool:
     return is_at_rest and not math.isnan(array.design_m)
 
 
-def single_array_check(
-    assessment: Assessment, data: ProjectInput, trial: ArrayAssessment, row: Clearance
+def check_alone(
+    done: Assessment, name: str, displacement: Displacement, row: Clearance
 ) -> ClearanceCheck:
-    """Return a clearance with one array as tried and all others at rest."""
-    arrays = tuple(
-        trial if array.id == trial.id else resting(array) for array in involved(assessment, row)
-    )
-    return check_clearance(data, assessment.rules, arrays, row)
-
-
-def resting(array: ArrayAssessment, floor_m: float = 0.0) -> ArrayAssessment:
-    """Return an array that does not slide in any run, with a floor [m]."""
-    analysis = replace(array.analysis, value_m=0.0)
-    return replace(array, analysis=analysis, floor_m=floor_m, design_m=floor_m)
+    """Return a clearance with one array that slides as given, and all others at rest."""
+    slides = {
+        item.id: displacement if item.id == name else replace(item.displacement, design_m=0.0)
+        for item in involved(done, row)
+    }
+    return check_clearance(done.project, done.rules, slides, row)
 
 
 def involved(assessment: Assessment, row: Clearance) -> Sequence[ArrayAssessment]:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -16,15 +15,15 @@ import numpy as np
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
-from report.assessment.project import THREADS, Assessment
+from report.assessment.project import Assessment
 from report.assessment.runs import MotionRun, run_motion, run_oriented
 from report.assessment.trials import (
     Trials,
     below,
+    check_alone,
     involved,
     is_final,
     search,
-    single_array_check,
     trials_of,
     with_mu,
 )
@@ -117,13 +116,12 @@ def uncertainty(assessment: Assessment) -> Uncertainty | None:
     governing = assessment.governing
     motion = governing.worst
     angles = ANGLES_DEG if motion.motion.has_transverse else ()
-    with ThreadPoolExecutor(THREADS) as pool:
-        return Uncertainty(
-            margins=tuple(_margins(assessment, pool)),
-            motion=motion,
-            turned=tuple(pool.map(partial(_turned, governing), angles)),
-            reversed_m=_reversed_m(governing),
-        )
+    return Uncertainty(
+        margins=tuple(_margins(assessment)),
+        motion=motion,
+        turned=tuple(assessment.runs.map(partial(_turned, governing), angles)),
+        reversed_m=_reversed_m(governing),
+    )
 
 
 def surface(assessment: Assessment, item: ArrayAssessment) -> ResponseSurface:
@@ -139,8 +137,7 @@ def surface(assessment: Assessment, item: ArrayAssessment) -> ResponseSurface:
     )
     slopes = np.radians(degrees)
     cells = [(slope, mu) for slope in slopes.tolist() for mu in mus.tolist()]
-    with ThreadPoolExecutor(THREADS) as pool:
-        results = list(pool.map(partial(_cell, item), cells))
+    results = assessment.runs.map(partial(_cell, item), cells)
     means = [sum(run.prd_m for run in cell) / len(cell) for cell in results]
     statuses = [run.status for cell in results for run in cell]
     return ResponseSurface(
@@ -196,8 +193,8 @@ def _is_like(first: Array, other: Array) -> bool:
     )
 
 
-def _margins(assessment: Assessment, pool: Executor) -> Iterator[Margin]:
-    trials = trials_of(assessment, pool)
+def _margins(assessment: Assessment) -> Iterator[Margin]:
+    trials = trials_of(assessment)
     for number, gap in enumerate(assessment.clearances, start=1):
         for array in involved(assessment, gap.clearance):
             yield _margin(trials[array.id], number, gap)
@@ -206,7 +203,7 @@ def _margins(assessment: Assessment, pool: Executor) -> Iterator[Margin]:
 def _margin(trials: Trials, number: int, gap: ClearanceCheck) -> Margin:
     """Walk down in the governing orientations; from the last value that all runs confirm in all."""
     row, array = gap.clearance, trials.array
-    as_given = single_array_check(trials.assessment, trials.assessment.project, array, row)
+    as_given = check_alone(trials.assessment, array.id, array.displacement, row)
     least, required, limited_by, mu = math.nan, math.nan, "—", array.array.mu
     lowest = math.ceil(100.0 * LOWEST_SHARE * mu - 1e-6)
     if as_given.ok and is_final(array):

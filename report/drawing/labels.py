@@ -45,7 +45,7 @@ def alike_arrays(assessment: Assessment, fmt: UnitFormat) -> Sequence[AlikeArray
     """Return the arrays of an assessment, those alike together."""
 
     def key(array: ArrayAssessment) -> tuple[str, str, str, str]:
-        design = fmt.first(array.permitted_m, mark=array.design_mark, show=no_less)
+        design = fmt.first(array.permitted_m, mark=array.overridden.design, show=no_less)
         keep = keep_clear(keep_clear_m(assessment, array), fmt.us_first).partition(" ")[0]
         keep += keep_clear_mark(assessment, array)
         slope = f"{number(math.degrees(array.array.slope_rad), 2)}°"
@@ -221,7 +221,9 @@ def _array_labels(plan: PlanSheet, array: ArrayAssessment) -> Iterator[list[str]
         return
     if plan.size.is_full:
         says.insert(0, fmt.both)
-    moves = [f"Δ {say(array.design_m, Quantity.SIZE, no_less)}{array.design_mark}" for say in says]
+    moves = [
+        f"Δ {say(array.design_m, Quantity.SIZE, no_less)}{array.overridden.design}" for say in says
+    ]
     if math.isnan(array.permitted_m):
         moves = [f"Δ {NOT_PERMITTED}" if array.has_unpermitted_value else "no value"]
     if plan.size.is_full:

@@ -359,7 +359,7 @@ def array_cells(assessment: Assessment, array: ArrayAssessment) -> Sequence[str]
     if math.isnan(array.permitted_m):
         what = NOT_PERMITTED if array.has_unpermitted_value else "no value"
         return array.id, what, "no value", *turned
-    design = pair(array.design_m, Quantity.SIZE, us_first, no_less) + _by(array.design_mark)
+    design = pair(array.design_m, Quantity.SIZE, us_first, no_less) + _by(array.overridden.design)
     keep = keep_clear(keep_clear_m(assessment, array), us_first)
     return array.id, design, keep + _by(keep_clear_mark(assessment, array)), *turned
 

@@ -115,7 +115,7 @@ class Displacements(Entity):
         Told(ChangeKind.DESIGN, "Array {row.id}"),
     ]
     """Design displacement; null where no permitted route gives one."""
-    design_is_overridden: Annotated[bool, at("design_mark"), BeforeValidator(bool)]
+    design_is_overridden: Annotated[bool, at("overridden.design"), BeforeValidator(bool)]
     """Whether a number of the rule set behind it is overridden."""
     design_governs: Annotated[DesignBasis, at("governs")]
     """What gives the design displacement."""
@@ -328,7 +328,7 @@ def array_results(marked: Marked) -> Iterator[ArrayResult]:
             has_runs=False,
             interconnection_n=marked.mark("interconnection_sds"),
             prescriptive_m=marked.prescriptive_mark(item),
-            computed_m=item.mark(lambda array: array.analysis.value_m),
+            computed_m=item.overridden.analysis,
             floor=marked.floor_mark(item),
             design_m=marked.design_mark(item),
             verdict=f" {cause}" if is_said else "",

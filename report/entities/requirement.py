@@ -183,10 +183,10 @@ class Marked:
         if math.isnan(array.design_m):
             return ""
         if array.governs is DesignBasis.PRESCRIPTIVE:
-            return joined(self.mark(self.prescriptive_key(array)), array.design_mark)
+            return joined(self.mark(self.prescriptive_key(array)), array.overridden.design)
         # A number is marked by the provision that it comes from, not by all that were compared.
         key = "analysis_floor" if array.governs is DesignBasis.FLOOR else "analysis_factor"
-        return joined(self.mark(key), array.design_mark)
+        return joined(self.mark(key), array.overridden.design)
 
     def prescriptive_mark(self, array: ArrayAssessment) -> str:
         """Return the marks of the prescriptive displacement."""
@@ -197,4 +197,4 @@ class Marked:
         """Return the marks of the floor of an array, if it has one."""
         if self.data.is_peer_reviewed:
             return ""
-        return joined(self.mark("analysis_floor"), array.mark(lambda item: item.floor_m))
+        return joined(self.mark("analysis_floor"), array.overridden.floor)

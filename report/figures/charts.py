@@ -122,7 +122,7 @@ def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit) -> None:
 
 def _refusals(array: ArrayAssessment) -> Iterator[str]:
     """Yield what an array has not, below its name, where it is of no other row and on no bar."""
-    if not all(check.ok for check in array.prescriptive_checks):
+    if not all(check.ok for check in array.limits.prescriptive_checks):
         yield f"prescriptive {NOT_PERMITTED}"
     if math.isnan(array.permitted_m):
         yield "no design displacement"

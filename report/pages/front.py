@@ -166,7 +166,7 @@ def comparison(package: PackageData, evidence: Evidence) -> Mapping[str, object]
         "against_prescriptive": {
             item.id: [
                 words(of_limit(limit))
-                for limit in (*item.prescriptive_checks, *item.checks, *building)
+                for limit in (*item.limits.prescriptive_checks, *item.limits.checks, *building)
                 if not limit.ok
             ]
             for item in done.arrays

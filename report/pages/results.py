@@ -236,7 +236,7 @@ def _design(package: PackageData) -> Mapping[str, object]:
     arrays = package.assessment.arrays
     return {
         "statistic": statistic(array.analysis.basis),
-        "analysis_mark": array.mark(lambda item: item.analysis.value_m),
+        "analysis_mark": array.overridden.analysis,
         "by_routes": [
             (check.subject, stamp(check.verdict))
             for check in alike(check for check in checks if check.id == "design")

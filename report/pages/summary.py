@@ -99,7 +99,7 @@ def _array(assessment: Assessment, item: ArrayAssessment) -> dict[str, Any]:
         "computed_m": finite(item.analysis.value_m),
         "prescriptive_m": item.prescriptive.value_m,
         "design_m": finite(item.design_m),
-        "design_is_overridden": bool(item.design_mark),
+        "design_is_overridden": bool(item.overridden.design),
         "governing_clearance": gap.across_from(item.id) if gap else None,
         "demand_capacity": finite(gap.demand_capacity) if gap else None,
         "required_is_overridden": bool(gap and gap.mark),

@@ -1,108 +1,29 @@
-"""A workbook with its records, read once, its sliders and choices, and what their values mean.
+"""The sliders and choices of a workbook, and what their values mean.
 
-Only those are offered that the cells of the workbook can express. Read `opened`, then `controls`.
+Only those are offered that the cells of the workbook can express. Read `controls`.
 """
 
 from __future__ import annotations
 
-import hashlib
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import lru_cache
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from report.assessment.friction import mu_words
-from report.motions.components import Components
-from report.motions.prepare import Shaking, read_records, shaking, stiff_links
-from report.sheet.reading.read import Sheet, read
-from report.sheet.reading.what_if import Typed, retyped
+from report.sheet.reading.read import Sheet
+from report.sheet.reading.what_if import retyped
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import Polarity, RuleSetName, UnitsFirst
-from report.sheet.schema.fields import Finding, Place
+from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import Array
 from report.text.counts import cut, ids_by, ranged
 from report.text.units import Quantity, no_more, number, pair
-from report.typeset.letters import check_letters
 from report.web.values import MUS, UNITS_FIRST, Values, typed
 from solver.friction_tests import MOST_MU
 from solver.model import InputError, Motion
 
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Opened:
-    """A workbook, the records of each motion as read, whatever the sliders say, and as run.
-
-    Attributes
-    ----------
-    typed : mapping
-        What the values put into cells of the file; the sheet is as if it had been typed there.
-    """
-
-    sheet: Sheet
-    by_motion: Sequence[Components]
-    shaking: Shaking
-    typed: Mapping[Place, Typed] = field(default_factory=dict)
-
-    @property
-    def id(self) -> str:
-        """Name of the project in addresses, which no other workbook or records have."""
-        whole = "\n".join((self.sheet.sha256, *self.shaking.hashes))
-        return hashlib.sha256(whole.encode()).hexdigest()[:12]
-
-    @property
-    def scales(self) -> dict[str, float]:
-        """Factor on the records of each motion."""
-        return {motion.id: motion.scale for motion in self.shaking.motions}
-
-
-_NOTHING_TO_RUN = (
-    "no motion is given",
-    "fill in at least one row; roofslip report makes a package of the prescriptive displacement",
-)
-
-
-def opened(path: Path) -> Opened:
-    """Read a workbook and its records, or raise an input error with every problem."""
-    sheet = read(path)
-    check_letters(sheet)
-    if not sheet.draft["motions"]:
-        sheet.refuse([Finding.error(Place("motions"), *_NOTHING_TO_RUN)])
-    by_motion = read_records(sheet)
-    sheet.book.files.clear()  # for a package, which another process makes
-    sheet.book.records.clear()
-    return Opened(sheet=sheet, by_motion=by_motion, shaking=shaking(sheet, by_motion))
-
-
-def with_values(opened: Opened, values: Values, near: Opened | None = None) -> Opened:
-    """Return a workbook as if values had been typed into it; refuse those it could not have.
-
-    All values are typed at once into the workbook as it is opened. One `near` it, at other values,
-    lends its motions where they are the same.
-    """
-    changed = typed(opened.sheet, opened.scales, values)
-    if not changed:
-        return opened
-    sheet = retyped(opened.sheet, changed)
-    sheet.refuse(())
-    near = near or opened
-    # Records that stay as they are need not be processed again.
-    if _has_motions_of(near.sheet, sheet):
-        sheet.refuse(stiff_links(sheet.project, near.shaking.motions))
-        run = near.shaking
-    else:
-        run = shaking(sheet, opened.by_motion)
-    return Opened(sheet=sheet, by_motion=opened.by_motion, shaking=run, typed=changed)
-
-
-def _has_motions_of(before: Sheet, after: Sheet) -> bool:
-    """Whether two sheets have the same motions: only units, arrays and clearances differ."""
-    return all(
-        rows == after.draft[key]
-        for key, rows in before.draft.items()
-        if key not in ("project", "arrays", "clearances", "links")
-    )
+if TYPE_CHECKING:
+    from report.web.open_project import OpenProject
 
 
 _LEAST, _MOST = 0.2, 2.0
@@ -111,15 +32,13 @@ _TRIM = {True: (-24.0, 24.0, 1.0), False: (-600.0, 600.0, 25.0)}
 _TURN_DEG = 5.0
 
 
-# By identity: an opened workbook has no cheap hash of what is in it.
-@lru_cache(16)
-def controls(opened: Opened) -> Mapping[str, Any]:
+def controls(opened: OpenProject) -> Mapping[str, Any]:
     """Return the sliders and choices of a workbook for the page."""
     sliders = [item for item in _sliders(opened.sheet) if _is_offered(opened, item)]
     return {"sliders": [_stopped(opened, item) for item in sliders], "choices": _choices(opened)}
 
 
-def shown(opened: Opened) -> Mapping[str, str]:
+def shown(opened: OpenProject) -> Mapping[str, str]:
     """Return what the values amount to: those of the workbook as changed."""
     data = opened.sheet.project
     return {
@@ -134,9 +53,9 @@ def shown(opened: Opened) -> Mapping[str, str]:
     }
 
 
-def check(opened: Opened, values: Values) -> None:
+def check(opened: OpenProject, values: Values) -> None:
     """Refuse values that no slider or choice of the workbook has, all in one input error."""
-    known = controls(opened)
+    known = opened.controls
     sliders = {item["id"]: item for item in known["sliders"]}
     choices = {item["id"]: item for item in known["choices"]}
     wrong: list[str] = []
@@ -188,7 +107,7 @@ def _slider(
     }  # fmt: skip
 
 
-def _stopped(opened: Opened, slider: dict[str, Any]) -> dict[str, Any]:
+def _stopped(opened: OpenProject, slider: dict[str, Any]) -> dict[str, Any]:
     """Return a slider that stops where the workbook could have no value beyond, and says why."""
     for end in ("least", "greatest"):
         away = round((slider[end] - slider["typed"]) / slider["step"])
@@ -208,7 +127,7 @@ def _stopped(opened: Opened, slider: dict[str, Any]) -> dict[str, Any]:
     return slider
 
 
-def _problem_at(opened: Opened, slider: Mapping[str, Any], steps: int) -> str:
+def _problem_at(opened: OpenProject, slider: Mapping[str, Any], steps: int) -> str:
     values = {slider["id"]: _value_at(slider, steps)}
     return _why_not(opened, values | slider.get("with_choice", {}))
 
@@ -217,13 +136,13 @@ def _value_at(slider: Mapping[str, Any], steps: int) -> float:
     return float(round(slider["typed"] + steps * slider["step"], 6))
 
 
-def _is_offered(opened: Opened, slider: Mapping[str, Any]) -> bool:
+def _is_offered(opened: OpenProject, slider: Mapping[str, Any]) -> bool:
     """Whether the workbook has every cell that a slider changes."""
     values = {slider["id"]: _value_at(slider, 1)} | slider.get("with_choice", {})
     return opened.sheet.addresses.keys() >= typed(opened.sheet, opened.scales, values).keys()
 
 
-def _choices(opened: Opened) -> Sequence[Mapping[str, Any]]:
+def _choices(opened: OpenProject) -> Sequence[Mapping[str, Any]]:
     sheet = opened.sheet
     # Motions may differ: then the workbook has no single choice, and a blank one stands for it.
     polarities = list(dict.fromkeys(row["polarity"] for row in sheet.draft["motions"]))
@@ -257,7 +176,7 @@ def _choice(
     }
 
 
-def _rule_sets(opened: Opened) -> Mapping[str, Any]:
+def _rule_sets(opened: OpenProject) -> Mapping[str, Any]:
     start = opened.sheet.project.site.rule_set.value
     names = {rule.value: rule.value for rule in RuleSetName}
     choice = _choice("rule_set", "Rule set", start, names, "The provisions to compare with.")
@@ -266,7 +185,7 @@ def _rule_sets(opened: Opened) -> Mapping[str, Any]:
     return choice
 
 
-def _why_not(opened: Opened, values: Values) -> str:
+def _why_not(opened: OpenProject, values: Values) -> str:
     """Return the first problem that the workbook would have with values; empty for none."""
     changed = retyped(opened.sheet, typed(opened.sheet, opened.scales, values))
     return next((str(problem) for _, problem in changed.problems), "")

@@ -15,17 +15,15 @@ from typing import Any
 from openpyxl.utils import coordinate_to_tuple
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.assessment.assess import anticipate, assess, reference_of
+from report.assessment.assess import Extent
 from report.assessment.neighbors import NearbyKind
 from report.assessment.plan_clearances import missing_rows
-from report.assessment.precheck import shaking_acceptance
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.drawing_read.fill import changes, layers_of, plan_as_rows, unread
 from report.drawing_read.plan_read import known_layers
 from report.drawing_read.read_dxf import read_dxf
 from report.drawing_read.roof_drawing import drawn_on, proposed
-from report.motions.history import targets
 from report.sheet.checking.findings import grouped, line_of, listed
 from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.locate import find_table
@@ -40,11 +38,10 @@ from report.text.counts import cut
 from report.text.units import LENGTHS
 from report.web import views
 from report.web.answers import answer
-from report.web.controls import Opened, check, controls, opened, shown, with_values
+from report.web.controls import shown
+from report.web.open_project import OpenProject, open_project, reference_of
 from report.web.plan import USUAL_PX, stamp
-from report.web.values import Values
 from solver.model import InputError, Problem
-from solver.records.acceptance import Acceptance
 
 _MOST_COLUMNS, _BESIDE = 40, 2  # of a sheet that are read, and of those the ones around a cell
 
@@ -118,11 +115,8 @@ def _text(book: OpenBook, title: str, row: int, column: int) -> str:
     return cut(found_at(book, CellPosition(title, row, column)).shown)
 
 
-KEPT_PROJECTS, KEPT_ANSWERS = 3, 8
-"""Projects with their assessments that a process keeps, and assessments at other values."""
-
-_CLEARANCE = "clearance"  # the slider that changes no run
-_AS_TYPED = "{}"  # the key of values that change nothing
+KEPT_PROJECTS = 3
+"""Projects that a process keeps, with their assessments."""
 
 Json = Mapping[str, Any]
 
@@ -140,8 +134,8 @@ def perform(job: Json) -> Json:
         reply = {"answer": _JOBS[job["do"]](workbook, job)}
         is_complete = job["do"] in ("state", "assess") and not job.get("moving")
         if is_complete and not reply["answer"].get("problems"):
-            key = _key(workbook, job.get("values", {}))
-            reply["reference"] = reference_of(_complete(workbook, key))
+            given = _open(workbook).at(job.get("values", {}))
+            reply["reference"] = reference_of(given.assessed(Extent.AS_GIVEN))
         return reply
     except InputError as error:
         return {"problems": problems(workbook, error)}
@@ -154,7 +148,7 @@ def state(workbook: Path, job: Json) -> Json:
     except InputError as error:
         reply = {"project": None, "problems": problems(workbook, error), "answer": None}
         return {**reply, "lacks": _lacks(workbook), "drawing": _drawing(workbook)}
-    near = [pair for pair in _as_typed(workbook).pairs if pair.kind is not NearbyKind.BARE_EDGE]
+    near = [pair for pair in opened.assessed().pairs if pair.kind is not NearbyKind.BARE_EDGE]
     answered = answer_at(workbook, {"values": {}, "moving": False, "room": USUAL_PX})
     return {
         "project": {
@@ -166,7 +160,7 @@ def state(workbook: Path, job: Json) -> Json:
         "problems": [],
         "drawing": _drawing(workbook),
         "warnings": [line["text"] for line in answered["reasons"] if line["level"] == "warning"],
-        **controls(opened),
+        **opened.controls,
         "views": {
             "arrays": [array.id for array in opened.sheet.project.arrays],
             "motions": [motion.id for motion in opened.shaking.motions],
@@ -187,18 +181,13 @@ def _lacks(workbook: Path) -> list[str]:
 
 def answer_at(workbook: Path, job: Json) -> Json:
     """Return the answer at values: of the largest runs while a slider moves, else complete."""
-    opened = _given(workbook, _key(workbook, job["values"]))
+    given = _open(workbook).at(job["values"])
     if job["moving"]:
-        known, has_same_motions = (
-            job.get("reference", {}),
-            opened.shaking is _open(workbook).shaking,
-        )
-        accepted = _acceptance(workbook) if has_same_motions else None
-        reply = anticipate(opened.sheet, opened.shaking, known, accepted)
+        reply = given.moving(job.get("reference", {}))
     else:
-        reply = _at_rest(workbook, job["values"], is_whole=job.get("whole", True))
+        reply = given.assessed(Extent.WHOLE if job.get("whole", True) else Extent.AS_GIVEN)
     shows = answer(reply, is_provisional=job["moving"], room_px=job["room"])
-    return {**shows, "shown": shown(opened)}
+    return {**shows, "shown": shown(given)}
 
 
 def prepare(workbook: Path, _: Json) -> Json:
@@ -268,7 +257,7 @@ def read_plan(workbook: Path, job: Json) -> Json:
 
 def write(workbook: Path, job: Json) -> Json:
     """Write the workbook that is assessed at values to another path."""
-    given = _given(workbook, _key(workbook, job["values"]))
+    given = _open(workbook).at(job["values"])
     cells_of = cells(given.sheet, given.typed)
     data = workbook.read_bytes()
     Path(job["to"]).write_bytes(changed(data, cells_of) if cells_of else data)
@@ -277,7 +266,8 @@ def write(workbook: Path, job: Json) -> Json:
 
 def add_clearances(workbook: Path, job: Json) -> Json:
     """Write the workbook with the clearances that it lacks to another path."""
-    added, _ = missing_rows(_open(workbook).sheet, _as_typed(workbook).arrays)
+    opened = _open(workbook)
+    added, _ = missing_rows(opened.sheet, opened.assessed().arrays)
     change = WorkbookChange(open_book(workbook))
     change.fill(added)
     withdrawn(change)
@@ -287,16 +277,20 @@ def add_clearances(workbook: Path, job: Json) -> Json:
 
 def verdict(workbook: Path, job: Json) -> Json:
     """Return the verdict at values, which less friction changes only where it is OK."""
-    found = _at_rest(workbook, job["values"], is_whole=False).verdict
+    given = _open(workbook).at(job["values"])
+    found = given.assessed(Extent.AS_GIVEN).verdict
     # Less friction turns an OK into one with conditions, and nothing else.
     if found is Verdict.OK:
-        found = _at_rest(workbook, job["values"]).verdict
+        found = given.assessed().verdict
     return stamp(found, found.value)
 
 
 def _view(draw: Callable[[Assessment, Json], Json]) -> Callable[[Path, Json], Json]:
     # No view shows what less friction would change.
-    return lambda workbook, job: draw(_at_rest(workbook, job["values"], is_whole=False), job)
+    def view(workbook: Path, job: Json) -> Json:
+        return draw(_open(workbook).at(job["values"]).assessed(Extent.AS_GIVEN), job)
+
+    return view
 
 
 _JOBS: Mapping[str, Callable[[Path, Json], Json]] = {
@@ -314,74 +308,5 @@ _JOBS: Mapping[str, Callable[[Path, Json], Json]] = {
 
 
 @lru_cache(KEPT_PROJECTS)
-def _open(workbook: Path) -> Opened:
-    return opened(workbook)
-
-
-def _at_rest(workbook: Path, values: Values, *, is_whole: bool = True) -> Assessment:
-    """Return the complete assessment at values; unless whole, without less friction."""
-    key = _key(workbook, values)
-    return _whole(workbook, key) if is_whole else _complete(workbook, key)
-
-
-def _key(workbook: Path, values: Values) -> str:
-    """Return checked values as JSON; those as typed are the same as none."""
-    opened = _open(workbook)
-    check(opened, values)
-    known = controls(opened)
-    typed_ = {item["id"]: item["typed"] for item in (*known["sliders"], *known["choices"])}
-    other = {name: value for name, value in values.items() if value != typed_.get(name)}
-    return json.dumps(other, sort_keys=True)
-
-
-@lru_cache(KEPT_ANSWERS)
-def _given(workbook: Path, key: str) -> Opened:
-    """Return a project at values, given as JSON."""
-    opened, values = _open(workbook), json.loads(key)
-    # Values that differ in clearances alone share the motions.
-    near = _given(workbook, _wider(values)) if _CLEARANCE in values else opened
-    return with_values(opened, values, near)
-
-
-@lru_cache(KEPT_PROJECTS)
-def _acceptance(workbook: Path) -> Acceptance:
-    """Return the limits on the motions as typed, which friction and slope do not change."""
-    opened = _open(workbook)
-    return shaking_acceptance(opened.shaking, targets(opened.sheet.project))
-
-
-def _complete(workbook: Path, key: str) -> Assessment:
-    """Return the assessment at values, given as JSON; other than typed, without less friction."""
-    return _as_typed(workbook) if key == _AS_TYPED else _assessment(workbook, key)
-
-
-@lru_cache(KEPT_PROJECTS)
-def _as_typed(workbook: Path) -> Assessment:
-    """Return the assessment from which others start: no other values drive it out."""
-    opened = _open(workbook)
-    return assess(opened.sheet, opened.shaking)
-
-
-@lru_cache(KEPT_ANSWERS)
-def _assessment(workbook: Path, key: str) -> Assessment:
-    given, values, former = _given(workbook, key), json.loads(key), None
-    if _CLEARANCE in values:
-        former = _complete(workbook, _wider(values))
-    elif given.shaking is _open(workbook).shaking:  # friction and slope: no motion
-        former = _as_typed(workbook)
-    return assess(given.sheet, given.shaking, former, is_whole=False)
-
-
-@lru_cache(KEPT_ANSWERS)
-def _whole(workbook: Path, key: str) -> Assessment:
-    given, found, values = _given(workbook, key), _complete(workbook, key), json.loads(key)
-    # As typed it has been compared already.
-    if found.at_reduced_friction is not None:
-        return found
-    former = _whole(workbook, _wider(values)) if _CLEARANCE in values else found
-    return assess(given.sheet, given.shaking, former)
-
-
-def _wider(values: Values) -> str:
-    """Return values as JSON, with the clearances of the workbook."""
-    return json.dumps({name: value for name, value in values.items() if name != _CLEARANCE})
+def _open(workbook: Path) -> OpenProject:
+    return open_project(workbook)

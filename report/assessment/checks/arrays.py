@@ -148,7 +148,7 @@ def _places(data: ProjectInput, array: Array, *fields: str) -> tuple[Place, ...]
 
 
 def _design(done: Assessment, item: ArrayAssessment) -> Check:
-    found: Amount | str = demand(item.design_m, Quantity.DISPLACEMENT, item.design_mark)
+    found: Amount | str = demand(item.design_m, Quantity.DISPLACEMENT, item.overridden.design)
     note = item.source
     if math.isnan(item.design_m):
         found, note = "none", f"by the {item.route} route"
@@ -177,9 +177,9 @@ def _way_out(done: Assessment, item: ArrayAssessment) -> str:
         is_analyzed = item.route is Route.ANALYSIS
         return "Complete or replace the motions." if is_analyzed and is_of_motions else ""
     is_lifted = review_lifts_slope(done.rules, done.project.site.sdc)
-    if not (item.may_be_analyzed or is_lifted):
+    if not (item.limits.may_be_analyzed or is_lifted):
         return ""
-    review = "" if item.may_be_analyzed else " with peer review"
+    review = "" if item.limits.may_be_analyzed else " with peer review"
     return f"Enter motions on the Motions worksheet, for an analysis{review}."
 
 

@@ -35,9 +35,10 @@ _OF_ANALYSIS = (MOTIONS_ID, "drift", "ground_motions", "peer_review", VELOCITY_R
 def every(done: Assessment) -> tuple[Check, ...]:
     """Return everything that is required of an assessed project."""
     data, by_runs = done.project, {item.id for item in done.arrays if item.is_by_runs}
+    routes = [item.limits for item in done.arrays]
     has_variations = done.at_reduced_friction is not None and done.has_motions
     found = (
-        *before_runs(data, done.rules, done.shaking, done.acceptance, done.arrays, by_runs),
+        *before_runs(data, done.rules, done.shaking, done.acceptance, routes, by_runs),
         *(check for item in done.arrays for check in arrays.of_array(done, item)),
         *map(arrays.of_links, done.linked),
         *plan.of_clearances(done),

@@ -44,7 +44,7 @@ def of_array(item: RouteLimits, index: int, id: str, *, has_motions: bool) -> It
         place = Place("arrays", index, field) if field else Place("motions")
         return replace(of_limit(limit, id), places=(place,))
 
-    yield from map(of, item.limits)
+    yield from map(of, item.required)
     is_analysis = item.route is Route.ANALYSIS
     for limit in item.prescriptive_checks if is_analysis else item.analysis_checks:
         # Without motions nobody takes the analysis: how many there are says nothing.

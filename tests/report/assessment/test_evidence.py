@@ -25,6 +25,7 @@ from report.assessment.routes import Route
 from report.assessment.verdict import Verdict
 from report.document.templates import sentence
 from report.entities.requirement import Marked
+from report.sheet.schema import Override
 from report.typeset.pdf import TEMPLATES
 from sheets import at, make, problems, read_workbook, type_into
 from solver import at_roof, building_of_periods
@@ -219,7 +220,8 @@ def grounded():
     )
     done = stand_in.assessed(scenes.grounded(data, scenes.motions(3, peak_g=0.5), transverse=True))
     array = done.arrays[0]
-    by_analysis = {"route": Route.ANALYSIS, "is_permitted": True, "floor_m": 0.0}
+    limits = replace(array.limits, route=Route.ANALYSIS)
+    by_analysis = {"limits": limits, "is_permitted": True, "floor_m": 0.0}
     array = replace(array, design_m=array.analysis.value_m, **by_analysis)
     return replace(done, arrays=(array,)), support(done)
 
@@ -289,6 +291,6 @@ def test_steep_roofs_and_a_whole_floor_leave_nothing_to_save():
     low = type(site)(**site.model_dump() | {"rule_set": "ASCE 7-16", "sdc": "C"})
     text = said(with_inputs(slopes=[4.0, 4.0, 4.0], site=low))
     assert text.startswith("No analysis is permitted instead without peer review: ")
-    override = {"provision": "analysis_floor", "value": 1.0, "reason": "Agreed on 2026-02-10"}
+    override = Override(provision="analysis_floor", value=1.0, reason="Agreed on 2026-02-10")
     text = said(with_inputs(overrides=(override,)))
     assert text.startswith("An analysis could save nothing without peer review: the floor is 100 %")

@@ -3,7 +3,7 @@
 import math
 import re
 from dataclasses import replace
-from functools import cache, partial
+from functools import cache
 
 import pytest
 from hypothesis import given
@@ -15,8 +15,7 @@ from inputs import FT, INCH, NO_SIDES, sides
 from plans import roof_plan
 from report.assessment.assess import assess
 from report.assessment.checks.check import texts
-from report.assessment.clearances import minimum_gap
-from report.assessment.neighbors import Cover, NearbyKind, bare_edges, plan_pairs, reaches_of
+from report.assessment.neighbors import Cover, NearbyKind, bare_edges
 from report.assessment.plan_clearances import plan_gaps
 from report.drawing.items import Layer
 from report.drawing.plan import plan_drawing
@@ -30,14 +29,6 @@ from report.web.plan import plan, stamp
 from sheets import at, make, project
 
 OUTLINE = sides(0, 220, 0, 170)
-
-
-def of(assessment):
-    """The neighbors of an assessment, which a test may have changed."""
-    data, arrays = assessment.project, assessment.arrays
-    required = partial(minimum_gap, data, assessment.rules, arrays)
-    pairs = plan_pairs(data, reaches_of(arrays), assessment.sheet.addresses, required)
-    return [pair for pair in pairs if pair.is_listed]
 
 
 @pytest.fixture(scope="module")
@@ -56,7 +47,7 @@ def having(done, design_m=None, **changes):
 
 
 def by_pair(done):
-    return {(neighbor.array, neighbor.other): neighbor for neighbor in of(done)}
+    return {(neighbor.array, neighbor.other): neighbor for neighbor in done.neighbors}
 
 
 @pytest.mark.quick
@@ -125,7 +116,7 @@ def test_cells_are_those_of_the_workbook_or_the_sheet_to_add_to(done, tmp_path):
         ("Clearances", "add a row with their clearance, or run roofslip plan clearances"),
     )
     sheet = read(make(tmp_path, clearances=[project().clearances[2].model_dump()]))
-    listed = of(assess(sheet, prepare(sheet)))
+    listed = assess(sheet, prepare(sheet)).neighbors
     row = next(neighbor for neighbor in listed if neighbor.given)
     assert row.given[0].cell == at("Clearances/1/Provided clearance")
     to_add = {near.to_add for near in listed if near.kind is not NearbyKind.BARE_EDGE}
@@ -134,7 +125,7 @@ def test_cells_are_those_of_the_workbook_or_the_sheet_to_add_to(done, tmp_path):
 
 def test_an_edge_of_the_roof_that_no_object_covers_is_a_neighbor(done):
     edge = having(done, design_m=10.5 * FT, roof=OUTLINE)
-    edges = [neighbor for neighbor in of(edge) if neighbor.kind is NearbyKind.BARE_EDGE]
+    edges = [neighbor for neighbor in edge.neighbors if neighbor.kind is NearbyKind.BARE_EDGE]
     others = {neighbor.array: neighbor.other for neighbor in edges}
     west, east = "the west edge of the roof", "the east edge of the roof"
     assert others == {"A1": west, "A2": east, "A3": west}

@@ -8,7 +8,7 @@ import altered
 import scenes
 from nightly import nightly
 from printed import printed
-from report.assessment.assess import assess
+from report.assessment.assess import Extent, assess
 from report.assessment.causes import governing_words
 from report.assessment.friction import at_low_velocity
 from report.assessment.verdict import VELOCITY_ROW, as_adopted, under_code
@@ -76,7 +76,7 @@ def test_a_record_that_drifts_is_priced_by_the_project_without_it():
     drifting = replace(base.shaking, prepared=(replace(first, measures=far), *rest))
     done = assess(base.sheet, drifting)
     fewer = replace(base.shaking, motions=base.shaking.motions[1:], prepared=tuple(rest))
-    without = assess(base.sheet, fewer, project=base.project, is_whole=False)
+    without = assess(base.sheet, fewer, project=base.project, extent=Extent.AS_GIVEN)
     assert designs(without) != designs(done)
     largest_m = max(item.permitted_m for item in without.arrays)
     text = done.otherwise["drift"]

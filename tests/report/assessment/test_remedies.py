@@ -19,6 +19,7 @@ from report.assessment.remedies import MOST, Remedies, RemedyKind, remedies
 from report.assessment.trials import above, below, search, with_mu
 from report.assessment.verdict import Verdict
 from report.pages.summary import remedy_lines, summary, without_analysis
+from report.sheet.checking.covered import outdated
 from report.sheet.schema.shapes import gap_m
 from report.web.answers import answer
 from solver.friction_tests import MOST_MU
@@ -40,6 +41,7 @@ CASES = [name if name in BY_DAY else nightly(name) for name, _ in altered.copies
 def fresh(done, *changes):
     """The project with changes, assessed without anything of the one before."""
     data = reduce(lambda data, change: change(data), changes, done.project)
+    data = outdated(data, done.shaking.hashes)
     return assess(done.sheet, done.shaking, project=data)
 
 

@@ -164,7 +164,7 @@ def test_a_mean_without_factor_departs_from_a_rule_set_that_states_a_statistic(r
 
 def marks(done):
     """Marks of the design displacement of each array and of each required separation."""
-    return [item.design_mark for item in done.arrays], [gap.mark for gap in done.clearances]
+    return [item.overridden.design for item in done.arrays], [gap.mark for gap in done.clearances]
 
 
 @pytest.mark.parametrize(("factor", "mark"), [(0.5, "‡"), (1.0, ""), (1.5, "‡")])
@@ -208,7 +208,7 @@ def test_a_route_and_the_mean_that_an_override_alone_permits_are_marked():
     done = scenes.package(strong, options={"statistic": "mean"}, clearances=[]).assessment
     by_analysis = [item for item in done.arrays if item.governs == "analysis"]
     assert by_analysis
-    assert all(item.design_mark for item in by_analysis)
+    assert all(item.overridden.design for item in by_analysis)
 
 
 def assessed(**changes):

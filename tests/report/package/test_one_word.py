@@ -167,7 +167,7 @@ def done():
 @pytest.mark.quick
 def test_lowered_values_are_marked_where_they_govern_on_the_plan_and_in_results_json(done):
     assert {item.governs for item in done.arrays} == {"floor"}
-    assert {item.design_mark for item in done.arrays} == {"‡"}
+    assert {item.overridden.design for item in done.arrays} == {"‡"}
     assert done.verdict is not Verdict.OK
     row = printed(done, "comparison").table("Displacement by analysis").row("A1")
     assert all(row[f"{name} [in]"].endswith("‡") for name in ("Prescriptive", "Floor", "Design"))

@@ -15,7 +15,7 @@ from report.assessment.checks.check import texts, words
 from report.assessment.checks.motions import of_records
 from report.assessment.routes import Route
 from report.pages.summary import document, summary
-from report.web.controls import opened, with_values
+from report.web.open_project import open_project
 from scenes import FOOT, REVIEW
 from stand_in import INCH
 
@@ -37,7 +37,7 @@ def test_prescriptive_designs_have_no_floor_and_clearances_without_verdict_are_c
 
 @pytest.mark.nightly
 def test_the_terminal_marks_what_is_not_permitted_and_calls_nothing_beside_it_ok():
-    weak = with_values(opened(ROOT / "projects/school"), {"intensity": 0.32, "together": "no"})
+    weak = open_project(ROOT / "projects/school").at({"intensity": 0.32, "together": "no"})
     done = assess(weak.sheet, weak.shaking)
     lines = list(summary(done))
     for item, line in zip(document(done)["arrays"], lines[1:], strict=False):

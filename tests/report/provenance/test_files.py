@@ -30,7 +30,7 @@ from report.provenance.files import (
 from report.results.results_json import results_json
 from report.sheet.reading.linked_files import Document
 from report.sheet.reading.read import read
-from report.web.controls import opened
+from report.web.open_project import open_project
 from sheets import type_into
 from solver.model import InputError
 
@@ -184,7 +184,7 @@ def test_records_are_kept_up_to_the_limit_and_hashed_beyond_it(job, monkeypatch)
     assert contents.keys() == {"input.xlsx", "results.json", "roofslip.json", *named}
     assert listed["has_records"] is False
     assert sum(entry["kind"] == "record" for entry in listed["files"]) == 21
-    book = opened(EXAMPLE / "input.xlsx").sheet.book
+    book = open_project(EXAMPLE / "input.xlsx").sheet.book
     assert not book.files
     assert not book.records
 

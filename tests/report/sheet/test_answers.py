@@ -17,6 +17,7 @@ from cells import cell
 from inputs import INCH
 from places import ROOT
 from recalculated import Cell, Sheets, recalculated_sheets
+from report.assessment.arrays import Displacement
 from report.assessment.clearances import check_clearance
 from report.sheet.reading.cells import blank_value
 from report.sheet.reading.read import read
@@ -322,10 +323,8 @@ def test_required_separation_and_ratio_of_each_clearance_are_those_of_the_packag
     prescriptive = provisions.prescriptive_displacement(
         rules, s_ds_g=data.site.s_ds, sdc=data.site.sdc, importance=data.site.i_e
     )
-    design = {"adopted": None, "opened_mark": "", "is_permitted": True,
-              "permitted_m": prescriptive.value_m}  # fmt: skip
-    arrays = [SimpleNamespace(id=each.id, array=each, **design) for each in data.arrays]
-    checks = [check_clearance(data, rules, arrays, row) for row in data.clearances]
+    slides = {each.id: Displacement(prescriptive.value_m) for each in data.arrays}
+    checks = [check_clearance(data, rules, slides, row) for row in data.clearances]
     unit, required = case.column("Required, prescriptive")
     size = next(each for each in Quantity.SIZE.value if each.symbol == unit)
     columns = (case.column(head)[1] for head in ("Neighbor", "I", "D/C, prescriptive"))

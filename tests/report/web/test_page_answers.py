@@ -9,14 +9,14 @@ from report.assessment.friction import with_friction
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.web.answers import answer
-from report.web.controls import opened
+from report.web.open_project import open_project
 from report.web.plan import stamp
 
 
 @pytest.fixture(scope="module")
 def assessed():
     """The example with less friction, two of its clearances, and one of these next to nothing."""
-    given = opened(ROOT / "projects" / "example" / "input.xlsx")
+    given = open_project(ROOT / "projects" / "example" / "input.xlsx")
     whole = assess(given.sheet, given.shaking)
     first, _, third, *_ = whole.project.clearances
     rows = (third, first.model_copy(update={"provided_m": 0.01}))

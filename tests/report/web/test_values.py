@@ -12,12 +12,14 @@ import inputs
 import stand_in
 from nightly import by_day, nightly
 from places import ROOT
-from report.assessment.assess import anticipate, assess, reference_of
+from report.assessment.assess import Extent, assess
+from report.assessment.runs import Runs
 from report.sheet.reading.what_if import retyped
 from report.sheet.schema.choices import Scaling
 from report.web import jobs
 from report.web.answers import answer
-from report.web.controls import controls, opened, shown, with_values
+from report.web.controls import shown
+from report.web.open_project import PASSING, open_project, reference_of
 from report.web.values import typed
 from sheets import make
 from solver.sliding import least_model
@@ -27,7 +29,7 @@ PROJECTS = ROOT / "projects"
 
 @cache
 def start(project):
-    return opened(PROJECTS / project)
+    return open_project(PROJECTS / project)
 
 
 def written(project, values, folder):
@@ -38,7 +40,7 @@ def written(project, values, folder):
     )
     job = {"do": "write", "workbook": workbook, "values": values, "to": str(folder / "input.xlsx")}
     assert jobs.perform(job) == {"answer": {}}
-    return opened(folder)
+    return open_project(folder)
 
 
 def at_rest(project, *, is_whole=True, **values):
@@ -70,13 +72,19 @@ def near(value):
 
 
 def offered(project, kind="sliders"):
-    return {item["id"]: item for item in controls(start(project))[kind]}
+    return {item["id"]: item for item in start(project).controls[kind]}
 
 
 def anticipated(project, **values):
     """The provisional assessment at values, continued from that of the workbook."""
-    given = with_values(start(project), values)
-    return anticipate(given.sheet, given.shaking, typed_reference(project))
+    given = start(project).at(values)
+    return quick(given, typed_reference(project))
+
+
+def quick(given, known):
+    """The assessment of a moving slider, from the orientations that are known."""
+    runs = Runs(known, PASSING)
+    return assess(given.sheet, given.shaking, runs, extent=Extent.ALONE)
 
 
 @cache
@@ -147,7 +155,7 @@ def test_at_any_two_controls_the_answer_is_that_of_the_saved_workbook(project, v
     assert items.keys() == OTHERWISE.keys()
     assert any(value != items[name]["typed"] for name, value in values.items())
     again = written(project, values, tmp_path)
-    assert with_values(start(project), values).sheet.project == again.sheet.project
+    assert start(project).at(values).sheet.project == again.sheet.project
     job = {"do": "assess", "workbook": str(tmp_path / "input.xlsx"), "values": {}}
     saved = jobs.perform(job | {"moving": False, "room": 780})["answer"]
     assert at_rest(project, **values) == saved
@@ -196,7 +204,7 @@ def test_the_written_workbook_is_the_model_that_was_assessed(project, tmp_path):
     values = {"friction": 0.87, "slope": 0.3, "intensity": 0.94, "clearance": 2.0}
     assert offered(project).keys() >= values.keys()
     again = written(project, values, tmp_path)
-    assert again.sheet.project == with_values(given, values).sheet.project
+    assert again.sheet.project == given.at(values).sheet.project
     assert again.sheet.project != given.sheet.project
 
 
@@ -219,11 +227,11 @@ def test_where_no_run_gives_a_displacement_the_page_says_no_value():
 
 def test_friction_multiplies_a_law_as_a_whole_and_intensity_s_ds_together_or_apart():
     given = start("example")
-    law = with_values(given, {"friction": 0.5}).sheet.project.arrays[2]
+    law = given.at({"friction": 0.5}).sheet.project.arrays[2]
     assert (law.mu, law.mu_fast, law.mu_rate_s_per_m) == (0.2, 0.25, 20.0)
 
     def found(values):
-        changed_ = with_values(given, values)
+        changed_ = given.at(values)
         return changed_.shaking.motions[0].scale, round(changed_.sheet.project.site.s_ds / 1.566, 4)
 
     assert found({"intensity": 1.2}) == (1.2, 1.2)
@@ -235,10 +243,10 @@ def test_friction_multiplies_a_law_as_a_whole_and_intensity_s_ds_together_or_apa
 
 def test_a_motion_scaled_to_a_target_keeps_its_factor_when_s_ds_changes(tmp_path):
     row = {"id": "M1", "record": "records/x.csv", "units": "g", "dt_s": 0.01}
-    given = opened(make(tmp_path, motions=[row | {"scaling": Scaling.TARGET.value}]))
+    given = open_project(make(tmp_path, motions=[row | {"scaling": Scaling.TARGET.value}]))
     (scale,) = given.scales.values()
     for values, factor in (({"together": "no", "s_ds": 1.5}, 1.0), ({"intensity": 1.5}, 1.5)):
-        (motion,) = with_values(given, values).shaking.motions
+        (motion,) = given.at(values).shaking.motions
         assert motion.scale == pytest.approx(factor * scale, rel=1e-5)
 
 
@@ -246,7 +254,7 @@ def test_a_motion_scaled_to_a_target_keeps_its_factor_when_s_ds_changes(tmp_path
 def test_clearances_follow_the_sides_of_the_arrays():
     given = start("example")
     before = given.sheet.project.clearances
-    after = with_values(given, {"clearance": 6.0}).sheet.project.clearances
+    after = given.at({"clearance": 6.0}).sheet.project.clearances
     more = [b.provided_m - a.provided_m for a, b in zip(before, after, strict=True)]
     # Between two arrays both sides move.
     sides = [2 if row.object.startswith("A") else 1 for row in before]
@@ -282,11 +290,11 @@ def test_a_project_is_named_by_its_workbook_and_records_wherever_they_are(tmp_pa
     row = {"id": "M1", "record": "records/x.csv", "units": "g", "dt_s": 0.01}
     make(tmp_path / "a", motions=[row])
     shutil.copytree(tmp_path / "a", tmp_path / "b")
-    first = opened(tmp_path / "a").id
-    assert opened(tmp_path / "b").id == first
+    first = open_project(tmp_path / "a").id
+    assert open_project(tmp_path / "b").id == first
     record = tmp_path / "b" / "records" / "x.csv"
     record.write_text(record.read_text().replace("0.1", "0.2", 1))
-    assert opened(tmp_path / "b").id != first
+    assert open_project(tmp_path / "b").id != first
 
 
 def test_values_as_typed_change_no_cell():
@@ -294,7 +302,7 @@ def test_values_as_typed_change_no_cell():
     items = offered("example") | offered("example", "choices")
     same = {name: item["typed"] for name, item in items.items()}
     assert typed(given.sheet, given.scales, same) == {}
-    assert with_values(given, same) is given
+    assert given.at(same) is given
 
 
 def test_at_the_values_of_rest_provisional_values_are_those_of_rest():
@@ -336,7 +344,7 @@ DRAGS = {
 @pytest.mark.nightly
 @pytest.mark.parametrize(("project", "slider", "value"), DRAGS)
 def test_a_drag_ends_near_the_full_value_and_on_its_side_of_rest(project, slider, value):
-    given = with_values(start(project), {slider: value})
+    given = start(project).at({slider: value})
     whole = (typed_assessment(project), assess(given.sheet, given.shaking))
     rest, full, quick = (
         [item.analysis.mean_m for item in done.arrays]
@@ -353,10 +361,9 @@ def test_a_drag_ends_near_the_full_value_and_on_its_side_of_rest(project, slider
 @pytest.mark.nightly
 def test_without_two_largest_orientations_provisional_values_are_the_full_ones():
     """Of an array that no rest knows."""
-    given = with_values(start("school"), {"friction": 0.8})
+    given = start("school").at({"friction": 0.8})
     full = assess(given.sheet, given.shaking)
-    quick = anticipate(given.sheet, given.shaking, {})
-    for item, known_item in zip(quick.arrays, full.arrays, strict=True):
+    for item, known_item in zip(quick(given, {}).arrays, full.arrays, strict=True):
         assert asdict(item.analysis) == near(asdict(known_item.analysis))
 
 
@@ -365,14 +372,14 @@ def test_s_ds_that_changes_leaves_the_table_of_its_coefficient_behind():
     given = start("school")
     assert "least" not in offered("school")["intensity"]["stops"]
     site = given.sheet.project.site
-    lower = with_values(given, {"intensity": 0.7}).sheet.project.site
+    lower = given.at({"intensity": 0.7}).sheet.project.site
     assert lower.s_ds == pytest.approx(0.7 * site.s_ds, rel=1e-5)
     assert (site.s_s_g, lower.s_s_g) == (0.55, None)
 
 
 def test_where_no_route_is_permitted_the_page_has_no_required_separation_and_no_verdict():
     """Motions of a third of their target do not qualify, and no review is of another S_DS."""
-    weak = with_values(start("school"), {"intensity": 0.32, "together": "no"})
+    weak = start("school").at({"intensity": 0.32, "together": "no"})
     done = assess(weak.sheet, weak.shaking)
     found = answer(done, is_provisional=False)
     title = "488 mm (19.2 in), floor, not permitted"

@@ -1,0 +1,165 @@
+"""What the page has open: a project with its motions and its runs, at any values of its controls.
+
+A value is nothing but other contents of cells: values make another project of the same workbook,
+and `report.assessment` does the rest. Read `OpenProject`, then `report.web.controls`.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from report.assessment.assess import Extent, assess
+from report.assessment.project import Assessment
+from report.assessment.runs import Reference, Runs, largest_two, scene_key
+from report.motions.components import Components
+from report.motions.prepare import Shaking, read_records, shaking, stiff_links
+from report.sheet.reading.read import Sheet, read
+from report.sheet.reading.what_if import Typed, retyped
+from report.sheet.schema.fields import Finding, Place
+from report.typeset.letters import check_letters
+from report.web.controls import check, controls
+from report.web.values import Values, typed
+from solver.records.acceptance import Acceptance
+
+# Of the PRD, while a slider moves: far less than is printed changes, and runs take three quarters
+# of the time.
+PASSING = 1e-4
+
+KEPT_VALUES = 8
+"""Values at which a project is kept, with its assessments."""
+
+_NOTHING_TO_RUN = (
+    "no motion is given",
+    "fill in at least one row; roofslip report makes a package of the prescriptive displacement",
+)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class OpenProject:
+    """A workbook at values of its controls, its motions, and the runs of its arrays.
+
+    Attributes
+    ----------
+    typed : mapping
+        What the values put into cells of the file; the sheet is as if it had been typed there.
+    by_motion : sequence
+        The records of each motion as read, whatever the values say.
+    """
+
+    sheet: Sheet
+    by_motion: Sequence[Components]
+    shaking: Shaking
+    runs: Runs
+    typed: Mapping[Place, Typed] = field(default_factory=dict)
+    first: OpenProject | None = None  # whose motions these are, if they are not its own
+    _others: dict[frozenset[tuple[Place, Typed]], OpenProject] = field(default_factory=dict)
+    _done: dict[Extent, Assessment] = field(default_factory=dict)
+    # of the motions, once it is known: friction, slope and clearances do not change it
+    _acceptance: list[Acceptance] = field(default_factory=list)
+
+    @property
+    def id(self) -> str:
+        """Name of the project in addresses, which no other workbook or records have."""
+        whole = "\n".join((self.sheet.sha256, *self.shaking.hashes))
+        return hashlib.sha256(whole.encode()).hexdigest()[:12]
+
+    @property
+    def scales(self) -> dict[str, float]:
+        """Factor on the records of each motion."""
+        return {motion.id: motion.scale for motion in self.shaking.motions}
+
+    @cached_property
+    def controls(self) -> Mapping[str, Any]:
+        """The sliders and choices of the workbook, for the page."""
+        return controls(self)
+
+    def at(self, values: Values) -> OpenProject:
+        """Return the project as if values had been typed into the workbook as it is opened.
+
+        Raises `InputError` for values that no control has, or that the workbook could not have.
+        """
+        check(self, values)
+        cells = typed(self.sheet, self.scales, values)
+        if not cells:
+            return self
+        key = frozenset(cells.items())
+        # The last one that was asked for is dropped last.
+        known = self._others.pop(key) if key in self._others else self._having(cells)
+        self._others[key] = known
+        if len(self._others) > KEPT_VALUES:
+            self._others.pop(next(iter(self._others)))
+        return known
+
+    def _having(self, cells: Mapping[Place, Typed]) -> OpenProject:
+        sheet = retyped(self.sheet, cells)
+        sheet.refuse(())
+        known = (self, *self._others.values())
+        alike = [other for other in known if _has_same_motions(other.sheet, sheet)]
+        # Records that stay as they are need not be processed again.
+        first = (alike[0].first or alike[0]) if alike else None
+        if first:
+            sheet.refuse(stiff_links(sheet.project, first.shaking.motions))
+        # Of clearances that differ, all runs; of friction or slope, those that are there.
+        keys = set(map(scene_key, sheet.project.arrays))
+        of_arrays = (o for o in alike if set(map(scene_key, o.sheet.project.arrays)) == keys)
+        runs = next((other.runs for other in of_arrays), None)
+        return OpenProject(
+            sheet=sheet,
+            by_motion=self.by_motion,
+            shaking=first.shaking if first else shaking(sheet, self.by_motion),
+            runs=runs or (first.runs.copy() if first else Runs()),
+            typed=cells,
+            first=first,
+        )
+
+    def assessed(self, extent: Extent = Extent.WHOLE) -> Assessment:
+        """Return the assessment, with what is asked for or more."""
+        known = next((done for of, done in self._done.items() if of >= extent), None)
+        self._done[extent] = known or self._assessed(self.runs, extent)
+        return self._done[extent]
+
+    def moving(self, reference: Reference) -> Assessment:
+        """Return a provisional assessment, from the orientations with the largest PRDs at rest."""
+        return self._assessed(Runs(reference, PASSING), Extent.ALONE)
+
+    def _assessed(self, runs: Runs, extent: Extent) -> Assessment:
+        known = (self.first or self)._acceptance
+        acceptance = known[0] if known else None
+        done = assess(self.sheet, self.shaking, runs, acceptance=acceptance, extent=extent)
+        known[:] = [done.acceptance]
+        return done
+
+
+def open_project(path: Path) -> OpenProject:
+    """Read a workbook and its records, or raise an input error with every problem."""
+    sheet = read(path)
+    check_letters(sheet)
+    if not sheet.draft["motions"]:
+        sheet.refuse([Finding.error(Place("motions"), *_NOTHING_TO_RUN)])
+    by_motion = read_records(sheet)
+    sheet.book.files.clear()  # for a package, which another process makes
+    sheet.book.records.clear()
+    run = shaking(sheet, by_motion)
+    return OpenProject(sheet=sheet, by_motion=by_motion, shaking=run, runs=Runs())
+
+
+def _has_same_motions(before: Sheet, after: Sheet) -> bool:
+    """Whether two sheets have the same motions: only units, arrays and clearances differ."""
+    return all(
+        rows == after.draft[key]
+        for key, rows in before.draft.items()
+        if key not in ("project", "arrays", "clearances", "links")
+    )
+
+
+def reference_of(done: Assessment) -> Reference:
+    """Return the orientations with the largest PRDs, which run while a slider moves."""
+    # As long as these two stay the largest, with the displacements of all.
+    return {
+        item.id: {run.motion.id: largest_two(run) for run in item.motions} for item in done.arrays
+    }
