@@ -46,7 +46,7 @@ class NearbyKind(StrEnum):
 
     ARRAY = "array"
     OBJECT = "object"
-    BARE_EDGE = "edge of the roof, not given"
+    BARE_EDGE = "edge of the roof, not entered"
 
 
 class Cover(StrEnum):
@@ -57,8 +57,8 @@ class Cover(StrEnum):
     BEYOND = "as in plan; beyond twice displ."
     DRAWN = "from plan; not confirmed"
     CONFIRMED = "from plan; confirmed"
-    SUFFICIENT = "not given; no less than required"
-    SHORT = "not given; NG"
+    SUFFICIENT = "not entered; no less than required"
+    SHORT = "not entered; NG"
 
 
 @dataclass(frozen=True, slots=True)

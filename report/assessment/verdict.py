@@ -69,7 +69,7 @@ def severity(verdict: Verdict) -> int:
 # friction changes is a condition.
 SHIFT = 0.05
 
-NOT_GIVEN = "not given"
+NOT_GIVEN = "not entered"
 NO_DESIGN = "unknown without a permitted design displacement"
 # Id of the limits on the motions.
 MOTIONS_ID = "motions"

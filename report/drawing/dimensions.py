@@ -164,7 +164,7 @@ def _provided(plan: PlanSheet, gap: Gap) -> str:
         return provided
     # It is in no table.
     mark = "" if math.isnan(of.required_m) else of.mark
-    return f"not given; in plan {provided}, required {required}{mark}"
+    return f"not entered; in plan {provided}, required {required}{mark}"
 
 
 def _dimension(plan: PlanSheet, words: str, equal: Sequence[Lane]) -> None:

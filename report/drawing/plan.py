@@ -257,7 +257,7 @@ def _place(assessment: Assessment, placed: PlacedTexts, extent: Rectangle) -> No
         placed.paper.placer.take_segment(gap.a, gap.b)
     for gap in gaps:
         name = f"{gap.of.array} to {gap.of.other}"
-        number = gap.of.number or "not given"
+        number = gap.of.number or "not entered"
         words = f"{number}: {gap_texts(gap.of, fmt)[0]}" + (" NG" if gap.of.is_ng else "")
         placed.dimension(_LAYERS[gap.of.verdict], name, words, gap)
     for item in sorted(assessment.project.objects, key=lambda item: item.kind not in EDGES):
@@ -346,7 +346,7 @@ def gap_cells(gap: PlanGap, us_first: bool) -> Sequence[str]:
         capacity(gap.provided_m), demand(gap.required_m), Quantity.SIZE, us_first
     )
     required = "no value" if math.isnan(gap.required_m) else required + _by(gap.mark)
-    number = str(gap.number) if gap.is_given else "not given"
+    number = str(gap.number) if gap.is_given else "not entered"
     verdict = "no verdict" if gap.verdict is Verdict.NONE else gap.verdict.value
     return number, f"{gap.array} to {gap.other}", provided, required, verdict
 

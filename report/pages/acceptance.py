@@ -99,7 +99,7 @@ def events(motions: Sequence[MotionInput]) -> Iterator[Sequence[str]]:
         texts = [row.event, *("" if value is None else f"{value:g}" for value in numbers)]
         # What is generated has no event; a table of dashes would say nothing.
         if any(texts):
-            yield row.id, *(text or "not given" for text in texts)
+            yield row.id, *(text or "not entered" for text in texts)
 
 
 def page(package: PackageData) -> Mapping[str, object]:

@@ -156,7 +156,7 @@ def _velocity(
     verdict = stamp(verdicts[item.id])
     if check.tests is None:
         return *about, "no runs", "—", "—", verdict
-    tested_mps = "not given" if math.isnan(check.tested_mps) else check.tested_mps
+    tested_mps = "not entered" if math.isnan(check.tested_mps) else check.tested_mps
     return *about, tested_mps, check.beyond_words, check.minimum_words, verdict
 
 

@@ -161,7 +161,7 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
 
 def _sources(motions: Sequence[Motion]) -> Mapping[str, Sequence[str]]:
     """Return the motions of each source; nothing where every motion has a source of its own."""
-    by_source = grouped_by(motions, lambda motion: motion.source or "not given")
+    by_source = grouped_by(motions, lambda motion: motion.source or "not entered")
     # Then the table has a column for it, and a list by source would repeat the table.
     if len(by_source) == len(motions) > 1:
         return {}

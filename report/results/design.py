@@ -79,7 +79,7 @@ def write_inputs(pages: Pages, assessment: Assessment) -> InputCells:
         "Inputs",
         "Inputs of the project",
         "Change a yellow cell here, or on the sheets Design and Clearances: the verdicts follow. "
-        "Route, limits, motions and runs are those of the report.",
+        "Procedure, limits, motions and runs are those of the report.",
         ("Input", "Value", "Use"),
         [(item.label, f"{item.value}", item.use) for item in inputs],
     )

@@ -361,7 +361,7 @@ def _value(row: Entity, name: str, column: Column) -> Any:
     """Return the value of a field in the unit of its column."""
     value = getattr(row, name)
     if value is None:
-        return "not given"
+        return "not entered"
     return column.held(value)
 
 

@@ -25,7 +25,7 @@ from report.text.units import ratio
 _Value = str | float | tuple[str, str | float]
 
 _OF_ARRAYS = (
-    "Array", "Route", "Analysis [in]", "Prescriptive [in]", "Design [in]", "Cause", "Verdict",
+    "Array", "Procedure", "Analysis [in]", "Prescriptive [in]", "Design [in]", "Cause", "Verdict",
 )  # fmt: skip
 _OF_GAPS = ("Governing clearance", "Kind", "Provided [in]", "Required [in]", "D/C", "", "Of all")
 _OF_CHECKS = ("Largest of each check", "Of", "Found", "Required", "Ratio", "Clause", "Verdict")

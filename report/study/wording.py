@@ -27,7 +27,7 @@ from solver.rules.provisions import SEPARATION_KEYS
 from solver.studies.fragility import Lognormal
 
 NAMES = ("record-to-record", "modeling", "quality of data", "friction", "slope")
-NOT_GIVEN, NOT_DETERMINED = "not given", "not determined"
+NOT_GIVEN, NOT_DETERMINED = "not entered", "not determined"
 # Each force on such a block is proportional to its mass; a study has no others.
 MASS = "Mass has no effect: each array is one rigid block with Coulomb friction"
 

@@ -128,7 +128,7 @@ def _missing(near: PlanNeighbor, fmt: UnitFormat, verdict: ShowVerdict) -> list[
         {"text": fmt.short(value_m, show=show) + mark, "title": fmt.both(value_m, show=show)}
         for value_m, show, mark in lengths
     )
-    names, none = _between(near.array, near.other, "not given; in plan"), {"text": ""}
+    names, none = _between(near.array, near.other, "not entered; in plan"), {"text": ""}
     return [none, names, *missing_cells, none, verdict(near.verdict)]
 
 

@@ -274,14 +274,14 @@ def prescriptive_checks(rules: RuleSet, *, slope_rad: float, mu: float) -> tuple
     return (
         _check(
             rules,
-            "Roof slope, prescriptive route",
+            "Roof slope, prescriptive procedure",
             math.degrees(abs(slope_rad)),
             "prescriptive_max_slope_deg",
             measure=Measure.ANGLE_DEG,
         ),
         _check(
             rules,
-            "Friction coefficient, prescriptive route",
+            "Friction coefficient, prescriptive procedure",
             mu,
             "prescriptive_min_mu",
             limit=required_mu(rules, slope_rad),
@@ -305,7 +305,7 @@ def analysis_checks(
     """
     slope = _check(
         rules,
-        "Roof slope, analysis route",
+        "Roof slope, analysis procedure",
         math.degrees(abs(slope_rad)),
         "analysis_max_slope_deg",
         measure=Measure.ANGLE_DEG,

@@ -108,7 +108,7 @@ def site_specific_reason(
             missing += [symbol] if _needs_analysis(table, site_class, math.inf) else []
         elif _needs_analysis(table, site_class, mapped_g):
             return f"{name} with {symbol} = {mapped_g:g} g", ()
-    return f"{name}, {' and '.join(missing)} not given" if missing else "", missing
+    return f"{name}, {' and '.join(missing)} not entered" if missing else "", missing
 
 
 def _needs_analysis(table: CoefficientTable, site_class: str, mapped_g: float) -> bool:

@@ -151,7 +151,7 @@ def _design(done: Assessment, item: ArrayAssessment) -> Check:
     found: Amount | str = demand(item.design_m, Quantity.DISPLACEMENT, item.overridden.design)
     note = item.source
     if math.isnan(item.design_m):
-        found, note = "none", f"by the {item.route} route"
+        found, note = "none", f"by the {item.route} procedure"
         if item.lacks_motions:
             basis = statistic_basis(done.project)
             note = lacking_motions(done.rules, basis, len(done.shaking.motions))
@@ -162,7 +162,7 @@ def _design(done: Assessment, item: ArrayAssessment) -> Check:
         arrays=(item.id,),
         found=found,
         note=note,
-        limit="a value by a route that is permitted",
+        limit="a value by a procedure that is permitted",
         clause=done.rules.name,
         is_satisfied=item.is_permitted and not math.isnan(item.design_m),
         remedy=_way_out(done, item),

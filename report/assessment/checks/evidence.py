@@ -106,7 +106,7 @@ def _peer_review(data: ProjectInput) -> Iterator[Check]:
         peer_letter=("letter", options.peer_letter),
     )
     lifts_slope = review_lifts_slope(RULE_SETS[data.site.rule_set], data.site.sdc)
-    back = "floor and the slope limit of the analysis route apply"
+    back = "floor and the slope limit of the analysis procedure apply"
     yield condition(
         id="peer_review",
         title="Peer review of the analysis",
@@ -117,5 +117,5 @@ def _peer_review(data: ProjectInput) -> Iterator[Check]:
         clause=data.site.rule_set,
         actor=Actor.REVIEWER,
         remedy="Enter reviewer, license, date and letter: until then the "
-        f"{back if lifts_slope else 'floor of the analysis route applies'}.",
+        f"{back if lifts_slope else 'floor of the analysis procedure applies'}.",
     )

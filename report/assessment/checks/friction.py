@@ -183,7 +183,7 @@ def of_less(done: Assessment) -> Iterator[Check]:
     yield from changed or [
         row(
             id="less_friction",
-            title=f"Routes and clearances with {friction}",
+            title=f"Procedures and clearances with {friction}",
             found="permitted and satisfied as entered",
             limit="permitted and satisfied",
             is_satisfied=True,
@@ -200,11 +200,11 @@ def _routes(
             yield row(
                 id="less_friction",
                 consequence=Consequence.NOTE,
-                title=f"The {array.route} route with {friction}",
+                title=f"The {array.route} procedure with {friction}",
                 subject=array.id,
                 found=f"not permitted with μ = {number(reduced.array.minimum_mu, 3)}",
                 limit="permitted",
-                remedy=f"The route is permitted as entered, and not with {friction}.",
+                remedy=f"The procedure is permitted as entered, and not with {friction}.",
             )
 
 

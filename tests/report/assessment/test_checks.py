@@ -83,8 +83,8 @@ def test_a_check_is_one_sentence_and_a_cell():
 @pytest.mark.quick
 def test_nothing_is_to_be_done_of_what_is_satisfied():
     assert check(is_satisfied=True).to_close == ""
-    note = check(consequence=Consequence.NOTE, remedy="The route is permitted.")
-    assert sentence(note, us_first=True).endswith("(PV1-2012†). The route is permitted.")
+    note = check(consequence=Consequence.NOTE, remedy="The procedure is permitted.")
+    assert sentence(note, us_first=True).endswith("(PV1-2012†). The procedure is permitted.")
 
 
 @pytest.mark.quick
@@ -92,7 +92,7 @@ def test_checks_that_ask_the_same_are_one_with_the_worst():
     of = [check(subject=f"A{k}", id="slack", found=capacity(0.1 * k)) for k in (3, 1, 2)]
     (one,) = alike([*of])
     assert (one.subject, one.found.value) == ("A1 to A3", 0.1)
-    two = check(subject="A4", id="slack", found="not given", consequence=Consequence.CONDITION)
+    two = check(subject="A4", id="slack", found="not entered", consequence=Consequence.CONDITION)
     assert len(alike([*of, two])) == 2
 
 
@@ -121,7 +121,7 @@ def test_of_amounts_that_nothing_is_compared_with_the_safe_one_stands_for_all():
 def test_a_ratio_follows_from_the_amounts():
     most = {"sense": Sense.AT_MOST, "limit": capacity(2.0)}
     assert check(found=entered(4.0), **most).ratio == 2.0
-    assert check(found="not given").ratio == math.inf
+    assert check(found="not entered").ratio == math.inf
     assert math.isnan(check(limit="a value").ratio)
     # What is permitted beyond its limit has none.
     assert math.isnan(check(found=entered(4.0), is_satisfied=True, **most).ratio)
@@ -135,7 +135,7 @@ def test_what_is_ng_is_first_then_conditions_then_the_largest_ratio():
         check(subject="low", limit=demand(0.1), **ok),
         check(subject="high", limit=demand(0.9), **ok),
         check(subject="note", limit=demand(1.0), consequence=Consequence.NOTE, **ok),
-        check(subject="open", found="not given", consequence=Consequence.CONDITION),
+        check(subject="open", found="not entered", consequence=Consequence.CONDITION),
         check(subject="NG"),
     ]
     assert [each.subject for each in by_ratio(checks)] == ["NG", "open", "high", "low"]

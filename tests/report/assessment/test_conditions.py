@@ -72,7 +72,7 @@ def test_a_typed_name_alone_removes_no_floor_and_turns_no_clearance_ok():
     assert (after.verdict, last.verdict) == (Verdict.NG, Verdict.OK)
     said = row(named.assessment, "peer_review")
     assert said.found == "J; license, date, letter missing"
-    assert "until then the floor of the analysis route applies" in said.remedy
+    assert "until then the floor of the analysis procedure applies" in said.remedy
     text = printed(named, "basis")
     assert "The peer review stated does not count (part 1): the floor of part 2 applies." in text
     assert "removed by peer review" not in printed(named, "summary")
@@ -95,7 +95,7 @@ CODE = {"building_code": "CBC", "building_code_year": 2022, "jurisdiction": "Cit
 
 @pytest.mark.parametrize(
     ("given", "found"),
-    [(CODE, "2022 CBC; City of Alameda"), ({}, "not given"),
+    [(CODE, "2022 CBC; City of Alameda"), ({}, "not entered"),
      (without(CODE, "jurisdiction"), "2022 CBC; jurisdiction missing")],
 )  # fmt: skip
 def test_without_building_code_and_jurisdiction_there_is_a_condition(given, found):
@@ -132,7 +132,7 @@ def test_a_weight_over_the_roof_capacity_is_ng_and_prints_the_same_beside_the_wi
     assert (*texts(row), row.verdict) == (found, limit, verdict)
     assert texts(before_runs("wind_weight", **given))[1] == f"= {found}"
     row = before_runs("roof_capacity", **given)
-    assert (row.found, row.verdict) == ("roof capacity not given", Verdict.CONDITION)
+    assert (row.found, row.verdict) == ("roof capacity not entered", Verdict.CONDITION)
 
 
 @pytest.mark.parametrize(
@@ -148,7 +148,7 @@ def test_another_weight_in_the_wind_design_is_a_condition(wind_psf, units, found
     assert texts(said, us_first=units == "US")[0] == found
     assert said.verdict is verdict
     said = before_runs("wind_weight")
-    assert (said.found, said.verdict) == ("not given", Verdict.CONDITION)
+    assert (said.found, said.verdict) == ("not entered", Verdict.CONDITION)
 
 
 def pathway(other, more_m, **second):
@@ -241,11 +241,11 @@ def test_what_is_open_on_the_hazard_is_a_condition(given, conditions):
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({}, "S_1 not given: SDC D is not confirmed"),
-        ({"s_ds_g": 0.4}, "S_1 and S_D1 not given: SDC D is not confirmed"),
-        ({"s_ds_g": 0.4, "s_1_g": 0.5}, "S_D1 not given: SDC D is not confirmed"),
+        ({}, "S_1 not entered: SDC D is not confirmed"),
+        ({"s_ds_g": 0.4}, "S_1 and S_D1 not entered: SDC D is not confirmed"),
+        ({"s_ds_g": 0.4, "s_1_g": 0.5}, "S_D1 not entered: SDC D is not confirmed"),
         ({"s_1_g": 0.5}, "S_1 = 0.500 g"),
-        ({"s_d1_g": 0.5}, "S_1 not given: SDC D is not confirmed"),
+        ({"s_d1_g": 0.5}, "S_1 not entered: SDC D is not confirmed"),
         ({"s_1_g": 0.5, "f_v": 1.8}, "S_1 = 0.500 g, S_D1 = 0.600 g"),
     ],
 )
@@ -272,9 +272,9 @@ def test_site_class_d_by_default_says_11_4_8_of_its_edition_alone(site_class):
 @pytest.mark.parametrize(
     ("given", "asked"),
     [
-        ({"site_class": "D", "s_1_g": None}, "site class D, S_1 not given"),
+        ({"site_class": "D", "s_1_g": None}, "site class D, S_1 not entered"),
         ({"site_class": "E", "s_s_g": 0.9, "s_1_g": 0.05}, "site class E with S_S = 0.9 g"),
-        ({"site_class": "E", "s_s_g": None, "s_1_g": 0.05}, "site class E, S_S not given"),
+        ({"site_class": "E", "s_s_g": None, "s_1_g": 0.05}, "site class E, S_S not entered"),
         ({"site_class": "E", "s_s_g": 0.5, "s_1_g": 0.05}, ""),
         ({"site_class": "D", "s_1_g": 0.1}, ""),
     ],
@@ -338,7 +338,7 @@ def test_a_gap_of_the_plan_without_a_clearance_is_ng_where_it_is_too_small(
     assert found.verdict is expected
     assert (done.array_verdict(done.arrays[0]) is Verdict.NG) is (expected is Verdict.NG)
     if expected is Verdict.NG:
-        assert texts(found)[0] == "24.0 in (609 mm) (not given)"
+        assert texts(found)[0] == "24.0 in (609 mm) (not entered)"
         assert texts(found)[1].startswith("≥ ")
     if provided:
         assert "24.0 in (609 mm) on the plan" in found.found
@@ -379,10 +379,12 @@ def test_a_route_that_five_percent_less_friction_closes_is_a_note(mu, is_closed)
     found = row(assessed(scenes.level(), arrays=arrays, clearances=[]), "less_friction")
     assert found.is_satisfied is not is_closed
     if is_closed:
-        assert found.title == "The prescriptive route with 5 % less friction"
+        assert found.title == "The prescriptive procedure with 5 % less friction"
         assert found.verdict is Verdict.NOTE
         assert found.found == "not permitted with μ = 0.389"
-        assert found.remedy == "The route is permitted as entered, and not with 5 % less friction."
+        assert (
+            found.remedy == "The procedure is permitted as entered, and not with 5 % less friction."
+        )
 
 
 BUILDING = {"building": {"period_s": 0.5}, "spectrum": [], "target": {"t_l_s": 8.0}}
@@ -417,8 +419,8 @@ def test_ground_motions_are_compared_with_the_design_spectrum_where_there_is_one
     assert found == pytest.approx(largest_ratio(), rel=0.02)  # periods up to 1/24 octave apart
     assert grounded(place="roof") is None
     for given, said in (
-        ({"target": {}}, "T_L not given: no target"),
-        ({"target": {}, "site": inputs.SITE}, "S_D1 and T_L not given: no target"),
+        ({"target": {}}, "T_L not entered: no target"),
+        ({"target": {}, "site": inputs.SITE}, "S_D1 and T_L not entered: no target"),
         ({"spectrum": stand_in.SHORT_SPECTRUM}, "no target from 1 s on"),
     ):
         found = grounded(**given)

@@ -99,7 +99,7 @@ def test_the_fit_alone_is_as_tested_and_one_coefficient_is_entered(given, law, s
         (wet_runs((0.5,), (0.0254,)), constant(0.45),
          "entered, at or below the tests at 1.00 in/s (25.4 mm/s)"),
         (wet_runs((0.5,), (None,)), constant(0.45),
-         "entered, at or below the tests (velocities not given)"),
+         "entered, at or below the tests (velocities not entered)"),
         ([], {}, "entered; no runs of friction tests are given"),
     ],
     ids=["too few velocities for a fit", "one velocity", "no velocity", "no runs"],
@@ -202,7 +202,7 @@ def test_tests_without_velocities_or_none_are_conditions():
     row = rows(one(0.44, tests=runs(0.45, None)))["A1"]
     assert row.verdict is Verdict.CONDITION
     assert row.found.endswith("smallest tested 0.450; tests not complete")
-    assert "; velocities tested not given; μ above the tested range 0.440" in row.found
+    assert "; velocities tested not entered; μ above the tested range 0.440" in row.found
     row = rows(one())["A1"]
     assert row.verdict is Verdict.CONDITION
     assert row.found.endswith("; no runs of friction tests")

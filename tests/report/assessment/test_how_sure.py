@@ -103,7 +103,7 @@ def test_margins_are_of_each_array_with_a_permitted_route():
         assert math.isnan(margin.minimum_mu)
     assert own.array.id == "A2"
     assert own.minimum_mu == 0.40
-    assert own.limited_by == "Friction coefficient, prescriptive route"
+    assert own.limited_by == "Friction coefficient, prescriptive procedure"
 
 
 def test_turned_and_reversed_shaking_agree_with_the_public_solver(usual):

@@ -276,9 +276,9 @@ def test_a_short_gap_without_a_row_is_ng_in_the_drawing_the_picture_and_on_the_p
     assert missing.provided_m == pytest.approx(0.3048)  # from x = 100 to 101 ft
     assert missing.required_m == unlisted.arrays[0].design_m
     row = [t.words for t in plan_drawing(unlisted).texts if t.layer is Layer.CLEARANCE_NG]
-    assert row == ["not given", "A1 to RTU-9", "12.0 in (304 mm)", "40.8 in (1036 mm)", "NG"]
+    assert row == ["not entered", "A1 to RTU-9", "12.0 in (304 mm)", "40.8 in (1036 mm)", "NG"]
     shown = re.findall(r"<text[^>]*>([^<]*)</text>", roof_plan(unlisted, LETTER))
-    label = {"NG", "not given; in plan 12.0 in", "required 40.8 in"}
+    label = {"NG", "not entered; in plan 12.0 in", "required 40.8 in"}
     assert label <= set(shown)
     designs = {item.id: {"text": ""} for item in unlisted.arrays}
     items = plan(unlisted, designs, ((), ()), UnitFormat(us_first=True), stamp)["items"]

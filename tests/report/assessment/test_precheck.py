@@ -29,7 +29,7 @@ LIMITS = {
         SEVEN,
     ),
     "two motions on a slope that only analysis permits": (stand_in.steep(), SEVEN[:2]),
-    "two motions on a slope that the prescriptive route permits": (stand_in.project(), SEVEN[:2]),
+    "two motions on a slope of the prescriptive procedure": (stand_in.project(), SEVEN[:2]),
     "no vertical, no test report, no fire lane": (
         BARE,
         tuple(stand_in.motion(m.id, m.ax_mps2, ay=m.ay_mps2, dt_s=m.dt_s) for m in SEVEN[:3]),
@@ -81,7 +81,7 @@ def test_a_limit_names_its_cell_its_value_and_the_limit_and_cannot_be_acknowledg
     assert [finding.text for finding in listed if finding.place == slope] == [
         "NG. Roof slope, any ballasted system, A1: 8.00° (14.1 %). "
         "Required: at most 4.76° (8.3 %)† (IBC 1613.3†).",
-        "NG. Roof slope, analysis route, A1: 8.00° (14.1 %). "
+        "NG. Roof slope, analysis procedure, A1: 8.00° (14.1 %). "
         "Required: at most 7.00° (12.2 %)† (PV1-2012†).",
     ]
 

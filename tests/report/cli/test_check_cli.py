@@ -126,7 +126,7 @@ def test_report_as_json_has_arrays_causes_and_files(steep):
     assert (document["schema_version"], document["verdict"], document["errors"]) == (1, "NG", [])
     first = document["arrays"][0]
     assert (first["id"], first["verdict"]) == ("A1", "NG")
-    assert "roof slope, analysis route (D/C 1.15)" in first["causes"]
+    assert "roof slope, analysis procedure (D/C 1.15)" in first["causes"]
     assert any(name.endswith("calc-package.pdf") for name in document["files"])
     assert {line["level"] for line in document["attention"]} >= {"NG", "warning"}
 

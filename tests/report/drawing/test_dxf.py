@@ -283,7 +283,9 @@ def test_every_gap_is_a_dimension_whose_text_is_that_of_the_schedule(roof, space
     for gap, dimension in zip(plan_gaps(roof), space.query("DIMENSION"), strict=True):
         given = f"{gap.number}: {schedule.get(str(gap.number))}"
         start = (
-            given if gap.is_given else f"not given: {math.floor(gap.provided_m / 0.00254) / 10:.1f}"
+            given
+            if gap.is_given
+            else f"not entered: {math.floor(gap.provided_m / 0.00254) / 10:.1f}"
         )
         words = f"{start} {unit}" + " NG" * gap.is_ng
         has_room = roof is not crowded() or dimension.dxf.text != " "

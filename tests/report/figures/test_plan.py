@@ -228,7 +228,7 @@ def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_cl
     if size.is_full:
         assert "Δ not permitted" in found or size is NARROW  # where A1 has room for its name alone
         page = printed(stand_in.unpermitted(), "plan")
-        assert "no route to a design displacement is permitted for A1;" in page
+        assert "no procedure to a design displacement is permitted for A1;" in page
         row = page.tables[0].row("A1")
         assert (row["Δ [in]"], row["Keep clear [in]"]) == ("none", "unknown")
         required = [row["Req’d [in]"] for row in page.tables[1].rows]

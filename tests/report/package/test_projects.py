@@ -313,7 +313,8 @@ def test_the_warehouse_is_ng_everywhere_by_the_prescriptive_value(conditions):
 def test_nothing_that_is_missing_is_claimed():
     said = "\n".join(page("conditions", key) for key in (*FRONT, *IDS))
     claims = (
-        "All limits and clearances are satisfied", "All limits of the analysis route are satisfied",
+        "All limits and clearances are satisfied",
+        "All limits of the analysis procedure are satisfied",
         "act together, along and across the slope", "7 of 7", "two axes with vertical act",
         "follow the target",
     )  # fmt: skip

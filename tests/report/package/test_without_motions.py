@@ -64,7 +64,7 @@ def test_all_take_the_prescriptive_displacement_and_what_is_not_permitted_is_ng(
     assert {gap.verdict for gap in given.gaps_of("A1")} == {Verdict.NONE}
     failed = {check.id: check for check in given.open if check.verdict is Verdict.NG}
     said = sentence(failed["prescriptive_min_mu"], us_first=True)
-    assert said.startswith("Friction coefficient, prescriptive route, A1")
+    assert said.startswith("Friction coefficient, prescriptive procedure, A1")
     assert ": 0.350. Required: at least 0." in said
     way = "Enter motions on the Motions worksheet, for an analysis."
     assert failed["design"].remedy == way

@@ -72,7 +72,10 @@ STATES = {
     "one motion": (of(MOTIONS[:1]), "number of motions (1, at least 3†)"),
     "no vertical": (of(LEVEL), "there is no vertical component to reverse"),
     "no transverse": (of(scenes.along(MOTIONS)), "No motion has a second horizontal component"),
-    "prescriptive": (of(scenes.along(MOTIONS)), "Arrays A1, A2: the prescriptive route is taken"),
+    "prescriptive": (
+        of(scenes.along(MOTIONS)),
+        "Arrays A1, A2: the prescriptive procedure is taken",
+    ),
     "peer review": (
         of(options=scenes.REVIEW),
         "Analysis peer reviewed by Reviewer of record",

@@ -165,7 +165,7 @@ def test_contact_pressures_stand_beside_each_other_and_are_not_compared():
     said = printed(package(arrays=arrays, friction_tests=tests), "inputs").line("Contact pressure")
     assert said == (
         "Contact pressure, not compared by a rule: of the tests 150.0 psf (7.18 kPa); of the"
-        " supports array A1 100.0 psf (4.79 kPa), array A2 not given."
+        " supports array A1 100.0 psf (4.79 kPa), array A2 not entered."
     )
     assert "Contact pressure" not in printed(package(), "inputs")
 

@@ -59,7 +59,7 @@ OTHER_REPORT = run("wet", 1, 0.5, report="FT-9", velocity_mps=0.0254)
         (STANDARD, {}, [], True, "standard ASTM G115-10; accreditation ISO/IEC 17025, no. 1234.01"),
         (STANDARD, {"standard": "astm g 115-10 (2018)"}, [], True, "standard astm"),
         (STANDARD, {"standard": "ASTM D1894"}, [], False, "standard ASTM D1894"),
-        (STANDARD, {"standard": ""}, [], False, "standard not given; accreditation ISO"),
+        (STANDARD, {"standard": ""}, [], False, "standard not entered; accreditation ISO"),
         (STANDARD, {"accreditation": ""}, [], False, "standard ASTM G115-10; accreditation not"),
         (REPEATS, {}, runs(), True, f"dry and wet 3 runs {AT}"),
         (REPEATS, {}, [], False, "no runs"),
@@ -71,7 +71,7 @@ OTHER_REPORT = run("wet", 1, 0.5, report="FT-9", velocity_mps=0.0254)
         (REPEATS, {}, [*runs(dry=()), *APART, *MORE], False,
          f"dry 3 runs {AT}, 1 run at each of 2.00, 4.00 in/s (50.8,"),
         (REPEATS, {}, [*runs(wet=()), *UNKNOWN], False,
-         f"dry 3 runs {AT}, wet 3 runs with velocity not given"),
+         f"dry 3 runs {AT}, wet 3 runs with velocity not entered"),
     ],
 )  # fmt: skip
 def test_a_row_is_satisfied_by_what_its_report_and_its_runs_have(
@@ -230,9 +230,9 @@ def test_the_values_are_those_of_a_permit_sheet_or_category_e_near_a_fault(full)
     ]  # fmt: skip
     assert found[CATEGORY] == found["SDC"] == "D"
     assert rows(full)[CATEGORY]["Source"] == "largest of D (0.2 s), D (1 s), S1 below 0.75 g"
-    assert "not given" not in found.values()
+    assert "not entered" not in found.values()
     found = rows(package(s_ds_g=1.5, s_1_g=0.8, sdc="E"))
-    assert found[CATEGORY]["Source"] == "largest of D (0.2 s), not given (1 s), S1 E"
+    assert found[CATEGORY]["Source"] == "largest of D (0.2 s), not entered (1 s), S1 E"
     assert found[CATEGORY]["Value"] == found["SDC"]["Value"] == "E"
     confirmed = values(package(s_ds_g=1.5, s_1_g=0.8, s_d1_g=0.9, sdc="E"))
     assert confirmed[CATEGORY] == confirmed["SDC"] == "E"

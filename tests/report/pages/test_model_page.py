@@ -221,7 +221,7 @@ def test_distances_are_printed_with_their_rows_and_rounded_up():
     assert float(row["Twice displ. [in]"]) > near.reach_m / 0.0254
     table = page(objects=[NEAR]).table(CAPTION)
     assert [[row[part] for part in PARTS] for row in table.rows] == [
-        ["A1", "RTU-9", "fixed object", "12.0", "81.6", "—", "not given; NG"]
+        ["A1", "RTU-9", "fixed object", "12.0", "81.6", "—", "not entered; NG"]
     ]
 
 
@@ -239,7 +239,9 @@ def test_what_is_not_in_plan_or_near_is_named():
     lost = NOWHERE | {"id": "LOST"}
     made = page(objects=[NOWHERE, lost], clearances=[stand_in.clearance("A1", "OLD", 9.0)])
     line = made.line("To the scale stated")
-    assert "Neither drawn nor measured, because a place in plan is not given: clearance 1." in line
+    assert (
+        "Neither drawn nor measured, because a place in plan is not entered: clearance 1." in line
+    )
     assert made.line("Neither a place").endswith("LOST.")
     assert CAPTION not in made
     assert page().line("The other pair of the plan is farther apart") == (
@@ -253,7 +255,7 @@ def test_what_is_not_in_plan_or_near_is_named():
 @pytest.mark.parametrize("is_given", [True, False])
 def test_edges_are_those_of_the_outline_where_it_is_given(is_given):
     roof = stand_in.inputs.sides(0, 380, 0, 170) if is_given else {}
-    assert ("The outline of the roof is not given" in page(roof=roof)) is not is_given
+    assert ("The outline of the roof is not entered" in page(roof=roof)) is not is_given
 
 
 @pytest.mark.quick

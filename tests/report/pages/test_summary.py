@@ -43,7 +43,7 @@ def test_the_terminal_marks_what_is_not_permitted_and_calls_nothing_beside_it_ok
     for item, line in zip(document(done)["arrays"], lines[1:], strict=False):
         assert line.startswith(item["id"])
         assert "488 mm (19.2 in), not permitted" in line  # at another S_DS it is not reviewed
-        assert "none  NG: roof slope, analysis route" in line
+        assert "none  NG: roof slope, analysis procedure" in line
         assert any(cause.startswith("clearance A") for cause in item["causes"])
     assert not any("OK" in line or line.startswith("NG: Clearance A1 to A2: ") for line in lines)
     assert lines[-1] == "verdict: NG"
@@ -57,7 +57,7 @@ def test_what_is_alike_of_several_arrays_or_clearances_is_said_once():
     assert one.arrays == ("A1", "A2", "A3")
     row = printed(done, "limits").table("All checks").row("Interconnection strength")
     assert row["Of"] == "A1 to A3"
-    assert "not given" in row["Found"]
+    assert "not entered" in row["Found"]
     arrays = [stand_in.array(f"A{k}", 0.5, x=120 * k, y=20) for k in (1, 2, 3)]
     rows = [stand_in.clearance("A1", "A2", 2.0), stand_in.clearance("A2", "A3", 2.0)]
     data = stand_in.project(arrays=arrays, clearances=rows, objects=[])
@@ -149,7 +149,7 @@ def test_deleting_the_row_of_a_clearance_lowers_nothing():
         assert "A1 to RTU-9" in failed["Of"] + failed["Check"]
         assert "One of two clearances is satisfied." in printed(made, "letter")
     assert ratios[0] == pytest.approx(ratios[1])
-    assert names == [("RTU-9", names[0][1]), ("RTU-9 (not given)", names[0][1])]
+    assert names == [("RTU-9", names[0][1]), ("RTU-9 (not entered)", names[0][1])]
     assert "The plan shows one of them without a row" in printed(deleted, "letter")
 
 
@@ -162,8 +162,8 @@ def test_the_letter_and_the_cause_say_what_is_not_given():
     )
     given = scenes.package(arrays=[stand_in.array("A1", 0.5)], objects=[], clearances=[])
     rows = {check.id: words(check, "A1") for check in given.assessment.checks}
-    assert rows["electrical_slack"] == "electrical slack not given"
-    assert rows["interconnection"] == "interconnection strength not given"
+    assert rows["electrical_slack"] == "electrical slack not entered"
+    assert rows["interconnection"] == "interconnection strength not entered"
 
 
 @pytest.mark.parametrize(
@@ -275,7 +275,7 @@ def test_a_limit_that_may_be_exceeded_is_nowhere_said_to_be_satisfied(clearances
         page = printed(package, key)
         assert "No check is NG" in page or "or exceeded where the rule set permits it" in page
         assert ("No clearance is entered, and none is checked." in page) is not bool(clearances)
-    row = printed(package, "limits").table("All checks").row("Roof slope, analysis route")
+    row = printed(package, "limits").table("All checks").row("Roof slope, analysis procedure")
     assert "permitted" in row["Found"]
 
 

@@ -195,7 +195,7 @@ def test_equal_findings_are_one_line_with_a_count():
 @pytest.mark.nightly
 def test_an_acknowledgment_of_no_warning_is_a_note_at_its_cell(tmp_path):
     rows = [{"warning": "wieght A1", "reason": "Frames alone"}]
-    cell, text = at("Acknowledged/1/Warning"), "warning is 'wieght A1', which is not given;"
+    cell, text = at("Acknowledged/1/Warning"), "warning is 'wieght A1', which is not entered;"
     _, found = told(make(tmp_path, acknowledged=rows, arrays=arrays(weight_n=30 * LB)))
     assert found == ("", cell, f"{text} did you mean 'weight A1'?")
     assert told(make(tmp_path, acknowledged=rows)) == [("", cell, f"{text} delete the row")]

@@ -282,11 +282,12 @@ def test_wide_tables_print_on_two_pages_with_their_first_columns(tmp_path, print
 
 @pytest.mark.nightly
 @pytest.mark.parametrize("units", UnitsFirst)
-def test_the_example_prints_on_twelve_sheets(tmp_path, units):
+def test_the_example_prints_on_thirteen_sheets(tmp_path, units):
     path = tmp_path / "input.xlsx"
     write_template(path, units=units, example=example())
     (file,) = converted([path], tmp_path, "pdf")
-    assert len(PdfReader(file).pages) <= 12
+    # Site takes two, with the place of the project and the loads of an existing building.
+    assert len(PdfReader(file).pages) <= 13
 
 
 @pytest.mark.nightly

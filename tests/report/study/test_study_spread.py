@@ -148,8 +148,9 @@ def test_an_entered_record_to_record_value_replaces_that_of_the_motions(results)
     assert (row["LS1-Theta_0"], row["LS1-Theta_1"]) == ("1.20000", "0.500000")
     said = (
         "Dispersions of LS1 (slip begins): record-to-record 0.30 (Site & hazard), modeling 0.40 "
-        "(entered), quality of data not included (not given), friction not included (mat A has no "
-        "tests), slope not included (no tolerance is given). Mass has no effect: each array is one "
+        "(entered), quality of data not included (not entered), friction not included (mat A has "
+        "no tests), slope not included (no tolerance is given). "
+        "Mass has no effect: each array is one "
         "rigid block with Coulomb friction."
     )
     assert said in row["Comments"]
@@ -159,8 +160,8 @@ def test_an_entered_record_to_record_value_replaces_that_of_the_motions(results)
     assert "the dispersions β do not contain" in printed.study(with_state(results, MATCHED))
     table = page.table("Dispersions")
     assert table.title.endswith(
-        ". Not included: quality of data (not given), friction (mat A has no tests) and slope (no "
-        "tolerance is given)"
+        ". Not included: quality of data (not entered), friction (mat A has no tests) and slope "
+        "(no tolerance is given)"
     )
     assert table.cells == (("LS1", "0.300", "0.400", "0.500"),)
 

@@ -169,7 +169,7 @@ def test_the_default_is_never_below_d_nor_1_2_and_between_letters_there_is_none(
         (E16, "E", 0.75, 0.1, ""),
         (E16, "E", 0.76, 0.1, "site class E with S_S = 0.76 g"),
         (E16, "E", 0.75, 0.11, "site class E with S_1 = 0.11 g"),
-        (E16, "E", None, None, "site class E, S_S and S_1 not given"),
+        (E16, "E", None, None, "site class E, S_S and S_1 not entered"),
         (E16, "C", 2.0, 1.0, ""),
         (E16, "F", 0.1, 0.1, "site class F"),
         (E22, "F", 0.1, 0.1, "site class F"),
@@ -177,5 +177,5 @@ def test_the_default_is_never_below_d_nor_1_2_and_between_letters_there_is_none(
 )
 def test_sites_that_need_a_hazard_analysis_of_their_own(edition, site_class, s_s, s_1, reason):
     found = site_specific_reason(edition, site_class=site_class, s_s_g=s_s, s_1_g=s_1)
-    missing = reason.partition(", ")[2].removesuffix(" not given")
+    missing = reason.partition(", ")[2].removesuffix(" not entered")
     assert (found[0], " and ".join(found[1])) == (reason, missing)
