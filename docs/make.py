@@ -23,8 +23,8 @@ import report
 from report.cli.main import VARIABLE, main
 from report.cli.options import SectionedGroup
 from report.entities import results
-from report.sheet.workbook import SECTIONS
-from report.sheet.workbook.entries import Entry, rows_of
+from report.project.workbook import SECTIONS
+from report.project.workbook.entries import Entry, rows_of
 from solver import public
 
 HERE = Path(__file__).resolve().parent

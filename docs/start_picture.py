@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-PICTURE = Path(__file__).resolve().parents[1] / "report" / "sheet" / "writing" / "start.png"
+PICTURE = Path(__file__).resolve().parents[1] / "report" / "project" / "write" / "start.png"
 SIZE_IN = (9.6, 3.9)
 DPI = 110
 _INK, _GRAY, _ARRAY, _OBJECT, _ARROW = "#1F3A4D", "#7A7F85", "#CFE0EC", "#E4E2DC", "#B3261E"

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from report.assessment.project import Assessment
-    from report.sheet.reading.read import Sheet
+    from report.project.read.read import Sheet
 
 __all__ = ["assess_project", "read_project"]
 
 # openpyxl asks once, as it is loaded. Through lxml, where that is installed, it would write other
 # workbooks. Through defusedxml it reads them in half as much time again; by then
-# `report.sheet.reading.scan` has refused what that refuses.
+# `report.project.read.scan` has refused what that refuses.
 os.environ |= {"OPENPYXL_LXML": "False", "OPENPYXL_DEFUSEDXML": "False"}
 
 
@@ -43,7 +43,7 @@ def read_project(source: str | Path) -> Sheet:
     >>> [array.mu for array in workbook.project.arrays]
     [0.5, 0.5, 0.4]
     """
-    from report.sheet.reading.read import read
+    from report.project.read.read import read
 
     return read(Path(source))
 

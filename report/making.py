@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from report.assessment.project import Assessment, Changes
     from report.entities.results import Compared
     from report.motions.prepare import Shaking
-    from report.sheet.reading.read import Sheet
+    from report.project.read.read import Sheet
 
 OUTPUTS = ("calc-package.pdf", "plan.dxf", "results.xlsx", "results.json")
 
@@ -114,8 +114,8 @@ def _former(since: Path | None) -> tuple[Compared | None, bytes]:
 
 def _read(source: Path, out: Path | None, since: Path | None) -> tuple[Sheet, Path]:
     """Read a workbook, and check that its package can be written to the folder returned."""
+    from report.project.read.read import read
     from report.results.publish import check_apart, check_of_workbook, output_folder
-    from report.sheet.reading.read import read
     from report.typeset.letters import check_letters
 
     sheet = read(source)
@@ -131,8 +131,8 @@ def _read(source: Path, out: Path | None, since: Path | None) -> tuple[Sheet, Pa
 def _prepared(sheet: Sheet) -> Shaking:
     """Read and process the records; warn of motions that came from other sources."""
     from report.motions.prepare import prepare
+    from report.project.check.findings import lines
     from report.results.motions import other_sources
-    from report.sheet.checking.findings import lines
 
     shaking = prepare(sheet)
     for line in lines(other_sources(sheet), sheet.addresses):
@@ -142,9 +142,9 @@ def _prepared(sheet: Sheet) -> Shaking:
 
 def _record(sheet: Sheet, shaking: Shaking, tell: Callable[[str], None]) -> bool:
     """Fill in what confirmations cover beside their dates; return whether the workbook changed."""
-    from report.sheet.checking.covered import to_record
-    from report.sheet.reading.what_if import cells
-    from report.sheet.writing.filled import changing
+    from report.project.check.covered import to_record
+    from report.project.read.what_if import cells
+    from report.project.write.filled import changing
     from solver.model import InputError
 
     lines = to_record(sheet.project, shaking.hashes).items()

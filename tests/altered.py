@@ -19,11 +19,11 @@ from places import ROOT
 from report.assessment.assess import assess
 from report.assessment.project import Assessment
 from report.motions.prepare import prepare
-from report.sheet.reading.read import Sheet
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.fields import Frozen
-from report.sheet.workbook import SECTION
-from report.sheet.writing.template import write_template
+from report.project.model import ProjectInput
+from report.project.model.fields import Frozen
+from report.project.read.read import Sheet
+from report.project.workbook import SECTION
+from report.project.write.template import write_template
 
 PSF = LB / FT**2
 DAY = dt.date(2025, 11, 1)

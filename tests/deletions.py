@@ -18,10 +18,10 @@ from report.assessment.checks.check import Check
 from report.assessment.project import Assessment
 from report.assessment.verdict import PLAN_ROW, Verdict
 from report.motions.prepare import Shaking, prepare
-from report.sheet.reading.archive import OpenBook, open_book
-from report.sheet.reading.read import Sheet, read_book
-from report.sheet.schema.fields import Place
-from report.sheet.workbook import SECTION
+from report.project.model.fields import Place
+from report.project.read.archive import OpenBook, open_book
+from report.project.read.read import Sheet, read_book
+from report.project.workbook import SECTION
 from report.text.counts import grouped_by
 from solver.model import InputError
 

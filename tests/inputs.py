@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import datetime as dt
 
-from report.sheet.schema import ProjectInput
+from report.project.model import ProjectInput
 
 FT, INCH, LB = 0.3048, 0.0254, 4.4482216152605
 SIDES = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")

@@ -19,11 +19,11 @@ import numpy as np
 
 from places import SAMPLES
 from report.cli.check import checked
-from report.sheet.reading.cells import LARGEST, Found, read_cell
-from report.sheet.reading.parts import changed
-from report.sheet.reading.positions import CellPosition
-from report.sheet.reading.read import read
-from report.sheet.workbook import SECTIONS
+from report.project.read.cells import LARGEST, Found, read_cell
+from report.project.read.parts import changed
+from report.project.read.positions import CellPosition
+from report.project.read.read import read
+from report.project.workbook import SECTIONS
 from sheets import make
 from solver import InputError, slide
 from solver.formats import read_motion_file

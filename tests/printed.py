@@ -33,7 +33,7 @@ from report.manual.render import manual_html, this_machine
 from report.package.html import part
 from report.pages.parts import PackageData
 from report.pages.registry import PAGES, draw_assessment, draw_plotted, package_data
-from report.sheet.schema.choices import PackageEdition
+from report.project.model.choices import PackageEdition
 from report.study.files import study_html
 from report.study.results import StudyResults
 from solver.verification.evidence import Verification

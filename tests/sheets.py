@@ -26,13 +26,13 @@ from inputs import FT, INCH, clearance, motion, roof_object
 from places import DATA, ROOT
 from report.assessment.precheck import findings
 from report.motions.prepare import Shaking, prepare
-from report.sheet.checking.findings import located
-from report.sheet.reading.parts import changed
-from report.sheet.reading.positions import CellPosition
-from report.sheet.reading.read import Sheet, read
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import UnitsFirst
-from report.sheet.writing.template import write_template
+from report.project.check.findings import located
+from report.project.model import ProjectInput
+from report.project.model.choices import UnitsFirst
+from report.project.read.parts import changed
+from report.project.read.positions import CellPosition
+from report.project.read.read import Sheet, read
+from report.project.write.template import write_template
 from solver.model import InputError
 
 

@@ -19,10 +19,10 @@ from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
 from report.motions.prepare import Shaking
 from report.package.html import pages
-from report.sheet import workbook
-from report.sheet.reading.read import EchoRow, Sheet
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import RecordedAt
+from report.project import workbook
+from report.project.model import ProjectInput
+from report.project.model.choices import RecordedAt
+from report.project.read.read import EchoRow, Sheet
 from report.typeset.pdf import lay_out
 from sheets import Book
 from solver.model import Motion

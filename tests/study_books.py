@@ -16,7 +16,7 @@ from openpyxl import load_workbook
 
 from cells import addressed
 from report.cli.main import main
-from report.sheet.schema.choices import UnitsFirst
+from report.project.model.choices import UnitsFirst
 from report.study.exports import export_files
 from report.study.plan import plan_study
 from report.study.read import read_study, write_study

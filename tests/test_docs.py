@@ -24,8 +24,8 @@ import packages
 import solver.public
 from cells import cell
 from places import RECORDS, ROOT
+from report.project.model.choices import RuleSetName
 from report.results.publish import STAMP
-from report.sheet.schema.choices import RuleSetName
 from sheets import edit
 from solver.model import Friction
 from solver.rules.rulesets import RULE_SETS

@@ -16,9 +16,9 @@ import sheets
 import waves
 from nightly import by_day
 from places import ROOT
-from report.sheet.reading.parts import GrowingTable
-from report.sheet.reading.read import read
-from report.sheet.writing.filled import changing
+from report.project.read.parts import GrowingTable
+from report.project.read.read import read
+from report.project.write.filled import changing
 from sketch import BOX_FT, Sketch
 from solver.files import LOCK
 from stranger import KINDS, occupied, state

@@ -6,9 +6,9 @@ from pathlib import Path
 
 from openpyxl import load_workbook
 
-from report.sheet.reading.read import read
-from report.sheet.schema.fields import Place
-from report.sheet.workbook import SECTIONS
+from report.project.model.fields import Place
+from report.project.read.read import read
+from report.project.workbook import SECTIONS
 
 
 def typed_cells(workbook: Path) -> dict[str, dict[str, str]]:

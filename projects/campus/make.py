@@ -14,9 +14,9 @@ from pathlib import Path
 from runpy import run_path
 
 from projects.rows import Row, clearance, issued, rectangle, roof_object
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import UnitsFirst
-from report.sheet.writing.template import write_template
+from report.project.model import ProjectInput
+from report.project.model.choices import UnitsFirst
+from report.project.write.template import write_template
 
 HERE = Path(__file__).resolve().parent
 SCHOOL = run_path(str(HERE.parent / "school" / "make.py"))

@@ -18,9 +18,9 @@ from projects.rows import (
     roof_object,
     write_motions,
 )
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import UnitsFirst
-from report.sheet.writing.template import write_template
+from report.project.model import ProjectInput
+from report.project.model.choices import UnitsFirst
+from report.project.write.template import write_template
 from report.suite.inputs import ac156_targets
 from solver.rules.hazard import Tail
 from solver.synthesis.suite import SuiteMotion, make_suite

@@ -22,9 +22,9 @@ from projects.rows import (
     write_document,
     write_motions,
 )
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import UnitsFirst
-from report.sheet.writing.template import write_template
+from report.project.model import ProjectInput
+from report.project.model.choices import UnitsFirst
+from report.project.write.template import write_template
 from solver.rules.hazard import EDITIONS, ac156_horizontal, ac156_vertical
 from solver.rules.provisions import RULE_SETS
 from solver.synthesis.suite import SuiteMotion, make_suite

@@ -9,7 +9,7 @@ import datetime as dt
 from pathlib import Path
 
 from projects.rows import write_motions
-from report.sheet.schema.choices import UnitsFirst
+from report.project.model.choices import UnitsFirst
 from report.study.read import write_study
 from report.study.schema import (
     Hazard,

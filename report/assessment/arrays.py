@@ -22,8 +22,8 @@ from report.assessment.routes import (
 )
 from report.assessment.runs import MotionRun, OrientedRun
 from report.assessment.verdict import OVERRIDDEN, mark_of, nan_is_worst
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.scene import Array
+from report.project.model import ProjectInput
+from report.project.model.scene import Array
 from solver.rules import provisions
 from solver.rules.provisions import AnalysisValue, Basis, Prescriptive, RuleSet
 from solver.sliding.uplift import Supports, Tipping, Uplift, tipping_at

@@ -28,12 +28,12 @@ from report.assessment.runs import Runs
 from report.assessment.verdict import SHIFT, as_adopted, rule_set_of
 from report.motions.history import targets
 from report.motions.prepare import Shaking
-from report.sheet.checking.checks import faults
-from report.sheet.checking.covered import outdated
-from report.sheet.reading.read import Sheet
-from report.sheet.schema import ProjectInput, linked
-from report.sheet.schema.fields import Finding
-from report.sheet.workbook import SECTIONS
+from report.project.check.checks import faults
+from report.project.check.covered import outdated
+from report.project.model import ProjectInput, linked
+from report.project.model.fields import Finding
+from report.project.read.read import Sheet
+from report.project.workbook import SECTIONS
 from solver.records.acceptance import Acceptance
 
 

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 
 from report.assessment.neighbors import ComparedGap, NearbyKind, PlanNeighbor
 from report.assessment.verdict import Verdict, mark_of, nan_is_worst
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import DistanceBasis, ObjectKind
-from report.sheet.schema.scene import Array, Clearance, RoofObject
+from report.project.model import ProjectInput
+from report.project.model.choices import DistanceBasis, ObjectKind
+from report.project.model.scene import Array, Clearance, RoofObject
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor, Provision, RuleSet
 

@@ -13,8 +13,8 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.project import Assessment
 from report.assessment.runs import OrientedRun
 from report.assessment.verdict import mark_of
-from report.sheet.schema.choices import Direction
-from report.sheet.schema.shapes import Point, Polygon, Shape, merged, ring, sides
+from report.project.model.choices import Direction
+from report.project.model.shapes import Point, Polygon, Shape, merged, ring, sides
 from solver.model import INCH_M
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor

@@ -24,10 +24,10 @@ from report.assessment.spectra import Spectra, spectra
 from report.assessment.uncertainty import Uncertainty, uncertainty
 from report.assessment.verdict import SHIFT, nan_is_worst
 from report.motions.history import PreparedMotion, first_period_s, through_building
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import Direction
-from report.sheet.schema.motions import BuildingInput, MotionInput
-from report.sheet.schema.scene import Array
+from report.project.model import ProjectInput
+from report.project.model.choices import Direction
+from report.project.model.motions import BuildingInput, MotionInput
+from report.project.model.scene import Array
 from report.text.units import number
 from solver.building.structure import MOST_PERIOD_S
 from solver.model import SlideHistory

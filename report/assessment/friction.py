@@ -18,9 +18,9 @@ from report.assessment.clearances import ClearanceCheck, with_displacements
 from report.assessment.routes import NOT_PERMITTED
 from report.assessment.tested import MOST_BEYOND, is_complete, tested
 from report.assessment.verdict import Verdict
-from report.sheet.checking.motion_checks import MU_TOLERANCE
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.scene import Array
+from report.project.check.motion_checks import MU_TOLERANCE
+from report.project.model import ProjectInput
+from report.project.model.scene import Array
 from report.text.counts import ids_by, ranged
 from report.text.units import Quantity, Rounding, no_less, number, pair
 from solver.friction_tests import Series, governing

@@ -13,8 +13,8 @@ from functools import partial
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.runs import Runs
 from report.assessment.verdict import nan_is_worst
-from report.sheet.schema.motions import Links
-from report.sheet.schema.scene import Array
+from report.project.model.motions import Links
+from report.project.model.scene import Array
 from solver.model import Motion, Orientation, SlideResult, Status
 from solver.rules import provisions
 from solver.rules.provisions import AnalysisValue, RuleSet

@@ -15,9 +15,9 @@ from report.assessment.clearances import ClearanceCheck
 from report.assessment.neighbors import ComparedGap, PlanNeighbor, compass
 from report.assessment.plan_clearances import shapes_of
 from report.assessment.project import Assessment
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.scene import SIDES, Clearance
-from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape, gap_m
+from report.project.model import ProjectInput
+from report.project.model.scene import SIDES, Clearance
+from report.project.model.shapes import Point, Polygon, Rectangle, Shape, gap_m
 from report.text.units import Quantity, no_less, pair, round_up
 
 _NOISE_M = 1e-8  # a length that is rounded up is no less than what it is rounded from

@@ -15,11 +15,11 @@ from itertools import combinations
 from typing import TYPE_CHECKING
 
 from report.assessment.verdict import Verdict
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import DistanceBasis, ObjectKind
-from report.sheet.schema.fields import Place
-from report.sheet.schema.scene import Array, Clearance
-from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape, gap_m, sides, spans_near
+from report.project.model import ProjectInput
+from report.project.model.choices import DistanceBasis, ObjectKind
+from report.project.model.fields import Place
+from report.project.model.scene import Array, Clearance
+from report.project.model.shapes import Point, Polygon, Rectangle, Shape, gap_m, sides, spans_near
 from report.text.units import ratio
 from solver.model import INCH_M
 

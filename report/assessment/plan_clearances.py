@@ -1,6 +1,6 @@
 """The clearances that a plan calls for, before any run or after it, and rows that a workbook lacks.
 
-Writes nothing (`report.sheet.writing.filled`). Read `pairs_before_runs`, then `missing_rows`.
+Writes nothing (`report.project.write.filled`). Read `pairs_before_runs`, then `missing_rows`.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ from report.assessment.clearances import ClearanceCheck, separation_m
 from report.assessment.neighbors import REACH_FACTOR, NearbyKind, PlanNeighbor, plan_pairs
 from report.assessment.routes import prescriptive_of
 from report.assessment.verdict import Verdict, rule_set_of
-from report.sheet.reading.parts import DIGITS, GrowingTable, Value
-from report.sheet.reading.positions import CellPosition
-from report.sheet.reading.read import Sheet, without_motions
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import ClearanceSource, Direction, ObjectKind
-from report.sheet.schema.fields import Place
-from report.sheet.schema.scene import RoofObject
-from report.sheet.schema.shapes import Point, Shape, closest
+from report.project.model import ProjectInput
+from report.project.model.choices import ClearanceSource, Direction, ObjectKind
+from report.project.model.fields import Place
+from report.project.model.scene import RoofObject
+from report.project.model.shapes import Point, Shape, closest
+from report.project.read.parts import DIGITS, GrowingTable, Value
+from report.project.read.positions import CellPosition
+from report.project.read.read import Sheet, without_motions
 from report.text.counts import numbered
 from report.text.units import Quantity, Show, no_less, no_more, pair, round_down
 from solver.model import INCH_M

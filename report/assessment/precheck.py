@@ -29,14 +29,14 @@ from report.assessment.verdict import Verdict, rule_set_of
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion, Targets, targets
 from report.motions.prepare import Shaking, record_findings
-from report.sheet.checking.covered import outdated
-from report.sheet.checking.findings import acknowledged, limit, listed, note
-from report.sheet.checking.plausible import implausible
-from report.sheet.reading.read import Sheet
-from report.sheet.reading.unseen import warnings
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import RecordedAt
-from report.sheet.schema.fields import Finding, Place
+from report.project.check.covered import outdated
+from report.project.check.findings import acknowledged, limit, listed, note
+from report.project.check.plausible import implausible
+from report.project.model import ProjectInput
+from report.project.model.choices import RecordedAt
+from report.project.model.fields import Finding, Place
+from report.project.read.read import Sheet
+from report.project.read.unseen import warnings
 from report.text.counts import numbered, quoted
 from report.text.units import Quantity, no_less, no_more, pair
 from solver.records.acceptance import POINTS_HZ, Acceptance, SpectraOf, acceptance, one_by_one

@@ -22,7 +22,7 @@ from report.assessment.verdict import (
     nan_is_worst,
     under_code,
 )
-from report.sheet.schema import ProjectInput
+from report.project.model import ProjectInput
 from report.text.counts import capitalized, ranged
 from report.text.units import Quantity, no_less, pair
 

@@ -23,8 +23,8 @@ from report.assessment.runs import Runs, scene_key
 from report.assessment.verdict import Verdict, nan_is_worst, severity
 from report.motions.history import Targets
 from report.motions.prepare import Shaking
-from report.sheet.reading.read import Sheet
-from report.sheet.schema import ProjectInput
+from report.project.model import ProjectInput
+from report.project.read.read import Sheet
 from report.text.counts import grouped_by
 from solver.records.acceptance import Acceptance
 from solver.rules.provisions import RuleSet

@@ -32,8 +32,8 @@ from report.assessment.trials import (
     with_mu,
 )
 from report.assessment.verdict import PLAN_ROW, STRENGTH_ROW, Verdict
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.scene import Clearance
+from report.project.model import ProjectInput
+from report.project.model.scene import Clearance
 from report.text.amounts import Amount, amount_texts, capacity, demand
 from report.text.amounts import entered as entered_amount
 from report.text.counts import capitalized, grouped_by, joined, lowered, name_order, ranged

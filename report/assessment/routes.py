@@ -8,9 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import Statistic
-from report.sheet.schema.scene import Array
+from report.project.model import ProjectInput
+from report.project.model.choices import Statistic
+from report.project.model.scene import Array
 from solver.rules import provisions
 from solver.rules.limit import Limit
 from solver.rules.provisions import Basis, Prescriptive, RuleSet

@@ -16,8 +16,8 @@ from operator import attrgetter
 from typing import TypeVar
 
 from report.assessment.verdict import nan_is_worst
-from report.sheet.schema.choices import Direction
-from report.sheet.schema.scene import Array
+from report.project.model.choices import Direction
+from report.project.model.scene import Array
 from solver.model import Motion, Orientation, Scene, SlideHistory, SlideResult, Status
 from solver.sliding import least_model
 from solver.sliding.least_model import DEFAULT, Model, Settings, Solution

@@ -13,7 +13,7 @@ import numpy as np
 
 from report.assessment.project import Assessment
 from report.motions.history import TargetSpectrum
-from report.sheet.schema.choices import RecordedAt
+from report.project.model.choices import RecordedAt
 from report.text.units import G_MPS2
 from solver.model import Floats, Motion
 from solver.records.acceptance import POINTS_HZ, spectrum_mps2

@@ -10,9 +10,9 @@ import re
 from collections.abc import Sequence
 
 from report.assessment.verdict import NOT_GIVEN
-from report.sheet.checking.motion_checks import MU_TOLERANCE
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.scene import Array
+from report.project.check.motion_checks import MU_TOLERANCE
+from report.project.model import ProjectInput
+from report.project.model.scene import Array
 from report.text.counts import grouped_by, numbered
 from report.text.units import Quantity, measured, pair
 from solver.friction_tests import Series, Surface, fit_law, governing, series

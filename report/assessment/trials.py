@@ -14,7 +14,7 @@ from report.assessment.arrays import ArrayAssessment, Displacement, assess_array
 from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.friction import array_with_friction, at_low_velocity
 from report.assessment.project import Assessment
-from report.sheet.schema.scene import Array, Clearance
+from report.project.model.scene import Array, Clearance
 from solver.model import Status
 
 # Hundredths between the values of each pass of a search: coarse first, as each value takes runs.

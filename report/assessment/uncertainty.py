@@ -28,7 +28,7 @@ from report.assessment.trials import (
     with_mu,
 )
 from report.assessment.verdict import nan_is_worst
-from report.sheet.schema.scene import Array
+from report.project.model.scene import Array
 from solver.model import Floats, HorizontalComponent, Orientation, Scene, SlideResult, Status
 from solver.records.record import read_only
 from solver.sliding import one_axis, two_axes

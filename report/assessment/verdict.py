@@ -13,8 +13,8 @@ from typing import Annotated
 
 from pydantic import AfterValidator
 
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import RuleSetName, Statistic
+from report.project.model import ProjectInput
+from report.project.model.choices import RuleSetName, Statistic
 from solver.rules.hazard import REFERENCED
 from solver.rules.limit import Consequence
 from solver.rules.provisions import RULE_SETS, Basis, RuleSet

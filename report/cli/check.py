@@ -26,8 +26,8 @@ from report.text.counts import command, numbered
 
 if TYPE_CHECKING:
     from report.motions.prepare import Shaking
-    from report.sheet.reading.read import Sheet
-    from report.sheet.schema.fields import Finding
+    from report.project.model.fields import Finding
+    from report.project.read.read import Sheet
 
 
 @click.command()
@@ -60,17 +60,17 @@ def checked(
     source: Path, progress: Callable[[str], None] = lambda _: None
 ) -> tuple[Sheet, Shaking, tuple[Finding, ...]]:
     """Return a workbook with its motions, and every finding in the order of the template."""
-    from report.sheet.reading.read import read
+    from report.project.read.read import read
 
     progress("reading the workbook")
     sheet = read(source)
     # An error in the workbook does not wait for what reads records.
     from report.assessment.precheck import findings, limits_before_runs, missing_clearances
     from report.motions.prepare import prepare
+    from report.project.check.findings import in_order
+    from report.project.write.filled import findings as formula_findings
+    from report.project.write.filled import overwritten
     from report.results.motions import other_sources
-    from report.sheet.checking.findings import in_order
-    from report.sheet.writing.filled import findings as formula_findings
-    from report.sheet.writing.filled import overwritten
     from report.typeset.letters import check_letters
 
     # A letter that the font of the package lacks is an error of the input, found before any run.
@@ -98,8 +98,8 @@ def _without_motions(sheet: Sheet, shaking: Shaking) -> Iterator[Finding]:
         return
     from report.assessment.assess import assess
     from report.pages.summary import without_analysis
-    from report.sheet.checking.findings import note
-    from report.sheet.schema.fields import Place
+    from report.project.check.findings import note
+    from report.project.model.fields import Place
 
     # Without motions nothing is run, so that the assessment is at hand before the report.
     yield note(Place("motions"), without_analysis(assess(sheet, shaking)))
@@ -107,9 +107,9 @@ def _without_motions(sheet: Sheet, shaking: Shaking) -> Iterator[Finding]:
 
 def _computed(sheet: Sheet) -> Iterator[Finding]:
     """Yield what blank cells of the site stand for, by which rule."""
-    from report.sheet.checking.findings import note
-    from report.sheet.schema.fields import Place
-    from report.sheet.workbook import SECTION
+    from report.project.check.findings import note
+    from report.project.model.fields import Place
+    from report.project.workbook import SECTION
 
     site = SECTION["site"]
     blank = {row.address: row.value for row in sheet.echo if not row.typed}
@@ -122,8 +122,8 @@ def _computed(sheet: Sheet) -> Iterator[Finding]:
 
 def _in_future(sheet: Sheet, today: dt.date) -> Iterator[Finding]:
     """Yield that a package is dated after today."""
-    from report.sheet.checking.findings import note
-    from report.sheet.schema.fields import Place
+    from report.project.check.findings import note
+    from report.project.model.fields import Place
 
     date = sheet.project.project.date
     if date > today:
@@ -133,7 +133,7 @@ def _in_future(sheet: Sheet, today: dt.date) -> Iterator[Finding]:
 
 def lines(sheet: Sheet, listed: Iterable[Finding]) -> Iterator[str]:
     """Yield findings as lines: level, cells, what was found, the names of warnings."""
-    from report.sheet.checking import findings
+    from report.project.check import findings
 
     for finding in findings.lines(listed, sheet.addresses):
         name = f" [{finding.id}]" if finding.id else ""
@@ -156,7 +156,7 @@ def _document(sheet: Sheet, findings: Iterable[Finding]) -> dict[str, Any]:
 
 
 def _summary(sheet: Sheet, shaking: Shaking, findings: Iterable[Finding]) -> str:
-    from report.sheet.schema.fields import Level
+    from report.project.model.fields import Level
 
     data = sheet.project
     levels = [finding.level for finding in findings]

@@ -134,8 +134,8 @@ def rows(
     with input_errors(source), TemporaryDirectory() as temporary:
         from report.motions.sets import sets_of, table
         from report.motions.stored import unpack
+        from report.project.write.filled import changing
         from report.results.motions import row_cells, set_rows
-        from report.sheet.writing.filled import changing
         from solver.model import InputError
 
         # A default would be wrong in silence: ground motions go through the building.

@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from report.drawing_read.ballast import Load
     from report.drawing_read.plan_read import DrawnOutline
     from report.drawing_read.roof_drawing import RoofDrawing
-    from report.sheet.schema.choices import LayerKind
-    from report.sheet.schema.fields import DraftRow
-    from report.sheet.writing.filled import WorkbookChange
+    from report.project.model.choices import LayerKind
+    from report.project.model.fields import DraftRow
+    from report.project.write.filled import WorkbookChange
 
 
 # A drawing may have thousands of layers, with names of any length.
@@ -35,7 +35,7 @@ def given_kinds(
     _: click.Context, __: click.Parameter, value: Sequence[str]
 ) -> dict[str, LayerKind]:
     """Return what each `--layer NAME=KIND` says, by the name."""
-    from report.sheet.schema.choices import LayerKind
+    from report.project.model.choices import LayerKind
 
     kinds = {}
     for text in value:
@@ -61,7 +61,7 @@ def choose(
     """
     from report.drawing_read.plan_read import known_layers
     from report.drawing_read.roof_drawing import proposed
-    from report.sheet.schema.choices import LayerKind
+    from report.project.model.choices import LayerKind
     from report.text.counts import numbered
     from solver.model import InputError, Problem
     from solver.suggestions import nearest
@@ -151,8 +151,8 @@ def read(
     workbook is kept. If it has no other errors, the clearances follow as by plan clearances.
     """
     from report.drawing_read.fill import changes, layers_of, plan_as_rows, unread
-    from report.sheet.checking.plan_checks import us_first
-    from report.sheet.writing.filled import changing, withdrawn
+    from report.project.check.plan_checks import us_first
+    from report.project.write.filled import changing, withdrawn
     from report.text.units import LENGTHS
     from solver.model import InputError
 
@@ -211,7 +211,7 @@ def clearances(project: Path) -> None:
     plan, rounded down, and say so in the column Distance from: a condition of the package until
     they are confirmed. Rows whose distance is from the drawing are renewed; all others are kept.
     """
-    from report.sheet.writing.filled import changing, withdrawn
+    from report.project.write.filled import changing, withdrawn
 
     with input_errors(project), changing(project) as change:
         lines = [*_add_clearances(change), *withdrawn(change)]
@@ -224,7 +224,7 @@ def clearances(project: Path) -> None:
 
 def _add_clearances(change: WorkbookChange) -> Sequence[str]:
     """Add the rows of clearances that a workbook lacks; return what to print of them."""
-    from report.sheet.reading.read import read_book, without_motions
+    from report.project.read.read import read_book, without_motions
     from solver.model import InputError
 
     sheet = read_book(change.book) if change.written else change.sheet_before
@@ -322,10 +322,10 @@ def ballast(
     """
     from report.drawing_read.ballast import loads, read_map
     from report.drawing_read.fill import ballast_changes
-    from report.sheet.checking.findings import listed
-    from report.sheet.checking.plan_checks import shapes_of, us_first
-    from report.sheet.reading.read import read_book
-    from report.sheet.writing.filled import changing
+    from report.project.check.findings import listed
+    from report.project.check.plan_checks import shapes_of, us_first
+    from report.project.read.read import read_book
+    from report.project.write.filled import changing
     from report.text.units import LENGTHS, WEIGHTS, Quantity, pair
     from solver.model import InputError
 

@@ -63,8 +63,8 @@ def new(folder: Path, units: str, example: bool, study: bool) -> None:
 
 def _new_project(folder: Path, units: str, *, is_example: bool, is_study: bool) -> Path:
     """Write a workbook and its records folder; never overwrite a workbook or a record."""
-    from report.sheet.schema.choices import UnitsFirst
-    from report.sheet.writing.template import example_files, write_template
+    from report.project.model.choices import UnitsFirst
+    from report.project.write.template import example_files, write_template
     from report.study.read import write_study
     from solver.files import add_folder, check_plain, write_all
     from solver.model import InputError
@@ -212,7 +212,7 @@ def watch(source: Path, out: Path | None) -> None:
 
     Prints what changed since the round before. Waits while the workbook is half saved or locked.
     """
-    from report.sheet.reading.archive import located
+    from report.project.read.archive import located
 
     with input_errors(source):
         workbook, results = located(source), b""
@@ -243,7 +243,7 @@ def report_again(workbook: Path, out: Path | None, former: bytes) -> bytes:
 
 def settled(workbook: Path) -> set[tuple[str, int, int]]:
     """Wait until a workbook opens and no file changes, if that comes; return `stamps`."""
-    from report.sheet.reading.archive import open_book
+    from report.project.read.archive import open_book
 
     for _ in range(MOST_POLLS):
         seen = stamps(workbook.parent)

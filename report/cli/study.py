@@ -100,8 +100,8 @@ def make(
 
     Options are those of `report.study.run.run_study`.
     """
+    from report.project.read.linked_files import YEARS
     from report.results.publish import publish
-    from report.sheet.reading.linked_files import YEARS
     from report.study.exports import LIBRARY
     from report.study.files import study_files
     from report.study.run import RUNS, run_study

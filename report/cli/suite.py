@@ -18,7 +18,7 @@ from report.cli.terminal import SOURCE, Progress, input_errors, plain, say_next
 from report.text.counts import called, numbered
 
 if TYPE_CHECKING:
-    from report.sheet.reading.read import Sheet
+    from report.project.read.read import Sheet
     from report.suite.inputs import SuiteTargets
 
 
@@ -69,9 +69,9 @@ def suite(
     # What comes before the first motion takes no share, so that the time left is theirs.
     shares = (0.0, *[1.0] * count, 1.0)
     with input_errors(into or folder), Progress(shares) as progress:
+        from report.project.read.read import read
         from report.results.motions import add_suite, said_near, suite_rows
         from report.results.publish import output_folder, publish
-        from report.sheet.reading.read import read
         from report.suite.files import generate, suite_table
         from report.suite.inputs import check_folder, read_seeds
 

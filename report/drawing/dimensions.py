@@ -14,7 +14,7 @@ from report.drawing.items import TYPE_PT, Arrow, Layer, Look, Mark, width_in
 from report.drawing.placer import Frame, Placer, centered
 from report.drawing.sheet import BASE_IN, LINE_IN, Gap, Paper, PlanSheet
 from report.entities.shown import UnitFormat
-from report.sheet.schema.shapes import Point, Rectangle, between
+from report.project.model.shapes import Point, Rectangle, between
 from report.text.amounts import capacity, demand, shown_in_order
 from report.text.counts import grouped_by, joined
 from report.text.units import Quantity, round_below

@@ -41,8 +41,8 @@ from report.drawing.sheet import (
     round_scale,
     unit_format,
 )
-from report.sheet.schema.choices import PlanPaper
-from report.sheet.schema.shapes import Point, Rectangle, around, sides
+from report.project.model.choices import PlanPaper
+from report.project.model.shapes import Point, Rectangle, around, sides
 from report.text.units import Quantity, number
 
 # One over the other; those of one rank in the order of the workbook.

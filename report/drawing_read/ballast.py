@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from report.drawing_read.roof_drawing import MB
-from report.sheet.reading.typed_text import number_in, separator, unit_named, with_point
-from report.sheet.schema.shapes import Point, Shape, solid
+from report.project.model.shapes import Point, Shape, solid
+from report.project.read.typed_text import number_in, separator, unit_named, with_point
 from report.text.counts import cut
 from report.text.units import LENGTHS
 from solver.files import read_file

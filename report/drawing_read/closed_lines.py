@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from report.sheet.schema.shapes import Point
+from report.project.model.shapes import Point
 
 MAX_POINTS = 2000
 MAX_COORDINATE = 1e12

@@ -1,6 +1,6 @@
 """Which row of a workbook each outline of a drawing is, and which cells the plan as drawn fills.
 
-Reads no drawing and writes no file (`report.drawing_read.plan_read`, `report.sheet.reading.parts`).
+Reads no drawing and writes no file (`report.drawing_read.plan_read`, `report.project.read.parts`).
 """
 
 from __future__ import annotations
@@ -24,16 +24,12 @@ from report.drawing_read.plan_read import (
     unit_asked,
 )
 from report.drawing_read.roof_drawing import RoofDrawing
-from report.sheet.checking.findings import listed
-from report.sheet.checking.plan_checks import far_off, roof_of, shapes_of, us_first
-from report.sheet.reading.archive import OpenBook
-from report.sheet.reading.locate import cell_as_column, find_cell, is_absent
-from report.sheet.reading.parts import DIGITS, GrowingTable, Value
-from report.sheet.reading.positions import CellPosition, found_at
-from report.sheet.schema.choices import LayerKind
-from report.sheet.schema.fields import Draft, DraftRow
-from report.sheet.schema.scene import DRAWING, DRAWN_MODULES, ROOF, SIDES
-from report.sheet.schema.shapes import (
+from report.project.check.findings import listed
+from report.project.check.plan_checks import far_off, roof_of, shapes_of, us_first
+from report.project.model.choices import LayerKind
+from report.project.model.fields import Draft, DraftRow
+from report.project.model.scene import DRAWING, DRAWN_MODULES, ROOF, SIDES
+from report.project.model.shapes import (
     Polygon,
     Rectangle,
     Shape,
@@ -43,7 +39,11 @@ from report.sheet.schema.shapes import (
     sides,
     solid,
 )
-from report.sheet.workbook import SECTION
+from report.project.read.archive import OpenBook
+from report.project.read.locate import cell_as_column, find_cell, is_absent
+from report.project.read.parts import DIGITS, GrowingTable, Value
+from report.project.read.positions import CellPosition, found_at
+from report.project.workbook import SECTION
 from report.text.counts import grouped_by
 from report.text.formats import aligned
 from report.text.units import LENGTHS, Quantity, Unit

@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from report.drawing_read.roof_drawing import Drawn
-from report.sheet.reading.locate import MAX_ROWS
-from report.sheet.schema.choices import LayerKind
-from report.sheet.schema.shapes import Polygon, Rectangle, Shape, mean, ring, solid
+from report.project.model.choices import LayerKind
+from report.project.model.shapes import Polygon, Rectangle, Shape, mean, ring, solid
+from report.project.read.locate import MAX_ROWS
 from report.text.units import LENGTHS
 from solver.model import INCH_M, InputError
 

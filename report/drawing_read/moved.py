@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from report.drawing_read.plan_read import boxed
-from report.sheet.schema.shapes import Polygon, Shape, ring, solid
+from report.project.model.shapes import Polygon, Shape, ring, solid
 from report.text.units import Unit
 
 # Outlines are the same within this [m].

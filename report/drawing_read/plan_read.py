@@ -25,10 +25,10 @@ from report.drawing_read.roof_drawing import (
     read_line,
     turned,
 )
-from report.sheet.checking.findings import listed
-from report.sheet.checking.plan_checks import LEAST_VERTICES
-from report.sheet.schema.choices import LayerKind
-from report.sheet.schema.shapes import (
+from report.project.check.findings import listed
+from report.project.check.plan_checks import LEAST_VERTICES
+from report.project.model.choices import LayerKind
+from report.project.model.shapes import (
     Point,
     Polygon,
     Rectangle,

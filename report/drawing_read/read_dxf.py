@@ -42,7 +42,7 @@ from report.drawing_read.roof_drawing import (
     loaded,
     other_unit,
 )
-from report.sheet.schema.shapes import Point, ring
+from report.project.model.shapes import Point, ring
 from report.text.counts import UNPRINTABLE, trimmed
 from solver.model import InputError
 

@@ -19,9 +19,9 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from report.sheet.reading.typed_text import plain_marks
-from report.sheet.schema.choices import LayerKind
-from report.sheet.schema.shapes import Point
+from report.project.model.choices import LayerKind
+from report.project.model.shapes import Point
+from report.project.read.typed_text import plain_marks
 from report.text.units import LENGTHS
 from solver.files import read_file
 from solver.model import InputError

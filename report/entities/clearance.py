@@ -31,7 +31,7 @@ from report.entities.shown import (
     up_column,
     words,
 )
-from report.sheet.schema.choices import Direction, DistanceBasis
+from report.project.model.choices import Direction, DistanceBasis
 from report.text.amounts import capacity, demand, shown_in_order
 from report.text.units import ratio, round_up
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor

@@ -38,7 +38,7 @@ from report.entities.shown import (
     up_column,
     words,
 )
-from report.sheet.schema.motions import BuildingInput
+from report.project.model.motions import BuildingInput
 from report.text.counts import joined
 from report.text.units import Quantity, Rounding, number
 from solver.model import INCH_M, Status

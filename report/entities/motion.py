@@ -12,7 +12,7 @@ from typing import Annotated, ClassVar
 from report.assessment.runs import MotionRun, OrientedRun
 from report.entities.shown import Column, Entity, Number, at, up_column
 from report.motions.history import PreparedMotion
-from report.sheet.schema.choices import Direction, RecordedAt
+from report.project.model.choices import Direction, RecordedAt
 from solver.model import Motion, Status
 from solver.records.measures import Measures
 from solver.sliding.least_model import Model

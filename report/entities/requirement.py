@@ -19,9 +19,9 @@ from report.entities.shown import (
     Number,
     UnitFormat,
 )
-from report.sheet.checking.findings import located
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.fields import Finding, Level, Place
+from report.project.check.findings import located
+from report.project.model import ProjectInput
+from report.project.model.fields import Finding, Level, Place
 from report.text.amounts import Amount
 from report.text.units import Quantity, no_less
 from solver.rules.limit import Consequence

@@ -39,7 +39,7 @@ from report.entities.requirement import (
     finding_results,
 )
 from report.entities.shown import Entity, WrittenSchema, at
-from report.sheet.schema import ProjectInput
+from report.project.model import ProjectInput
 
 # Raised where a key of results.json changes its name or meaning; 0.1 wrote none.
 SCHEMA_VERSION = 3

@@ -28,9 +28,9 @@ from pydantic import (
 from pydantic.json_schema import GenerateJsonSchema, SkipJsonSchema
 
 from report.assessment.project import ChangeKind
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.fields import Frozen
-from report.sheet.workbook import SECTION, SECTIONS
+from report.project.model import ProjectInput
+from report.project.model.fields import Frozen
+from report.project.workbook import SECTION, SECTIONS
 from report.text.units import (
     NEWTONS_PER_POUND,
     NOISE,

@@ -32,7 +32,7 @@ from report.figures.base import (
     style,
     svg_text,
 )
-from report.sheet.schema.scene import Array
+from report.project.model.scene import Array
 from report.text.counts import cut, ids_by, ranged
 from report.text.units import Quantity, Unit, number
 from solver.friction_tests import FittedLaw, FrictionRun, Surface

@@ -35,8 +35,8 @@ from report.drawing.items import (
 )
 from report.drawing.sheet import Paper
 from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, Broken, canvas, style, svg_text
-from report.sheet.schema.scene import Array
-from report.sheet.schema.shapes import Point
+from report.project.model.scene import Array
+from report.project.model.shapes import Point
 from report.text.units import Quantity, number, pair
 
 _LOOKS: Mapping[Look, dict[str, Any]] = {

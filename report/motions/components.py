@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 
 from report.motions.files import Component, Reader, find_file, find_heading, read_component
-from report.sheet.checking.motion_checks import LABELS, SHORTEST_S
-from report.sheet.reading.archive import OpenBook
-from report.sheet.reading.unseen import Unseen
-from report.sheet.schema.choices import AccelUnit, Baseline, Scaling
-from report.sheet.schema.fields import Finding, Place
-from report.sheet.schema.motions import MotionInput
+from report.project.check.motion_checks import LABELS, SHORTEST_S
+from report.project.model.choices import AccelUnit, Baseline, Scaling
+from report.project.model.fields import Finding, Place
+from report.project.model.motions import MotionInput
+from report.project.read.archive import OpenBook
+from report.project.read.unseen import Unseen
 from report.text.units import G_MPS2
 from solver.formats import read_motion_file
 from solver.model import Floats, InputError
@@ -93,8 +93,8 @@ def read_components(
 ) -> Components | list[Finding]:
     """Read and process the records of a motion, or return their faults.
 
-    A field of the row (`report.sheet.schema.MotionInput`) that could not be read is absent; without
-    units or time step, records are located but not read.
+    A field of the row (`MotionInput`) that could not be read is absent; without units or time step,
+    records are located but not read.
     """
     faults: list[Finding] = []
     components: dict[str, Component] = {}

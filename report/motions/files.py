@@ -1,7 +1,7 @@
 """Reads one record that a workbook names: a file beside it, or a column in one of its sheets.
 
 `solver.formats` reads the record formats; which files a workbook may access is in
-`report.sheet.reading.linked_files`. A column is checked against its sheet.
+`report.project.read.linked_files`. A column is checked against its sheet.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from pathlib import Path
 
 import numpy as np
 
-from report.sheet.reading.archive import OpenBook
-from report.sheet.reading.cells import CellError, Found, check_saved, number
-from report.sheet.reading.linked_files import path_beside
-from report.sheet.reading.positions import MAX_COLUMNS, CellPosition, cells_below, found_at
-from report.sheet.reading.unseen import Unseen, unseen
-from report.sheet.schema.fields import Place
+from report.project.model.fields import Place
+from report.project.read.archive import OpenBook
+from report.project.read.cells import CellError, Found, check_saved, number
+from report.project.read.linked_files import path_beside
+from report.project.read.positions import MAX_COLUMNS, CellPosition, cells_below, found_at
+from report.project.read.unseen import Unseen, unseen
 from solver.formats import MotionFile, read_motion_file
 from solver.formats.phrases import Heading, Kind, is_spectral, parse
 from solver.formats.source import Source

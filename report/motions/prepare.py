@@ -15,11 +15,11 @@ import numpy as np
 from report.motions.components import HORIZONTAL, Components, RecordFile, read_components
 from report.motions.files import bytes_of
 from report.motions.history import PreparedMotion, shake
-from report.sheet.checking.findings import note, warning
-from report.sheet.checking.motion_checks import FIELDS, LABELS
-from report.sheet.reading.read import Sheet
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.fields import DraftRow, Finding, Place, Where
+from report.project.check.findings import note, warning
+from report.project.check.motion_checks import FIELDS, LABELS
+from report.project.model import ProjectInput
+from report.project.model.fields import DraftRow, Finding, Place, Where
+from report.project.read.read import Sheet
 from report.text.units import G_MPS2, Quantity
 from solver.model import Floats, Motion
 

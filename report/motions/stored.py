@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
 from typing import IO
 
-from report.sheet.reading.archive import zip_of
-from report.sheet.writing.filled import BEFORE
+from report.project.read.archive import zip_of
+from report.project.write.filled import BEFORE
 from solver.files import printable, read_file, within
 from solver.model import InputError
 

@@ -19,8 +19,8 @@ from report.entities.shown import plain, text, words
 from report.motions.components import RecordFile
 from report.pages.parts import MOTION_ROWS, PackageData
 from report.pages.symbols import friction_standard
+from report.project.model.motions import MotionInput
 from report.provenance.files import SHORT, holds_records, record_bytes, record_paths, versions
-from report.sheet.schema.motions import MotionInput
 from report.text.units import number
 from solver.records.acceptance import Acceptance, MotionStrength
 

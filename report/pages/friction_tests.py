@@ -17,10 +17,10 @@ from report.assessment.verdict import NOT_GIVEN, VELOCITY_ROW, Verdict
 from report.document.tables import Table, Wide, by_place, listed, stamp
 from report.entities.shown import Shown, centered, text, words
 from report.pages.parts import PackageData
-from report.sheet.checking.motion_checks import MU_TOLERANCE
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.project import FrictionTests
-from report.sheet.schema.scene import Array
+from report.project.check.motion_checks import MU_TOLERANCE
+from report.project.model import ProjectInput
+from report.project.model.scene import Array
+from report.project.model.site import FrictionTests
 from report.text.counts import ids_by, numbered
 from report.text.units import Quantity, no_less, number
 from solver.friction_tests import FittedLaw, Series, Surface, fit_law, governing

@@ -32,9 +32,9 @@ from report.pages.checks import (
 )
 from report.pages.parts import PackageData, statistic
 from report.pages.symbols import friction_standard
-from report.sheet.reading.linked_files import StudyYears, YearsOfArray
-from report.sheet.schema.project import Revision
-from report.sheet.workbook import SECTION
+from report.project.model.site import Revision
+from report.project.read.linked_files import StudyYears, YearsOfArray
+from report.project.workbook import SECTION
 from report.text.formats import VALIDATION
 
 

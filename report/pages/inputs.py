@@ -14,9 +14,9 @@ from report.entities.shown import Shown, length, plain, text, words
 from report.motions.history import ac156
 from report.pages import friction_tests
 from report.pages.parts import PackageData
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import RiskCategory
-from report.sheet.schema.project import Site
+from report.project.model import ProjectInput
+from report.project.model.choices import RiskCategory
+from report.project.model.site import Site
 from report.text.counts import ids_by
 from report.text.units import Quantity, number
 from solver.building.structure import approximate_period_s

@@ -28,11 +28,11 @@ from report.entities.shown import Shown, UnitFormat, length, provided, text, wor
 from report.pages.checks import all_checks
 from report.pages.parts import PackageData
 from report.pages.summary import remedy_lines
-from report.sheet.checking.findings import lines
-from report.sheet.schema.choices import ObjectKind
-from report.sheet.schema.fields import Level
-from report.sheet.schema.scene import Array, RoofObject
-from report.sheet.schema.shapes import Polygon, Shape
+from report.project.check.findings import lines
+from report.project.model.choices import ObjectKind
+from report.project.model.fields import Level
+from report.project.model.scene import Array, RoofObject
+from report.project.model.shapes import Polygon, Shape
 from report.text.counts import grouped_by
 from report.text.units import Quantity
 from report.typeset.equations import symbol

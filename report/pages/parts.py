@@ -21,9 +21,9 @@ from report.document.tables import stamp
 from report.entities.array import ArrayResult, array_results
 from report.entities.clearance import ClearanceResult, clearance_results
 from report.entities.requirement import Marked
+from report.project.model.choices import PackageEdition, RecordedAt
+from report.project.model.scene import Array
 from report.provenance.files import fingerprint
-from report.sheet.schema.choices import PackageEdition, RecordedAt
-from report.sheet.schema.scene import Array
 from report.text.counts import ids_by
 from report.text.units import no_less, no_more
 from solver.rules.provisions import Basis

@@ -31,7 +31,7 @@ from report.pages import (
     symbols,
 )
 from report.pages.parts import PackageData
-from report.sheet.schema.choices import PackageEdition
+from report.project.model.choices import PackageEdition
 from report.text.counts import ranged
 from solver.model import SlideHistory
 

@@ -22,7 +22,7 @@ from report.document.tables import Column, Table, TableRow, Wide, listed, stamp,
 from report.drawing.items import drawn_slope_deg
 from report.entities.shown import Shown, UnitFormat, required, text, words
 from report.pages.parts import PackageData, statistic
-from report.sheet.schema.choices import Direction
+from report.project.model.choices import Direction
 from report.text.counts import grouped_by, named
 from report.text.units import Quantity, no_less, number, ratio
 from solver.model import Orientation, Status

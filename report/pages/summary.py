@@ -23,8 +23,8 @@ from report.document.templates import sentence as of_template
 from report.entities.array import ArrayResult, array_results
 from report.entities.requirement import Marked
 from report.entities.shown import UnitFormat
-from report.sheet.checking.findings import lines
-from report.sheet.schema.fields import Level
+from report.project.check.findings import lines
+from report.project.model.fields import Level
 from report.text.counts import capitalized, grouped_by
 from report.text.formats import aligned, finite
 from report.typeset.pdf import TEMPLATES

@@ -19,9 +19,9 @@ from report.assessment.verdict import MEANING, OVERRIDDEN, Verdict, worst
 from report.entities.array import ArrayResult, array_result
 from report.entities.motion import PeakResult, peak_result
 from report.entities.shown import Column, Number, up_column
+from report.project.model.fields import YesNo
 from report.results.lists import RunRow
 from report.results.sheets import TOP, Cells, Pages, SheetRow, typed, write_live
-from report.sheet.schema.fields import YesNo
 from solver.model import INCH_M
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, Basis, PrescriptiveBasis
 

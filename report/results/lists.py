@@ -19,6 +19,7 @@ from report.entities.evidence import LinkedResult, LinkedRunResult, NeighborResu
 from report.entities.motion import MotionResult, RecordResult, RunResult, motion_result, run_result
 from report.entities.shown import Column, Number, columns_of, up_column
 from report.motions.prepare import Shaking
+from report.project.model.choices import Direction
 from report.results.sheets import (
     LINE_PT,
     TOP,
@@ -32,7 +33,6 @@ from report.results.sheets import (
     write_rows,
     write_table,
 )
-from report.sheet.schema.choices import Direction
 from report.text.units import G_MPS2
 from solver.model import INCH_M
 from solver.sliding.least_model import DEFAULT

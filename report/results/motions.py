@@ -15,16 +15,16 @@ from typing import TYPE_CHECKING
 from pydantic_core import from_json
 
 from report.motions.files import BAR
+from report.project.check.findings import limit, lines
+from report.project.check.motion_checks import GENERATED, LABELS
+from report.project.model.fields import Finding, Place
+from report.project.read.archive import OpenBook
+from report.project.read.cells import Found
+from report.project.read.parts import GrowingTable, Value
+from report.project.read.positions import CellPosition
+from report.project.read.read import Sheet, read
+from report.project.write.filled import BEFORE, WorkbookChange, changing
 from report.results.publish import STAMP, content, stamp
-from report.sheet.checking.findings import limit, lines
-from report.sheet.checking.motion_checks import GENERATED, LABELS
-from report.sheet.reading.archive import OpenBook
-from report.sheet.reading.cells import Found
-from report.sheet.reading.parts import GrowingTable, Value
-from report.sheet.reading.positions import CellPosition
-from report.sheet.reading.read import Sheet, read
-from report.sheet.schema.fields import Finding, Place
-from report.sheet.writing.filled import BEFORE, WorkbookChange, changing
 from solver.files import check_plain
 from solver.model import InputError, Problem
 
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from report.motions.sets import Sets
 
 Row = Mapping[str, Value]
-"""A motion by the fields of `report.sheet.schema.MotionInput`; those not given stay blank."""
+"""A motion by the fields of `report.project.model.MotionInput`; those not given stay blank."""
 
 
 def row_cells(book: OpenBook, rows: Sequence[Row]) -> Mapping[CellPosition, Value]:

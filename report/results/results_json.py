@@ -22,10 +22,10 @@ from report.assessment.project import Assessment, Change, ChangeKind, Changes
 from report.entities.array import ArrayResult
 from report.entities.results import SCHEMA_VERSION, Compared, compared, results
 from report.entities.shown import Entity, Told, UnitFormat, marks_of
-from report.sheet.checking.covered import COVERED
-from report.sheet.schema.fields import Frozen, Place, YesNo
-from report.sheet.workbook import SECTIONS
-from report.sheet.workbook.entries import Entry, SheetSection
+from report.project.check.covered import COVERED
+from report.project.model.fields import Frozen, Place, YesNo
+from report.project.workbook import SECTIONS
+from report.project.workbook.entries import Entry, SheetSection
 from report.text.counts import UNPRINTABLE, cut
 from report.text.formats import finite
 from report.text.units import in_us_order

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from functools import partial
 
 from report.document.templates import said
-from report.sheet.schema.choices import RecordedAt
+from report.project.model.choices import RecordedAt
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.schema import Intensity
 from report.study.tables import Row

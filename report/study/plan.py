@@ -16,8 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from report.sheet.reading.unseen import warnings
-from report.sheet.schema.fields import Finding, Place
+from report.project.model.fields import Finding, Place
+from report.project.read.unseen import warnings
 from report.study.read import StudySheet
 from report.study.schema import (
     MOST_CASES,

@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
-from report.sheet.checking.findings import column, repeated
-from report.sheet.reading.archive import open_book
-from report.sheet.reading.locate import is_absent
-from report.sheet.reading.read import SheetOf, read_as
-from report.sheet.schema.choices import RecordedAt, UnitsFirst
-from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
-from report.sheet.writing.template import book_of, saved
+from report.project.check.findings import column, repeated
+from report.project.model.choices import RecordedAt, UnitsFirst
+from report.project.model.fields import Draft, DraftRow, Finding, Place, Where
+from report.project.read.archive import open_book
+from report.project.read.locate import is_absent
+from report.project.read.read import SheetOf, read_as
+from report.project.write.template import book_of, saved
 from report.study.schema import (
     MOST_CASES,
     MOST_VALUES,

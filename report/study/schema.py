@@ -16,7 +16,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from report.sheet.schema.choices import (
+from report.project.model.choices import (
     AccelUnit,
     Id,
     Polarity,
@@ -27,8 +27,8 @@ from report.sheet.schema.choices import (
     Text,
     UnitsFirst,
 )
-from report.sheet.schema.fields import Frozen
-from report.sheet.schema.project import FrictionTestRow
+from report.project.model.fields import Frozen
+from report.project.model.site import FrictionTestRow
 from solver.friction_tests import FrictionRun, Series, Surface, series
 from solver.studies.uncertainty import Spread, spread_of_tests
 

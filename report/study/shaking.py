@@ -18,11 +18,11 @@ import numpy as np
 
 from report.motions.components import Components, RecordFile, read_components
 from report.motions.history import SIGNS
-from report.sheet.reading.linked_files import path_beside
-from report.sheet.reading.typed_text import separator
-from report.sheet.schema.fields import Finding, Place
-from report.sheet.schema.motions import MotionInput
-from report.sheet.workbook import SECTION
+from report.project.model.fields import Finding, Place
+from report.project.model.motions import MotionInput
+from report.project.read.linked_files import path_beside
+from report.project.read.typed_text import separator
+from report.project.workbook import SECTION
 from report.study.read import StudySheet
 from report.study.schema import MOST_SAMPLES, Intensity, StudyBuilding, StudyInput
 from report.text.counts import numbered

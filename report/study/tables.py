@@ -15,8 +15,8 @@ import numpy as np
 
 from report.entities.requirement import UNVERIFIED
 from report.entities.shown import UnitFormat
+from report.project.read.linked_files import SUPPORTING
 from report.results.sheets import text_workbook
-from report.sheet.reading.linked_files import SUPPORTING
 from report.study.plan import ArrayPlan
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.wording import (

@@ -1,14 +1,14 @@
 """What Excel knows of a study: the sections of its workbook, each a list of inputs.
 
-Read `report.sheet.workbook` first.
+Read `report.project.workbook` first.
 """
 
 from __future__ import annotations
 
 import datetime as dt
 
-from report.sheet.workbook.entries import Entry, block, table
-from report.sheet.workbook.project import FRICTION_RUNS
+from report.project.workbook.entries import Entry, block, table
+from report.project.workbook.project import FRICTION_RUNS
 from report.study.schema import (
     Hazard,
     HazardPoint,

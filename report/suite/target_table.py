@@ -1,6 +1,6 @@
 """User-defined target spectra: a workbook sheet or CSV file, read into corner points.
 
-Independent of code rules; `report.sheet.reading.archive` checks the workbook. Read `read_target`.
+Independent of code rules; `report.project.read.archive` checks the workbook. Read `read_target`.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ from pathlib import Path
 
 import numpy as np
 
-from report.sheet.reading.archive import OpenBook, open_book
-from report.sheet.reading.cells import CellError, Found, check_saved, number
-from report.sheet.reading.positions import CellPosition, found_at
-from report.sheet.reading.typed_text import separator, with_point
+from report.project.read.archive import OpenBook, open_book
+from report.project.read.cells import CellError, Found, check_saved, number
+from report.project.read.positions import CellPosition, found_at
+from report.project.read.typed_text import separator, with_point
 from solver.bounds import ORDINATE, PhysicalBounds
 from solver.formats.phrases import is_of_another
 from solver.formats.source import open_source

@@ -10,12 +10,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from report.assessment.friction import mu_words
-from report.sheet.reading.read import Sheet
-from report.sheet.reading.what_if import retyped
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import Polarity, RuleSetName, UnitsFirst
-from report.sheet.schema.fields import Place
-from report.sheet.schema.scene import Array
+from report.project.model import ProjectInput
+from report.project.model.choices import Polarity, RuleSetName, UnitsFirst
+from report.project.model.fields import Place
+from report.project.model.scene import Array
+from report.project.read.read import Sheet
+from report.project.read.what_if import retyped
 from report.text.counts import cut, ids_by, ranged
 from report.text.units import Quantity, no_more, number, pair
 from report.web.values import MUS, UNITS_FIRST, Values, typed

@@ -24,16 +24,16 @@ from report.drawing_read.fill import changes, layers_of, plan_as_rows, unread
 from report.drawing_read.plan_read import known_layers
 from report.drawing_read.read_dxf import read_dxf
 from report.drawing_read.roof_drawing import drawn_on, proposed
-from report.sheet.checking.findings import grouped, line_of, listed
-from report.sheet.reading.archive import OpenBook, open_book
-from report.sheet.reading.locate import find_table
-from report.sheet.reading.parts import changed
-from report.sheet.reading.positions import CellPosition, found_at
-from report.sheet.reading.read import read, read_book
-from report.sheet.reading.what_if import cells
-from report.sheet.schema.choices import LayerKind
-from report.sheet.workbook import SECTIONS
-from report.sheet.writing.filled import WorkbookChange, withdrawn
+from report.project.check.findings import grouped, line_of, listed
+from report.project.model.choices import LayerKind
+from report.project.read.archive import OpenBook, open_book
+from report.project.read.locate import find_table
+from report.project.read.parts import changed
+from report.project.read.positions import CellPosition, found_at
+from report.project.read.read import read, read_book
+from report.project.read.what_if import cells
+from report.project.workbook import SECTIONS
+from report.project.write.filled import WorkbookChange, withdrawn
 from report.text.counts import cut
 from report.text.units import LENGTHS
 from report.web import views

@@ -18,7 +18,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import Request
 
-from report.sheet.writing import template
+from report.project.write import template
 from report.web.plan import USUAL_PX
 from report.web.worker import Packages, answered, begun
 

@@ -9,13 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from report.sheet.reading.read import Sheet
-from report.sheet.reading.what_if import Typed, size_of_unit
-from report.sheet.schema.choices import Scaling, SlopeUnit
-from report.sheet.schema.fields import Place
-from report.sheet.schema.motions import coefficients
-from report.sheet.schema.scene import SIDES, Array, slope_rad
-from report.sheet.schema.shapes import Rectangle, Shape, gap_m
+from report.project.model.choices import Scaling, SlopeUnit
+from report.project.model.fields import Place
+from report.project.model.motions import coefficients
+from report.project.model.scene import SIDES, Array, slope_rad
+from report.project.model.shapes import Rectangle, Shape, gap_m
+from report.project.read.read import Sheet
+from report.project.read.what_if import Typed, size_of_unit
 from solver.model import INCH_M
 from solver.rules.hazard import EDITIONS
 

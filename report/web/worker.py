@@ -75,9 +75,9 @@ def motions_made(workbook: Path, out: Path) -> str:
     """Make motions for the site of a workbook and list them in it, likewise; zip the project."""
 
     def do() -> None:
+        from report.project.read.read import read
+        from report.project.write.filled import BEFORE
         from report.results.motions import add_suite, suite_rows
-        from report.sheet.reading.read import read
-        from report.sheet.writing.filled import BEFORE
         from report.suite.files import generate
         from report.suite.inputs import read_seeds, site_targets
 

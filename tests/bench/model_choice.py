@@ -23,7 +23,7 @@ from measure import RECORDS, ROOT, SMOKE, figure
 
 from blocks import block
 from report.motions.prepare import prepare
-from report.sheet.reading.read import read
+from report.project.read.read import read
 from solver.formats import read_record
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Scene, SlideResult, Status

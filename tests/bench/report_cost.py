@@ -22,10 +22,10 @@ from measure import ROOT, SMOKE, command, figure, finished
 
 from projects.example import make as example
 from report.motions.prepare import prepare
-from report.sheet.reading.read import read
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import UnitsFirst
-from report.sheet.writing.template import write_template
+from report.project.model import ProjectInput
+from report.project.model.choices import UnitsFirst
+from report.project.read.read import read
+from report.project.write.template import write_template
 from solver.formats import read_record
 
 EXAMPLE = ROOT / "projects" / "example"

@@ -11,9 +11,9 @@ import threading
 from contextlib import contextmanager
 from pathlib import Path
 
+from report.project.read.read import read
+from report.project.write.filled import changing
 from report.results.publish import publish
-from report.sheet.reading.read import read
-from report.sheet.writing.filled import changing
 from report.typeset.letters import undrawable
 from solver.model import InputError
 

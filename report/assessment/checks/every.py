@@ -19,7 +19,7 @@ from report.assessment.checks import (
 from report.assessment.checks.check import Check
 from report.assessment.routes import Route, RouteLimits, interconnection_n
 from report.assessment.verdict import MOTIONS_ID, VELOCITY_ROW
-from report.sheet.schema import ProjectInput
+from report.project.model import ProjectInput
 from solver.records.acceptance import Acceptance
 from solver.rules.limit import Consequence
 from solver.rules.provisions import RuleSet

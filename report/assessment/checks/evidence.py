@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from report.assessment.checks.check import Actor, Check, condition, stated
 from report.assessment.verdict import NOT_GIVEN
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.fields import Place
+from report.project.model import ProjectInput
+from report.project.model.fields import Place
 from solver.rules.provisions import RULE_SETS, review_lifts_slope
 
 

@@ -1,7 +1,7 @@
 """What is required of the seismic parameters: rule set, edition, source, SDC, site class, 11.4.8.
 
 Each that is not satisfied is a condition, not NG; values below their table are errors
-(`report.sheet.checking.checks`). Read `of_site`.
+(`report.project.check.checks`). Read `of_site`.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ from functools import partial
 
 from report.assessment.checks.check import Actor, Check, condition, stated
 from report.assessment.verdict import NOT_GIVEN
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.fields import Place
-from report.sheet.schema.project import Site
+from report.project.model import ProjectInput
+from report.project.model.fields import Place
+from report.project.model.site import Site
 from report.text.counts import capitalized
 from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, REFERENCED, HazardBasis
 from solver.rules.site_coefficients import BY_DEFAULT, LEAST_S_1_OF_D_G, site_specific_reason

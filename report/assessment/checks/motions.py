@@ -15,9 +15,9 @@ from report.assessment.checks.check import THIS_PROGRAM, Actor, Check, Sense, co
 from report.assessment.checks.limits import of_limit
 from report.assessment.verdict import MOTIONS_ID, NOT_GIVEN, STAYS
 from report.motions.history import PreparedMotion, targets
-from report.sheet.checking.motion_checks import FIELDS
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.fields import Place
+from report.project.check.motion_checks import FIELDS
+from report.project.model import ProjectInput
+from report.project.model.fields import Place
 from report.text.amounts import capacity, demand
 from report.text.counts import grouped_by, ids_by, quoted, ranged
 from report.text.units import G_MPS2, Quantity, digits_up

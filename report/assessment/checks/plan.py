@@ -10,11 +10,11 @@ from report.assessment.checks.check import Actor, Check, Sense, condition, dagge
 from report.assessment.clearances import slides_m
 from report.assessment.plan_clearances import direction_of
 from report.assessment.verdict import NO_DESIGN, NOT_GIVEN, PLAN_ROW, STAYS, Verdict
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import ClearanceSource, Direction, DistanceBasis
-from report.sheet.schema.fields import Place
-from report.sheet.schema.scene import SIDES, Array
-from report.sheet.schema.shapes import around, gap_m
+from report.project.model import ProjectInput
+from report.project.model.choices import ClearanceSource, Direction, DistanceBasis
+from report.project.model.fields import Place
+from report.project.model.scene import SIDES, Array
+from report.project.model.shapes import around, gap_m
 from report.text.amounts import Amount, capacity, demand, entered
 from report.text.counts import numbered, ranged
 from report.text.units import Quantity, no_less, no_more, pair

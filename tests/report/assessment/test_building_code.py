@@ -8,7 +8,7 @@ import stand_in
 from report.assessment.checks.hazard import of_site
 from report.assessment.precheck import limits_before_runs
 from report.assessment.verdict import Verdict
-from report.sheet.schema.choices import BuildingCode
+from report.project.model.choices import BuildingCode
 from solver.rules.hazard import EDITIONS, REFERENCED
 from solver.rules.rulesets import RULE_SETS
 

@@ -15,8 +15,8 @@ import scenes
 import stand_in
 from report.assessment.envelopes import design_envelope, hull, keep_clear_m, runs_envelope
 from report.assessment.verdict import Verdict
-from report.sheet.schema.choices import Direction
-from report.sheet.schema.shapes import Polygon, Rectangle, gap_m
+from report.project.model.choices import Direction
+from report.project.model.shapes import Polygon, Rectangle, gap_m
 from solver.rules.provisions import Neighbor
 
 SEVEN = scenes.motions(7, 12.0)  # half a second less than those of eight seconds

@@ -25,7 +25,7 @@ from report.assessment.routes import Route
 from report.assessment.verdict import Verdict
 from report.document.templates import sentence
 from report.entities.requirement import Marked
-from report.sheet.schema import Override
+from report.project.model import Override
 from report.typeset.pdf import TEMPLATES
 from sheets import at, make, problems, read_workbook, type_into
 from solver import at_roof, building_of_periods

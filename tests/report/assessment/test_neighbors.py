@@ -22,9 +22,9 @@ from report.drawing.plan import plan_drawing
 from report.drawing.sheet import LETTER
 from report.entities.shown import UnitFormat
 from report.motions.prepare import prepare
-from report.sheet.reading.read import read
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.shapes import Rectangle, gap_m
+from report.project.model import ProjectInput
+from report.project.model.shapes import Rectangle, gap_m
+from report.project.read.read import read
 from report.web.plan import plan, stamp
 from sheets import at, make, project
 

@@ -23,8 +23,8 @@ from report.assessment.plan_clearances import direction_of, missing_rows, pairs_
 from report.assessment.precheck import missing_clearances
 from report.cli.main import main
 from report.motions.prepare import prepare
-from report.sheet.reading.read import read
-from report.sheet.schema.choices import ClearanceSource, Direction, ObjectKind, UnitsFirst
+from report.project.model.choices import ClearanceSource, Direction, ObjectKind, UnitsFirst
+from report.project.read.read import read
 from sheets import SECTIONS, at, different, edit, make, parts, problems, put, type_into
 from solver.rules.provisions import RULE_SETS
 

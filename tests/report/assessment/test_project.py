@@ -19,7 +19,7 @@ from report.assessment.checks.arrays import run_checks
 from report.assessment.evidence import support
 from report.assessment.runs import motion_run
 from report.assessment.verdict import Verdict
-from report.sheet.schema.choices import Direction
+from report.project.model.choices import Direction
 from solver.model import InputError, Status
 from solver.rules.provisions import Basis
 from solver.sliding import least_model

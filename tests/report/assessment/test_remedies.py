@@ -19,8 +19,8 @@ from report.assessment.remedies import MOST, Remedies, RemedyKind, remedies
 from report.assessment.trials import above, below, search, with_mu
 from report.assessment.verdict import Verdict
 from report.pages.summary import remedy_lines, summary, without_analysis
-from report.sheet.checking.covered import outdated
-from report.sheet.schema.shapes import gap_m
+from report.project.check.covered import outdated
+from report.project.model.shapes import gap_m
 from report.web.answers import answer
 from solver.friction_tests import MOST_MU
 from solver.model import Friction, Status

@@ -12,8 +12,8 @@ from report.assessment.checks.check import found_and_limit
 from report.assessment.checks.limits import of_overrides
 from report.assessment.checks.plan import of_roof
 from report.assessment.verdict import OVERRIDDEN, Verdict
-from report.sheet.checking.covered import to_record
-from report.sheet.schema.fields import Place
+from report.project.check.covered import to_record
+from report.project.model.fields import Place
 from solver.rules.limit import Consequence
 from stand_in import FOOT, INCH
 

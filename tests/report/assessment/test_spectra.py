@@ -10,7 +10,7 @@ import stand_in
 from printed import printed
 from report.assessment.spectra import Spectra, spectra
 from report.motions.history import TargetSpectrum
-from report.sheet.schema.choices import RecordedAt
+from report.project.model.choices import RecordedAt
 from solver.records.spectrum import response_spectrum
 
 G = 9.80665

@@ -24,10 +24,10 @@ from report.cli.several import ReportOutcome
 from report.cli.terminal import Progress, show_warnings
 from report.making import make as make_package
 from report.motions.prepare import prepare
+from report.project.check.covered import outdated, to_record
+from report.project.read.archive import open_book
+from report.project.read.read import read
 from report.proof.package import opened
-from report.sheet.checking.covered import outdated, to_record
-from report.sheet.reading.archive import open_book
-from report.sheet.reading.read import read
 from sheets import at, edit, make, type_into
 
 

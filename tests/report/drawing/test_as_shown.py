@@ -6,7 +6,7 @@ from ezdxf.xclip import XClip
 from commands import ended, printed, refused
 from nightly import by_day
 from report.drawing_read.read_dxf import read_dxf
-from report.sheet.schema.choices import UnitsFirst
+from report.project.model.choices import UnitsFirst
 from sheets import blank
 from sketch import BOX_FT, ROOF_FT, UNIT_FT, Sketch, plan
 from solver.model import InputError

@@ -25,7 +25,7 @@ from report.assessment.envelopes import design_envelope
 from report.assessment.plan_clearances import plan_gaps
 from report.drawing.items import APPLICATION, Layer, write_dxf
 from report.drawing.plan import gap_cells, plan_drawing, title_block
-from report.sheet.schema.choices import UnitsFirst
+from report.project.model.choices import UnitsFirst
 
 
 @pytest.fixture(scope="module")

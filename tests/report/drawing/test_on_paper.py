@@ -19,7 +19,7 @@ from report.drawing.sheet import PlanSize
 from report.figures import plan as figures
 from report.package.html import part
 from report.pages.registry import package_data
-from report.sheet.schema.choices import PlanPaper
+from report.project.model.choices import PlanPaper
 from report.typeset.pdf import lay_out
 from stand_in import FOOT
 

@@ -13,8 +13,8 @@ from ezdxf.math import Matrix44
 from commands import ended
 from inputs import FT, INCH
 from nightly import by_day
-from report.sheet.checking.plan_checks import shapes_of
-from report.sheet.reading.read import read
+from report.project.check.plan_checks import shapes_of
+from report.project.read.read import read
 from sheets import blank, edit, put
 from sketch import BOX_FT, ROOF_FT, UNIT_FT, Sketch
 

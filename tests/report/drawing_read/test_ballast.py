@@ -9,9 +9,9 @@ from commands import ended
 from inputs import FT, LB
 from refused import refused
 from report.drawing_read.ballast import MAX_BYTES, center_of_gravity, loads, read_map
-from report.sheet.checking.plausible import implausible
-from report.sheet.reading.read import read
-from report.sheet.schema.shapes import Polygon, Rectangle
+from report.project.check.plausible import implausible
+from report.project.model.shapes import Polygon, Rectangle
+from report.project.read.read import read
 from sheets import arrays, edit, make, problems, project, type_into
 
 pytestmark = pytest.mark.quick

@@ -10,7 +10,7 @@ from ezdxf.render.forms import cube
 from inputs import FT
 from report.drawing_read.closed_lines import BRANCHED, OPEN, curve, join
 from report.drawing_read.read_dxf import read_dxf
-from report.sheet.schema.shapes import Polygon, ring
+from report.project.model.shapes import Polygon, ring
 from sketch import BOX_FT, ROOF_FT, UNIT_FT, Sketch, plan
 
 pytestmark = pytest.mark.quick

@@ -12,11 +12,11 @@ from cells import cell
 from commands import ended
 from inputs import FT, HEAD, NO_SIDES
 from nightly import by_day
-from report.sheet.reading.read import read
-from report.sheet.schema.choices import ClearanceSource, UnitsFirst
-from report.sheet.schema.scene import SIDES
-from report.sheet.schema.shapes import Polygon
-from report.sheet.writing.filled import overwritten
+from report.project.model.choices import ClearanceSource, UnitsFirst
+from report.project.model.scene import SIDES
+from report.project.model.shapes import Polygon
+from report.project.read.read import read
+from report.project.write.filled import overwritten
 from sheets import at, blank, different, edit, make, parts, project, put, same, type_into
 from sketch import BOX_FT, L_FT, ROOF_FT, UNIT_FT, Sketch
 

@@ -17,8 +17,8 @@ from nightly import by_day, nightly
 from refused import refused
 from report.drawing_read.read_dxf import MAX_LETTERS, read_dxf
 from report.drawing_read.roof_drawing import MAX_ENTITIES, MAX_VALUES
-from report.sheet.reading.read import read
-from report.sheet.schema.choices import LayerKind
+from report.project.model.choices import LayerKind
+from report.project.read.read import read
 from sheets import make
 from sketch import BOX_FT, LIBRECAD_R12, UNIT_FT, Sketch, plan
 from solver.model import InputError

@@ -14,10 +14,10 @@ from commands import ended, printed, refused
 from inputs import FT
 from report.drawing_read.fill import MOST_TOLD, matched
 from report.drawing_read.plan_read import DrawnOutline, RoofPlan
-from report.sheet.reading.read import read
-from report.sheet.schema.choices import ClearanceSource, LayerKind, UnitsFirst
-from report.sheet.schema.scene import SIDES
-from report.sheet.schema.shapes import Polygon, Rectangle
+from report.project.model.choices import ClearanceSource, LayerKind, UnitsFirst
+from report.project.model.scene import SIDES
+from report.project.model.shapes import Polygon, Rectangle
+from report.project.read.read import read
 from sheets import blank, type_into
 from sketch import ROOF_FT, Sketch
 from solver.model import InputError

@@ -13,9 +13,9 @@ from nightly import by_day
 from report.drawing_read.modules import GAP_M
 from report.drawing_read.plan_read import plan_of
 from report.drawing_read.read_dxf import read_dxf
-from report.sheet.reading.read import read
-from report.sheet.schema.choices import LayerKind
-from report.sheet.schema.shapes import Rectangle
+from report.project.model.choices import LayerKind
+from report.project.model.shapes import Rectangle
+from report.project.read.read import read
 from sheets import blank, edit, make, retitle
 from sketch import Sketch, plan
 from solver.model import InputError

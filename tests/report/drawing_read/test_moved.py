@@ -11,9 +11,9 @@ from inputs import FT
 from report.drawing_read.fill import matched
 from report.drawing_read.plan_read import plan_of
 from report.drawing_read.roof_drawing import Drawn, RoofDrawing
-from report.sheet.reading.read import read
-from report.sheet.schema.choices import UnitsFirst
-from report.sheet.schema.scene import SIDES
+from report.project.model.choices import UnitsFirst
+from report.project.model.scene import SIDES
+from report.project.read.read import read
 from sheets import blank, type_into
 from sketch import Sketch
 from solver.model import InputError

@@ -18,8 +18,8 @@ from report.drawing_read.closed_lines import OPEN
 from report.drawing_read.plan_read import LAYERS, own_axes
 from report.drawing_read.read_dxf import read_dxf
 from report.drawing_read.roof_drawing import first_height, proposed, read_line
-from report.sheet.schema.choices import LayerKind
-from report.sheet.schema.shapes import Polygon, Rectangle
+from report.project.model.choices import LayerKind
+from report.project.model.shapes import Polygon, Rectangle
 from sketch import BOX_FT, L_FT, LIBRECAD_R12, ROOF_FT, UNIT_FT, UNITS, Sketch, plan
 
 pytestmark = pytest.mark.quick

@@ -27,7 +27,7 @@ from report.figures.spectra import spectra as drawn_spectra
 from report.manual import figures as manual
 from report.manual import work_figures as work
 from report.pages.registry import draw_assessment, draw_plotted
-from report.sheet.schema.choices import UnitsFirst
+from report.project.model.choices import UnitsFirst
 from report.study import figures as study
 from report.text.units import Quantity
 from solver.rivals.methods import METHODS

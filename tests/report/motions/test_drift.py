@@ -12,7 +12,7 @@ from places import RECORDS
 from report.assessment.checks.motions import MOST_DRIFT_M, MOST_END_MPS, drift_limits
 from report.assessment.verdict import Verdict
 from report.motions.prepare import prepare
-from report.sheet.reading.read import read
+from report.project.read.read import read
 from sheets import make
 
 

@@ -13,8 +13,8 @@ from nightly import by_day
 from report.motions.components import FACTOR, Components, processing_of, spikes
 from report.motions.history import ac156, first_period_s, shake, targets
 from report.motions.prepare import MAX_BESIDE_FAULTS, MAX_TOGETHER, MOST_FAULTS
-from report.sheet.schema.choices import RecordedAt
-from report.sheet.schema.motions import MotionInput
+from report.project.model.choices import RecordedAt
+from report.project.model.motions import MotionInput
 from sheets import at, make, problems, read_workbook
 from solver.building.roof import shaking_to_roof
 from solver.building.structure import building_of_periods

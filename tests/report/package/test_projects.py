@@ -25,10 +25,10 @@ from report.making import make
 from report.motions.history import targets
 from report.motions.prepare import prepare
 from report.pages.registry import PAGES
-from report.sheet.reading.read import read
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import PackageEdition
-from report.sheet.writing.template import write_template
+from report.project.model import ProjectInput
+from report.project.model.choices import PackageEdition
+from report.project.read.read import read
+from report.project.write.template import write_template
 from sheets import read_workbook
 from solver.formats import read_record
 from solver.friction_tests import series

@@ -18,9 +18,9 @@ from report.assessment.clearances import beside
 from report.assessment.spectra import spectra
 from report.drawing.plan import plan_drawing
 from report.pages.summary import summary
+from report.project.read.archive import open_book
 from report.results.results_json import results_json
 from report.results.xlsx import results_xlsx
-from report.sheet.reading.archive import open_book
 from report.text.units import Quantity
 from report.web.answers import answer
 from sheets import make

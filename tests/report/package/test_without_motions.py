@@ -25,12 +25,12 @@ from report.drawing.plan import plan_drawing
 from report.making import make
 from report.pages.registry import OF_MOTIONS, PAGES, package_data, pages_in
 from report.pages.summary import summary
+from report.project.model.choices import PackageEdition, UnitsFirst
+from report.project.model.scene import Clearance, Roof
+from report.project.read.read import read
+from report.project.write.template import write_template
 from report.results.results_json import former_from, results_json
 from report.results.xlsx import results_xlsx
-from report.sheet.reading.read import read
-from report.sheet.schema.choices import PackageEdition, UnitsFirst
-from report.sheet.schema.scene import Clearance, Roof
-from report.sheet.writing.template import write_template
 from sheets import type_into, without_motions
 from sketch import Sketch
 

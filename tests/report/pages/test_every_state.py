@@ -18,7 +18,7 @@ from printed import FRONT, printed, read
 from report.assessment.project import NO_FORMER, Change, ChangeKind
 from report.package.html import pages
 from report.pages.registry import package_data, pages_of
-from report.sheet.reading.read import EchoRow
+from report.project.read.read import EchoRow
 from report.typeset.pdf import TEMPLATES
 
 ARRAY, GAP, FOOT = stand_in.array, stand_in.clearance, stand_in.FOOT

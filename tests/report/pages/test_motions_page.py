@@ -21,10 +21,10 @@ from report.assessment.uncertainty import uncertainty
 from report.motions.components import read_components
 from report.motions.history import TargetSpectrum, targets
 from report.pages.registry import package_data
-from report.sheet.reading.archive import open_book
-from report.sheet.reading.linked_files import SUPPORTING, Document, StudyYears, read_documents
-from report.sheet.schema.choices import RecordedAt
-from report.sheet.schema.motions import MotionInput
+from report.project.model.choices import RecordedAt
+from report.project.model.motions import MotionInput
+from report.project.read.archive import open_book
+from report.project.read.linked_files import SUPPORTING, Document, StudyYears, read_documents
 from report.web.views import MOST_LEVELS, levels
 from solver.records.acceptance import Acceptance
 from solver.records.record import Record, write_record

@@ -16,6 +16,8 @@ from places import ROOT
 from report import making
 from report.motions import files as motion_files
 from report.motions.prepare import prepare
+from report.project.read.linked_files import Document
+from report.project.read.read import read
 from report.provenance import files
 from report.provenance.files import (
     MOST_RECORDS,
@@ -28,8 +30,6 @@ from report.provenance.files import (
     versions,
 )
 from report.results.results_json import results_json
-from report.sheet.reading.linked_files import Document
-from report.sheet.reading.read import read
 from report.web.open_project import open_project
 from sheets import type_into
 from solver.model import InputError

@@ -10,8 +10,8 @@ import scenes
 import stand_in
 from report.assessment.causes import came_to
 from report.assessment.checks.check import sentence
+from report.project.model.choices import Direction
 from report.results.results_json import results_json
-from report.sheet.schema.choices import Direction
 from report.text.amounts import Amount
 
 

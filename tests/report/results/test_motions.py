@@ -6,7 +6,7 @@ import pytest
 
 import commands
 from report.motions.prepare import prepare
-from report.sheet.reading.read import read
+from report.project.read.read import read
 from sheets import make, problems, type_into
 from waves import plain
 

@@ -18,6 +18,7 @@ from printed import IDS, printed
 from report.assessment.project import ChangeKind
 from report.assessment.verdict import Verdict
 from report.pages.registry import package_data, parts
+from report.project.read.linked_files import Document
 from report.results.results_json import (
     AGAIN,
     MOST_CHANGES,
@@ -28,7 +29,6 @@ from report.results.results_json import (
     results_json,
     with_reissue,
 )
-from report.sheet.reading.linked_files import Document
 from solver.model import InputError
 
 

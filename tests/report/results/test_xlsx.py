@@ -15,12 +15,12 @@ from recalculated import recalculated
 from report.assessment.checks.check import alike, found_and_limit
 from report.assessment.spectra import spectra
 from report.entities.shown import Column
+from report.project.model.choices import Direction
 from report.provenance.files import fingerprint
 from report.results.design import PeakRow
 from report.results.lists import RunRow
 from report.results.sheets import Cells, Pages, write_live
 from report.results.xlsx import results_xlsx
-from report.sheet.schema.choices import Direction
 from sheets import formula_cells
 
 GOVERNING = "Governing array"

@@ -17,9 +17,9 @@ from cells import address, cell
 from nightly import by_day
 from places import ROOT
 from projects.study.make import study
-from report.sheet.reading.linked_files import SUPPORTING, StudyYears
-from report.sheet.reading.read import read
-from report.sheet.schema.choices import UnitsFirst
+from report.project.model.choices import UnitsFirst
+from report.project.read.linked_files import SUPPORTING, StudyYears
+from report.project.read.read import read
 from report.study import files
 from report.study.files import study_files, study_html
 from report.study.manifest import manifest_of

@@ -14,9 +14,9 @@ import waves
 from cells import address, cell
 from nightly import by_day
 from packages import unlaid
+from report.project.read.read import read
 from report.results.motions import other_sources
 from report.results.publish import STAMP
-from report.sheet.reading.read import read
 from report.suite.inputs import ac156_targets, site_targets
 from report.suite.target_table import MAX_ROWS, read_target
 from sheets import at, edit, make, type_into

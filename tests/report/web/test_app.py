@@ -16,8 +16,8 @@ from inputs import HEAD
 from nightly import by_day
 from places import ROOT
 from report.motions.stored import store
-from report.sheet.reading.read import read
-from report.sheet.schema.choices import ClearanceSource
+from report.project.model.choices import ClearanceSource
+from report.project.read.read import read
 from report.web.access import KEY_HEADER
 from report.web.worker import State, answered
 from sheets import SECTIONS, at, blank, make, type_into

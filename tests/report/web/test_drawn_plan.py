@@ -6,8 +6,8 @@ import shutil
 import pytest
 
 from commands import ended
-from report.sheet.reading.read import read
-from report.sheet.schema.choices import UnitsFirst
+from report.project.model.choices import UnitsFirst
+from report.project.read.read import read
 from report.web.jobs import perform
 from sheets import blank, type_into
 from sketch import BOX_FT, ROOF_FT, UNIT_FT, Sketch

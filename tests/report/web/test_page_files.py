@@ -17,7 +17,7 @@ from browsing import DESKTOP, PHONE, TABLET, at_rest, moved, numbers, opened, qu
 from commands import printed
 from inputs import FT
 from places import ROOT
-from report.sheet.reading.read import read
+from report.project.read.read import read
 from sheets import SECTIONS, blank, make, type_into
 from sketch import BOX_FT, ROOF_FT, Sketch
 

@@ -11,7 +11,7 @@ import report.suite.files
 import waves
 from browsing import called, cases, opened, quiet_page, served
 from nightly import by_day
-from report.sheet.reading.read import read
+from report.project.read.read import read
 from report.web import worker
 from report.web.jobs import perform
 from report.web.worker import MOTIONS, PROJECT, motions_made

@@ -1,0 +1,254 @@
+"""Checks of motions, building, target spectrum and friction that involve more than one cell.
+
+Each fault names the cell to change. Works on a draft, like `checks`, and reads no record.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+
+from report.project.check.findings import column, repeated
+from report.project.model.choices import RecordedAt, Scaling
+from report.project.model.fields import Draft, DraftRow, Finding, Place, Where
+from report.project.model.scene import friction_law
+from report.project.model.site import FrictionTestRow, site_parameters
+from report.text.units import digits_up
+from solver.building.structure import MOST_STORIES
+from solver.friction_tests import Series, governing, series
+from solver.model import Friction
+
+# Fields of a motion that name a record, each with the name of its component.
+LABELS = {"record": "horizontal", "transverse": "transverse", "vertical": "vertical"}
+
+# The same by component.
+FIELDS = {label: field for field, label in LABELS.items()}
+
+# Begins the source of a motion that was generated.
+GENERATED = "Generated, seed "
+
+# Duration [s] below which a motion is refused: no earthquake record is as short.
+SHORTEST_S = 1.0
+
+
+def motion_faults(draft: Draft, where: Where) -> Iterator[Finding]:
+    """Yield all inconsistencies in the motions of a draft."""
+    for index, row in enumerate(draft["motions"]):
+        yield from _same_component(index, row)
+        yield from _scale_value(index, row)
+        yield from _processing(index, row)
+    yield from _building(draft, where)
+    yield from _own_spectrum(draft, where)
+    yield from _scaled_to_target(draft, where)
+
+
+def _same_component(index: int, row: DraftRow) -> Iterator[Finding]:
+    seen: dict[str, str] = {}
+    for field, label in LABELS.items():
+        if not row.get(field):
+            continue
+        first = seen.setdefault(" ".join(row[field].split()), label)
+        if first != label:
+            text = f"{label} record is '{row[field]}', the same as the {first} record"
+            yield Finding.error(Place("motions", index, field), text, "give another record")
+
+
+def _scale_value(index: int, row: DraftRow) -> Iterator[Finding]:
+    scaling, place = row.get("scaling"), Place("motions", index, "scale_value")
+    value = row.get("scale_value")
+    if scaling in (Scaling.AS_RECORDED, Scaling.TARGET) and value not in (None, 1.0):
+        text = f"factor or PPA is {value:g}, but scaling is '{scaling}'"
+        yield Finding.error(place, text, "change the scaling or leave this blank")
+
+
+def _processing(index: int, row: DraftRow) -> Iterator[Finding]:
+    start, end = row.get("from_s"), row.get("to_s")
+    if end is not None and end <= (start or 0.0):
+        wanted = f"give {(start or 0.0) + SHORTEST_S:g} s or more"
+        yield Finding.error(Place("motions", index, "to_s"), f"end time is {end:g} s", wanted)
+    high, low = row.get("highpass_hz"), row.get("lowpass_hz")
+    if high is not None and low is not None and low <= high:
+        text = f"low-pass corner is {low:g} Hz"
+        wanted = f"give more than the high-pass corner, {high:g} Hz"
+        yield Finding.error(Place("motions", index, "lowpass_hz"), text, wanted)
+
+
+def _building(draft: Draft, where: Where) -> Iterator[Finding]:
+    for row in draft["building"]:
+        first, second = row.get("period_s"), row.get("period_2_s")
+        # The first mode has the longest period.
+        if second is not None and (first is None or second > first):
+            longest = "period T1 as well" if first is None else f"at most period T1, {first:g} s"
+            text, wanted = f"period T2 is {second:g} s", f"give {longest}, or leave it blank"
+            yield Finding.error(Place("building", 0, "period_2_s"), text, wanted)
+    # Only a ground motion passes through the model of the building.
+    grounds = (row.get("recorded_at") is RecordedAt.GROUND for row in draft["motions"])
+    for row in draft["site"] if any(grounds) else ():
+        count = row.get("stories", 1)
+        if count > MOST_STORIES:
+            text = (
+                f"number of stories is {count}, more than the {MOST_STORIES} of the building model"
+            )
+            yield Finding.error(Place("site", 0, "stories"), text, "give roof motions")
+
+
+def _own_spectrum(draft: Draft, where: Where) -> Iterator[Finding]:
+    rows = draft["spectrum"]
+    if len(rows) == 1:
+        yield Finding.error(Place("spectrum"), "one row is given", "give at least two, or none")
+    periods = [(row["period_s"], index) for index, row in enumerate(rows) if "period_s" in row]
+    for (before, first), (after, second) in pairwise(sorted(periods)):
+        # The spectrum has no line between two points at one period.
+        if after - before <= 1e-9 * after:
+            at = where(Place("spectrum", first, "period_s"))
+            text = f"period is {after:g} s, already given at {at}"
+            yield Finding.error(
+                Place("spectrum", second, "period_s"), text, "give each period once"
+            )
+    verticals = [row["vertical_g"] is None for row in rows if "vertical_g" in row]
+    if any(verticals) and not all(verticals):
+        index = next(i for i, row in enumerate(rows) if row.get("vertical_g", 0.0) is None)
+        wanted = "give it in every row, or in none"
+        yield Finding.error(Place("spectrum", index, "vertical_g"), "vertical is missing", wanted)
+
+
+def _scaled_to_target(draft: Draft, where: Where) -> Iterator[Finding]:
+    row = draft["target"][0] if draft["target"] else {}
+    start, end = row.get("from_s"), row.get("to_s")
+    if start is None or end is None:
+        return
+    if end <= start:
+        text = f"longest scaling period is {end:g} s"
+        wanted = f"give more than the shortest, {start:g} s"
+        yield Finding.error(Place("target", 0, "to_s"), text, wanted)
+        return
+    scaled = [i for i, m in enumerate(draft["motions"]) if m.get("scaling") is Scaling.TARGET]
+    for index in scaled:
+        corner = draft["motions"][index].get("highpass_hz")
+        # No factor brings back the periods that a high-pass has removed.
+        if corner is not None and corner * end > 1.0 + 1e-9:
+            text = (
+                f"high-pass corner is {corner:g} Hz, a period of {1.0 / corner:.3g} s, but the"
+                f" longest scaling period is {end:g} s"
+            )
+            yield Finding.error(Place("motions", index, "highpass_hz"), text, "reduce one of them")
+    if scaled and draft["spectrum"]:
+        yield from _covered(draft, start, end)
+    ground = [i for i in scaled if draft["motions"][i].get("recorded_at") is RecordedAt.GROUND]
+    if not draft["spectrum"]:
+        yield from _design_spectrum(draft, ground, where)
+
+
+def _covered(draft: Draft, start_s: float, end_s: float) -> Iterator[Finding]:
+    periods = [row["period_s"] for row in draft["spectrum"] if "period_s" in row]
+    if len(periods) < 2 or (min(periods) <= start_s and end_s <= max(periods)):
+        return
+    text = (
+        f"periods range from {min(periods):g} to {max(periods):g} s, but motions are scaled over "
+        f"{start_s:g} to {end_s:g} s"
+    )
+    yield Finding.error(Place("spectrum"), text, "add rows, or change the scaling periods")
+
+
+def _design_spectrum(draft: Draft, ground: list[int], where: Where) -> Iterator[Finding]:
+    """Yield what the design spectrum lacks if a ground motion is scaled to it, and a short T_L."""
+    site = draft["site"][0] if draft["site"] else {}
+    parameters = site_parameters(site)
+    # NaN stands for what could not be read: it is neither missing nor too small.
+    s_d1_g = math.nan if parameters is None else parameters.s_d1
+    t_l_s = draft["target"][0].get("t_l_s", math.nan)
+    lacking = [name for name in ("s_1_g", "f_v") if site.get(name) is None]
+    field = lacking[0] if len(lacking) == 1 else "s_d1_g"
+    label = {"s_1_g": "S_1", "f_v": "F_v", "s_d1_g": "S_D1"}[field]
+    for place, name, value in (
+        (Place("site", 0, field), label, s_d1_g),
+        (Place("target", 0, "t_l_s"), "long-period transition T_L", t_l_s),
+    ):
+        if ground and value is None:
+            at = where(Place("motions", ground[0], "scaling"))
+            wanted = f"{at} scales a ground motion to the design spectrum, which requires"
+            wanted += " S_D1, or S_1 and F_v, and T_L"
+            yield Finding.error(place, f"{name} is missing", wanted)
+    t_s = None if parameters is None else parameters.t_s
+    # The design spectrum falls as 1/T between T_S and T_L.
+    if t_s is not None and t_l_s is not None and t_l_s <= t_s:
+        text = f"long-period transition T_L is {t_l_s:g} s"
+        wanted = f"give more than T_S = S_D1/S_DS = {digits_up(t_s, 3)} s"
+        yield Finding.error(Place("target", 0, "t_l_s"), text, wanted)
+
+
+# Difference of coefficients that comes from rounding to two decimals.
+MU_TOLERANCE = 0.005
+
+
+def friction_faults(draft: Draft, where: Where) -> Iterator[Finding]:
+    """Yield runs given twice at a velocity, and friction coefficients larger than those tested."""
+    yield from _repeated(draft, where)
+    tested = _tested(draft)
+    if not tested:
+        return
+    for index, array in enumerate(draft["arrays"]):
+        law = _law(array)
+        if law is not None:
+            tests = governing(tested, array.get("mu_report") or "")
+            yield from _beyond(index, law, tests, _first(draft, tests, where))
+
+
+def _report(draft: Draft, row: DraftRow) -> str:
+    return str(row.get("report") or draft["friction_tests"][0].get("report") or "")
+
+
+def _repeated(draft: Draft, where: Where) -> Iterator[Finding]:
+    files = (
+        (place, (_report(draft, row).casefold(), row["surface"], row.get("velocity_mps"), number))
+        for place, number in column(draft, ("friction_runs",), "number")
+        if "surface" in (row := draft["friction_runs"][place.row])
+    )
+    for place, (_, surface, _, number), first in repeated(files):
+        text = f"run is {number}, {surface}, already given at {where(first)}"
+        yield Finding.error(place, text, "give another number")
+
+
+def _tested(draft: Draft) -> tuple[Series, ...]:
+    """Return the runs as series; none if any run could not be read."""
+    rows, fields = draft["friction_runs"], FrictionTestRow.model_fields
+    # A run that is missing would change every mean.
+    if any(field not in row for row in rows for field in fields):
+        return ()
+    report = _report(draft, {})
+    return series(FrictionTestRow.model_construct(**row).run(report) for row in rows)
+
+
+def _law(array: DraftRow) -> Friction | None:
+    """Return the friction law of an array, if it could be read and is consistent."""
+    fields = ("mu", "mu_fast", "mu_rate_s_per_m", "mu_static")
+    if not array.keys() >= {*fields, "mu_report"}:
+        return None
+    mu, fast, rate, static = (array[field] for field in fields)
+    # One without the other is an error of its own.
+    return friction_law(mu, fast, rate, static) if (fast is None) == (rate is None) else None
+
+
+def _first(draft: Draft, tests: Series, where: Where) -> str:
+    """Return the address of the first kinetic coefficient of a series."""
+    for index, row in enumerate(draft["friction_runs"]):
+        if (_report(draft, row), row["surface"]) == (tests.report, tests.surface):
+            return where(Place("friction_runs", index, "mu"))
+    return where(Place("friction_runs"))
+
+
+def _beyond(index: int, law: Friction, tests: Series, at: str) -> Iterator[Finding]:
+    by_velocity = law.mu_fast != law.mu_slow
+    mean, tested = tests.mean_of(law), tests.mean
+    # PV1-2012: the average of the kinetic coefficients, of the worse of wet and dry.
+    if mean > tested + MU_TOLERANCE:
+        says = f"averages {mean:.3g} at the tested velocities" if by_velocity else f"is {mean:g}"
+        text = f"friction coefficient {says}; the tests give {tested:.3g} ({tests.surface}, mean"
+        runs = f" of {len(tests.runs)} from {at})"
+        wanted = "reduce it" if by_velocity else f"give {tested:.3g} or less"
+        yield Finding.error(Place("arrays", index, "mu"), text + runs, wanted)
+    if law.mu_static > law.mu_slow and law.mu_static > tests.static_mean + MU_TOLERANCE:
+        most = f"{tests.static_mean:.3g}"
+        text = f"static friction is {law.mu_static:g}; the tests give {most} ({tests.surface})"
+        yield Finding.error(Place("arrays", index, "mu_static"), text, f"give {most} or less")

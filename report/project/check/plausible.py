@@ -1,0 +1,264 @@
+"""Warnings on values that are permitted and improbable: dates, height, weight, friction, gaps.
+
+Reads no record: `report.motions.prepare` does. Read `implausible`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+from report.project.check.checks import ROUNDING_OF_COEFFICIENTS, gap_tolerance_m
+from report.project.check.findings import note, spoken, unusual, warning
+from report.project.check.plan_checks import far_off
+from report.project.model import ProjectInput
+from report.project.model.choices import Direction, SlopeUnit
+from report.project.model.fields import Finding, Level, Place
+from report.project.model.scene import Array, Clearance
+from report.project.model.shapes import Shape, closest, gap_m
+from report.project.model.site import Site
+from report.text.counts import counted, numbered
+from report.text.units import (
+    LENGTHS,
+    PRESSURES,
+    Quantity,
+    no_more,
+    pair,
+)
+from solver.rules.rulesets import ALLOWED, usual
+from solver.rules.site_coefficients import F_A, F_V, site_coefficient
+
+# Usual weight of a ballasted array on its plan area [Pa]: modules alone weigh 2 to 3 psf.
+LEAST_PRESSURE_PA, MOST_PRESSURE_PA = 1.0 * PRESSURES["psf"], 30.0 * PRESSURES["psf"]
+
+# Difference of the weight from that of its parts / that of its parts which is rounding.
+SAME_WEIGHT = 0.01
+
+# Slope [%] below which it is more probably a fraction: roofs with less than 1/8 % are not built.
+MOST_FRACTION = 0.12
+
+# Largest angle between the direction of a clearance and the gap of the plan [deg]: a corner may
+# lie at 45 deg.
+MOST_ASKEW_DEG = 60.0
+
+# Number of clearances at the ratio of two units from which they are one warning.
+LEAST_ALIKE = 3
+
+_UNITS = {"in": "inches", "ft": "feet", "mm": "mm", "cm": "cm", "m": "meters"}
+
+_FROM_DOWNSLOPE_DEG: Mapping[Direction, tuple[float, ...]] = {
+    Direction.DOWN: (0.0,),
+    Direction.UP: (180.0,),
+    Direction.ACROSS: (90.0, 270.0),
+}
+
+
+def implausible(data: ProjectInput) -> Iterator[Finding]:
+    """Yield a warning for each value that is permitted and improbable, one for a cell."""
+    short = _short_of_plan(data)
+    findings = [*_contradictory(data), *_provided(data, short)]
+    told = {finding.place for finding in findings if finding.level is Level.WARNING}
+    # A length in a wrong unit is outside its usual range as well.
+    told |= {Place("clearances", index, "provided_m") for index in short}
+    yield from findings
+    yield from (finding for finding in unusual(data) if finding.place not in told)
+
+
+def _contradictory(data: ProjectInput) -> Iterator[Finding]:
+    us_first = data.us_first
+    yield from _dates(data)
+    yield from _height(data, us_first)
+    yield from _site_coefficients(data.site)
+    for index, array in enumerate(data.arrays):
+        yield from _slope(index, array)
+        yield from _weight(index, array, us_first)
+        yield from _friction(index, array)
+    yield from _overrides(data)
+    yield from _far(data)
+    arrays = {array.id: array for array in data.arrays}
+    for index, other in _objects_in_plan(data):
+        row = data.clearances[index]
+        yield from _direction(index, row, arrays[row.array], other)
+
+
+def _far(data: ProjectInput) -> Iterator[Finding]:
+    places = {array.id: Place("arrays", k, "id") for k, array in enumerate(data.arrays)}
+    places |= {item.id: Place("objects", k, "id") for k, item in enumerate(data.objects)}
+    shapes = {array.id: array.shape for array in data.arrays}
+    shapes |= {item.id: item.placed for item in data.objects if item.placed}
+    for name, text in far_off(shapes, data.roof.placed, data.us_first):
+        yield warning(f"far {name}", places[name], text)
+
+
+def _objects_in_plan(data: ProjectInput) -> Iterator[tuple[int, Shape]]:
+    """Yield the row of each clearance to what is placed in plan, and its shape."""
+    plan = {item.id: item.placed for item in data.objects}
+    plan |= {array.id: array.shape for array in data.arrays}
+    for index, row in enumerate(data.clearances):
+        if other := plan[row.object]:
+            yield index, other
+
+
+def _short_of_plan(data: ProjectInput) -> dict[int, float]:
+    """Return the gap in plan [m] of each clearance that is less, by row; more is an error."""
+    shapes, short = {array.id: array.shape for array in data.arrays}, {}
+    for index, other in _objects_in_plan(data):
+        row = data.clearances[index]
+        gap = gap_m(shapes[row.array], other)
+        if row.provided_m < gap - gap_tolerance_m(gap):
+            short[index] = gap
+    return short
+
+
+def _dates(data: ProjectInput) -> Iterator[Finding]:
+    issue = data.project
+    revisions = [row.revision for row in data.revisions]
+    if issue.revision.casefold() not in (name.casefold() for name in revisions):
+        text = f"revision is '{issue.revision}', which is not in the revision block; add its row"
+        text += ", or correct it"
+        yield warning(f"revision {issue.revision}", Place("project", 0, "revision"), text)
+    confirmed = issue.drawing_confirmed_date
+    for section, field, noun, dated in (
+        ("project", "drawing_confirmed_date", "date of confirmed drawing distances", confirmed),
+        ("site", "hazard_date", "date of hazard", data.site.hazard_date),
+        ("friction_tests", "date", "date of the test report", data.friction_tests.date),
+        ("options", "peer_date", "date of review", data.options.peer_date),
+    ):
+        if dated is not None and dated > issue.date:
+            text = f"{noun} is {dated}, later than the package, {issue.date}; correct one of them"
+            yield warning(noun, Place(section, 0, field), text)
+
+
+def _height(data: ProjectInput, us_first: bool) -> Iterator[Finding]:
+    z, h = data.site.roof_height_m, data.site.structure_height_m
+    if z > h:
+        height, most = (pair(value, Quantity.PLAN, us_first) for value in (z, h))
+        text = f"height of the array z is {height}, above the structure height h of {most};"
+        yield warning("height z", Place("site", 0, "roof_height_m"), f"{text} correct one of them")
+
+
+def _site_coefficients(site: Site) -> Iterator[Finding]:
+    # Less than the table is an error, except with a site-specific analysis (`checks`).
+    for table, field, coefficient, mapped, mapped_g in (
+        (F_A, "f_a", site.f_a, "S_S", site.s_s_g),
+        (F_V, "f_v", site.f_v, "S_1", site.s_1_g),
+    ):
+        has_row = site.edition.name == table.edition and site.site_class in table.rows
+        if not has_row or coefficient is None or mapped_g is None:
+            continue
+        tabulated = site_coefficient(table, str(site.site_class), mapped_g)
+        if math.isnan(tabulated) or abs(coefficient - tabulated) <= ROUNDING_OF_COEFFICIENTS:
+            continue
+        text = (
+            f"{table.symbol} is {coefficient:g}, {'less' if coefficient < tabulated else 'more'} "
+            f"than {tabulated:.4g} in {table.clause} for site class {site.site_class} and {mapped}"
+            f" {mapped_g:g} g"
+        )
+        yield note(Place("site", 0, field), text)
+
+
+def _slope(index: int, array: Array) -> Iterator[Finding]:
+    # A slope of 2 % that is pasted as a number is 0.02.
+    if array.slope_unit is SlopeUnit.PERCENT and 0.0 < array.slope_value < MOST_FRACTION:
+        value, percent = array.slope_value, 100.0 * array.slope_value
+        text = f"slope is {value:g} percent; {percent:g} %? Correct the slope, or acknowledge it"
+        yield warning(f"slope {array.id}", Place("arrays", index, "slope_value"), text)
+
+
+def _weight(index: int, array: Array, us_first: bool) -> Iterator[Finding]:
+    place = Place("arrays", index, "weight_n")
+    pressure, parts_n = array.weight_n / array.shape.area_m2, array.parts_n
+    if parts_n is not None and abs(array.weight_n - parts_n) > SAME_WEIGHT * parts_n:
+        weight, of_parts = (
+            pair(value, Quantity.WEIGHT, us_first) for value in (array.weight_n, parts_n)
+        )
+        text = (
+            f"weight is {weight}, but {numbered(array.modules or 0, 'module')} and the ballast are"
+        )
+        text += f" {of_parts}, more than {SAME_WEIGHT:.0%} apart; correct one of them"
+        yield warning(f"weight of modules {array.id}", place, text)
+    if LEAST_PRESSURE_PA <= pressure <= MOST_PRESSURE_PA:
+        return
+    weight = pair(array.weight_n, Quantity.WEIGHT, us_first)
+    per_area, low, high = (
+        pair(value, Quantity.PRESSURE, us_first)
+        for value in (pressure, LEAST_PRESSURE_PA, MOST_PRESSURE_PA)
+    )
+    text = f"weight is {weight}, {per_area} on the plan area; {low} to {high} is usual: correct the"
+    yield warning(f"weight {array.id}", place, f"{text} weight, its unit, or the plan")
+
+
+def _friction(index: int, array: Array) -> Iterator[Finding]:
+    steepness = math.tan(array.slope_rad)
+    if array.minimum_mu > steepness:
+        return
+    text = (
+        f"friction coefficient is {array.minimum_mu:g}, not more than the tangent of the slope,"
+        f" {steepness:.3f}: the array slides under its own weight; correct one of them"
+    )
+    yield warning(f"friction {array.id}", Place("arrays", index, "mu"), text)
+
+
+def _overrides(data: ProjectInput) -> Iterator[Finding]:
+    for index, row in enumerate(data.overrides):
+        expected = usual(row.provision)
+        if not expected.has(row.value):
+            text = (
+                f"value is {row.value:g} for the {ALLOWED[row.provision].meaning};"
+                f" {expected.span} is usual: correct the value or its unit"
+            )
+            yield warning(f"override {row.provision}", Place("overrides", index, "value"), text)
+
+
+def _direction(index: int, row: Clearance, array: Array, other: Shape) -> Iterator[Finding]:
+    # Shapes that touch have no direction between them.
+    if row.direction is Direction.ANY or gap_m(array.shape, other) <= 0.0:
+        return
+    (x0, y0), (x1, y1) = closest(array.shape, other)
+    turned_deg = math.degrees(math.atan2(y1 - y0, x1 - x0)) - array.downslope_deg
+    lies = min(_FROM_DOWNSLOPE_DEG, key=lambda direction: _askew_deg(turned_deg, direction))
+    if _askew_deg(turned_deg, row.direction) > MOST_ASKEW_DEG:
+        text = (
+            f"direction is '{row.direction}', but {row.object} lies '{lies}' from {row.array} in"
+            " plan; correct the direction, the plan, or the downslope direction"
+        )
+        yield warning(f"direction {spoken(row)}", Place("clearances", index, "direction"), text)
+
+
+def _askew_deg(turned_deg: float, direction: Direction) -> float:
+    """Return the angle between a direction and an angle from downslope [deg], 0 to 180."""
+    turns = ((turned_deg - nominal) % 360.0 for nominal in _FROM_DOWNSLOPE_DEG[direction])
+    return min(min(turn, 360.0 - turn) for turn in turns)
+
+
+def _provided(data: ProjectInput, short: Mapping[int, float]) -> Iterator[Finding]:
+    """Yield clearances below the gap of the plan [m], by row; those in one wrong unit together."""
+    us_first = data.us_first
+    by_unit: dict[tuple[float, str], list[int]] = {}
+    for index, gap in short.items():
+        by_unit.setdefault(_mistaken(data.clearances[index].provided_m, gap), []).append(index)
+    for (ratio, unit), rows in by_unit.items():
+        place = Place("clearances", rows[0], "provided_m")
+        if unit and len(rows) >= LEAST_ALIKE:
+            text = f"{counted(len(rows), 'clearance')} are 1/{ratio:.4g} of the plan: in {unit}?"
+            text += f" The first is {spoken(data.clearances[rows[0]])}; correct them or the plan"
+            yield warning(f"clearances in {unit}", place, text)
+            continue
+        for index in rows:
+            row, place = data.clearances[index], Place("clearances", index, "provided_m")
+            stated, plan = (
+                pair(m, Quantity.SIZE, us_first, no_more) for m in (row.provided_m, short[index])
+            )
+            text = f"provided clearance is {stated}, but {row.array} and {row.object} are {plan}"
+            text += " apart in plan; correct it or the plan"
+            yield warning(f"clearance {spoken(row)}", place, text)
+
+
+def _mistaken(provided_m: float, gap: float) -> tuple[float, str]:
+    """Return how many times too small a clearance is, and the unit it may be in; 1 for none."""
+    # As where feet are typed into a column of inches; what is too large is an error.
+    for unit, size in LENGTHS.items():
+        for read in LENGTHS.values():
+            if size > read and abs(provided_m * size / read - gap) <= gap_tolerance_m(gap):
+                return size / read, _UNITS[unit]
+    return 1.0, ""

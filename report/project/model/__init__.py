@@ -1,0 +1,241 @@
+"""The input of a project as plain frozen models, in SI or in the unit that a name ends with.
+
+No Excel in them: what a cell is called, and what is typed there, is in `report.project.workbook`.
+They are pydantic's, for `model_copy`, JSON and the types that a value of any source must have.
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any
+
+from pydantic import AfterValidator, Field, model_validator
+
+from report.project.model.choices import (
+    ClearanceSource,
+    DistanceBasis,
+    EditionName,
+    PackageEdition,
+    PlanPaper,
+    RequiredText,
+    RuleSetName,
+    Statistic,
+    Text,
+    decimals,
+)
+from report.project.model.fields import Frozen
+from report.project.model.motions import (
+    BuildingInput,
+    Links,
+    MotionInput,
+    SpectrumPoint,
+    TargetInput,
+)
+from report.project.model.scene import (
+    ROOF,
+    Array,
+    Clearance,
+    DrawingLayer,
+    Roof,
+    RoofObject,
+    Vertex,
+)
+from report.project.model.shapes import Point, ring
+from report.project.model.site import FrictionTestRow, FrictionTests, Project, Revision, Site
+from solver.rules.rulesets import ALLOWED
+
+# Most smaller events whose displacements are added.
+MAX_EVENTS = 20
+
+
+def provision_name(key: str) -> str:
+    """Return the name of a provision in words, as on the sheet Provisions; without its unit."""
+    words = ALLOWED[key].meaning.partition(" [")[0]
+    return words[:1].upper() + words[1:]
+
+
+def provision_unit(key: str) -> str:
+    """Return the unit of a provision, as a cell names it; empty for none."""
+    allowed = ALLOWED.get(_provision_key(key))
+    return allowed.meaning.partition(" [")[2].rstrip("]") if allowed else ""
+
+
+_KEYS_BY_NAME = {provision_name(key).casefold(): key for key in ALLOWED}
+
+
+def _provision_key(text: str) -> str:
+    """Return the key of a provision given by its name or its key."""
+    name = " ".join(text.partition(" [")[0].split()).casefold()
+    return _KEYS_BY_NAME.get(name, text)
+
+
+def factors(text: str) -> tuple[float, ...]:
+    """Return factors such as `0.50, 0.25`, each above 0 and up to 1; empty if it is not one."""
+    values = decimals(text)
+    fits = 1 <= len(values) <= MAX_EVENTS and min(values) > 0.0 and max(values) <= 1.0
+    return values if fits else ()
+
+
+class Options(Frozen):
+    """Choices that the rule sets leave open."""
+
+    statistic: Statistic = Statistic.RULE_SET
+    peer_reviewed: bool = False
+    peer_reviewer: Text = ""
+    peer_license: Text = ""
+    peer_date: dt.date | None = None
+    peer_covered: Text = ""
+    peer_letter: Text = ""
+    smaller_events: Text = ""
+    study_years: Text = ""
+    package_edition: PackageEdition = PackageEdition.PLAN_CHECK
+    letter: bool = False
+    plan_paper: PlanPaper = PlanPaper.BY_SIZE
+
+    @property
+    def has_review(self) -> bool:
+        """Whether peer review is stated with all that a plan checker asks for."""
+        given = self.peer_reviewer, self.peer_license, self.peer_date, self.peer_letter
+        return self.peer_reviewed and all(given)
+
+    @property
+    def smaller_factors(self) -> tuple[float, ...]:
+        """Factors on the motions for the smaller events; empty if none are asked for."""
+        return factors(self.smaller_events)
+
+
+class Confirmation(Frozen):
+    """Who compared the provisions with the adopted code, and which."""
+
+    by: Text = ""
+    date: dt.date | None = None
+    rule_set: RuleSetName | None = None
+    edition: EditionName | None = None
+    code: Text = ""
+    covered: Text = ""
+
+    @property
+    def of(self) -> tuple[str, str, str]:
+        """What was confirmed: rule set, edition and building code."""
+        return self.rule_set or "", self.edition or "", self.code
+
+
+class Override(Frozen):
+    """A replacement for the number of a provision, with the reason that the package prints."""
+
+    provision: Annotated[RequiredText, AfterValidator(_provision_key)]
+    value: float
+    reason: RequiredText
+
+
+class Acknowledgment(Frozen):
+    """A warning that is intended as it is, with the reason that the package prints."""
+
+    warning: RequiredText
+    reason: RequiredText
+
+
+# Fields that refer to arrays and objects, by section.
+_NAMING = {"clearances": ("array", "object"), "links": ("array",), "outlines": ("name",)}
+
+
+class ProjectInput(Frozen):
+    """The complete input of a workbook."""
+
+    project: Project
+    revisions: tuple[Revision, ...] = ()
+    site: Site
+    roof: Roof = Roof()
+    arrays: tuple[Array, ...]
+    friction_tests: FrictionTests = FrictionTests()
+    friction_runs: tuple[FrictionTestRow, ...] = ()
+    objects: tuple[RoofObject, ...] = ()
+    clearances: tuple[Clearance, ...] = ()
+    motions: tuple[MotionInput, ...] = ()
+    building: BuildingInput = BuildingInput()
+    spectrum: tuple[SpectrumPoint, ...] = ()
+    links: tuple[Links, ...] = ()
+    options: Options = Options()
+    confirmation: Confirmation = Confirmation()
+    target: TargetInput = TargetInput()
+    overrides: tuple[Override, ...] = ()
+    outlines: tuple[Vertex, ...] = ()
+    layers: tuple[DrawingLayer, ...] = ()
+    acknowledged: tuple[Acknowledgment, ...] = ()
+    changed_sheets: Annotated[tuple[tuple[str, str], ...], Field(exclude=True)] = ()
+    """Each section whose confirmation is outdated, with the sheets that changed, in words."""
+
+    @model_validator(mode="after")
+    def _linked(self) -> ProjectInput:
+        return linked(self)
+
+    @property
+    def us_first(self) -> bool:
+        """Whether US units are printed before SI units."""
+        return self.project.units_first.is_us
+
+    @property
+    def is_on_a4(self) -> bool:
+        """Whether the package is on A4 and A3, and not on Letter and 11 x 17 in."""
+        paper = self.options.plan_paper
+        if paper is PlanPaper.BY_SIZE:
+            return not self.us_first
+        return paper in (PlanPaper.A4, PlanPaper.A3)
+
+    @property
+    def outdated(self) -> Mapping[str, str]:
+        """By section, in words, the sheets that have changed since its confirmation."""
+        return dict(self.changed_sheets)
+
+    @property
+    def is_peer_reviewed(self) -> bool:
+        """Whether a whole peer review is given, of these inputs, not dated after the package."""
+        date, is_of_these = self.options.peer_date, "options" not in self.outdated
+        is_dated = date is not None and date <= self.project.date
+        return self.options.has_review and is_of_these and is_dated
+
+    @property
+    def confirmed(self) -> str:
+        """Who confirmed the provisions of these inputs, and when; empty where nobody did."""
+        confirmation = self.confirmation
+        is_of_these = "confirmation" not in self.outdated and confirmation.of == self.site.adopted
+        is_dated = confirmation.date is not None and confirmation.date <= self.project.date
+        return f"{confirmation.by}, {confirmation.date}" if is_of_these and is_dated else ""
+
+    def basis_of(self, row: Clearance) -> DistanceBasis:
+        """Return the basis of the distance of a clearance."""
+        if row.source is ClearanceSource.DRAWING:
+            confirmed = self.project.drawing_confirmed_date
+            is_confirmed = confirmed is not None and confirmed <= self.project.date
+            is_confirmed &= "project" not in self.outdated
+            return DistanceBasis.CONFIRMED if is_confirmed else DistanceBasis.DRAWN
+        return DistanceBasis.ENTERED if row.source is None else DistanceBasis.MEASURED
+
+
+def linked(data: ProjectInput) -> ProjectInput:
+    """Return an input whose names are spelled as their rows are, and whose outlines are placed."""
+    # Capitals do not distinguish ids.
+    ids = {row.id.casefold(): row.id for row in data.arrays}
+    ids |= {row.id.casefold(): row.id for row in data.objects}
+    parts: dict[str, Any] = {}
+    for key, fields in _NAMING.items():
+        parts[key] = tuple(_spelled(row, fields, ids) for row in getattr(data, key))
+
+    rings: dict[str, list[Point]] = {}
+    for row in parts["outlines"]:
+        name = ROOF if row.name.casefold() == ROOF else row.name
+        rings.setdefault(name, []).append((row.x_m, row.y_m))
+    outlines = {name: ring(points) for name, points in rings.items()}
+    arrays = tuple(row.outlined(outlines.get(row.id, ())) for row in data.arrays)
+    parts["objects"] = tuple(item.outlined(outlines.get(item.id, ())) for item in data.objects)
+    parts["roof"] = data.roof.outlined(outlines.get(ROOF, ()))
+    parts["arrays"] = arrays
+    if lost := [row.id for row in arrays if row.placed is None]:
+        raise ValueError(f"no rectangle and no outline of {', '.join(lost)}")
+    return data.model_copy(update=parts)
+
+
+def _spelled(row: Frozen, fields: Sequence[str], ids: Mapping[str, str]) -> Frozen:
+    names = {field: getattr(row, field) for field in fields}
+    return row.model_copy(update={key: ids.get(n.casefold(), n) for key, n in names.items()})

@@ -1,0 +1,252 @@
+"""The choices that cells offer, and the types of text and number that they accept.
+
+Owns no fields and no labels. Read `report.project.model` first.
+"""
+
+from __future__ import annotations
+
+import re
+from enum import StrEnum
+from typing import Annotated
+
+from pydantic import Field
+
+from solver.building.structure import APPROXIMATE_PERIODS
+from solver.records.record import UNIT_CHOICES
+from solver.rules.hazard import EDITIONS
+from solver.rules.provisions import Basis
+from solver.rules.rulesets import RULE_SETS
+
+MAX_TEXT = 2000
+
+
+Text = Annotated[str, Field(max_length=MAX_TEXT)]
+RequiredText = Annotated[str, Field(min_length=1, max_length=MAX_TEXT)]
+Id = Annotated[str, Field(min_length=1, max_length=40)]
+Positive = Annotated[float, Field(gt=0)]
+NotNegative = Annotated[float, Field(ge=0)]
+
+_DECIMAL = re.compile(r"[0-9]*\.[0-9]+")
+
+
+def decimals(text: str) -> tuple[float, ...]:
+    """Return the numbers of a list such as `0.40, 0.45`; empty if the text is not one."""
+    # Each needs a decimal point, so that a decimal comma never splits one number into two.
+    parts = [part.strip() for part in text.split(",")]
+    return tuple(map(float, parts)) if all(map(_DECIMAL.fullmatch, parts)) else ()
+
+
+class RuleSetName(StrEnum):
+    """Rule set to compare with: any of `solver.rules`."""
+
+    _ignore_ = "_rules"
+    for _rules in RULE_SETS.values():
+        vars()[_rules.code.upper().replace("-", "_")] = _rules.name
+
+
+class EditionName(StrEnum):
+    """Edition of ASCE 7 for the seismic parameters: any of `solver.rules.hazard`."""
+
+    _ignore_ = "_name"
+    for _name in EDITIONS:
+        vars()[_name.upper().replace(" ", "_").replace("-", "_")] = _name
+
+
+class BuildingCode(StrEnum):
+    """Building code that the jurisdiction adopts."""
+
+    IBC = "IBC"
+    CBC = "CBC"
+
+
+class UnitsFirst(StrEnum):
+    """System of units printed first."""
+
+    US = "US"
+    SI = "SI"
+
+    @property
+    def is_us(self) -> bool:
+        """Whether inches and pounds come first."""
+        return self is UnitsFirst.US
+
+
+class RiskCategory(StrEnum):
+    """Risk category, ASCE 7 Table 1.5-1."""
+
+    I = "I"  # noqa: E741
+    II = "II"
+    III = "III"
+    IV = "IV"
+
+    @classmethod
+    def _missing_(cls, value: object) -> RiskCategory | None:
+        return dict(zip(("1", "2", "3", "4"), cls, strict=True)).get(str(value))
+
+
+class SiteClass(StrEnum):
+    """Site class, ASCE 7 chapter 20; BC, CD and DE were added in the 2022 edition."""
+
+    A = "A"
+    B = "B"
+    BC = "BC"
+    C = "C"
+    CD = "CD"
+    D = "D"
+    D_DEFAULT = "D (default)"
+    DE = "DE"
+    E = "E"
+    F = "F"
+
+
+class Sdc(StrEnum):
+    """Seismic design category, ASCE 7 section 11.6."""
+
+    A = "A"
+    B = "B"
+    C = "C"
+    D = "D"
+    E = "E"
+    F = "F"
+
+
+class SlopeUnit(StrEnum):
+    """Unit of a roof slope."""
+
+    DEGREES = "degrees"
+    PERCENT = "percent"
+    IN_PER_12 = "in/12"
+
+    @classmethod
+    def _missing_(cls, value: object) -> SlopeUnit | None:
+        named = {"°": cls.DEGREES, "deg": cls.DEGREES, "%": cls.PERCENT, "in/ft": cls.IN_PER_12}
+        return named.get(str(value))
+
+
+class LayerKind(StrEnum):
+    """What the closed lines on a layer of a roof drawing are."""
+
+    ARRAY = "array"
+    FIXED = "fixed object"
+    UNLIKE_ARRAY = "unlike array"
+    EDGE_WITH_PARAPET = "edge with parapet"
+    EDGE_WITHOUT_PARAPET = "edge without parapet"
+    ROOF = "roof"
+    NOT_READ = "not read"
+
+
+class ObjectKind(StrEnum):
+    """What an array could strike or fall from."""
+
+    FIXED = "fixed object"
+    UNLIKE_ARRAY = "unlike array"
+    EDGE_WITH_PARAPET = "edge with parapet"
+    EDGE_WITHOUT_PARAPET = "edge without parapet"
+
+
+class Direction(StrEnum):
+    """Direction of a clearance from the array: downslope, upslope, cross-slope, or any."""
+
+    DOWN = "down"
+    UP = "up"
+    ACROSS = "across"
+    ANY = "any"
+
+    @classmethod
+    def _missing_(cls, value: object) -> Direction | None:
+        named = {"downslope": cls.DOWN, "upslope": cls.UP, "cross-slope": cls.ACROSS}
+        return named.get(str(value))
+
+
+class ClearanceSource(StrEnum):
+    """Where the distance of a clearance comes from, as the workbook states it."""
+
+    MEASURED = "measured"
+    DRAWING = "drawing"
+
+
+class DistanceBasis(StrEnum):
+    """Basis of the distance of a clearance, as the package prints it."""
+
+    ENTERED = "as entered"
+    MEASURED = "measured"
+    DRAWN = "drawing, not confirmed"
+    CONFIRMED = "drawing, confirmed"
+
+
+class AccelUnit(StrEnum):
+    """Unit of a motion record: that of the file, or any of `solver.records.record`."""
+
+    _ignore_ = "_unit"
+    FROM_FILE = "from file"
+    for _unit in UNIT_CHOICES:
+        vars()[_unit.upper().replace("/", "_")] = _unit
+
+
+class Scaling(StrEnum):
+    """How a record is scaled; the PPA is the peak of the horizontal component."""
+
+    AS_RECORDED = "as recorded"
+    FACTOR = "factor"
+    PPA = "PPA"
+    TARGET = "target spectrum"
+
+
+class RecordedAt(StrEnum):
+    """Where a motion was recorded, or for which level it was generated."""
+
+    ROOF = "roof"
+    GROUND = "ground"
+
+
+class Baseline(StrEnum):
+    """Baseline fitted to an acceleration and subtracted."""
+
+    NONE = "none"
+    MEAN = "mean"
+    LINEAR = "linear"
+    QUADRATIC = "quadratic"
+    CUBIC = "cubic"
+
+
+class StructureType(StrEnum):
+    """Structure type for the approximate period (ASCE 7, Table 12.8-2)."""
+
+    _ignore_ = "_system"
+    for _system in APPROXIMATE_PERIODS:
+        vars()[re.sub(r"\W", "_", _system).upper()] = _system
+
+
+class Polarity(StrEnum):
+    """Signs of the horizontal component to run."""
+
+    BOTH = "both"
+    AS_RECORDED = "as recorded"
+    REVERSED = "reversed"
+
+
+class PackageEdition(StrEnum):
+    """What a package holds."""
+
+    PLAN_CHECK = "plan check"
+    COMPLETE = "complete"
+
+
+class PlanPaper(StrEnum):
+    """Paper of the roof plan; the rest of the package is on Letter, or with A4 and A3 on A4."""
+
+    BY_SIZE = "by size"
+    LETTER = "Letter"
+    TABLOID = "11 x 17"
+    A4 = "A4"
+    A3 = "A3"
+
+
+class Statistic(StrEnum):
+    """Statistic that gives the design value from the peaks of all motions."""
+
+    _ignore_ = "_basis"
+    RULE_SET = "rule set"
+    for _basis in Basis:
+        if _basis is not Basis.TOO_FEW:
+            vars()[_basis.name] = _basis.value

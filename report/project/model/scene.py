@@ -1,0 +1,222 @@
+"""The roof and what is on it: arrays, the objects and edges around them, and the clearances.
+
+Read `report.project.model` first.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from operator import attrgetter
+from typing import Annotated, Self
+
+from pydantic import Field
+
+from report.project.model.choices import (
+    ClearanceSource,
+    Direction,
+    Id,
+    LayerKind,
+    NotNegative,
+    ObjectKind,
+    Positive,
+    RequiredText,
+    SlopeUnit,
+    Text,
+)
+from report.project.model.fields import DraftRow, Frozen
+from report.project.model.shapes import Point, Polygon, Rectangle, Shape
+from solver.friction_tests import MOST_MU, MOST_RATE_S_PER_M
+from solver.model import DefectError, Friction
+
+ImportanceCell = Annotated[float, Field(ge=1.0, le=1.5)]
+MuCell = Annotated[float, Field(ge=0.0, le=MOST_MU)]
+RateCell = Annotated[float, Field(gt=0.0, le=MOST_RATE_S_PER_M)]
+
+
+# Whence a row comes that a command has taken from a drawing.
+DRAWING = "drawing"
+# The same with the number of modules.
+DRAWN_MODULES = f"{DRAWING}, modules too"
+# Name of the roof on the sheet Outlines.
+ROOF = "roof"
+
+
+def slope_rad(value: float, unit: SlopeUnit) -> float:
+    """Return a slope as an angle [rad]."""
+    if unit is SlopeUnit.DEGREES:
+        return math.radians(value)
+    return math.atan(value / (100.0 if unit is SlopeUnit.PERCENT else 12.0))
+
+
+class Placed(Frozen):
+    """What has a place in roof plan: by the four sides of a rectangle, or by an outline."""
+
+    outline_m: Annotated[tuple[Point, ...], Field(exclude=True)] = ()
+    """Vertices of an outline in place of the rectangle: rows of another table."""
+
+    def outlined(self, points: tuple[Point, ...]) -> Self:
+        """Return the same with an outline [m] in place of a rectangle; empty for none."""
+        return self.model_copy(update={"outline_m": points})
+
+    @property
+    def placed(self) -> Shape | None:
+        """Its shape in roof plan, if given."""
+        if self.outline_m:
+            return Polygon(self.outline_m)
+        sides = _sides_of(self)
+        return None if None in sides else Rectangle(*sides)
+
+
+# Fields of a rectangle in roof plan.
+SIDES = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
+_sides_of = attrgetter(*SIDES)
+
+
+class Roof(Placed):
+    """The outline of the roof, if given, and north."""
+
+    x_from_m: float | None = None
+    x_to_m: float | None = None
+    y_from_m: float | None = None
+    y_to_m: float | None = None
+    north_deg: Annotated[float, Field(ge=0.0, le=360.0)] = 90.0
+
+
+@lru_cache
+def friction_law(
+    mu: float, mu_fast: float | None, rate_s_per_m: float | None, mu_static: float | None
+) -> Friction:
+    """Return a friction law; what is not given is as the coefficient says."""
+    return Friction(
+        mu_slow=mu,
+        mu_fast=mu if mu_fast is None else mu_fast,
+        rate_s_per_m=rate_s_per_m or 0.0,
+        mu_static=mu if mu_static is None else mu_static,
+    )
+
+
+# Fields of an array from which its weight is computed.
+WEIGHT_PARTS = ("modules", "module_weight_n", "ballast_n")
+
+
+def weight_of_parts(row: DraftRow) -> float | None:
+    """Return the weight [N] of modules and ballast, where they are given."""
+    modules, each_n, ballast_n = (row.get(part) for part in WEIGHT_PARTS)
+    if modules is None or each_n is None or ballast_n is None:
+        return None
+    return float(modules * each_n + ballast_n)
+
+
+class Array(Placed):
+    """A ballasted array that moves as one block."""
+
+    id: Id
+    slope_value: NotNegative
+    slope_unit: SlopeUnit
+    mu: Annotated[float, Field(ge=0.0, le=MOST_MU)]
+    mu_report: Text = ""
+    construction: RequiredText
+    modules: Annotated[int, Field(ge=1)] | None = None
+    module_weight_n: Positive | None = None
+    ballast_n: NotNegative | None = None
+    weight_n: Positive
+    cg_height_m: Positive
+    support_spacing_m: Positive
+    x_from_m: float | None = None
+    x_to_m: float | None = None
+    y_from_m: float | None = None
+    y_to_m: float | None = None
+    downslope_deg: Annotated[float, Field(ge=0.0, le=360.0)]
+
+    mu_fast: MuCell | None = None
+    mu_rate_s_per_m: RateCell | None = None
+    mu_static: MuCell | None = None
+
+    i_p: ImportanceCell = 1.0
+    base_m: Positive | None = None
+    contact_pressure_pa: Positive | None = None
+    interconnection_n: Positive | None = None
+    slack_m: NotNegative | None = None
+    roof_capacity_pa: Positive | None = None
+    wind_weight_pa: Positive | None = None
+    place_from: Text = ""  # `DRAWING` where a command has written the row
+
+    @property
+    def parts_n(self) -> float | None:
+        """Weight of modules and ballast [N], where they are given."""
+        return weight_of_parts(dict(self))
+
+    @property
+    def slope_rad(self) -> float:
+        """The slope as an angle [rad]."""
+        return slope_rad(self.slope_value, self.slope_unit)
+
+    @property
+    def friction(self) -> Friction:
+        """The friction coefficient as a function of velocity."""
+        return friction_law(self.mu, self.mu_fast, self.mu_rate_s_per_m, self.mu_static)
+
+    @property
+    def minimum_mu(self) -> float:
+        """The smallest friction coefficient at any velocity."""
+        return min(self.friction.mu_slow, self.friction.mu_fast)
+
+    @property
+    def weight_pa(self) -> float:
+        """Weight per plan area [Pa]."""
+        return self.weight_n / self.shape.area_m2
+
+    @property
+    def base_dimension_m(self) -> float:
+        """Least plan dimension of the supporting base [m]; where not given, support spacing."""
+        return self.support_spacing_m if self.base_m is None else self.base_m
+
+    @property
+    def shape(self) -> Shape:
+        """The array in roof plan."""
+        placed = self.placed
+        if placed is None:
+            raise DefectError(f"array {self.id} has no place in plan")
+        return placed
+
+
+class RoofObject(Placed):
+    """An object on the roof, or a roof edge."""
+
+    id: Id
+    kind: ObjectKind
+    height_m: NotNegative | None = None
+    x_from_m: float | None = None
+    x_to_m: float | None = None
+    y_from_m: float | None = None
+    y_to_m: float | None = None
+    i_p: ImportanceCell = 1.0
+    place_from: Text = ""  # `DRAWING` where a command has written the row
+
+
+class Vertex(Frozen):
+    """A vertex of the outline of an array, an object or the roof."""
+
+    name: Id
+    x_m: float
+    y_m: float
+    source: Text = ""
+
+
+class DrawingLayer(Frozen):
+    """A layer of a roof drawing, and what is drawn on it."""
+
+    layer: RequiredText
+    kind: LayerKind
+
+
+class Clearance(Frozen):
+    """The clearance from an array to an object or another array."""
+
+    array: Id
+    object: Id
+    direction: Direction
+    provided_m: NotNegative
+    pathway_m: NotNegative | None = None
+    source: ClearanceSource | None = None

@@ -1,0 +1,434 @@
+"""Reads an input workbook: every value with its cell, or every error with its cell.
+
+Combines opening (`archive`), finding (`locate`), converting (`cells`) and checking (`checks`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Set
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
+from pathlib import Path
+from typing import Any, Generic, Self, TypeVar
+
+from openpyxl.utils import coordinate_to_tuple
+from pydantic import ValidationError
+
+from report.project.check.checks import faults
+from report.project.model import ProjectInput
+from report.project.model.fields import Draft, Finding, Frozen, Place, Where
+from report.project.read import locate
+from report.project.read.archive import OpenBook, open_book
+from report.project.read.cells import (
+    CellError,
+    Found,
+    as_used,
+    blank_value,
+    read_cell,
+    stated_unit,
+    wish_for_missing,
+)
+from report.project.read.linked_files import Document, read_documents
+from report.project.read.positions import FRESH, CellPosition, found_at
+from report.project.read.unseen import (
+    Unseen,
+    by_cell,
+    copies,
+    from_outside,
+    not_calculated,
+    unseen,
+)
+from report.project.workbook import SECTION, SECTIONS
+from report.project.workbook.entries import Entry, SheetSection
+from report.project.workbook.layout import GoneInput
+from report.text.counts import cut, lowered, quoted, trimmed
+from solver.model import InputError, Problem
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EchoRow:
+    """One cell as read, as finished text."""
+
+    sheet: str
+    cell: str
+    label: str
+    typed: str  # for a formula, with its value when the workbook was saved
+    unit: str  # as typed
+    value: str  # as used; in SI if the unit can be chosen
+    unseen: str = ""  # how the workbook keeps the cell from sight, such as `hidden`
+
+    @property
+    def address(self) -> str:
+        """Its address: `Arrays!D7`."""
+        return f"{self.sheet}!{self.cell}"
+
+
+# Sheet of a workbook that `roofslip study` reads.
+_STUDY = "Study"
+
+IGNORED = "not an input, ignored"
+"""How the echo shows a cell under a heading that is not known."""
+
+
+Whole = TypeVar("Whole", bound=Frozen)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SheetOf(Generic[Whole]):
+    """A workbook as data, with every problem found in it."""
+
+    path: Path
+    sha256: str  # of the workbook
+    book: OpenBook  # for columns pasted into it and files beside it
+    whole: type[Whole]  # what it is the input of
+    sections: tuple[SheetSection, ...]  # of that
+    draft: Draft
+    echo: tuple[EchoRow, ...]  # every field, sheet by sheet and row by row
+    problems: tuple[tuple[Place, Problem], ...]
+    addresses: Mapping[Place, str]
+    unfound: frozenset[str]  # sections
+    unseen: tuple[Unseen, ...]
+    warnings: tuple[Finding, ...]  # on sheets that are ignored, and values that may be former ones
+    check: Callable[[Draft, Where], Iterable[Finding]] = faults
+    documents: tuple[Document, ...] = ()  # beside it, that the package attaches
+
+    @cached_property
+    def project(self) -> Whole:
+        """The input; raises `InputError` with every problem and its cell."""
+        self.refuse(())
+        parts: dict[str, Any] = {}
+        for part in self.sections:
+            # Each value was validated when its cell was read, and all together by `check`.
+            rows = tuple(part.model.model_construct(**row) for row in self.draft[part.key])
+            parts[part.key] = rows if part.is_table else rows[0]
+        return self.whole.model_validate(parts)
+
+    @cached_property
+    def units(self) -> Mapping[str, str]:
+        """Unit of each cell as typed, by address; empty for none."""
+        return {row.address: row.unit for row in self.echo}
+
+    def with_(self, **parts: Frozen | Iterable[Frozen]) -> Self:
+        """Return the same with other inputs, checked as those of a workbook.
+
+        Parameters
+        ----------
+        **parts : Frozen or iterable of Frozen
+            Fields of `project`: a block, or all rows of a table, such as
+            `arrays=[row.model_copy(update={"mu": 0.4}) for row in workbook.project.arrays]`.
+
+        Raises
+        ------
+        InputError
+            For a part or a value that a workbook may not have, and for each problem of this one.
+        """
+        self.refuse(())
+        sections, draft = {part.key: part for part in self.sections}, dict(self.draft)
+        if unknown := [key for key in parts if key not in sections]:
+            raise InputError(f"no input {', '.join(unknown)}; give some of {', '.join(sections)}")
+        for key, replaced in parts.items():
+            rows = [replaced] if isinstance(replaced, Frozen) else list(replaced)
+            try:
+                # `model_copy`, with which rows are mostly changed, validates nothing.
+                checked = [sections[key].model.model_validate(dict(row)) for row in rows]
+            except ValidationError as error:
+                wrong = (
+                    f"{key}: {'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors()
+                )
+                raise InputError(list(wrong)) from error
+            names = [entry.name for entry in sections[key].entries]
+            draft[key] = [{name: getattr(row, name) for name in names} for row in checked]
+        problems = _located(self.check(draft, self.where), self.addresses, self.unfound)
+        other = replace(self, draft=draft, problems=tuple(problems))
+        other.refuse(())
+        return other
+
+    def where(self, place: Place) -> str:
+        """Return the address of a place; that of its table or sheet if it has no cell."""
+        return where(self.addresses, place)
+
+    def refuse(self, faults: Iterable[Finding]) -> None:
+        """Raise InputError with all problems and further faults, in order, each once, if any."""
+        problems = [*self.problems, *_located(faults, self.addresses, self.unfound)]
+        order = {part.key: count for count, part in enumerate(self.sections)}
+        names = {part.key: [entry.name for entry in part.entries] for part in self.sections}
+
+        def rank(problem: tuple[Place, Problem]) -> tuple[int, int, int]:
+            section, row, field = problem[0]
+            fields = names[section]
+            return order[section], row, fields.index(field) if field in fields else -1
+
+        if problems:
+            raise InputError(list(dict.fromkeys(each for _, each in sorted(problems, key=rank))))
+
+
+Sheet = SheetOf[ProjectInput]
+"""The input workbook of a project as data."""
+
+
+def read(path: Path) -> Sheet:
+    """Read the input workbook at a path, or `input.xlsx` in a folder; raises as `read_book`."""
+    return read_book(open_book(path))
+
+
+def read_book(book: OpenBook) -> Sheet:
+    """Read an input workbook; run nothing.
+
+    Raises `InputError` if there is no workbook to read. `Sheet.project` raises the errors within
+    it, and `report.motions.prepare` those together with the errors of its records.
+    """
+    if _STUDY in book.scans and SECTIONS[0].sheet not in book.scans:
+        run = f"roofslip study {quoted(book.path)}"
+        raise InputError(f"{_STUDY}: this is the workbook of a study; run {run}")
+    sheet = read_as(ProjectInput, SECTIONS, book, faults)
+    documents, wrong = read_documents(book, sheet.draft)
+    problems = (*sheet.problems, *_located(wrong, sheet.addresses, sheet.unfound))
+    return replace(sheet, documents=documents, problems=problems)
+
+
+def without_motions(sheet: Sheet) -> ProjectInput:
+    """Return the input, whatever its motions are; its clearances may contradict the plan."""
+    fields, rows = len(SECTION["clearances"].entries), sheet.draft["clearances"]
+    # A contradiction has all of its cells.
+    passed = {"motions"} | ({"clearances"} if all(len(row) == fields for row in rows) else set())
+    problems = (
+        (place, problem)
+        for place, problem in sheet.problems
+        if place.section not in passed or place == Place("clearances")  # of its headings
+    )
+    draft = {**sheet.draft, "motions": ()}
+    return replace(sheet, draft=draft, problems=tuple(problems)).project
+
+
+def read_as(
+    whole: type[Whole],
+    sections: tuple[SheetSection, ...],
+    book: OpenBook,
+    check: Callable[[Draft, Where], Iterable[Finding]],
+) -> SheetOf[Whole]:
+    """Read every field of a whole input, with the errors of single cells and those of a check."""
+    gathered = Gathered()
+    for section in sections:
+        _read_section(book, section, gathered)
+    gathered.take(check(gathered.draft, partial(where, gathered.addresses)))
+    hidden = unseen(book, gathered.used)
+    marks, titles = by_cell(hidden), book.book.sheetnames
+    return SheetOf(
+        path=book.path,
+        sha256=book.sha256,
+        book=book,
+        whole=whole,
+        sections=sections,
+        check=check,
+        draft=gathered.draft,
+        echo=tuple(
+            replace(row, unseen=marks.get(row.address, ""))
+            for row in sorted(
+                gathered.echo,
+                key=lambda row: (titles.index(row.sheet), coordinate_to_tuple(row.cell)[0]),
+            )
+        ),
+        problems=tuple(gathered.problems),
+        addresses=gathered.addresses,
+        unfound=frozenset(gathered.unfound),
+        unseen=hidden,
+        warnings=(
+            *copies(book, sections, gathered.addresses),
+            *not_calculated(book, gathered.used, Place(sections[0].key)),
+            *from_outside(book, Place(sections[0].key)),
+        ),
+    )
+
+
+def where(addresses: Mapping[Place, str], place: Place) -> str:
+    """Return the address of a place; that of its table or sheet if it has no cell."""
+    whole = addresses.get(Place(place.section), place.section)
+    return addresses.get(place, whole)
+
+
+# Tables that name rows of others: without these every name would be unknown.
+_SOURCES = {
+    "clearances": {"arrays", "objects"},
+    "links": {"arrays"},
+    "study_arrays": {"mats"},
+    "friction_runs": {"mats"},
+}
+
+
+def _located(
+    faults: Iterable[Finding], addresses: Mapping[Place, str], unfound: Set[str]
+) -> Iterator[tuple[Place, Problem]]:
+    """Yield faults with their addresses, except those that only follow from a missing table."""
+    for fault in faults:
+        place = fault.place
+        if place.section not in unfound and not _SOURCES.get(place.section, set()) & unfound:
+            yield place, fault.problem(where(addresses, place))
+
+
+@dataclass(slots=True)
+class Gathered:
+    """What has been read so far; problems have the place used for sorting."""
+
+    draft: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
+    echo: list[EchoRow] = field(default_factory=list)
+    problems: list[tuple[Place, Problem]] = field(default_factory=list)
+    addresses: dict[Place, str] = field(default_factory=dict)
+    unfound: set[str] = field(default_factory=set)
+    used: list[tuple[Place, Found]] = field(default_factory=list)
+
+    def use(self, place: Place, cell: Found) -> None:
+        """Note that the content of a cell is read."""
+        if not cell.is_blank:
+            self.used.append((place, cell))
+
+    def add(self, place: Place, problems: Iterable[Problem]) -> None:
+        """Add problems of a place."""
+        self.problems += [(place, problem) for problem in problems]
+
+    def take(self, faults: Iterable[Finding]) -> None:
+        """Add faults."""
+        self.problems += _located(faults, self.addresses, self.unfound)
+
+
+def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
+    gathered.draft[section.key] = []
+    is_missing = locate.is_absent(book, section)
+    if is_missing and section.may_be_absent:
+        defaults = {entry.name: entry.default for entry in section.entries}
+        gathered.draft[section.key] += [] if section.is_table else [defaults]
+        return
+    try:
+        if is_missing and not section.is_table:
+            raise InputError(
+                f"{section.sheet}: the sheet is missing, or all labels of {section.title}; {FRESH}"
+            )
+        if section.is_table:
+            _read_table(book, section, locate.find_table(book, section), gathered)
+        else:
+            _read_block(book, section, gathered)
+    except InputError as error:
+        gathered.unfound.add(section.key)
+        gathered.add(Place(section.key), error.parts)
+
+
+def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
+    absent = locate.added_later(book, section)
+    row = {entry.name: entry.default for entry in absent}
+    typed = locate.beside(book, section)
+    gathered.draft[section.key].append(row)
+    cells_read: list[tuple[Entry, Place, Found, locate.FieldColumn]] = []
+    for entry in section.entries:
+        if entry in absent:
+            continue
+        place = Place(section.key, 0, entry.name)
+        try:
+            position = locate.find_cell(book, section, entry)
+            gathered.addresses[place] = position.address
+            column = locate.cell_as_column(book, section, entry, position)
+        except InputError as error:
+            gathered.add(place, error.parts)
+            continue
+        # A row that was copied has its label twice: nobody knows which value is meant.
+        for at in typed.get(entry.name, ()):
+            if at != position and at.column == position.column:
+                twice = f"label '{entry.heading}' appears twice, also in {at.address}"
+                gathered.add(place, [Problem(twice, "keep one", position.address)])
+        cell = found_at(book, position)
+        if not cell.is_blank and column.heading != position:
+            gathered.use(place, found_at(book, column.heading))
+        cells_read.append((entry, place, cell, column))
+    for gone, position in locate.gone_cells(book, section):
+        _refuse_gone(gone, Place(section.key), found_at(book, position), gathered)
+    # What a blank cell is computed from must have been read.
+    for entry, place, cell, column in sorted(
+        cells_read, key=lambda read: read[2].is_blank and read[0].computed is not None
+    ):
+        _read_field(entry, place, cell, column, stated_unit(entry, row, {}), row, gathered)
+
+
+def _refuse_gone(gone: GoneInput, place: Place, cell: Found, gathered: Gathered) -> None:
+    """Add a problem for an input that is no more, unless its cell asks for nothing."""
+    answer = trimmed(cell.shown)
+    if not cell.is_blank and answer.casefold() not in gone.defaults:
+        found = f"{lowered(gone.label)} is '{cut(answer)}'"
+        gathered.add(place, [Problem(found, gone.remedy, cell.address)])
+
+
+def _read_table(
+    book: OpenBook, section: SheetSection, table: locate.TableFound, gathered: Gathered
+) -> None:
+    gathered.addresses[Place(section.key)] = table.heading.address
+    gathered.add(Place(section.key), table.problems)
+    for other in table.others:
+        label = f"column '{found_at(book, other).shown}'"
+        ignored = EchoRow(
+            sheet=other.sheet, cell=other.cell, label=label, typed="", unit="", value=IGNORED
+        )
+        gathered.echo.append(ignored)
+    sheet = table.heading.sheet
+    for number in table.rows:
+        cells = {
+            name: found_at(book, CellPosition(sheet, number, column.number))
+            for name, column in table.columns.items()
+        }
+        if not all(cell.is_blank for cell in cells.values()):
+            _read_row(section, table, cells, gathered)
+        for gone, heading in table.gone:
+            at = CellPosition(sheet, number, heading.column)
+            _refuse_gone(gone, Place(section.key), found_at(book, at), gathered)
+    read = {place.field for place, _ in gathered.used if place.section == section.key}
+    for name, column in table.columns.items():
+        if name in read:
+            gathered.use(Place(section.key), found_at(book, column.heading))
+
+
+def _read_row(
+    section: SheetSection, table: locate.TableFound, cells: dict[str, Found], gathered: Gathered
+) -> None:
+    row: dict[str, Any] = {}
+    rows = gathered.draft[section.key]
+    rows.append(row)
+    for entry in section.entries:
+        if entry.name in table.absent:
+            row[entry.name] = entry.default
+        elif entry.name in cells:
+            place, cell = Place(section.key, len(rows) - 1, entry.name), cells[entry.name]
+            gathered.addresses[place] = cell.address
+            column, stated = table.columns[entry.name], stated_unit(entry, row, cells)
+            _read_field(entry, place, cell, column, stated, row, gathered)
+
+
+def _read_field(
+    entry: Entry,
+    place: Place,
+    cell: Found,
+    column: locate.FieldColumn,
+    stated: str,
+    row: dict[str, Any],
+    gathered: Gathered,
+) -> None:
+    gathered.use(place, cell)
+    try:
+        if not cell.is_blank:
+            value = read_cell(cell, entry, column.unit, column.si, stated)
+        elif entry.is_required:
+            raise CellError("is missing", wish_for_missing(entry, column.unit, column.si))
+        else:
+            value = blank_value(entry, row)
+    except CellError as error:
+        gathered.add(place, [error.parts[0].at(cell.address, entry.spoken)])
+        return
+    row[entry.name] = value
+    shown = as_used(value, entry, column.unit)
+    if cell.is_blank and shown:
+        computed = f"computed, {entry.rule}" if entry.rule else "computed"
+        shown += f" ({'default' if value == entry.default else computed})"
+    echoed = EchoRow(
+        sheet=cell.sheet,
+        cell=cell.cell,
+        label=entry.heading,
+        typed=cell.text,
+        unit=column.unit,
+        value=shown or "—",
+    )
+    gathered.echo.append(echoed)

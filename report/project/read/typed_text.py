@@ -1,0 +1,292 @@
+"""Numbers, dates and choices as people type them, number formats, and references of formulas.
+
+Knows no cells (`report.project.read.cells`, which says what would do where there is none).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from datetime import date, datetime
+from fractions import Fraction
+from functools import lru_cache
+
+from openpyxl.formula import Tokenizer
+from openpyxl.formula.tokenizer import Token, TokenizerError
+
+_DIGITS = r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)"
+_SHARE = r"[0-9]{1,3}/[1-9][0-9]{0,2}"
+_NUMBER = re.compile(rf"[+-]?{_DIGITS}(?:[eE][+-]?[0-9]+)?")
+_DECIMAL_COMMA = re.compile(r"([+\u2212-]?[0-9]*),([0-9]+)")
+_THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:,[0-9]{3})+(?:\.[0-9]+)?")
+_MIXED = re.compile(rf"([0-9]+)[\s-]+({_SHARE})")
+_FEET = re.compile(
+    rf"(?P<sign>[+-]?)(?:(?P<feet>{_DIGITS})\s*')?[\s-]*"
+    rf"(?:(?P<inches>{_DIGITS})(?:[\s-]+(?P<share>{_SHARE}))?\s*\"|(?P<only>{_SHARE})\s*\")?"
+)
+_RISE = re.compile(
+    rf"(?:({_DIGITS})|(?:([0-9]+)[\s-]+)?({_SHARE}))(?:\s*(?:\"|in\.?))?"
+    r"\s*(?:(?:/|per)\s*(?:ft\.?|foot)|:\s*12\"?|(?<=in)\s*12)"
+)
+_ONE_IN = re.compile(rf"1\s*:\s*({_DIGITS})")
+_MARKS = {"\u2018": "'", "\u2019": "'", "\u2032": "'", "\u201d": '"', "\u2033": '"', "''": '"'}
+_SHARES = {"\u00bc": "1/4", "\u00bd": "1/2", "\u00be": "3/4"}
+_INCHES_PER_FOOT = 12.0
+
+_DATES = ("%b %d %Y", "%B %d %Y", "%d %b %Y", "%d %B %Y", "%Y %m %d")
+_BESIDE_DATE = re.compile(
+    r"(?:mon|tues|wednes|thurs|fri|satur|sun)day\b|(?<=[0-9])(?:st|[nr]d|th)\b"
+)
+_SLASHED = re.compile(r"([0-9]{1,2})[/.-]([0-9]{1,2})[/.-]([0-9]{4})")
+
+
+def number_in(text: str) -> float:
+    """Return the number in a text: `0.45`, `0,5`, `1,234.5`, `4 1/2`; else NaN."""
+    text = text.replace("\u2212", "-")
+    mixed = _MIXED.fullmatch(plain_marks(text))
+    if mixed and Fraction(mixed[2]) < 1:
+        return float(mixed[1]) + float(Fraction(mixed[2]))
+    # A comma before three digits has two meanings.
+    if comma := _DECIMAL_COMMA.fullmatch(text):
+        text = text if _THOUSANDS.fullmatch(text) else f"{comma[1]}.{comma[2]}"
+    elif _THOUSANDS.fullmatch(text):
+        text = text.replace(",", "")
+    return float(text) if _NUMBER.fullmatch(text) else math.nan
+
+
+def in_thousands(text: str) -> str:
+    """Return a number with a comma before its thousands without it; empty for another text."""
+    return text.replace(",", "") if _THOUSANDS.fullmatch(text) else ""
+
+
+def plain_marks(text: str) -> str:
+    """Return a text with plain marks of feet and inches, and fractions of two numbers."""
+    for mark, plain in _MARKS.items():
+        text = text.replace(mark, plain)
+    for mark, share in _SHARES.items():
+        text = re.sub(rf"(?<=[0-9]) ?{mark}", f" {share}", text).replace(mark, share)
+    return text
+
+
+def inches_in(text: str) -> float:
+    """Return a length with marks [in]: `28'-6"`, `4'`, `3 1/2"`; NaN for another text."""
+    text = plain_marks(text)
+    match = _FEET.fullmatch(text)
+    if not match or not text.endswith(("'", '"')):
+        return math.nan
+    share = Fraction(match["share"] or match["only"] or 0)
+    inches = float(match["inches"] or 0.0) + float(share)
+    # Of inches beside feet, 12 and more are a slip of the finger.
+    if match["feet"] and inches >= _INCHES_PER_FOOT:
+        return math.nan
+    return (_INCHES_PER_FOOT * float(match["feet"] or 0.0) + inches) * (
+        -1.0 if match["sign"] == "-" else 1.0
+    )
+
+
+def rise_in(text: str) -> float:
+    """Return the rise in 12: `1/2:12`, `0.5 in 12`, `1/4"/ft`, `1:24` is 0.5; NaN for none."""
+    if (one_in := _ONE_IN.fullmatch(text)) and float(one_in[1]) >= 1.0:
+        return 12.0 / float(one_in[1])
+    match = _RISE.fullmatch(plain_marks(text))
+    if not match:
+        return math.nan
+    return float(match[1] or 0.0) + float(match[2] or 0.0) + float(Fraction(match[3] or 0))
+
+
+def dates_in(text: str) -> list[date]:
+    """Return the dates that a text may mean: one of `Nov 20, 2026`, two of `3/5/2026`."""
+    try:
+        return [datetime.fromisoformat(text).date()]
+    except ValueError:
+        pass
+    # Day and month in either order, as far as both are dates.
+    if slashed := _SLASHED.fullmatch(text):
+        first, second, year = map(int, slashed.groups())
+        dates = []
+        for month, day in dict.fromkeys(((first, second), (second, first))):
+            try:
+                dates.append(date(year, month, day))
+            except ValueError:
+                continue
+        return dates
+    plain = " ".join(re.sub(r"[.,/-]", " ", _BESIDE_DATE.sub("", text.casefold())).split())
+    plain = plain.replace("sept ", "sep ")
+    for pattern in _DATES:
+        try:
+            return [datetime.strptime(plain, pattern).date()]
+        except ValueError:
+            continue
+    return []
+
+
+def separator(lines: Collection[str]) -> str:
+    """Return what separates the columns of a CSV: what most of its lines have, `;` before `,`."""
+    return max(";\t,", key=lambda mark: sum(mark in line for line in lines))
+
+
+def with_point(text: str, separated_by: str) -> str:
+    """Return a number with a decimal point, of a CSV whose columns a semicolon separates."""
+    comma = _DECIMAL_COMMA.fullmatch(text) if separated_by == ";" else None
+    return f"{comma[1]}.{comma[2]}" if comma else text
+
+
+def choice_in(text: str, choices: Iterable[str]) -> str:
+    """Return the choice that a text is, but for capitals, blanks, hyphens and brackets."""
+    return next((choice for choice in choices if _bare(choice) == _bare(text)), "")
+
+
+def _bare(text: str) -> str:
+    return re.sub(r"[\s()-]", "", text.casefold())
+
+
+# No repetition can be matched in two ways: a code takes time as its length.
+_PARTS = re.compile(
+    r'"(?P<quoted>[^"]*)(?:"|$)|\\(?P<escaped>.)|(?P<space>[_*].)|\[\$(?P<currency>[^\]-]*+)[^\]]{0,255}\]'
+    r"|\[[^\]]{0,255}\]|(?P<end>;)|(?P<general>General)|(?P<digits>[0#?.,%@]|E[+-])|(?P<other>.)",
+    re.IGNORECASE | re.DOTALL,
+)
+_LONGEST = 255  # characters that Excel allows in a format code (specifications and limits)
+
+# Each comma behind the last digit divides what is shown by 1,000.
+_SCALE = re.compile(r"[0#?](,+)(?![0#?,])")
+_WORDS = re.compile(r"[^\s()\[\]{},;:=]+")
+_SINGLE = re.compile(r"([^\d^]+?)\^?([23]?)")
+
+_NAMES = {
+    "in": ("inch", "inches", '"', "″", "”"),
+    "ft": ("foot", "feet", "'", "′", "’"),
+    "yd": ("yard", "yards"),
+    "mm": ("millimeter", "millimeters", "millimetre", "millimetres"),
+    "cm": ("centimeter", "centimeters", "centimetre", "centimetres"),
+    "m": ("meter", "meters", "metre", "metres"),
+    "km": ("kilometer", "kilometers", "kilometre", "kilometres"),
+    "mi": ("mile", "miles"),
+    "lb": ("lbs", "lbf", "pound", "pounds"),
+    "kip": ("kips", "k"),
+    "N": ("newton", "newtons"),
+    "kg": ("kgf", "kilogram", "kilograms"),
+    "t": ("ton", "tons", "tonne", "tonnes"),
+    "s": ("sec", "secs", "second", "seconds"),
+    "ms": ("msec",),
+    "min": ("minute", "minutes"),
+    "rad": ("radian", "radians"),
+    "deg": ("°", "º", "degree", "degrees"),
+    "%": ("percent", "pct"),
+    "cm/s2": ("gal",),
+    **dict.fromkeys(("kN", "MN", "psf", "psi", "ksi", "Pa", "kPa", "MPa", "plf", "Hz", "g"), ()),
+}
+_UNITS = {
+    name if len(name) == 1 else name.casefold(): unit
+    for unit, others in _NAMES.items()
+    for name in (unit, *others)
+}
+_ALSO_A_WORD = frozenset(("min", "k"))  # a minimum, thousands
+
+
+@dataclass(frozen=True, slots=True)
+class _Section:
+    """One of the sections of a format code: its digits, and the text that it adds."""
+
+    digits: str
+    text: str
+
+
+def misleading(code: str, unit: str) -> str:
+    """Return how a format shows a number as another, such as `in mm`; empty for its own unit."""
+    # The fourth section is that of text.
+    return next(filter(None, (_misleading(part, unit) for part in _sections(code)[:3])), "")
+
+
+def is_percentage(code: str) -> bool:
+    """Whether a format shows 0.05 as 5%."""
+    return any("%" in section.digits for section in _sections(code))
+
+
+def shows_nothing(code: str, value: object) -> bool:
+    """Whether a format shows no digit of a number, or none of a text."""
+    sections = _sections(code)
+    if isinstance(value, str):
+        return len(sections) > 3 and "@" not in sections[3].digits
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    by_sign = 0 if value > 0 or len(sections) == 1 else 1
+    if value == 0:
+        by_sign = 2 if len(sections) > 2 else 0
+    return not re.search("[0#?@]", sections[by_sign].digits)
+
+
+def _misleading(section: _Section, unit: str) -> str:
+    if scale := _SCALE.search(section.digits):
+        return f"divided by {1000 ** len(scale[1]):,}" if len(scale[1]) < 5 else "divided"
+    own, named = unit_named(unit) or unit, list(_units_named(section.text))
+    if not named or own in (name for _, name in named):
+        return ""
+    return f"in {named[0][0]}"
+
+
+def _units_named(text: str) -> Iterator[tuple[str, str]]:
+    """Yield the words of a text that name a unit, each with the symbol of the unit."""
+    for word in _WORDS.findall(text):
+        bare = word.strip(".-–+~&!<>$_") or word
+        if (unit := unit_named(bare)) and bare.casefold() not in _ALSO_A_WORD:
+            yield bare, unit
+
+
+@lru_cache(maxsize=256)
+def unit_named(word: str) -> str:
+    """Return the symbol of a unit, of whatever name; empty if it is none."""
+    plain = word.replace("²", "2").replace("³", "3")
+    parts = [_single(part) for part in re.split(r"[/·*-]", plain)]
+    return "/".join(parts) if all(parts) else ""
+
+
+def _single(part: str) -> str:
+    match = _SINGLE.fullmatch(part.strip("."))
+    if match is None:
+        return ""
+    # Of one letter the case counts: g is no G.
+    name = match[1] if len(match[1]) == 1 else match[1].casefold()
+    unit = _UNITS.get(name, "")
+    return f"{unit}{match[2]}" if unit else ""
+
+
+# A workbook has few formats, and many cells of each.
+@lru_cache(maxsize=65_536)
+def _sections(code: str) -> tuple[_Section, ...]:
+    """Return the sections of a format code: of numbers above, below and equal to 0, and of text."""
+    sections, digits, text = [], "", ""
+    for match in _PARTS.finditer(code[:_LONGEST] or "General"):
+        kind = match.lastgroup
+        match kind:
+            case "end":
+                sections.append(_Section(digits, text))
+                digits, text = "", ""
+            case "digits":
+                digits += match[0]
+            case "general":
+                digits += "0"
+            case "space":
+                text += " "
+            case "quoted" | "escaped" | "currency" | "other":
+                text += match[kind]
+    return (*sections, _Section(digits, text))
+
+
+_COMPUTED = re.compile(r":|\b(?:INDIRECT|OFFSET|TABLE)\b", re.IGNORECASE)
+
+
+# The rows of a table have the same formula.
+@lru_cache(maxsize=1024)
+def references(formula: str) -> Sequence[str]:
+    """Return the cells and names that a formula refers to; one is empty where it computes some."""
+    try:
+        tokens: Sequence[Token] = Tokenizer(formula).items
+    except (TokenizerError, IndexError):  # the second of a bracket that closes nothing
+        return [""]
+    others = "".join(token.value for token in tokens if token.type != Token.OPERAND)
+    if not tokens or _COMPUTED.search(others):
+        return [""]
+    return [token.value for token in tokens if token.subtype == Token.RANGE]

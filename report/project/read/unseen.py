@@ -1,0 +1,326 @@
+"""Cells that are read though the workbook does not show them, or shows them struck through.
+
+Also formulas whose saved values may be former ones, and sheets that are copies of another one.
+Knows no field. Read `unseen`, and `warnings` for what is said of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from itertools import groupby, islice
+from typing import Any
+
+from openpyxl.styles.colors import COLOR_INDEX, Color
+from openpyxl.utils import coordinate_to_tuple, get_column_letter
+from openpyxl.worksheet.worksheet import Worksheet
+
+from report.project.check.findings import listed, warning
+from report.project.model.fields import Finding, Place
+from report.project.read.archive import OpenBook
+from report.project.read.cells import Found
+from report.project.read.positions import bounds_of, fields_by_label, labels
+from report.project.read.typed_text import shows_nothing
+from report.project.workbook.entries import SheetSection
+from report.text.counts import cut
+
+# Cells that are read, each with the place that it is read for.
+Used = Iterable[tuple[Place, Found]]
+
+# Height [points] and width [characters] below which nothing in a row or column can be read.
+LEAST_HEIGHT, LEAST_WIDTH = 3.0, 0.4
+
+# Difference of two colors in red, green and blue, each of 255, below which they look alike.
+_LIKE = 24
+
+_MOST_RANGES = 8
+
+# Filters of a sheet that are told from other ways to hide a row.
+_MOST_FILTERS = 50
+
+
+class Concealment(StrEnum):
+    """How a cell is kept from sight, as the echo prints it."""
+
+    SHEET = "hidden sheet"
+    HIDDEN = "hidden"
+    FILTERED = "filtered out"
+    STRUCK = "struck through"
+    INVISIBLE = "invisible"
+
+
+_SENTENCES: Mapping[Concealment, str] = {
+    Concealment.SHEET: "the sheet is {state}, and {cells} on it {are} read: show it, or clear what"
+    " is not meant",
+    Concealment.HIDDEN: "{cells} {are} in hidden rows or columns, and {are} read: show them, or"
+    " clear what is not meant",
+    Concealment.FILTERED: "{cells} {are} in rows that a filter hides, and {are} read: clear the"
+    " filter, and delete the rows that are not meant",
+    Concealment.STRUCK: "{cells} {are} struck through, and {are} read: clear what is not meant,"
+    " and remove the strikethrough from the rest",
+    Concealment.INVISIBLE: "{cells} cannot be seen for the color of the text or the number format,"
+    " and {are} read: change it, or clear what is not meant",
+}
+_STATES = {"hidden": "hidden", "veryHidden": "hidden so that Excel's menu does not list it"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unseen:
+    """Cells of a sheet that are read and kept from sight in one way."""
+
+    kind: Concealment
+    sheet: str
+    state: str  # of the sheet, as openpyxl names it
+    place: Place  # of the first cell
+    cells: tuple[tuple[int, int], ...]  # row and column of each
+
+    @property
+    def words(self) -> str:
+        """The cells as ranges: `cells B5, B7:B9`."""
+        ranges = list(_ranges(self.cells))
+        more = len(ranges) - _MOST_RANGES
+        listed = ", ".join(ranges[:_MOST_RANGES])
+        if more > 0:
+            listed += f" and {more} more range{'s' if more > 1 else ''}"
+        return f"{'cells' if self.are_many else 'cell'} {listed}"
+
+    @property
+    def are_many(self) -> bool:
+        """Whether it is more than one cell."""
+        return len(set(self.cells)) > 1
+
+
+def unseen(book: OpenBook, used: Used) -> tuple[Unseen, ...]:
+    """Return what is read and kept from sight, one for each sheet and kind."""
+    sights: dict[str, _Sight] = {}
+    by_sheet: dict[tuple[str, Concealment], list[tuple[Place, tuple[int, int]]]] = {}
+    for place, cell in used:
+        if cell.sheet not in sights:
+            sights[cell.sheet] = _Sight(book.book[cell.sheet])
+        at = coordinate_to_tuple(cell.cell)
+        for kind in sights[cell.sheet].kinds(*at, cell):
+            by_sheet.setdefault((cell.sheet, kind), []).append((place, at))
+    return tuple(
+        Unseen(
+            kind=kind,
+            sheet=sheet,
+            state=book.book[sheet].sheet_state,
+            place=cells[0][0],
+            cells=tuple(at for _, at in cells),
+        )
+        for (sheet, kind), cells in by_sheet.items()
+    )
+
+
+def by_cell(unseen_cells: Iterable[Unseen]) -> Mapping[str, str]:
+    """Return in words how each cell is kept from sight, by its address."""
+    words: dict[str, str] = {}
+    for unseen in unseen_cells:
+        for row, column in unseen.cells:
+            address = f"{unseen.sheet}!{get_column_letter(column)}{row}"
+            words[address] = ", ".join(filter(None, (words.get(address, ""), unseen.kind.value)))
+    return words
+
+
+def warnings(unseen_cells: Iterable[Unseen]) -> Iterator[Finding]:
+    """Yield a warning for each sheet and kind, with the cells."""
+
+    def key(together: Unseen) -> tuple[str, str]:
+        return together.sheet, together.kind
+
+    for _, group in groupby(sorted(unseen_cells, key=key), key=key):
+        first, *others = group
+        together = replace(first, cells=(*first.cells, *(cell for o in others for cell in o.cells)))
+        text = _SENTENCES[together.kind].format(
+            state=_STATES.get(together.state, "hidden"),
+            cells=together.words,
+            are="are" if together.are_many else "is",
+        )
+        row, column = together.cells[0]
+        at = f"{together.sheet}!{get_column_letter(column)}{row}"
+        yield replace(warning(f"{together.kind} {together.sheet}", together.place, text), cell=at)
+
+
+def _ranges(cells: Iterable[tuple[int, int]]) -> Iterator[str]:
+    """Yield cells as ranges: the runs of each row, as one where those below have its columns."""
+    open_: dict[tuple[int, int], tuple[int, int]] = {}
+    done: list[tuple[int, int, int, int]] = []
+    for row, group in groupby(sorted(set(cells)), key=lambda cell: cell[0]):
+        runs = list(_runs(column for _, column in group))
+        for run in runs:
+            top, last = open_.get(run, (row, row))
+            if last < row - 1:
+                done.append((top, run[0], last, run[1]))
+                top = row
+            open_[run] = top, row
+    done += [(top, left, last, right) for (left, right), (top, last) in open_.items()]
+    for top, left, last, right in sorted(done):
+        first, end = f"{get_column_letter(left)}{top}", f"{get_column_letter(right)}{last}"
+        yield first if first == end else f"{first}:{end}"
+
+
+def _runs(numbers: Iterable[int]) -> Iterator[tuple[int, int]]:
+    """Yield first and last of each run of successive numbers, which increase."""
+    for _, group in groupby(enumerate(numbers), key=lambda cell: cell[1] - cell[0]):
+        run = [number for _, number in group]
+        yield run[0], run[-1]
+
+
+class _Sight:
+    """What a sheet hides; what it says of a style is looked up once."""
+
+    def __init__(self, sheet: Worksheet) -> None:
+        self._sheet = sheet
+        self._is_hidden = sheet.sheet_state != "visible"
+        self._rows = dict(_hidden_rows(sheet))
+        self._columns = [
+            range(column.min or 0, (column.max or 0) + 1)
+            for column in sheet.column_dimensions.values()
+            if column.hidden or _is_less(column.width, LEAST_WIDTH)
+        ]
+        self._styles: dict[int, Sequence[Concealment]] = {}
+
+    def kinds(self, row: int, column: int, content: Found) -> Sequence[Concealment]:
+        """Return how a cell is kept from sight."""
+        of_place = self._of_place(row, column)
+        cell = self._sheet.cell(row, column)
+        if not cell.has_style:
+            return of_place
+        style = cell.style_id
+        if style not in self._styles:
+            self._styles[style] = tuple(_of_style(cell))
+        is_blanked = shows_nothing(content.number_format, content.value)
+        blanked = (Concealment.INVISIBLE,) * is_blanked
+        return tuple(dict.fromkeys((*of_place, *self._styles[style], *blanked)))
+
+    def _of_place(self, row: int, column: int) -> Sequence[Concealment]:
+        if self._is_hidden:
+            return (Concealment.SHEET,)
+        if row in self._rows:
+            return (self._rows[row],)
+        return (Concealment.HIDDEN,) if any(column in each for each in self._columns) else ()
+
+
+def _hidden_rows(sheet: Worksheet) -> Iterator[tuple[int, Concealment]]:
+    filtered = tuple(islice(_filtered(sheet), _MOST_FILTERS))
+    for row, said in sheet.row_dimensions.items():
+        if said.hidden or _is_less(said.height, LEAST_HEIGHT):
+            is_filtered = any(row in rows for rows in filtered)
+            yield row, Concealment.FILTERED if is_filtered else Concealment.HIDDEN
+
+
+def _is_less(size: float | None, minimum: float) -> bool:
+    return size is not None and size < minimum
+
+
+def _filtered(sheet: Worksheet) -> Iterator[range]:
+    """Yield the rows of each filter that is in use, without that of its headings."""
+    for area in (sheet.auto_filter, *(table.autoFilter for table in sheet.tables.values())):
+        bounds = bounds_of(area.ref) if area is not None and area.filterColumn else None
+        if bounds:
+            yield range(bounds[1] + 1, bounds[3] + 1)
+
+
+def _of_style(cell: Any) -> Iterator[Concealment]:
+    if cell.font.strike:
+        yield Concealment.STRUCK
+    fill = cell.fill
+    behind = _rgb(fill.fgColor, _WHITE) if getattr(fill, "fill_type", None) == "solid" else _WHITE
+    color = _rgb(cell.font.color, _BLACK)
+    if color and behind and all(abs(a - b) < _LIKE for a, b in zip(color, behind, strict=True)):
+        yield Concealment.INVISIBLE
+
+
+_WHITE, _BLACK = (255, 255, 255), (0, 0, 0)
+# The first two colors of a theme: those of background and text.
+_OF_THEME = (_WHITE, _BLACK)
+
+
+def _rgb(color: Color | None, default: tuple[int, ...]) -> tuple[int, ...]:
+    """Return red, green and blue of a color; empty for one that only a theme knows."""
+    if color is None:
+        return default
+    # The first two of eight digits are the opacity, which programs set as they like.
+    if color.type == "rgb":
+        return tuple(bytes.fromhex(str(color.rgb)[-6:]))
+    if color.tint:
+        return ()
+    if color.type == "theme":
+        return _OF_THEME[color.theme] if color.theme < len(_OF_THEME) else ()
+    if color.type == "indexed" and color.indexed < len(COLOR_INDEX):
+        return tuple(bytes.fromhex(COLOR_INDEX[color.indexed][-6:]))
+    return default
+
+
+_MOST_LISTED = 8
+
+
+def from_outside(book: OpenBook, whole: Place) -> Iterator[Finding]:
+    """Yield a warning if a workbook takes values from elsewhere: by DDE, or of other files."""
+    if book.outside:
+        names = (cut(link).encode("ascii", "replace").decode() for link in book.outside)
+        which = listed(names, _MOST_LISTED)
+        text = f"the workbook takes values from elsewhere ({which}), of which the saved ones are"
+        yield warning("outside", whole, f"{text} read: type the values instead")
+
+
+def not_calculated(book: OpenBook, used: Used, whole: Place) -> Iterator[Finding]:
+    """Yield a warning if the values of formulas may not follow from the cells they refer to."""
+    says = book.calculation
+    read = [(place, cell.address) for place, cell in used if cell.formula]
+    if says.get("calcCompleted", "1") in ("0", "false"):
+        manual = " (calculation is manual)" if says.get("calcMode") == "manual" else ""
+        why = f"was saved before its formulas were calculated{manual}"
+    # So does a fresh one, which has such values only in formulas that are read.
+    elif read and says.get("fullCalcOnLoad", "0") in ("1", "true"):
+        why = "asks to be calculated when it is opened"
+    else:
+        return
+    if read or any(scan.formulas for scan in book.scans.values()):
+        place, cell = read[0] if read else (whole, "")
+        which = listed((address for _, address in read), _MOST_LISTED) or "its computed cells"
+        text = f"the workbook {why}, and {which} may show former values: calculate it (F9; in"
+        text += " LibreOffice Ctrl+Shift+F9) and save it"
+        yield replace(warning("calculation", place, text), cell=cell)
+
+
+# Labels in each row of a sheet, in the form that is compared.
+Rows = tuple[frozenset[str], ...]
+
+
+def copies(
+    book: OpenBook, sections: Iterable[SheetSection], addresses: Mapping[Place, str]
+) -> Iterator[Finding]:
+    """Yield a warning for each sheet with all labels of one that is read."""
+    rows = {sheet.title: _rows(book, sheet) for sheet in book.book.worksheets}
+    told: set[str] = set()
+    for section in sections:
+        addresses_of = (
+            address for place, address in addresses.items() if place.section == section.key
+        )
+        read = next(addresses_of, "").rpartition("!")[0]
+        labels = _labels(section, rows[read]) if read in rows else frozenset()
+        for title in rows:
+            if labels and title not in (read, *told) and labels <= _labels(section, rows[title]):
+                told.add(title)
+                text = (
+                    f"sheets '{read}' and '{title}' both have the labels of {section.title};"
+                    f" '{read}' is read, and '{title}' is ignored: delete the one that is not meant"
+                )
+                yield warning(f"copy {title}", Place(section.key), text)
+
+
+def _rows(book: OpenBook, sheet: Worksheet) -> Rows:
+    rows: dict[int, set[str]] = {}
+    for position, label in labels(book, sheet):
+        rows.setdefault(position.row, set()).add(label)
+    return tuple(map(frozenset, rows.values()))
+
+
+def _labels(section: SheetSection, rows: Rows) -> Set[str]:
+    """Return the labels of a section on a sheet: of a table, those in one row."""
+    fields = fields_by_label(section)
+    places = rows if section.is_table else (frozenset().union(*rows),)
+    labels = ({fields[label].name for label in place & fields.keys()} for place in places)
+    return max(labels, key=len, default=set())

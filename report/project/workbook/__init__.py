@@ -1,0 +1,24 @@
+"""What Excel knows of a project: the sections of its sheets, each a list of inputs.
+
+An input has heading, field, example, unit and note; read, write and check work from these lists.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from report.project.workbook.entries import SheetSection
+from report.project.workbook.motions import BUILDING, LINKS, MOTIONS, SPECTRUM, TARGET
+from report.project.workbook.options import ACKNOWLEDGED, CONFIRMATION, OPTIONS, OVERRIDES
+from report.project.workbook.project import FRICTION_RUNS, FRICTION_TESTS, PROJECT, REVISIONS, SITE
+from report.project.workbook.roof import ARRAYS, CLEARANCES, LAYERS, OBJECTS, OUTLINES, ROOF
+
+SECTIONS = (
+    PROJECT, REVISIONS, SITE, ROOF, ARRAYS, FRICTION_TESTS, FRICTION_RUNS, OBJECTS, CLEARANCES,
+    MOTIONS, BUILDING, SPECTRUM, LINKS, OPTIONS, CONFIRMATION, TARGET, OVERRIDES, OUTLINES, LAYERS,
+    ACKNOWLEDGED,
+)  # fmt: skip
+"""Parts of the workbook, in its order; the key of each is its field of `ProjectInput`."""
+
+SECTION: Mapping[str, SheetSection] = {section.key: section for section in SECTIONS}
+"""The same by key."""

@@ -1,0 +1,156 @@
+"""Where the template has put the fields and the answers, and how formulas refer to them.
+
+Also labels and headings of earlier workbooks, which can still be read.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from openpyxl import Workbook
+from openpyxl.utils import get_column_letter, quote_sheetname
+from openpyxl.workbook.defined_name import DefinedName
+from openpyxl.worksheet.worksheet import Worksheet
+
+from report.project.workbook.entries import SheetSection
+
+# Last row that dropdowns and conditional formats reach.
+LAST_ROW = 500
+
+# Within brackets an apostrophe goes before these (Excel, structured references).
+_SPECIAL, _ESCAPED = re.compile(r"(['#\[\]])"), r"'\1"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TablePlace:
+    """A table as written; headings and letters of its columns by field or answer."""
+
+    section: SheetSection
+    sheet: str  # its title in the workbook, which a user may have changed
+    header: int
+    size: int  # rows below the headings
+    headings: Mapping[str, str]
+    letters: Mapping[str, str]
+
+    def heading_cell(self, name: str, *, is_own: bool) -> str:
+        """Return the reference to a heading, on its own sheet without the name of it."""
+        cell = f"${self.letters[name]}${self.header}"
+        return cell if is_own else f"{quote_sheetname(self.sheet)}!{cell}"
+
+    def all(self, name: str) -> str:
+        """Return the reference to a whole column."""
+        column = _SPECIAL.sub(_ESCAPED, self.headings[name])
+        # Files have this form of what Excel shows as table[column].
+        return f"{self.section.table_name}[[{column}]]"
+
+    def cells(self, name: str) -> str:
+        """Return the range of a column, beyond the prepared rows."""
+        letter = self.letters[name]
+        return f"{letter}{self.header + 1}:{letter}{LAST_ROW}"
+
+    def area(self, name: str) -> str:
+        """Return the same range with absolute references."""
+        letter = self.letters[name]
+        return f"${letter}${self.header + 1}:${letter}${LAST_ROW}"
+
+
+# The tables of a workbook by section.
+Tables = Mapping[str, TablePlace]
+
+
+def name_cell(name: str, sheet: Worksheet, row: int, column: int) -> None:
+    """Give a cell a defined name."""
+    name_range(name, sheet, f"${get_column_letter(column)}${row}")
+
+
+def name_range(name: str, sheet: Worksheet, area: str) -> None:
+    """Give a range, such as `$A$1:$B$2`, a defined name."""
+    assert sheet.parent is not None
+    name_formula(sheet.parent, name, f"{quote_sheetname(sheet.title)}!{area}")
+
+
+def name_formula(book: Workbook, name: str, formula: str) -> None:
+    """Give a formula a defined name."""
+    book.defined_names[name] = DefinedName(name, attr_text=formula)
+
+
+# Earlier labels and headings, by section and field: workbooks with them are still read.
+LABELS: Mapping[tuple[str, str], tuple[str, ...]] = {
+    ("project", "units_first"): ("Units first",),
+    ("site", "stories"): ("Storeys",),
+    ("arrays", "mu_fast"): ("Friction at speed",),
+    ("clearances", "provided_m"): ("Provided",),
+    ("motions", "from_s"): ("Keep from",),
+    ("motions", "to_s"): ("Keep to",),
+    ("motions", "pad_s"): ("Zeros at the end",),
+    ("building", "left_out_percent"): ("Modes may leave out",),
+    ("links", "friction"): ("Friction of blocks",),
+    ("options", "statistic"): ("Design value from peaks",),
+    ("options", "peer_reviewed"): ("Analysis is peer reviewed",),
+    ("target", "from_s"): ("Scaling periods from",),
+    ("target", "to_s"): ("Scaling periods to",),
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GoneInput:
+    """An input that earlier workbooks have: it is no more, and refused where it asks for something.
+
+    A blank cell asks for nothing, nor does a default.
+    """
+
+    field: str  # with which its defined name ends
+    label: str
+    defaults: tuple[str, ...]  # lowercase
+    remedy: str
+
+
+# By section.
+GONE: Mapping[str, tuple[GoneInput, ...]] = {
+    "options": (
+        GoneInput(
+            field="directional",
+            label="Displacement by direction",
+            defaults=("no", "false"),
+            remedy="answer No: a clearance takes the design displacement in full, as the rule sets"
+            " state no direction",
+        ),
+    ),
+    "arrays": (
+        GoneInput(
+            field="model",
+            label="Model",
+            defaults=("choose",),
+            remedy="select 'choose': each run has the simplest adequate model. From Python,"
+            " solver.solve runs any",
+        ),
+    ),
+}
+
+# Headings of formulas of earlier workbooks by section, lowercase and without unit.
+FORMER_ANSWERS: Mapping[str, frozenset[str]] = {
+    "arrays": frozenset({"slope in degrees", "weight per area"}),
+    "clearances": frozenset({"d/c, floor", "row of array", "row of other array", "row of object"}),
+    "outlines": frozenset({"twice the area"}),
+}
+
+# Earlier order of the first fields of a block, in which confirmations are hashed.
+ORDERS: Mapping[str, str] = {
+    "site": "rule_set risk_category i_e s_s_g s_1_g site_class f_a f_v s_ds_g sdc stories"
+    " structure_height_m roof_height_m edition_name s_ms_g s_m1_g s_d1_g",
+}
+
+# Single cells that workbooks of 0.3.0 do not have.
+ADDED: frozenset[tuple[str, str]] = frozenset(
+    (section, field)
+    for section, fields in (
+        ("project", "firm firm_contact license plan_number plan_date"),
+        ("site", "acceptance_letter latitude_deg longitude_deg roof_load_pa seismic_weight_n"
+                 " roof_evaluation"),
+        ("friction_tests", "contact_pressure_pa"),
+        ("options", "study_years"),
+    )
+    for field in fields.split()
+)  # fmt: skip

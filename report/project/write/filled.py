@@ -1,0 +1,291 @@
+"""Fills cells of a workbook, and is the one way in which a command changes one.
+
+Read `changing`; then `overwritten` for blue cells whose formula is gone.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence, Set
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import groupby, starmap
+from pathlib import Path
+
+from openpyxl.formula.translate import Translator
+from openpyxl.utils import coordinate_to_tuple
+
+from report.project.model.choices import ClearanceSource
+from report.project.model.fields import DraftRow, Finding, Level, Place
+from report.project.read.archive import OpenBook, book_of, located, open_book
+from report.project.read.cells import Found, plain
+from report.project.read.locate import table_area
+from report.project.read.parts import Formula, Value, changed
+from report.project.read.positions import FRESH, CellPosition, area_named, bounds_of, found_at
+from report.project.read.read import Sheet, read_book
+from report.project.read.typed_text import references
+from report.project.read.what_if import cells
+from report.project.workbook import SECTIONS
+from report.project.write.style import is_answer
+from report.project.write.template import START
+from report.text.counts import cut, grouped_by
+from solver.files import check_plain, locked, write_all
+from solver.model import InputError
+
+# Ends the name under which a workbook is kept as it was before the last command changed it.
+BEFORE = ".before.xlsx"
+
+# Files that Excel and LibreOffice put beside a workbook while they have it open.
+_OPEN_ELSEWHERE = ("~${}", ".~lock.{}#")
+
+
+@dataclass
+class WorkbookChange:
+    """A workbook that is being changed, and files that are written beside it by their names."""
+
+    book: OpenBook
+    files: dict[str, bytes] = field(default_factory=dict)
+    before: OpenBook = field(init=False)
+    written: set[CellPosition] = field(default_factory=set)
+
+    def __post_init__(self) -> None:
+        self.before = self.book
+
+    def fill(self, cells: Mapping[CellPosition, Value]) -> None:
+        """Change cells; raises as `filled`."""
+        self.book = filled(self.book, cells)
+        self.written |= cells.keys()
+
+    def note(self, cells: Mapping[CellPosition, Value]) -> None:
+        """Change cells that no formula refers to."""
+        self.book = book_of(self.book.path, changed(self.book.data, cells, recalculates=False))
+
+    @cached_property
+    def sheet_before(self) -> Sheet:
+        """What was read from the workbook as it was."""
+        return read_book(self.before)
+
+    @property
+    def areas(self) -> str:
+        """The cells that were written, by runs of rows: `Arrays!A7:W9, Outlines!A8:D19`."""
+        ranges = []
+        for sheet in self.book.scans:
+            cells = [each for each in self.written if each.sheet == sheet]
+            rows = sorted({each.row for each in cells})
+            starts = [row for row in rows if row - 1 not in rows]
+            ends = [row for row in rows if row + 1 not in rows]
+            for start, end in zip(starts, ends, strict=True):
+                columns = [each.column for each in cells if start <= each.row <= end]
+                first = CellPosition(sheet, start, min(columns))
+                last = CellPosition(sheet, end, max(columns))
+                ranges.append(first.address + (f":{last.cell}" if last != first else ""))
+        return ", ".join(ranges)
+
+    @property
+    def has_formulas(self) -> bool:
+        """Whether it has formulas, whose cached values stay."""
+        return any(scan.formulas for scan in self.book.scans.values())
+
+
+@contextmanager
+def changing(source: Path, *, keeps_copy: bool = True) -> Iterator[WorkbookChange]:
+    """Give a workbook to change, as it is once no other command changes it; write it at the end.
+
+    It and the files beside it are written together, with `NAME.before.xlsx`, the workbook as it
+    was, unless no copy is kept; nothing is written if the work on it fails, or changes nothing.
+
+    Raises `InputError` if the workbook cannot be read or written, or a program has it open.
+    """
+    path = Path(os.path.realpath(source)) if source.is_file() else located(source)
+    check_plain(path, path.parent)
+    with locked(path.parent):
+        for pattern in _OPEN_ELSEWHERE:
+            if os.path.lexists(beside := path.with_name(pattern.format(path.name))):
+                raise InputError(
+                    f"{beside}: is there, so a program has the workbook open; close it there, or"
+                    " delete that file if none has"
+                )
+        change = WorkbookChange(open_book(path))
+        yield change
+        if change.files or change.book.data != change.before.data:
+            copy = {f"{path.stem}{BEFORE}": change.before.data} if keeps_copy else {}
+            write_all({**change.files, **copy, path.name: change.book.data}, path.parent)
+
+
+def filled(book: OpenBook, cells: Mapping[CellPosition, Value]) -> OpenBook:
+    """Return a workbook with other contents of cells, formulas in new rows; raises as `changed`."""
+    if not cells:
+        return book
+    # Formulas that may refer to the cells lose their values.
+    after = book_of(book.path, changed(book.data, cells, _dependents(book, cells.keys())))
+    looks = dict(_grown(book, after))
+    # Excel gives the rows that a table has grown by their formulas only where they are typed.
+    formulas = {
+        at: Formula(Translator(formula, last.cell).translate_formula(at.cell))
+        for at, last in looks.items()
+        if (formula := book.formula(last.sheet, last.cell))
+        and is_answer(book.book[last.sheet].cell(last.row, last.column))
+    }
+    return book_of(book.path, changed(after.data, formulas, looks=looks)) if looks else after
+
+
+def _grown(before: OpenBook, after: OpenBook) -> Iterator[tuple[CellPosition, CellPosition]]:
+    """Yield the cells of the rows that each table has grown by, with those of its last row."""
+    for section in (section for section in SECTIONS if section.is_table):
+        was, now = table_area(before, section), table_area(after, section)
+        if was is None or now is None:
+            continue
+        for heading in was.headings.values():
+            last = replace(heading, row=was.last)
+            for row in range(was.last + 1, now.last + 1):
+                yield replace(heading, row=row), last
+
+
+def _dependents(book: OpenBook, cells: Set[CellPosition]) -> Set[CellPosition]:
+    """Return the formulas that may refer to cells, also by other formulas."""
+    areas = {
+        CellPosition(title, *coordinate_to_tuple(cell)): [
+            _area(reference, title) for reference in references(scan.formula(cell))
+        ]
+        for title, scan in book.scans.items()
+        for cell in scan.formulas
+    }
+    titles, dependents = {title.casefold() for title in book.scans}, set(cells)
+
+    def may_refer(title: str, bounds: tuple[int, int, int, int] | None) -> bool:
+        if bounds is None or title not in titles:  # a name, a column of a table, other files
+            return True
+        left, top, right, bottom = bounds
+        return any(left <= at.column <= right and top <= at.row <= bottom for at in places[title])
+
+    places: Mapping[str, list[CellPosition]]
+    added: Set[CellPosition] = cells
+    while added:
+        # What refers to the others is found already.
+        places = defaultdict(list, grouped_by(added, lambda at: at.sheet.casefold()))
+        added = {at for at in areas if at not in dependents and any(starmap(may_refer, areas[at]))}
+        dependents |= added
+    return dependents - cells
+
+
+def _area(reference: str, title: str) -> tuple[str, tuple[int, int, int, int] | None]:
+    """Return the sheet of a reference, if its own is another, and its bounds where it has any."""
+    name, _, cells = reference.rpartition("!")
+    named = name.removeprefix("'").removesuffix("'").replace("''", "'")
+    return (named or title).casefold(), bounds_of(cells)
+
+
+def withdrawn(change: WorkbookChange) -> list[str]:
+    """Empty who confirmed the distances from the drawing, and when, if they changed; say so."""
+    before = change.sheet_before
+    stated = {
+        Place("project", 0, field): row[field]
+        for row in before.draft["project"]
+        for field in ("drawing_confirmed_by", "drawing_confirmed_date", "drawing_covered")
+        if row.get(field)
+    }
+    if not stated or _drawn(before) == _drawn(read_book(change.book)):
+        return []
+    emptied = cells(before, dict.fromkeys(stated))
+    change.fill(emptied)
+    where = ", ".join(position.address for position in emptied)
+    by = ", ".join(str(value) for value in [*stated.values()][:2])
+    return [
+        f"{where}: 'Drawing distances confirmed by {by}' is taken out: distances from the drawing"
+        " have changed; confirm them again"
+    ]
+
+
+def _drawn(sheet: Sheet) -> list[DraftRow]:
+    rows = sheet.draft["clearances"]
+    return [row for row in rows if row.get("source") is ClearanceSource.DRAWING]
+
+
+_PANEL = "live_sdc_used"
+# In a formula that refers to a column which the workbook lacks.
+_BROKEN = "#REF!"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Overwritten:
+    """A cell that has lost its formula."""
+
+    position: CellPosition
+    content: Found  # what it has instead
+    title: str  # what the formula computes
+
+    @property
+    def is_broken(self) -> bool:
+        """Whether the workbook lacks a column that the formula refers to."""
+        return _BROKEN in self.content.formula
+
+
+def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
+    """Return the blue cells that have lost their formula, by sheet, column and row."""
+    lost = [
+        Overwritten(
+            position=position, content=found_at(book, position), title=_title(book, position)
+        )
+        for position in _blue(book)
+        if not (formula := book.formula(position.sheet, position.cell)) or _BROKEN in formula
+    ]
+    titles = book.book.sheetnames
+    lost.sort(key=lambda o: (titles.index(o.position.sheet), o.position.column, o.position.row))
+    return tuple(lost)
+
+
+def _blue(book: OpenBook) -> Iterator[CellPosition]:
+    panel = area_named(book.book, _PANEL)
+    if panel is None:
+        return
+    for title in book.sheets:
+        # Start of earlier workbooks has samples of the color alone.
+        if title == START and panel[0] != START:
+            continue
+        for cell in book.cells(title):
+            if is_answer(cell):
+                yield CellPosition(title, cell.row, cell.column)
+
+
+def findings(lost: Sequence[Overwritten]) -> Iterator[Finding]:
+    """Yield a warning for each run of cells below each other."""
+    keys = {section.sheet: section.key for section in reversed(SECTIONS)}
+
+    def key(numbered: tuple[int, Overwritten]) -> tuple[str, int, int, bool]:
+        count, item = numbered
+        at = item.position
+        return at.sheet, at.column, at.row - count, item.is_broken
+
+    for _, group in groupby(enumerate(lost), key):
+        run = [item for _, item in group]
+        first, last = run[0], run[-1]
+        cell = first.position.address
+        cells = f"{cell}:{last.position.cell}" if len(run) > 1 else cell
+        place = Place(keys.get(first.position.sheet, SECTIONS[0].key))
+        text = _text(first, len(run))
+        yield Finding(level=Level.WARNING, place=place, text=text, cell=cells)
+
+
+def _text(item: Overwritten, count: int) -> str:
+    title = f"{item.title} ({count} cells)" if count > 1 else item.title
+    if item.is_broken:
+        return f"{title} refers to a column that is missing; write its heading again, or {FRESH}"
+    if item.content.is_blank:
+        return f"{title} is blank, and its formula is gone; {FRESH}"
+    return f"{title} is {cut(plain(item.content.value))}, typed over its formula; {FRESH}"
+
+
+def _title(book: OpenBook, position: CellPosition) -> str:
+    """Return what a cell computes: the heading of its column, or else the label of its row."""
+    sheet = book.book[position.sheet]
+    for section in SECTIONS:
+        area = table_area(book, section) if section.is_table else None
+        if area and area.sheet == position.sheet and area.header < position.row <= area.last:
+            return str(sheet.cell(area.header, position.column).value)
+    there, row = book.scans[position.sheet].cells, position.row
+    columns = (column for column in range(1, position.column) if (row, column) in there)
+    labels = (sheet.cell(row, column).value for column in columns)
+    title = next((str(label) for label in labels if isinstance(label, str) and label), "cell")
+    return f"{title.removesuffix(' *')}, computed," if position.sheet == "Site" else title
