@@ -73,17 +73,18 @@ _UNITS_OF = re.compile(
 _STATES_UNITS = re.compile(r"\bunits?\b", re.IGNORECASE)
 _IN_PROSE = re.compile(r"\bin\s+([^\s,;()\[\]]+)", re.IGNORECASE)
 
-_VALUE = r"([+-]?(?:\d++\.?+\d*+|\.\d++)(?:[eE][+-]?\d++)?+)"
+_VALUE = r"([+-]?(?:\d++\.?+\d*+|\.\d++)(?:[eE][+-]?\d++)?)"
 _HERTZ = r"(k?hz|sps|samples?(?: per |/)s(?:ec|econd)?)\b"
 _RATE = re.compile(
-    r"\b(?:sampl(?:ing|e)[ _]?(?:rate|freq(?:uency)?)|fs)\s*+"
+    r"\b(?:sampl(?:ing|e)[ _]?(?:rate|freq(?:uency)?)|frecuencia de muestreo|fs)\s*+"
     rf"(?:[\[(]\s*+{_HERTZ}\s*+[\])]\s*+)?+([:=]?)\s*+(?:(?:is|of)\b)?\s*+{_VALUE}\s*+(?:{_HERTZ})?+",
     re.ASCII | re.IGNORECASE,
 )
 _STEP = re.compile(
-    r"\b(?:dt|delta[ _]t|(?:time|sampling|sample)[ _](?:step|interval|increment)|intervals? of)"
+    r"\b(?:dt|delta[ _]t|(?:time|sampling|sample)[ _](?:step|interval|period|increment)"
+    r"|intervals? of|intervalo de muestreo(?:, C\d-C\d)?)"
     r"(?:_([a-zµμ]++)|\s*+[\[(]\s*+([a-zµμ]++)\s*+[\])])?+"
-    rf"\s*+([:=]?)\s*+(?:(?:is|of)\b)?\s*+{_VALUE}\s*+([a-zµμ]*)",
+    rf"\s*+([:=]?)[\s/]*+(?:(?:is|of)\b)?\s*+{_VALUE}\s*+([a-zµμ]*)",
     re.IGNORECASE,
 )
 _COUNT = re.compile(

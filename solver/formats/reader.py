@@ -42,9 +42,10 @@ def read_motion_file(
     """Read all channels of a record file.
 
     The format is identified by content: PEER AT2; COSMOS V1.20; CSMIP volumes 1 and 2; RENADIC;
-    USGS SMC; GeoNet V1A and V2A; K-NET and KiK-net, ASCII and CSV; ESM, ITACA and AFAD; a line of
-    count and step (eqsig, RSPMatch); miniSEED and SAC, where ObsPy is installed; or text of one
-    column (acceleration) or more (time [s], accelerations). No sample is filtered and no offset is
+    USGS SMC; GeoNet V1A and V2A; K-NET and KiK-net, ASCII and CSV; headings of `KEY: value` lines
+    (ESM, ITACA, AFAD, ISESD, CSMNC, CWA, JMA, UNAM); a line of count and step (eqsig, RSPMatch);
+    miniSEED and SAC, where ObsPy is installed; or text of one column (acceleration) or more (time
+    [s], accelerations). No sample is filtered and no offset is
     removed. Records with uneven times are resampled by linear interpolation, with a note.
 
     Parameters

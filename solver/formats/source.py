@@ -35,14 +35,12 @@ _TEXTS = (
     (re.compile(r"(?i)\s*<(?:!doctype html|html)"), "a web page", _AS_RECORD),
     (re.compile(r"(?i)\s*<\?xml|\s*<[a-z]+[ >]"), "XML, such as StationXML", _AS_RECORD),
     (re.compile(r"""\s*(?:\{|\[\s*+(?:[\[{"'\d-]|$))"""), "JSON", _COLUMNS),
-    (re.compile(r"(?i)#?\s*(?:Station ?Code|InstrumentKind)\b"), "a file of CWA, Taiwan", _COLUMNS),
-    (re.compile(r"(?i)TIMESERIES "), "TSPAIR or SLIST of EarthScope", _CONVERT),
+    (re.compile(r"TIMESERIES \S+_"), "TSPAIR or SLIST of EarthScope", _CONVERT),
     (re.compile(r"(?i)(?:WID[12]|BEGIN GSE2|BEGIN IMS)\b"), "GSE2", _CONVERT),
     (re.compile(r"(?i)(?:\s+-?12345(?:\.0*)?){3}"), "SAC in letters", _CONVERT),
-    (re.compile(r"(?i).*(?:MEXICANA|ASA ?2\.0|UNAM\b)"), "a file of UNAM, Mexico", _COLUMNS),
-    (re.compile(r"(?i).*\bCSMNC\b"), "a file of CSMNC, China", _COLUMNS),
     (re.compile(r"(?i).*\b(?:BHRC|USC)\b"), "a file of another network", _COLUMNS),
-    (re.compile(r"(?i)\s*(?:timeSeries|set|function|import|pattern)\b"), "a program", _AS_RECORD),
+    (re.compile(r"(?i)\s*(?:timeSeries|set|pattern)\s+\S+\s+\S|\s*(?:import\s|function\s[^(]*\()"),
+     "a program", _AS_RECORD),
 )  # fmt: skip
 _LOOKED_AT = 15
 

@@ -331,6 +331,10 @@ def is_raw(text: str) -> bool:
 
 def _plain(text: str) -> str:
     """Normalize: `CM/SEC/SEC`, `cm/s**2`, `cm s^-2`, `cmps2` and `cm/s²` become `cm/s2`."""
-    plain = re.sub(r"[\s^*·]", "", text.lower()).replace("²", "2").replace("⁻", "-")
-    plain = re.sub(r"sec(onds?)?", "s", plain).replace("s/s", "s2").replace("gals", "gal")
+    plain = (
+        re.sub(r"[\s^*·]", "", text.lower().replace("s*s", "s2"))
+        .replace("²", "2")
+        .replace("⁻", "-")
+    )
+    plain = re.sub(r"se[cg](onds?)?", "s", plain).replace("s/s", "s2").replace("gals", "gal")
     return re.sub(rf"^({_LENGTHS})(?:[p_/]s-?2|s-2)$", r"\1/s2", plain)

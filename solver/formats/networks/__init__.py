@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from solver.formats.networks import cosmos, csmip, esm, geonet, knet, peer, seed, smc
+from solver.formats.networks import cosmos, csmip, geonet, keyed, knet, peer, seed, smc
 
 if TYPE_CHECKING:
     from solver.formats.reader import Format
 
 # GeoNet before CSMIP, whose first line is similar.
-NETWORKS: tuple[Format, ...] = (seed, cosmos, geonet, csmip, smc, knet, esm, peer)
+NETWORKS: tuple[Format, ...] = (seed, cosmos, geonet, csmip, smc, knet, keyed, peer)

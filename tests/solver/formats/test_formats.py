@@ -293,7 +293,7 @@ FAULTS = [
     ("afad.txt", [("NUMBER OF DATA                  : 21", "NUMBER OF DATA: 22")],
      ":13: states 66 values, found 63; give the whole file"),
     ("afad.txt", [("     0.062500\r", "\r")], ":19: found 2 values; give 3"),
-    ("afad.txt", [("(gal)            : (N", "(count)            : (N")], ":15: found unit 'COUNT'"),
+    ("afad.txt", [("(gal)            : (N", "(count)            : (N")], ":15: found unit 'count'"),
     ("knet.csv", [("#1\n#Offset", "#3\n#Offset")], ":12: the heading states 3 s, the record lasts"),
     ("knet.csv", [("13.12,", "13.12")], ":19: found 4 columns; give 5"),
     ("knet.csv", [("(s),N-S(gal)", "(s),N-S[gal]")], ":16: found 'N-S[gal]'; give a column as N-S"),

@@ -293,6 +293,10 @@ def test_a_remark_gives_the_step_or_the_rate_in_its_unit(file, remark):
     assert read_record(file(f"{remark}\n1\n2\n"), units="g").dt_s == 0.005
 
 
+def test_a_rate_whose_exponent_has_no_digits_is_read_without_it(file):
+    assert read_record(file("# Sampling rate: 1e\n1\n2\n"), units="g").dt_s == 1.0
+
+
 CHANNELS = "time_s,NS_g,EW [gal],UD_g,vel_cm/s\n0,1,2,3,9\n0.5,4,5,6,9\n"
 
 
@@ -416,11 +420,14 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
         ("0,0;0,12\n0.1;2\n", ["1: found '0,0'; give a number with a decimal point", "1: fou"]),
         ("a\n\n# x\n0,12\n0,13\n-0,11", ["4: found '0,12'; give a number with a decimal"]),
         ("2 1\n1 2\n0 3\n", ["2: found time 1 s after 2 s", "3: found time 0 s after 1 s"]),
-        ("065XXX010101\nCSMNC\n\n1 2\n", ["1: this looks like a file of CSMNC, China, which"]),
+        ("065XXX010101\nCSMNC\n\n1 2\n", ["1: found '065XXX010101' where numbers are due, and"]),
         ("word\nand some more\nin prose\n",
          ["2: found 'and some more' where numbers are due, and"]),
         ("1994 Northridge\n0.1\n0.2\n",
          ["1: found '1994 Northridge' where numbers are due, and no"]),
+        ("SAP2000 v20\nFUNCTION  TH1\nTIME  VALUE\n0 1\n",
+         ["2: found 'FUNCTION  TH1' where numbers are due, and no heading"]),
+        ("model basic\ntimeSeries Path 1 -dt 0.01\n1 2\n", ["2: this looks like a program, which"]),
         ("<html>\n<body>\n", ["2: this looks like a web page, which is not read; give the record"]),
         ("TIMESERIES IU_X, 9 samples\n1 2 x\n", ["2: this looks like TSPAIR or SLIST of Earth"]),
         ("# dt = 5 us\n1\n2\n", ["1: found a step in us; give it in s, ms or min"]),

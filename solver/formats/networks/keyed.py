@@ -1,0 +1,222 @@
+"""Records below a heading of `KEY: value` lines, in English or Spanish, whatever network wrote it.
+
+One vocabulary for all of them: count, step or rate, unit, peak, length, components and start, with
+a unit before or behind the colon. Values are columns below the names of components, or one
+component across the lines; its peak must be the one that is stated. Read `read` first.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from solver.formats import phrases
+from solver.formats.channels import (
+    MotionFile,
+    centered_peak_notes,
+    check_length,
+    check_steps,
+    motion_file,
+    offset_notes,
+    time_in,
+)
+from solver.formats.numbers import Block, free_values, is_row, printed
+from solver.formats.source import Source, Stated
+from solver.formats.times import sampled
+from solver.model import Floats, InputError
+from solver.records.record import Record, raise_any, shown, unit_size
+
+# Source: INGV, DYNA 1.0 and 1.2, the heading of the Engineering Strong-Motion database, esm-db.eu,
+# and of ITACA, whose older files name the component `COMPONENT`; isesd.hi.is, Datafile Format (the
+# CD-ROM of 2000); the files of AFAD, CSMNC, CWA, JMA and UNAM (ASA 2.0): no written definition.
+_KEYS = {
+    "count": r"NDATA|N(?:UMBER|O\.|UM\.|[UÚ]MERO) (?:OF|(?:TOTAL )?DE)"
+    r" (?:DATA|SAMPLES|POINTS|VALUES|DATOS|MUESTRAS|PUNTOS)",
+    "unit": r"(?:AMPLITUDE)?UNITS?|UNIDADES(?: DE LOS DATOS)?",
+    "peak": r"(?:RAW )?PGA|PEAK (?:VALUE|ACCELERATION)|AMPLITUDEMAX"
+    r"|ACEL(?:ERACI[OÓ]N)?\.? M[AÁ]X(?:IMA)?(?!\. C\d)",
+    "length": r"DURATION|RECORD ?LENGTH|DURACI[OÓ]N",
+    "names": r"STREAM|COMPONENTE?|ORIENTATION OF TRANSDUCER|ORIENTACI[OÓ]N|DATASEQUENCE|COMP\.",
+    "quantity": "DATA_TYPE",
+    "start": r"DATE_TIME_FIRST_SAMPLE_YYYYMMDD|RECORD(?:ER)? TIME|START ?TIME|INITIAL TIME"
+    r"|TIME OF FIRST SAMPLE",
+}
+# A line may state two: `NO. OF POINTS:  12800  EQUALLY SPACED INTERVALS OF:  0.005  SEC`.
+_ENTRIES = {
+    name: re.compile(
+        rf"(?:.*\s)?(?:{words})(?![A-Z])([^:=]{{0,40}})(?:[:=]|(?<=COMP\.))\s*+(.*?)(?:\s\s++\w[^:=]*+[:=].*)?",
+        re.IGNORECASE,
+    )
+    for name, words in _KEYS.items()
+}
+_FORMS = {
+    "AFAD text": "STRONG GROUND MOTION RECORDS OF",
+    "ESM, ITACA, AFAD .asc": "NDATA",
+    "ISESD": "waveform code",
+    "CSMNC": "CSMNC",
+    "CWA": "#StationCode",
+    "JMA": "SITE CODE=",
+    "UNAM": "ASA 2.0",
+}
+_START_FORMATS = (
+    *("%Y%m%d_%H%M%S.%f", "%Y%m%d_%H%M%S", "%d/%m/%Y %H:%M:%S.%f", "%d/%m/%Y %H:%M:%S"),
+    *("%d.%m.%Y %H:%M:%S.%f", "%Y-%m-%d %H:%M:%S.%f", "%Y/%m/%d-%H:%M:%S.%f", "%Y %m %d %H %M %S"),
+)
+_LONGEST_HEADING, _FEWEST, _NEEDED = 120, 2, ("count", "unit")
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
+_NAMED_PEAK = re.compile(r"\(([NSEWUDVZ-]{1,3})\)\s*([+-]?[\d.]+)", re.ASCII)
+_NAME = re.compile(r"[A-Z]-?[A-Z]?", re.IGNORECASE)
+_UNCORRECTED = re.compile(r"\b(?:RAW|UNCORRECTED)\b", re.IGNORECASE)
+
+# What is behind a key, what is behind its colon, and the index of the line.
+_Entry = tuple[str, str, int]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Heading:
+    """Entries of the lines above the first row, by what they state."""
+
+    entries: dict[str, list[_Entry]]
+    step: Stated
+    first: int  # index of the first row
+
+    def get(self, name: str) -> _Entry:
+        """Return the first entry of a name; an empty one for none."""
+        return self.entries.get(name, [("", "", 0)])[0]
+
+
+def recognizes(source: Source) -> bool:
+    """Whether lines of text state the step and the count or unit of the numbers below them."""
+    heading = _heading(source)
+    if heading.first == len(source.lines) or math.isnan(heading.step.value):
+        return False
+    lines = [source.lines[i] for entries in heading.entries.values() for *_, i in entries]
+    # A table below comments alone is text, unless they name its columns.
+    is_text = all(line.startswith("#") for line in lines) and len(_words(heading)) < 2
+    return len(lines) >= _FEWEST and not heading.entries.keys().isdisjoint(_NEEDED) and not is_text
+
+
+def read(source: Source) -> MotionFile:
+    """Read the one component of a file, or its columns."""
+    heading = _heading(source)
+    first = heading.first
+    top = source.lines[:first]
+    if "," in source.lines[first]:
+        rows = (line.replace(",", " ") for line in source.lines[first:])
+        source = replace(source, lines=[*top, *rows])
+    quantity, at = heading.get("quantity")[1:]
+    if quantity and ("ACCELERATION" not in quantity.upper() or "SPECTRUM" in quantity.upper()):
+        raise InputError(f"{source.at(at)}: found {quantity.lower()}; give a file of acceleration")
+    dt_s = source.step(heading.step)
+    names = _names(source, heading)
+    # Behind the accelerations of ISESD are velocities and displacements.
+    later = (i for i in range(first, len(source.lines)) if source.lines[i].startswith("->"))
+    columns = _columns(source, heading, next(later, len(source.lines)), len(names))
+    if len(names) > 1 and phrases.parse(names[0]).kind is phrases.Kind.TIME:
+        even_s, columns, _ = sampled(source, columns[0], columns[1:], lambda row: first + row)
+        even = Stated(value=even_s, rounding=1e-4 * even_s, index=first)
+        check_steps(source, heading.step, even)
+        names = names[1:]
+    scale = _scale(source, heading)
+    _, length, at = heading.get("length")
+    number = _NUMBER.match(length)
+    check_length(source, printed(number[0] if number else "", at), len(columns[0]) * dt_s, dt_s)
+    head = "\n".join(top)
+    is_uncorrected = _UNCORRECTED.search(head)
+    peaks = dict(_peaks(heading, names, scale))
+    channels = []
+    for name, values in zip(names, columns * scale, strict=True):
+        peak_mps2, at = peaks.get(name.upper(), (0.0, 0))
+        notes = centered_peak_notes(source, at, peak_mps2, values)
+        if is_uncorrected:
+            notes += offset_notes(values)
+        channels.append(Record(name=name, dt_s=dt_s, a_mps2=values, notes=notes))
+    form = next((form for form, mark in _FORMS.items() if mark in head), "KEY: value")
+    # The time zone may stand behind the time.
+    begins = re.split(r"\s*(?:\(|[A-Z])", heading.get("start")[1])[0]
+    return motion_file(source, form, channels, start=time_in(begins, *_START_FORMATS))
+
+
+def _heading(source: Source) -> _Heading:
+    entries: dict[str, list[_Entry]] = {}
+    step = Stated()
+    for index, line in enumerate(source.lines[:_LONGEST_HEADING]):
+        # A number alone may stand among the lines of a heading.
+        if entries and is_row(line.replace(",", " ").split()):
+            return _Heading(entries=entries, step=step, first=index)
+        if math.isnan(step.value):
+            step = phrases.step_in(source, index, line)
+        for name, pattern in _ENTRIES.items():
+            if match := pattern.fullmatch(line.strip("# ")):
+                entries.setdefault(name, []).append((match[1], match[2].strip(), index))
+    return _Heading(entries=entries, step=step, first=len(source.lines))
+
+
+def _words(heading: _Heading) -> list[str]:
+    """Names of components: between strokes, or with the direction of each in parentheses."""
+    _, text, _ = heading.get("names")
+    if "/" in text:
+        return [word.strip() for word in text.split("/") if word.strip()]
+    return re.findall(r"\w+(?=\()|\w+(?= )", text) if ";" in text else [text]
+
+
+def _names(source: Source, heading: _Heading) -> list[str]:
+    """Names of the columns: above them, or in the heading; of one component its own, or ""."""
+    above = source.lines[heading.first - 1].replace(",", " ").split()
+    if len(above) > 1 and all(map(_NAME.fullmatch, above)):
+        return above
+    named = _words(heading)
+    return named if len(named) in (1, len(source.lines[heading.first].split())) else [""]
+
+
+def _columns(source: Source, heading: _Heading, stop: int, width: int) -> Floats:
+    """Values, shape (k, n), as many as are stated."""
+    rows = [(i, source.lines[i].split()) for i in range(heading.first, stop)]
+    if width > 1:
+        raise_any(
+            f"{source.at(index)}: found {len(fields)} values; give {width}"
+            for index, fields in rows
+            if len(fields) not in (0, width)
+        )
+    count = sum(len(fields) for _, fields in rows)
+    _, text, at = heading.get("count")
+    if text:
+        number = text.strip("/").partition("/")[0]
+        if not number.isdecimal():
+            raise InputError(f"{source.at(at)}: found {shown(text)}; give the number of values")
+        count = width * int(number)
+    block = Block(first=heading.first, stop=stop, count=count, promised=at)
+    return np.ascontiguousarray(free_values(source, block).reshape(-1, width).T)
+
+
+def _scale(source: Source, heading: _Heading) -> float:
+    """Value [m/s2] of the unit of the values: stated alone, or with the peak of raw values."""
+    _, text, at = heading.get("unit")
+    if not text:
+        more, _, at = heading.get("peak")
+        text = more[more.find("(") + 1 :].partition(")")[0]
+    # `m/s*s, m/s & s` are those of three series, `gal(cm/s/s)` is one twice.
+    parts = [part.strip(" .") for part in re.split(r"[,;()]|\.\s", text)]
+    known = next((part for part in parts if not math.isnan(unit_size(part))), text)
+    return source.scale(known, at) if text else source.stated_scale(())
+
+
+def _peaks(
+    heading: _Heading, names: Sequence[str], scale: float
+) -> Iterator[tuple[str, tuple[float, int]]]:
+    """Yield the stated peak [m/s2] of each component that has one, and its line."""
+    for more, text, index in heading.entries.get("peak", ()):
+        words = re.split(r"[\s()_,.]+", more.strip())
+        size = next((unit_size(word) for word in words if not math.isnan(unit_size(word))), scale)
+        values = [float(number) for number in _NUMBER.findall(text)]
+        if words[-1] in names:  # `AmplitudeMAX. U: 35.9~ -31.2`
+            yield words[-1].upper(), (size * max(map(abs, values), default=0.0), index)
+        elif named := _NAMED_PEAK.findall(text.upper()):
+            yield from ((name, (size * float(value), index)) for name, value in named)
+        elif len(values) >= len(names):
+            pairs = zip(names, values, strict=False)
+            yield from ((name.upper(), (size * value, index)) for name, value in pairs)
