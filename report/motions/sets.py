@@ -30,17 +30,17 @@ STARTS_WITHIN = dt.timedelta(seconds=1)
 _UP, _DOWN, _AZIMUTH = "up", "down", "azimuth"
 _HIDDEN = re.compile(r"/(\.|~\$|__MACOSX/)")
 _SPELLED = {
-    (_UP, 0): "up u ud u-d v ver vrt vert vertical z", (_DOWN, 0): "dn dwn down",
-    ("xy", 0): "x", ("xy", 90): "y", ("12", 0): "h1 1", ("12", 90): "h2 2",
-    ("en", 0): "e ew e-w we", ("en", 90): "n ns n-s", ("en", 180): "w", ("en", 270): "s",
-    ("lt", 0): "l long longitudinal", ("lt", 90): "t tran transverse",
+    (_UP, 0): ("up", "u", "ud", "u-d", "v", "ver", "vrt", "vert", "vertical", "z"),
+    (_DOWN, 0): ("dn", "dwn", "down"),
+    ("xy", 0): ("x",), ("xy", 90): ("y",), ("12", 0): ("h1", "1"), ("12", 90): ("h2", "2"),
+    ("en", 0): ("e", "ew", "e-w", "we"), ("en", 90): ("n", "ns", "n-s"),
+    ("en", 180): ("w",), ("en", 270): ("s",),
+    ("lt", 0): ("l", "long", "longitudinal"), ("lt", 90): ("t", "tran", "transverse"),
 }  # fmt: skip
 # A word for the vertical anywhere in a name.
-VERTICAL = re.compile(
-    rf"(?<![a-z])({'|'.join(_SPELLED[_UP, 0].split())})(?![a-z]|\.[a-z])", re.IGNORECASE
-)
+VERTICAL = re.compile(rf"(?<![a-z])({'|'.join(_SPELLED[_UP, 0])})(?![a-z]|\.[a-z])", re.IGNORECASE)
 
-_NAMED = {word: component for component, words in _SPELLED.items() for word in words.split()}
+_NAMED = {word: component for component, words in _SPELLED.items() for word in words}
 # Of SEED: network, station, location (whose digits are no azimuth) and channel.
 _IDENTITY = re.compile(r"([a-z0-9]+\.[a-z0-9]+\.[a-z0-9]*)\.([befhs][gln])([enz12])")
 # Of SEED, after band and instrument; of KiK-net, before the number of the sensor.
@@ -84,8 +84,10 @@ class Candidate:
         """Which component it is by its heading or name."""
         if not self.is_horizontal:
             return f"vertical, positive {self.family}"
-        word = _SPELLED.get((self.family, self.degrees), f"{self.degrees} deg").split(" ")[0]
-        return f"horizontal {word if self.family != _AZIMUTH else f'{self.degrees} deg'}"
+        if self.family == _AZIMUTH:
+            return f"horizontal {self.degrees} deg"
+        words = _SPELLED.get((self.family, self.degrees), (self.degrees,))
+        return f"horizontal {words[0]}"
 
     @property
     def is_horizontal(self) -> bool:

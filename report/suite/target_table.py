@@ -33,13 +33,13 @@ MAX_TOLD = 10
 _FREQUENCY, _PERIOD, _HORIZONTAL, _VERTICAL = "frequency", "period", "horizontal", "vertical"
 # Of each kind of column: its names, and the range of its values.
 _KINDS = {
-    _FREQUENCY: ("frequency freq f", PhysicalBounds(1e-3, 1e3, "Hz")),
-    _PERIOD: ("period t", PhysicalBounds(1e-3, 1e3, "s")),
-    _HORIZONTAL: ("horizontal sa", ORDINATE),
-    _VERTICAL: ("vertical", ORDINATE),
+    _FREQUENCY: (("frequency", "freq", "f"), PhysicalBounds(1e-3, 1e3, "Hz")),
+    _PERIOD: (("period", "t"), PhysicalBounds(1e-3, 1e3, "s")),
+    _HORIZONTAL: (("horizontal", "sa"), ORDINATE),
+    _VERTICAL: (("vertical",), ORDINATE),
 }
 
-_NAMES = {name: kind for kind, (names, _) in _KINDS.items() for name in names.split()}
+_NAMES = {name: kind for kind, (names, _) in _KINDS.items() for name in names}
 _HEADING = re.compile(r"([a-z]+)\s*(?:_|\[|\()?\s*([^\s\])]*)\s*[\])]?")
 _WANTED = "frequency [Hz] or period [s], horizontal [g] and, optionally, vertical [g]"
 # Allows for band limits given as rounded periods, such as 3.33 s.

@@ -25,7 +25,7 @@ from solver.model import STANDARD_GRAVITY_MPS2, Floats, Motion, Orientation, Sce
 from solver.sliding import least_model
 from solver.sliding.least_model import Model, Settings, Solution
 from solver.sliding.one_axis import RecordBounds, bounds_of
-from solver.sliding.sweep import order_alike
+from solver.studies.sweep import order_alike
 
 # The PRDs of a study differ from motion to motion by far more than by this bound on their error in
 # two axes; that of a package, a hundred times closer, takes longer.

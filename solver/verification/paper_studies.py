@@ -14,7 +14,7 @@ import pandas as pd
 from solver.model import Floats
 from solver.records.record import Record
 from solver.rivals.methods import METHODS
-from solver.sliding.sweep import sweep
+from solver.studies.sweep import sweep
 from solver.verification.evidence import DesignCurves, LinkComparison, percent_of, percent_off
 from solver.verification.study import clocked, grid, history, prepared, run, scale_to
 from solver.verification.workprecision import timed

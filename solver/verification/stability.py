@@ -18,7 +18,7 @@ from solver.records.record import Record
 from solver.rivals.methods import METHODS
 from solver.sliding import checked, two_axes
 from solver.sliding.method import link_frequency
-from solver.sliding.sweep import sweep
+from solver.studies.sweep import sweep
 from solver.verification.evidence import Conditioning, StabilityMap, percent_off
 from solver.verification.study import CASES, Case, run, scale_to, shortened
 

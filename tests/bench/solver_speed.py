@@ -28,7 +28,7 @@ from solver.sliding import least_model, two_axes
 from solver.sliding import one_axis as one_axis_run
 from solver.sliding.checked import slide
 from solver.sliding.row import slide_row
-from solver.sliding.sweep import order_alike
+from solver.studies.sweep import order_alike
 from solver.verification.model_study import by_speed, row_of
 from solver.verification.study import Case, own_triples, scene_of
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import datetime as dt
 import hashlib
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 
 from report.project.model import ProjectInput
 from report.project.model.choices import ClearanceSource
@@ -24,20 +24,21 @@ _Covers = Mapping[str, Set[str]]
 _Hashes = Mapping[str, str]
 
 
-def _all_but(**left_out: str) -> _Covers:
+def _all_but(**left_out: Iterable[str]) -> _Covers:
     fields = {key: {entry.name for entry in SECTION[key].entries} for key in left_out}
-    return {key: fields[key] - {*names.split()} for key, names in left_out.items()}
+    return {key: fields[key] - {*names} for key, names in left_out.items()}
 
 
 # What the design displacements follow from.
 _ANALYSIS = _all_but(
-    site="hazard_source hazard_date hazard_covered hazard_report hazard_printout building_code"
-         " building_code_year jurisdiction acceptance_letter fire_code_section fire_lane_m"
-         " latitude_deg longitude_deg roof_load_pa seismic_weight_n roof_evaluation",
-    arrays=" ".join((*SIDES, *WEIGHT_PARTS, "place_from interconnection_n slack_m roof_capacity_pa"
-                     " wind_weight_pa contact_pressure_pa")),
-    friction_tests="tests_covered report_file contact_pressure_pa",
-    friction_runs="", motions="", building="", spectrum="", links="", target="", overrides="",
+    site=("hazard_source", "hazard_date", "hazard_covered", "hazard_report", "hazard_printout",
+          "building_code", "building_code_year", "jurisdiction", "acceptance_letter",
+          "fire_code_section", "fire_lane_m", "latitude_deg", "longitude_deg", "roof_load_pa",
+          "seismic_weight_n", "roof_evaluation"),
+    arrays=(*SIDES, *WEIGHT_PARTS, "place_from", "interconnection_n", "slack_m",
+            "roof_capacity_pa", "wind_weight_pa", "contact_pressure_pa"),
+    friction_tests=("tests_covered", "report_file", "contact_pressure_pa"),
+    friction_runs=(), motions=(), building=(), spectrum=(), links=(), target=(), overrides=(),
 )  # fmt: skip
 
 # Section, fields of the date and of the record, and what is covered.
@@ -47,12 +48,12 @@ CONFIRMATIONS: Sequence[tuple[str, str, str, _Covers]] = (
     ("site", "hazard_date", "hazard_covered",
      {"site": {"edition_name", "s_s_g", "s_1_g", "site_class", "f_a", "f_v", "s_ms_g", "s_m1_g",
                "s_ds_g", "s_d1_g", "hazard", "sdc"}}),
-    ("friction_tests", "date", "tests_covered", _all_but(friction_runs="")),
+    ("friction_tests", "date", "tests_covered", _all_but(friction_runs=())),
     ("options", "peer_date", "peer_covered",
      {**_ANALYSIS, "options": {"statistic"}}),
     ("confirmation", "date", "covered",
      {"site": {"rule_set", "edition_name", "building_code", "building_code_year"},
-      **_all_but(confirmation="date covered", overrides="")}),
+      **_all_but(confirmation=("date", "covered"), overrides=())}),
 )  # fmt: skip
 
 # The fields that are no input: `roofslip report` fills them in.
@@ -139,7 +140,7 @@ def _line(key: str, row: Frozen, fields: Sequence[str]) -> str:
     # SI with nine digits, so that a change of units is none; without defaults, so that a field that
     # a later version adds is none either.
     values = row.model_dump(include=set(fields), exclude_defaults=True)
-    order = {name: at for at, name in enumerate(layout.ORDERS.get(key, "").split())}
+    order = {name: at for at, name in enumerate(layout.ORDERS.get(key, ()))}
     return "; ".join(
         f"{name} {value:.9g}" if isinstance(value, float) else f"{name} {value}"
         for name, value in sorted(values.items(), key=lambda item: order.get(item[0], len(order)))

@@ -6,7 +6,7 @@ Also labels and headings of earlier workbooks, which can still be read.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 
 from openpyxl import Workbook
@@ -137,20 +137,17 @@ FORMER_ANSWERS: Mapping[str, frozenset[str]] = {
 }
 
 # Earlier order of the first fields of a block, in which confirmations are hashed.
-ORDERS: Mapping[str, str] = {
-    "site": "rule_set risk_category i_e s_s_g s_1_g site_class f_a f_v s_ds_g sdc stories"
-    " structure_height_m roof_height_m edition_name s_ms_g s_m1_g s_d1_g",
-}
+ORDERS: Mapping[str, Sequence[str]] = {
+    "site": ("rule_set", "risk_category", "i_e", "s_s_g", "s_1_g", "site_class", "f_a", "f_v",
+             "s_ds_g", "sdc", "stories", "structure_height_m", "roof_height_m", "edition_name",
+             "s_ms_g", "s_m1_g", "s_d1_g"),
+}  # fmt: skip
 
 # Single cells that workbooks of 0.3.0 do not have.
-ADDED: frozenset[tuple[str, str]] = frozenset(
-    (section, field)
-    for section, fields in (
-        ("project", "firm firm_contact license plan_number plan_date"),
-        ("site", "acceptance_letter latitude_deg longitude_deg roof_load_pa seismic_weight_n"
-                 " roof_evaluation"),
-        ("friction_tests", "contact_pressure_pa"),
-        ("options", "study_years"),
-    )
-    for field in fields.split()
-)  # fmt: skip
+ADDED: Set[tuple[str, str]] = {
+    ("project", "firm"), ("project", "firm_contact"), ("project", "license"),
+    ("project", "plan_number"), ("project", "plan_date"), ("site", "acceptance_letter"),
+    ("site", "latitude_deg"), ("site", "longitude_deg"), ("site", "roof_load_pa"),
+    ("site", "seismic_weight_n"), ("site", "roof_evaluation"),
+    ("friction_tests", "contact_pressure_pa"), ("options", "study_years"),
+}  # fmt: skip

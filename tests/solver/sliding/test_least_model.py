@@ -15,7 +15,7 @@ from solver.model import Friction, InputError, Status, coulomb
 from solver.sliding import one_axis, two_axes
 from solver.sliding.checked import motion, slide
 from solver.sliding.least_model import Model, Settings, history, solve
-from solver.sliding.sweep import STATUSES, order_alike, sweep
+from solver.studies.sweep import STATUSES, order_alike, sweep
 
 pytestmark = pytest.mark.quick
 
@@ -245,9 +245,9 @@ def test_uplift_is_a_hole_and_every_value_at_fault_named():
 
 
 def test_threads_change_nothing_and_progress_runs_up_to_one(noise, monkeypatch):
-    monkeypatch.setattr("solver.sliding.sweep.THREADS", 1)
+    monkeypatch.setattr("solver.studies.sweep.THREADS", 1)
     alone = sweep(noise, 0.01, **ALL).prd_m
-    monkeypatch.setattr("solver.sliding.sweep.THREADS", 3)
+    monkeypatch.setattr("solver.studies.sweep.THREADS", 3)
     with ThreadPoolExecutor(3) as pool:
         found = list(pool.map(lambda _: sweep(noise, 0.01, **ALL).prd_m, range(6)))
     np.testing.assert_array_equal(found, [alone] * 6)
