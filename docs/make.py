@@ -22,9 +22,9 @@ from click.shell_completion import get_completion_class
 import report
 from report.cli.main import VARIABLE, main
 from report.cli.options import SectionedGroup
-from report.entities import results
 from report.project.workbook import SECTIONS
 from report.project.workbook.entries import Entry, rows_of
+from report.results.schema import schema
 from solver import public
 
 HERE = Path(__file__).resolve().parent
@@ -191,7 +191,7 @@ def _range(entry: Entry) -> str:
 RESULTS = """# results.json
 
 All results of a package. `./roofslip schema` prints its JSON schema: every key of every object with
-its type, its heading, and below `description` what it means:
+its type, and below `description` what it means:
 
 ```sh
 ./roofslip schema > results.schema.json
@@ -203,9 +203,9 @@ is a count, a ratio, a text or an object. Keys in other units:
 
 
 def _results() -> Iterator[str]:
-    schema = results.schema()
-    models = schema["$defs"]
-    objects = [model.get("properties", {}) for model in (schema, *models.values())]
+    written = schema()
+    models = written["$defs"]
+    objects = [model.get("properties", {}) for model in (written, *models.values())]
     keys = sorted({key for each in objects for key in each})
     yield RESULTS
     for unit, words in NOT_SI.items():
@@ -215,10 +215,10 @@ def _results() -> Iterator[str]:
         "- as typed: `slope_value` in `slope_unit`, `scale_value` (a factor, or a PPA in g), and "
         "the `value` of an override"
     )
-    said = attributes(schema)
+    said = attributes(written)
     yield "\nThe file itself, an object with these keys:\n"
     yield "| key | holds | meaning |\n|---|---|---|"
-    for key, field in schema["properties"].items():
+    for key, field in written["properties"].items():
         yield f"| `{key}` | {_type(field, models)} | {_text(meaning(key, field, said))} |"
     yield (
         "\n`schema_version` is raised where a key changes its name or meaning. "

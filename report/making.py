@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from report.assessment.project import Assessment, Changes
-    from report.entities.results import Compared
     from report.motions.prepare import Shaking
     from report.project.read.read import Sheet
+    from report.results.model import Compared
 
 OUTPUTS = ("calc-package.pdf", "plan.dxf", "results.xlsx", "results.json")
 
@@ -60,8 +60,9 @@ def make(
     from report.drawing.plan import plan_drawing
     from report.package.html import pages
     from report.provenance.files import attachments, fingerprint, sources
+    from report.results.changes import with_reissue
     from report.results.publish import publish
-    from report.results.results_json import results_json, with_reissue
+    from report.results.results_json import results_json
     from report.results.xlsx import results_xlsx
     from report.typeset.pdf import lay_out
     from solver.kernels.compiler import is_compiled
@@ -170,7 +171,7 @@ def _changes(former: Compared | None, assessment: Assessment) -> Changes:
 
     if former is None:
         return NO_FORMER
-    from report.results.results_json import changes, check_listed
+    from report.results.changes import changes, check_listed
 
     changed = changes(former, assessment)
     check_listed(changed)

@@ -23,7 +23,8 @@ from report.motions.components import Components
 from report.motions.history import shake
 from report.pages.parts import PackageData
 from report.pages.registry import package_data
-from report.results.results_json import changes, former_from, results_json
+from report.results.changes import changes
+from report.results.results_json import former_from, results_json
 from sheets import Book, read_workbook
 from solver.records.record import Record
 

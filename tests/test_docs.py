@@ -324,7 +324,7 @@ def test_the_answers_on_slopes_and_roofs_have_the_numbers_of_the_rules_and_curve
 
 @pytest.mark.quick
 def test_every_key_of_results_json_has_a_meaning_that_is_more_than_its_name():
-    schema = make_docs.results.schema()
+    schema = make_docs.schema()
     rows = [
         (key, make_docs.meaning(key, field, make_docs.attributes(model)))
         for model in (schema, *schema["$defs"].values())

@@ -151,6 +151,11 @@ class PlanNeighbor(ComparedGap):
         return f"{self.array} to {self.other}"
 
     @property
+    def numbers(self) -> str:
+        """The numbers of its clearances, such as `No. 1, 3`."""
+        return f"No. {', '.join(str(gap.number) for gap in self.given)}" if self.given else "—"
+
+    @property
     def between(self) -> tuple[str, str]:
         """What is on either side."""
         return self.array, self.other

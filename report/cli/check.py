@@ -142,7 +142,7 @@ def lines(sheet: Sheet, listed: Iterable[Finding]) -> Iterator[str]:
 
 
 def _document(sheet: Sheet, findings: Iterable[Finding]) -> dict[str, Any]:
-    from report.entities.requirement import finding_results
+    from report.results.rows import finding_results
 
     data, rows = sheet.project, finding_results(findings, sheet.addresses)
     return document(sheet.path) | {

@@ -76,9 +76,9 @@ def test(**_: object) -> None:
 @click.command()
 def schema() -> None:
     """Print the JSON schema of results.json."""
-    from report.entities import results
+    from report.results import schema as of_results
 
-    click.echo(json.dumps(results.schema(), indent=1))
+    click.echo(json.dumps(of_results.schema(), indent=1))
 
 
 # Native libraries of the PDF renderer, each with the Debian package that has it.

@@ -229,7 +229,8 @@ def watch(source: Path, out: Path | None) -> None:
 
 def report_again(workbook: Path, out: Path | None, former: bytes) -> bytes:
     """Report, print what changed since the former results.json, and return the new one."""
-    from report.results.results_json import changes, former_from
+    from report.results.changes import changes
+    from report.results.results_json import former_from
 
     made = package(workbook, out)
     show(made)

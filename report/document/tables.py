@@ -1,6 +1,6 @@
-"""Tables of a document: rows of finished strings, and rows of an entity by the names of its fields.
+"""Tables of a document: rows of finished strings, made of items by a list of columns.
 
-Templates print these. Owns no content. Read `table_of`.
+Templates print these. Owns no content. Read `listed`.
 """
 
 from __future__ import annotations
@@ -14,8 +14,9 @@ from typing import Any
 from markupsafe import Markup
 
 from report.assessment.verdict import Verdict
-from report.entities.shown import Entity, Shown, TableColumn, UnitFormat, shown_by
+from report.document.columns import ColumnHead, TableColumn
 from report.text.counts import LONGEST, grouped_by, joined, name_order, ranged
+from report.text.unit_format import UnitFormat
 from report.text.units import Unit
 from solver.model import DefectError
 
@@ -126,46 +127,19 @@ def stamp(value: Verdict, text: str = "") -> Markup:
     return Markup('<b class="{}">{}</b>').format(value.name.lower(), text or value)
 
 
-def table_of(
-    rows: Sequence[Entity],
-    names: str,
-    fmt: UnitFormat,
-    *,
-    kind: str = "",
-    heads: Mapping[str, str] = {},
-    shares: Mapping[str, float] = {},
-    is_narrow: bool = False,
-) -> Table:
-    """Return rows of one entity as a table of the named fields, in that order.
-
-    With `heads` and `shares` where this table has another heading or width than a field says.
-    """
-    fields = [(name, shown_by(type(rows[0]), name)) for name in names.split()] if rows else []
-    columns = [
-        replace(column, field=name)
-        for name, shown in fields
-        for column in shown.columns(fmt, heads.get(name, shown.head), shares.get(name, shown.share))
-    ]
-    units, made = {name: shown.units(fmt) for name, shown in fields}, []
-    for row in rows:
-        cells: list[str] = []
-        for name, shown in fields:
-            value, mark, show = getattr(row, name), row.marks.get(name, ""), row.rounds.get(name)
-            text = stamp(value) if isinstance(value, Verdict) else value
-            cells += shown.cells(text, fmt.none, units[name], mark, show)
-        made.append(TableRow(cells=tuple(cells), kind=row.style))
-    return Table(columns=tuple(columns), rows=tuple(made), kind=kind, is_narrow=is_narrow)
-
-
 _Value = Callable[[Any], Any]
-Column = tuple[Shown, _Value] | tuple[Shown, _Value, _Value]
-"""How a column is shown, what gives its value for an item, and what its marks, if it has any.
+Column = (
+    tuple[ColumnHead, _Value]
+    | tuple[ColumnHead, _Value, _Value]
+    | tuple[ColumnHead, _Value, _Value, _Value]
+)
+"""The head of a column, and what gives for an item its value, its marks, and how it is rounded.
 
 A value that is `Wide` covers the columns that follow.
 """
 
 
-def by_place(*heads: Shown) -> Sequence[Column]:
+def by_place(*heads: ColumnHead) -> Sequence[Column]:
     """Return columns for items that are rows of values: each takes the value at its place."""
     return [(head, itemgetter(at)) for at, head in enumerate(heads)]
 
@@ -179,8 +153,8 @@ def headed(
     A column is its heading and share; its alignment if that is not left, and its unit if any.
     """
 
-    def shown(head: str, share: float, align: str = "left", unit: str = "") -> Shown:
-        return Shown(head=head, share=share, align=align, unit=unit)
+    def shown(head: str, share: float, align: str = "left", unit: str = "") -> ColumnHead:
+        return ColumnHead(head=head, share=share, align=align, unit=unit)
 
     shown_columns = by_place(*(shown(*column) for column in columns))
     return listed(rows, shown_columns, kind=kind, whole_rows=whole_rows)
@@ -195,14 +169,10 @@ def listed(
     whole_rows: int = WHOLE_ROWS,
     style: Callable[[Any], str] = lambda _: "",
 ) -> Table:
-    """Return items that are no entity as a table: each column says its heading and its value."""
+    """Return items as a table: each column says its heading and its value."""
     units = [shown.units(fmt) for shown, *_ in columns]
     return Table(
-        columns=tuple(
-            column
-            for shown, *_ in columns
-            for column in shown.columns(fmt, shown.head, shown.share)
-        ),
+        columns=tuple(column for shown, *_ in columns for column in shown.columns(fmt)),
         rows=tuple(
             TableRow(cells=_listed_cells(item, columns, units, fmt.none), kind=style(item))
             for item in items
@@ -217,7 +187,7 @@ def _listed_cells(
 ) -> tuple[str | Wide, ...]:
     cells: list[str | Wide] = []
     covered = 0
-    for (shown, value_of, *mark_of), of_column in zip(columns, units, strict=True):
+    for (shown, value_of, *more), of_column in zip(columns, units, strict=True):
         if covered:
             covered -= len(of_column)
             continue
@@ -227,8 +197,9 @@ def _listed_cells(
             covered = value.span - len(of_column)
             cells.append(value)
         else:
-            mark = mark_of[0](item) if mark_of else ""
-            cells += shown.cells(value, none, of_column, mark)
+            mark, show = [function(item) for function in more] + ["", None][len(more) :]
+            text = stamp(value) if isinstance(value, Verdict) else value
+            cells += shown.cells(text, none, of_column, mark, show)
     return tuple(cells)
 
 
@@ -243,19 +214,23 @@ def grouped(
     return replace(table, rows=tuple(rows))
 
 
+def part_of(table: Table, start: int, stop: int | None = None, *, is_narrow: bool = False) -> Table:
+    """Return rows of a table as one of their own."""
+    return replace(table, rows=table.rows[start:stop], is_narrow=is_narrow)
+
+
 def compared_with(table: Table, cells: Sequence[str]) -> Table:
     """Return a table whose first row is the one that the others are compared with."""
     return replace(table, rows=(TableRow(cells=tuple(cells), kind="total"), *table.rows))
 
 
-def merged(table: Table, *fields: str, once: bool = False) -> Table:
+def merged(table: Table, *heads: str, once: bool = False) -> Table:
     """Return a table with one row for those that differ in names alone, which it lists.
 
-    The names are in the columns of the fields, or with these headings; else in the first. Those of
+    The names are in the columns with these headings, else in the first. Those of
     the others follow the first in their order, or are said `once` each, that count on as one.
     """
-    names = [k for k, column in enumerate(table.columns) if (column.field or column.head) in fields]
-    names = names if fields else [0]
+    names = [k for k, column in enumerate(table.columns) if column.head in heads] or [0]
     rows, columns = [], list(table.columns)
 
     def others(row: TableRow) -> tuple[object, ...]:

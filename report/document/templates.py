@@ -20,8 +20,7 @@ from markupsafe import Markup
 
 from report.assessment.checks.check import dagger
 from report.assessment.friction import mu_words
-from report.document.tables import Table, headed, merged, stamp, table_of
-from report.entities.evidence import ratio_up
+from report.document.tables import headed, merged, part_of, stamp
 from report.text import counts, formats, units
 from report.typeset import equations
 
@@ -37,7 +36,7 @@ _SHARED = {
     counts: "below_mm capitalized counted joined lettered lowered named numbered ranged spelled",
     equations: "data_uri formula symbol",
     formats: "general percent scientific seconds shortened",
-    units: "digits_down digits_up number ratio",
+    units: "digits_down digits_up number ratio ratio_up",
 }
 
 # Filters that are methods of the data of a package.
@@ -56,9 +55,12 @@ def rendered(folder: Path, name: str, context: Mapping[str, Any]) -> str:
     return _environment(folder).get_template(name).render(context)
 
 
-def sentence(folder: Path, name: str, *about: object) -> str:
-    """Return a sentence that pages and the screen share, from `sentences.html`, as plain text."""
-    macros = _environment(folder).get_template("sentences.html").module
+def sentence(folder: Path, name: str, *about: object, package: object = None) -> str:
+    """Return a sentence that pages and the screen share, from `sentences.html`, as plain text.
+
+    Its numbers are marked by the package, or by an assessment with its marks.
+    """
+    macros = _environment(folder).get_template("sentences.html").make_module({"p": package})
     # Line breaks of the template are none of the sentence.
     return " ".join(Markup(getattr(macros, name)(*about)).unescape().split())
 
@@ -93,15 +95,13 @@ def _environment(folder: Path) -> Environment:
         "friction": mu_words,
         "merged": merged,
         "needs_a_line": _needs_a_line,
-        "ratio_up": ratio_up,
+        "part_of": part_of,
         "stamp": stamp,
     }
     environment.tests |= {"infinite": math.isinf, "nan": math.isnan}
     environment.globals |= {
         "fraction": equations.fraction,
         "headed": headed,
-        "no_less": units.no_less,
-        "rows": _rows,
     }
     return environment
 
@@ -157,12 +157,6 @@ def _of_package(name: str) -> Callable[..., Any]:
         return getattr(context["p"], name)(*given)
 
     return found
-
-
-@pass_context
-def _rows(context: Context, entities: Any, names: str, **how: Any) -> Table:
-    """Return rows of an entity as a table of the named fields."""
-    return table_of(entities, names, how.pop("fmt", context["p"].fmt), **how)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

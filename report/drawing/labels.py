@@ -18,11 +18,11 @@ from report.assessment.routes import NOT_PERMITTED
 from report.drawing.items import Mark, width_in
 from report.drawing.placer import Frame, centered
 from report.drawing.sheet import LINE_IN, PAD_IN, PlanSheet, PlanSize, text_size
-from report.entities.shown import UnitFormat
 from report.project.model.choices import ObjectKind
 from report.project.model.scene import RoofObject
 from report.project.model.shapes import Point, Rectangle, Shape, around
 from report.text.counts import ids_by, ranged
+from report.text.unit_format import UnitFormat
 from report.text.units import Quantity, measured, no_less, number, pair
 
 ROW_IN = 0.175  # of a table of the package

@@ -17,10 +17,10 @@ from report.assessment.project import Assessment
 from report.drawing import items
 from report.drawing.items import TYPE_PT, Item, Layer, Look, Mark, tick_text, width_in
 from report.drawing.placer import Frame, Placer, centered
-from report.entities.shown import UnitFormat
 from report.project.model.scene import RoofObject
 from report.project.model.shapes import Point, Rectangle, Shape, room, sides
 from report.text.counts import name_lines
+from report.text.unit_format import UnitFormat
 from report.text.units import LENGTHS
 from solver.model import INCH_M
 

@@ -20,7 +20,6 @@ from matplotlib.axes import Axes
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.routes import NOT_PERMITTED
 from report.drawing.items import TYPE_PT
-from report.entities.shown import UnitFormat
 from report.figures.base import (
     ACCENT,
     ACROSS,
@@ -34,6 +33,7 @@ from report.figures.base import (
 )
 from report.project.model.scene import Array
 from report.text.counts import cut, ids_by, ranged
+from report.text.unit_format import UnitFormat
 from report.text.units import Quantity, Unit, number
 from solver.friction_tests import FittedLaw, FrictionRun, Surface
 

@@ -16,7 +16,6 @@ from matplotlib.ticker import MaxNLocator
 
 from report.assessment.runs import MotionRun
 from report.drawing.items import width_in
-from report.entities.shown import UnitFormat
 from report.figures.base import (
     ACCENT,
     ACROSS,
@@ -30,6 +29,7 @@ from report.figures.base import (
     svg_text,
 )
 from report.text.counts import LONGEST, cut, name_lines
+from report.text.unit_format import UnitFormat
 from report.text.units import Unit, no_less, number, round_below
 from solver.model import Floats, SlideHistory
 

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from report.document.columns import plain, text, words
 from report.document.tables import Column, Table, compared_with, listed
 from report.document.templates import Section, section
-from report.entities.shown import plain, text, words
 from report.manual import figures
 from report.text.counts import capitalized
 from report.text.formats import scientific, slug, ten_digits

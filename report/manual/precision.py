@@ -13,9 +13,9 @@ from collections.abc import Iterator
 import numpy as np
 import pandas as pd
 
+from report.document.columns import text, words
 from report.document.tables import Column, Table, listed
 from report.document.templates import Section, section
-from report.entities.shown import text, words
 from report.figures.base import power_of_ten
 from report.manual import figures as stability_figures
 from report.manual import paper_figures

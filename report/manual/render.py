@@ -18,9 +18,9 @@ import pandas as pd
 from markupsafe import Markup
 
 import solver.building.roof
+from report.document.columns import centered, text, words
 from report.document.tables import grouped
 from report.document.templates import Section, filled, rendered, section
-from report.entities.shown import centered, text, words
 from report.manual import precision
 from report.manual.measured import building, models
 from report.manual.precision import conditioning, convergence, curves, floor, links, stability, work

@@ -14,8 +14,8 @@ from functools import partial
 from report.assessment.checks.check import THIS_PROGRAM, texts
 from report.assessment.spectra import LEAST_MEAN, Spectra
 from report.assessment.verdict import MOTIONS_ID
+from report.document.columns import plain, text, words
 from report.document.tables import Column, Table, by_place, listed, stamp
-from report.entities.shown import plain, text, words
 from report.motions.components import RecordFile
 from report.pages.parts import MOTION_ROWS, PackageData
 from report.pages.symbols import friction_standard
@@ -83,11 +83,9 @@ def strength_table(package: PackageData) -> Table:
             for name in _COMPONENTS
         ),
         *((text("Correlation", pair), partial(correlation, pair=pair)) for pair in _PAIRS),
-        (
-            text("Hold", "s", 0.9),
-            lambda motion: number(motion.hold_s, 1) if motion.is_generated else "record",
-        ),
-    )
+        (text("Hold", "s", 0.9),
+         lambda motion: number(motion.hold_s, 1) if motion.is_generated else "record"),
+    )  # fmt: skip
     motions = package.assessment.acceptance.motions
     return listed(motions, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
 

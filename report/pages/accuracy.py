@@ -18,10 +18,11 @@ from report.assessment.project import Assessment
 from report.assessment.trials import with_mu
 from report.assessment.uncertainty import Margin
 from report.assessment.verdict import SHIFT
+from report.document.columns import length, required, text, words
 from report.document.tables import Column, Table, listed
-from report.entities.shown import NO_VALUE, length, required, text, words
 from report.pages.parts import PackageData
 from report.text.counts import lowered, ranged
+from report.text.unit_format import NO_VALUE
 from report.text.units import number
 from solver.model import DefectError, Status
 from solver.rules.provisions import Neighbor
@@ -78,19 +79,15 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
     columns = (
         (words("No.", 0.8), lambda margin: str(margin.number)),
         (words("Array", 0.8), lambda margin: margin.array.id),
-        (
-            text("μ", "given", package.mu_share),
-            lambda margin: mu_words(margin.array.array.friction),
-        ),
+        (text("μ", "given", package.mu_share),
+         lambda margin: mu_words(margin.array.array.friction)),
         (text("μ", "least", package.mu_share), least),
         (text("Change", "%", 0.9), lambda margin: number(100.0 * (_share(margin) - 1.0), 1)),
-        (
-            required("Required there", 0.9),
-            lambda margin: "—" if math.isnan(margin.minimum_mu) else margin.required_m,
-        ),
+        (required("Required there", 0.9),
+         lambda margin: "—" if math.isnan(margin.minimum_mu) else margin.required_m),
         (length("Provided", 0.9), lambda margin: margin.gap.clearance.provided_m),
         (words("Limited by", 1.6), lambda margin: lowered(margin.limited_by)),
-    )
+    )  # fmt: skip
     return listed(margins, columns, package.fmt, kind="compact")
 
 

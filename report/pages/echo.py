@@ -10,8 +10,8 @@ from string import ascii_uppercase, digits
 
 from markupsafe import Markup
 
+from report.document.columns import words
 from report.document.tables import Column, Table, listed
-from report.entities.shown import words
 from report.pages.parts import BAR, PackageData
 from report.project.read.read import IGNORED, EchoRow
 

@@ -14,8 +14,8 @@ from report.assessment.clearances import by_id
 from report.assessment.friction import mu_words, velocity_check
 from report.assessment.tested import MOST_BEYOND, tested
 from report.assessment.verdict import NOT_GIVEN, VELOCITY_ROW, Verdict
+from report.document.columns import ColumnHead, centered, text, words
 from report.document.tables import Table, Wide, by_place, listed, stamp
-from report.entities.shown import Shown, centered, text, words
 from report.pages.parts import PackageData
 from report.project.check.motion_checks import MU_TOLERANCE
 from report.project.model import ProjectInput
@@ -94,7 +94,7 @@ def _runs(package: PackageData) -> Sequence[tuple[str, Table]]:
     has_reports = len({series.report for series in all_series}) > 1
     columns = by_place(
         text("Run", share=0.7),
-        Shown(head="Velocity", quantity=Quantity.VELOCITY),
+        ColumnHead(head="Velocity", quantity=Quantity.VELOCITY),
         text("Kinetic μ"),
         text("Static μ"),
     )
@@ -136,8 +136,8 @@ def _velocities(package: PackageData) -> Table:
     columns = by_place(
         words("Array", 0.6),
         text("μ", "as run", package.mu_share),
-        Shown(head="Largest velocity", quantity=Quantity.VELOCITY, share=0.8, show=no_less),
-        Shown(head="Tested to", quantity=Quantity.VELOCITY, share=0.8),
+        ColumnHead(head="Largest velocity", quantity=Quantity.VELOCITY, share=0.8, show=no_less),
+        ColumnHead(head="Tested to", quantity=Quantity.VELOCITY, share=0.8),
         text("μ beyond", "largest", 0.9),
         text("μ tested", "smallest", 0.9),
         centered("Verdict", 1.8),

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.checks.check import alike, sentence, words
@@ -23,6 +22,7 @@ from report.assessment.project import Assessment, ChangeKind, Changes
 from report.assessment.remedies import Remedies
 from report.assessment.routes import Route
 from report.assessment.verdict import LOWERING, VELOCITY_ROW
+from report.pages.array_tables import comparison_table, letter_table, summary_table
 from report.pages.checks import (
     FirstSheet,
     condition_table,
@@ -35,7 +35,9 @@ from report.pages.symbols import friction_standard
 from report.project.model.site import Revision
 from report.project.read.linked_files import StudyYears, YearsOfArray
 from report.project.workbook import SECTION
+from report.text.counts import ids_by
 from report.text.formats import VALIDATION
+from report.text.units import number
 
 
 def _review(package: PackageData) -> Mapping[str, object]:
@@ -52,6 +54,7 @@ def letter(package: PackageData) -> Mapping[str, object]:
     """Return what requires less than the rule set, and what peer review permits."""
     return {
         "verdict": verdict_sentence(package.assessment, f"in {package.part('summary')}"),
+        "arrays": letter_table(package),
         # What asks for less than the rule set stands in the letter, too.
         "lowered": [row for row in package.assessment.checks if row.id in LOWERING],
         "review": _review(package),
@@ -71,11 +74,8 @@ def summary(
     return {
         "verdict": verdict_sentence(done),
         "statistic": statistic(package.governing.analysis.basis),
-        "fmt": replace(package.fmt, systems=1),
-        # What gives a verdict is a row of its own below.
-        "arrays": [
-            row.model_copy(update={"marks": {**row.marks, "verdict": ""}}) for row in package.arrays
-        ],
+        "arrays": summary_table(package),
+        "prescriptive_clause": done.rules.values[package.prescriptive_key(done.governing)].clause,
         "review": _review(package),
         "n_checks": len(done.checks),
         "sheet": sheet,
@@ -159,20 +159,57 @@ def page(package: PackageData) -> Mapping[str, object]:
 def comparison(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return what the comparison needs beside the arrays."""
     done = package.assessment
-    building = building_limits(done.project, done.rules)
     return {
+        "arrays": comparison_table(package),
+        "prescriptive_clause": package.clause(package.prescriptive_key(done.governing)),
         "cases": evidence.cases,
-        "against_analysis": {item.id: done.against_analysis(item) for item in done.arrays},
-        "against_prescriptive": {
-            item.id: [
-                words(of_limit(limit))
-                for limit in (*item.limits.prescriptive_checks, *item.limits.checks, *building)
-                if not limit.ok
-            ]
-            for item in done.arrays
-        },
+        "routes": ids_by(done.arrays, lambda item: _routes(package, item)),
         "years": list(_years(package)),
     }
+
+
+def _routes(package: PackageData, item: ArrayAssessment) -> str:
+    """Return why an array has its procedure, and whether the other would be permitted."""
+    done, given_m, analysis = package.assessment, item.prescriptive.value_m, item.analysis
+    building = building_limits(done.project, done.rules)
+    limits = (*item.limits.prescriptive_checks, *item.limits.checks, *building)
+    failed = [words(of_limit(limit)) for limit in limits if not limit.ok]
+    if failed:
+        other = f"the prescriptive procedure is not permitted ({'; '.join(failed)})"
+    elif analysis.value_m > given_m:
+        other = (
+            "the limits of the prescriptive procedure are satisfied, but the displacement by "
+            "analysis exceeds its value"
+        )
+    else:
+        other = f"the prescriptive displacement may be used instead ({package.part('limits')})"
+    faults = "; ".join(done.against_analysis(item))
+    refused = f"the analysis procedure is not permitted ({faults})"
+    parts: list[str] = []
+    if item.route is Route.PRESCRIPTIVE:
+        parts.append("the prescriptive procedure is taken")
+        if analysis.largest_m > given_m:
+            parts.append("the largest PRD exceeds the prescriptive displacement and is used")
+        return "; ".join([*parts, refused])
+    if math.isnan(item.design_m):
+        return f"no value from analysis; {other}"
+    n_above = sum(run.governing.prd_m > given_m for run in item.motions)
+    above = f"{n_above} of {len(item.motions)} PRDs"
+    if analysis.value_m > given_m:
+        parts.append(
+            f"the displacement by analysis is {number(analysis.value_m / given_m, 2)} times the "
+            f"prescriptive displacement ({above} exceed it) and governs"
+        )
+    elif n_above:
+        parts.append(
+            f"{above} exceed the prescriptive displacement, but the displacement by analysis does "
+            "not"
+        )
+    if package.data.is_peer_reviewed:
+        parts.append("no floor applies because the analysis is peer reviewed")
+    if not item.is_permitted:
+        parts.append(refused)
+    return "; ".join([*parts, other])
 
 
 def _years(package: PackageData) -> Iterator[Mapping[str, object]]:

@@ -9,8 +9,8 @@ import math
 from collections.abc import Mapping
 
 from report.assessment.friction import mu_words
+from report.document.columns import ColumnHead, length, plain, text, weight, words
 from report.document.tables import Table, listed
-from report.entities.shown import Shown, length, plain, text, words
 from report.motions.history import ac156
 from report.pages import friction_tests
 from report.pages.parts import PackageData
@@ -111,11 +111,12 @@ def _arrays(package: PackageData) -> Table:
         (plain("Slope", 1, "%", 0.6), lambda array: 100.0 * math.tan(array.slope_rad)),
         (plain("Down", 0, "deg", 0.7), lambda array: array.downslope_deg),
         (text("μ", share=package.mu_share), lambda array: mu_words(array.friction)),
-        (Shown(head="Weight", quantity=Quantity.WEIGHT, share=0.95), lambda array: array.weight_n),
-        (Shown(head="Weight per area", quantity=Quantity.PRESSURE), lambda array: array.weight_pa),
+        (weight("Weight", 0.95), lambda array: array.weight_n),
+        (ColumnHead(head="Weight per area", quantity=Quantity.PRESSURE),
+         lambda array: array.weight_pa),
         (length("Center of gravity"), lambda array: array.cg_height_m),
         (length("Support spacing"), lambda array: array.support_spacing_m),
-    )
+    )  # fmt: skip
     return listed(package.data.arrays, columns, package.fmt, kind="compact")
 
 
@@ -127,10 +128,8 @@ def _links(package: PackageData) -> Table:
             words("μ of the blocks, from the upslope end", 4.2),
             lambda row: ", ".join(number(mu, 3) for mu in row.mus),
         ),
-        (
-            Shown(head="Link stiffness", quantity=Quantity.STIFFNESS, share=1.1),
-            lambda row: row.stiffness_n_per_m,
-        ),
+        (ColumnHead(head="Link stiffness", quantity=Quantity.STIFFNESS, share=1.1),
+         lambda row: row.stiffness_n_per_m),
         (plain("Link damping", 3, "of critical", 1.3), lambda row: row.damping_ratio),
-    )
+    )  # fmt: skip
     return listed(package.data.links, columns, package.fmt)

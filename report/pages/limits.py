@@ -19,13 +19,19 @@ from report.assessment.friction import mus_words
 from report.assessment.neighbors import Cover
 from report.assessment.plan_clearances import plan_gaps
 from report.assessment.precheck import findings
+from report.assessment.verdict import Verdict
+from report.document.columns import ColumnHead, length, provided, text, words
 from report.document.tables import LONG_NAME, Table, grouped, listed
 from report.drawing.labels import alike_arrays
 from report.drawing.sheet import unit_format
-from report.entities.evidence import NeighborResult
-from report.entities.requirement import UNVERIFIED
-from report.entities.shown import Shown, UnitFormat, length, provided, text, words
 from report.pages.checks import all_checks
+from report.pages.clearance_tables import (
+    NumberedGap,
+    neighbor_table,
+    numbered_gaps,
+    plan_schedule,
+)
+from report.pages.marks import UNVERIFIED
 from report.pages.parts import PackageData
 from report.pages.summary import remedy_lines
 from report.project.check.findings import lines
@@ -34,6 +40,7 @@ from report.project.model.fields import Level
 from report.project.model.scene import Array, RoofObject
 from report.project.model.shapes import Polygon, Shape
 from report.text.counts import grouped_by
+from report.text.unit_format import UnitFormat
 from report.text.units import Quantity
 from report.typeset.equations import symbol
 from solver.rules.provisions import Neighbor
@@ -61,6 +68,8 @@ def _warnings(package: PackageData) -> Iterator[Sequence[str]]:
         yield line.cell, f"{line.text}.", line.reason or "not acknowledged"
 
 
+# Letters of names for which there is room in half the width of a sheet.
+SHORT_NAME = 8
 # Of pairs whose clearance is not given, or not as in the plan: the others need no table.
 _APART = {Cover.SHORT, Cover.SUFFICIENT, Cover.DIFFERS}
 
@@ -68,7 +77,10 @@ _APART = {Cover.SHORT, Cover.SUFFICIENT, Cover.DIFFERS}
 def plan(package: PackageData) -> Mapping[str, object]:
     """Return what the part needs beside its drawings."""
     assessment = package.assessment
-    near = list(map(NeighborResult.of, assessment.neighbors))
+    near, gaps = assessment.neighbors, numbered_gaps(assessment)
+    drawn = list(plan_gaps(assessment))
+    numbers = {gap.number for gap in drawn}
+    apart = [pair for pair in near if pair.cover in _APART]
     beyond = [pair for pair in assessment.pairs if not pair.is_listed]
     # In one unit, as the drawings: the tables and the plan are read side by side.
     fmt = replace(unit_format(assessment), systems=1, none="none")
@@ -77,15 +89,23 @@ def plan(package: PackageData) -> Mapping[str, object]:
         "fmt": fmt,
         "arrays": alike_arrays(assessment, fmt),
         "friction": mus_words(package.data.arrays),
-        "drawn": list(plan_gaps(assessment)),
-        "neighbors": [pair for pair in near if pair.cover in _APART],
+        "schedule": plan_schedule(package, fmt),
+        "n_gaps": len(gaps),
+        "has_short_names": all(
+            len(name) <= SHORT_NAME for gap in gaps for name in gap.check.between
+        ),
+        "undrawn": [gap.number for gap in gaps if gap.number not in numbers],
+        "bases": _bases(gaps),
+        "has_unknown": any(gap.check.verdict is Verdict.NONE for gap in gaps),
+        "unpermitted": [item.id for item in assessment.arrays if not item.is_permitted],
+        "neighbors": neighbor_table(package, apart) if apart else None,
         "as_drawn": [
-            row.clearance for pair in near if pair.cover not in _APART for row in pair.given
+            str(row.number) for pair in near if pair.cover not in _APART for row in pair.given
         ],
         "n_beyond": len(beyond),
         "nearest": min(beyond, key=lambda pair: pair.gap_m, default=None),
         "factors": _factors(package),
-        "clauses": dict.fromkeys(row.clause for row in package.clearances),
+        "clauses": dict.fromkeys(package.clause(gap.key) for gap in gaps),
         "parapets": _parapets(package),
         "places": _places(package, fmt),
         # By id, with the number of vertices: the table of places has only the rectangle around.
@@ -96,11 +116,18 @@ def plan(package: PackageData) -> Mapping[str, object]:
     }
 
 
+def _bases(gaps: Sequence[NumberedGap]) -> Sequence[tuple[str, Sequence[str]]]:
+    """Return the numbers of the clearances by the basis of what is provided."""
+    bases = grouped_by(gaps, lambda gap: gap.check.basis.value)
+    return [(basis, [str(gap.number) for gap in bases[basis]]) for basis in sorted(bases)]
+
+
 def _factors(package: PackageData) -> Sequence[Mapping[str, object]]:
     """Return each kind of neighbor with its factor, and the clearances to it."""
-    kinds = grouped_by(package.clearances, lambda row: (row.neighbor.value, row.factor))
+    gaps = numbered_gaps(package.assessment)
+    kinds = grouped_by(gaps, lambda gap: (gap.check.neighbor.value, gap.check.factor))
     return [
-        {"kind": kind, "factor": factor, "numbers": [str(row.count) for row in rows]}
+        {"kind": kind, "factor": factor, "numbers": [str(gap.number) for gap in rows]}
         for (kind, factor), rows in kinds.items()
     ]
 
@@ -164,8 +191,8 @@ def _sides(shape: Shape | None) -> tuple[Any, ...]:
     return box.x_from_m, box.x_to_m, box.y_from_m, box.y_to_m
 
 
-def _in_plan(head: str) -> Shown:
-    return Shown(head=head, quantity=Quantity.PLAN)
+def _in_plan(head: str) -> ColumnHead:
+    return ColumnHead(head=head, quantity=Quantity.PLAN)
 
 
 def provisions(package: PackageData) -> Mapping[str, object]:

@@ -15,12 +15,21 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.runs import OrientedRun
 from report.assessment.tested import tested
 from report.assessment.verdict import nan_is_worst
-from report.document.tables import Table, Wide, by_place, listed
-from report.entities.evidence import linked_result
-from report.entities.shown import NO_VALUE, centered, length, plain, text, words
+from report.document.columns import (
+    ColumnHead,
+    centered,
+    length,
+    plain,
+    required,
+    text,
+    weight,
+    words,
+)
+from report.document.tables import Column, Table, Wide, by_place, listed
 from report.pages.parts import PackageData, statistic, verdict
 from report.text.counts import below_mm, grouped_by
-from report.text.units import number, ratio
+from report.text.unit_format import NO_VALUE
+from report.text.units import Quantity, number, ratio, ratio_up
 from solver.model import INCH_M
 from solver.sliding.least_model import DEFAULT, Model, Solution
 
@@ -29,10 +38,46 @@ def part(package: PackageData) -> Mapping[str, object]:
     """Return the rows of linked blocks for the page on the models; empty where there are none."""
     linked = package.assessment.linked
     return {
-        "rows": tuple(map(linked_result, linked)),
+        "runs": _link_runs_table(package),
+        "adequacy": _adequacy_table(package),
         "statistics": sorted({statistic(array.design.analysis.basis) for array in linked}),
         "troubles": package.sentences("links"),
     }
+
+
+def _link_runs_table(package: PackageData) -> Table:
+    columns: Sequence[Column] = (
+        (words("Array", 0.9), lambda item: item.design.id),
+        (text("Blocks", share=0.9), lambda item: len(item.row.mus)),
+        (text("μ", share=1.5), lambda item: _range(item.row.mus)),
+        (ColumnHead(head="Link stiffness", quantity=Quantity.STIFFNESS),
+         lambda item: item.links.stiffness_n_per_m),
+        (plain("Damping", 3, unit="of critical", share=1.2), lambda item: item.links.damping_ratio),
+        (required("PRD, rigid", 0.8), lambda item: item.rigid_prd_m),
+        (required("PRD, row", 0.8), lambda item: item.farthest.prd_m),
+        # A row without a final value has no farthest block.
+        (text("Block", share=0.8),
+         lambda item: math.nan if math.isnan(item.farthest.prd_m) else item.farthest.block),
+        (weight("Link force", 0.9), lambda item: item.link_force_n),
+    )  # fmt: skip
+    return listed(package.assessment.linked, columns, package.fmt, kind="compact")
+
+
+def _range(mus: Sequence[float]) -> str:
+    return " to ".join(number(mu, 3) for mu in sorted({min(mus), max(mus)}))
+
+
+def _adequacy_table(package: PackageData) -> Table:
+    columns: Sequence[Column] = (
+        (words("Array", 0.9), lambda item: item.design.id),
+        (required("Rigid, one axis"), lambda item: item.rigid.value_m),
+        (required("Row, one axis"), lambda item: item.linked.value_m),
+        (ColumnHead(head="Ratio r", text=ratio_up, share=0.9), lambda item: item.ratio),
+        (required("Design, used"), lambda item: item.design.permitted_m),
+        (required("Design, with links"), lambda item: item.estimated_m),
+        (centered("Verdict"), lambda item: verdict(item.is_rigid_enough)),
+    )
+    return listed(package.assessment.linked, columns, package.fmt, kind="compact")
 
 
 _NEGLECTED = {
@@ -68,17 +113,15 @@ def _stability_table(package: PackageData) -> Table:
     columns = (
         (words("Array", 0.8), lambda item: item.id),
         (plain("Min. N", unit="m g"), lambda item: item.uplift.n_min_g),
-        (
-            text("Uplift time", "s", 1.1),
-            lambda item: number(item.uplift.duration_s, 3) if item.uplift.lifts else none,
-        ),
+        (text("Uplift time", "s", 1.1),
+         lambda item: number(item.uplift.duration_s, 3) if item.uplift.lifts else none),
         (text("Demand", "V/N"), lambda item: _limited(item.tipping.demand)),
         (plain("Transmitted", unit="V/N", share=1.1), lambda item: item.tipping.transmitted),
         (plain("Capacity", unit="b/(2c)", share=1.1), lambda item: item.tipping.capacity),
         (text("Ratio, at rest", share=1.2), lambda item: ratio(item.tipping.at_rest_ratio)),
         (text("Ratio, sliding", share=1.2), lambda item: ratio(item.tipping.sliding_ratio)),
         (centered("Verdict"), lambda item: verdict(item.tipping.is_ok and not item.uplift.lifts)),
-    )
+    )  # fmt: skip
     return listed(package.assessment.arrays, columns, package.fmt, kind="compact")
 
 

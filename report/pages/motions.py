@@ -17,8 +17,8 @@ from markupsafe import Markup
 from report.assessment.checks.motions import DRIFT_M, drifts
 from report.assessment.evidence import Beyond, Evidence
 from report.assessment.spectra import PRINTED_S, Spectra, departures
+from report.document.columns import centered, length, plain, required, text, words
 from report.document.tables import Column, Table, Wide, by_place, listed
-from report.entities.shown import centered, length, plain, required, text, words
 from report.motions.history import PreparedMotion, first_period_s
 from report.pages.acceptance import acceptance_table, events, lowest_between, strength_table
 from report.pages.parts import MOTION_ROWS, PackageData
@@ -235,11 +235,9 @@ def _drift_table(package: PackageData, unit: Unit) -> Table:
             for head, end in ends.items()
             for name in names
         ),
-        (
-            words("Drift", 0.9),
-            lambda prepared: Markup("<b>drifts</b>") if drifts(prepared) else "none",
-        ),
-    )
+        (words("Drift", 0.9),
+         lambda prepared: Markup("<b>drifts</b>") if drifts(prepared) else "none"),
+    )  # fmt: skip
     prepared = package.assessment.shaking.prepared
     return listed(prepared, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
 

@@ -18,9 +18,7 @@ from report.assessment.project import NO_FORMER, Changes
 from report.assessment.tested import basis_words
 from report.assessment.verdict import Verdict
 from report.document.tables import stamp
-from report.entities.array import ArrayResult, array_results
-from report.entities.clearance import ClearanceResult, clearance_results
-from report.entities.requirement import Marked
+from report.pages.marks import Marked
 from report.project.model.choices import PackageEdition, RecordedAt
 from report.project.model.scene import Array
 from report.provenance.files import fingerprint
@@ -58,20 +56,6 @@ class PackageData(Marked):
         """Return the reference to a part, as in `part 6`."""
         number = self.numbers[name]
         return f"part {number}" if number.isdigit() else f"appendix {number}"
-
-    @cached_property
-    def arrays(self) -> tuple[ArrayResult, ...]:
-        """The arrays, with a bar beside those that changed."""
-        rows, changed = array_results(self), self.changes.arrays
-        return tuple(row.styled(self.bar(row.id in changed)) for row in rows)
-
-    @cached_property
-    def clearances(self) -> tuple[ClearanceResult, ...]:
-        """The clearances, numbered, with a bar beside those that changed."""
-        # By their number in the workbook, which the plan and the schedule print as well.
-        rows = clearance_results(self, dict(enumerate(self.assessment.clearances, start=1)))
-        changed = self.changes.clearances
-        return tuple(row.styled(self.bar(row.count in changed)) for row in rows)
 
     @property
     def n_runs(self) -> int:

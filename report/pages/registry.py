@@ -27,6 +27,7 @@ from report.pages import (
     limits,
     model,
     motions,
+    notes,
     results,
     symbols,
 )
@@ -81,7 +82,7 @@ PAGES = (
     Page("results", "Results", results.page, results.below),
     Page("accuracy", "Accuracy and sensitivity", accuracy.page),
     Page("records", "Records, software and references", _alone(acceptance.page), is_appendix=True),
-    Page("notes", "Notes for the construction documents", lambda *_: {}, is_appendix=True),
+    Page("notes", "Notes for the construction documents", _alone(notes.page), is_appendix=True),
     _complete("echo", "Input echo", _alone(echo.page)),
     _complete("hashes", "Hashes of the records", _alone(acceptance.hashes)),
     _complete("spectra", "Table of spectra", motions.spectra),

@@ -18,17 +18,20 @@ from report.assessment.checks.check import Check, alike, texts
 from report.assessment.evidence import Evidence
 from report.assessment.runs import MotionRun
 from report.assessment.verdict import STRENGTH_ROW, severity
-from report.document.tables import Column, Table, TableRow, Wide, listed, stamp, table_of
+from report.document.columns import ColumnHead, required, text, words
+from report.document.tables import Column, Table, TableRow, Wide, listed, stamp
 from report.drawing.items import drawn_slope_deg
-from report.entities.shown import Shown, UnitFormat, required, text, words
 from report.pages.parts import PackageData, statistic
 from report.project.model.choices import Direction
 from report.text.counts import grouped_by, named
+from report.text.unit_format import UnitFormat
 from report.text.units import Quantity, no_less, number, ratio
 from solver.model import Orientation, Status
 from solver.rules.provisions import SEPARATION_KEYS
 
 _Alike = Sequence[ArrayAssessment]
+# Peaks in the equation of their mean; those after them are dots.
+_MOST_PEAKS = 12
 _WAYS = (Direction.DOWN, Direction.UP, Direction.ACROSS)
 _SHORT = {
     Status.OK: "at rest",
@@ -97,9 +100,9 @@ def _peaks(package: PackageData, group: _Alike, orientations: Sequence[Orientati
     fmt, changed = package.fmt, package.changes.values
     unit = fmt.units()[0].symbol
 
-    def in_first(head: str, below: str) -> Shown:
+    def in_first(head: str, below: str) -> ColumnHead:
         """Return how a length is shown in the preferred system alone."""
-        return Shown(head=f"{head}, {unit}", unit=below, text=partial(fmt.first, show=no_less))
+        return ColumnHead(head=f"{head}, {unit}", unit=below, text=partial(fmt.first, show=no_less))
 
     columns: list[Column] = [
         (words("Motion"), attrgetter("motion.id")),
@@ -143,22 +146,30 @@ def _peak(fmt: UnitFormat, orientation: Orientation, motion: MotionRun) -> str:
 
 def _statistics(package: PackageData, group: _Alike, runs: int) -> Iterator[TableRow]:
     array, fmt = group[0], package.fmt
-    row = next(row for row in package.arrays if row.id == array.id)
-    factor = f"{statistic(array.analysis.basis)}, {package.clause('analysis_factor')}"
-    for name, label, about in (
-        ("mean_prd_m", "Mean", "of the motions"),
-        ("largest_prd_m", "Largest", "of the motions"),
-        ("computed_m", f"Analysis: {factor}", ""),
-        ("floor", f"Floor: {_floor_words(package)}", ""),
-        ("design_m", "Design", f"governed by: {array.source}"),
-    ):
-        field = name.replace("floor", "floor_m")
-        is_changed = any((item.id, field) in package.changes.values for item in group)
+    analysis, head = array.analysis, required("")
+    factor = f"{statistic(analysis.basis)}, {package.clause('analysis_factor')}"
+    computed_mark = package.computed_mark(array)
+    floor_m = array.floor_m or math.nan  # peer review removes it
+    # The keys are those of results.json, by which changes are known.
+    rows: Sequence[tuple[str, str, float, str, str]] = (
+        ("mean_prd_m", "Mean", analysis.mean_m, "", "of the motions"),
+        ("largest_prd_m", "Largest", analysis.largest_m, "", "of the motions"),
+        ("computed_m", f"Analysis: {factor}", analysis.value_m, computed_mark, ""),
+        ("floor_m", f"Floor: {_floor_words(package)}", floor_m, package.floor_mark(array), ""),
+        (
+            "design_m",
+            "Design",
+            array.design_m,
+            package.design_mark(array),
+            f"governed by: {array.source}",
+        ),
+    )
+    for key, label, value_m, mark, about in rows:
+        is_changed = any((item.id, key) in package.changes.values for item in group)
         yield TableRow(
             cells=(
                 Wide(label, 1 + runs),
-                # The same field as in the table of arrays, with its marks: both print one text.
-                *table_of([row], name, fmt).rows[0].cells,
+                *head.cells(value_m, fmt.none, head.units(fmt), mark),
                 Wide(about, len(_WAYS) + 5),
             ),
             kind=package.bar(is_changed, "total"),
@@ -233,10 +244,21 @@ def _design(package: PackageData) -> Mapping[str, object]:
     array, checks = package.governing, package.assessment.checks
     strengths = [check for check in checks if check.id == STRENGTH_ROW]
     strength = max(strengths, key=_exceeds)
+    peaks = [
+        package.fmt.first(run.governing.prd_m, show=no_less) for run in array.motions[:_MOST_PEAKS]
+    ]
+    peaks += ["…"] * (len(array.motions) > _MOST_PEAKS)
     arrays = package.assessment.arrays
     return {
         "statistic": statistic(array.analysis.basis),
-        "analysis_mark": array.overridden.analysis,
+        "prescriptive_clause": package.clause(package.prescriptive_key(array)),
+        "prescriptive_mark": package.prescriptive_mark(array),
+        "analysis_mark": package.computed_mark(array),
+        "floor_mark": package.floor_mark(array),
+        "design_mark": package.design_mark(array),
+        "troubles": package.sentences("runs", [array.id]),
+        "peaks": " + ".join(peaks),
+        "unit": package.fmt.units()[0].symbol,
         "by_routes": [
             (check.subject, stamp(check.verdict))
             for check in alike(check for check in checks if check.id == "design")

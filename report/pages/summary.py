@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from report.assessment.causes import causes
+from report.assessment.causes import causes, unshown_cause
 from report.assessment.checks.check import alike, sentence, subjects
 from report.assessment.evidence import saving
 from report.assessment.precheck import findings
@@ -20,13 +21,13 @@ from report.assessment.remedies import MOST, Remedies, remedies
 from report.assessment.routes import NOT_PERMITTED
 from report.assessment.verdict import MEANING, Verdict
 from report.document.templates import sentence as of_template
-from report.entities.array import ArrayResult, array_results
-from report.entities.requirement import Marked
-from report.entities.shown import UnitFormat
+from report.pages.array_tables import governing_name, ratio_words
+from report.pages.marks import Marked
 from report.project.check.findings import lines
 from report.project.model.fields import Level
 from report.text.counts import capitalized, grouped_by
 from report.text.formats import aligned, finite
+from report.text.units import no_less
 from report.typeset.pdf import TEMPLATES
 from solver.rules.limit import Consequence
 
@@ -59,7 +60,7 @@ def summary(assessment: Assessment) -> Iterator[str]:
     """Yield the table of the arrays, what needs attention, and the verdict."""
     # A terminal has no note at its foot that would say what a dagger means.
     marked = Marked(assessment=assessment, has_daggers=False)
-    rows = [_COLUMNS, *(_row(marked.fmt, item) for item in array_results(marked))]
+    rows = [_COLUMNS, *(_row(marked, item) for item in assessment.arrays)]
     # Without motions nothing is computed: a column of nones would look like a failure.
     if not assessment.has_motions:
         rows = [(id, *others) for id, _, *others in rows]
@@ -79,7 +80,7 @@ def without_analysis(assessment: Assessment) -> str:
     if assessment.has_motions and not found.ids:
         return ""
     marked = Marked(assessment=assessment, has_daggers=False)
-    return of_template(TEMPLATES, "without_analysis", marked, found)
+    return of_template(TEMPLATES, "without_analysis", found, package=marked)
 
 
 def document(assessment: Assessment) -> dict[str, Any]:
@@ -108,15 +109,19 @@ def _array(assessment: Assessment, item: ArrayAssessment) -> dict[str, Any]:
     }
 
 
-def _row(fmt: UnitFormat, item: ArrayResult) -> tuple[str, ...]:
-    refused = f", {NOT_PERMITTED}" if item.is_refused else ""
+def _row(marked: Marked, item: ArrayAssessment) -> tuple[str, ...]:
+    done, cause = marked.assessment, unshown_cause(marked.assessment, item)
+    prescriptive_m = item.prescriptive.value_m
+    both = partial(marked.fmt.both, show=no_less)
+    refused = f", {NOT_PERMITTED}" if item.has_unpermitted_value else ""
     return (
         item.id,
-        *(item.both(name, fmt) for name in ("computed_m", "prescriptive_m")),
-        item.both("design_m", fmt) + refused,
-        item.governing_gap,
-        item.largest_dc,
-        item.verdict + (f": {item.cause}" if item.cause else ""),
+        both(item.analysis.value_m, mark=marked.computed_mark(item)),
+        both(prescriptive_m, mark=marked.prescriptive_mark(item)),
+        both(item.design_m, mark=marked.design_mark(item)) + refused,
+        governing_name(done, item),
+        ratio_words(done, item),
+        done.array_verdict(item) + (f": {cause}" if cause else ""),
     )
 
 

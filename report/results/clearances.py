@@ -1,72 +1,113 @@
 """The sheet Clearances of results.xlsx: required and provided separations, as live formulas.
 
 Computes nothing: each formula is written with the value from `report.assessment.project`. Read
-`GapRow`.
+`GAPS`.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Annotated, ClassVar
+from dataclasses import dataclass
 
 from report.assessment.clearances import ClearanceCheck, beside
 from report.assessment.project import Assessment
 from report.assessment.verdict import MEANING, Verdict
-from report.entities.clearance import ClearanceResult
-from report.entities.shown import Column, Number, up_column
-from report.results.design import DesignRow, InputCells
-from report.results.sheets import TOP, Pages, SheetRow, fixed, write_live
+from report.results.design import DESIGN, InputCells
+from report.results.sheets import (
+    TOP,
+    Pages,
+    SheetColumn,
+    SheetLayout,
+    SheetRow,
+    up_column,
+    write_live,
+)
+from report.text.units import round_up
 from solver.rules.provisions import SEPARATION_KEYS
 
+_REQUIRED = '=IF(ISTEXT({design_m}),"none",MAX({design_m}*{factor},{minimum_m}))'
+# Rounded up as `ratio` does, so that 1.00 never hides a failure.
+_UP = "MAX(0,ROUNDUP({required_m}/{provided_m}-0.000000001,2))"
+_RATIO = f'=IF(ISTEXT({{required_m}}),"none",IF({{provided_m}}>0,{_UP},"none"))'
+_OK = '=IF(ISTEXT({required_m}),"{unknown}",IF({required_m}<={provided_m},"OK","NG"))'
 _DIFFERENCE = '=IF(ISTEXT({required_m}),"none",{required_m}-{by_roofslip_m})'
 
 
-class GapRow(SheetRow, ClearanceResult):
-    """A clearance: required and provided separation."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GapRow:
+    """A clearance with its number, and the factor of the rule set."""
 
-    sheet: ClassVar[str] = "Clearances"
-    across: ClassVar[str] = (
-        "count array object direction neighbor governing design_m factor minimum_m required_m"
-        " provided_m basis demand_capacity verdict by_roofslip_m difference rule_factor importance"
-    )
-    last_printed: ClassVar[str] = "importance"
-    key_columns: ClassVar[int] = 3
+    count: int
+    gap: ClearanceCheck
+    rule_factor: float
 
-    count: Annotated[int, Column("No.")]
-    governing: Annotated[str, Column("Governing array")]
-    minimum_m: Annotated[float, Column("Minimum [in]", is_input=True)]
-    by_roofslip_m: Annotated[Number, up_column("Required by Roofslip [in]", 1)]
-    difference: Annotated[float, Column("Difference [in]", 4, _DIFFERENCE)] = 0.0
-    rule_factor: Annotated[float, Column("Separation / displacement", 2, is_input=True)]
+
+# The value beside the formula is rounded as the formula is, and as the page.
+def _ratio(row: GapRow) -> float:
+    value = row.gap.demand_capacity
+    return round_up(value, 2) if math.isfinite(value) else math.nan
+
+
+GAPS = SheetLayout(
+    "Clearances",
+    (
+        SheetColumn("count", "No.", lambda row: row.count),
+        SheetColumn("array", "Array", lambda row: row.gap.clearance.array),
+        SheetColumn("object", "Object", lambda row: row.gap.clearance.object),
+        SheetColumn("direction", "Direction", lambda row: row.gap.clearance.direction),
+        SheetColumn("neighbor", "Kind", lambda row: row.gap.neighbor),
+        SheetColumn("governing", "Governing array", lambda row: row.gap.governing_array),
+        up_column("design_m", "Design [in]", lambda row: row.gap.design_m, 1, "={largest}",
+            is_always=True),
+        SheetColumn("factor", "Factor", lambda row: row.gap.factor, 2,
+            "={rule_factor}*{importance}"),
+        SheetColumn("minimum_m", "Minimum [in]", lambda row: row.gap.minimum_m, is_input=True),
+        up_column("required_m", "Required [in]", lambda row: row.gap.required_m, 1, _REQUIRED,
+            is_always=True),
+        up_column("required_m", "Required [mm]", lambda row: row.gap.required_m, 0, is_always=True),
+        SheetColumn("provided_m", "Provided [in]", lambda row: row.gap.provided_m, is_input=True),
+        SheetColumn("basis", "Distance from", lambda row: row.gap.basis),
+        SheetColumn("demand_capacity", "D/C", _ratio, 2, _RATIO, is_always=True),
+        SheetColumn("verdict", "Verdict", lambda row: row.gap.verdict, formula=_OK, is_always=True),
+        up_column("by_roofslip_m", "Required by Roofslip [in]", lambda row: row.gap.required_m, 1),
+        SheetColumn("difference", "Difference [in]", lambda _: 0.0, 4, _DIFFERENCE),
+        SheetColumn("rule_factor", "Separation / displacement", lambda row: row.rule_factor, 2,
+            is_input=True),
+        SheetColumn("importance", "Importance factor", lambda row: row.gap.importance, 2,
+            "={inputs[i_e]}", is_input=True),
+    ),
+    key_columns=3,
+    last_printed="importance",
+)  # fmt: skip
 
 
 def result_cells(assessment: Assessment, array_id: str) -> Sequence[str]:
     """Return the cells of the results of the clearances of an array, from either side."""
     return [
-        fixed(GapRow, "verdict", row)
+        GAPS.fixed("verdict", row)
         for row, gap in enumerate(assessment.clearances, start=TOP)
         if gap.involves(array_id)
     ]
 
 
 def write_clearances(pages: Pages, assessment: Assessment, inputs: InputCells) -> Sequence[GapRow]:
-    """Write each clearance as formulas; return the rows."""
+    """Write each clearance as formulas; return what its rows hold."""
     gaps = enumerate(assessment.clearances, start=1)
     rows = [_row(assessment, gap, inputs, count) for count, gap in gaps]
     write_live(
         pages,
-        GapRow,
+        GAPS,
         rows,
         "Clearances",
         f"{assessment.rules.name}. From the sheet Design; between two arrays the larger "
         "displacement governs. The factor includes I_e or I_p if the rule set applies it here."
         + (f" {MEANING}." if assessment.is_overridden else ""),
     )
-    return rows
+    return [row.item for row in rows]
 
 
-def _row(assessment: Assessment, gap: ClearanceCheck, inputs: InputCells, count: int) -> GapRow:
+def _row(assessment: Assessment, gap: ClearanceCheck, inputs: InputCells, count: int) -> SheetRow:
     rules = assessment.rules
     largest, governing = _sides(assessment, gap)
     # Which route is permitted is no formula.
@@ -75,8 +116,8 @@ def _row(assessment: Assessment, gap: ClearanceCheck, inputs: InputCells, count:
         formulas["importance"] = ""
     factor = rules.values[SEPARATION_KEYS[gap.neighbor]]
     has_value = not math.isnan(gap.required_m)
-    return GapRow.beside(
-        ClearanceResult.of(gap),
+    return SheetRow(
+        item=GapRow(count=count, gap=gap, rule_factor=factor.value),
         refs={
             "inputs": inputs,
             "largest": largest if gap.is_permitted else '"none"',
@@ -89,11 +130,6 @@ def _row(assessment: Assessment, gap: ClearanceCheck, inputs: InputCells, count:
             "rule_factor": factor.reason,
             **dict.fromkeys(("required_m", "demand_capacity", "by_roofslip_m"), gap.mark),
         },
-        count=count,
-        governing=gap.governing_array,
-        minimum_m=gap.minimum_m,
-        by_roofslip_m=gap.required_m,
-        rule_factor=factor.value,
     )
 
 
@@ -101,8 +137,8 @@ def _sides(assessment: Assessment, gap: ClearanceCheck) -> tuple[str, str]:
     """Return the formulas of the larger displacement on either side, and of whose it is."""
     rows = {array.id: row for row, array in enumerate(assessment.arrays, start=TOP)}
     sides = [rows[array.id] for array in beside(assessment.arrays, gap.clearance)]
-    cells = [fixed(DesignRow, "design_m", row) for row in sides]
-    names = [fixed(DesignRow, "id", row) for row in sides]
+    cells = [DESIGN.fixed("design_m", row) for row in sides]
+    names = [DESIGN.fixed("id", row) for row in sides]
     if len(cells) == 1:
         return cells[0], names[0]
     # Text, "none", is larger than any number: an array without a value governs.

@@ -1,7 +1,7 @@
 """The sheet Design of results.xlsx: from the peaks to the design displacement and the verdicts.
 
 Live formulas, each written with the value from `report.assessment.project`: with the sheets Peaks,
-and Inputs that Design follows from. Read `DesignRow`.
+and Inputs that Design follows from. Read `DESIGN`.
 """
 
 from __future__ import annotations
@@ -10,18 +10,27 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Annotated, ClassVar
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.causes import unshown_cause
 from report.assessment.project import Assessment
 from report.assessment.routes import Route
+from report.assessment.runs import MotionRun
 from report.assessment.verdict import MEANING, OVERRIDDEN, Verdict, worst
-from report.entities.array import ArrayResult, array_result
-from report.entities.motion import PeakResult, peak_result
-from report.entities.shown import Column, Number, up_column
+from report.project.model.choices import Direction
 from report.project.model.fields import YesNo
-from report.results.lists import RunRow
-from report.results.sheets import TOP, Cells, Pages, SheetRow, typed, write_live
+from report.results.lists import RUNS
+from report.results.sheets import (
+    TOP,
+    Cells,
+    Pages,
+    SheetColumn,
+    SheetLayout,
+    SheetRow,
+    typed,
+    up_column,
+    write_live,
+)
 from solver.model import INCH_M
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, Basis, PrescriptiveBasis
 
@@ -29,31 +38,45 @@ from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, Basis, Prescrip
 PeakRanges = Mapping[str, str]
 
 
-class PeakRow(SheetRow, PeakResult):
-    """The peaks of an array under a motion."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Peak:
+    array: ArrayAssessment
+    motion: MotionRun
 
-    sheet: ClassVar[str] = "Peaks"
-    across: ClassVar[str] = "array"
-    last_printed: ClassVar[str] = "any_m"
 
-    array: Annotated[str, Column("Array")]
+PEAKS = SheetLayout(
+    "Peaks",
+    (
+        SheetColumn("array", "Array", lambda row: row.array.id),
+        SheetColumn("motion", "Motion", lambda row: row.motion.motion.id),
+        up_column("down_m", "Downslope [in]", lambda row: row.motion.peak_m(Direction.DOWN), 1,
+            "=MAX({runs.down_m})"),
+        up_column("up_m", "Upslope [in]", lambda row: row.motion.peak_m(Direction.UP), 1,
+            "=MAX({runs.up_m})"),
+        up_column("across_m", "Cross-slope [in]", lambda row: row.motion.peak_m(Direction.ACROSS),
+            1, "=MAX({runs.across_m})"),
+        up_column("any_m", "Any direction [in]", lambda row: row.motion.peak_m(Direction.ANY), 1,
+            "=MAX({runs.prd_m})"),
+    ),
+    last_printed="any_m",
+)  # fmt: skip
 
 
 def write_peaks(pages: Pages, assessment: Assessment) -> PeakRanges:
     """Write the largest excursion of all runs of each motion, by direction; return the PRDs."""
-    rows: list[PeakRow] = []
+    rows: list[SheetRow] = []
     ranges: dict[str, str] = {}
     # Below the one row of headings of the sheet Runs, in the order in which it lists them.
     first_run = 2
     for item in assessment.arrays:
         first = TOP + len(rows)
         for motion in item.motions:
-            runs = Cells(RunRow, first_run, first_run + len(motion.runs) - 1)
+            runs = Cells(RUNS, first_run, first_run + len(motion.runs) - 1)
             first_run += len(motion.runs)
-            rows.append(PeakRow.beside(peak_result(motion), array=item.id, refs={"runs": runs}))
-        ranges[item.id] = Cells(PeakRow, first, TOP + len(rows) - 1).any_m
+            rows.append(SheetRow(item=_Peak(array=item, motion=motion), refs={"runs": runs}))
+        ranges[item.id] = Cells(PEAKS, first, TOP + len(rows) - 1).any_m
     note = "Largest of all runs of each motion, by direction, from the sheet Runs."
-    write_live(pages, PeakRow, rows, "Peaks", note)
+    write_live(pages, PEAKS, rows, "Peaks", note)
     return ranges
 
 
@@ -150,37 +173,87 @@ _STATISTIC = (
     f'=IF({{inputs[statistic]}}="rule set",IF({_HAS_MEAN},{_MEAN},{_OR_LARGEST}),'
     f"IF({{inputs[statistic]}}={_MEAN},IF({_HAS_MEAN},{_MEAN},{_FEW}),"
     f"IF({{inputs[statistic]}}={_LARGEST},{_OR_LARGEST},{_OR_PLAIN})))"
-)
+)  # fmt: skip
 _FACTOR = f"=IF({{statistic}}={_PLAIN},1,{{inputs[analysis_factor]}})"
 _FLOOR_SHARE = '=IF({inputs[peer_reviewed]}="Yes",0,{inputs[analysis_floor]})'
+_COMPUTED = (
+    f'=IF({{statistic}}="{Basis.TOO_FEW.value}","none",{{analysis_factor}}'
+    f'*IF({{statistic}}="{Basis.LARGEST_FACTORED.value}",{{largest_prd_m}},{{mean_prd_m}}))'
+)  # fmt: skip
+# PV1-2012: 60 in (S_DS - 0.4)^2, at least 6 in; ASCE 7-16 13.6.12: 5 ft I_e (S_DS - 0.4)^2, 24 in.
+_PRESCRIPTIVE = "=MAX({factor_m}*{importance}*MAX({s_ds_g}-0.4,0)^2,{minimum_m})"
+# In Excel MAX takes no text: without the question, no value would become the floor.
+_DESIGN = '=IF(ISTEXT({computed_m}),"none",MAX({computed_m},{floor_m}))'
+# PV1-2012 section 6: the larger of 0.133 S_DS W1 and 0.1 W1, with W1 half of the weight.
+_STRENGTH = (
+    "=MAX({inputs[interconnection_sds]}*{s_ds_g},{inputs[interconnection_min]})*{weight_n}/2"
+)  # fmt: skip
 _RATIO = '=IF(ISTEXT({design_m}),"none",{design_m}/{prescriptive_m})'
 _DIFFERENCE = '=IF(ISTEXT({design_m}),"none",{design_m}-{by_roofslip_m})'
 
 
-class DesignRow(SheetRow, ArrayResult):
-    """The design displacement and the verdict of an array."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DesignRow:
+    """An array with what its formulas take from the rule set, and its verdicts."""
 
-    sheet: ClassVar[str] = "Design"
-    across: ClassVar[str] = (
-        "id prescriptive_m mean_prd_m largest_prd_m statistic analysis_factor computed_m"
-        " floor_share floor_m design_m over_prescriptive slack_m weight_n interconnection_n given_n"
-        " others verdict s_ds_g factor_m importance minimum_m n_motions by_roofslip_m difference"
-    )
-    last_printed: ClassVar[str] = "verdict"
+    item: ArrayAssessment
+    verdict: Verdict
+    cause: str  # of a verdict that no number of the sheet Summary shows
+    others: Verdict  # the worst of what the formulas do not follow
+    s_ds_g: float
+    factor_m: float
+    importance: float
+    analysis_factor: float
+    floor_share: float
 
-    s_ds_g: Annotated[float, Column("S_DS [g]", 4, "={inputs[s_ds_g]}")]
-    factor_m: Annotated[float, Column("Factor [in]", is_input=True)]
-    importance: Annotated[float, Column("I_e in displacement", 2, "={inputs[i_e]}")]
-    minimum_m: Annotated[float, Column("Minimum [in]", is_input=True)]
-    n_motions: Annotated[int, Column("Number of motions", 0, "=COUNT({peaks})")]
-    analysis_factor: Annotated[float, Column("Analysis factor", 2, _FACTOR)]
-    floor_share: Annotated[float, Column("Floor / prescriptive", 2, _FLOOR_SHARE)]
-    over_prescriptive: Annotated[Number, Column("Design / prescriptive", 3, _RATIO)]
-    by_roofslip_m: Annotated[Number, up_column("Design by Roofslip [in]", 1)]
-    difference: Annotated[float, Column("Difference [in]", 4, _DIFFERENCE)] = 0.0
-    statistic: Annotated[Basis, Column("Statistic", formula=_STATISTIC)]
-    others: Annotated[Verdict, Column("Other requirements")]
-    slack_m: Annotated[float | None, Column("Electrical slack [in]", is_input=True)]
+
+DESIGN = SheetLayout(
+    "Design",
+    (
+        SheetColumn("id", "Array", lambda row: row.item.id),
+        up_column("prescriptive_m", "Prescriptive [in]", lambda row: row.item.prescriptive.value_m,
+            1, _PRESCRIPTIVE),
+        up_column("mean_prd_m", "Mean PRD [in]", lambda row: row.item.analysis.mean_m, 1,
+            "=AVERAGE({peaks})"),
+        up_column("largest_prd_m", "Largest PRD [in]", lambda row: row.item.analysis.largest_m, 1,
+            "=MAX({peaks})"),
+        SheetColumn("statistic", "Statistic", lambda row: row.item.analysis.basis,
+            formula=_STATISTIC),
+        SheetColumn("analysis_factor", "Analysis factor", lambda row: row.analysis_factor, 2,
+            _FACTOR),
+        up_column("computed_m", "Computed [in]", lambda row: row.item.analysis.value_m, 1,
+            _COMPUTED, is_always=True),
+        SheetColumn("floor_share", "Floor / prescriptive", lambda row: row.floor_share, 2,
+            _FLOOR_SHARE),
+        up_column("floor_m", "Floor [in]", lambda row: row.item.floor_m, 1,
+            "={floor_share}*{prescriptive_m}"),
+        up_column("design_m", "Design [in]", lambda row: row.item.design_m, 1, _DESIGN,
+            is_always=True),
+        up_column("design_m", "Design [mm]", lambda row: row.item.design_m, 0),
+        SheetColumn("over_prescriptive", "Design / prescriptive", lambda row: row.item.ratio, 3,
+            _RATIO),
+        SheetColumn("slack_m", "Electrical slack [in]", lambda row: row.item.array.slack_m,
+            is_input=True),
+        SheetColumn("weight_n", "Weight [lb]", lambda row: row.item.array.weight_n, is_input=True),
+        up_column("interconnection_n", "Interconnection required [lb]",
+            lambda row: row.item.interconnection_n, 0, _STRENGTH),
+        SheetColumn("given_n", "Interconnection provided [lb]",
+            lambda row: row.item.array.interconnection_n, is_input=True),
+        SheetColumn("others", "Other requirements", lambda row: row.others),
+        SheetColumn("verdict", "Verdict", lambda row: row.verdict),
+        SheetColumn("s_ds_g", "S_DS [g]", lambda row: row.s_ds_g, 4, "={inputs[s_ds_g]}"),
+        SheetColumn("factor_m", "Factor [in]", lambda row: row.factor_m, is_input=True),
+        SheetColumn("importance", "I_e in displacement", lambda row: row.importance, 2,
+            "={inputs[i_e]}"),
+        SheetColumn("minimum_m", "Minimum [in]", lambda row: row.item.prescriptive.minimum_m,
+            is_input=True),
+        SheetColumn("n_motions", "Number of motions", lambda row: row.item.analysis.n_motions, 0,
+            "=COUNT({peaks})"),
+        up_column("by_roofslip_m", "Design by Roofslip [in]", lambda row: row.item.design_m, 1),
+        SheetColumn("difference", "Difference [in]", lambda _: 0.0, 4, _DIFFERENCE),
+    ),
+    last_printed="verdict",
+)  # fmt: skip
 
 
 # What the sheet follows from, with motions and without.
@@ -197,7 +270,7 @@ def write_design(
     inputs: InputCells,
     results: Mapping[str, Sequence[str]],
 ) -> Sequence[DesignRow]:
-    """Write the design displacement and the verdict of each array as formulas; return the rows.
+    """Write the design displacement and the verdict of each array; return what its rows hold.
 
     From `results`, the cells with OK, NG or none of its clearances and its row of linked blocks.
     """
@@ -207,14 +280,14 @@ def write_design(
         rows.append(_row(assessment, item, refs, results[item.id]))
     write_live(
         pages,
-        DesignRow,
+        DESIGN,
         rows,
         "Design displacement",
         f"{assessment.rules.name}. {_FROM[assessment.has_motions]} Other requirements, those that "
         "need other runs or the plan, are those of the report. Columns right of the verdict do "
         "not print." + (f" {MEANING}." if assessment.is_overridden else ""),
     )
-    return rows
+    return [row.item for row in rows]
 
 
 def _verdict(results: Sequence[str]) -> str:
@@ -244,11 +317,11 @@ def _row(
     item: ArrayAssessment,
     refs: Mapping[str, object],
     results: Sequence[str],
-) -> DesignRow:
-    rules, data, prescriptive = assessment.rules, assessment.project, item.prescriptive
+) -> SheetRow:
+    rules, data = assessment.rules, assessment.project
     # The constant value for SDC A, B and C replaces the formula.
     # PV1-2012, SDC A, B and C: 6 in, whatever S_DS is.
-    is_flat = prescriptive.governs is PrescriptiveBasis.LOW_CATEGORY
+    is_flat = item.prescriptive.governs is PrescriptiveBasis.LOW_CATEGORY
     is_mean = item.analysis.basis is Basis.MEAN
     # Those that live formulas decide would count twice, and keep an old verdict.
     others = (c for c in assessment.checks if item.id in c.arrays and c.id not in _LIVE)
@@ -265,8 +338,25 @@ def _row(
     elif item.route is Route.PRESCRIPTIVE:
         formulas["design_m"] = "=MAX({prescriptive_m},{largest_prd_m})"
     design = ("design_m", "over_prescriptive", "by_roofslip_m")
-    return DesignRow.beside(
-        array_result(assessment, item),
+    row = DesignRow(
+        item=item,
+        verdict=assessment.array_verdict(item),
+        cause=unshown_cause(assessment, item),
+        others=worst(
+            [
+                Verdict.OK if item.is_permitted else Verdict.NG,
+                *(check.verdict for check in others),
+            ]
+        ),
+        s_ds_g=data.site.s_ds,
+        factor_m=0.0 if is_flat else rules["prescriptive_factor_in"] * INCH_M,
+        importance=1.0 if rules.importance_in_separation else data.site.i_e,
+        # That of the rule set also where there are too few motions.
+        analysis_factor=1.0 if is_mean else rules["analysis_factor"],
+        floor_share=0.0 if data.is_peer_reviewed else rules["analysis_floor"],
+    )
+    return SheetRow(
+        item=row,
         refs=refs,
         formulas=formulas,
         blanks={"difference"} if math.isnan(item.design_m) else (),
@@ -277,22 +367,4 @@ def _row(
             "interconnection_n": item.overridden.interconnection,
             **dict.fromkeys(design, item.overridden.design),
         },
-        s_ds_g=data.site.s_ds,
-        factor_m=0.0 if is_flat else rules["prescriptive_factor_in"] * INCH_M,
-        importance=1.0 if rules.importance_in_separation else data.site.i_e,
-        minimum_m=prescriptive.minimum_m,
-        n_motions=item.analysis.n_motions,
-        # That of the rule set also where there are too few motions.
-        analysis_factor=1.0 if is_mean else rules["analysis_factor"],
-        floor_share=0.0 if data.is_peer_reviewed else rules["analysis_floor"],
-        over_prescriptive=item.ratio,
-        by_roofslip_m=item.design_m,
-        statistic=item.analysis.basis,
-        others=worst(
-            [
-                Verdict.OK if item.is_permitted else Verdict.NG,
-                *(check.verdict for check in others),
-            ]
-        ),
-        slack_m=item.array.slack_m,
     )

@@ -7,17 +7,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict
-from typing import Annotated, ClassVar
+from dataclasses import dataclass
+from operator import attrgetter
 
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.checks.check import Check, alike, found_and_limit
-from report.assessment.links import LinkedArray
+from report.assessment.links import LinkedArray, LinkedMotion, LinkedRun
 from report.assessment.project import Assessment
+from report.assessment.runs import MotionRun, OrientedRun
 from report.assessment.spectra import Spectra
-from report.assessment.verdict import Verdict
-from report.entities.evidence import LinkedResult, LinkedRunResult, NeighborResult, linked_result
-from report.entities.motion import MotionResult, RecordResult, RunResult, motion_result, run_result
-from report.entities.shown import Column, Number, columns_of, up_column
+from report.motions.history import PreparedMotion
 from report.motions.prepare import Shaking
 from report.project.model.choices import Direction
 from report.results.sheets import (
@@ -25,122 +24,198 @@ from report.results.sheets import (
     TOP,
     Cells,
     Pages,
+    SheetColumn,
+    SheetLayout,
     SheetRow,
-    fixed,
-    printed_columns,
+    up_column,
     write_list,
     write_live,
     write_rows,
     write_table,
 )
-from report.text.units import G_MPS2
-from solver.model import INCH_M
-from solver.sliding.least_model import DEFAULT
+from report.text.unit_format import NO_VALUE
+from report.text.units import G_MPS2, Rounding
+from solver.model import INCH_M, Motion
+from solver.records.measures import Measures
+from solver.rules.provisions import Basis
+from solver.sliding.least_model import DEFAULT, Model
 
 
-class RunRow(SheetRow, RunResult):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Run:
     """A run of an array; without a displacement where it does not come to rest."""
 
-    sheet: ClassVar[str] = "Runs"
-    across: ClassVar[str] = (
-        "array motion along polarity governs scale prd_m over_mean residual_m residual_across_m"
-        " down_m up_m across_m t_prd_s n_stops peak_speed_mps n_min_g friction_demand rung reason"
-        " next_rung next_effect_m error_m status"
-    )
-    key_columns: ClassVar[int] = 4
+    array: ArrayAssessment
+    motion: MotionRun
+    run: OrientedRun
 
-    array: Annotated[str, Column("Array")]
-    governs: Annotated[str, Column("Governs")]
-    over_mean: Annotated[Number, Column("PRD / mean")]
+    @property
+    def over_mean(self) -> float:
+        """PRD / mean of the array; NaN without one."""
+        mean_m = self.array.analysis.mean_m
+        return self.run.prd_m / mean_m if mean_m > 0.0 else math.nan
 
 
-class MotionRow(SheetRow, MotionResult):
+def _polarity(run: OrientedRun | LinkedRun) -> str:
+    return "as recorded" if run.orientation.polarity > 0 else "reversed"
+
+
+def _model(rung: int) -> str:
+    return f"{rung}, {Model(rung).title}"
+
+
+RUNS = SheetLayout(
+    "Runs",
+    (
+        SheetColumn("array", "Array", lambda row: row.array.id),
+        SheetColumn("motion", "Motion", lambda row: row.motion.motion.id),
+        SheetColumn("along", "Component along slope", lambda row: row.run.orientation.component),
+        SheetColumn("polarity", "Polarity", lambda row: _polarity(row.run)),
+        # By identity: two runs of a symmetric motion may be equal.
+        SheetColumn("governs", "Governs",
+            lambda row: "yes" if row.run is row.motion.governing else ""),
+        SheetColumn("scale", "Scale", lambda row: row.run.scene.scale),
+        SheetColumn("prd_m", "PRD [in]", lambda row: row.run.prd_m),
+        SheetColumn("prd_m", "PRD [mm]", lambda row: row.run.prd_m),
+        SheetColumn("over_mean", "PRD / mean", lambda row: row.over_mean),
+        SheetColumn("residual_m", "Residual [in]", lambda row: row.run.result.residual_m),
+        SheetColumn("residual_m", "Residual [mm]", lambda row: row.run.result.residual_m),
+        SheetColumn("residual_across_m", "Residual cross-slope [in]",
+            lambda row: row.run.result.residual_across_m),
+        SheetColumn("down_m", "Downslope [in]", lambda row: row.run.excursion_m(Direction.DOWN)),
+        SheetColumn("up_m", "Upslope [in]", lambda row: row.run.excursion_m(Direction.UP)),
+        SheetColumn("across_m", "Cross-slope [in]",
+            lambda row: row.run.excursion_m(Direction.ACROSS)),
+        SheetColumn("t_prd_s", "Time of PRD [s]", lambda row: row.run.result.t_prd_s),
+        SheetColumn("n_stops", "Stops", lambda row: row.run.result.n_stops),
+        SheetColumn("peak_speed_mps", "Largest velocity [in/s]",
+            lambda row: row.run.result.peak_speed_mps),
+        SheetColumn("n_min_g", "Minimum N/(m g)", lambda row: row.run.result.n_min_g),
+        SheetColumn("friction_demand", "Friction demand",
+            lambda row: row.run.solution.friction_demand),
+        SheetColumn("rung", "Model", lambda row: _model(row.run.solution.model)),
+        SheetColumn("reason", "Reason", lambda row: row.run.solution.reason),
+        SheetColumn("next_rung", "Next model", lambda row: _model(row.run.solution.next_model)),
+        SheetColumn("next_effect_m", "Effect of next model [in]",
+            lambda row: row.run.solution.next_effect_m),
+        SheetColumn("error_m", "Error bound [in]", lambda row: row.run.result.error_m),
+        SheetColumn("status", "Outcome", lambda row: row.run.result.status.sentence),
+    ),
+    key_columns=4,
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Component:
     """A component of a motion, processed and scaled, at the recording level."""
 
-    sheet: ClassVar[str] = "Motions"
-    across: ClassVar[str] = "id component"
-    key_columns: ClassVar[int] = 2
+    motion: Motion
+    prepared: PreparedMotion
+    name: str
+    measures: Measures
 
-    component: Annotated[str, Column("Component")]
-    pga_g: Annotated[float, Column("PGA [g]")]
-    pgv_mps: Annotated[float, Column("PGV [m/s]")]
-    pgd_m: Annotated[float, Column("PGD [m]")]
-    arias_mps: Annotated[float, Column("Arias intensity [m/s]")]
-    d5_95_s: Annotated[float, Column("Duration 5-95 % [s]")]
-    final_velocity_mps: Annotated[float, Column("Velocity at end [m/s]")]
-    final_displacement_m: Annotated[float, Column("Displacement at end [m]")]
+
+_MOTIONS = (
+    SheetColumn("id", "Motion", lambda row: row.motion.id),
+    SheetColumn("component", "Component", lambda row: row.name),
+    SheetColumn("recorded_at", "Recorded at", lambda row: row.prepared.recorded_at),
+    SheetColumn("processing", "Processing", lambda row: row.prepared.done),
+    SheetColumn("scaling", "Scaling", lambda row: row.prepared.scaling),
+    SheetColumn("scale", "Factor", lambda row: row.motion.scale),
+    SheetColumn("pga_g", "PGA [g]", lambda row: row.measures.pga_mps2 / G_MPS2),
+    SheetColumn("pgv_mps", "PGV [m/s]", lambda row: row.measures.pgv_mps),
+    SheetColumn("pgd_m", "PGD [m]", lambda row: row.measures.pgd_m),
+    SheetColumn("arias_mps", "Arias intensity [m/s]", lambda row: row.measures.arias_mps),
+    SheetColumn("d5_95_s", "Duration 5-95 % [s]", lambda row: row.measures.d5_95_s),
+    SheetColumn("final_velocity_mps", "Velocity at end [m/s]",
+        lambda row: row.measures.final_velocity_mps),
+    SheetColumn("final_displacement_m", "Displacement at end [m]",
+        lambda row: row.measures.final_displacement_m),
+)  # fmt: skip
+
+_RECORDS = (
+    SheetColumn("motion", "Motion", attrgetter("motion_id")),
+    SheetColumn("component", "Component", attrgetter("component")),
+    SheetColumn("name", "Record", attrgetter("name")),
+    SheetColumn("format", "Format", attrgetter("format")),
+    SheetColumn("npts", "Samples", attrgetter("npts")),
+    SheetColumn("dt_s", "Time step [s]", attrgetter("dt_s")),
+    SheetColumn("peak_g", "Peak [g]", attrgetter("peak_g")),
+    SheetColumn("sha256", "SHA-256", attrgetter("sha256")),
+)  # fmt: skip
+
+
+_NEIGHBORS = (
+    SheetColumn("array", "Array", attrgetter("array")),
+    SheetColumn("other", "Neighbor", attrgetter("other")),
+    SheetColumn("what", "Kind", attrgetter("what")),
+    SheetColumn("gap_m", "Distance in plan [in]", attrgetter("gap_m"), 1, rounding=Rounding.DOWN),
+    up_column("reach_m", "Twice the design displacement [in]", attrgetter("reach_m"), 1),
+    SheetColumn("given", "Clearance", attrgetter("numbers")),
+    SheetColumn("cover", "Remark", attrgetter("cover")),
+)  # fmt: skip
 
 
 def write_lists(pages: Pages, assessment: Assessment, spectra: Sequence[Spectra]) -> None:
     """Write the runs, the components of the motions, the records, spectra and neighbors."""
     shaking = assessment.shaking
     if assessment.has_motions:
-        write_list(pages, RunRow.sheet, list(_runs(assessment)), is_printed=False)
-        write_list(pages, MotionRow.sheet, list(_motions(shaking)))
-        write_list(pages, "Records", list(map(RecordResult.of, shaking.records)))
+        runs = [
+            _Run(array=item, motion=motion, run=run)
+            for item in assessment.arrays
+            for motion in item.motions
+            for run in motion.runs
+        ]
+        write_list(pages, RUNS.sheet, RUNS.own, runs, RUNS.key_columns, is_printed=False)
+        write_list(pages, "Motions", _MOTIONS, list(_components(shaking)), keys=2)
+        write_list(pages, "Records", _RECORDS, shaking.records)
         write_table(pages, "Spectra", _spectra(spectra), is_printed=False)
     if assessment.neighbors:
-        write_list(pages, "Neighbors", list(map(NeighborResult.of, assessment.neighbors)))
+        write_list(pages, "Neighbors", _NEIGHBORS, assessment.neighbors)
 
 
-def _runs(assessment: Assessment) -> Iterator[RunRow]:
-    """Yield the runs of each motion, arrays together."""
-    for item in assessment.arrays:
-        mean_m = item.analysis.mean_m
-        for motion in item.motions:
-            for run in motion.runs:
-                yield RunRow.beside(
-                    run_result(motion, run),
-                    array=item.id,
-                    # By identity: two runs of a symmetric motion may be equal.
-                    governs="yes" if run is motion.governing else "",
-                    over_mean=run.prd_m / mean_m if mean_m > 0.0 else math.nan,
-                    prd_m=run.prd_m,
-                    down_m=run.excursion_m(Direction.DOWN),
-                    up_m=run.excursion_m(Direction.UP),
-                    across_m=run.excursion_m(Direction.ACROSS),
-                )
-
-
-def _motions(shaking: Shaking) -> Iterator[MotionRow]:
+def _components(shaking: Shaking) -> Iterator[_Component]:
     for motion, prepared in zip(shaking.motions, shaking.prepared, strict=True):
-        row = motion_result(motion, prepared)
-        for name, measures in row.components.items():
-            yield MotionRow.beside(
-                row, component=name, pga_g=measures.pga_mps2 / G_MPS2, **asdict(measures)
-            )
+        for name, measures in prepared.measures.items():
+            yield _Component(motion=motion, prepared=prepared, name=name, measures=measures)
 
 
-class CheckRow(SheetRow):
-    """A check as a row of the sheet, or checks that ask the same."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _CheckTexts:
+    """A check, or checks that ask the same, with what is found and required as printed."""
 
-    sheet: ClassVar[str] = "Requirements"
+    check: Check
+    found: str
+    limit: str
 
-    subject: Annotated[str, Column("Item")]
-    title: Annotated[str, Column("Requirement")]
-    found: Annotated[str, Column("Found")]
-    limit: Annotated[str, Column("Required")]
-    clause: Annotated[str, Column("Basis")]
-    verdict: Annotated[Verdict, Column("Verdict")]
-    to_close: Annotated[str, Column("What must be done")]
+
+_CHECKS = SheetLayout(
+    "Requirements",
+    (
+        SheetColumn("subject", "Item", lambda row: row.check.subject or "Project"),
+        SheetColumn("title", "Requirement", lambda row: row.check.title),
+        SheetColumn("found", "Found", lambda row: row.found),
+        SheetColumn("limit", "Required", lambda row: row.limit),
+        SheetColumn("clause", "Basis", lambda row: row.check.clause),
+        SheetColumn("verdict", "Verdict", lambda row: row.check.verdict),
+        SheetColumn("to_close", "What must be done", lambda row: row.check.to_close),
+    ),
+)  # fmt: skip
 
 
 def write_requirements(pages: Pages, assessment: Assessment) -> None:
     """Write the checks but the clearances, which have a sheet; those that ask the same as one."""
-    others = alike(check for check in assessment.checks if check.id != "clearance")
-    rows = [_check_row(check, assessment.project.us_first) for check in others]
+    rows = []
+    for check in alike(check for check in assessment.checks if check.id != "clearance"):
+        found, limit = found_and_limit(check, assessment.project.us_first)
+        rows.append(SheetRow(item=_CheckTexts(check=check, found=found, limit=limit)))
     write_live(
         pages,
-        CheckRow,
+        _CHECKS,
         rows,
         "Checks",
         "Satisfied or not. The verdict on the project and on each array is on the sheet Summary.",
     )
-
-
-def _check_row(check: Check, us_first: bool) -> CheckRow:
-    found, limit = found_and_limit(check, us_first)
-    return CheckRow.of(check, subject=check.subject or "Project", found=found, limit=limit)
 
 
 def _spectra(spectra: Sequence[Spectra]) -> Mapping[str, Sequence[float]]:
@@ -153,82 +228,143 @@ def _spectra(spectra: Sequence[Spectra]) -> Mapping[str, Sequence[float]]:
     return columns
 
 
+# Whether the design displacement follows from the largest peak.
+_TAKES_LARGEST = f'{{design.statistic}}="{Basis.LARGEST_FACTORED.value}"'
+_RIGID = f"={{factor}}*IF({_TAKES_LARGEST},{{rigid_largest_m}},{{rigid_mean_m}})"
+_ROW = f"={{factor}}*IF({_TAKES_LARGEST},{{row_largest_m}},{{row_mean_m}})"
+# Links never lower a design displacement: a ratio below 1 counts as 1.
+_DESIGN = "=MAX(MAX(1,{ratio})*{computed_m},{floor_m})"
 _TOLERANCE = f"=MAX({DEFAULT.matters_m}/{INCH_M},{DEFAULT.matters_share}*{{design_m}})"
 _DIFFERENCE = "={estimated_m}-{by_roofslip_m}"
 _RESULT = '=IF({estimated_m}<={design_m}+{tolerance_m},"OK","NG")'
 
 
-class LinkRunRow(SheetRow, LinkedRunResult):
-    """A run as a row of blocks, and as one block."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _LinkRun:
+    """A run of an array as a row of blocks, and as one block."""
 
-    sheet: ClassVar[str] = "LinkRuns"
-    across: ClassVar[str] = (
-        "array motion along polarity rigid_prd_m largest_m block prd_m stretch_m link_force_n"
-        " error_m n_stops status"
-    )
-    key_columns: ClassVar[int] = 4
-
-    array: Annotated[str, Column("Array")]
-    largest_m: Annotated[Number, Column("PRD, row [in]")]
-    block: Annotated[str, Column("Block with largest PRD")]
+    linked: LinkedArray
+    motion: LinkedMotion
+    run: LinkedRun
 
 
-class LinkPeakRow(SheetRow):
+def _listed(places_m: Sequence[float]) -> str:
+    if any(map(math.isnan, places_m)):
+        return NO_VALUE
+    return ", ".join(f"{place / INCH_M:.2f}" for place in places_m)
+
+
+LINK_RUNS = SheetLayout(
+    "LinkRuns",
+    (
+        SheetColumn("array", "Array", lambda row: row.linked.design.id),
+        SheetColumn("motion", "Motion", lambda row: row.motion.motion.id),
+        SheetColumn("along", "Component along slope", lambda row: row.run.orientation.component),
+        SheetColumn("polarity", "Polarity", lambda row: _polarity(row.run)),
+        SheetColumn("rigid_prd_m", "PRD, rigid [in]", lambda row: row.run.rigid.prd_m),
+        SheetColumn("largest_m", "PRD, row [in]", lambda row: row.run.prd_m),
+        SheetColumn("block", "Block with largest PRD",
+            lambda row: NO_VALUE if math.isnan(row.run.prd_m) else str(row.run.block)),
+        # In inches as a text: the unit in the heading converts no text.
+        SheetColumn("prd_m", "PRD of blocks, from the upslope end [in]",
+            lambda row: _listed(row.run.row.prd_m)),
+        SheetColumn("stretch_m", "Largest link elongation [in]", lambda row: row.run.row.stretch_m),
+        SheetColumn("link_force_n", "Largest link force [lb]",
+            lambda row: row.run.row.link_force * row.linked.block_n),
+        SheetColumn("error_m", "Error bound [in]", lambda row: row.run.row.error_m),
+        SheetColumn("n_stops", "Stops", lambda row: row.run.row.n_stops),
+        SheetColumn("status", "Outcome", lambda row: row.run.row.status.sentence),
+    ),
+    key_columns=4,
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _LinkPeak:
     """The largest of all runs of a motion, below the arrays."""
 
-    sheet: ClassVar[str] = "Links"
-
-    array: Annotated[str, Column("Array")]
-    motion: Annotated[str, Column("Motion")]
-    rigid_m: Annotated[Number, Column("PRD, rigid [in]", 3, "=MAX({runs.rigid_prd_m})")]
-    row_m: Annotated[Number, Column("PRD, row [in]", 3, "=MAX({runs.largest_m})")]
+    linked: LinkedArray
+    motion: LinkedMotion
 
 
-class LinkRow(SheetRow, LinkedResult):
-    """The effect of links on the design displacement of an array."""
+_LINK_PEAKS = SheetLayout(
+    "Links",
+    (
+        SheetColumn("array", "Array", lambda row: row.linked.design.id),
+        SheetColumn("motion", "Motion", lambda row: row.motion.motion.id),
+        SheetColumn("rigid_m", "PRD, rigid [in]", lambda row: row.motion.rigid_m, 3,
+            "=MAX({runs.rigid_prd_m})"),
+        SheetColumn("row_m", "PRD, row [in]", lambda row: row.motion.linked_m, 3,
+            "=MAX({runs.largest_m})"),
+    ),
+)  # fmt: skip
 
-    sheet: ClassVar[str] = "Links"
-    across: ClassVar[str] = (
-        "array rigid_mean_m rigid_largest_m row_mean_m row_largest_m factor rigid_one_axis_m"
-        " linked_one_axis_m ratio computed_m floor_m estimated_m design_m tolerance_m result"
-        " by_roofslip_m difference"
-    )
-    last_printed: ClassVar[str] = "difference"
 
-    rigid_mean_m: Annotated[Number, Column("Mean, rigid [in]", 3, "=AVERAGE({peaks.rigid_m})")]
-    rigid_largest_m: Annotated[Number, Column("Largest, rigid [in]", 3, "=MAX({peaks.rigid_m})")]
-    row_mean_m: Annotated[Number, Column("Mean, row [in]", 3, "=AVERAGE({peaks.row_m})")]
-    row_largest_m: Annotated[Number, Column("Largest, row [in]", 3, "=MAX({peaks.row_m})")]
-    factor: Annotated[float, Column("Analysis factor", 3, "={design.analysis_factor}")]
-    computed_m: Annotated[Number, up_column("Computed [in]", 1, "={design.computed_m}")]
-    floor_m: Annotated[float, up_column("Floor [in]", 1, "={design.floor_m}")]
-    tolerance_m: Annotated[Number, Column("Tolerance [in]", 3, _TOLERANCE)]
-    result: Annotated[str, Column("Verdict", formula=_RESULT)]
-    by_roofslip_m: Annotated[Number, up_column("With links by Roofslip [in]", 1)]
-    difference: Annotated[float, Column("Difference [in]", 4, _DIFFERENCE)] = 0.0
+def _estimated_m(linked: LinkedArray) -> float:
+    """Return the design displacement with links; NaN without bound."""
+    # Without bound where the blocks slide and the single one does not.
+    return linked.estimated_m if math.isfinite(linked.estimated_m) else math.nan
+
+
+def _result(linked: LinkedArray) -> str:
+    is_enough = math.isfinite(linked.estimated_m) and linked.is_rigid_enough
+    return "OK" if is_enough else "NG"
+
+
+_LINKS = SheetLayout(
+    "Links",
+    (
+        SheetColumn("array", "Array", lambda row: row.design.id),
+        SheetColumn("rigid_mean_m", "Mean, rigid [in]", lambda row: row.rigid.mean_m, 3,
+            "=AVERAGE({peaks.rigid_m})"),
+        SheetColumn("rigid_largest_m", "Largest, rigid [in]", lambda row: row.rigid.largest_m, 3,
+            "=MAX({peaks.rigid_m})"),
+        SheetColumn("row_mean_m", "Mean, row [in]", lambda row: row.linked.mean_m, 3,
+            "=AVERAGE({peaks.row_m})"),
+        SheetColumn("row_largest_m", "Largest, row [in]", lambda row: row.linked.largest_m, 3,
+            "=MAX({peaks.row_m})"),
+        SheetColumn("factor", "Analysis factor", lambda row: row.rigid.factor, 3,
+            "={design.analysis_factor}"),
+        up_column("rigid_one_axis_m", "Rigid [in]", lambda row: row.rigid.value_m, 1, _RIGID),
+        up_column("linked_one_axis_m", "Row [in]", lambda row: row.linked.value_m, 1, _ROW),
+        up_column("ratio", "Ratio", lambda row: row.ratio, 3,
+            "={linked_one_axis_m}/{rigid_one_axis_m}"),
+        up_column("computed_m", "Computed [in]", lambda row: row.design.analysis.value_m, 1,
+            "={design.computed_m}"),
+        up_column("floor_m", "Floor [in]", lambda row: row.design.floor_m, 1, "={design.floor_m}"),
+        up_column("estimated_m", "Design with links [in]", _estimated_m, 1, _DESIGN),
+        up_column("design_m", "Design used [in]", lambda row: row.design.design_m, 1,
+            "={design.design_m}"),
+        SheetColumn("tolerance_m", "Tolerance [in]",
+            lambda row: DEFAULT.bound_m(row.design.design_m), 3, _TOLERANCE),
+        SheetColumn("result", "Verdict", _result, formula=_RESULT),
+        up_column("by_roofslip_m", "With links by Roofslip [in]", lambda row: row.estimated_m, 1),
+        SheetColumn("difference", "Difference [in]", lambda _: 0.0, 4, _DIFFERENCE),
+    ),
+    last_printed="difference",
+)  # fmt: skip
 
 
 # What the row of an array has whose blocks do not come to rest.
 _WITHOUT_VALUE = {"array", "estimated_m", "result"}
 
 
-def link_run_rows(assessment: Assessment) -> Iterator[LinkRunRow]:
-    """Yield each run of an array that is compared with a row of linked blocks."""
-    for linked in assessment.linked:
-        runs = [run for motion in linked.motions for run in motion.runs]
-        for run, result in zip(runs, linked_result(linked).runs, strict=True):
-            yield LinkRunRow.beside(
-                result,
-                array=linked.design.id,
-                largest_m=run.prd_m,
-                block="none" if math.isnan(run.prd_m) else str(run.block),
-            )
+def write_link_runs(pages: Pages, assessment: Assessment) -> None:
+    """Write each run of the arrays that are compared with a row of linked blocks."""
+    runs = [
+        _LinkRun(linked=linked, motion=motion, run=run)
+        for linked in assessment.linked
+        for motion in linked.motions
+        for run in motion.runs
+    ]
+    keys = LINK_RUNS.key_columns
+    write_list(pages, LINK_RUNS.sheet, LINK_RUNS.own, runs, keys, is_printed=False)
 
 
 def link_cells(assessment: Assessment, array_id: str) -> Sequence[str]:
     """Return the cells of the results of an array as a row of linked blocks."""
     return [
-        fixed(LinkRow, "result", row)
+        _LINKS.fixed("result", row)
         for row, linked in enumerate(assessment.linked, start=TOP)
         if linked.design.id == array_id
     ]
@@ -238,66 +374,44 @@ def write_links(pages: Pages, assessment: Assessment, designs: Mapping[str, Cell
     """Write the effect of links on the design displacement of each array, from sheet LinkRuns."""
     # Of the peaks of the motions, below the arrays.
     top = TOP + len(assessment.linked) + 2
-    rows: list[LinkRow] = []
-    peaks: list[LinkPeakRow] = []
+    rows: list[SheetRow] = []
+    peaks: list[SheetRow] = []
     first_run = 2
     for linked in assessment.linked:
         first = top + len(peaks)
         for motion in linked.motions:
-            runs = Cells(LinkRunRow, first_run, first_run + len(motion.runs) - 1)
+            runs = Cells(LINK_RUNS, first_run, first_run + len(motion.runs) - 1)
             first_run += len(motion.runs)
-            peaks.append(
-                LinkPeakRow(
-                    refs={"runs": runs},
-                    array=linked.design.id,
-                    motion=motion.motion.id,
-                    rigid_m=motion.rigid_m,
-                    row_m=motion.linked_m,
-                )
-            )
-        of_array = Cells(LinkPeakRow, first, top + len(peaks) - 1, is_here=True)
+            peak = _LinkPeak(linked=linked, motion=motion)
+            peaks.append(SheetRow(item=peak, refs={"runs": runs}))
+        of_array = Cells(_LINK_PEAKS, first, top + len(peaks) - 1, is_here=True)
         rows.append(_row(linked, {"peaks": of_array, "design": designs[linked.design.id]}))
     sheet = write_live(
         pages,
-        LinkRow,
+        _LINKS,
         rows,
         "Rows of linked blocks",
         "From the sheets LinkRuns and Design. Ratio: row / rigid, one axis. Design with links: "
         "max(max(1, ratio) x computed, floor).",
     )
-    headings = [heading for _, heading, _ in columns_of(LinkPeakRow)]
-    sheet.write_row(top - 2, 0, headings, pages.head)
+    sheet.write_row(top - 2, 0, [column.head for column in _LINK_PEAKS.own], pages.head)
     sheet.set_row(top - 2, 3 * LINE_PT)
-    sheet.print_area(0, 0, top + len(peaks) - 2, printed_columns(LinkRow) - 1)
-    write_rows(pages, sheet, top, peaks)
+    sheet.print_area(0, 0, top + len(peaks) - 2, (_LINKS.n_printed or 0) - 1)
+    write_rows(pages, sheet, _LINK_PEAKS, top, peaks)
 
 
-def _row(linked: LinkedArray, refs: Mapping[str, Cells]) -> LinkRow:
-    design, rigid, row = linked.design, linked.rigid, linked.linked
+def _row(linked: LinkedArray, refs: Mapping[str, Cells]) -> SheetRow:
     has_value = math.isfinite(linked.estimated_m)
-    is_enough = has_value and linked.is_rigid_enough
     formulas = {}
     # A row that rests beside a block that rests: the ratio is 1, not 0 / 0.
-    if not rigid.value_m > 0.0:
+    if not linked.rigid.value_m > 0.0:
         formulas["ratio"] = "=1"
-    if not (has_value and linked.is_final and design.is_permitted):
+    if not (has_value and linked.is_final and linked.design.is_permitted):
         formulas["result"] = ""
-    names = {name for name, _, _ in columns_of(LinkRow)}
-    return LinkRow.beside(
-        linked_result(linked),
+    names = {column.name for column in _LINKS.own}
+    return SheetRow(
+        item=linked,
         refs=refs,
         formulas=formulas,
         blanks=set() if has_value else names - _WITHOUT_VALUE,
-        # Without bound where the blocks slide and the single one does not.
-        estimated_m=linked.estimated_m if has_value else math.nan,
-        rigid_mean_m=rigid.mean_m,
-        rigid_largest_m=rigid.largest_m,
-        row_mean_m=row.mean_m,
-        row_largest_m=row.largest_m,
-        factor=rigid.factor,
-        computed_m=design.analysis.value_m,
-        floor_m=design.floor_m,
-        tolerance_m=DEFAULT.bound_m(design.design_m),
-        result="OK" if is_enough else "NG",
-        by_roofslip_m=linked.estimated_m,
     )

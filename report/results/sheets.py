@@ -1,17 +1,18 @@
-"""Shared by the sheets of results.xlsx: formats, and rows of an entity written as cells.
+"""Shared by the sheets of results.xlsx: formats, columns, and rows written as cells.
 
-Owns no content: see `report.results.xlsx`. Read `SheetRow`, then `write_rows`.
+Owns no content: see `report.results.xlsx`. Read `SheetColumn`, then `write_rows`.
 """
 
 from __future__ import annotations
 
 import datetime as dt
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from functools import cache
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass, field, replace
+from functools import cached_property, partial
 from io import BytesIO
 from textwrap import wrap
-from typing import Any, ClassVar, Self
+from typing import Any
 
 from xlsxwriter.format import Format
 from xlsxwriter.utility import xl_col_to_name
@@ -19,8 +20,9 @@ from xlsxwriter.workbook import Workbook
 from xlsxwriter.worksheet import Worksheet
 
 from report.assessment.verdict import OVERRIDDEN, Verdict
-from report.entities.shown import NO_VALUE, Column, Entity, columns_of
-from report.text.units import Rounding
+from report.text.unit_format import NO_VALUE
+from report.text.units import NEWTONS_PER_POUND, NOISE, Rounding
+from solver.model import INCH_M
 
 # First row below the headings of a sheet with a title.
 TOP = 5
@@ -46,59 +48,150 @@ _MOST_LINES = 27
 _PAGE_PX, _LEAST_SCALE = 970, 60
 
 
-class SheetRow(Entity):
-    """A row of a sheet: an entity, and what the formulas of its fields take from elsewhere."""
+# What a value in SI is in the units of a sheet; a value in another unit stays as it is.
+_FROM_SI: Mapping[str, Callable[[Any], Any]] = {
+    "in": lambda value_m: value_m / INCH_M,
+    "mm": lambda value_m: value_m * 1e3,
+    "lb": lambda value_n: value_n / NEWTONS_PER_POUND,
+    "in/s": lambda value_mps: value_mps / INCH_M,
+}
 
-    sheet: ClassVar[str]
-    # Last field on paper; those after it, and unrounded values, are to be traced on a screen.
-    last_printed: ClassVar[str] = ""
+# A cell as the package prints it; in Excel ROUNDUP rounds away from zero.
+_ROUNDED_UP = (
+    '=IF(ISTEXT({{{name}}}),"none",MAX(0,ROUNDUP({{{name}}}{times}-{noise:.0e},{decimals})))'
+)
 
-    refs: Mapping[str, Any] = {}  # cells elsewhere, by the name that formulas give them
-    # those of this row, by field, in place of that of its first column; empty for none
-    formulas: Mapping[str, str] = {}
-    blanks: frozenset[str] = frozenset()  # fields without a cell in this row
 
-    @classmethod
-    def beside(cls, row: Entity, **more: Any) -> Self:
-        """Return an entity as a row, with what its sheet has beside it, or in place of it."""
-        return cls.model_validate(dict(row) | more)
+@dataclass(frozen=True, slots=True)
+class SheetColumn:
+    """A column of a sheet: its name in formulas, its heading, what it holds of an item."""
+
+    name: str  # a second column of one name has the same in another unit
+    head: str  # with its unit
+    value: Callable[[Any], Any]  # of the item of a row; in SI, converted by the unit in the heading
+    decimals: int | None = None  # of a number; None to show it as it is
+    formula: str = ""  # live, with names of columns and of other cells in braces; empty for none
+    _: KW_ONLY
+    is_always: bool = False  # whether the formula is written also where it gives no value
+    is_input: bool = False  # whether what has no formula may be changed there
+    # of what is shown: formulas take the exact value, from a column at the end of the row
+    rounding: Rounding = Rounding.NEAREST
+
+    def held(self, item: Any) -> Any:
+        """Return what a cell holds of an item."""
+        value = self.value(item)
+        if value is None:
+            return "not entered"
+        # By the unit in the heading, so that heading and number cannot differ.
+        convert = _FROM_SI.get(self.unit)
+        held = convert(value) if convert and not isinstance(value, str) else value
+        is_rounded = self.rounding is not Rounding.NEAREST
+        return self.rounding.of(held, self.decimals or 0) if is_rounded else held
+
+    @property
+    def unit(self) -> str:
+        """The unit in the heading."""
+        return self.head.partition("[")[2].rstrip("]")
+
+    def rounded(self) -> SheetColumn:
+        """Return it as a column that is rounded from the exact one of its name."""
+        noise = NOISE / 10.0 ** (self.decimals or 0)
+        times = "*25.4" if self.unit == "mm" else ""
+        formula = _ROUNDED_UP.format(
+            name=self.name, times=times, noise=noise, decimals=self.decimals
+        )
+        return replace(self, formula=formula)
+
+    def exact(self) -> SheetColumn:
+        """Return the exact column of its name."""
+        head, _, unit = self.head.partition(" [")
+        head = f"{head}, unrounded [{unit}" if unit else f"{head}, unrounded"
+        return replace(self, head=head, decimals=None, rounding=Rounding.NEAREST)
+
+
+up_column = partial(SheetColumn, rounding=Rounding.UP)
+"""A column of a demand, or of what is required: rounded up."""
+
+
+@dataclass(frozen=True)
+class SheetLayout:
+    """The columns of a sheet with formulas."""
+
+    sheet: str
+    own: Sequence[SheetColumn]
+    key_columns: int = 1  # that say which row it is: they stay in sight, and stand on every page
+    # Name of the last on paper; those after it, and unrounded values, are to be traced on a screen.
+    last_printed: str = ""
+
+    @cached_property
+    def columns(self) -> Sequence[SheetColumn]:
+        """The columns, with the exact one of each name that is rounded up at the end."""
+        shown: list[SheetColumn] = []
+        exact: dict[str, SheetColumn] = {}
+        for column in self.own:
+            is_up = column.rounding is Rounding.UP
+            shown.append(column.rounded() if is_up else column)
+            if is_up:
+                exact.setdefault(column.name, column.exact())
+        return *shown, *exact.values()
+
+    @cached_property
+    def letters(self) -> Mapping[str, str]:
+        """The letter of the first column of each name."""
+        names = [column.name for column in self.columns]
+        # Of a value that is shown rounded up, that of its exact column, the last.
+        exact = {column.name for column in self.own if column.rounding is Rounding.UP}
+        at = {name: place for place, name in enumerate(names) if name in exact}
+        return {name: xl_col_to_name(at.get(name, names.index(name))) for name in names}
+
+    @property
+    def n_printed(self) -> int | None:
+        """Number of columns that print; None for all."""
+        names = [column.name for column in self.columns]
+        return names.index(self.last_printed) + 1 if self.last_printed else None
+
+    def fixed(self, name: str, row: int) -> str:
+        """Return the cell of a column, which stays the same where a formula is copied."""
+        return f"{self.sheet}!${self.letters[name]}${row}"
+
+    def printed(self, item: Any, name: str) -> float | str:
+        """Return what the first cell of a name holds of an item."""
+        column = next(column for column in self.columns if column.name == name)
+        held: float | str = _finite(column.held(item))
+        return held
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SheetRow:
+    """A row of a sheet: what its columns hold a part of, and what is of this row alone."""
+
+    item: Any
+    refs: Mapping[str, Any] = field(default_factory=dict)  # cells elsewhere, by name in formulas
+    # those of this row, by column, in place of that of the first of its name; empty for none
+    formulas: Mapping[str, str] = field(default_factory=dict)
+    blanks: Collection[str] = ()  # columns without a cell in this row
+    marks: Mapping[str, str] = field(default_factory=dict)  # of overrides, by column
 
 
 class Cells:
-    """The cells of a row, or of several, by the names of the fields."""
+    """The cells of a row, or of several, by the names of the columns."""
 
-    def __init__(self, model: type[SheetRow], first: int, last: int = 0, *, is_here: bool = False):
-        self._model, self._letters = model, _letters(model)
-        self._first, self._last = first, last
-        self._sheet = "" if is_here else f"{model.sheet}!"
+    def __init__(self, layout: SheetLayout, first: int, last: int = 0, *, is_here: bool = False):
+        self._layout, self._first, self._last = layout, first, last
+        self._sheet = "" if is_here else f"{layout.sheet}!"
 
     def __getattr__(self, name: str) -> str:
-        letter = self._letters[name]
+        letter = self._layout.letters[name]
         return self._range(letter)
 
     def printed(self, name: str) -> str:
-        """Return the cells of a field as they print: rounded up where the field is."""
-        names = [field for field, _, _ in columns_of(self._model)]
+        """Return the cells of a column as they print: rounded up where it is."""
+        names = [column.name for column in self._layout.columns]
         return self._range(xl_col_to_name(names.index(name)))
 
     def _range(self, letter: str) -> str:
         to = f":{letter}{self._last}" if self._last else ""
         return f"{self._sheet}{letter}{self._first}{to}"
-
-
-def fixed(model: type[SheetRow], name: str, row: int) -> str:
-    """Return the cell of a field, which stays the same where a formula is copied."""
-    return f"{model.sheet}!${_letters(model)[name]}${row}"
-
-
-@cache
-def _letters(model: type[SheetRow]) -> Mapping[str, str]:
-    """Return the letter of the first column of each field."""
-    names = [name for name, _, _ in columns_of(model)]
-    # Of a value that is shown rounded up, that of its exact column, the last.
-    exact = {name for name, _, column in columns_of(model) if column.rounding is Rounding.UP}
-    at = {name: place for place, name in enumerate(names) if name in exact}
-    return {name: xl_col_to_name(at.get(name, names.index(name))) for name in names}
 
 
 def typed(value: float) -> float:
@@ -244,45 +337,33 @@ def lines_of(text: str, width: int) -> int:
 
 
 def write_live(
-    pages: Pages, model: type[SheetRow], rows: Sequence[SheetRow], title: str, note: str
+    pages: Pages, layout: SheetLayout, rows: Sequence[SheetRow], title: str, note: str
 ) -> Worksheet:
     """Write rows as a sheet with live formulas."""
-    columns = columns_of(model)
-    shown = [
-        [_shown(_value(row, name, column), column.decimals) for name, _, column in columns]
-        for row in rows
-    ]
+    columns = layout.columns
+    shown = [[_shown(column.held(row.item), column.decimals) for column in columns] for row in rows]
+    headings = [column.head for column in columns]
     sheet = pages.sheet(
-        model.sheet,
-        title,
-        note,
-        _headings(model),
-        shown,
-        model.key_columns,
-        printed_columns(model) if model.last_printed else None,
+        layout.sheet, title, note, headings, shown, layout.key_columns, layout.n_printed
     )
-    write_rows(pages, sheet, TOP, rows)
+    write_rows(pages, sheet, layout, TOP, rows)
     return sheet
 
 
-def printed_columns(model: type[SheetRow]) -> int:
-    """Return the number of columns that print, where a model says which is the last."""
-    return [name for name, _, _ in columns_of(model)].index(model.last_printed) + 1
-
-
-def write_rows(pages: Pages, sheet: Worksheet, top: int, rows: Iterable[SheetRow]) -> None:
+def write_rows(
+    pages: Pages, sheet: Worksheet, layout: SheetLayout, top: int, rows: Iterable[SheetRow]
+) -> None:
     """Write rows from a row of a sheet on: each formula with the value that it gives."""
     for number, row in enumerate(rows, start=top):
-        letters = _letters(type(row))
-        own = {name: f"{letter}{number}" for name, letter in letters.items()}
-        for at, (name, _, column) in enumerate(columns_of(type(row))):
-            if name in row.blanks:
+        own = {name: f"{letter}{number}" for name, letter in layout.letters.items()}
+        for at, column in enumerate(layout.columns):
+            if column.name in row.blanks:
                 continue
-            # A field may have several columns: the formula of a row is that of the first.
-            is_first = letters[name] == xl_col_to_name(at)
-            formula = row.formulas.get(name, column.formula) if is_first else column.formula
+            # A name may have several columns: the formula of a row is that of the first.
+            is_first = layout.letters[column.name] == xl_col_to_name(at)
+            formula = row.formulas.get(column.name, column.formula) if is_first else column.formula
             formula = formula.format(**own, **row.refs)
-            _write(pages, sheet, (number - 1, at), row, name, column, formula)
+            _write(pages, sheet, (number - 1, at), row, column, formula)
 
 
 def _write(
@@ -290,13 +371,12 @@ def _write(
     sheet: Worksheet,
     place: tuple[int, int],
     row: SheetRow,
-    name: str,
-    column: Column,
+    column: SheetColumn,
     formula: str,
 ) -> None:
-    value = _finite(_value(row, name, column))
+    value = _finite(column.held(row.item))
     is_input = column.is_input and not formula
-    shown = pages.number(column.decimals, row.marks.get(name, ""), is_input=is_input)
+    shown = pages.number(column.decimals, row.marks.get(column.name, ""), is_input=is_input)
     if isinstance(value, str) and column.decimals is None:
         shown = pages.typed_text if is_input else pages.text
     if formula and (column.is_always or value != NO_VALUE):
@@ -308,15 +388,19 @@ def _write(
         sheet.write_number(*place, typed(value) if is_input else value, shown)
 
 
-def write_list(pages: Pages, name: str, rows: Sequence[Entity], *, is_printed: bool = True) -> None:
-    """Write entities as a sheet without formulas."""
-    model = type(rows[0])
-    columns = columns_of(model, has_formulas=False)
-    table = {
-        heading: [_value(row, field, column) for row in rows] for field, heading, column in columns
-    }
-    decimals = {heading: column.decimals for _, heading, column in columns}
-    write_table(pages, name, table, model.key_columns, decimals, is_printed=is_printed)
+def write_list(
+    pages: Pages,
+    name: str,
+    columns: Sequence[SheetColumn],
+    items: Sequence[Any],
+    keys: int = 1,
+    *,
+    is_printed: bool = True,
+) -> None:
+    """Write items as a sheet without formulas."""
+    table = {column.head: [column.held(item) for item in items] for column in columns}
+    decimals = {column.head: column.decimals for column in columns}
+    write_table(pages, name, table, keys, decimals, is_printed=is_printed)
 
 
 def write_table(
@@ -351,25 +435,6 @@ def _shown(value: Any, decimals: int | None) -> str:
         return f"{number:.{decimals}f}"
     # As the format General shows it.
     return f"{number:.9g}" if isinstance(number, float) else str(number)
-
-
-def _headings(model: type[Entity]) -> Sequence[str]:
-    return [heading for _, heading, _ in columns_of(model)]
-
-
-def _value(row: Entity, name: str, column: Column) -> Any:
-    """Return the value of a field in the unit of its column."""
-    value = getattr(row, name)
-    if value is None:
-        return "not entered"
-    return column.held(value)
-
-
-def printed_value(row: Entity, name: str) -> float | str:
-    """Return what the first cell of a field holds, as the sheet of its row prints it."""
-    value = next(_value(row, name, column) for at, _, column in columns_of(type(row)) if at == name)
-    found: float | str = _finite(value)
-    return found
 
 
 def _finite(value: Any) -> Any:

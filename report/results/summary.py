@@ -16,9 +16,9 @@ from report.assessment.checks.check import Check, found_and_limit
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict, worst
 from report.provenance.files import fingerprint
-from report.results.clearances import GapRow
-from report.results.design import DesignRow, any_of
-from report.results.sheets import LINE_PT, TOP, Cells, Pages, lines_of, printed_value
+from report.results.clearances import GAPS, GapRow
+from report.results.design import DESIGN, DesignRow, any_of
+from report.results.sheets import LINE_PT, TOP, Cells, Pages, lines_of
 from report.text.units import ratio
 
 # What a cell holds: a text, a number, or a formula with its value.
@@ -103,7 +103,7 @@ def _head(assessment: Assessment, n_arrays: int) -> Sequence[Sequence[_Value]]:
         ("Rule set", assessment.rules.name),
         ("S_DS, SDC", f"{site.s_ds:.3f} g, {site.sdc_text}"),
     ]
-    cells = [Cells(DesignRow, TOP + count).verdict for count in range(n_arrays)]
+    cells = [Cells(DESIGN, TOP + count).verdict for count in range(n_arrays)]
     cells.append(f"B{len(rows) + 4}")  # the next row, below title, note and a blank one
     formula = (
         f'=IF(OR({any_of(cells, Verdict.NG)}),"{Verdict.NG}",'
@@ -118,20 +118,21 @@ def _head(assessment: Assessment, n_arrays: int) -> Sequence[Sequence[_Value]]:
 
 def _array(row: DesignRow, place: int) -> Sequence[_Value]:
     """Return an array with its displacements, rounded as on the sheet Design."""
-    cells = Cells(DesignRow, place)
+    cells = Cells(DESIGN, place)
     lengths = [
-        (f"={cells.printed(name)}", printed_value(row, name))
+        (f"={cells.printed(name)}", DESIGN.printed(row, name))
         for name in ("computed_m", "prescriptive_m", "design_m")
     ]
-    return (row.id, row.route.value, *lengths, row.cause, (f"={cells.verdict}", row.verdict.value))
+    verdict = (f"={cells.verdict}", row.verdict.value)
+    return (row.item.id, row.item.route.value, *lengths, row.cause, verdict)
 
 
 def _gap(rows: Sequence[GapRow]) -> Sequence[_Value]:
     """Return the clearance with the largest D/C, and the verdict on all."""
-    cells = Cells(GapRow, TOP, TOP + len(rows) - 1)
-    ratios = [printed_value(row, "demand_capacity") for row in rows]
+    cells = Cells(GAPS, TOP, TOP + len(rows) - 1)
+    ratios = [GAPS.printed(row, "demand_capacity") for row in rows]
     known = [each for each in ratios if not isinstance(each, str)]
-    verdicts = [row.verdict for row in rows]
+    verdicts = [row.gap.verdict for row in rows]
     of_all = next((v for v in (Verdict.NG, Verdict.NONE) if v in verdicts), Verdict.OK)
     formula = (
         f'=IF(COUNTIF({cells.verdict},"{Verdict.NG}")>0,"{Verdict.NG}",'
@@ -143,10 +144,10 @@ def _gap(rows: Sequence[GapRow]) -> Sequence[_Value]:
     place = f"MATCH(MAX({cells.demand_capacity}),{cells.demand_capacity},0)"
 
     def found(name: str) -> _Value:
-        return f"=INDEX({cells.printed(name)},{place})", printed_value(rows[at], name)
+        return f"=INDEX({cells.printed(name)},{place})", GAPS.printed(rows[at], name)
 
     array, other = (f"INDEX({cells.printed(name)},{place})" for name in ("array", "object"))
-    between = f'={array}&" to "&{other}', f"{rows[at].array} to {rows[at].object}"
+    between = f'={array}&" to "&{other}', " to ".join(rows[at].gap.between)
     names = ("neighbor", "provided_m", "required_m", "demand_capacity")
     return (between, *map(found, names), "", (formula, of_all.value))
 

@@ -13,16 +13,15 @@ from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra
 from report.provenance.files import fingerprint
 from report.results.clearances import result_cells, write_clearances
-from report.results.design import DesignRow, write_design, write_inputs, write_peaks
+from report.results.design import DESIGN, write_design, write_inputs, write_peaks
 from report.results.lists import (
-    LinkRunRow,
     link_cells,
-    link_run_rows,
+    write_link_runs,
     write_links,
     write_lists,
     write_requirements,
 )
-from report.results.sheets import TOP, Cells, Pages, text_workbook, write_list
+from report.results.sheets import TOP, Cells, Pages, text_workbook
 from report.results.summary import write_summary
 from report.text.formats import shortened
 
@@ -67,11 +66,11 @@ def _write_live(pages: Pages, assessment: Assessment) -> None:
     inputs = write_inputs(pages, assessment)
     ids = [item.id for item in assessment.arrays]
     results = {id: [*result_cells(assessment, id), *link_cells(assessment, id)] for id in ids}
-    designs = {id: Cells(DesignRow, row) for row, id in enumerate(ids, start=TOP)}
+    designs = {id: Cells(DESIGN, row) for row, id in enumerate(ids, start=TOP)}
     rows = write_design(pages, assessment, peaks, inputs, results)
     write_requirements(pages, assessment)
     if assessment.linked:
-        write_list(pages, LinkRunRow.sheet, list(link_run_rows(assessment)), is_printed=False)
+        write_link_runs(pages, assessment)
         write_links(pages, assessment, designs)
     gaps = write_clearances(pages, assessment, inputs)
     write_summary(pages, assessment, rows, gaps)

@@ -10,9 +10,9 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from report.document.columns import text, words
 from report.document.tables import Column, listed
 from report.document.templates import Section, section
-from report.entities.shown import text, words
 from report.project.read.linked_files import SUPPORTING, Distance, StudyYears, YearsOfArray
 from report.study import figures
 from report.study import years as rates

@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from report.document.columns import ColumnHead, centered, text, words
 from report.document.tables import Table, listed
 from report.document.templates import Section, section
-from report.entities.shown import Shown, centered, text, words
 from report.pages.symbols import with_symbols
 from report.study import figures
 from report.study.page_parts import (
@@ -192,7 +192,7 @@ def _floor_alone(results: StudyResults, allowed_m: float) -> Iterator[float]:
 
 def _allowed_table(
     results: StudyResults,
-    head: Shown,
+    head: ColumnHead,
     along: Sequence[float],
     answers: Floats,
     words: Callable[[float], str],

@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
+from report.document.columns import text
 from report.document.tables import Table, listed
 from report.document.templates import Section, section
-from report.entities.shown import text
 from report.pages.symbols import with_symbols
 from report.study import figures
 from report.study.array_capacities import FREQ_HZ

@@ -13,8 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from report.entities.requirement import UNVERIFIED
-from report.entities.shown import UnitFormat
+from report.pages.marks import UNVERIFIED
 from report.project.read.linked_files import SUPPORTING
 from report.results.sheets import text_workbook
 from report.study.plan import ArrayPlan
@@ -30,6 +29,7 @@ from report.study.wording import (
 )
 from report.text.counts import capitalized
 from report.text.formats import csv_text
+from report.text.unit_format import UnitFormat
 from report.text.units import Unit
 from solver.model import Floats
 from solver.studies.curves import Fit

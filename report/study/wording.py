@@ -14,13 +14,13 @@ from functools import partial
 from typing import Any
 
 from report.document.templates import said
-from report.entities.requirement import UNVERIFIED
-from report.entities.shown import UnitFormat
+from report.pages.marks import UNVERIFIED
 from report.pages.symbols import with_symbols
 from report.study.manifest import OWN_KEY, TRUST_PARTS
 from report.study.plan import FRICTION, I_E, SDC, SLOPE
 from report.study.results import MEAN, SLOPE_DECIMALS, ArrayStudyResult, LimitState, StudyResults
 from report.study.schema import Intensity
+from report.text.unit_format import UnitFormat
 from report.text.units import no_less
 from report.typeset.pdf import TEMPLATES
 from solver.rules.provisions import SEPARATION_KEYS

@@ -242,6 +242,15 @@ def ratio(value: float) -> str:
     return number(math.ceil(value * 100.0 - 1e-7) / 100.0, 2)
 
 
+def ratio_up(value: float) -> str:
+    """Return the factor on a design displacement, with three decimals, rounded up."""
+    if math.isnan(value):
+        return "none"
+    # Rounded down, the product would print too small. Less a millionth of the last digit, which is
+    # rounding error.
+    return number(math.ceil(value * 1e3 - 1e-6) / 1e3 if math.isfinite(value) else value, 3)
+
+
 def round_below(value: float) -> float:
     """Return the largest of 1, 2, 5 times a power of ten that is not above a value."""
     power = 10.0 ** math.floor(math.log10(value))

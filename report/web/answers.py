@@ -9,25 +9,24 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.causes import governing_words
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.project import Assessment
 from report.assessment.routes import NOT_PERMITTED
-from report.assessment.runs import MotionRun
 from report.assessment.verdict import MEANING, Verdict
 from report.drawing.sheet import unit_format
-from report.entities.array import ArrayRow, short_rows
-from report.entities.clearance import ClearanceResult, clearance_results
-from report.entities.requirement import Marked
-from report.entities.shown import UnitFormat
 from report.pages.checks import verdict_sentence
+from report.pages.clearance_tables import NumberedGap, numbered_gaps
+from report.pages.marks import Marked
 from report.pages.summary import attention
 from report.text.amounts import capacity, demand, shown_in_order
-from report.text.units import no_less
-from report.web.plan import USUAL_PX, Cell, ShowVerdict, cells, described, heads, plan, stamp
+from report.text.unit_format import UnitFormat
+from report.text.units import Show, no_less
+from report.web.plan import USUAL_PX, Cell, ShowVerdict, described, plan, stamp
 
-_ARRAY = "id mean_prd_m design_m prescriptive_m verdict"
-_CLEARANCE = "count array provided_m required_m demand_capacity verdict"
+_ARRAY_HEADS = ["Array", "Mean PRD", "Design", "Prescriptive", "Verdict"]
+_GAP_HEADS = ["No.", "From, to", "Provided", "Required", "D/C", "Verdict"]
 
 _PROVISIONAL = (
     "Provisional: each motion in the two orientations with the largest PRD at rest. All of them "
@@ -42,10 +41,9 @@ def answer(
     """Return what the page shows, with room for its plan; provisional values have no verdict."""
     marked = Marked(assessment=assessment, has_daggers=False)
     fmt = unit_format(assessment)
-    arrays = list(short_rows(marked))
-    gaps = list(clearance_results(marked, dict(enumerate(assessment.clearances, start=1))))
+    arrays, gaps = assessment.arrays, numbered_gaps(assessment)
     missing = [near for near in assessment.neighbors if near.is_missing]
-    designs = {item.id: _design(item, fmt, is_provisional) for item in arrays}
+    designs = {item.id: _design(marked, item, is_provisional) for item in arrays}
 
     # What less friction would change is computed after the rest; only an OK may change by it.
     is_whole = is_provisional or assessment.at_reduced_friction is not None
@@ -74,54 +72,76 @@ def answer(
         "pending": "" if is_whole else _LESS,
         "arrays": {
             "caption": "Arrays: displacement",
-            "heads": heads(ArrayRow, _ARRAY, mean_prd_m="Mean PRD"),
+            "heads": _ARRAY_HEADS,
             "rows": [
-                cells(item, _ARRAY, fmt, design_m=designs[item.id], verdict=verdict(item.verdict))
+                [
+                    {"text": item.id},
+                    _length(fmt, item.analysis.mean_m, no_less),
+                    designs[item.id],
+                    _prescriptive(marked, item),
+                    verdict(assessment.array_verdict(item)),
+                ]
                 for item in arrays
             ],
         },
         "clearances": {
             "caption": "Clearances",
-            "heads": heads(ClearanceResult, _CLEARANCE, array="From, to"),
-            "rows": _rows(gaps, missing, fmt, verdict),
+            "heads": _GAP_HEADS,
+            "rows": [
+                *(_gap(gap, marked, verdict) for gap in gaps),
+                *(_missing(near, fmt, verdict) for near in missing),
+            ],
         },
         "bars": {
             "heads": ["Motion", "Bar", "PRD"],
-            "arrays": {
-                item.id: _bars(item, assessed.motions, fmt, designs[item.id])
-                for item, assessed in zip(arrays, assessment.arrays, strict=True)
-            },
+            "arrays": {item.id: _bars(marked, item, designs[item.id]) for item in arrays},
         },
-        "tips": _tips(assessment, arrays, designs, gaps),
-        "plan": plan(assessment, designs, (gaps, missing), fmt, verdict, room_px),
+        "tips": _tips(marked, designs, gaps),
+        "plan": plan(marked, designs, (gaps, missing), verdict, room_px),
     }
 
 
-def _design(item: ArrayRow, fmt: UnitFormat, is_provisional: bool) -> Cell:
+def _design(marked: Marked, item: ArrayAssessment, is_provisional: bool) -> Cell:
     """Return the design displacement and what governs; while provisional, not whether it may."""
+    fmt = unit_format(marked.assessment)
     if math.isnan(item.design_m):
         return {"text": fmt.none}
-    text, both = item.short("design_m", fmt), item.both("design_m", fmt)
+    cell = _length(fmt, item.design_m, no_less, marked.design_mark(item))
     if is_provisional:
-        return {"text": text, "title": f"{both}, {item.design_governs.value}"}
-    return {"text": NOT_PERMITTED if item.is_refused else text, "title": f"{both}, {item.source}"}
+        return cell | {"title": f"{cell['title']}, {item.governs.value}"}
+    text = NOT_PERMITTED if item.has_unpermitted_value else cell["text"]
+    return {"text": text, "title": f"{cell['title']}, {item.source}"}
 
 
-def _rows(
-    gaps: Sequence[ClearanceResult],
-    missing: Sequence[PlanNeighbor],
-    fmt: UnitFormat,
-    verdict: ShowVerdict,
-) -> list[list[Cell | None]]:
-    """Return the clearances in the order of the workbook, then pairs of the plan without one."""
-    rows = []
-    for gap in gaps:
-        names = _between(gap.array, gap.object, gap.direction.value)
-        rows.append(cells(gap, _CLEARANCE, fmt, array=names, verdict=verdict(gap.verdict)))
-    return [*rows, *(_missing(near, fmt, verdict) for near in missing)]
+def _prescriptive(marked: Marked, item: ArrayAssessment) -> Cell:
+    mark = marked.prescriptive_mark(item)
+    return _length(unit_format(marked.assessment), item.prescriptive.value_m, no_less, mark)
+
+
+def _length(fmt: UnitFormat, value_m: float, show: Show, mark: str = "") -> dict[str, str]:
+    """Return a length in the preferred system, with both as its title; none has no title."""
+    text, both = (way(value_m, show=show, mark=mark) for way in (fmt.short, fmt.both))
+    return {"text": text} if text == both else {"text": text, "title": both}
+
+
+def _ratio(gap: NumberedGap, fmt: UnitFormat) -> str:
+    return fmt.none if math.isnan(gap.check.demand_capacity) else gap.check.ratio_words
+
+
+def _gap(gap: NumberedGap, marked: Marked, verdict: ShowVerdict) -> list[Cell | None]:
+    fmt, (had, needed), row = unit_format(marked.assessment), gap.shows, gap.check.clearance
+    return [
+        {"text": str(gap.number)},
+        _between(row.array, row.object, row.direction.value),
+        _length(fmt, row.provided_m, had),
+        _length(fmt, gap.check.required_m, needed, marked.required_mark(gap.check)),
+        {"text": _ratio(gap, fmt)},
+        verdict(gap.check.verdict),
+    ]
 
 
 def _missing(near: PlanNeighbor, fmt: UnitFormat, verdict: ShowVerdict) -> list[Cell | None]:
+    """Return a pair of the plan without a clearance."""
     had, needed = shown_in_order(capacity(near.gap_m), demand(near.required_m))
     lengths = ((near.gap_m, had, ""), (near.required_m, needed, near.mark))
     missing_cells = (
@@ -137,38 +157,33 @@ def _between(first: str, other: str, note: str) -> Cell:
 
 
 def _tips(
-    assessment: Assessment,
-    arrays: Sequence[ArrayRow],
-    designs: Mapping[str, Cell],
-    gaps: Sequence[ClearanceResult],
+    marked: Marked, designs: Mapping[str, Cell], gaps: Sequence[NumberedGap]
 ) -> dict[str, str]:
     """Return what the plan tells of each array, object and clearance, by name and by number."""
-    fmt = unit_format(assessment)
-    tips = {item.id: f"{item.id}: Δ {designs[item.id].get('title', fmt.none)}" for item in arrays}
+    assessment, fmt = marked.assessment, unit_format(marked.assessment)
+    tips = {id: f"{id}: Δ {design.get('title', fmt.none)}" for id, design in designs.items()}
     tips |= {row.id: f"{row.id}: {row.kind.value}" for row in assessment.project.objects}
-    worst: dict[str, ClearanceResult] = {}
+    worst: dict[str, NumberedGap] = {}
     for gap in gaps:
-        tips[f"#{gap.count}"] = f"{described(gap, fmt)}, D/C {gap.short('demand_capacity', fmt)}"
-        for name in (gap.array, gap.object):
+        tips[f"#{gap.number}"] = f"{described(gap, marked)}, D/C {_ratio(gap, fmt)}"
+        for name in gap.check.between:
             known = worst.get(name)
-            if known is None or not gap.demand_capacity <= known.demand_capacity:
+            if known is None or not gap.check.demand_capacity <= known.check.demand_capacity:
                 worst[name] = gap
     for name, gap in worst.items():
-        other = gap.object if name == gap.array else gap.array
-        ratio = gap.short("demand_capacity", fmt)
-        tips[name] = f"{tips.get(name, name)}, D/C {ratio} to {other}"
+        other = gap.check.across_from(name)
+        tips[name] = f"{tips.get(name, name)}, D/C {_ratio(gap, fmt)} to {other}"
     return tips
 
 
-def _bars(
-    item: ArrayRow, motions: Sequence[MotionRun], fmt: UnitFormat, design: Cell
-) -> Mapping[str, Any]:
+def _bars(marked: Marked, item: ArrayAssessment, design: Cell) -> Mapping[str, Any]:
     """Return the PRD of each motion, and the lengths that are lines across its bars."""
     # A displacement that is not permitted is no line across the bars.
     design_m = math.nan if design["text"] == NOT_PERMITTED else item.design_m
+    fmt, prescriptive = unit_format(marked.assessment), _prescriptive(marked, item)
     lines = {
         "design": (design_m, design["text"]),
-        "prescriptive": (item.prescriptive_m, item.short("prescriptive_m", fmt)),
+        "prescriptive": (item.prescriptive.value_m, prescriptive["text"]),
     }
     return {
         "caption": f"PRD of {item.id} by motion",
@@ -179,10 +194,10 @@ def _bars(
         "rows": [
             {
                 "motion": run.motion.id,
-                "prd_m": finite(prd_m),
-                "text": fmt.short(prd_m, show=no_less),
+                "prd_m": finite(run.governing.prd_m),
+                "text": fmt.short(run.governing.prd_m, show=no_less),
             }
-            for run, prd_m in ((run, run.governing.prd_m) for run in motions)
+            for run in item.motions
         ],
     }
 

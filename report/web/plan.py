@@ -1,8 +1,7 @@
 """The roof plan for the page: what `report.drawing.on_paper` places, as elements of SVG.
 
 Placed on the widest sheet that the page has room for; the page places nothing. Reads finished
-numbers; the package paints the same in `report.figures.plan`. `cells` is an entity as a row of a
-table of the page: short texts, with both systems of units as titles.
+numbers; the package paints the same in `report.figures.plan`.
 """
 
 from __future__ import annotations
@@ -11,7 +10,6 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from report.assessment.neighbors import PlanNeighbor
-from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.drawing.items import (
     TYPE_PT,
@@ -26,10 +24,11 @@ from report.drawing.items import (
     Text,
 )
 from report.drawing.on_paper import plan_on_paper
-from report.drawing.sheet import Paper, PlanSize
-from report.entities.clearance import ClearanceResult
-from report.entities.shown import Entity, UnitFormat, shown_by
+from report.drawing.sheet import Paper, PlanSize, unit_format
+from report.pages.clearance_tables import NumberedGap
+from report.pages.marks import Marked
 from report.text.amounts import capacity, demand, shown_in_order
+from report.text.unit_format import UnitFormat
 
 Cell = Mapping[str, str]
 ShowVerdict = Callable[[Verdict], Cell | None]
@@ -38,21 +37,6 @@ ShowVerdict = Callable[[Verdict], Cell | None]
 def stamp(verdict: Verdict, text: str = "") -> Cell:
     """Return a verdict and its look; that on the project as a text."""
     return {"text": text or verdict, "look": verdict.name.lower()}
-
-
-def heads(model: type[Entity], names: str, **others: str) -> list[str]:
-    """Return the headings of fields, or others by field."""
-    return [others.get(name, shown_by(model, name).head) for name in names.split()]
-
-
-def cells(row: Entity, names: str, fmt: UnitFormat, **others: Cell | None) -> list[Cell | None]:
-    """Return the cells of fields, or others by field; none for a verdict that is not known yet."""
-    return [others[n] if n in others else _cell(row, n, fmt) for n in names.split()]
-
-
-def _cell(row: Entity, name: str, fmt: UnitFormat) -> Cell:
-    text, both = row.short(name, fmt), row.both(name, fmt)
-    return {"text": text} if both == text else {"text": text, "title": both}
 
 
 _TYPE_PX = 13.0  # of the page
@@ -86,16 +70,16 @@ _CLASSES: Mapping[Look, str] = {
 
 
 def plan(
-    assessment: Assessment,
+    marked: Marked,
     designs: Mapping[str, Cell],
-    gaps: tuple[Sequence[ClearanceResult], Sequence[PlanNeighbor]],
-    fmt: UnitFormat,
+    gaps: tuple[Sequence[NumberedGap], Sequence[PlanNeighbor]],
     verdict: ShowVerdict,
     room_px: int = USUAL_PX,
 ) -> Mapping[str, Any]:
     """Return the plan with its design displacements, its clearances and what is without one."""
     words = {name: str(cell["text"]) for name, cell in designs.items()}
-    shown, missing = gaps
+    assessment, (shown, missing) = marked.assessment, gaps
+    fmt = unit_format(assessment)
     # Provisional values have none.
     has_verdicts = verdict(Verdict.OK) is not None
     wide_px, more_px = _sheet_px(room_px)
@@ -106,7 +90,10 @@ def plan(
     return {
         "title": "Roof plan to scale",
         "described": [
-            *({"text": described(row, fmt), "verdict": verdict(row.verdict)} for row in shown),
+            *(
+                {"text": described(gap, marked), "verdict": verdict(gap.check.verdict)}
+                for gap in shown
+            ),
             *(
                 {"text": _without_clearance(near, fmt), "verdict": verdict(near.verdict)}
                 for near in missing
@@ -133,10 +120,13 @@ def _without_clearance(near: PlanNeighbor, fmt: UnitFormat) -> str:
     return f"{near.array} to {near.other}: no clearance given, {gap} in plan, required {required}"
 
 
-def described(row: ClearanceResult, fmt: UnitFormat) -> str:
+def described(gap: NumberedGap, marked: Marked) -> str:
     """Return a clearance in words."""
-    provided, required = (row.both(name, fmt) for name in ("provided_m", "required_m"))
-    name = f"Clearance {row.count}, {row.array} to {row.object}, {row.direction}"
+    check, (had, needed) = gap.check, gap.shows
+    fmt, row = unit_format(marked.assessment), gap.check.clearance
+    provided = fmt.both(check.provided_m, show=had)
+    required = fmt.both(check.required_m, show=needed, mark=marked.required_mark(check))
+    name = f"Clearance {gap.number}, {row.array} to {row.object}, {row.direction}"
     return f"{name}: provided {provided}, required {required}"
 
 

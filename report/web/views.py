@@ -20,8 +20,8 @@ from report.assessment.runs import MotionRun, OrientedRun
 from report.assessment.uncertainty import ResponseSurface, surface
 from report.document.templates import sentence
 from report.drawing.sheet import unit_format
-from report.entities.shown import UnitFormat
 from report.text.counts import cut, ids_by, ranged
+from report.text.unit_format import UnitFormat
 from report.text.units import G_MPS2, Unit, no_less, number
 from report.typeset.pdf import TEMPLATES
 from report.web.answers import finite

@@ -24,7 +24,7 @@ from report.assessment.evidence import (
 from report.assessment.routes import Route
 from report.assessment.verdict import Verdict
 from report.document.templates import sentence
-from report.entities.requirement import Marked
+from report.pages.marks import Marked
 from report.project.model import Override
 from report.typeset.pdf import TEMPLATES
 from sheets import at, make, problems, read_workbook, type_into
@@ -262,7 +262,7 @@ def with_inputs(*, slopes=(), **sections):
 
 
 def said(given):
-    return sentence(TEMPLATES, "saving", Marked(assessment=given), saving(given))
+    return sentence(TEMPLATES, "saving", saving(given), package=Marked(assessment=given))
 
 
 def test_the_floor_satisfies_clearances_that_it_does_not_exceed():

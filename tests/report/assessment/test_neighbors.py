@@ -20,11 +20,11 @@ from report.assessment.plan_clearances import plan_gaps
 from report.drawing.items import Layer
 from report.drawing.plan import plan_drawing
 from report.drawing.sheet import LETTER
-from report.entities.shown import UnitFormat
 from report.motions.prepare import prepare
 from report.project.model import ProjectInput
 from report.project.model.shapes import Rectangle, gap_m
 from report.project.read.read import read
+from report.text.unit_format import UnitFormat
 from report.web.plan import plan, stamp
 from sheets import at, make, project
 

@@ -1,13 +1,16 @@
 """Tables of a document, which rows are one and what a cell takes; and its templates, compiled."""
 
+import math
 from dataclasses import replace
 from operator import itemgetter
 
 import pytest
 
+from report.document.columns import required, text, words
 from report.document.tables import Wide, listed, merged
 from report.document.templates import rendered, said, state_of
-from report.entities.shown import text, words
+from report.text.unit_format import UnitFormat
+from report.text.units import no_less
 
 pytestmark = pytest.mark.quick
 
@@ -93,3 +96,18 @@ def test_a_page_keeps_a_number_and_its_unit_together_and_the_screen_has_plain_bl
     page = rendered(tmp_path, "page.html", found)
     assert page == "<b>12\u00a0in (305\u00a0mm) &lt; 3 inches, 1.5\u00a0g</b>"
     assert said(tmp_path, "page.html", "words", found) == f"<b>{found['found']}</b>"
+
+
+@pytest.mark.parametrize(
+    ("us_first", "cells", "both"),
+    [(True, ("19.7†", "500†"), "19.7 in (500 mm)†"),
+     (False, ("500†", "19.7†"), "500 mm (19.7 in)†")],
+)  # fmt: skip
+def test_a_quantity_is_shown_in_both_systems_with_its_mark(us_first, cells, both):
+    fmt = UnitFormat(us_first=us_first)
+    columns = [(required("Required"), lambda value_m: value_m, lambda _: "†")]
+    known, unknown = listed([0.5, math.nan], columns, fmt).rows
+    assert known.cells == cells
+    assert fmt.both(0.5, show=no_less, mark="†") == both
+    assert unknown.cells == ("none", "none")
+    assert fmt.both(math.nan, mark="†") == "none"

@@ -13,9 +13,9 @@ from report.assessment.precheck import limits_before_runs
 from report.assessment.remedies import Remedies
 from report.assessment.spectra import spectra
 from report.assessment.verdict import NO_DESIGN
-from report.entities.requirement import check_results
 from report.pages import summary as terminal
 from report.pages.checks import APART
+from report.results.rows import check_results
 from report.results.xlsx import results_xlsx
 from report.web.answers import answer
 

@@ -19,16 +19,8 @@ from report.assessment.project import ChangeKind
 from report.assessment.verdict import Verdict
 from report.pages.registry import package_data, parts
 from report.project.read.linked_files import Document
-from report.results.results_json import (
-    AGAIN,
-    MOST_CHANGES,
-    changes,
-    check_listed,
-    former_from,
-    read_former,
-    results_json,
-    with_reissue,
-)
+from report.results.changes import MOST_CHANGES, changes, check_listed, with_reissue
+from report.results.results_json import AGAIN, former_from, read_former, results_json
 from solver.model import InputError
 
 

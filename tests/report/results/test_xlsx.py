@@ -1,7 +1,6 @@
 """results.xlsx: its formulas, evaluated by LibreOffice, give its values; what is live in it."""
 
 import io
-from typing import Annotated
 
 import openpyxl
 import pytest
@@ -14,12 +13,8 @@ from cells import address, cell
 from recalculated import recalculated
 from report.assessment.checks.check import alike, found_and_limit
 from report.assessment.spectra import spectra
-from report.entities.shown import Column
-from report.project.model.choices import Direction
 from report.provenance.files import fingerprint
-from report.results.design import PeakRow
-from report.results.lists import RunRow
-from report.results.sheets import Cells, Pages, write_live
+from report.results.sheets import Pages, SheetColumn, SheetLayout, SheetRow, up_column, write_live
 from report.results.xlsx import results_xlsx
 from sheets import formula_cells
 
@@ -237,31 +232,27 @@ def test_the_summary_has_every_check_that_is_open_and_no_kind_twice(usual):
     assert head["Project number"] == assessment.project.project.number
 
 
-class WiderRow(PeakRow):
-    """A row of peaks with two more fields."""
-
-    twice_m: Annotated[float, Column("Twice [in]", 1, "=2*{any_m}")]
-    note: Annotated[str, Column("Note")]
+LAYOUT = SheetLayout(
+    "Peaks",
+    (
+        SheetColumn("motion", "Motion", lambda row: row["motion"]),
+        up_column("any_m", "Any direction [in]", lambda row: row["any_m"], 1, "={peak}*10"),
+        SheetColumn("twice_m", "Twice [in]", lambda row: 2 * row["any_m"], 1, "=2*{any_m}"),
+        SheetColumn("note", "Note", lambda row: row["note"]),
+    ),
+)
 
 
 @pytest.mark.quick
-def test_a_column_is_one_field_with_its_heading_unit_digits_and_formula():
-    peaks = {f"{way}_m": 0.254 for way in Direction}
-    row = WiderRow(
-        array="A1",
-        motion="M1",
-        twice_m=0.508,
-        note="=1",
-        refs={"runs": Cells(RunRow, 2, 5)},
-        **peaks,
-    )
+def test_a_column_is_said_once_with_its_heading_unit_digits_and_formula():
+    row = SheetRow(item={"motion": "M1", "any_m": 0.254, "note": "=1"}, refs={"peak": 1})
     content = io.BytesIO()
     with Workbook(content, {"strings_to_formulas": False}) as workbook:
         workbook.add_worksheet("Peaks")
-        write_live(Pages(workbook, "A project"), WiderRow, [row], "Peaks", "")
+        write_live(Pages(workbook, "A project"), LAYOUT, [row], "Peaks", "")
     formulas, values = opened(content.getvalue())
     head = next(line for line in values["Peaks"].iter_rows(values_only=True) if "Motion" in line)
-    assert head[5:8] == ("Any direction [in]", "Twice [in]", "Note")
+    assert head[1:4] == ("Any direction [in]", "Twice [in]", "Note")
     assert head[-1] == "Any direction, unrounded [in]"
     twice, name = (cell(formulas, f"Peaks/1/{heading}") for heading in ("Twice", "Note"))
     assert twice.value == f"=2*{of(formulas, 'Peaks/1/Any direction, unrounded')}"

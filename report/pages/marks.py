@@ -1,121 +1,19 @@
-"""Checks and warnings as results.json has them, and an assessment with the marks of its numbers.
-
-Computes nothing. Read `CheckResult`, then `Marked`.
-"""
+"""An assessment with the marks of its numbers. Computes nothing. Read `Marked`."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis
-from report.assessment.checks.check import Actor, dagger, texts
+from report.assessment.checks.check import dagger
+from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import Assessment
 from report.assessment.routes import SEAOC
-from report.assessment.verdict import ItemVerdict
-from report.entities.shown import (
-    Entity,
-    Number,
-    UnitFormat,
-)
-from report.project.check.findings import located
 from report.project.model import ProjectInput
-from report.project.model.fields import Finding, Level, Place
-from report.text.amounts import Amount
+from report.text.unit_format import UnitFormat
 from report.text.units import Quantity, no_less
-from solver.rules.limit import Consequence
 from solver.rules.provisions import PrescriptiveBasis
-
-
-class FindingResult(Entity):
-    """A warning or note on the input."""
-
-    level: Level
-    """Warning or note."""
-    id: str
-    """Name by which a warning is acknowledged; empty where none can be."""
-    cell: str
-    """Cell of the workbook."""
-    text: str
-    """What was found."""
-    reason: str
-    """Why a warning is acknowledged; empty if it is not."""
-
-
-def finding_results(
-    findings: Iterable[Finding], addresses: Mapping[Place, str]
-) -> Iterator[FindingResult]:
-    """Yield warnings and notes on the input, each with its cell."""
-    shown = tuple(findings)
-    for finding, cell in zip(shown, located(shown, addresses), strict=True):
-        yield FindingResult.of(finding, cell=cell)
-
-
-class CheckResult(Entity):
-    """A check as results.json has it: everything that is required, satisfied or not."""
-
-    id: str
-    """Kind of check, such as `max_stories`, `clearance` or `peer_review`."""
-    title: str
-    """As printed."""
-    subject: str
-    """Array, motion or clearance, as printed; empty for the project."""
-    arrays: tuple[str, ...]
-    """Ids of the arrays whose verdict it is part of."""
-    found: Number
-    """Value found, in the unit; null where it is words, or no value."""
-    limit: Number
-    """Value required, in the unit; null where it is words."""
-    unit: str
-    """Unit of both; empty for a count or a ratio."""
-    found_text: str
-    """As printed, in both systems of units."""
-    limit_text: str
-    """As printed, with its sign."""
-    note: str
-    """Where or from what it was found."""
-    clause: str
-    """Section of the code with its mark, or whose practice it is."""
-    is_satisfied: bool
-    """Whether the project satisfies it."""
-    consequence: Consequence
-    """Where it is not satisfied."""
-    verdict: ItemVerdict
-    """Of this check alone."""
-    ratio: Number
-    """Demand / capacity; null for words, and where a required number is not entered."""
-    actor: Actor
-    """Who must act where it is not satisfied."""
-    remedy: str
-    """What they must do, as a sentence; empty where it is satisfied."""
-    otherwise: str
-    """What the project comes to if it is not met, as a sentence."""
-    cells: tuple[str, ...]
-    """Cells of the workbook."""
-
-
-def check_results(assessment: Assessment) -> Iterator[CheckResult]:
-    """Yield the checks of a project, in their order."""
-    us_first, addresses = assessment.project.us_first, assessment.sheet.addresses
-    for check in assessment.checks:
-        found_text, limit_text = texts(check, us_first)
-        amounts = [x for x in (check.found, check.limit) if isinstance(x, Amount)]
-        yield CheckResult.of(
-            check,
-            found=_value(check.found),
-            limit=_value(check.limit),
-            unit=amounts[0].quantity.base if amounts else "",
-            found_text=found_text,
-            limit_text=limit_text,
-            remedy=check.to_close,
-            cells=[addresses[place] for place in check.places if place in addresses],
-        )
-
-
-def _value(amount: Amount | str) -> float:
-    return amount.value if isinstance(amount, Amount) else math.nan
-
 
 UNVERIFIED = (
     "Numbers marked † have not been compared with the text of the adopted document and shall be "
@@ -198,3 +96,13 @@ class Marked:
         if self.data.is_peer_reviewed:
             return ""
         return joined(self.mark("analysis_floor"), array.overridden.floor)
+
+    def computed_mark(self, array: ArrayAssessment) -> str:
+        """Return the mark of the displacement by analysis."""
+        return array.overridden.analysis
+
+    def required_mark(self, gap: ClearanceCheck) -> str:
+        """Return the marks of a required separation."""
+        # Where the minimum governs, the number that is marked is the minimum.
+        least = self.mark("separation_edge_min_in") if gap.is_minimum_value else ""
+        return joined(least, gap.mark)

@@ -1,17 +1,13 @@
-"""The schema of results: what is written is read back, and a field is shown as it says."""
+"""The schema of results.json: what is written is read back, and every key is described."""
 
 import json
-import math
 
 import pytest
 from click.testing import CliRunner
 
 import scenes
 from report.cli.main import main
-from report.document.tables import table_of
-from report.entities.clearance import ClearanceResult
-from report.entities.results import Results
-from report.entities.shown import UnitFormat
+from report.results.model import Results
 from report.results.results_json import results_json
 
 pytestmark = pytest.mark.quick
@@ -57,28 +53,3 @@ def references(node):
         node = list(node.values())
     for each in node if isinstance(node, list) else ():
         yield from references(each)
-
-
-def gap(**changes):
-    row = {
-        "array": "A1", "object": "RTU-1", "direction": "any", "neighbor": "fixed object",
-        "governing_array": "A1", "design_m": 0.5, "importance": 1.0,
-        "factor": 1.0, "required_m": 0.5, "required_is_overridden": False, "provided_m": 1.0,
-        "demand_capacity": 0.5, "verdict": "OK",
-    }  # fmt: skip
-    return ClearanceResult.model_validate(row | changes)
-
-
-@pytest.mark.parametrize(
-    ("us_first", "cells", "both"),
-    [(True, ("19.7†", "500†"), "19.7 in (500 mm)†"),
-     (False, ("500†", "19.7†"), "500 mm (19.7 in)†")],
-)  # fmt: skip
-def test_a_quantity_is_shown_in_both_systems_with_its_mark(us_first, cells, both):
-    row, fmt = gap(marks={"required_m": "†"}), UnitFormat(us_first=us_first)
-    assert table_of([row], "required_m", fmt).rows[0].cells == cells
-    assert row.both("required_m", fmt) == both
-    row = gap(required_m=None, marks={"required_m": "†"})
-    assert math.isnan(row.required_m)
-    assert table_of([row], "required_m", fmt).rows[0].cells == ("none", "none")
-    assert row.both("required_m", fmt) == "none"

@@ -1,0 +1,202 @@
+"""Tables of the arrays: of the summary, the letter, the comparison, and the schedule for the field.
+
+Computes nothing. Each table is a list of columns over the arrays of the assessment.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.causes import unshown_cause
+from report.assessment.envelopes import keep_clear, keep_clear_m, keep_clear_mark
+from report.assessment.friction import mu_words
+from report.assessment.neighbors import ComparedGap, PlanNeighbor
+from report.assessment.project import Assessment
+from report.assessment.routes import SEAOC, prescriptive_of
+from report.assessment.verdict import NOT_GIVEN
+from report.document.columns import (
+    centered,
+    plain,
+    provided,
+    required,
+    text,
+    weight,
+    words,
+)
+from report.document.tables import Column, Table, listed, merged
+from report.pages.parts import PackageData
+from report.text.amounts import capacity, demand, shown_in_order
+from report.text.units import Show, no_less
+
+
+def summary_table(package: PackageData) -> Table:
+    """Return the arrays of the first sheet, in one system of units."""
+    done = package.assessment
+    columns: list[Column] = [
+        (words("Array", 1.1), lambda item: item.id),
+        (plain("Slope", 2, "deg", 0.8), lambda item: math.degrees(item.array.slope_rad)),
+        (text("μ", share=_mu_share(package)), lambda item: mu_words(item.array.friction)),
+    ]
+    if done.has_motions:
+        columns += [
+            (text("Model", share=0.7), models_used),
+            (required("Analysis"), lambda item: item.analysis.value_m, package.computed_mark),
+        ]
+    columns += [
+        (required("Prescriptive"), lambda item: item.prescriptive.value_m,
+         package.prescriptive_mark),
+        *(() if done.has_motions else _seaoc(package)),
+        (required("Design"), lambda item: item.design_m, package.design_mark),
+        (words("Governs", 1.9 if done.has_motions else 1.55), lambda item: item.source),
+        (text("D/C", share=0.8), lambda item: ratio_words(done, item)),
+        # What gives a verdict is a row of its own below.
+        (centered("Verdict", 1.3), done.array_verdict),
+    ]  # fmt: skip
+    return merged(_table(package, columns, systems=1))
+
+
+def _mu_share(package: PackageData) -> float:
+    return 1.2 * package.mu_share if package.assessment.has_motions else 2.0
+
+
+def letter_table(package: PackageData) -> Table:
+    """Return the arrays of the letter, each with its governing clearance if any is given."""
+    done = package.assessment
+    columns: list[Column] = [
+        (words("Array", 0.7), lambda item: item.id),
+        (text("μ", share=0.8), lambda item: mu_words(item.array.friction)),
+        (required("Design displ.", 0.8), lambda item: item.design_m, package.design_mark),
+        (words("Governed by", 1.3), lambda item: item.source),
+    ]
+    if done.clearances or done.missing_gaps:
+        columns += [
+            (words("Governing clearance to", 1.3), lambda item: governing_name(done, item)),
+            (required("Required", 0.8), lambda item: _gap_m(done.governing_gap(item.id))[1],
+             lambda item: _mark(done.governing_gap(item.id)),
+             lambda item: _gap_shows(done.governing_gap(item.id))[1]),
+            (provided("Provided", 0.8), lambda item: _gap_m(done.governing_gap(item.id))[0],
+             lambda _: "", lambda item: _gap_shows(done.governing_gap(item.id))[0]),
+            (text("D/C", share=0.6), lambda item: ratio_words(done, item)),
+        ]  # fmt: skip
+    columns += [
+        (text("Keep clear", share=1.0), lambda item: _keep_clear(done, item)),
+        (centered("Verdict", 1.3), done.array_verdict, lambda item: _cause(done, item)),
+    ]
+    return merged(_table(package, columns), "Array", "Governing clearance to")
+
+
+def comparison_table(package: PackageData) -> Table:
+    """Return the displacements of each array by either route."""
+    arrays = package.assessment.arrays
+    columns: list[Column] = [
+        (words("Array", 1.1), lambda item: item.id),
+        (required("Prescriptive"), lambda item: item.prescriptive.value_m,
+         package.prescriptive_mark),
+        *_seaoc(package),
+        (required("Mean"), lambda item: item.analysis.mean_m),
+        (required("Analysis"), lambda item: item.analysis.value_m, package.computed_mark),
+    ]  # fmt: skip
+    if any(item.floor_m for item in arrays):
+        # Peer review removes it.
+        columns.append(
+            (required("Floor"), lambda item: item.floor_m or math.nan, package.floor_mark)
+        )
+    columns += [
+        (required("Design"), lambda item: item.design_m, package.design_mark),
+        (plain("Analysis / prescr.", share=1.15),
+         lambda item: item.analysis.value_m / item.prescriptive.value_m),
+        (plain("Design / prescr.", share=1.05), lambda item: item.ratio),
+        (words("Governs", 1.75), lambda item: item.source),
+    ]  # fmt: skip
+    return merged(_table(package, columns))
+
+
+def schedule(package: PackageData) -> Table:
+    """Return the schedule of arrays for the construction documents."""
+    done = package.assessment
+    columns: list[Column] = [
+        (words("Array", 1.1), lambda item: item.id),
+        (plain("Slope", 2, "deg", 0.8), lambda item: math.degrees(item.array.slope_rad)),
+        (text("μ", share=package.mu_share), lambda item: mu_words(item.array.friction)),
+        (weight("Weight W"), lambda item: item.array.weight_n),
+        (required("Design displ.", 0.9), lambda item: item.permitted_m, package.design_mark),
+        (text("Keep clear", share=1.2), lambda item: _keep_clear(done, item)),
+        (weight("Interconnection", show=no_less), lambda item: item.interconnection_n,
+         lambda _: package.mark("interconnection_sds"), _strength_show),
+    ]  # fmt: skip
+    if done.has_motions:
+        columns.append((required("Residual", 0.9), lambda item: item.residual_m))
+    return merged(_table(package, columns))
+
+
+def _table(package: PackageData, columns: list[Column], systems: int = 2) -> Table:
+    changed = package.changes.arrays
+    return listed(
+        package.assessment.arrays,
+        columns,
+        replace(package.fmt, systems=systems),
+        kind="compact",
+        style=lambda item: package.bar(item.id in changed),
+    )
+
+
+def _seaoc(package: PackageData) -> tuple[Column, ...]:
+    """Return the column of the displacement by SEAOC PV1, for information, if the rules differ."""
+    done = package.assessment
+    if done.rules.name.startswith("SEAOC"):
+        return ()
+    value_m, mark = prescriptive_of(done.project, SEAOC).value_m, package.mark_of_seaoc
+    return ((required("PV1"), lambda _: value_m, lambda _: mark),)
+
+
+def models_used(item: ArrayAssessment) -> str:
+    """Return the numbers of the models that the runs of an array use; nothing without runs."""
+    models = sorted({int(run.solution.model) for run in item.runs})
+    return " to ".join(map(str, dict.fromkeys((*models[:1], *models[-1:]))))
+
+
+def governing_name(done: Assessment, item: ArrayAssessment) -> str:
+    """Return what is across the governing gap of an array, and where no clearance is given that."""
+    gap = done.governing_gap(item.id)
+    if gap is None:
+        return "none given"
+    name = gap.across_from(item.id)
+    return f"{name} ({NOT_GIVEN})" if isinstance(gap, PlanNeighbor) else name
+
+
+def ratio_words(done: Assessment, item: ArrayAssessment) -> str:
+    """Return the largest D/C of an array, with its mark."""
+    gap = done.governing_gap(item.id)
+    return gap.ratio_words if gap else "—"
+
+
+def _gap_m(gap: ComparedGap | None) -> tuple[float, float]:
+    return (gap.provided_m, gap.required_m) if gap else (math.nan, math.nan)
+
+
+def _mark(gap: ComparedGap | None) -> str:
+    return gap.mark if gap else ""
+
+
+def _gap_shows(gap: ComparedGap | None) -> tuple[Show, Show]:
+    had_m, required_m = _gap_m(gap)
+    return shown_in_order(capacity(had_m), demand(required_m))
+
+
+def _strength_show(item: ArrayAssessment) -> Show:
+    given_n = item.array.interconnection_n
+    strength_n = math.nan if given_n is None else given_n
+    return shown_in_order(capacity(strength_n), demand(item.interconnection_n))[1]
+
+
+def _keep_clear(done: Assessment, item: ArrayAssessment) -> str:
+    distance = keep_clear(keep_clear_m(done, item), done.project.us_first)
+    return distance + keep_clear_mark(done, item)
+
+
+def _cause(done: Assessment, item: ArrayAssessment) -> str:
+    """Return the cause of a verdict NG that no number beside it shows."""
+    cause = unshown_cause(done, item)
+    return f" {cause}" if cause and not done.array_verdict(item).is_permitted else ""

@@ -1,0 +1,356 @@
+"""What changed since a former revision: the results.json of that one, and an assessment.
+
+Computes no result. Read `changes`, then `_RESULTS`: the results that are compared.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass, replace
+from typing import Any, TypeVar
+
+from report.assessment.checks.check import condition
+from report.assessment.project import Assessment, Change, ChangeKind, Changes
+from report.project.check.covered import COVERED
+from report.project.model.choices import Direction
+from report.project.model.fields import Frozen, Place, YesNo
+from report.project.workbook import SECTIONS
+from report.project.workbook.entries import Entry, SheetSection
+from report.results.model import ArrayResult, ClearanceResult, Compared, ResultModel
+from report.results.results_json import GIVE
+from report.results.rows import compared
+from report.text.unit_format import UnitFormat
+from report.text.units import in_us_order, no_less, ratio
+from solver.model import InputError
+
+# Most changes that the package lists, and most letters of them all.
+MOST_CHANGES, MOST_LETTERS = 2_000, 400_000
+
+
+def check_listed(changes: Changes) -> None:
+    """Refuse more changes since a former revision than can be laid out in minutes."""
+    count = len(changes.items)
+    letters = sum(len(item.title) + len(item.before) + len(item.now) for item in changes.items)
+    if count > MOST_CHANGES or letters > MOST_LETTERS:
+        raise InputError(
+            f"--since: the list of changes has {count:,} rows of {letters:,} letters; at most"
+            f" {MOST_CHANGES:,} of {MOST_LETTERS:,} are listed; {GIVE} of this project"
+        )
+
+
+# Relative difference up to which two results count as the same: rounding on another machine.
+ALIKE = 1e-6
+
+NOT_THERE = "—"
+
+_Row = TypeVar("_Row")
+_Pair = tuple[_Row | None, _Row | None]
+"""A row of either revision; None where it has none."""
+
+
+def changes(former: Compared, assessment: Assessment) -> Changes:
+    """Return what changed from a former revision to this assessment."""
+    now = compared(assessment)
+    arrays = _paired(now.arrays, former.arrays, lambda row: (row.id,)).values()
+    gaps = _paired(now.clearances, former.clearances, _gap_key).values()
+    items = [
+        *_given(former, now, assessment),
+        *_one(ChangeKind.SOFTWARE, "Roofslip", former.roofslip_version, now.roofslip_version),
+        *_checks(former, now),
+        *_one(ChangeKind.VERDICT, "Project", former.verdict, now.verdict),
+        *_results((*arrays, *gaps), UnitFormat(us_first=assessment.project.us_first)),
+    ]
+    return Changes(
+        revision=former.input.project.revision,
+        date=former.input.project.date.isoformat(),
+        items=tuple(sorted(items, key=lambda item: list(ChangeKind).index(item.kind))),
+        arrays=frozenset(
+            row.id
+            for row, old in arrays
+            if row and (any(_differing(row, old)) or any(_numbers(row, old)))
+        ),
+        values=frozenset(
+            (row.id, name) for row, old in arrays if row for name in _numbers(row, old)
+        ),
+        clearances=frozenset(
+            number
+            for number, (gap, old) in enumerate(gaps, start=1)
+            if gap and any(_differing(gap, old))
+        ),
+    )
+
+
+# What changed of them is listed with the clearances and the design displacements.
+_LISTED = ("clearance", "design")
+
+
+def _checks(former: Compared, now: Compared) -> Iterator[Change]:
+    # Version 0.3 wrote none.
+    if "checks" not in former.model_fields_set:
+        return
+    before, after = ([row for row in of.checks if row.id not in _LISTED] for of in (former, now))
+    text = "{row.found_text}: {row.verdict}"
+    yield from _rows(ChangeKind.REQUIREMENT, before, after, "{row.subject}, {row.title}", text)
+
+
+def with_reissue(assessment: Assessment, former: Compared) -> Assessment:
+    """Return an assessment with a condition where the same revision had other inputs before."""
+    issue, then = assessment.project.project, former.input.project
+    # One revision with two contents: nobody can tell later which of them was sealed.
+    is_same = issue.revision.casefold() == then.revision.casefold()
+    if not (is_same and any(_given(former, compared(assessment), assessment))):
+        return assessment
+    row = condition(
+        id="revision",
+        title=f"Revision {issue.revision}",
+        found=f"issued with other inputs, {then.date}",
+        limit="another revision for other inputs",
+        clause="plan check",
+        is_satisfied=False,
+        remedy="Raise the revision on the Project worksheet, and add its row to Revisions: a "
+        "seal on the previous package is not one on this.",
+    )
+    return replace(assessment, more=(row,))
+
+
+def _given(former: Compared, now: Compared, assessment: Assessment) -> Iterator[Change]:
+    """Yield what changed of what the results follow from."""
+    yield from _one(ChangeKind.RULES, "Rule set", former.rule_set, now.rule_set)
+    yield from _inputs(former, assessment, assessment.project.us_first)
+    records = former.records, now.records, "{row.motion} {row.component}"
+    yield from _rows(ChangeKind.RECORD, *records, "{row.name}, SHA-256 {row.sha256}")
+    # Earlier versions did not write theirs.
+    if "documents" in former.model_fields_set:
+        documents = former.documents, now.documents, "{row.label}"
+        yield from _rows(ChangeKind.DOCUMENT, *documents, "{row.path}, SHA-256 {row.sha256}")
+
+
+def _one(kind: ChangeKind, title: str, before: str, now: str, cell: str = "") -> Iterator[Change]:
+    if before != now:
+        # A verdict is an enum, and is listed as a text.
+        yield Change(kind=kind, title=title, before=str(before), now=str(now), cell=cell)
+
+
+def _paired(
+    rows: Iterable[_Row], others: Iterable[_Row], key: Callable[[_Row], tuple[str, ...]]
+) -> Mapping[tuple[str, ...], _Pair[_Row]]:
+    """Return the rows of two revisions by key; equal keys are numbered."""
+    mine, other = (_keyed(each, key) for each in (rows, others))
+    return {name: (mine.get(name), other.get(name)) for name in mine | other}
+
+
+def _keyed(
+    rows: Iterable[_Row], key: Callable[[_Row], tuple[str, ...]]
+) -> dict[tuple[str, ...], _Row]:
+    seen: Counter[tuple[str, ...]] = Counter()
+    keyed = {}
+    for row in rows:
+        name = key(row)
+        seen[name] += 1
+        # Workbooks may have equal rows, as two clearances of one pair.
+        keyed[*name, str(seen[name])] = row
+    return keyed
+
+
+def _gap_key(row: Any) -> tuple[str, ...]:
+    return (row.array, row.object, str(row.direction))
+
+
+def _inputs(former: Compared, assessment: Assessment, us_first: bool) -> Iterator[Change]:
+    for section in SECTIONS:
+        now, before = (getattr(data, section.key) for data in (assessment.project, former.input))
+        rows = _paired(now, before, _row_key) if section.is_table else {(): (now, before)}
+        for index, (key, (row, old)) in enumerate(rows.items()):
+            name, cells = _name(section, key), _cells(section, index, assessment)
+            if row is None:
+                yield _input(name, "given", "removed", "")
+            elif old is None:
+                yield _input(name, NOT_THERE, "added", next(filter(None, cells.values()), ""))
+            else:
+                yield from _fields(name, old, row, cells, us_first)
+
+
+def _input(title: str, before: str, now: str, cell: str) -> Change:
+    return Change(kind=ChangeKind.INPUT, title=title, before=before, now=now, cell=cell)
+
+
+def _cells(section: SheetSection, index: int, assessment: Assessment) -> Mapping[Entry, str]:
+    """Return the cell of each field of a row; empty for one that is not on the sheet."""
+    # What a confirmation covers is filled in by `report`: it is no input of an engineer.
+    addresses = assessment.sheet.addresses
+    return {
+        entry: addresses.get(Place(section.key, index, entry.name), "")
+        for entry in section.entries
+        if entry.name not in COVERED
+    }
+
+
+def _row_key(row: Any) -> tuple[str, ...]:
+    """Return what identifies a row of a table."""
+    if hasattr(row, "id"):
+        return (row.id,)
+    if hasattr(row, "object"):
+        return _gap_key(row)
+    # Rows of tables without any of them count from the first.
+    names = (getattr(row, name, "") for name in ("array", "provision", "warning"))
+    return (next(filter(None, names), ""),)
+
+
+def _name(section: SheetSection, key: tuple[str, ...]) -> str:
+    """Return what a row of a table is called; nothing for a section that is none."""
+    if not key:
+        return ""
+    *parts, count = (part for part in key if part)
+    number = f"row {count}" if not parts or count != "1" else ""
+    return f"{section.title}, {' '.join([*parts, number]).rstrip()}"
+
+
+def _fields(
+    name: str, old: Frozen, new: Frozen, cells: Mapping[Entry, str], us_first: bool
+) -> Iterator[Change]:
+    for entry, cell in cells.items():
+        before, now = getattr(old, entry.name), getattr(new, entry.name)
+        if not _same(before, now):
+            title = f"{name}: {entry.heading}" if name else entry.heading
+            shown = [_shown(entry, value, us_first) for value in (before, now)]
+            yield _input(title, shown[0], shown[1], cell)
+
+
+def _same(before: object, now: object) -> bool:
+    """Whether two inputs are equal."""
+    if isinstance(before, float) and isinstance(now, float):
+        # Feet and meters of one length differ in the last bit.
+        return math.isclose(before, now, rel_tol=1e-12)
+    return before == now
+
+
+def _shown(entry: Entry, value: Any, us_first: bool) -> str:
+    if value is None or value == "":
+        return NOT_THERE
+    if isinstance(value, bool):
+        return str(YesNo.YES if value else YesNo.NO)
+    if isinstance(value, (int, float)):
+        if entry.quantity:
+            unit = UnitFormat(us_first).units(entry.quantity)[0]
+            return f"{value / unit.si:.8g} {unit.symbol}"
+        return f"{value:.8g} {entry.unit}".rstrip()
+    return str(value)
+
+
+def _rows(
+    kind: ChangeKind, before: Iterable[_Row], now: Iterable[_Row], title: str, text: str
+) -> Iterator[Change]:
+    """Yield the rows whose text changed, by title; both are of a `row` in braces."""
+    pairs = _paired(before, now, lambda row: (in_us_order(title.format(row=row)),))
+    for (name, _), pair in pairs.items():
+        first, second = (text.format(row=row) if row else NOT_THERE for row in pair)
+        # With other primary units a text says the same in another order.
+        if in_us_order(first) != in_us_order(second):
+            yield from _one(kind, name.removeprefix(", "), first, second)
+
+
+def _array(row: ArrayResult) -> str:
+    return f"Array {row.id}"
+
+
+def _gap(row: ClearanceResult) -> str:
+    toward = "" if row.direction is Direction.ANY else f", {row.direction.value}"
+    return f"{row.array} to {row.object}{toward}"
+
+
+def _clearance(row: ClearanceResult) -> str:
+    return f"Clearance {row.array} to {row.object}"
+
+
+@dataclass(frozen=True, slots=True)
+class _Result:
+    """A result that is compared with that of the former revision."""
+
+    key: str  # of results.json
+    kind: ChangeKind | None = None  # None if its change marks the row, and is not listed
+    title: Callable[[Any], str] = str  # of a row: what changed
+    more: str = ""  # after the title
+    _: KW_ONLY
+    # whether it is listed of a row that the former revision did not have, or that is gone
+    of_new: bool = True
+    of_gone: bool = False
+
+
+_RESULTS: Mapping[type[ResultModel], Sequence[_Result]] = {
+    ArrayResult: (
+        _Result("computed_m", ChangeKind.ANALYSIS, _array, of_new=False),
+        _Result("mean_prd_m"),
+        _Result("largest_prd_m"),
+        _Result("prescriptive_m"),
+        _Result("floor_m"),
+        _Result("design_m", ChangeKind.DESIGN, _array),
+        _Result("verdict", ChangeKind.VERDICT, _array, of_gone=True),
+    ),
+    # Of a new clearance the verdict is listed, which says as much.
+    ClearanceResult: (
+        _Result("required_m", ChangeKind.CLEARANCE, _gap, ", required", of_new=False),
+        _Result("provided_m"),
+        _Result("demand_capacity", ChangeKind.CLEARANCE, _gap, ", D/C", of_new=False),
+        _Result("verdict", ChangeKind.VERDICT, _clearance),
+    ),
+}
+
+
+def _differing(row: ResultModel | None, old: ResultModel | None) -> Iterator[_Result]:
+    """Yield the results of a row, or of one that is new or gone, that changed."""
+    either = row or old
+    for result in _RESULTS[type(either)] if either else ():
+        if not (old and row and _alike(getattr(old, result.key), getattr(row, result.key))):
+            yield result
+
+
+def _alike(before: Any, now: Any) -> bool:
+    """Whether two results are the same; NaN is no value."""
+    if not isinstance(now, float):
+        return bool(before == now)
+    # NaN is unequal to itself.
+    if math.isnan(before) or math.isnan(now):
+        return math.isnan(before) and math.isnan(now)
+    return math.isclose(before, now, rel_tol=ALIKE)
+
+
+def _numbers(row: ArrayResult, old: ArrayResult | None) -> Iterator[str]:
+    """Yield the key, or the motion, of each number of an array that changed."""
+    for result in _differing(row, old):
+        if isinstance(getattr(row, result.key), float):
+            yield result.key
+    peaks = {peak.motion: peak.any_m for peak in old.peaks} if old else {}
+    for peak in row.peaks:
+        if peak.motion not in peaks or not _alike(peaks[peak.motion], peak.any_m):
+            yield peak.motion
+
+
+def _results(pairs: Iterable[_Pair[ResultModel]], fmt: UnitFormat) -> Iterator[Change]:
+    """Yield the changes that are listed of rows; those that are gone come last."""
+    # The sort is stable: rows stay in the order of the workbook.
+    for row, old in sorted(pairs, key=lambda pair: pair[0] is None):
+        for result in _differing(row, old):
+            if result.kind and (old or result.of_new) and (row or result.of_gone):
+                title = result.title(row or old) + result.more
+                yield from _one(result.kind, title, *_as_texts(result.key, old, row, fmt))
+
+
+def _as_texts(
+    key: str, old: ResultModel | None, row: ResultModel | None, fmt: UnitFormat
+) -> Sequence[str]:
+    """Return a result before and now; numbers have more digits where they would print alike."""
+    values = [getattr(each, key) if each else NOT_THERE for each in (old, row)]
+    texts = [_text(key, value, fmt) for value in values]
+    # Results that differ by more than rounding may still print alike.
+    if texts[0] != texts[1]:
+        return texts
+    unit = " m" if key.endswith("_m") else ""
+    return [f"{value:.7g}{unit}" for value in values]
+
+
+def _text(key: str, value: float | str, fmt: UnitFormat) -> str:
+    if isinstance(value, str):
+        return value
+    return fmt.both(value, show=no_less) if key.endswith("_m") else ratio(value)
