@@ -57,14 +57,14 @@ def provision_name(key: str) -> str:
 
 def provision_unit(key: str) -> str:
     """Return the unit of a provision, as a cell names it; empty for none."""
-    allowed = ALLOWED.get(_provision_key(key))
+    allowed = ALLOWED.get(provision_key(key))
     return allowed.meaning.partition(" [")[2].rstrip("]") if allowed else ""
 
 
 _KEYS_BY_NAME = {provision_name(key).casefold(): key for key in ALLOWED}
 
 
-def _provision_key(text: str) -> str:
+def provision_key(text: str) -> str:
     """Return the key of a provision given by its name or its key."""
     name = " ".join(text.partition(" [")[0].split()).casefold()
     return _KEYS_BY_NAME.get(name, text)
@@ -124,7 +124,7 @@ class Confirmation(Frozen):
 class Override(Frozen):
     """A replacement for the number of a provision, with the reason that the package prints."""
 
-    provision: Annotated[RequiredText, AfterValidator(_provision_key)]
+    provision: Annotated[RequiredText, AfterValidator(provision_key)]
     value: float
     reason: RequiredText
 

@@ -16,12 +16,11 @@ from typing import Any
 
 from openpyxl.utils.datetime import WINDOWS_EPOCH
 from openpyxl.utils.escape import unescape
-from pydantic import ValidationError
 
 from report.project.model.choices import SlopeUnit
 from report.project.model.fields import YesNo
 from report.project.read import typed_text
-from report.project.workbook.entries import Entry, adapter
+from report.project.workbook.entries import Entry
 from report.text.counts import SHOWN, UNPRINTABLE, cut, trimmed
 from report.text.units import LENGTHS
 from solver.model import INCH_M, InputError, Problem
@@ -137,10 +136,9 @@ def read_cell(cell: Found, entry: Entry, unit: str, si: float, shown: str = "") 
         value *= si
     if isinstance(value, float | int) and not abs(value) <= LARGEST:
         raise CellError(_is(cell, entry), f"{wanted}, below {LARGEST:g} in size")
-    try:
-        return adapter(entry.model, entry.name).validate_python(value)
-    except ValidationError as error:
-        raise CellError(_is(cell, entry), wanted) from error
+    if not entry.accepts(value):
+        raise CellError(_is(cell, entry), wanted)
+    return entry.key_of(value) if entry.kind is str else value
 
 
 def blank_value(entry: Entry, row: Mapping[str, Any]) -> Any:

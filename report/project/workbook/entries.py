@@ -10,11 +10,10 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
 from enum import StrEnum
-from functools import cache, partial
+from functools import partial
 from typing import Any, get_args
 
 from annotated_types import Ge, Gt, Le, Lt
-from pydantic import TypeAdapter
 
 from report.project.model.fields import DraftRow, Frozen, YesNo
 from report.text.units import Quantity, Unit
@@ -28,6 +27,11 @@ class Bounds:
     high: float = math.inf
     excludes_low: bool = False
     excludes_high: bool = False
+
+    def has(self, value: float) -> bool:
+        """Whether it contains a number."""
+        is_above = value > self.low if self.excludes_low else value >= self.low
+        return is_above and (value < self.high if self.excludes_high else value <= self.high)
 
     def words(self, si_per_unit: float = 1.0) -> str:
         """Return the range in words, in a unit: `0 to 1.5`, `more than 0`; empty for any."""
@@ -64,13 +68,14 @@ class Entry:
     # default.
     computed: Callable[[DraftRow], Any] | None = None
     rule: str = ""
+    key_of: Callable[[str], str] = str  # what a text in a cell stands for
     # Of the field in the model, by which `block` and `table` complete an entry.
-    model: type[Frozen] = Frozen
     kind: type[Any] = str  # float, int, str, bool, date, or an enum of `choices`
     is_required: bool = False
     default: Any = None  # the meaning of a blank cell; None if the field is required
     bounds: Bounds = Bounds()
-    max_length: int = 0  # of a text
+    min_length: int = 0  # of a text
+    max_length: int = 0
 
     @property
     def quantity(self) -> Quantity | None:
@@ -82,6 +87,13 @@ class Entry:
         if self.quantity is None:
             return None
         return self.quantity.us if is_us else self.quantity.si
+
+    def accepts(self, value: object) -> bool:
+        """Whether a value that was read, in SI, is in its range, or a text of its length."""
+        if isinstance(value, int | float):
+            is_kind = self.kind is not int or isinstance(value, int)
+            return is_kind and self.bounds.has(value)
+        return self.kind is not str or self.min_length <= len(str(value)) <= self.max_length
 
     @property
     def or_zero(self) -> str:
@@ -213,18 +225,17 @@ def _of_model(entry: Entry, model: type[Frozen]) -> Entry:
         kind = args[0]
         for field in args[1:]:
             constraints += getattr(field, "metadata", [])
-    lengths = [
-        limit for constraint in constraints if (limit := getattr(constraint, "max_length", None))
-    ]
+    least = [each.min_length for each in constraints if hasattr(each, "min_length")]
+    most = [each.max_length for each in constraints if hasattr(each, "max_length")]
     return replace(
         entry,
-        model=model,
         kind=kind,
         # A need that something else may satisfy is checked when the row is whole.
         is_required=info.is_required() and not entry.need,
         default=None if info.is_required() else info.default,
         bounds=_bounds(constraints),
-        max_length=min(lengths, default=0),
+        min_length=max(least, default=0),
+        max_length=min(most, default=0),
     )
 
 
@@ -237,9 +248,3 @@ def _bounds(constraints: list[Any]) -> Bounds:
             case Le(le=high) | Lt(lt=high):
                 bounds |= {"high": high, "excludes_high": isinstance(constraint, Lt)}
     return Bounds(**bounds)
-
-
-@cache
-def adapter(model: type[Frozen], name: str) -> TypeAdapter[Any]:
-    """Return the validator of a single field."""
-    return TypeAdapter(model.model_fields[name].rebuild_annotation())

@@ -9,6 +9,7 @@ from report.project.model import (
     Confirmation,
     Options,
     Override,
+    provision_key,
     provision_name,
     provision_unit,
 )
@@ -63,7 +64,7 @@ CONFIRMATION = block("confirmation", "Options", "Confirmation of the provisions"
 
 OVERRIDES = table("overrides", "Options", "Overrides of provisions", Override,
     "Each is printed in the package with its reason.",
-    Entry("Provision", "provision", provision_name("parapet_height_in"),
+    Entry("Provision", "provision", provision_name("parapet_height_in"), key_of=provision_key,
           note="The number to replace, from the list; the sheet Provisions has its value and"
           " clause."),
     Entry("Value", "value", 18.0, unit_from=("provision", provision_unit),

@@ -4,7 +4,7 @@ import math
 
 import pytest
 from click.testing import CliRunner
-from pydantic import ValidationError
+from pydantic import TypeAdapter, ValidationError
 
 import inputs
 import roofslip
@@ -20,6 +20,7 @@ from report.project.model.site import Site
 from report.project.read.read import read
 from report.project.read.what_if import retyped
 from report.project.workbook import SECTIONS
+from report.study.workbook import STUDY_SECTIONS
 from sheets import at, make, of, problems, project, said, same, type_into
 from solver.model import DefectError, InputError
 from solver.rules.hazard import HazardBasis
@@ -41,6 +42,32 @@ def test_sections_are_parts_of_the_input_with_labels_and_choices_of_their_own():
         assert not any(set("[]*!") & set(label) for label in labels)
         choices = [choice for item in section.entries for choice in item.choices]
         assert not any("," in choice for choice in choices)
+
+
+def _at_the_ends(entry):
+    """Values of a field at and beside the ends of what it accepts."""
+    if entry.kind in (int, float):
+        ends = {0.0, entry.bounds.low, entry.bounds.high} - {math.inf, -math.inf}
+        values = [end + step for end in ends for step in (-1.0, -1e-9, 0.0, 1e-9, 1.0)]
+        return [int(value) for value in values] if entry.kind is int else values
+    return ["", "x", "x" * entry.max_length, "x" * (entry.max_length + 1)]
+
+
+@pytest.mark.quick
+def test_a_cell_accepts_what_the_model_does():
+    for section in (*SECTIONS, *STUDY_SECTIONS):
+        for entry in section.entries:
+            if entry.kind not in (int, float, str):
+                continue
+            info = section.model.model_fields[entry.name]
+            model = TypeAdapter(info.rebuild_annotation())
+            for value in _at_the_ends(entry):
+                try:
+                    model.validate_python(value)
+                    accepts = True
+                except ValidationError:
+                    accepts = False
+                assert entry.accepts(value) == accepts, (section.key, entry.name, value)
 
 
 def test_slopes_become_angles_and_s_ds_is_unrounded():
