@@ -38,7 +38,7 @@ _KEYS = {
     r" (?:DATA|SAMPLES|POINTS|VALUES|DATOS|MUESTRAS|PUNTOS)",
     "unit": r"(?:AMPLITUDE)?UNITS?|UNIDADES(?: DE LOS DATOS)?",
     "peak": r"(?:RAW )?PGA|PEAK (?:VALUE|ACCELERATION)|AMPLITUDEMAX"
-    r"|ACEL(?:ERACI[OÓ]N)?\.? M[AÁ]X(?:IMA)?(?!\. C\d)",
+    r"|ACEL(?:ERACI[OÓ]N)?\.? M[AÁ]X(?:IMA)?(?!.*MUESTRA)",
     "length": r"DURATION|RECORD ?LENGTH|DURACI[OÓ]N",
     "names": r"STREAM|COMPONENTE?|ORIENTATION OF TRANSDUCER|ORIENTACI[OÓ]N|DATASEQUENCE|COMP\.",
     "quantity": "DATA_TYPE",
@@ -60,7 +60,7 @@ _FORMS = {
     "CSMNC": "CSMNC",
     "CWA": "#StationCode",
     "JMA": "SITE CODE=",
-    "UNAM": "ASA 2.0",
+    "UNAM": "ARCHIVO ESTANDAR DE ACELERACION",
 }
 _START_FORMATS = (
     *("%Y%m%d_%H%M%S.%f", "%Y%m%d_%H%M%S", "%d/%m/%Y %H:%M:%S.%f", "%d/%m/%Y %H:%M:%S"),

@@ -74,14 +74,19 @@ JMA = f"""SITE CODE= 47678ABC,37.5,137.2,16,7.6
  INITIAL TIME = 2024 01 01 16 10 00
  NS,EW,UD
 {columns(1, 0.5, -1, mark=",")}"""
-UNAM = f"""ARCHIVO ESTANDAR DE ACELERACION
-ASA 2.0  UNAM
+UNAM = f"""INSTITUTO DE INGENIERIA, UNAM
+ARCHIVO ESTANDAR DE ACELERACION:
+VERSION DEL FORMATO                    : 2.0
 ORIENTACION C1-C6                     : /N00E/V/N90W/
 INTERVALO DE MUESTREO, C1-C6 (s)      : /0.01/0.01/0.01/
 NUM. TOTAL DE MUESTRAS, C1-C6         : /200/200/200/
-ACEL. MAX.(Gal), C1-C6                : /{PEAK}/{PEAK / 2}/{-PEAK}/
-ACEL. MAX. C1-C6, EN LA MUESTRA       : /5/5/5/
-UNIDADES DE LOS DATOS                 : ACELERACION (Gal)
+NUM. TOTAL DE MUESTRAS, C7-C12        :
+ACEL. MAX.(Gal), C1-C6                : /{PEAK}/{PEAK / 2}/{-PEAK}
+ACEL. MAX., C1-C6, EN LA MUESTRA      : /13642/13759/14358
+UNIDADES DE LOS DATOS                 : Gal (cm/s/s)
+DATOS DE ACELERACION:
+---------+---------+---------+---------+---------+---------+---------+---------+
+   CANAL-1   CANAL-2   CANAL-3
 {columns(1, 0.5, -1)}"""
 SPANISH = f"""Estacion: NADA
 Componente: EW
@@ -126,7 +131,7 @@ def test_a_heading_gives_step_unit_components_and_start(file, form):
         (CWA, ("(sec): 2\n", "(sec): 9\n"), ":5: the heading states 9 s, the record lasts 2 s"),
         (CWA, (f"N:   {max(WAVE):.3f}~  {min(WAVE):.3f}", "N:   9.3~ -9.0"), ":9: the header st"),
         (JMA, (" UNIT  = gal(cm/s/s)", " UNIT  = counts"), ":4: found unit 'counts': raw counts"),
-        (UNAM, (f": /{PEAK}/{PEAK / 2}/", f": /{PEAK}/9/"), ":6: the header states a peak of 0.0"),
+        (UNAM, (f": /{PEAK}/{PEAK / 2}/", f": /{PEAK}/9/"), ":8: the header states a peak of 0.0"),
         (SPANISH, ("muestras: 200", "muestras: dos"), ":4: found 'dos'; give the number of val"),
     ],
 )
