@@ -148,17 +148,14 @@ def _check_first(source: Source, first: int, fields: Sequence[str]) -> None:
                 f"{source.at(index)}: found {shown(plain)}, a factor of the numbers below it;"
                 " multiply them all by it, and delete the line"
             )
-    if any(field.strip(" *") and _is_text(field) for field in fields):
+    words = [field for field in fields if field.strip(" *")]
+    if any(_is_heading(word) or _LETTERS.match(word) for word in words):
         raise InputError(f"{source.at(first)}: {likely_text(source.lines, first)}")
     if any(map(_CLOCK.fullmatch, fields[:2])):
         raise InputError(
             f"{source.at(first)}: found {shown(fields[0])}, a date or a time of day; give seconds"
             " from the start in the first column, such as time_s"
         )
-
-
-def _is_text(field: str) -> bool:
-    return _is_heading(field) or bool(_LETTERS.match(field))
 
 
 def _told_across(
