@@ -23,8 +23,8 @@ from zipfile import ZIP_DEFLATED, ZipFile
 
 from report.making import OUTPUTS, STEPS, Step
 from report.text.counts import capitalized
+from report.web.processes import WorkerProcess, tell
 from report.web.values import Values
-from report.workers import WorkerProcess, tell
 
 FULL = "The disk is full. Make room there, then try it again."
 INTERNAL = "An internal error; see what roofslip serve printed."

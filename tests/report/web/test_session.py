@@ -8,8 +8,8 @@ from multiprocessing import active_children
 import pytest
 
 from report.web import session as sessions
+from report.web.processes import WorkerProcess
 from report.web.session import Asked, LostError, Session, StaleError
-from report.workers import WorkerProcess
 
 
 def nothing():

@@ -57,7 +57,7 @@ def test_motions_are_made_into_the_copy_and_its_zip(tmp_path, monkeypatch):
     monkeypatch.setattr(report.suite.files, "make_suite", motions)
     monkeypatch.setattr(worker, "tell", told.append)
     path, out = without_motions(tmp_path / "p"), tmp_path / "p" / "out"
-    # As `report.workers` has it: the process has its temporary files beside the workbook.
+    # As `report.web.processes` has it: the process has its temporary files beside the workbook.
     (tmp_path / "p" / "own").mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "p" / "own"))
     assert motions_made(path, out) == ""

@@ -8,6 +8,7 @@ import sys
 import tempfile
 import time
 from dataclasses import is_dataclass
+from functools import cached_property
 from importlib import import_module
 from multiprocessing import connection
 from operator import truediv
@@ -17,7 +18,7 @@ import pytest
 
 import report.assessment
 from places import ROOT
-from report.workers import WorkerProcess, tell
+from report.web.processes import WorkerProcess, tell
 from solver.model import DefectError, InputError
 
 
@@ -69,7 +70,7 @@ def test_an_error_in_the_command_ends_it_in_the_middle_of_a_function():
 @pytest.mark.nightly
 def test_it_ends_in_the_middle_of_a_function_when_the_command_is_killed():
     code = (
-        "import gc, os, time; from report.workers import WorkerProcess\n"
+        "import gc, os, time; from report.web.processes import WorkerProcess\n"
         "if __name__ == '__main__':\n"
         "    worker = WorkerProcess(gc.disable)\n"
         "    print(worker.submit(os.getpid).result(), flush=True)\n"
@@ -155,4 +156,6 @@ def test_no_part_of_an_assessment_can_change():
     assert len(found) > 20
     for each in found:
         assert each.__dataclass_params__.frozen, each
-        assert "__slots__" in vars(each), each
+        # What is computed once has its place beside the fields.
+        has_cached = any(isinstance(item, cached_property) for item in vars(each).values())
+        assert has_cached or "__slots__" in vars(each), each
