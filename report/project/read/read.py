@@ -316,7 +316,7 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
     row = {entry.name: entry.default for entry in absent}
     typed = locate.beside(book, section)
     gathered.draft[section.key].append(row)
-    cells_read: list[tuple[Entry, Place, Found, locate.FieldColumn]] = []
+    cells_read: list[_Typed] = []
     for entry in section.entries:
         if entry in absent:
             continue
@@ -336,14 +336,12 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
         cell = found_at(book, position)
         if not cell.is_blank and column.heading != position:
             gathered.use(place, found_at(book, column.heading))
-        cells_read.append((entry, place, cell, column))
+        cells_read.append(_Typed(entry, place, cell, column))
     for gone, position in locate.gone_cells(book, section):
         _refuse_gone(gone, Place(section.key), found_at(book, position), gathered)
     # What a blank cell is computed from must have been read.
-    for entry, place, cell, column in sorted(
-        cells_read, key=lambda read: read[2].is_blank and read[0].computed is not None
-    ):
-        _read_field(entry, place, cell, column, stated_unit(entry, row, {}), row, gathered)
+    for typed_cell in sorted(cells_read, key=lambda each: each.is_computed):
+        _read_field(typed_cell, {}, gathered)
 
 
 def _refuse_gone(gone: GoneInput, place: Place, cell: Found, gathered: Gathered) -> None:
@@ -372,7 +370,15 @@ def _read_table(
             for name, column in table.columns.items()
         }
         if not all(cell.is_blank for cell in cells.values()):
-            _read_row(section, table, cells, gathered)
+            rows = gathered.draft[section.key]
+            rows.append({name: section.entry(name).default for name in table.absent})
+            for entry in section.entries:
+                if cell := cells.get(entry.name):
+                    place = Place(section.key, len(rows) - 1, entry.name)
+                    gathered.addresses[place] = cell.address
+                    _read_field(
+                        _Typed(entry, place, cell, table.columns[entry.name]), cells, gathered
+                    )
         for gone, heading in table.gone:
             at = CellPosition(sheet, number, heading.column)
             _refuse_gone(gone, Place(section.key), found_at(book, at), gathered)
@@ -382,34 +388,29 @@ def _read_table(
             gathered.use(Place(section.key), found_at(book, column.heading))
 
 
-def _read_row(
-    section: SheetSection, table: locate.TableFound, cells: dict[str, Found], gathered: Gathered
-) -> None:
-    row: dict[str, Any] = {}
-    rows = gathered.draft[section.key]
-    rows.append(row)
-    for entry in section.entries:
-        if entry.name in table.absent:
-            row[entry.name] = entry.default
-        elif entry.name in cells:
-            place, cell = Place(section.key, len(rows) - 1, entry.name), cells[entry.name]
-            gathered.addresses[place] = cell.address
-            column, stated = table.columns[entry.name], stated_unit(entry, row, cells)
-            _read_field(entry, place, cell, column, stated, row, gathered)
+@dataclass(frozen=True, slots=True)
+class _Typed:
+    """What is typed for an input, and the unit of it."""
+
+    entry: Entry
+    place: Place
+    cell: Found
+    column: locate.FieldColumn
+
+    @property
+    def is_computed(self) -> bool:
+        """Whether other inputs give what is left blank."""
+        return self.cell.is_blank and self.entry.computed is not None
 
 
-def _read_field(
-    entry: Entry,
-    place: Place,
-    cell: Found,
-    column: locate.FieldColumn,
-    stated: str,
-    row: dict[str, Any],
-    gathered: Gathered,
-) -> None:
+def _read_field(typed: _Typed, cells: Mapping[str, Found], gathered: Gathered) -> None:
+    """Read an input into its row of the draft; `cells` are those of its row by field."""
+    entry, place, cell, column = typed.entry, typed.place, typed.cell, typed.column
+    row = gathered.draft[place.section][place.row]
     gathered.use(place, cell)
     try:
         if not cell.is_blank:
+            stated = stated_unit(entry, row, cells)
             value = read_cell(cell, entry, column.unit, column.si, stated)
         elif entry.is_required:
             raise CellError("is missing", wish_for_missing(entry, column.unit, column.si))
