@@ -1,6 +1,6 @@
 """One array under all motions, checked against the rule set: its design displacement.
 
-Computes no physics (`report.assessment.runs`) and reads no code rule itself
+Computes no physics (`report.runs`) and reads no code rule itself
 (`solver.rules.provisions`). Read `report.assessment.project` next.
 """
 
@@ -20,10 +20,11 @@ from report.assessment.routes import (
     prescriptive_of,
     statistic_basis,
 )
-from report.assessment.runs import MotionRun, OrientedRun
-from report.assessment.verdict import OVERRIDDEN, mark_of, nan_is_worst
+from report.assessment.verdict import OVERRIDDEN, mark_of
 from report.project.model import ProjectInput
 from report.project.model.scene import Array
+from report.runs import MotionRun, OrientedRun
+from report.text.units import nan_is_worst
 from solver.rules import provisions
 from solver.rules.provisions import AnalysisValue, Basis, Prescriptive, RuleSet
 from solver.sliding.uplift import Supports, Tipping, Uplift, tipping_at

@@ -1,6 +1,6 @@
 """Assesses a project under its motions: arrays, clearances, and what would change the verdict.
 
-Orders the work and collects the results; computes no physics (`report.assessment.runs`) and reads
+Orders the work and collects the results; computes no physics (`report.runs`) and reads
 no code rule itself (`solver.rules.provisions`). Whatever else an input could be, it is assessed
 by `assess` from the same runs. Read `assess`, then `reassess`.
 """
@@ -24,7 +24,6 @@ from report.assessment.links import assess_linked
 from report.assessment.precheck import shaking_acceptance
 from report.assessment.prices import prices
 from report.assessment.project import Assessment
-from report.assessment.runs import Runs
 from report.assessment.verdict import SHIFT, as_adopted, rule_set_of
 from report.motions.history import targets
 from report.motions.prepare import Shaking
@@ -34,6 +33,7 @@ from report.project.model import ProjectInput, linked
 from report.project.model.fields import Finding
 from report.project.read.read import Sheet
 from report.project.workbook import SECTIONS
+from report.runs import Runs
 from solver.records.acceptance import Acceptance
 
 

@@ -9,8 +9,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from report.assessment.checks.check import Check, alike, by_ratio, words
-from report.assessment.verdict import MOTIONS_ID, Verdict, nan_is_worst
+from report.assessment.verdict import MOTIONS_ID, Verdict
 from report.text.counts import grouped_by, numbered
+from report.text.units import nan_is_worst
 
 if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment

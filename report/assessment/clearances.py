@@ -11,10 +11,11 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from report.assessment.neighbors import ComparedGap, NearbyKind, PlanNeighbor
-from report.assessment.verdict import Verdict, mark_of, nan_is_worst
+from report.assessment.verdict import Verdict, mark_of
 from report.project.model import ProjectInput
 from report.project.model.choices import DistanceBasis, ObjectKind
 from report.project.model.scene import Array, Clearance, RoofObject
+from report.text.units import nan_is_worst
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor, Provision, RuleSet
 

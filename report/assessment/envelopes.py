@@ -11,10 +11,10 @@ from collections.abc import Iterable, Sequence
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.project import Assessment
-from report.assessment.runs import OrientedRun
 from report.assessment.verdict import mark_of
 from report.project.model.choices import Direction
 from report.project.model.shapes import Point, Polygon, Shape, merged, ring, sides
+from report.runs import OrientedRun
 from solver.model import INCH_M
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor

@@ -19,16 +19,16 @@ from report.assessment.friction import InputCase, with_friction
 from report.assessment.project import Assessment
 from report.assessment.remedies import Remedies, remedies
 from report.assessment.routes import Route, statistic_basis
-from report.assessment.runs import MotionRun, run_motion
 from report.assessment.spectra import Spectra, spectra
 from report.assessment.uncertainty import Uncertainty, uncertainty
-from report.assessment.verdict import SHIFT, nan_is_worst
+from report.assessment.verdict import SHIFT
 from report.motions.history import PreparedMotion, first_period_s, through_building
 from report.project.model import ProjectInput
 from report.project.model.choices import Direction
 from report.project.model.motions import BuildingInput, MotionInput
 from report.project.model.scene import Array
-from report.text.units import number
+from report.runs import MotionRun, run_motion
+from report.text.units import nan_is_worst, number
 from solver.building.structure import MOST_PERIOD_S
 from solver.model import SlideHistory
 from solver.rules.provisions import (

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from functools import partial
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.runs import Runs
-from report.assessment.verdict import nan_is_worst
 from report.project.model.motions import Links
 from report.project.model.scene import Array
+from report.runs import Runs
+from report.text.units import nan_is_worst
 from solver.model import Motion, Orientation, SlideResult, Status
 from solver.rules import provisions
 from solver.rules.provisions import AnalysisValue, RuleSet

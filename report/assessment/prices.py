@@ -14,17 +14,10 @@ from typing import TYPE_CHECKING
 from report.assessment.causes import came_to, governing_words
 from report.assessment.clearances import by_id
 from report.assessment.friction import at_low_velocity, mus_words, with_low_velocity
-from report.assessment.verdict import (
-    LOWERING,
-    VELOCITY_ROW,
-    Verdict,
-    as_adopted,
-    nan_is_worst,
-    under_code,
-)
+from report.assessment.verdict import LOWERING, VELOCITY_ROW, Verdict, as_adopted, under_code
 from report.project.model import ProjectInput
 from report.text.counts import capitalized, ranged
-from report.text.units import Quantity, no_less, pair
+from report.text.units import Quantity, nan_is_worst, no_less, pair
 
 if TYPE_CHECKING:
     from report.assessment.project import Assessment

@@ -19,13 +19,14 @@ from report.assessment.clearances import ClearanceCheck, largest_separation_m, m
 from report.assessment.friction import NOT_BY_VELOCITY, LowVelocityAssessment
 from report.assessment.links import LinkedArray
 from report.assessment.neighbors import ComparedGap, PlanNeighbor, plan_pairs, reaches_of
-from report.assessment.runs import Runs, scene_key
-from report.assessment.verdict import Verdict, nan_is_worst, severity
+from report.assessment.verdict import Verdict, severity
 from report.motions.history import Targets
 from report.motions.prepare import Shaking
 from report.project.model import ProjectInput
 from report.project.read.read import Sheet
+from report.runs import Runs, scene_key
 from report.text.counts import grouped_by
+from report.text.units import nan_is_worst
 from solver.records.acceptance import Acceptance
 from solver.rules.provisions import RuleSet
 

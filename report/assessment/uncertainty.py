@@ -16,7 +16,6 @@ import numpy as np
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import Assessment
-from report.assessment.runs import MotionRun, run_motion, run_oriented
 from report.assessment.trials import (
     Trials,
     below,
@@ -27,8 +26,9 @@ from report.assessment.trials import (
     trials_of,
     with_mu,
 )
-from report.assessment.verdict import nan_is_worst
 from report.project.model.scene import Array
+from report.runs import MotionRun, run_motion, run_oriented
+from report.text.units import nan_is_worst
 from solver.model import Floats, HorizontalComponent, Orientation, Scene, SlideResult, Status
 from solver.records.record import read_only
 from solver.sliding import one_axis, two_axes

@@ -130,11 +130,6 @@ def under_code(data: ProjectInput) -> ProjectInput:
     return as_adopted(data.model_copy(update={"site": other}))
 
 
-def nan_is_worst(value: float) -> float:
-    """Return a sort key in which NaN is the largest."""
-    return math.inf if math.isnan(value) else value
-
-
 def mark_of(value: float, adopted: float) -> str:
     """Return the mark of a number that is another under the rule set as adopted; none for NaN."""
     return "" if math.isnan(value) or value == adopted else OVERRIDDEN

@@ -14,7 +14,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
-from report.assessment.runs import MotionRun
 from report.drawing.items import width_in
 from report.figures.base import (
     ACCENT,
@@ -28,6 +27,7 @@ from report.figures.base import (
     style,
     svg_text,
 )
+from report.runs import MotionRun
 from report.text.counts import LONGEST, cut, name_lines
 from report.text.unit_format import UnitFormat
 from report.text.units import Unit, no_less, number, round_below

@@ -12,9 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.runs import OrientedRun
 from report.assessment.tested import tested
-from report.assessment.verdict import nan_is_worst
 from report.document.columns import (
     ColumnHead,
     centered,
@@ -27,9 +25,10 @@ from report.document.columns import (
 )
 from report.document.tables import Column, Table, Wide, by_place, listed
 from report.pages.parts import PackageData, statistic, verdict
+from report.runs import OrientedRun
 from report.text.counts import below_mm, grouped_by
 from report.text.unit_format import NO_VALUE
-from report.text.units import Quantity, number, ratio, ratio_up
+from report.text.units import Quantity, nan_is_worst, number, ratio, ratio_up
 from solver.model import INCH_M
 from solver.sliding.least_model import DEFAULT, Model, Solution
 

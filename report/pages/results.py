@@ -16,13 +16,13 @@ from markupsafe import Markup
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.checks.check import Check, alike, texts
 from report.assessment.evidence import Evidence
-from report.assessment.runs import MotionRun
 from report.assessment.verdict import STRENGTH_ROW, severity
 from report.document.columns import ColumnHead, required, text, words
 from report.document.tables import Column, Table, TableRow, Wide, listed, stamp
 from report.drawing.items import drawn_slope_deg
 from report.pages.parts import PackageData, statistic
 from report.project.model.choices import Direction
+from report.runs import MotionRun
 from report.text.counts import grouped_by, named
 from report.text.unit_format import UnitFormat
 from report.text.units import Quantity, no_less, number, ratio

@@ -15,7 +15,6 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.causes import unshown_cause
 from report.assessment.project import Assessment
 from report.assessment.routes import Route
-from report.assessment.runs import MotionRun
 from report.assessment.verdict import MEANING, OVERRIDDEN, Verdict, worst
 from report.project.model.choices import Direction
 from report.project.model.fields import YesNo
@@ -31,6 +30,7 @@ from report.results.sheets import (
     up_column,
     write_live,
 )
+from report.runs import MotionRun
 from solver.model import INCH_M
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, Basis, PrescriptiveBasis
 

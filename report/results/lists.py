@@ -14,7 +14,6 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.checks.check import Check, alike, found_and_limit
 from report.assessment.links import LinkedArray, LinkedMotion, LinkedRun
 from report.assessment.project import Assessment
-from report.assessment.runs import MotionRun, OrientedRun
 from report.assessment.spectra import Spectra
 from report.motions.history import PreparedMotion
 from report.motions.prepare import Shaking
@@ -33,6 +32,7 @@ from report.results.sheets import (
     write_rows,
     write_table,
 )
+from report.runs import MotionRun, OrientedRun
 from report.text.unit_format import NO_VALUE
 from report.text.units import G_MPS2, Rounding
 from solver.model import INCH_M, Motion

@@ -17,7 +17,6 @@ from report.assessment.neighbors import PlanNeighbor
 from report.assessment.precheck import findings
 from report.assessment.project import Assessment
 from report.assessment.remedies import Remedies
-from report.assessment.runs import MotionRun, OrientedRun
 from report.assessment.uncertainty import Uncertainty
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
@@ -27,6 +26,7 @@ from report.project.model.fields import Finding, Place
 from report.project.model.motions import BuildingInput
 from report.project.read.linked_files import Document
 from report.results import model
+from report.runs import MotionRun, OrientedRun
 from report.text.amounts import Amount
 from report.text.counts import joined
 from solver.building.roof import RoofMotion

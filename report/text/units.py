@@ -256,3 +256,8 @@ def round_below(value: float) -> float:
     power = 10.0 ** math.floor(math.log10(value))
     # A power of ten is not exact: a value of 0.2 is to give 0.2.
     return max(digit * power for digit in (1.0, 2.0, 5.0) if digit * power <= value * (1 + 1e-9))
+
+
+def nan_is_worst(value: float) -> float:
+    """Return a sort key in which NaN is the largest."""
+    return math.inf if math.isnan(value) else value

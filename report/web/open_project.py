@@ -15,12 +15,12 @@ from typing import Any
 
 from report.assessment.assess import Extent, assess
 from report.assessment.project import Assessment
-from report.assessment.runs import Reference, Runs, largest_two, scene_key
 from report.motions.components import Components
 from report.motions.prepare import Shaking, read_records, shaking, stiff_links
 from report.project.model.fields import Finding, Place
 from report.project.read.read import Sheet, read
 from report.project.read.what_if import Typed, retyped
+from report.runs import Reference, Runs, largest_two, scene_key
 from report.typeset.letters import check_letters
 from report.web.controls import check, controls
 from report.web.values import Values, typed

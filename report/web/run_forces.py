@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from report.assessment.runs import OrientedRun
+from report.runs import OrientedRun
 from solver.forces import Forces, forces
 from solver.model import Event, EventKind, Floats, Scene, SlideHistory
 from solver.records.record import NO_RECORD

@@ -16,10 +16,10 @@ from contourpy import contour_generator
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.project import Assessment
-from report.assessment.runs import MotionRun, OrientedRun
 from report.assessment.uncertainty import ResponseSurface, surface
 from report.document.templates import sentence
 from report.drawing.sheet import unit_format
+from report.runs import MotionRun, OrientedRun
 from report.text.counts import cut, ids_by, ranged
 from report.text.unit_format import UnitFormat
 from report.text.units import G_MPS2, Unit, no_less, number

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment
     from report.assessment.links import LinkedArray
     from report.assessment.project import Assessment
-    from report.assessment.runs import OrientedRun
+    from report.runs import OrientedRun
 
 
 _NOISE = 1e-9  # a weight in other units is no more than itself

@@ -20,14 +20,13 @@ from report.assessment.verdict import (
     NOT_GIVEN,
     OVERRIDDEN,
     Verdict,
-    nan_is_worst,
     severity,
     worst,
 )
 from report.project.model.fields import Place
 from report.text.amounts import Amount, amount_text, amount_texts
 from report.text.counts import capitalized, grouped_by, lowered, ranged
-from report.text.units import Quantity, Rounding, ratio
+from report.text.units import Quantity, Rounding, nan_is_worst, ratio
 from solver.rules.limit import PROGRAM, Consequence
 from solver.rules.provisions import Provision
 

@@ -17,9 +17,9 @@ from report import assess_project
 from report.assessment.arrays import DesignBasis, assess_array
 from report.assessment.checks.arrays import run_checks
 from report.assessment.evidence import support
-from report.assessment.runs import motion_run
 from report.assessment.verdict import Verdict
 from report.project.model.choices import Direction
+from report.runs import motion_run
 from solver.model import InputError, Status
 from solver.rules.provisions import Basis
 from solver.sliding import least_model

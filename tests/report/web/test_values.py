@@ -13,9 +13,9 @@ import stand_in
 from nightly import by_day, nightly
 from places import ROOT
 from report.assessment.assess import Extent, assess
-from report.assessment.runs import Runs
 from report.project.model.choices import Scaling
 from report.project.read.what_if import retyped
+from report.runs import Runs
 from report.web import jobs
 from report.web.answers import answer
 from report.web.controls import shown

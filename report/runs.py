@@ -15,10 +15,18 @@ from itertools import product
 from operator import attrgetter
 from typing import TypeVar
 
-from report.assessment.verdict import nan_is_worst
 from report.project.model.choices import Direction
 from report.project.model.scene import Array
-from solver.model import Motion, Orientation, Scene, SlideHistory, SlideResult, Status
+from report.text.units import nan_is_worst
+from solver.model import (
+    DefectError,
+    Motion,
+    Orientation,
+    Scene,
+    SlideHistory,
+    SlideResult,
+    Status,
+)
 from solver.sliding import least_model
 from solver.sliding.least_model import DEFAULT, Model, Settings, Solution
 from solver.sliding.uplift import Uplift, uplift
@@ -118,6 +126,7 @@ class Runs:
         self._known, self._tolerance = known or {}, tolerance
         # Runs in two axes and of rows release the GIL: two proceed in parallel.
         self._pool = ThreadPoolExecutor(THREADS)
+        self._motions: dict[str, Motion] = {}
         self._begun: dict[Hashable, Future[OrientedRun]] = {}
         # One result for all arrays that share it: what follows from it alone is computed once.
         self._done: dict[Hashable, MotionRun] = {}
@@ -125,6 +134,7 @@ class Runs:
     def copy(self) -> Runs:
         """Return the runs that there are; those that follow are kept in the copy alone."""
         other = Runs(self._known, self._tolerance)
+        other._motions |= self._motions
         other._begun |= self._begun
         other._done |= self._done
         return other
@@ -134,6 +144,8 @@ class Runs:
     ) -> None:
         """Begin the runs of arrays under motions, without waiting for them."""
         for array, motion in product(arrays, motions):
+            if self._motions.setdefault(motion.id, motion) is not motion:
+                raise DefectError(f"{motion.id} is another motion than in the runs before")
             for each in self._orientations(array, motion, only):
                 key = (scene_key(array), motion.id, each)
                 if key not in self._begun:
