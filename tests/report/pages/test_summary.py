@@ -254,7 +254,7 @@ def test_the_length_that_limits_the_center_of_gravity_is_the_one_compared(rule_s
     package = scenes.package(site=site, arrays=[array], clearances=[])
     text = printed(package, "inputs").line("Center of gravity at most 36.0 in (914 mm)")
     assert text.endswith(words)
-    (check,) = [c for c in package.assessment.arrays[0].checks if "center" in c.title]
+    (check,) = [c for c in package.assessment.arrays[0].limits.checks if "center" in c.title]
     length_m = 1.524 if "60.0" in words else 1.016
     assert check.limit == pytest.approx(min(0.5 * length_m, 0.9144))
 
