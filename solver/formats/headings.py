@@ -33,6 +33,7 @@ _CLOCK = re.compile(r"\d+([-/:.])\d+\1\d+(?:[:.,T ].*)?", re.ASCII)
 _SEP = re.compile(r'"?sep=([,;\t| ])"?', re.IGNORECASE)
 _QUOTED = re.compile(r'"[^"]*" *([,;\t|])?')
 _GROUPED = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}", re.ASCII)
+_COUNT_AND_STEP = re.compile(r"(\d{1,9})[\s,;]++(0?\.\d+)", re.ASCII)
 _MARKS = ",;\t"
 _SEEN = 200
 _BLANK_BETWEEN = re.compile(r"[^,\s]\s+[^,\s]")
@@ -212,7 +213,8 @@ def plain_lines(lines: Sequence[str]) -> list[str]:
         plain = [_unquoted(line, mark) if _is_row(line) else line for line in plain]
     elif separator == "|":
         plain = [line.replace("|", ";") if _is_row(line) else line for line in plain]
-    return _without_decimal_commas(_without_units_row(_without_last_marks(plain)))
+    plain = _without_decimal_commas(_without_units_row(_without_last_marks(plain)))
+    return _with_count_and_step_told(plain)
 
 
 def _is_row(line: str) -> bool:
@@ -263,6 +265,20 @@ def _without_units_row(lines: list[str]) -> list[str]:
     ]
     return [*lines[: rows[0]], (mark or " ").join(said), *lines[rows[0] + 1 : rows[1]], "",
             *lines[rows[1] + 1 :]]  # fmt: skip
+
+
+def _with_count_and_step_told(lines: list[str]) -> list[str]:
+    """Make a remark of a first row that counts the times and values below it, as of DEEPSOIL."""
+    start = _first_row(lines)
+    (at, content), (_, second) = [*islice(rows_of(lines, start), 2), (0, ""), (0, "")][:2]
+    match = _COUNT_AND_STEP.fullmatch(content)
+    fields = second.split(_separator(second))
+    if not match or len(fields) != 2 or int(match[1]) != len([*rows_of(lines, at + 1)]):
+        return lines
+    # Times do not fall from their count.
+    is_time = NUMBER.fullmatch(fields[0]) and float(fields[0]) < float(match[1])
+    remark = f"# npts {match[1]}, dt = {match[2]} s"
+    return [*lines[:at], remark, *lines[at + 1 :]] if is_time else lines
 
 
 def _without_decimal_commas(lines: list[str]) -> list[str]:

@@ -338,12 +338,6 @@ def _check_is_time(layout: Layout, table: Floats) -> None:
             f"{source.name}: found {table.shape[1]} columns without a heading, and the first is no"
             f" time: it falls {falling} times; {remedy(table)}"
         )
-    if times[0] == len(times) - 1 and times[1] < times[0]:
-        index, first = next(layout.rows())
-        raise InputError(
-            f"{source.at(index)}: found {shown(first)} above {len(times) - 1} times: if it is their"
-            " count and step, put # before it"
-        )
 
 
 def _check_decimal_comma(layout: Layout, times: Floats) -> None:

@@ -165,10 +165,6 @@ KINDS = {
         lines("2.0 *", *(f"{value / 2.0:.8f}" for value in TRUTH_G)),
         "multiply them all by it, and delete the line", COLUMN, given=BOTH, then=BOTH,
     ),
-    "count and step above times": Kind(
-        lines(f"{COUNT} {DT_S}") + table(T, V, mark=" "), "put # before it",
-        lines(f"# {COUNT} {DT_S}") + table(T, V, mark=" "), given=IN_G, then=IN_G,
-    ),
     "numbers above a column": Kind(
         lines("7.5 0.3 3.1") + COLUMN, "put # before them, and give the time step",
         lines("# 7.5 0.3 3.1") + COLUMN, given=BOTH, then=BOTH,

@@ -558,8 +558,15 @@ def test_a_line_may_tell_of_velocity_beside_accelerations(file, remark):
     assert read_record(file(remark + "\n0.00 0.1\n0.01 -0.2\n0.02 0.3\n"), units="g")
 
 
-def test_a_count_and_a_step_above_times_are_no_sample(file):
+@pytest.mark.parametrize("head", ["12 0.01\n", "12\t.0100\n", "DEEPSOIL in g\n12 0.01\n"])
+def test_a_count_and_a_step_above_times_are_no_sample(file, head):
     rows = "".join(f"{0.01 * k:.2f} {0.1 * (-1) ** k:.1f}\n" for k in range(12))
-    named = "roof.csv:1: found '12 0.01' above 12 times: if it is their count and step, put #"
-    assert problems_of(file(f"12 0.01\n{rows}")) == (f"{named} before it",)
-    assert read_record(file(f"# 12 0.01\n{rows}"), units="g").dt_s == 0.01
+    record = read_record(file(f"{head}{rows}"), units="g")
+    assert (record.dt_s, len(record.a_mps2)) == (0.01, 12)
+    place = head.count("\n")
+    assert problems_of(file(f"{head}{rows}".replace("12", "12 0.02 #"))) == (
+        f"roof.csv:{place}: states a step of 0.02 s, the times have 0.01 s; give a file in which"
+        " they agree",
+    )
+    (problem,) = problems_of(file(f"{head}{rows}"[:-10]))
+    assert problem.startswith(f"roof.csv:{place + 1}: found time 0 s after 12 s")
