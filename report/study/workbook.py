@@ -22,6 +22,11 @@ from report.study.schema import (
 )
 from report.text.units import Quantity
 
+
+def _unit_of_measure(intensity: str) -> str:
+    return Intensity(intensity).unit if intensity else ""
+
+
 STUDY = block("study", "Study", "Study", Study, "Fill in, then run roofslip study FOLDER.",
     Entry("Title", "title", "Mats of product X", note="Printed on the first page."),
     Entry("Prepared by", "prepared_by", "RG", note="Printed on the first page."),
@@ -52,8 +57,7 @@ STUDY = block("study", "Study", "Study", Study, "Fill in, then run roofslip stud
           note="Ground motions are carried through each building."),
     Entry("Run without a value", "no_value", "exceedance", note="Uplift, or sliding at the end of"
           " the record: counted in a fragility as an exceedance, or censored at that intensity."),
-    Entry("Intensity at the site", "site_intensity", 1.0,
-          unit_from=("intensity", lambda text: Intensity(text).unit if text else ""),
+    Entry("Intensity at the site", "site_intensity", 1.0, unit_from=("intensity", _unit_of_measure),
           note="Median; gives the probability that a clearance is exceeded. Blank for none."),
     Entry("Dispersion of intensity", "intensity_beta", 0.2,
           note="Standard deviation of its logarithm."),

@@ -13,6 +13,11 @@ from report.project.model.motions import (
 from report.project.workbook.entries import Entry, block, table
 from report.text.units import Quantity
 
+
+def _unit_of_scaling(scaling: str) -> str:
+    return "g" if scaling == Scaling.PPA else ""
+
+
 MOTIONS = table("motions", "Motions", "Roof motions", MotionInput, "One row for each motion;"
     " without any, no analysis is made. Records are files beside this workbook (file, or file |"
     " channel) or columns pasted into a sheet (Sheet!Header). Columns to the right of Source are"
@@ -34,7 +39,7 @@ MOTIONS = table("motions", "Motions", "Roof motions", MotionInput, "One row for 
           " record), or to the target spectrum over the scaling periods on the sheet Building. All"
           " components get the same factor."),
     Entry("Factor or PPA", "scale_value", 1.0, usual=(0.2, 5.0),
-          unit_from=("scaling", lambda text: "g" if text == Scaling.PPA else ""),
+          unit_from=("scaling", _unit_of_scaling),
           note="The factor, or the PPA in g; blank for other types of scaling."),
     Entry("Polarity", "polarity", "both", is_rare=True, note="Both: each horizontal component is"
           " run as recorded and reversed, and the larger displacement is used."),
