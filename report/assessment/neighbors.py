@@ -20,7 +20,8 @@ from report.project.model.choices import DistanceBasis, ObjectKind
 from report.project.model.fields import Place
 from report.project.model.scene import Array, Clearance
 from report.project.model.shapes import Point, Polygon, Rectangle, Shape, gap_m, sides, spans_near
-from report.text.units import ratio
+from report.text.amounts import capacity, demand, shown_in_order
+from report.text.units import Show, ratio
 from solver.model import INCH_M
 
 if TYPE_CHECKING:
@@ -112,6 +113,11 @@ class ComparedGap(ABC):
     def ratio_words(self) -> str:
         """Required / provided separation for print, with its mark."""
         return ratio(self.demand_capacity) + self.mark
+
+    @property
+    def shows(self) -> tuple[Show, Show]:
+        """How what is there and what is required are shown beside each other."""
+        return shown_in_order(capacity(self.provided_m), demand(self.required_m))
 
     def involves(self, array_id: str) -> bool:
         """Whether an array is on either side of the gap."""

@@ -16,34 +16,28 @@ from report.assessment.neighbors import ComparedGap, PlanNeighbor
 from report.assessment.project import Assessment
 from report.assessment.routes import SEAOC, prescriptive_of
 from report.assessment.verdict import NOT_GIVEN
-from report.document.columns import (
-    centered,
-    plain,
-    provided,
-    required,
-    text,
-    weight,
-    words,
-)
+from report.document.columns import centered, plain, provided, required, text, weight, words
 from report.document.tables import Column, Table, listed, merged
 from report.pages.parts import PackageData
 from report.text.amounts import capacity, demand, shown_in_order
-from report.text.units import Show, no_less
+from report.text.units import Show, no_less, no_more
 
 
 def summary_table(package: PackageData) -> Table:
     """Return the arrays of the first sheet, in one system of units."""
     done = package.assessment
+    mu_share = 1.2 * package.mu_share if done.has_motions else 2.0
     columns: list[Column] = [
         (words("Array", 1.1), lambda item: item.id),
         (plain("Slope", 2, "deg", 0.8), lambda item: math.degrees(item.array.slope_rad)),
-        (text("μ", share=_mu_share(package)), lambda item: mu_words(item.array.friction)),
+        (text("μ", share=mu_share), lambda item: mu_words(item.array.friction)),
     ]
     if done.has_motions:
         columns += [
             (text("Model", share=0.7), models_used),
-            (required("Analysis"), lambda item: item.analysis.value_m, package.computed_mark),
-        ]
+            (required("Analysis"), lambda item: item.analysis.value_m,
+             lambda item: item.overridden.analysis),
+        ]  # fmt: skip
     columns += [
         (required("Prescriptive"), lambda item: item.prescriptive.value_m,
          package.prescriptive_mark),
@@ -57,10 +51,6 @@ def summary_table(package: PackageData) -> Table:
     return merged(_table(package, columns, systems=1))
 
 
-def _mu_share(package: PackageData) -> float:
-    return 1.2 * package.mu_share if package.assessment.has_motions else 2.0
-
-
 def letter_table(package: PackageData) -> Table:
     """Return the arrays of the letter, each with its governing clearance if any is given."""
     done = package.assessment
@@ -71,13 +61,13 @@ def letter_table(package: PackageData) -> Table:
         (words("Governed by", 1.3), lambda item: item.source),
     ]
     if done.clearances or done.missing_gaps:
+        gaps = {item.id: _gap_cells(done.governing_gap(item.id)) for item in done.arrays}
         columns += [
             (words("Governing clearance to", 1.3), lambda item: governing_name(done, item)),
-            (required("Required", 0.8), lambda item: _gap_m(done.governing_gap(item.id))[1],
-             lambda item: _mark(done.governing_gap(item.id)),
-             lambda item: _gap_shows(done.governing_gap(item.id))[1]),
-            (provided("Provided", 0.8), lambda item: _gap_m(done.governing_gap(item.id))[0],
-             lambda _: "", lambda item: _gap_shows(done.governing_gap(item.id))[0]),
+            (required("Required", 0.8), lambda item: gaps[item.id][1],
+             lambda item: gaps[item.id][2], lambda item: gaps[item.id][3][1]),
+            (provided("Provided", 0.8), lambda item: gaps[item.id][0],
+             lambda _: "", lambda item: gaps[item.id][3][0]),
             (text("D/C", share=0.6), lambda item: ratio_words(done, item)),
         ]  # fmt: skip
     columns += [
@@ -96,7 +86,8 @@ def comparison_table(package: PackageData) -> Table:
          package.prescriptive_mark),
         *_seaoc(package),
         (required("Mean"), lambda item: item.analysis.mean_m),
-        (required("Analysis"), lambda item: item.analysis.value_m, package.computed_mark),
+        (required("Analysis"), lambda item: item.analysis.value_m,
+         lambda item: item.overridden.analysis),
     ]  # fmt: skip
     if any(item.floor_m for item in arrays):
         # Peer review removes it.
@@ -172,17 +163,11 @@ def ratio_words(done: Assessment, item: ArrayAssessment) -> str:
     return gap.ratio_words if gap else "—"
 
 
-def _gap_m(gap: ComparedGap | None) -> tuple[float, float]:
-    return (gap.provided_m, gap.required_m) if gap else (math.nan, math.nan)
-
-
-def _mark(gap: ComparedGap | None) -> str:
-    return gap.mark if gap else ""
-
-
-def _gap_shows(gap: ComparedGap | None) -> tuple[Show, Show]:
-    had_m, required_m = _gap_m(gap)
-    return shown_in_order(capacity(had_m), demand(required_m))
+def _gap_cells(gap: ComparedGap | None) -> tuple[float, float, str, tuple[Show, Show]]:
+    """Return what is provided and required [m], the mark of the latter, and how they are shown."""
+    if gap is None:
+        return math.nan, math.nan, "", (no_more, no_less)
+    return gap.provided_m, gap.required_m, gap.mark, gap.shows
 
 
 def _strength_show(item: ArrayAssessment) -> Show:

@@ -15,9 +15,8 @@ from report.document.columns import ColumnHead, centered, plain, provided, requi
 from report.document.tables import Column, Table, listed
 from report.pages.parts import PackageData
 from report.project.model.choices import Direction
-from report.text.amounts import capacity, demand, shown_in_order
 from report.text.unit_format import UnitFormat
-from report.text.units import Show, ratio
+from report.text.units import ratio
 from solver.rules.provisions import SEPARATION_KEYS
 
 
@@ -33,12 +32,6 @@ class NumberedGap:
         """The provision of its factor."""
         return SEPARATION_KEYS[self.check.neighbor]
 
-    @property
-    def shows(self) -> tuple[Show, Show]:
-        """How what is provided and what is required are shown beside each other."""
-        check = self.check
-        return shown_in_order(capacity(check.provided_m), demand(check.required_m))
-
 
 def numbered_gaps(assessment: Assessment) -> Sequence[NumberedGap]:
     """Return the clearances with their numbers."""
@@ -53,9 +46,9 @@ def plan_schedule(package: PackageData, fmt: UnitFormat) -> Table:
         (words("To", 1.14), lambda gap: gap.check.clearance.object),
         (plain("×", share=0.62), lambda gap: gap.check.factor, lambda gap: package.mark(gap.key)),
         (required("Req’d", 0.88), lambda gap: gap.check.required_m,
-         lambda gap: package.required_mark(gap.check), lambda gap: gap.shows[1]),
+         lambda gap: package.required_mark(gap.check), lambda gap: gap.check.shows[1]),
         (provided("Prov’d", 0.82), lambda gap: gap.check.provided_m, lambda _: "",
-         lambda gap: gap.shows[0]),
+         lambda gap: gap.check.shows[0]),
         (ColumnHead(head="D/C", text=ratio, share=0.68), lambda gap: gap.check.demand_capacity,
          lambda gap: gap.check.mark),
         (centered("Verdict", 0.88), lambda gap: gap.check.verdict),
@@ -71,7 +64,7 @@ def field_schedule(package: PackageData) -> Table:
         (words("To", 1.4), lambda gap: gap.check.clearance.object),
         (words("Kind", 3.4), lambda gap: _kind(gap.check)),
         (required("At least", 0.8), lambda gap: gap.check.required_m,
-         lambda gap: package.required_mark(gap.check), lambda gap: gap.shows[1]),
+         lambda gap: package.required_mark(gap.check), lambda gap: gap.check.shows[1]),
         (words("Measured, date, by", 1.7), lambda _: ""),
     )  # fmt: skip
     return _listed(package, columns, package.fmt)

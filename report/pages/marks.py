@@ -97,10 +97,6 @@ class Marked:
             return ""
         return joined(self.mark("analysis_floor"), array.overridden.floor)
 
-    def computed_mark(self, array: ArrayAssessment) -> str:
-        """Return the mark of the displacement by analysis."""
-        return array.overridden.analysis
-
     def required_mark(self, gap: ClearanceCheck) -> str:
         """Return the marks of a required separation."""
         # Where the minimum governs, the number that is marked is the minimum.

@@ -22,7 +22,7 @@ from report.document.columns import (
     text,
     weight,
     words,
-)
+)  # fmt: skip
 from report.document.tables import Column, Table, Wide, by_place, listed
 from report.pages.parts import PackageData, statistic, verdict
 from report.runs import OrientedRun

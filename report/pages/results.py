@@ -148,13 +148,12 @@ def _statistics(package: PackageData, group: _Alike, runs: int) -> Iterator[Tabl
     array, fmt = group[0], package.fmt
     analysis, head = array.analysis, required("")
     factor = f"{statistic(analysis.basis)}, {package.clause('analysis_factor')}"
-    computed_mark = package.computed_mark(array)
     floor_m = array.floor_m or math.nan  # peer review removes it
     # The keys are those of results.json, by which changes are known.
     rows: Sequence[tuple[str, str, float, str, str]] = (
         ("mean_prd_m", "Mean", analysis.mean_m, "", "of the motions"),
         ("largest_prd_m", "Largest", analysis.largest_m, "", "of the motions"),
-        ("computed_m", f"Analysis: {factor}", analysis.value_m, computed_mark, ""),
+        ("computed_m", f"Analysis: {factor}", analysis.value_m, array.overridden.analysis, ""),
         ("floor_m", f"Floor: {_floor_words(package)}", floor_m, package.floor_mark(array), ""),
         (
             "design_m",
@@ -253,7 +252,7 @@ def _design(package: PackageData) -> Mapping[str, object]:
         "statistic": statistic(array.analysis.basis),
         "prescriptive_clause": package.clause(package.prescriptive_key(array)),
         "prescriptive_mark": package.prescriptive_mark(array),
-        "analysis_mark": package.computed_mark(array),
+        "analysis_mark": array.overridden.analysis,
         "floor_mark": package.floor_mark(array),
         "design_mark": package.design_mark(array),
         "troubles": package.sentences("runs", [array.id]),

@@ -116,7 +116,7 @@ def _row(marked: Marked, item: ArrayAssessment) -> tuple[str, ...]:
     refused = f", {NOT_PERMITTED}" if item.has_unpermitted_value else ""
     return (
         item.id,
-        both(item.analysis.value_m, mark=marked.computed_mark(item)),
+        both(item.analysis.value_m, mark=item.overridden.analysis),
         both(prescriptive_m, mark=marked.prescriptive_mark(item)),
         both(item.design_m, mark=marked.design_mark(item)) + refused,
         governing_name(done, item),

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from report.text.units import Quantity, Show, Unit, measured, pair
 
 NO_VALUE = "none"
+_LENGTH = Quantity.DISPLACEMENT
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,11 +21,7 @@ class UnitFormat:
     systems: int = 2
 
     def both(
-        self,
-        value_si: float,
-        quantity: Quantity = Quantity.DISPLACEMENT,
-        show: Show = measured,
-        mark: str = "",
+        self, value_si: float, quantity: Quantity = _LENGTH, show: Show = measured, mark: str = ""
     ) -> str:
         """Return `81.6 in (2072 mm)` with its mark; `none` for NaN, which rests on no provision."""
         if math.isnan(value_si):
@@ -32,27 +29,18 @@ class UnitFormat:
         return pair(value_si, quantity, self.us_first, show) + mark
 
     def short(
-        self,
-        value_si: float,
-        quantity: Quantity = Quantity.DISPLACEMENT,
-        show: Show = measured,
-        mark: str = "",
+        self, value_si: float, quantity: Quantity = _LENGTH, show: Show = measured, mark: str = ""
     ) -> str:
         """Return a value with its unit in the preferred system; `none` for NaN."""
         unit = self.units(quantity)[0]
         return self.none if math.isnan(value_si) else f"{show(value_si, unit)} {unit.symbol}{mark}"
 
     def first(
-        self,
-        value_si: float,
-        quantity: Quantity = Quantity.DISPLACEMENT,
-        *,
-        mark: str = "",
-        show: Show = measured,
+        self, value_si: float, quantity: Quantity = _LENGTH, show: Show = measured, mark: str = ""
     ) -> str:
         """Return a value in the preferred system, without its unit; `none` for NaN."""
         return self.none if math.isnan(value_si) else show(value_si, self.units(quantity)[0]) + mark
 
-    def units(self, quantity: Quantity = Quantity.DISPLACEMENT) -> tuple[Unit, Unit]:
+    def units(self, quantity: Quantity = _LENGTH) -> tuple[Unit, Unit]:
         """Return the units of a quantity, the preferred one first."""
         return (quantity.us, quantity.si) if self.us_first else (quantity.si, quantity.us)

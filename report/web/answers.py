@@ -20,7 +20,6 @@ from report.pages.checks import verdict_sentence
 from report.pages.clearance_tables import NumberedGap, numbered_gaps
 from report.pages.marks import Marked
 from report.pages.summary import attention
-from report.text.amounts import capacity, demand, shown_in_order
 from report.text.unit_format import UnitFormat
 from report.text.units import Show, no_less
 from report.web.plan import USUAL_PX, Cell, ShowVerdict, described, plan, stamp
@@ -129,7 +128,7 @@ def _ratio(gap: NumberedGap, fmt: UnitFormat) -> str:
 
 
 def _gap(gap: NumberedGap, marked: Marked, verdict: ShowVerdict) -> list[Cell | None]:
-    fmt, (had, needed), row = unit_format(marked.assessment), gap.shows, gap.check.clearance
+    fmt, (had, needed), row = unit_format(marked.assessment), gap.check.shows, gap.check.clearance
     return [
         {"text": str(gap.number)},
         _between(row.array, row.object, row.direction.value),
@@ -142,7 +141,7 @@ def _gap(gap: NumberedGap, marked: Marked, verdict: ShowVerdict) -> list[Cell | 
 
 def _missing(near: PlanNeighbor, fmt: UnitFormat, verdict: ShowVerdict) -> list[Cell | None]:
     """Return a pair of the plan without a clearance."""
-    had, needed = shown_in_order(capacity(near.gap_m), demand(near.required_m))
+    had, needed = near.shows
     lengths = ((near.gap_m, had, ""), (near.required_m, needed, near.mark))
     missing_cells = (
         {"text": fmt.short(value_m, show=show) + mark, "title": fmt.both(value_m, show=show)}

@@ -27,7 +27,6 @@ from report.drawing.on_paper import plan_on_paper
 from report.drawing.sheet import Paper, PlanSize, unit_format
 from report.pages.clearance_tables import NumberedGap
 from report.pages.marks import Marked
-from report.text.amounts import capacity, demand, shown_in_order
 from report.text.unit_format import UnitFormat
 
 Cell = Mapping[str, str]
@@ -114,15 +113,14 @@ def _sheet_px(room_px: int) -> tuple[int, int]:
 
 def _without_clearance(near: PlanNeighbor, fmt: UnitFormat) -> str:
     """Return a pair of the plan in words that has no clearance."""
-    shows = shown_in_order(capacity(near.gap_m), demand(near.required_m))
-    values = near.gap_m, near.required_m
-    gap, required = (fmt.both(v, show=show) for v, show in zip(values, shows, strict=True))
+    had, needed = near.shows
+    gap, required = fmt.both(near.gap_m, show=had), fmt.both(near.required_m, show=needed)
     return f"{near.array} to {near.other}: no clearance given, {gap} in plan, required {required}"
 
 
 def described(gap: NumberedGap, marked: Marked) -> str:
     """Return a clearance in words."""
-    check, (had, needed) = gap.check, gap.shows
+    check, (had, needed) = gap.check, gap.check.shows
     fmt, row = unit_format(marked.assessment), gap.check.clearance
     provided = fmt.both(check.provided_m, show=had)
     required = fmt.both(check.required_m, show=needed, mark=marked.required_mark(check))
