@@ -12,5 +12,5 @@ from solver.formats.networks import cosmos, csmip, geonet, keyed, knet, peer, se
 if TYPE_CHECKING:
     from solver.formats.reader import Format
 
-# GeoNet before CSMIP, whose first line is similar.
-NETWORKS: tuple[Format, ...] = (seed, cosmos, geonet, csmip, smc, knet, keyed, peer)
+# GeoNet before CSMIP, whose first line is similar, and PEER before headings of `KEY: value`.
+NETWORKS: tuple[Format, ...] = (seed, cosmos, geonet, csmip, smc, knet, peer, keyed)

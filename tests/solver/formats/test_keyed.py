@@ -146,6 +146,17 @@ def test_a_unit_that_is_not_stated_is_that_of_the_caller(file):
     assert read_record(path, units="gal").a_mps2 == pytest.approx(0.01 * np.array(WAVE))
 
 
+def test_a_file_of_peer_that_has_such_lines_is_one_of_peer(file):
+    head = (
+        "PEER STRONG MOTION DATABASE RECORD\nCOMPONENT: 180\n"
+        "ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz\n"
+        "NPTS=  200, SAMPLING INTERVAL= .01 SEC\n"
+    )
+    motion_file = read_motion_file(file(head + across(WAVE, 5).replace("E+01", "E-01")))
+    assert motion_file.format == "PEER AT2"
+    assert len(motion_file.channels[0].a_mps2) == 200
+
+
 def test_comments_above_a_table_are_no_format(file):
     head = "# Sampling rate: 100 Hz\n# Units: gal\n# Number of samples: 200\n"
     assert read_motion_file(file(head + columns(1))).format == "text"
