@@ -35,7 +35,7 @@ from report.pages.symbols import friction_standard
 from report.project.model.site import Revision
 from report.project.read.linked_files import StudyYears, YearsOfArray
 from report.project.workbook import SECTION
-from report.text.counts import ids_by
+from report.text.counts import capitalized, ids_by, numbered
 from report.text.formats import VALIDATION
 from report.text.units import number
 
@@ -175,7 +175,7 @@ def _routes(package: PackageData, item: ArrayAssessment) -> str:
     limits = (*item.limits.prescriptive_checks, *item.limits.checks, *building)
     failed = [words(of_limit(limit)) for limit in limits if not limit.ok]
     if failed:
-        other = f"the prescriptive procedure is not permitted ({'; '.join(failed)})"
+        other = f"the prescriptive procedure is not permitted: {_reasons(package, failed)}"
     elif analysis.value_m > given_m:
         other = (
             "the limits of the prescriptive procedure are satisfied, but the displacement by "
@@ -183,16 +183,16 @@ def _routes(package: PackageData, item: ArrayAssessment) -> str:
         )
     else:
         other = f"the prescriptive displacement may be used instead ({package.part('limits')})"
-    faults = "; ".join(done.against_analysis(item))
-    refused = f"the analysis procedure is not permitted ({faults})"
+    faults = _reasons(package, done.against_analysis(item))
+    refused = f"the analysis procedure is not permitted: {faults}"
     parts: list[str] = []
     if item.route is Route.PRESCRIPTIVE:
         parts.append("the prescriptive procedure is taken")
         if analysis.largest_m > given_m:
             parts.append("the largest PRD exceeds the prescriptive displacement and is used")
-        return "; ".join([*parts, refused])
+        return _sentences([*parts, refused])
     if math.isnan(item.design_m):
-        return f"no value from analysis; {other}"
+        return _sentences(["no value from analysis", other])
     n_above = sum(run.governing.prd_m > given_m for run in item.motions)
     above = f"{n_above} of {len(item.motions)} PRDs"
     if analysis.value_m > given_m:
@@ -209,7 +209,19 @@ def _routes(package: PackageData, item: ArrayAssessment) -> str:
         parts.append("no floor applies because the analysis is peer reviewed")
     if not item.is_permitted:
         parts.append(refused)
-    return "; ".join([*parts, other])
+    return _sentences([*parts, other])
+
+
+def _reasons(package: PackageData, limits: Sequence[str]) -> str:
+    """Return the first two limits that do not permit a procedure, and where the others are."""
+    count = len(limits) - 2
+    more = [f"{numbered(count, 'more limit')} in {package.part('limits')}"] if count > 0 else []
+    return "; ".join([*limits[:2], *more])
+
+
+def _sentences(parts: Sequence[str]) -> str:
+    """Return parts as sentences, the first after a colon and the last without its full stop."""
+    return ". ".join([parts[0], *map(capitalized, parts[1:])])
 
 
 def _years(package: PackageData) -> Iterator[Mapping[str, object]]:

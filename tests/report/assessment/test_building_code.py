@@ -93,7 +93,8 @@ def test_both_conditions_say_what_an_assessment_by_the_rule_set_of_the_code_give
     assert listed(by_code.open) == {}
     gaps = [gap for gap in by_code.clearances if gap.demand_capacity > 0.0]
     worst = max(gaps, key=lambda gap: gap.demand_capacity)
-    verdict, between = by_code.verdict, f"{worst.clearance.array} to {worst.clearance.object}"
+    verdict = by_code.verdict
+    between = f"clearance {worst.clearance.array} to {worst.clearance.object}"
     rows = listed(done.open)
     assert len(rows) == (1 if changes == OF_22 else 2)
     text = f"Under ASCE 7-22 13.6.12, with the same motions and S_DS: {verdict}, {between} "

@@ -77,7 +77,7 @@ def test_a_check_is_one_sentence_and_a_cell():
         "(PV1-2012†). To close: widen the clearance."
     )
     assert texts(check(), us_first=True, is_both=False) == ("20.0 in", "≥ 40.8 in†")
-    assert words(check()) == "clearance A1 to RTU-1 2.04"
+    assert words(check()) == "clearance A1 to RTU-1 (D/C 2.04)"
 
 
 @pytest.mark.quick

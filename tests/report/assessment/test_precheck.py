@@ -72,7 +72,7 @@ def test_a_limit_names_its_cell_its_value_and_the_limit_and_cannot_be_acknowledg
     assert {finding.id for finding in listed} == {""}
     found = {finding.place: finding.text for finding in listed}
     assert found[Place("site", 0, "risk_category")] == (
-        "NG. Risk category (I = 1 to IV = 4): 4. Required: at most 3† (PV1-2012†)."
+        "NG. Risk category, I = 1 to IV = 4: 4. Required: at most 3† (PV1-2012†)."
     )
     assert found[Place("site", 0, "stories")] == (
         "NG. Number of stories: 7. Required: at most 6† (PV1-2012†)."
