@@ -289,9 +289,7 @@ def cell_as_column(
 def added_later(book: OpenBook, section: SheetSection) -> tuple[Entry, ...]:
     """Return the fields that a block lacks because its workbook is of a version before them."""
     return tuple(
-        entry
-        for entry in section.entries
-        if (section.key, entry.name) in layout.ADDED and not _position(book, section, entry)
+        entry for entry in section.entries if entry.is_new and not _position(book, section, entry)
     )
 
 
@@ -312,7 +310,7 @@ def _named(book: OpenBook, name: str) -> CellPosition | None:
 
 
 def _position(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition | None:
-    return _found(book, section, entry.name, labels_of(section, entry))
+    return _found(book, section, entry.name, labels_of(entry))
 
 
 def _found(

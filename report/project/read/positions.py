@@ -18,7 +18,6 @@ from openpyxl.worksheet.worksheet import Worksheet
 from report.project.read.archive import OpenBook
 from report.project.read.cells import Found
 from report.project.read.scan import LAST_COLUMN, LAST_ROW
-from report.project.workbook import layout
 from report.project.workbook.entries import Entry, SheetSection
 from solver.model import InputError, Problem
 
@@ -154,17 +153,18 @@ def heading_parts(text: object) -> tuple[str, str]:
     return (match[1], (match[2] or "").strip()) if match else (str(text), "")
 
 
-def labels_of(section: SheetSection, entry: Entry) -> set[str]:
-    """Return the label of a field and its earlier labels, in the form that is compared."""
-    earlier = layout.LABELS.get((section.key, entry.name), ())
-    return {label_key(label) for label in (entry.heading, *earlier)}
+def labels_of(entry: Entry) -> set[str]:
+    """Return the label of a field and its earlier label, in the form that is compared."""
+    return {label_key(label) for label in (entry.heading, entry.former) if label}
 
 
 @cache
 def fields_by_label(section: SheetSection) -> Mapping[str, Entry]:
     """Return the fields of a section by each of their labels, in the form that is compared."""
-    fields = section.entries
-    return {label: entry for entry in fields for label in labels_of(section, entry)}
+    fields: dict[str, Entry] = {}
+    for entry in section.entries:
+        fields |= dict.fromkeys(labels_of(entry), entry)
+    return fields
 
 
 def unit_size(entry: Entry, unit: str, where: str = "") -> tuple[str, float]:

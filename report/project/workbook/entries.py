@@ -62,6 +62,8 @@ class Entry:
     unit_from: tuple[str, Callable[[str], str]] | None = None
     zero: str = ""  # what 0 of a number is called, in a cell and in print
     is_rare: bool = False  # its column is folded at the right of a table
+    former: str = ""  # its heading in earlier workbooks
+    is_new: bool = False  # workbooks of 0.3.0 have no cell for it
     below: tuple[str, str] | None = None  # field of another block that its row follows
     sheet: str = ""  # of that block
     # What a blank cell stands for, by the fields read before it, and by which rule; None for the

@@ -6,7 +6,7 @@ Also labels and headings of earlier workbooks, which can still be read.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from openpyxl import Workbook
@@ -76,24 +76,6 @@ def name_formula(book: Workbook, name: str, formula: str) -> None:
     book.defined_names[name] = DefinedName(name, attr_text=formula)
 
 
-# Earlier labels and headings, by section and field: workbooks with them are still read.
-LABELS: Mapping[tuple[str, str], tuple[str, ...]] = {
-    ("project", "units_first"): ("Units first",),
-    ("site", "stories"): ("Storeys",),
-    ("arrays", "mu_fast"): ("Friction at speed",),
-    ("clearances", "provided_m"): ("Provided",),
-    ("motions", "from_s"): ("Keep from",),
-    ("motions", "to_s"): ("Keep to",),
-    ("motions", "pad_s"): ("Zeros at the end",),
-    ("building", "left_out_percent"): ("Modes may leave out",),
-    ("links", "friction"): ("Friction of blocks",),
-    ("options", "statistic"): ("Design value from peaks",),
-    ("options", "peer_reviewed"): ("Analysis is peer reviewed",),
-    ("target", "from_s"): ("Scaling periods from",),
-    ("target", "to_s"): ("Scaling periods to",),
-}
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GoneInput:
     """An input that earlier workbooks have: it is no more, and refused where it asks for something.
@@ -141,13 +123,4 @@ ORDERS: Mapping[str, Sequence[str]] = {
     "site": ("rule_set", "risk_category", "i_e", "s_s_g", "s_1_g", "site_class", "f_a", "f_v",
              "s_ds_g", "sdc", "stories", "structure_height_m", "roof_height_m", "edition_name",
              "s_ms_g", "s_m1_g", "s_d1_g"),
-}  # fmt: skip
-
-# Single cells that workbooks of 0.3.0 do not have.
-ADDED: Set[tuple[str, str]] = {
-    ("project", "firm"), ("project", "firm_contact"), ("project", "license"),
-    ("project", "plan_number"), ("project", "plan_date"), ("site", "acceptance_letter"),
-    ("site", "latitude_deg"), ("site", "longitude_deg"), ("site", "roof_load_pa"),
-    ("site", "seismic_weight_n"), ("site", "roof_evaluation"),
-    ("friction_tests", "contact_pressure_pa"), ("options", "study_years"),
 }  # fmt: skip

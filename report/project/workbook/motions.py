@@ -47,9 +47,9 @@ MOTIONS = table("motions", "Motions", "Roof motions", MotionInput, "One row for 
           note="Event, station and processing, printed in the package."),
     Entry("Recorded at", "recorded_at", "roof",
           note="Ground motions are carried to the roof by the building on the sheet Building."),
-    Entry("Start time", "from_s", 2.0, "s", is_rare=True,
+    Entry("Start time", "from_s", 2.0, "s", is_rare=True, former="Keep from",
           note="Measured from the first sample; blank: first sample."),
-    Entry("End time", "to_s", 40.0, "s", is_rare=True,
+    Entry("End time", "to_s", 40.0, "s", is_rare=True, former="Keep to",
           note="Measured from the first sample; blank: last sample."),
     Entry("Baseline", "baseline", "linear", is_rare=True,
           note="Fitted to the acceleration and subtracted."),
@@ -62,7 +62,7 @@ MOTIONS = table("motions", "Motions", "Roof motions", MotionInput, "One row for 
           note="Order of both filters. The power at the corner is one half."),
     Entry("New time step", "new_dt_s", 0.005, "s", is_rare=True,
           note="Resampled without aliasing; blank: unchanged."),
-    Entry("Zero padding", "pad_s", 5.0, "s", is_rare=True,
+    Entry("Zero padding", "pad_s", 5.0, "s", is_rare=True, former="Zeros at the end",
           note="Added at the end, for the array to come to rest; blank: none."),
     Entry("Event", "event", "Kobe 1995", is_rare=True,
           note="Earthquake and year of a record; blank for a generated motion."),
@@ -95,8 +95,9 @@ BUILDING = block("building", "Building", "Building between ground and roof", Bui
     Entry("Lateral stiffness ratio", "stiffness_ratio", 4.0, note="H sqrt(GA/EI): 0 for shear"
           " walls, 1.5 to 6 for walls with frames, over 20 for moment frames. Blank: shear"
           " deformation only."),
-    Entry("Modal truncation limit", "left_out_percent", 5.0, "%", note="Allowed effect of all"
-          " neglected modes together, in percent of the peak roof acceleration."),
+    Entry("Modal truncation limit", "left_out_percent", 5.0, "%", former="Modes may leave out",
+          note="Allowed effect of all neglected modes together, in percent of the peak roof"
+          " acceleration."),
     may_be_absent=True,
 )  # fmt: skip
 
@@ -115,9 +116,9 @@ LINKS = table("links", "Links", "Rows of linked blocks", Links, "Optional: one r
     " for which the package checks whether one rigid block is adequate. The blocks have equal"
     " weights and lie in a row along the slope.",
     Entry("Array", "array", "A1", note="ID of the array. One row for each."),
-    Entry("Block friction", "friction", "0.40, 0.45, 0.50", note="2 to 20 friction coefficients"
-          " separated by commas, from the upslope block to the downslope block. Their range must"
-          " include the array's coefficient."),
+    Entry("Block friction", "friction", "0.40, 0.45, 0.50", former="Friction of blocks",
+          note="2 to 20 friction coefficients separated by commas, from the upslope block to the"
+          " downslope block. Their range must include the array's coefficient."),
     Entry("Link stiffness", "stiffness_n_per_m", 5000.0, Quantity.STIFFNESS,
           note="Axial force per unit elongation or shortening of a link."),
     Entry("Link damping", "damping_ratio", 0.02,
@@ -132,9 +133,9 @@ TARGET = block("target", "Building", "Target spectrum and scaling", TargetInput,
           note="The line of AC156, or 1/T for periods above 0.77 s as PV1-2012 Sec. 9 permits."),
     Entry("Long-period transition T_L", "t_l_s", 8.0, "s", below=("site", "s_d1_g"), sheet="Site",
           note="ASCE 7, 11.4.6. Used with S_1 and F_v for the design spectrum of ground motions."),
-    Entry("Shortest scaling period", "from_s", 0.2, "s",
+    Entry("Shortest scaling period", "from_s", 0.2, "s", former="Scaling periods from",
           note="For motions scaled to the target spectrum."),
-    Entry("Longest scaling period", "to_s", 5.0, "s",
+    Entry("Longest scaling period", "to_s", 5.0, "s", former="Scaling periods to",
           note="Long periods govern sliding: use more than 0.77 s (1.3 Hz)."),
     may_be_absent=True,
 )  # fmt: skip

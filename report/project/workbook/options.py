@@ -17,11 +17,12 @@ from report.project.workbook.entries import Entry, block, table
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS
 
 OPTIONS = block("options", "Options", "Options", Options, "The defaults suit most projects.",
-    Entry("Design value statistic", "statistic", "rule set",
+    Entry("Design value statistic", "statistic", "rule set", former="Design value from peaks",
           note="Rule set: the statistic that the rule set requires for this number of motions."
                f" Mean: {MEAN_WITHOUT_FACTOR_MOTIONS} motions or more."),
-    Entry("Peer review", "peer_reviewed", "No", note="Yes removes the floor of the value from"
-          " analysis, once the four cells below are given."),
+    Entry("Peer review", "peer_reviewed", "No", former="Analysis is peer reviewed",
+          note="Yes removes the floor of the value from analysis, once the four cells below are"
+          " given."),
     Entry("Peer reviewer", "peer_reviewer", "Reviewer of record",
           note="Required with peer review."),
     Entry("Reviewer's license", "peer_license", "CA S0000",
@@ -34,7 +35,7 @@ OPTIONS = block("options", "Options", "Options", Options, "The defaults suit mos
           note="PDF in the workbook's folder. Required with peer review."),
     Entry("Smaller events", "smaller_events", "0.50, 0.50", note="Up to 20 factors on the motions,"
           " above 0.0 up to 1.0, with commas: events that are added, for information."),
-    Entry("Study of years", "study_years", "years.json",
+    Entry("Study of years", "study_years", "years.json", is_new=True,
           note="years.json of a study, attached; its years are printed for information."),
     Entry("Edition", "package_edition", "plan check", note="Complete adds input echo, table of"
           " spectra, histories, paths, symbols and whole hashes."),

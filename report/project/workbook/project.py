@@ -27,19 +27,19 @@ PROJECT = block("project", "Project", "Project", Project, "Printed on the cover 
     Entry("Prepared by", "prepared_by", "RG", note="Name or initials, printed on every page."),
     Entry("Checked by", "checked_by", "MT",
           note="Name or initials, printed on every page. Leave blank until checked."),
-    Entry("Firm", "firm", "Example Structural Engineers",
+    Entry("Firm", "firm", "Example Structural Engineers", is_new=True,
           note="Of the engineer of record. Printed on the cover."),
     Entry("Firm's address and phone", "firm_contact", "500 Main St, Los Angeles, CA; 213 555 0100",
-          note="Printed with the firm."),
-    Entry("Engineer's license", "license", "CA S0000",
+          is_new=True, note="Printed with the firm."),
+    Entry("Engineer's license", "license", "CA S0000", is_new=True,
           note="State and number of the engineer of record, printed in the box of the seal."),
     Entry("Date", "date", dt.date(2026, 3, 5), note="Date of this issue."),
     Entry("Revision", "revision", "0", note="Revision of this issue, printed on every page."),
-    Entry("Primary units", "units_first", "US",
+    Entry("Primary units", "units_first", "US", former="Units first",
           note="Both systems are printed; this one comes first."),
-    Entry("Drawing number", "plan_number", "S-101",
+    Entry("Drawing number", "plan_number", "S-101", is_new=True,
           note="Of the plan in the permit set from which the distances are. Printed on the cover."),
-    Entry("Drawing date", "plan_date", dt.date(2026, 2, 27), note="Of that plan."),
+    Entry("Drawing date", "plan_date", dt.date(2026, 2, 27), is_new=True, note="Of that plan."),
     Entry("Drawing distances confirmed by", "drawing_confirmed_by", "RG",
           note="Name, if every clearance whose distance is from the drawing is confirmed; with the"
           " date."),
@@ -100,7 +100,8 @@ SITE = block("site", "Site", "Site and building", Site, "Give S_DS, S_MS, or S_S
           note="Of the report on a site-specific analysis."),
     Entry("Hazard printout", "hazard_printout", "hazard.pdf", note="Of the tool, or the report, as"
           " a PDF in the workbook's folder; the package attaches it."),
-    Entry("Number of stories", "stories", 1, usual=(1.0, 6.0), note="Above grade."),
+    Entry("Number of stories", "stories", 1, usual=(1.0, 6.0), former="Storeys",
+          note="Above grade."),
     Entry("Structure height h", "structure_height_m", 36.0, Quantity.PLAN, usual=(8.0, 120.0),
           note="Average roof height above the base, ASCE 7, 13.3."),
     Entry("Height of the array z", "roof_height_m", 36.0, Quantity.PLAN, usual=(8.0, 120.0),
@@ -113,7 +114,7 @@ SITE = block("site", "Site", "Site and building", Site, "Give S_DS, S_MS, or S_S
           note="Edition of the building code."),
     Entry("Jurisdiction", "jurisdiction", "City of Los Angeles",
           note="Building department. Printed on the cover."),
-    Entry("Letter of acceptance", "acceptance_letter", "acceptance.pdf",
+    Entry("Letter of acceptance", "acceptance_letter", "acceptance.pdf", is_new=True,
           note="The jurisdiction's, of what its building code does not reference: a PDF, to"
           " attach."),
     Entry("Fire code section", "fire_code_section", "Section of the 2022 CFC, as adopted",
@@ -122,17 +123,17 @@ SITE = block("site", "Site", "Site and building", Site, "Give S_DS, S_MS, or S_S
     Entry("Fire lane width", "fire_lane_m", 4.0, Quantity.PLAN, usual=(3.0, 10.0),
           note="Arrays that are closer count as one between fire lanes. Blank: 4 ft, a practice:"
           " verify against the adopted code."),
-    Entry("Latitude", "latitude_deg", 34.0362, "deg", note="Of the site, for which the hazard was"
-          " read; positive to the north. Printed on the cover."),
-    Entry("Longitude", "longitude_deg", -118.2334, "deg",
+    Entry("Latitude", "latitude_deg", 34.0362, "deg", is_new=True, note="Of the site, for which the"
+          " hazard was read; positive to the north. Printed on the cover."),
+    Entry("Longitude", "longitude_deg", -118.2334, "deg", is_new=True,
           note="Positive to the east, so that it is negative in America."),
     Entry("Design load of the roof", "roof_load_pa", 32.0, Quantity.PRESSURE, usual=(10.0, 150.0),
-          note="Gravity load for which the existing roof is designed; the weight of each array over"
-          " its plan area is compared with 5 % of it."),
+          is_new=True, note="Gravity load for which the existing roof is designed; the weight of"
+          " each array over its plan area is compared with 5 % of it."),
     Entry("Seismic weight", "seismic_weight_n", 900_000.0, Quantity.WEIGHT,
-          usual=(20_000.0, 100_000_000.0),
+          usual=(20_000.0, 100_000_000.0), is_new=True,
           note="Of the existing building; the weight of all arrays is compared with 10 % of it."),
-    Entry("Evaluation of the building", "roof_evaluation", "J. Doe, SE, 2026-02-20",
+    Entry("Evaluation of the building", "roof_evaluation", "J. Doe, SE, 2026-02-20", is_new=True,
           note="Of the existing building with the weight added: by whom, and date or number of the"
           " report. For a new building: so designed, by whom."),
 )  # fmt: skip
@@ -154,8 +155,8 @@ FRICTION_TESTS = block("friction_tests", "Friction tests", "Friction tests", Fri
     Entry("Support material", "support", "EPDM pad",
           note="Surface of the array's supports as tested."),
     Entry("Contact pressure of the tests", "contact_pressure_pa", 150.0, Quantity.PRESSURE,
-          note="Weight on a tested support over its contact area; printed beside that of the"
-          " arrays."),
+          is_new=True, note="Weight on a tested support over its contact area; printed beside that"
+          " of the arrays."),
     Entry("Test report file", "report_file", "friction-report.pdf", note="The report as a PDF in"
           " the workbook's folder; the package attaches it. All such files: at most 20 MB."),
     may_be_absent=True,

@@ -74,8 +74,9 @@ ARRAYS = table("arrays", "Arrays", "Arrays", Array, "One row for each array that
     Entry("Downslope direction", "downslope_deg", 270.0, "deg",
           note="In plan, counterclockwise from +x: 0 is +x, 90 is +y."),
     Entry("High-velocity friction", "mu_fast", 0.5, usual=(0.3, 0.9), is_rare=True,
-          note="Only if tests give velocity-dependent friction: the coefficient at high velocity."
-          " The friction coefficient is then the low-velocity value."),
+          former="Friction at speed", note="Only if tests give velocity-dependent friction: the"
+          " coefficient at high velocity. The friction coefficient is then the low-velocity"
+          " value."),
     Entry("Friction rate", "mu_rate_s_per_m", 30.0, "s/m", usual=(1.0, 200.0), is_rare=True,
           note="Rate of transition from low to high velocity: fast - (fast - slow) exp(-rate x"
           " velocity). Required with high-velocity friction."),
@@ -128,7 +129,7 @@ CLEARANCES = table("clearances", "Clearances", "Clearances", Clearance,
     Entry("Direction", "direction", "any",
           note="From the array: downslope, upslope, cross-slope, or any."),
     Entry("Provided clearance", "provided_m", 96.0, Quantity.SIZE, usual=(6.0, 600.0),
-          note="Clear distance in roof plan."),
+          former="Provided", note="Clear distance in roof plan."),
     Entry("Fire pathway", "pathway_m", 48.0, Quantity.SIZE, usual=(24.0, 240.0), zero="none",
           note="Width that the fire code requires of a pathway along this clearance, or none: the"
           " package checks that it is left after the design displacement. Blank: a condition of the"

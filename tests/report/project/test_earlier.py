@@ -14,7 +14,7 @@ from report.cli.main import main
 from report.project.check.covered import CONFIRMATIONS, outdated
 from report.project.model import ProjectInput
 from report.project.read.read import read
-from report.project.workbook import SECTION, SECTIONS, layout
+from report.project.workbook import SECTION, SECTIONS
 from report.project.write.filled import overwritten
 from report.study.read import read_study
 from report.study.schema import StudyInput
@@ -85,9 +85,7 @@ PRESENT = [(section, entry) for section in SECTIONS for entry in section.entries
 def earlier_labels(book):
     """Replace each renamed label and heading by its oldest name, and remove all defined names."""
     oldest = {
-        (section.sheet, entry.heading): layout.LABELS[section.key, entry.name][0]
-        for section, entry in PRESENT
-        if (section.key, entry.name) in layout.LABELS
+        (section.sheet, entry.heading): entry.former for section, entry in PRESENT if entry.former
     }
     book.defined_names.clear()
     changed = set()
