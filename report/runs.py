@@ -11,7 +11,6 @@ from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
 from operator import attrgetter
 from typing import TypeVar
 
@@ -128,6 +127,7 @@ class Runs:
         self._pool = ThreadPoolExecutor(THREADS)
         self._motions: dict[str, Motion] = {}
         self._begun: dict[Hashable, Future[OrientedRun]] = {}
+        self._batches: dict[Hashable, list[Future[OrientedRun]]] = {}
         # One result for all arrays that share it: what follows from it alone is computed once.
         self._done: dict[Hashable, MotionRun] = {}
 
@@ -136,6 +136,7 @@ class Runs:
         other = Runs(self._known, self._tolerance)
         other._motions |= self._motions
         other._begun |= self._begun
+        other._batches |= self._batches
         other._done |= self._done
         return other
 
@@ -143,44 +144,51 @@ class Runs:
         self, arrays: Iterable[Array], motions: Iterable[Motion], only: Names | None = None
     ) -> None:
         """Begin the runs of arrays under motions, without waiting for them."""
-        for array, motion in product(arrays, motions):
-            if self._motions.setdefault(motion.id, motion) is not motion:
-                raise DefectError(f"{motion.id} is another motion than in the runs before")
-            for each in self._orientations(array, motion, only):
-                key = (scene_key(array), motion.id, each)
-                if key not in self._begun:
-                    run = self._pool.submit(run_oriented, array, motion, each, self._tolerance)
-                    self._begun[key] = run
+        motions = list(motions)
+        for array in arrays:
+            scene = scene_key(array)
+            for motion in motions:
+                if self._motions.setdefault(motion.id, motion) is not motion:
+                    raise DefectError(f"{motion.id} is another motion than in the runs before")
+                names = self._names(array, motion, only)
+                if (scene, motion.id, names) not in self._batches:
+                    some = [each for each in motion.orientations if each.name in names]
+                    self._batches[scene, motion.id, names] = [
+                        self._run(scene, array, motion, each)
+                        for each in some or motion.orientations
+                    ]
 
     def of(
         self, array: Array, motions: Sequence[Motion], only: Names | None = None
     ) -> tuple[MotionRun, ...]:
         """Return the runs of an array, or those in some orientations only, once they are done."""
         self.begin([array], motions, only)
-        return tuple(
-            self._motion_run(array, motion, self._orientations(array, motion, only))
-            for motion in motions
-        )
+        scene, found = scene_key(array), list[MotionRun]()
+        for motion in motions:
+            batch = (scene, motion.id, self._names(array, motion, only))
+            if batch not in self._done:
+                runs = [run.result() for run in self._batches[batch]]
+                self._done[batch] = motion_run(motion, runs)
+            found.append(self._done[batch])
+        return tuple(found)
 
     def map(self, do: Callable[[_T], _R], items: Iterable[_T]) -> list[_R]:
         """Return what becomes of each item, two at a time."""
         return list(self._pool.map(do, items))
 
-    def _orientations(
-        self, array: Array, motion: Motion, only: Names | None
-    ) -> tuple[Orientation, ...]:
+    def _names(self, array: Array, motion: Motion, only: Names | None) -> tuple[str, ...]:
+        """Return the names of the orientations that are run alone; none for all."""
         by_motion = self._known.get(array.id, {}) if only is None else only
-        names = by_motion.get(motion.id, ())
-        return tuple(o for o in motion.orientations if o.name in names) or motion.orientations
+        return tuple(by_motion.get(motion.id, ()))
 
-    def _motion_run(
-        self, array: Array, motion: Motion, orientations: Sequence[Orientation]
-    ) -> MotionRun:
-        keys = [(scene_key(array), motion.id, each) for each in orientations]
-        whole = tuple(keys)
-        if whole not in self._done:
-            self._done[whole] = motion_run(motion, [self._begun[key].result() for key in keys])
-        return self._done[whole]
+    def _run(
+        self, scene: Hashable, array: Array, motion: Motion, orientation: Orientation
+    ) -> Future[OrientedRun]:
+        key = (scene, motion.id, orientation)
+        if key not in self._begun:
+            about = array, motion, orientation, self._tolerance
+            self._begun[key] = self._pool.submit(run_oriented, *about)
+        return self._begun[key]
 
 
 def scene_key(array: Array) -> Hashable:
