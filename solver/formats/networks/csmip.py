@@ -54,11 +54,11 @@ _RATE_LINE = re.compile(
     re.ASCII | re.IGNORECASE,
 )
 _STEP_LINE = re.compile(
-    r"(?<!\d)(\d+)\s+POINTS OF ACCEL DATA EQUALLY SPACED AT\s+([\d.]+)\s*SEC[.,\s(]*(?:UNITS:|IN)"
-    r"\s*([A-Z/0-9]+)[.\s)]*(?:\(([^)]*)\))?",
+    r"(?<!\d)(\d+)\s+POINTS OF ACC(?:EL)? DATA EQUALLY SPACED AT\s+([\d.]+)\s*SEC[.,\s(]*"
+    r"(?:UNITS:|IN(?: UNITS)?)\s*([A-Z/0-9]+)[.\s)]*(?:\(([^)]*)\))?",
     re.ASCII | re.IGNORECASE,
 )
-_SERIES = re.compile(r"\s*\d+\s+POINTS OF (VELOC|DISPL|ACCEL)", re.ASCII | re.IGNORECASE)
+_SERIES = re.compile(r"\s*\d+\s+POINTS OF (VEL|DIS|ACC)", re.ASCII | re.IGNORECASE)
 _PEAK_1 = re.compile(r"\bMAX\s*=\s*([-+\d.]+)\s*([A-Z/0-9]+)", re.ASCII | re.IGNORECASE)
 _PEAK_2 = re.compile(r"PEAK ACCELERATION\s*=\s*([-+\d.]+)\s*([A-Z/0-9]+)", re.ASCII | re.IGNORECASE)
 

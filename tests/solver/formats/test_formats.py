@@ -213,6 +213,10 @@ READ_OTHERWISE = [
     ("cosmos.v1c", 2 * [("acceleration pts", "uncor accel.   pts")], 1.0, ()),
     ("esm.asc", [("ACCELERATION", "UNPROCESSED ACCELERATION"), ("DURATION_S: 0.105\n", "")],
      1.0, ()),
+    # As the University of Southern California writes them.
+    ("csmip-old.v2", [(f"POINTS OF {quantity} DATA", f"POINTS OF {quantity[:3]} DATA")
+                      for quantity in ("ACCEL", "VELOC", "DISPL")] * 2
+     + [("SEC.  (UNITS: CM/SEC/SEC)", "SEC.  IN UNITS CM/SEC/SEC")] * 2, 1.0, ()),
     ("afad.txt", [("TURKIYE", "TURKEY"), ("made by hand for a test\r\n", "")], 1.0, ()),
     ("smc-corrected.smc", [("         2\r", "         1\r")], 1.0,
      ("states 1 lines of comment, found 2",)),
