@@ -40,8 +40,8 @@ _SHAPES = ("xl/drawings/", "xl/charts/", "xl/media/", "xl/theme/")
 
 
 @dataclass(slots=True)
-class Extent:
-    """Extent of a sheet's values: last row and last column, each with the cell that sets it."""
+class UsedRange:
+    """The used range of a sheet: last row and last column, each with the cell that sets it."""
 
     last_row: int = 0
     last_column: int = 0
@@ -87,7 +87,7 @@ class Scan(ContentHandler):
     """The extent of values in a part, and its formulas by cell: each with the cell it is of."""
 
     budget: Budget
-    extent: Extent = field(default_factory=Extent)
+    extent: UsedRange = field(default_factory=UsedRange)
     formulas: dict[str, tuple[str, str]] = field(default_factory=dict)
     cells: set[tuple[int, int]] = field(default_factory=set)  # that are there: row and column
     # Of the part of the workbook, how it was calculated (ECMA-376-1, 18.2.2).
