@@ -23,7 +23,7 @@ import defusedxml.ElementTree
 from openpyxl import LXML, Workbook, load_workbook
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.project.read.scan import REOPEN, Extent, Scan, scan_parts
+from report.project.read.scan import REOPEN, UsedRange, Scan, scan_parts
 from solver.files import check_length, read_file
 from solver.model import DefectError, InputError
 from solver.suggestions import meant
@@ -75,7 +75,7 @@ class OpenBook:
         """The content of its file."""
         return self.files[self.sha256]
 
-    def extent(self, title: str) -> Extent:
+    def extent(self, title: str) -> UsedRange:
         """Return the extent of a sheet's values."""
         return self.scans[title].extent
 
