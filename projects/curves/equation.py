@@ -145,11 +145,11 @@ def scatter(computed_m: Floats, by_formula_m: Floats) -> Scatter:
 
 def pooled(parts: Sequence[Scatter]) -> Scatter:
     """Return the scatter of all runs from those of their parts."""
-    runs = np.array([part.runs for part in parts])
-    means = np.array([part.mean for part in parts])
-    squares = np.array([part.deviation**2 + part.mean**2 for part in parts])
-    mean = float(runs @ means / runs.sum())
-    return Scatter(mean, math.sqrt(runs @ squares / runs.sum() - mean**2), int(runs.sum()))
+    # By `fsum`, which has the same bits on every machine; a dot product has not.
+    runs = sum(part.runs for part in parts)
+    mean = math.fsum(part.runs * part.mean for part in parts) / runs
+    square = math.fsum(part.runs * (part.deviation**2 + part.mean**2) for part in parts) / runs
+    return Scatter(mean, math.sqrt(square - mean**2), runs)
 
 
 def ambraseys_menu_m(runs: RoofRuns) -> Floats:

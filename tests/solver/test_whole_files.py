@@ -281,7 +281,11 @@ def test_the_lock_file_of_a_workbook_is_never_meant(tmp_path):
         (tmp_path / name).write_bytes(b"")
     assert f"did you mean '{tmp_path / 'My Project.xlsx'}'?" in commands.refused("check", tmp_path)
     (tmp_path / "other.xlsx").write_bytes(b"")
-    assert "did you mean" not in commands.refused("check", tmp_path)
+    asked = commands.refused("check", tmp_path)
+    both = f"did you mean '{tmp_path / 'My Project.xlsx'}' or '{tmp_path / 'other.xlsx'}'?"
+    assert both in asked
+    assert "lock.input" not in asked
+    assert "~$" not in asked
 
 
 @pytest.mark.nightly

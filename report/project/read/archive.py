@@ -23,7 +23,7 @@ import defusedxml.ElementTree
 from openpyxl import LXML, Workbook, load_workbook
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.project.read.scan import REOPEN, UsedRange, Scan, scan_parts
+from report.project.read.scan import REOPEN, Scan, UsedRange, scan_parts
 from solver.files import check_length, read_file
 from solver.model import DefectError, InputError
 from solver.suggestions import meant

@@ -128,7 +128,8 @@ def test_the_example_is_plainly_ok_and_its_first_sheet_says_what_other_inputs_co
     assert "entered, at or below the tests from 0.10 in/s (2.5 mm/s) to 8.00 in/s" in inputs
     assert inputs.line("Array A3 with μ = 0.40 at every velocity, all motions rerun")
     assert re.search(r"All \d+ checks are satisfied\.\n", first)
-    assert "Under ASCE 7-16 13.6.12, with the same motions and SDS: NG, A1 to RTU-1 65.3" in first
+    assert "Under ASCE 7-16 13.6.12, with the same motions and SDS: NG, fire pathway" in first
+    assert "clearance A1 to RTU-1 (D/C 1.36)" in first
     assert "A3 with μ = 0.40 at every velocity: design displacement 80.0 in" in first
 
 
