@@ -13,6 +13,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
+from solver.forces import friction_demand
 from solver.model import (
     STANDARD_GRAVITY_MPS2,
     Friction,
@@ -373,6 +374,7 @@ def constant_friction() -> None:
     """Two axes, and one, with constant friction."""
     shaken = _shaken(coulomb(0.3))
     history(shaken, solve(shaken))
+    friction_demand(shaken)  # which tipping is computed from
     slide(_SHAKING, _DT_S, slope_rad=0.03, mu=0.3, az_mps2=0.1 * _SHAKING)
 
 
