@@ -52,7 +52,9 @@ def test_closest_points_overlaps_and_rings_by_hand():
     assert ring(L_SHAPE.points) == L_SHAPE.points
 
 
-boxes = st.tuples(*[st.floats(-20.0, 20.0), st.floats(0.1, 20.0)] * 2).map(
+# No roof has a coordinate of 1e-308 m, where the polygons' own arithmetic ends.
+places = st.floats(-20.0, 20.0, allow_subnormal=False)
+boxes = st.tuples(*[places, st.floats(0.1, 20.0)] * 2).map(
     lambda r: Rectangle(r[0], r[0] + r[1], r[2], r[2] + r[3])
 )
 
