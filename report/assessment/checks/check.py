@@ -204,11 +204,12 @@ def _texts(check: Check, us_first: bool, *, is_both: bool = True) -> tuple[str, 
 
 
 def words(check: Check, array: str = "") -> str:
-    """Return a check in a few words, such as `roof slope A1 (D/C 1.29)`; in the row of an array."""
+    """Return a check in a few words: `roof slope of A1 (D/C 1.29)`; or in the row of an array."""
     name = lowered(check.title)
-    name += f" {check.subject}" if check.subject not in ("", array) else ""
+    if check.subject not in ("", array):
+        name += f" {check.subject}" if check.id in PAIRS else f" of {check.subject}"
     if math.isinf(check.ratio) and isinstance(check.found, str):
-        return f"{name} {check.found}"
+        return f"{name}: {check.found}"
     if isinstance(check.limit, Amount) and check.limit.quantity is Quantity.COUNT:
         found, limit = _texts(check, us_first=True)
         return f"{name} ({found}, {check.sense.words} {limit})"
