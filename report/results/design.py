@@ -361,7 +361,7 @@ def _row(
         formulas=formulas,
         blanks={"difference"} if math.isnan(item.design_m) else (),
         marks={
-            "prescriptive_m": item.prescriptive_mark(),
+            "prescriptive_m": item.overridden.prescriptive,
             "computed_m": item.overridden.analysis,
             "floor_m": item.overridden.floor,
             "interconnection_n": item.overridden.interconnection,

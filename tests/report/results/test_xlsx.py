@@ -189,6 +189,15 @@ def test_without_a_value_or_a_route_the_workbook_has_no_verdict():
     assert rows_of(values["Links"], 4)[0]["Verdict"] == "NG"
 
 
+def test_a_number_is_marked_as_changed_only_where_an_override_changes_it():
+    # Its slope is beyond the limit of the prescriptive procedure, and nothing is overridden.
+    steep = scenes.shipped("school")
+    assert not steep.is_overridden
+    book = openpyxl.load_workbook(io.BytesIO(results_xlsx(steep, spectra(steep))))
+    formats = {cell.number_format for row in book["Design"].iter_rows() for cell in row}
+    assert not any("‡" in shown for shown in formats)
+
+
 def test_texts_stay_texts_and_two_runs_give_the_same_bytes(content, usual):
     _, formulas, _ = made(arrays=[stand_in.array("=1+1", 1.0)], clearances=[])
     for sheet in ("Design", "Runs"):
