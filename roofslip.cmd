@@ -71,8 +71,7 @@ goto next_word
 
 :asked
 if not defined asked exit /b 1
-if "%asked%"=="version" call :version 2>nul
-if "%asked%"=="version" exit /b 0
+if "%asked%"=="version" goto version
 for /f "tokens=1,2" %%a in ("%words% roofslip") do (
     set "title=## %%a %%b"
     call :print_section 2>nul
@@ -97,7 +96,12 @@ for /f "usebackq delims=" %%a in ("%here%\docs\commands.md") do (
 if defined found exit /b 0
 exit /b 1
 
+rem Of which commit it is, the program knows.
 :version
+call :is_set_up test
+if not errorlevel 1 exit /b 1
+call :is_set_up commands
+if not errorlevel 1 exit /b 1
 for /f "usebackq tokens=1,3" %%a in ("%here%\pyproject.toml") do if "%%a"=="version" echo roofslip, version %%~b
 exit /b 0
 

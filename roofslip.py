@@ -4,7 +4,6 @@ Loads `solver` and `report` from its own folder: a file solver.py beside a noteb
 """
 
 import sys
-from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,7 +31,9 @@ for _package in (solver, report):
 def __getattr__(name: str) -> Any:
     """Return a public name of `report` or of `solver`; the latter are loaded with the first."""
     if name == "__version__":
-        return metadata.version("roofslip")
+        from report.provenance.release import version
+
+        return version()
     if name == "__all__":
         return [*solver.__all__, *report.__all__]
     return getattr(report if name in report.__all__ else solver, name)

@@ -9,6 +9,7 @@ manual are cut at their last line; the page is shot as a browser shows it.
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from collections import Counter
@@ -30,6 +31,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PICTURES = ROOT / "docs" / "pictures"
 WIDTH = 800
 sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
+os.environ["ROOFSLIP_VERSION"] = "0.4.0"  # the same at every commit
 
 SHEETS = {
     "summary.png": ("1 Summary", 1.0),

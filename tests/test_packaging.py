@@ -28,7 +28,7 @@ TOP_LEVEL = {
     "pyproject.toml", "requirements.lock", "README.md", "roofslip", "solver", "report", "templates",
     "projects", "tests", "docs", "mkdocs.yml", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md",
     "CITATION.cff", "LICENSE", ".ci", ".gitignore", ".pre-commit-config.yaml", "Dockerfile",
-    ".dockerignore", "roofslip.py", "roofslip.cmd", ".gitattributes",
+    ".dockerignore", "roofslip.py", "roofslip.cmd", ".gitattributes", ".git_archival.json",
 }  # fmt: skip
 
 
@@ -165,7 +165,7 @@ def test_help_needs_nothing_installed(launched, words, command):
 
 @pytest.mark.quick
 def test_the_version_needs_nothing_installed(launched, tmp_path):
-    version = PROJECT["project"]["version"]
+    version = PROJECT["tool"]["roofslip"]["version"]
     assert launched("--version") == f"roofslip, version {version}\n"
     path = f"{tmp_path}:{os.environ['PATH']}"
     told = launched("--help", program=tmp_path / "roofslip", path=path)

@@ -37,6 +37,7 @@ from report.cli.terminal import (
     unwritten,
 )
 from report.libraries import stay_apart
+from report.provenance.release import version
 from report.text.counts import called
 
 # Set by the script in which the shell asks for completions.
@@ -106,7 +107,8 @@ def doctor() -> None:
 def _checks() -> Iterator[tuple[str, Callable[[str], str | None], str]]:
     """Yield each check: a name, what finds it, and what to do where it finds nothing or fails."""
     import platform
-    from importlib.metadata import requires, version
+    from importlib.metadata import requires
+    from importlib.metadata import version as installed
 
     from report.libraries import library
 
@@ -114,10 +116,10 @@ def _checks() -> Iterator[tuple[str, Callable[[str], str | None], str]]:
     yield "cores", lambda _: str(os.cpu_count()), ""
     launcher = os.path.join(".", "roofslip")
     locked = f"install it: {launcher} does so from requirements.lock"
-    yield "roofslip", version, locked
+    yield "roofslip", lambda _: version(), locked
     # Extras have a marker after a semicolon: a package needs none of them.
     for requirement in (each for each in requires("roofslip") or () if ";" not in each):
-        yield re.split("[<>=!~]", requirement)[0], version, locked
+        yield re.split("[<>=!~]", requirement)[0], installed, locked
     for name, package in NATIVE.items():
         debian = f"install it: sudo apt-get install {package}"
         yield name, library, locked if sys.platform == "win32" else debian
@@ -178,10 +180,18 @@ class _Commands(SectionedGroup):
         sys.exit(INTERRUPTED)
 
 
+def _print_version(ctx: click.Context, _: click.Parameter, is_asked: bool) -> None:
+    # Looked up where it is printed: in a checkout, git is asked.
+    if is_asked and not ctx.resilient_parsing:
+        click.echo(f"roofslip, version {version()}")
+        ctx.exit()
+
+
 @click.group(
     cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 96}
 )
-@click.version_option(package_name="roofslip", prog_name="roofslip")
+@click.option("--version", is_flag=True, expose_value=False, is_eager=True, callback=_print_version,
+              help="Show the version and exit.")  # fmt: skip
 def main() -> None:
     """Calculation packages for the seismic sliding of ballasted rooftop solar arrays.
 

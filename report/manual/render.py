@@ -10,7 +10,6 @@ import math
 import os
 import platform
 from collections.abc import Callable, Mapping, Sequence
-from importlib import metadata
 from typing import Any
 
 import numpy as np
@@ -27,6 +26,7 @@ from report.manual.precision import conditioning, convergence, curves, floor, li
 from report.pages.parts import verdict
 from report.pages.symbols import with_symbols
 from report.provenance.files import installed, processor
+from report.provenance.release import version
 from report.text.counts import grouped_by, lettered
 from report.text.formats import (
     NOT_VALIDATED,
@@ -90,7 +90,7 @@ def this_machine() -> dict[str, str]:
     """Return labels with versions or descriptions."""
     # Without names of persons, hosts or paths: the manual is handed on.
     return {
-        "Roofslip": metadata.version("roofslip"),
+        "Roofslip": version(),
         "Python": platform.python_version(),
         **{name: installed(name) for name in _LIBRARIES},
         "Processor": processor(),

@@ -13,7 +13,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from enum import StrEnum
-from importlib.metadata import version
 from itertools import zip_longest
 from pathlib import Path
 from typing import Any, TypeVar
@@ -27,6 +26,7 @@ from report.project.read.archive import MAX_FILE, MAX_MEMBERS, MAX_TOTAL, MB
 from report.proof.contents import differences, first_other_word, guarded, parsed, refused, words
 from report.proof.signatures import Appended, Signature, appended
 from report.provenance.files import MANIFEST, RESULTS, SCHEMA_VERSION, Listed, Manifest
+from report.provenance.release import version
 from solver.files import read_file, within
 from solver.model import InputError
 from solver.suggestions import meant
@@ -288,13 +288,13 @@ def failed(package: OpenedPackage, problems: Sequence[str]) -> Proof:
     """Return the outcome for a package whose input does not run here."""
     reason = f"its input does not run: {'; '.join(problems)}"
     # What another version accepted may be refused here, and is then no sign of tampering.
-    if package.manifest.roofslip_version == version("roofslip"):
+    if not _is_other(package.manifest.roofslip_version):
         return Proof(answer=Agreement.DIFFERS, reasons=(reason,))
     return Proof(answer=Agreement.PARTLY, reasons=(_other_version(package.manifest), reason))
 
 
 def _not_compared(theirs: Manifest, ours: Manifest) -> str:
-    if theirs.roofslip_version != ours.roofslip_version:
+    if _is_other(theirs.roofslip_version):
         return f"{_other_version(theirs)}; words and drawings not compared: {_READ}"
     others = [
         f"{name} {theirs.environment.get(name, 'none')} (here {here})"
@@ -306,6 +306,11 @@ def _not_compared(theirs: Manifest, ours: Manifest) -> str:
 
 
 _READ = "read the package made again"
+
+
+def _is_other(theirs: str) -> bool:
+    # Of an unknown commit, or of one that was edited, there are many programs of the same name.
+    return theirs != version() or theirs.endswith(("+unknown", ".dirty"))
 
 
 def _other_version(theirs: Manifest) -> str:
@@ -322,9 +327,8 @@ def _reasons(
     # What is appended may replace a sheet, where nobody has looked at it.
     if is_same and later.is_checked:
         return
-    theirs, ours = package.manifest, made.manifest
     # Versions differ in which keys they write, and in the words of their pages.
-    is_shared = theirs.roofslip_version != ours.roofslip_version
+    is_shared = _is_other(package.manifest.roofslip_version)
     if not is_shared:
         listed = (_listing(package), _listing(made))
         yield from (f"{MANIFEST}: {text}" for text in differences(*listed))

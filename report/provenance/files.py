@@ -16,7 +16,6 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib import metadata
-from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated
 
@@ -26,6 +25,7 @@ from report.motions.components import RecordFile
 from report.motions.files import BAR, MOST_RECORDS
 from report.motions.prepare import Shaking
 from report.project.read.read import Sheet
+from report.provenance.release import version
 from report.typeset.finish import Attached
 from solver.model import InputError
 
@@ -47,7 +47,7 @@ _LIBRARIES = (
 @cache
 def versions() -> Mapping[str, str]:
     """Return the versions that a package prints, by name, without what is not installed."""
-    by_name = {"roofslip": metadata.version("roofslip"), "python": platform.python_version()}
+    by_name = {"roofslip": version(), "python": platform.python_version()}
     for name in _LIBRARIES:
         with suppress(metadata.PackageNotFoundError):
             by_name[name] = metadata.version(name)
@@ -155,7 +155,7 @@ def fingerprint(sheet: Sheet, shaking: Shaking) -> str:
     """Return the hash of workbook, records, documents and version at the foot of every sheet."""
     # Order counts: records that are exchanged give other runs, with the same hashes.
     lines = [
-        version("roofslip"),
+        version(),
         sheet.sha256,
         *shaking.hashes,
         *(f"{document.label} {document.sha256}" for document in sheet.documents),
@@ -233,7 +233,7 @@ def attachments(files: Sequence[SourceFile], results: bytes, short: str) -> tupl
     own = SourceFile(path=RESULTS, name=RESULTS, content=results, kind="results")
     document = Manifest(
         schema_version=SCHEMA_VERSION,
-        roofslip_version=version("roofslip"),
+        roofslip_version=version(),
         hash=short,
         has_records=has_records,
         files=tuple(source.listed for source in (*files, own)),

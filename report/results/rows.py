@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from importlib.metadata import version
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.causes import came_to
@@ -25,6 +24,7 @@ from report.project.model.choices import Direction
 from report.project.model.fields import Finding, Place
 from report.project.model.motions import BuildingInput
 from report.project.read.linked_files import Document
+from report.provenance.release import version
 from report.results import model
 from report.runs import MotionRun, OrientedRun
 from report.text.amounts import Amount
@@ -41,7 +41,7 @@ def results(assessment: Assessment, evidence: Evidence) -> model.Results:
     pairs = zip(shaking.motions, shaking.prepared, strict=True)
     return model.Results(
         schema_version=model.SCHEMA_VERSION,
-        roofslip_version=version("roofslip"),
+        roofslip_version=version(),
         workbook=model.WorkbookResult(name=sheet.path.name, sha256=sheet.sha256),
         records=tuple(map(_record, shaking.records)),
         documents=tuple(map(_document, sheet.documents)),
@@ -74,7 +74,7 @@ def results(assessment: Assessment, evidence: Evidence) -> model.Results:
 def compared(assessment: Assessment) -> model.Compared:
     """Return what a later revision is compared with."""
     return model.Compared(
-        roofslip_version=version("roofslip"),
+        roofslip_version=version(),
         records=tuple(map(_record, assessment.shaking.records)),
         documents=tuple(map(_document, assessment.sheet.documents)),
         input=assessment.project,

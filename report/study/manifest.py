@@ -19,7 +19,6 @@ import sys
 import tempfile
 from collections.abc import Mapping
 from contextlib import suppress
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +27,7 @@ from pydantic_core import from_json
 
 import solver
 from report.provenance.files import installed, processor
+from report.provenance.release import version
 from report.text.units import G_MPS2
 from solver.model import InputError, Motion
 from solver.studies.runs import SETTINGS, Campaign
@@ -47,7 +47,7 @@ _LIBRARIES = ("numpy", "numba", "llvmlite", "pyarrow")
 def program() -> dict[str, str]:
     """Return the versions that a row depends on, and the SHA-256 of the solver's source."""
     return {
-        "roofslip": version("roofslip"),
+        "roofslip": version(),
         "python": platform.python_version(),
         **{name: installed(name) for name in _LIBRARIES},
         # A checkout has one version through many changes: the source tells whether rows may

@@ -14,7 +14,6 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from importlib.metadata import version
 from typing import Any
 
 import numpy as np
@@ -24,6 +23,7 @@ from report.figures.base import png_bytes
 from report.figures.spectra import spectra
 from report.motions.history import TargetSpectrum
 from report.motions.measured import facts, without_noise
+from report.provenance.release import version
 from report.suite.inputs import Seeds, SuiteTargets
 from report.text.amounts import limit_texts
 from report.text.formats import aligned
@@ -187,7 +187,7 @@ def _document(
     record, hold_s = suite[0].x, suite[0].hold_s
     duration_s = (len(record.a_mps2) - 1) * record.dt_s
     return {
-        "roofslip_version": version("roofslip"),
+        "roofslip_version": version(),
         "seed": seed,
         "source": targets.source(seed),
         "seed_records": [{"file": name, "sha256": digest} for name, digest in records.items()],

@@ -7,7 +7,6 @@ from click.testing import CliRunner
 from pydantic import TypeAdapter, ValidationError
 
 import inputs
-import roofslip
 from inputs import SITE
 from nightly import by_day
 from report.cli.main import main
@@ -297,8 +296,3 @@ def test_inputs_that_are_not_there_or_at_fault_are_refused(tmp_path):
     sheet = read(type_into(make(tmp_path), {"Arrays/A1/Weight": "heavy"}))
     with pytest.raises(InputError, match="weight is 'heavy'"):
         sheet.with_(arrays=[])
-
-
-@pytest.mark.quick
-def test_the_version_is_that_of_the_distribution():
-    assert roofslip.__version__.count(".") >= 2

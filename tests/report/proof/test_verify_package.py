@@ -84,6 +84,18 @@ def test_a_package_is_the_same_to_the_byte_unless_a_record_was_changed(whole, af
 
 
 @pytest.mark.nightly
+def test_a_package_of_another_commit_is_that_of_other_software(whole, tmp_path):
+    program = [sys.executable, "-m", "report.cli", "verify-package"]
+    out = [whole / "out" / "calc-package.pdf", "--out", tmp_path / "again.pdf"]
+    env = os.environ | {"ROOFSLIP_VERSION": "0.4.0.dev2+12345678"}
+    done = subprocess.run(
+        [*program, *out], cwd=ROOT, env=env, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 4, done.stderr
+    assert "Roofslip 0.4.0 made it: install that version to compare all of it" in done.stdout
+
+
+@pytest.mark.nightly
 def test_a_painted_package_is_not_compared_in_full_and_is_made_again_beside_it(whole, given):
     data = (whole / "out" / "calc-package.pdf").read_bytes()
     path = given(data, tampering.painted_over)

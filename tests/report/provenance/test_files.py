@@ -4,7 +4,6 @@ import re
 import shutil
 from dataclasses import replace
 from importlib import metadata
-from importlib.metadata import version
 from pathlib import Path
 
 import pytest
@@ -29,6 +28,7 @@ from report.provenance.files import (
     sources,
     versions,
 )
+from report.provenance.release import version
 from report.results.results_json import results_json
 from report.web.open_project import open_project
 from sheets import type_into
@@ -55,7 +55,7 @@ def test_workbook_records_and_a_document_are_attached_once_as_they_lie(job, tmp_
     assert len(found) == 25
     contents, listed = attached(found)
     assert contents.keys() == {*(source.path for source in found), "results.json", "roofslip.json"}
-    assert listed["roofslip_version"] == version("roofslip")
+    assert listed["roofslip_version"] == version()
     assert (listed["hash"], listed["has_records"]) == ("abc", True)
     for source, entry in zip(found, listed["files"][:-1], strict=True):
         content = (EXAMPLE / entry["path"]).read_bytes()
@@ -95,7 +95,7 @@ def test_what_changed_meanwhile_is_an_input_error_and_changes_the_hash(job, tmp_
         (sheet, replace(shaking, records=(*swapped, *others))),
     ]
     hashes = [fingerprint(*pair) for pair in given]
-    monkeypatch.setattr(files, "version", lambda name: "9.9")
+    monkeypatch.setattr(files, "version", lambda: "9.9")
     hashes.append(fingerprint(sheet, shaking))
     assert len(set(hashes)) == 5
     assert all(len(short) == 12 for short in hashes)
