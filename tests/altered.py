@@ -20,7 +20,7 @@ from report.assessment.assess import assess
 from report.assessment.project import Assessment
 from report.motions.prepare import prepare
 from report.project.model import ProjectInput
-from report.project.model.fields import Frozen
+from report.project.model.frozen import Frozen
 from report.project.read.read import Sheet
 from report.project.workbook import SECTION
 from report.project.write.template import write_template

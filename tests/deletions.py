@@ -18,7 +18,7 @@ from report.assessment.checks.check import Check
 from report.assessment.project import Assessment
 from report.assessment.verdict import PLAN_ROW, Verdict
 from report.motions.prepare import Shaking, prepare
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.project.read.archive import OpenBook, open_book
 from report.project.read.read import Sheet, read_book
 from report.project.workbook import SECTION

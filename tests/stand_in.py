@@ -159,7 +159,7 @@ def sheet(data):
     """What the workbook reader gives for an input."""
     return Made(
         path=Path("input.xlsx"), sha256="5f" * 32, book=None, whole=ProjectInput,
-        sections=workbook.SECTIONS, draft={}, echo=tuple(_echo(data)), problems=(), addresses={},
+        sections=workbook.SECTIONS, inputs={}, echo=tuple(_echo(data)), problems=(), addresses={},
         unfound=frozenset(), unseen=(), warnings=(), made=data,
     )  # fmt: skip
 

@@ -176,7 +176,7 @@ def test_a_new_project_on_a_full_disk_says_so_and_leaves_nothing(tmp_path, monke
 
 @pytest.mark.nightly
 def test_a_plan_with_its_clearances_is_one_write(folder, monkeypatch):
-    before, replaced, rename = len(read(folder).draft["arrays"]), [], os.replace
+    before, replaced, rename = len(read(folder).inputs["arrays"]), [], os.replace
 
     def renamed(source, target):
         replaced.append(Path(target).name)
@@ -185,7 +185,7 @@ def test_a_plan_with_its_clearances_is_one_write(folder, monkeypatch):
     monkeypatch.setattr(os, "replace", renamed)
     commands.printed(*writes("plan read", folder))
     assert replaced == ["input.before.xlsx", "input.xlsx"]
-    assert len(read(folder).draft["arrays"]) == before + 1
+    assert len(read(folder).inputs["arrays"]) == before + 1
 
 
 HOLDS_S = 3.0

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from openpyxl import load_workbook
 
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.project.read.read import read
 from report.project.workbook import SECTIONS
 
@@ -20,7 +20,7 @@ def typed_cells(workbook: Path) -> dict[str, dict[str, str]]:
     sheet, book = read(workbook), load_workbook(workbook)
     found: dict[str, dict[str, str]] = {section.sheet: {} for section in SECTIONS}
     for section in SECTIONS:
-        for row, values in enumerate(sheet.draft[section.key]):
+        for row, values in enumerate(sheet.inputs[section.key]):
             for entry in section.entries:
                 if values.get(entry.name) not in (None, "", entry.default):
                     address = sheet.where(Place(section.key, row, entry.name))

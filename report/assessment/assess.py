@@ -30,7 +30,7 @@ from report.motions.prepare import Shaking
 from report.project.check.checks import faults
 from report.project.check.covered import outdated
 from report.project.model import ProjectInput, linked
-from report.project.model.fields import Finding
+from report.project.model.finding import Finding
 from report.project.read.read import Sheet
 from report.project.workbook import SECTIONS
 from report.runs import Runs
@@ -142,11 +142,11 @@ def refused(data: ProjectInput, changed: ProjectInput) -> list[Finding]:
 
 
 def _faults(data: ProjectInput) -> list[Finding]:
-    draft = dict[str, list[dict[str, Any]]]()
+    inputs = dict[str, list[dict[str, Any]]]()
     for part in SECTIONS:
         rows = getattr(data, part.key)
-        draft[part.key] = [dict(row) for row in (rows if part.is_table else (rows,))]
-    return faults(draft, lambda place: place.section)
+        inputs[part.key] = [dict(row) for row in (rows if part.is_table else (rows,))]
+    return faults(inputs, lambda place: place.section)
 
 
 def changed(data: ProjectInput, **sections: Any) -> ProjectInput:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from report.assessment.verdict import Verdict
 from report.project.model import ProjectInput
 from report.project.model.choices import DistanceBasis, ObjectKind
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.project.model.scene import Array, Clearance
 from report.project.model.shapes import Point, Polygon, Rectangle, Shape, gap_m, sides, spans_near
 from report.text.amounts import capacity, demand, shown_in_order

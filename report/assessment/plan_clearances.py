@@ -16,7 +16,7 @@ from report.assessment.routes import prescriptive_of
 from report.assessment.verdict import Verdict, rule_set_of
 from report.project.model import ProjectInput
 from report.project.model.choices import ClearanceSource, Direction, ObjectKind
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.project.model.scene import RoofObject
 from report.project.model.shapes import Point, Shape, closest
 from report.project.read.parts import DIGITS, GrowingTable, Value
@@ -110,7 +110,7 @@ def missing_rows(
 def without_clearances(sheet: Sheet) -> Sheet:
     """Return a workbook without its clearances, on which no displacement depends, to be run."""
     problems = tuple(item for item in sheet.problems if item[0].section != "clearances")
-    return replace(sheet, draft={**sheet.draft, "clearances": ()}, problems=problems)
+    return replace(sheet, inputs={**sheet.inputs, "clearances": ()}, problems=problems)
 
 
 def _has_row(near: PlanNeighbor) -> bool:
@@ -157,7 +157,7 @@ def _renewed(
     table: GrowingTable, data: ProjectInput, pairs: Sequence[PlanNeighbor]
 ) -> tuple[dict[CellPosition, Value], list[str]]:
     """Return the cells of rows from the drawing that differ from the plan, and a line for each."""
-    rows = {table.position(row, "provided_m").address: row for row in table.inputs.rows}
+    rows = {table.position(row, "provided_m").address: row for row in table.found.rows}
     downslope_deg = {array.id: array.downslope_deg for array in data.arrays}
     cells: dict[CellPosition, Value] = {}
     lines: list[str] = []
@@ -191,7 +191,7 @@ def _from_drawing(table: GrowingTable, direction: Direction, drawn_m: float) -> 
     return {
         "direction": direction.value,
         # Down once more: 0.1 in is no round number of feet.
-        "provided_m": round_down(drawn_m / table.inputs.columns["provided_m"].si, DIGITS),
+        "provided_m": round_down(drawn_m / table.found.columns["provided_m"].si, DIGITS),
         "source": ClearanceSource.DRAWING.value,
     }
 

@@ -34,7 +34,8 @@ from report.project.check.findings import acknowledged, limit, listed, note
 from report.project.check.plausible import implausible
 from report.project.model import ProjectInput
 from report.project.model.choices import RecordedAt
-from report.project.model.fields import Finding, Place
+from report.project.model.finding import Finding
+from report.project.model.place import Place
 from report.project.read.read import Sheet
 from report.project.read.unseen import warnings
 from report.text.counts import numbered, quoted

@@ -26,7 +26,7 @@ from report.text.counts import command, numbered
 
 if TYPE_CHECKING:
     from report.motions.prepare import Shaking
-    from report.project.model.fields import Finding
+    from report.project.model.finding import Finding
     from report.project.read.read import Sheet
 
 
@@ -99,7 +99,7 @@ def _without_motions(sheet: Sheet, shaking: Shaking) -> Iterator[Finding]:
     from report.assessment.assess import assess
     from report.pages.summary import without_analysis
     from report.project.check.findings import note
-    from report.project.model.fields import Place
+    from report.project.model.place import Place
 
     # Without motions nothing is run, so that the assessment is at hand before the report.
     yield note(Place("motions"), without_analysis(assess(sheet, shaking)))
@@ -108,7 +108,7 @@ def _without_motions(sheet: Sheet, shaking: Shaking) -> Iterator[Finding]:
 def _computed(sheet: Sheet) -> Iterator[Finding]:
     """Yield what blank cells of the site stand for, by which rule."""
     from report.project.check.findings import note
-    from report.project.model.fields import Place
+    from report.project.model.place import Place
     from report.project.workbook import SECTION
 
     site = SECTION["site"]
@@ -123,7 +123,7 @@ def _computed(sheet: Sheet) -> Iterator[Finding]:
 def _in_future(sheet: Sheet, today: dt.date) -> Iterator[Finding]:
     """Yield that a package is dated after today."""
     from report.project.check.findings import note
-    from report.project.model.fields import Place
+    from report.project.model.place import Place
 
     date = sheet.project.project.date
     if date > today:
@@ -156,7 +156,7 @@ def _document(sheet: Sheet, findings: Iterable[Finding]) -> dict[str, Any]:
 
 
 def _summary(sheet: Sheet, shaking: Shaking, findings: Iterable[Finding]) -> str:
-    from report.project.model.fields import Level
+    from report.project.model.finding import Level
 
     data = sheet.project
     levels = [finding.level for finding in findings]

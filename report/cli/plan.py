@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from report.drawing_read.plan_read import DrawnOutline
     from report.drawing_read.roof_drawing import RoofDrawing
     from report.project.model.choices import LayerKind
-    from report.project.model.fields import DraftRow
+    from report.project.model.input_rows import InputRow
     from report.project.write.filled import WorkbookChange
 
 
@@ -158,19 +158,19 @@ def read(
 
     gap_m = gap[0] * LENGTHS[gap[1]]
     with input_errors(project), changing(project) as change:
-        draft = change.sheet_before.draft
-        is_us = us_first(draft)
+        inputs = change.sheet_before.inputs
+        is_us = us_first(inputs)
         with input_errors(drawing):
             with Progress() as progress:
                 progress("reading the drawing")
                 drawn, unit_m = _read(drawing, units)
             # Outside of a progress, whose line would be written over the table of layers.
             drawn, turn = _turned(drawn, rotate)
-            layers = choose(drawn, layers_of(draft), kinds, accept)
+            layers = choose(drawn, layers_of(inputs), kinds, accept)
             with Progress() as progress:
                 progress("finding the plan in the drawing")
                 told, layers = plan_as_rows(
-                    drawn, unit_m, draft, layers, gap_m, is_unit_given=units is not None
+                    drawn, unit_m, inputs, layers, gap_m, is_unit_given=units is not None
                 )
         cells, told_lines = changes(change.book, told, layers, replace=replace)
         change.fill(cells)
@@ -334,8 +334,8 @@ def ballast(
         rows = read_map(ballast_map, LENGTHS[units])
     with input_errors(project), changing(project) as change:
         sheet = read_book(change.book)
-        shapes = shapes_of(sheet.draft)
-        arrays = {row["id"]: row for row in sheet.draft["arrays"] if row.get("id") in shapes}
+        shapes = shapes_of(sheet.inputs)
+        arrays = {row["id"]: row for row in sheet.inputs["arrays"] if row.get("id") in shapes}
         blocks, outside = loads(rows, {name: shapes[name] for name in arrays})
         if not blocks:
             what = "no block of the map is within an array of the plan"
@@ -345,7 +345,7 @@ def ballast(
         bare = [name for name in arrays if name not in blocks] if replace else []
         filled = ballast_changes(change.book, {**weights, **dict.fromkeys(bare)}, replace=replace)
         change.fill(filled)
-    is_us = us_first(sheet.draft)
+    is_us = us_first(sheet.inputs)
     for name, row in arrays.items():
         text = _balance(row, blocks[name], weights[name], is_us) if name in blocks else "no blocks"
         if name not in blocks and row.get("ballast_n") is not None:
@@ -359,7 +359,7 @@ def ballast(
     say_next(project, change.has_formulas)
 
 
-def _balance(row: DraftRow, load: Load, ballast_n: float, is_us: bool) -> str:
+def _balance(row: InputRow, load: Load, ballast_n: float, is_us: bool) -> str:
     """Return the ballast of an array and its center of gravity, as far as weights are known."""
     from report.drawing_read.ballast import center_of_gravity
     from report.text.units import Quantity, pair

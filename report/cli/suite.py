@@ -95,7 +95,7 @@ def suite(
     click.echo(f"{folder}: {len(files) - 2} records, suite.json, suite.png; seed {seed}")
     if sheet:
         renewed = len(
-            {row["id"] for row in rows} & {row.get("id") for row in sheet.draft["motions"]}
+            {row["id"] for row in rows} & {row.get("id") for row in sheet.inputs["motions"]}
         )
         also = f", {renewed} renewed" if renewed else ""
         added = f"{numbered(count - renewed, 'row')} added to the sheet Motions{also}"

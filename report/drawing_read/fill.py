@@ -27,7 +27,7 @@ from report.drawing_read.roof_drawing import RoofDrawing
 from report.project.check.findings import listed
 from report.project.check.plan_checks import far_off, roof_of, shapes_of, us_first
 from report.project.model.choices import LayerKind
-from report.project.model.fields import Draft, DraftRow
+from report.project.model.input_rows import InputRow, Inputs
 from report.project.model.scene import DRAWING, DRAWN_MODULES, ROOF, SIDES
 from report.project.model.shapes import (
     Polygon,
@@ -74,7 +74,7 @@ class MatchedPlan:
     move: Move | None  # of the plan as a whole; None where it cannot be told
     before: Mapping[str, Shape]  # where the rows were, moved with the whole
     rows_m: Mapping[str, Shape]  # where they were
-    rows: Mapping[str, DraftRow]  # as they were
+    rows: Mapping[str, InputRow]  # as they were
     unit: Unit  # of places in what is said
 
     def lines(self, *, replace: bool) -> Iterator[str]:
@@ -108,7 +108,7 @@ class MatchedPlan:
                 yield f"{place.name}: {count} modules {what}"
 
 
-def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
+def matched(plan: RoofPlan, inputs: Inputs) -> MatchedPlan:
     """Return a plan with the names of the rows of a workbook.
 
     Raises `InputError` with the candidates, for what cannot be told.
@@ -116,11 +116,11 @@ def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
     # An outline with the name of a row in the drawing is that row. The others are told by place
     # among the rows that are left: by what they have in common, then by the nearest center of the
     # same size. What is left is new.
-    known = [*draft["arrays"], *draft["objects"]]
+    known = [*inputs["arrays"], *inputs["objects"]]
     rows = {row["id"]: row for row in known if "id" in row}
-    groups = {row["id"]: _group(row.get("kind", "")) for row in draft["objects"] if "id" in row}
-    was = shapes_of(draft)
-    unit = Quantity.PLAN.us if us_first(draft) else Quantity.PLAN.si
+    groups = {row["id"]: _group(row.get("kind", "")) for row in inputs["objects"] if "id" in row}
+    was = shapes_of(inputs)
+    unit = Quantity.PLAN.us if us_first(inputs) else Quantity.PLAN.si
     drawn = (*plan.arrays, *plan.objects)
     by_name = {(groups.get(name, _ARRAY), name.casefold()): name for name in was}
     by_row = {
@@ -136,7 +136,7 @@ def matched(plan: RoofPlan, draft: Draft) -> MatchedPlan:
     ]
     now = [(by_row.get(k, _group(place.kind)), place.shape) for k, place in enumerate(drawn)]
     named = [(was[name], drawn[number].shape) for number, name in by_row.items()]
-    roof = roof_of(draft)
+    roof = roof_of(inputs)
     move = whole_move((roof, plan.roof_shape), keyed, now, named)
     moved = move or Move()
     before = {name: moved.of(shape) for name, shape in was.items()}
@@ -205,7 +205,7 @@ def _group(kind: str) -> str:
     return _ARRAY if kind == LayerKind.ARRAY else _EDGE if kind.startswith("edge") else _OBJECT
 
 
-def _is_drawn(row: DraftRow) -> bool:
+def _is_drawn(row: InputRow) -> bool:
     return str(row.get("place_from", "")).startswith(DRAWING)
 
 
@@ -264,7 +264,7 @@ def _renamed(
     plan: RoofPlan,
     matches: Mapping[int, str],
     before: Mapping[str, Shape],
-    rows: Mapping[str, DraftRow],
+    rows: Mapping[str, InputRow],
 ) -> RoofPlan:
     drawn = (*plan.arrays, *plan.objects)
     taken = {name.casefold() for name in before}
@@ -295,16 +295,16 @@ def _place(shape: Shape, unit: Unit) -> str:
     return f"x {x}, y {y} {unit.symbol}"
 
 
-def layers_of(draft: Draft) -> dict[str, LayerKind]:
+def layers_of(inputs: Inputs) -> dict[str, LayerKind]:
     """Return what the sheet Layers says of layers."""
-    known = (row for row in draft["layers"] if {"layer", "kind"} <= row.keys())
+    known = (row for row in inputs["layers"] if {"layer", "kind"} <= row.keys())
     return {row["layer"]: row["kind"] for row in known}
 
 
 def plan_as_rows(
     drawn: RoofDrawing,
     unit_m: float,
-    draft: Draft,
+    inputs: Inputs,
     layers: Mapping[str, LayerKind],
     joined_m: float = GAP_M,
     *,
@@ -318,14 +318,14 @@ def plan_as_rows(
     Raises `InputError` if there is nothing to fill in; for sizes that few have, unless somebody
     has given the unit.
     """
-    is_us, said = us_first(draft), {**layers_of(draft), **layers}
+    is_us, said = us_first(inputs), {**layers_of(inputs), **layers}
     plan, known = plan_of(drawn, unit_m, said, joined_m, is_us), known_layers(said)
     if not (plan.roof or plan.arrays or plan.objects):
         _refuse(plan, drawn)
     if not is_unit_given:
         check_size(plan, drawn.unit, is_us)
     unknown = [line.layer for line in drawn.lines if line.layer.casefold() not in known]
-    told = matched(plan, draft)
+    told = matched(plan, inputs)
     if told.move and told.move.factor != 1.0 and not is_unit_given:
         size_m = LENGTHS[drawn.unit] / told.move.factor
         others = [u for u, m in LENGTHS.items() if math.isclose(m, size_m, rel_tol=1e-3)]
@@ -512,21 +512,21 @@ def _take_out(fill: _Fill, name: str) -> None:
             typed = "" if key == "outlines" or is_drawn else _typed(table, row, set())
             if typed:
                 lost.append(f"{table.position(row, columns[0]).address}: {typed}")
-            fill.cells |= table.cells(row, dict.fromkeys(table.inputs.columns))
+            fill.cells |= table.cells(row, dict.fromkeys(table.found.columns))
     if lost:
         fill.said.append(f"taken out with {name}: {'; '.join(lost)}")
 
 
 def _typed(table: GrowingTable, row: int, drawn: set[str]) -> str:
     """Return what the cells of a row say but for its name, its place and what is drawn."""
-    names = [name for name in table.inputs.columns if not table.cell(row, name).is_blank]
+    names = [name for name in table.found.columns if not table.cell(row, name).is_blank]
     passed = {"id", "place_from", *SIDES, *drawn}
     return ", ".join(_entered(table, row, name) for name in names if name not in passed)
 
 
 def _entered(table: GrowingTable, row: int, name: str) -> str:
     """Return a cell in words, such as `height 36 in`."""
-    label, unit = table.section.entry(name).spoken, table.inputs.columns[name].unit
+    label, unit = table.section.entry(name).spoken, table.found.columns[name].unit
     return f"{label} {table.cell(row, name).shown} {unit}".strip()
 
 
@@ -577,7 +577,7 @@ def _fill_outline(fill: _Fill, name: str, shape: Shape, source: str) -> None:
     if rows:
         fill.refuse(table.position(rows[0], "name"), f"the place of {name}")
     for row in rows:
-        fill.cells |= table.cells(row, dict.fromkeys(table.inputs.columns))
+        fill.cells |= table.cells(row, dict.fromkeys(table.found.columns))
     for x, y in points:
         place_m = {"x_m": table.number("x_m", x), "y_m": table.number("y_m", y)}
         values = {"name": name, **place_m, "source": source or None}

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.project.read.archive import OpenBook
 from report.project.read.cells import CellError, Found, check_saved, number
 from report.project.read.linked_files import path_beside

@@ -18,7 +18,9 @@ from report.motions.history import PreparedMotion, shake
 from report.project.check.findings import note, warning
 from report.project.check.motion_checks import FIELDS, LABELS
 from report.project.model import ProjectInput
-from report.project.model.fields import DraftRow, Finding, Place, Where
+from report.project.model.finding import Finding
+from report.project.model.input_rows import InputRow
+from report.project.model.place import Place, Where
 from report.project.read.read import Sheet
 from report.text.units import G_MPS2, Quantity
 from solver.model import Floats, Motion
@@ -32,7 +34,7 @@ class _Horizontal:
     """A horizontal record: its cell, its row, and its samples / the sample of largest size."""
 
     place: Place
-    row: DraftRow
+    row: InputRow
     shape: Floats
 
     def repeats(self, other: _Horizontal) -> bool:
@@ -44,7 +46,7 @@ class _Horizontal:
 
 
 def repeated(
-    rows: Sequence[DraftRow], by_motion: Mapping[int, Components], where: Where
+    rows: Sequence[InputRow], by_motion: Mapping[int, Components], where: Where
 ) -> Iterator[Finding]:
     """Yield each motion with a horizontal record of a motion above it.
 
@@ -70,7 +72,7 @@ def repeated(
 
 
 def _horizontal_records(
-    index: int, row: DraftRow, components: Components
+    index: int, row: InputRow, components: Components
 ) -> Iterator[tuple[tuple[int, int], _Horizontal]]:
     """Yield the horizontal records of a motion that are not all zeros, each with a key."""
     # Records that are the same have the same key: few others are then to be compared.
@@ -83,7 +85,7 @@ def _horizontal_records(
                 yield (len(a), at), _Horizontal(place, row, a / a[at])
 
 
-def _times(row: DraftRow) -> tuple[float, float]:
+def _times(row: InputRow) -> tuple[float, float]:
     return row["from_s"] or 0.0, math.inf if row["to_s"] is None else row["to_s"]
 
 
@@ -159,7 +161,7 @@ def read_records(sheet: Sheet) -> tuple[Components, ...]:
     by_motion: dict[int, Components] = {}
     faults: list[Finding] = []
     total = 0
-    for index, row in enumerate(sheet.draft["motions"]):
+    for index, row in enumerate(sheet.inputs["motions"]):
         total += bytes_of(sheet.book, {row[field] for field in LABELS if row.get(field)})
         if len(faults) > MOST_FAULTS or (faults and total > MAX_BESIDE_FAULTS):
             faults.append(Finding.error(Place("motions", index, "record"), *_NOT_READ))
@@ -172,7 +174,7 @@ def read_records(sheet: Sheet) -> tuple[Components, ...]:
                 by_motion[index] = components
             case wrong:
                 faults += wrong
-    faults += repeated(sheet.draft["motions"], by_motion, lambda place: sheet.addresses[place])
+    faults += repeated(sheet.inputs["motions"], by_motion, lambda place: sheet.addresses[place])
     sheet.refuse(faults)
     return tuple(by_motion.values())
 

@@ -36,7 +36,7 @@ from report.pages.parts import PackageData
 from report.pages.summary import remedy_lines
 from report.project.check.findings import lines
 from report.project.model.choices import ObjectKind
-from report.project.model.fields import Level
+from report.project.model.finding import Level
 from report.project.model.scene import Array, RoofObject
 from report.project.model.shapes import Polygon, Shape
 from report.text.counts import grouped_by

@@ -24,7 +24,7 @@ from report.document.templates import sentence as of_template
 from report.pages.array_tables import governing_name, ratio_words
 from report.pages.marks import Marked
 from report.project.check.findings import lines
-from report.project.model.fields import Level
+from report.project.model.finding import Level
 from report.text.counts import capitalized, grouped_by
 from report.text.formats import aligned, finite
 from report.text.units import no_less

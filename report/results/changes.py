@@ -14,8 +14,9 @@ from typing import Any, TypeVar
 from report.assessment.checks.check import condition
 from report.assessment.project import Assessment, Change, ChangeKind, Changes
 from report.project.check.covered import COVERED
-from report.project.model.choices import Direction
-from report.project.model.fields import Frozen, Place, YesNo
+from report.project.model.choices import Direction, YesNo
+from report.project.model.frozen import Frozen
+from report.project.model.place import Place
 from report.project.workbook import SECTIONS
 from report.project.workbook.entries import Entry, SheetSection
 from report.results.model import ArrayResult, ClearanceResult, Compared, ResultModel

@@ -16,8 +16,7 @@ from report.assessment.causes import unshown_cause
 from report.assessment.project import Assessment
 from report.assessment.routes import Route
 from report.assessment.verdict import MEANING, OVERRIDDEN, Verdict, worst
-from report.project.model.choices import Direction
-from report.project.model.fields import YesNo
+from report.project.model.choices import Direction, YesNo
 from report.results.lists import RUNS
 from report.results.sheets import (
     TOP,

@@ -20,7 +20,7 @@ from report.assessment.routes import Route
 from report.assessment.verdict import ItemVerdict, Verdict
 from report.project.model import ProjectInput
 from report.project.model.choices import Direction, DistanceBasis, RecordedAt
-from report.project.model.fields import Level
+from report.project.model.finding import Level
 from solver.model import Friction, Status
 from solver.records.measures import Measures
 from solver.rules.limit import Consequence

@@ -17,7 +17,8 @@ from pydantic_core import from_json
 from report.motions.files import BAR
 from report.project.check.findings import limit, lines
 from report.project.check.motion_checks import GENERATED, LABELS
-from report.project.model.fields import Finding, Place
+from report.project.model.finding import Finding
+from report.project.model.place import Place
 from report.project.read.archive import OpenBook
 from report.project.read.cells import Found
 from report.project.read.parts import GrowingTable, Value
@@ -156,7 +157,7 @@ def other_sources(sheet: Sheet) -> Iterator[Finding]:
 
     A package does not have suite.json inside, and so not the warning.
     """
-    for index, row in enumerate(sheet.draft["motions"]):
+    for index, row in enumerate(sheet.inputs["motions"]):
         source = row.get("source") or ""
         said = _source(sheet.path.parent / str(row.get("record") or "").replace("\\", "/"))
         if said and _differs(source, said):

@@ -21,8 +21,9 @@ from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
 from report.project.check.findings import located
 from report.project.model.choices import Direction
-from report.project.model.fields import Finding, Place
+from report.project.model.finding import Finding
 from report.project.model.motions import BuildingInput
+from report.project.model.place import Place
 from report.project.read.linked_files import Document
 from report.provenance.release import version
 from report.results import model

@@ -16,7 +16,7 @@ from pydantic import BaseModel
 from pydantic.json_schema import GenerateJsonSchema
 
 from report.project.model import ProjectInput
-from report.project.model.fields import Frozen
+from report.project.model.frozen import Frozen
 from report.project.workbook import SECTION, SECTIONS
 from report.results.model import Results
 

@@ -16,7 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from report.project.model.fields import Finding, Place
+from report.project.model.finding import Finding
+from report.project.model.place import Place
 from report.project.read.unseen import warnings
 from report.study.read import StudySheet
 from report.study.schema import (

@@ -12,7 +12,9 @@ from pathlib import Path
 
 from report.project.check.findings import column, repeated
 from report.project.model.choices import RecordedAt, UnitsFirst
-from report.project.model.fields import Draft, DraftRow, Finding, Place, Where
+from report.project.model.finding import Finding
+from report.project.model.input_rows import InputRow, Inputs
+from report.project.model.place import Place, Where
 from report.project.read.archive import open_book
 from report.project.read.locate import is_absent
 from report.project.read.read import SheetOf, read_as
@@ -64,10 +66,10 @@ _AXES: Mapping[str, tuple[str, Callable[[float], bool], str]] = {
 }
 
 
-def _faults(draft: Draft, where: Where) -> Iterator[Finding]:
+def _faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
     """Yield errors of the workbook that the cells alone do not show."""
-    # A cell at fault has no key in the draft: it is told already, and nothing more is said of it.
-    study = draft["study"][0] if draft["study"] else {}
+    # A cell at fault is no key of its row: it is told already, and nothing more is said of it.
+    study = inputs["study"][0] if inputs["study"] else {}
     for field, (name, fits, allowed) in _AXES.items():
         if text := study.get(field):
             numbers = values(text)
@@ -76,31 +78,31 @@ def _faults(draft: Draft, where: Where) -> Iterator[Finding]:
             elif wrong := [value for value in numbers if not fits(value)]:
                 yield _at(field, f"{name} have {wrong[0]:g}", f"give numbers {allowed}")
     # Each mat has a coefficient, by which the curves can be drawn as well.
-    if study.get("mus") == "" and not draft["mats"]:
+    if study.get("mus") == "" and not inputs["mats"]:
         yield _at("mus", "friction coefficients are missing and there is no mat", "give either")
-    yield from _about_study(study, draft)
-    yield from _about_motions(study, draft)
+    yield from _about_study(study, inputs)
+    yield from _about_motions(study, inputs)
     for section in ("mats", "study_arrays", "motions", "buildings"):
-        for place, name, first in repeated(column(draft, (section,), "id"), str.casefold):
+        for place, name, first in repeated(column(inputs, (section,), "id"), str.casefold):
             yield Finding.error(
                 place, f"ID is '{name}', already used at {where(first)}", "give a unique ID"
             )
-    for row, mat in enumerate(draft["mats"]):
+    for row, mat in enumerate(inputs["mats"]):
         yield from _about_mat(row, mat)
-    yield from _about_arrays(study, draft)
-    yield from _about_hazard(study, draft)
+    yield from _about_arrays(study, inputs)
+    yield from _about_hazard(study, inputs)
 
 
 def _at(field: str, found: str, remedy: str = "") -> Finding:
     return Finding.error(Place("study", 0, field), found, remedy)
 
 
-def _about_study(study: DraftRow, draft: Draft) -> Iterator[Finding]:
+def _about_study(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
     """Yield too many cases, and what the intensity and the dispersion lack."""
     slopes, levels, mus = (len(values(study.get(field) or "")) for field in _AXES)
     # Before anything is made of it: the grid is in memory whole.
-    of_grid = max(slopes, 1) * max(levels, 1) * (mus + len(draft["mats"]))
-    cases = of_grid * max(len(draft["buildings"]), 1)
+    of_grid = max(slopes, 1) * max(levels, 1) * (mus + len(inputs["mats"]))
+    cases = of_grid * max(len(inputs["buildings"]), 1)
     if cases > MOST_CASES:
         text = f"make {cases:,} cases with the other lists"
         yield _at("intensities", text, f"at most {MOST_CASES:,}")
@@ -120,23 +122,23 @@ def _about_study(study: DraftRow, draft: Draft) -> Iterator[Finding]:
             yield _at("record_beta", text, "give it, or clear both")
 
 
-def _about_motions(study: DraftRow, draft: Draft) -> Iterator[Finding]:
-    if "folder" in study and bool(study["folder"]) == bool(draft["motions"]):
+def _about_motions(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
+    if "folder" in study and bool(study["folder"]) == bool(inputs["motions"]):
         if study["folder"]:
             yield _at("folder", "a folder is named and the sheet Motions has rows", "keep one")
         else:
             yield _at("folder", "no folder and no row on the sheet Motions")
     is_ground = study.get("recorded_at") is RecordedAt.GROUND
-    if is_ground and not draft["buildings"]:
+    if is_ground and not inputs["buildings"]:
         text = "ground motions need at least one building"
         yield Finding.error(Place("buildings"), text, "fill in a row")
-    if "recorded_at" in study and not is_ground and draft["buildings"]:
+    if "recorded_at" in study and not is_ground and inputs["buildings"]:
         text = "a building is given, but the motions are roof motions"
         wanted = "clear the row, or set Recorded at to ground"
         yield Finding.error(Place("buildings", 0, "id"), text, wanted)
 
 
-def _about_mat(row: int, mat: DraftRow) -> Iterator[Finding]:
+def _about_mat(row: int, mat: InputRow) -> Iterator[Finding]:
     text = mat.get("tested") or ""
     series = tested(text)
     if text and (len(series) < 3 or not all(0.0 < v <= 2.0 for v in series)):
@@ -148,12 +150,12 @@ def _about_mat(row: int, mat: DraftRow) -> Iterator[Finding]:
         yield Finding.error(Place("mats", row, "mu"), missing, "give one")
 
 
-def _about_arrays(study: DraftRow, draft: Draft) -> Iterator[Finding]:
-    names = {name.casefold() for _, name in column(draft, ("mats",), "id")}
-    for place, mat in column(draft, ("study_arrays", "friction_runs"), "mat"):
+def _about_arrays(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
+    names = {name.casefold() for _, name in column(inputs, ("mats",), "id")}
+    for place, mat in column(inputs, ("study_arrays", "friction_runs"), "mat"):
         if mat.casefold() not in names:
             yield Finding.error(place, f"mat '{mat}' is not on the sheet Mats", "add it")
-    if study.get("site_intensity") and not draft["study_arrays"]:
+    if study.get("site_intensity") and not inputs["study_arrays"]:
         wanted = "fill in a row of the sheet Arrays"
         yield _at("site_intensity", "is given, but no array is", wanted)
     # Combinations are of tested values, and an intensity has none.
@@ -166,15 +168,15 @@ def _about_arrays(study: DraftRow, draft: Draft) -> Iterator[Finding]:
 _OF_CURVE = ("site", "source", "edition", "vs30_mps", "site_vs30_mps")
 
 
-def _about_hazard(study: DraftRow, draft: Draft) -> Iterator[Finding]:
+def _about_hazard(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
     """Yield what a hazard curve lacks, and what is given without one."""
-    hazard = draft["hazard"][0] if draft["hazard"] else {}
+    hazard = inputs["hazard"][0] if inputs["hazard"] else {}
     labels = {entry.name: entry.spoken for entry in HAZARD.entries}
 
     def at(field: str, found: str, remedy: str) -> Finding:
         return Finding.error(Place("hazard", 0, field), f"{labels[field]} {found}", remedy)
 
-    has_points = bool(draft["hazard_points"])
+    has_points = bool(inputs["hazard_points"])
     if not (hazard.get("file") or has_points):
         if alone := [name for name, value in hazard.items() if value not in ("", None)]:
             yield at(alone[0], "is given without a hazard curve", "give a curve, or clear it")
@@ -200,7 +202,7 @@ def _about_hazard(study: DraftRow, draft: Draft) -> Iterator[Finding]:
     if study.get("intensity") not in (*measures, None):
         wanted = " or ".join(measure.letters for measure in measures)
         yield _at("intensity", "has no hazard curve", f"choose {wanted}, or clear the hazard")
-    if not draft["study_arrays"]:
+    if not inputs["study_arrays"]:
         yield at("file", "is given, but no array is", "fill in a row of the sheet Arrays")
 
 

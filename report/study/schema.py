@@ -27,7 +27,7 @@ from report.project.model.choices import (
     Text,
     UnitsFirst,
 )
-from report.project.model.fields import Frozen
+from report.project.model.frozen import Frozen
 from report.project.model.site import FrictionTestRow
 from solver.friction_tests import FrictionRun, Series, Surface, series
 from solver.studies.uncertainty import Spread, spread_of_tests

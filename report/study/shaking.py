@@ -18,8 +18,9 @@ import numpy as np
 
 from report.motions.components import Components, RecordFile, read_components
 from report.motions.history import SIGNS
-from report.project.model.fields import Finding, Place
+from report.project.model.finding import Finding
 from report.project.model.motions import MotionInput
+from report.project.model.place import Place
 from report.project.read.linked_files import path_beside
 from report.project.read.typed_text import separator
 from report.project.workbook import SECTION

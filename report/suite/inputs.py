@@ -18,7 +18,7 @@ from typing import Any
 
 from report.motions.sets import VERTICAL
 from report.project.check.motion_checks import GENERATED
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.project.model.site import site_parameters
 from report.project.read.read import Sheet
 from report.project.read.typed_text import choice_in
@@ -246,7 +246,7 @@ def site_targets(sheet: Sheet) -> tuple[SuiteTargets, list[str]]:
     Raises `InputError` with the cells of each value that the workbook does not give, or is out of
     range.
     """
-    site, target = ([*sheet.draft[key], {}][0] for key in ("site", "target"))
+    site, target = ([*sheet.inputs[key], {}][0] for key in ("site", "target"))
     parameters = site_parameters(site)
     z_m, h_m = site.get("roof_height_m"), site.get("structure_height_m")
     stated = [(name,) for name in ("s_ds_g", "s_ms_g") if site.get(name) is not None]
@@ -268,7 +268,7 @@ def site_targets(sheet: Sheet) -> tuple[SuiteTargets, list[str]]:
         elif value != "":
             shown = f"{value:.4g}" if isinstance(value, float) else value
             lines.append(f"{label} {shown}{' g' if label == 'S_DS' else ''} from {cells}")
-    if sheet.draft["spectrum"]:
+    if sheet.inputs["spectrum"]:
         at = sheet.where(Place("spectrum"))
         lacking.append(f"{at}: a target spectrum is given, not that of AC156; add --target to the"
                        " command motion suite, with that spectrum as CSV")  # fmt: skip

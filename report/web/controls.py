@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from report.assessment.friction import mu_words
 from report.project.model import ProjectInput
 from report.project.model.choices import Polarity, RuleSetName, UnitsFirst
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.project.model.scene import Array
 from report.project.read.read import Sheet
 from report.project.read.what_if import retyped
@@ -80,7 +80,7 @@ def _is_number(value: object) -> bool:
 
 
 def _sliders(sheet: Sheet) -> Iterator[dict[str, Any]]:
-    mus = [row[name] for row in sheet.draft["arrays"] for name in MUS if row.get(name)]
+    mus = [row[name] for row in sheet.inputs["arrays"] for name in MUS if row.get(name)]
     # The cell of a coefficient accepts no more than MOST_MU.
     most_mu = math.floor(100.0 * min(_MOST, MOST_MU / max(mus, default=1.0))) / 100.0
     yield _slider("friction", "Friction", "×", (0.5, most_mu, 0.01), 1.0,
@@ -145,7 +145,7 @@ def _is_offered(opened: OpenProject, slider: Mapping[str, Any]) -> bool:
 def _choices(opened: OpenProject) -> Sequence[Mapping[str, Any]]:
     sheet = opened.sheet
     # Motions may differ: then the workbook has no single choice, and a blank one stands for it.
-    polarities = list(dict.fromkeys(row["polarity"] for row in sheet.draft["motions"]))
+    polarities = list(dict.fromkeys(row["polarity"] for row in sheet.inputs["motions"]))
     has_cells = all(
         Place("motions", i, "polarity") in sheet.addresses for i in range(len(opened.by_motion))
     )
@@ -157,7 +157,7 @@ def _choices(opened: OpenProject) -> Sequence[Mapping[str, Any]]:
                    | {p.value: p.value for p in Polarity},
                    "Runs of each horizontal component.")] if has_cells else []),
         _rule_sets(opened),
-        *([_choice("units", "Primary units", sheet.draft["project"][0]["units_first"],
+        *([_choice("units", "Primary units", sheet.inputs["project"][0]["units_first"],
                    {UnitsFirst.US.value: "in", UnitsFirst.SI.value: "mm"},
                    "Of the page, the package and the workbook.")]
           if UNITS_FIRST in sheet.addresses else []),

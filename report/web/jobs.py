@@ -176,7 +176,7 @@ def _lacks(workbook: Path) -> list[str]:
     except InputError:
         return []
     steps = ("arrays", "motions")
-    return [name for name in steps if name not in sheet.unfound and not sheet.draft[name]]
+    return [name for name in steps if name not in sheet.unfound and not sheet.inputs[name]]
 
 
 def answer_at(workbook: Path, job: Json) -> Json:
@@ -208,7 +208,7 @@ def _drawing(workbook: Path) -> Json | None:
         return None
     found = {"name": path.name, "kinds": list(LayerKind), "units": list(LENGTHS)}
     try:
-        drawn, known = read_dxf(path), known_layers(layers_of(read(workbook).draft))
+        drawn, known = read_dxf(path), known_layers(layers_of(read(workbook).inputs))
     except InputError as error:
         return {**found, "refused": error.problems[0]}
     layers = sorted({line.layer for line in drawn.lines})
@@ -243,9 +243,9 @@ def read_plan(workbook: Path, job: Json) -> Json:
         raise InputError("nobody says the unit of the drawing; choose it")
     change = WorkbookChange(open_book(workbook))
     layers = {layer: LayerKind(kind) for layer, kind in json.loads(job["layers"]).items()}
-    draft = read_book(change.book).draft
+    inputs = read_book(change.book).inputs
     is_given = job["unit"] != ""
-    told, layers = plan_as_rows(drawn, LENGTHS[unit], draft, layers, is_unit_given=is_given)
+    told, layers = plan_as_rows(drawn, LENGTHS[unit], inputs, layers, is_unit_given=is_given)
     cells, lines = changes(change.book, told, layers, replace=True)
     change.fill(cells)
     lines = [*filter(None, (drawn.repairs,)), *unread(told.plan), *lines, *withdrawn(change)]

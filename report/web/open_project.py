@@ -17,7 +17,8 @@ from report.assessment.assess import Extent, assess
 from report.assessment.project import Assessment
 from report.motions.components import Components
 from report.motions.prepare import Shaking, read_records, shaking, stiff_links
-from report.project.model.fields import Finding, Place
+from report.project.model.finding import Finding
+from report.project.model.place import Place
 from report.project.read.read import Sheet, read
 from report.project.read.what_if import Typed, retyped
 from report.runs import Reference, Runs, largest_two, scene_key
@@ -139,7 +140,7 @@ def open_project(path: Path) -> OpenProject:
     """Read a workbook and its records, or raise an input error with every problem."""
     sheet = read(path)
     check_letters(sheet)
-    if not sheet.draft["motions"]:
+    if not sheet.inputs["motions"]:
         sheet.refuse([Finding.error(Place("motions"), *_NOTHING_TO_RUN)])
     by_motion = read_records(sheet)
     sheet.book.files.clear()  # for a package, which another process makes
@@ -151,8 +152,8 @@ def open_project(path: Path) -> OpenProject:
 def _has_same_motions(before: Sheet, after: Sheet) -> bool:
     """Whether two sheets have the same motions: only units, arrays and clearances differ."""
     return all(
-        rows == after.draft[key]
-        for key, rows in before.draft.items()
+        rows == after.inputs[key]
+        for key, rows in before.inputs.items()
         if key not in ("project", "arrays", "clearances", "links")
     )
 

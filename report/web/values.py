@@ -10,8 +10,8 @@ import math
 from collections.abc import Iterator, Mapping
 
 from report.project.model.choices import Scaling, SlopeUnit
-from report.project.model.fields import Place
 from report.project.model.motions import coefficients
+from report.project.model.place import Place
 from report.project.model.scene import SIDES, Array, slope_rad
 from report.project.model.shapes import Rectangle, Shape, gap_m
 from report.project.read.read import Sheet
@@ -51,7 +51,7 @@ def typed(sheet: Sheet, scales: Mapping[str, float], values: Values) -> dict[Pla
     trim_unit_m = INCH_M if sheet.project.us_first else 0.001
     if trim_m := float(values.get("clearance", 0.0)) * trim_unit_m:
         changed |= dict(_trim(sheet, trim_m))
-    first = sheet.draft["project"][0]["units_first"]
+    first = sheet.inputs["project"][0]["units_first"]
     if (units := values.get("units", first)) != first:
         changed[UNITS_FIRST] = units
     return changed | dict(_polarity(sheet, values)) | dict(_rule_set(sheet, values))
@@ -59,7 +59,7 @@ def typed(sheet: Sheet, scales: Mapping[str, float], values: Values) -> dict[Pla
 
 def _given(sheet: Sheet, section: str, fields: tuple[str, ...]) -> Iterator[tuple[Place, float]]:
     """Yield the numbers that are given in a section."""
-    for index, row in enumerate(sheet.draft[section]):
+    for index, row in enumerate(sheet.inputs[section]):
         for field in fields:
             if row.get(field) is not None:
                 yield Place(section, index, field), row[field]
@@ -69,13 +69,13 @@ def _friction(sheet: Sheet, factor: float) -> Iterator[tuple[Place, Typed]]:
     """Multiply every coefficient: a law by velocity as a whole, and those of linked blocks."""
     for place, mu in _given(sheet, "arrays", MUS):
         yield place, round(mu * factor, _MU_DIGITS)
-    for index, row in enumerate(sheet.draft["links"]):
+    for index, row in enumerate(sheet.inputs["links"]):
         mus = (round(mu * factor, _MU_DIGITS) for mu in coefficients(row["friction"]))
         yield Place("links", index, "friction"), ", ".join(map(str, mus))
 
 
 def _slope(sheet: Sheet, turn_deg: float) -> Iterator[tuple[Place, Typed]]:
-    for index, row in enumerate(sheet.draft["arrays"]):
+    for index, row in enumerate(sheet.inputs["arrays"]):
         unit = row["slope_unit"]
         # As in the cell no slope is less than 0.
         angle = max(slope_rad(row["slope_value"], unit) + math.radians(turn_deg), 0.0)
@@ -99,7 +99,7 @@ def _intensity(
     sheet: Sheet, scales: Mapping[str, float], factor: float
 ) -> Iterator[tuple[Place, Typed]]:
     """Multiply the factor of each motion; one scaled to a target keeps its factor as a number."""
-    for index, row in enumerate(sheet.draft["motions"]):
+    for index, row in enumerate(sheet.inputs["motions"]):
         scaling, value = row["scaling"], row["scale_value"]
         if scaling is Scaling.PPA:
             yield Place("motions", index, "scale_value"), _rounded(value * factor)
@@ -147,14 +147,14 @@ def _in_cell(sheet: Sheet, place: Place, value: float) -> float:
 
 def _polarity(sheet: Sheet, values: Values) -> Iterator[tuple[Place, Typed]]:
     asked = str(values.get("polarity", ""))
-    for index, row in enumerate(sheet.draft["motions"]):
+    for index, row in enumerate(sheet.inputs["motions"]):
         if asked not in ("", row["polarity"]):
             yield Place("motions", index, "polarity"), asked
 
 
 def _rule_set(sheet: Sheet, values: Values) -> Iterator[tuple[Place, Typed]]:
     """Change the rule set, and leave blank an edition that would contradict it."""
-    site = sheet.draft["site"][0]
+    site = sheet.inputs["site"][0]
     asked = values.get("rule_set", site["rule_set"])
     if asked == site["rule_set"]:
         return

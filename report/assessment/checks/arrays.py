@@ -10,7 +10,7 @@ from report.assessment.checks.check import THIS_PROGRAM, Actor, Check, Sense, co
 from report.assessment.routes import Route, lacking_motions, statistic_basis
 from report.assessment.verdict import NO_DESIGN, NOT_GIVEN, STRENGTH_ROW, rule_set_of
 from report.project.model import ProjectInput
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.project.model.scene import Array
 from report.text.amounts import Amount, capacity, demand, entered
 from report.text.counts import grouped_by, lowered, ranged

@@ -23,7 +23,7 @@ from report.assessment.verdict import (
     severity,
     worst,
 )
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.text.amounts import Amount, amount_text, amount_texts
 from report.text.counts import capitalized, grouped_by, lowered, ranged
 from report.text.units import Quantity, Rounding, nan_is_worst, ratio

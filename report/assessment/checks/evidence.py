@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from report.assessment.checks.check import Actor, Check, condition, stated
 from report.assessment.verdict import NOT_GIVEN
 from report.project.model import ProjectInput
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from solver.rules.provisions import RULE_SETS, review_lifts_slope
 
 

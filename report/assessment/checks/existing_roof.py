@@ -13,7 +13,7 @@ from report.assessment.checks.check import Check, Sense, condition
 from report.assessment.verdict import NOT_GIVEN
 from report.project.model import ProjectInput
 from report.project.model.choices import BuildingCode
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.text.amounts import capacity, demand
 from report.text.counts import lowered
 from report.text.units import Quantity, pair

@@ -18,7 +18,7 @@ from report.assessment.tested import (
 )
 from report.assessment.verdict import NOT_GIVEN, SHIFT, VELOCITY_ROW
 from report.project.model import ProjectInput
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.text.amounts import capacity, compared_pairs, demand, entered
 from report.text.counts import grouped_by
 from report.text.units import Quantity, number

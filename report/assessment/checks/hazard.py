@@ -12,7 +12,7 @@ from functools import partial
 from report.assessment.checks.check import Actor, Check, condition, stated
 from report.assessment.verdict import NOT_GIVEN
 from report.project.model import ProjectInput
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.project.model.site import Site
 from report.text.counts import capitalized
 from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, REFERENCED, HazardBasis

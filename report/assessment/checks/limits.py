@@ -11,7 +11,7 @@ from report.assessment.checks.check import Actor, Check, Sense, condition, dagge
 from report.assessment.routes import Route, RouteLimits, lacking_motions, statistic_basis
 from report.assessment.verdict import OVERRIDDEN, OVERRIDE_ID, STAYS, takes_plain_mean
 from report.project.model import Override, ProjectInput, provision_name, provision_unit
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.text.amounts import limit_amounts
 from report.text.counts import lowered
 from solver.records.acceptance import Acceptance

@@ -17,7 +17,7 @@ from report.assessment.verdict import MOTIONS_ID, NOT_GIVEN, STAYS
 from report.motions.history import PreparedMotion, targets
 from report.project.check.motion_checks import FIELDS
 from report.project.model import ProjectInput
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.text.amounts import capacity, demand
 from report.text.counts import grouped_by, ids_by, quoted, ranged
 from report.text.units import G_MPS2, Quantity, digits_up

@@ -12,7 +12,7 @@ from report.assessment.plan_clearances import direction_of
 from report.assessment.verdict import NO_DESIGN, NOT_GIVEN, PLAN_ROW, STAYS, Verdict
 from report.project.model import ProjectInput
 from report.project.model.choices import ClearanceSource, Direction, DistanceBasis
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.project.model.scene import SIDES, Array
 from report.project.model.shapes import around, gap_m
 from report.text.amounts import Amount, capacity, demand, entered

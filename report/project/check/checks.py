@@ -1,6 +1,6 @@
 """Checks of the input that involve more than one cell; each fault names the cell to change.
 
-Works on a draft, the rows of readable values, so that one invalid cell hides no other fault.
+Works on the values that could be read, so that one invalid cell hides no other fault.
 """
 
 from __future__ import annotations
@@ -14,8 +14,10 @@ from report.project.check.motion_checks import friction_faults, motion_faults
 from report.project.check.plan_checks import MAX_SLOPE_DEG, places_of, us_first
 from report.project.model import factors, provision_name
 from report.project.model.choices import SlopeUnit
-from report.project.model.fields import Draft, DraftRow, Finding, Place, Where
+from report.project.model.finding import Finding
+from report.project.model.input_rows import InputRow, Inputs
 from report.project.model.motions import coefficients
+from report.project.model.place import Place, Where
 from report.project.model.scene import slope_rad
 from report.project.model.shapes import Rectangle, Shape, gap_m
 from report.project.model.site import (
@@ -46,8 +48,8 @@ def gap_tolerance_m(gap_m: float) -> float:
     return min(max(GAP_TOLERANCE * gap_m, low), high)
 
 
-def faults(draft: Draft, where: Where) -> list[Finding]:
-    """Return all inconsistencies of a draft, whose blank optional fields have their defaults."""
+def faults(inputs: Inputs, where: Where) -> list[Finding]:
+    """Return all inconsistencies of inputs, whose blank optional fields have their defaults."""
     checks = (
         _tables,
         plan_checks.missing,
@@ -63,29 +65,29 @@ def faults(draft: Draft, where: Where) -> list[Finding]:
         _overrides,
         _smaller_events,
     )
-    return [fault for check in checks for fault in check(draft, where)]
+    return [fault for check in checks for fault in check(inputs, where)]
 
 
-def _tables(draft: Draft, where: Where) -> Iterator[Finding]:
-    if not draft["arrays"]:
+def _tables(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    if not inputs["arrays"]:
         yield Finding.error(Place("arrays"), "no array is given", "fill in at least one row")
 
 
-def _ids(draft: Draft, where: Where) -> Iterator[Finding]:
+def _ids(inputs: Inputs, where: Where) -> Iterator[Finding]:
     # Arrays come first, so that a duplicate is reported at the object.
     for sections in plan_checks.UNIQUE:
-        for place, value, first in repeated(column(draft, sections, "id"), looks):
+        for place, value, first in repeated(column(inputs, sections, "id"), looks):
             text, said = f"ID is '{value}', already used at {where(first)}", foreign_letters(value)
             yield Finding.error(place, text + (f"; {said}" if said else ""), "give a unique ID")
 
 
-def _arrays(draft: Draft, where: Where) -> Iterator[Finding]:
-    for index, row in enumerate(draft["arrays"]):
+def _arrays(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    for index, row in enumerate(inputs["arrays"]):
         yield from _slope(index, row)
         yield from _friction(index, row)
 
 
-def _slope(index: int, row: DraftRow) -> Iterator[Finding]:
+def _slope(index: int, row: InputRow) -> Iterator[Finding]:
     value, unit = row.get("slope_value"), row.get("slope_unit")
     if value is None or unit is None or math.degrees(slope_rad(value, unit)) < MAX_SLOPE_DEG:
         return
@@ -95,7 +97,7 @@ def _slope(index: int, row: DraftRow) -> Iterator[Finding]:
     yield Finding.error(Place("arrays", index, "slope_value"), f"slope is {value:g} {unit}", wanted)
 
 
-def _friction(index: int, row: DraftRow) -> Iterator[Finding]:
+def _friction(index: int, row: InputRow) -> Iterator[Finding]:
     # A cell that could not be read is absent, and has an error of its own.
     if not row.keys() >= {"mu", "mu_static"}:
         return
@@ -106,39 +108,39 @@ def _friction(index: int, row: DraftRow) -> Iterator[Finding]:
         yield Finding.error(Place("arrays", index, "mu_static"), text, wanted)
 
 
-def _by_speed(array: DraftRow) -> list[str]:
+def _by_speed(array: InputRow) -> list[str]:
     """Return the fields that give an array more than one friction coefficient."""
     same = (None, array["mu"])
     return [name for name in ("mu_fast", "mu_static") if array.get(name) not in same]
 
 
-def _clearances(draft: Draft, where: Where) -> Iterator[Finding]:
+def _clearances(inputs: Inputs, where: Where) -> Iterator[Finding]:
     fields = ("array", "object", "direction")
-    rows = enumerate(draft["clearances"])
+    rows = enumerate(inputs["clearances"])
     named = ((Place("clearances", i, "array"), tuple(map(row.get, fields))) for i, row in rows)
     for place, (array, *_), first in repeated(cell for cell in named if None not in cell[1]):
         text = f"array is '{array}', with the same object and direction as at {where(first)}"
         yield Finding.error(place, text, "delete one")
-    shapes = plan_checks.shapes_of(draft)
-    for index, row in enumerate(draft["clearances"]):
-        yield from _room(index, row, shapes, draft, where)
+    shapes = plan_checks.shapes_of(inputs)
+    for index, row in enumerate(inputs["clearances"]):
+        yield from _room(index, row, shapes, inputs, where)
 
 
-def _unknown(draft: Draft, where: Where) -> Iterator[Finding]:
+def _unknown(inputs: Inputs, where: Where) -> Iterator[Finding]:
     """Yield names of what is in no table; `plan_checks` has those of outlines."""
     for (section, field), tables in plan_checks.REFERENCES.items():
         if section == "outlines":
             continue
-        ids = dict.fromkeys(value for _, value in column(draft, tables, "id"))
+        ids = dict.fromkeys(value for _, value in column(inputs, tables, "id"))
         sheets = " or ".join(table.capitalize() for table in tables)
-        for place, value in column(draft, (section,), field):
+        for place, value in column(inputs, (section,), field):
             if value not in ids:
                 text = f"{field} is '{value}', which is not in {sheets}"
                 yield Finding.error(place, text, suggestion(value, ids))
 
 
 def _room(
-    index: int, row: DraftRow, shapes: Mapping[str, Shape], draft: Draft, where: Where
+    index: int, row: InputRow, shapes: Mapping[str, Shape], inputs: Inputs, where: Where
 ) -> Iterator[Finding]:
     array, other, provided = row.get("array"), row.get("object"), row.get("provided_m")
     if array is not None and array == other:
@@ -156,9 +158,12 @@ def _room(
     boxes = isinstance(a, Rectangle) and isinstance(b, Rectangle)
     noun = "rectangles" if boxes else "outlines"
     stated, most = (
-        pair(max(m, 0.0), Quantity.SIZE, us_first(draft), no_more) for m in (provided, gap)
+        pair(max(m, 0.0), Quantity.SIZE, us_first(inputs), no_more) for m in (provided, gap)
     )
-    at, text = places_of(draft, (str(array), str(other)), where), f"provided clearance is {stated}"
+    at, text = (
+        places_of(inputs, (str(array), str(other)), where),
+        f"provided clearance is {stated}",
+    )
     if gap < -1e-9:
         text += f", but {array} and {other} overlap in plan"
         yield Finding.error(place, text, f"correct their {noun} in {at}")
@@ -167,53 +172,53 @@ def _room(
         yield Finding.error(place, text, f"reduce it, or correct the {noun} in {at}")
 
 
-def _links(draft: Draft, where: Where) -> Iterator[Finding]:
-    arrays = {name: place for place, name in column(draft, ("arrays",), "id")}
-    named = list(column(draft, ("links",), "array"))
+def _links(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    arrays = {name: place for place, name in column(inputs, ("arrays",), "id")}
+    named = list(column(inputs, ("links",), "array"))
     for place, name, first in repeated(named):
         fault = f"array is '{name}', already given at {where(first)}"
         yield Finding.error(place, fault, "delete one")
     for place, name in named:
         # A name that is unknown has an error of its own.
-        array = draft["arrays"][arrays[name].row] if name in arrays else {}
+        array = inputs["arrays"][arrays[name].row] if name in arrays else {}
         # A block of a row has one coefficient (`solver.sliding.row.BlockRow`).
         if "mu" in array and _by_speed(array):
             text = f"array is '{name}', which has high-velocity or static friction"
             wanted = "leave both blank on the sheet Arrays, or delete this row"
             yield Finding.error(place, text, wanted)
-    for place, text in column(draft, ("links",), "friction"):
-        home = arrays.get(draft["links"][place.row].get("array", ""))
-        yield from _blocks(place, text, draft, where, home)
+    for place, text in column(inputs, ("links",), "friction"):
+        home = arrays.get(inputs["links"][place.row].get("array", ""))
+        yield from _blocks(place, text, inputs, where, home)
 
 
 def _blocks(
-    place: Place, text: str, draft: Draft, where: Where, home: Place | None
+    place: Place, text: str, inputs: Inputs, where: Where, home: Place | None
 ) -> Iterator[Finding]:
     mus = coefficients(text)
     if not mus:
         wanted = "give 2 to 20 coefficients from 0 to 1.5 with decimal points, such as 0.40, 0.45"
         yield Finding.error(place, f"block friction is '{text}'", f"{wanted}, 0.50")
         return
-    mu = draft["arrays"][home.row].get("mu") if home else None
+    mu = inputs["arrays"][home.row].get("mu") if home else None
     if home is not None and mu is not None and not min(mus) <= mu <= max(mus):
         side, at = "above" if mu < min(mus) else "below", where(home._replace(field="mu"))
         fault = f"block friction is '{text}', all {side} the {mu:g} at {at}"
         yield Finding.error(place, fault, "give a range that includes it, or change it")
 
 
-def _smaller_events(draft: Draft, where: Where) -> Iterator[Finding]:
-    for place, text in column(draft, ("options",), "smaller_events"):
+def _smaller_events(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    for place, text in column(inputs, ("options",), "smaller_events"):
         if text and not factors(text):
             wanted = "give up to 20 factors with decimal points, above 0.0 and up to 1.0"
             fault = f"smaller events is '{cut(text)}'"
             yield Finding.error(place, fault, f"{wanted}, such as 0.50, 0.25")
 
 
-def _overrides(draft: Draft, where: Where) -> Iterator[Finding]:
-    keys = list(column(draft, ("overrides",), "provision"))
+def _overrides(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    keys = list(column(inputs, ("overrides",), "provision"))
     names = {key: provision_name(key) for key in ALLOWED}
     # Where the rule set could not be read, no provision is missing from it.
-    rules = next((RULE_SETS[name] for _, name in column(draft, ("site",), "rule_set")), None)
+    rules = next((RULE_SETS[name] for _, name in column(inputs, ("site",), "rule_set")), None)
     for place, key in keys:
         if key not in names:
             near = nearest(key, names.values())
@@ -227,8 +232,8 @@ def _overrides(draft: Draft, where: Where) -> Iterator[Finding]:
     for place, key, first in repeated(cell for cell in keys if cell[1] in names):
         fault = f"provision is '{names[key]}', already given at {where(first)}"
         yield Finding.error(place, fault, "delete one")
-    for place, value in column(draft, ("overrides",), "value"):
-        key = draft["overrides"][place.row].get("provision", "")
+    for place, value in column(inputs, ("overrides",), "value"):
+        key = inputs["overrides"][place.row].get("provision", "")
         allowed = ALLOWED.get(key)
         if allowed and not allowed.has(value):
             fault = f"value is {value:g} for the {ALLOWED[key].meaning}"
@@ -251,9 +256,9 @@ _CHAINS = (
 )
 
 
-def site_faults(draft: Draft, where: Where) -> Iterator[Finding]:
+def site_faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
     """Yield inconsistencies of the site."""
-    for row in draft["site"]:
+    for row in inputs["site"]:
         yield from _importance(row)
         edition = edition_of_row(row)
         if edition is None:
@@ -271,7 +276,7 @@ def _fault(field: str, fault: str, wanted: str) -> Finding:
     return Finding.error(Place("site", 0, field), fault, wanted)
 
 
-def _importance(row: DraftRow) -> Iterator[Finding]:
+def _importance(row: InputRow) -> Iterator[Finding]:
     risk_category, i_e = row.get("risk_category"), row.get("i_e")
     if risk_category is None or i_e is None or i_e >= LEAST_I_E[risk_category]:
         return
@@ -279,7 +284,7 @@ def _importance(row: DraftRow) -> Iterator[Finding]:
     yield _fault("i_e", f"importance factor I_e is {i_e:g}", wanted)
 
 
-def _edition(row: DraftRow, edition: Edition) -> Iterator[Finding]:
+def _edition(row: InputRow, edition: Edition) -> Iterator[Finding]:
     rule_set = row["rule_set"]
     # PV1-2012 is no edition of ASCE 7: it goes with each of them.
     if rule_set in hazard.EDITIONS and rule_set != edition.name:
@@ -295,7 +300,7 @@ def _edition(row: DraftRow, edition: Edition) -> Iterator[Finding]:
             yield _fault(field, text, wanted)
 
 
-def _missing_s_ds(row: DraftRow, edition: Edition) -> Iterator[Finding]:
+def _missing_s_ds(row: InputRow, edition: Edition) -> Iterator[Finding]:
     parameters = site_parameters(row)
     if parameters is None or parameters.s_ds is not None:
         return
@@ -307,7 +312,7 @@ def _missing_s_ds(row: DraftRow, edition: Edition) -> Iterator[Finding]:
     yield _fault(field, f"{label} is missing", wanted)
 
 
-def _agreement(row: DraftRow, edition: Edition, chain: _Chain) -> Iterator[Finding]:
+def _agreement(row: InputRow, edition: Edition, chain: _Chain) -> Iterator[Finding]:
     """Yield a value that differs from the same derived from other cells of its chain."""
     mapped, coefficient, maximum, _ = (row.get(name) for name, _ in chain)
     (_, mapped_label), (_, factor_label), (name, label), design = chain
@@ -332,7 +337,7 @@ def _design(maximum_g: float | None) -> float | None:
     return None if maximum_g is None else 2.0 / 3.0 * maximum_g
 
 
-def _site_class(row: DraftRow, edition: Edition) -> Iterator[Finding]:
+def _site_class(row: InputRow, edition: Edition) -> Iterator[Finding]:
     site_class = row.get("site_class")
     # BC, CD and DE came with ASCE 7-22.
     if edition.has_site_coefficients and site_class is not None and site_class not in F_A.rows:
@@ -341,7 +346,7 @@ def _site_class(row: DraftRow, edition: Edition) -> Iterator[Finding]:
 
 
 def _below_table(
-    row: DraftRow, edition: Edition, chain: _Chain, table: CoefficientTable, where: Where
+    row: InputRow, edition: Edition, chain: _Chain, table: CoefficientTable, where: Where
 ) -> Iterator[Finding]:
     """Yield what is below that of the mapped value, the site class and the table of its edition."""
     # A given coefficient is compared with the table, and `_agreement` compares the rest with it.
@@ -367,7 +372,7 @@ def _below_table(
 
 
 def _tabulated(
-    row: DraftRow, edition: Edition, mapped_g: float | None, table: CoefficientTable
+    row: InputRow, edition: Edition, mapped_g: float | None, table: CoefficientTable
 ) -> float:
     """Return the coefficient of a table; NaN for none, or where a site-specific one may be less."""
     # Where a table has none, a site-specific analysis is a requirement of the package.
@@ -384,7 +389,7 @@ def _or_study(field: str, fault: str, wanted: str, table: CoefficientTable) -> F
     return _fault(field, fault, f"{wanted} ({table.clause}†), {out}")
 
 
-def _sdc(row: DraftRow) -> Iterator[Finding]:
+def _sdc(row: InputRow) -> Iterator[Finding]:
     parameters, risk_category = site_parameters(row), row.get("risk_category")
     if "sdc" not in row or not parameters or parameters.s_ds is None or risk_category is None:
         return

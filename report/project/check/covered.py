@@ -11,7 +11,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 
 from report.project.model import ProjectInput
 from report.project.model.choices import ClearanceSource
-from report.project.model.fields import Frozen, Place
+from report.project.model.frozen import Frozen
+from report.project.model.place import Place
 from report.project.model.scene import SIDES, WEIGHT_PARTS
 from report.project.workbook import SECTION, SECTIONS, layout
 from report.text.counts import grouped_by

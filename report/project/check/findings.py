@@ -12,8 +12,11 @@ from typing import Any
 
 from report.project.model import ProjectInput
 from report.project.model.choices import Direction, ObjectKind
-from report.project.model.fields import Draft, Finding, Frozen, Level, Place
+from report.project.model.finding import Finding, Level
+from report.project.model.frozen import Frozen
+from report.project.model.input_rows import Inputs
 from report.project.model.motions import MotionInput
+from report.project.model.place import Place
 from report.project.model.scene import Array, Clearance, RoofObject
 from report.project.model.site import FrictionTestRow
 from report.project.workbook import SECTIONS
@@ -48,10 +51,10 @@ def listed(names: Iterable[str], most: int = MOST_LISTED) -> str:
     return ", ".join(unique[:most]) + (f" and {more:,} more" if more > 0 else "")
 
 
-def column(draft: Draft, sections: Iterable[str], field: str) -> Iterator[tuple[Place, Any]]:
+def column(inputs: Inputs, sections: Iterable[str], field: str) -> Iterator[tuple[Place, Any]]:
     """Yield the readable cells of a field in the tables that have it, each with its place."""
     for section in sections:
-        for index, row in enumerate(draft[section]):
+        for index, row in enumerate(inputs[section]):
             if field in row:
                 yield Place(section, index, field), row[field]
 

@@ -1,6 +1,6 @@
 """Checks of motions, building, target spectrum and friction that involve more than one cell.
 
-Each fault names the cell to change. Works on a draft, like `checks`, and reads no record.
+Each fault names the cell to change. Works on values as read, and reads no record.
 """
 
 from __future__ import annotations
@@ -11,7 +11,9 @@ from itertools import pairwise
 
 from report.project.check.findings import column, repeated
 from report.project.model.choices import RecordedAt, Scaling
-from report.project.model.fields import Draft, DraftRow, Finding, Place, Where
+from report.project.model.finding import Finding
+from report.project.model.input_rows import InputRow, Inputs
+from report.project.model.place import Place, Where
 from report.project.model.scene import friction_law
 from report.project.model.site import FrictionTestRow, site_parameters
 from report.text.units import digits_up
@@ -32,18 +34,18 @@ GENERATED = "Generated, seed "
 SHORTEST_S = 1.0
 
 
-def motion_faults(draft: Draft, where: Where) -> Iterator[Finding]:
-    """Yield all inconsistencies in the motions of a draft."""
-    for index, row in enumerate(draft["motions"]):
+def motion_faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    """Yield all inconsistencies in the motions."""
+    for index, row in enumerate(inputs["motions"]):
         yield from _same_component(index, row)
         yield from _scale_value(index, row)
         yield from _processing(index, row)
-    yield from _building(draft, where)
-    yield from _own_spectrum(draft, where)
-    yield from _scaled_to_target(draft, where)
+    yield from _building(inputs, where)
+    yield from _own_spectrum(inputs, where)
+    yield from _scaled_to_target(inputs, where)
 
 
-def _same_component(index: int, row: DraftRow) -> Iterator[Finding]:
+def _same_component(index: int, row: InputRow) -> Iterator[Finding]:
     seen: dict[str, str] = {}
     for field, label in LABELS.items():
         if not row.get(field):
@@ -54,7 +56,7 @@ def _same_component(index: int, row: DraftRow) -> Iterator[Finding]:
             yield Finding.error(Place("motions", index, field), text, "give another record")
 
 
-def _scale_value(index: int, row: DraftRow) -> Iterator[Finding]:
+def _scale_value(index: int, row: InputRow) -> Iterator[Finding]:
     scaling, place = row.get("scaling"), Place("motions", index, "scale_value")
     value = row.get("scale_value")
     if scaling in (Scaling.AS_RECORDED, Scaling.TARGET) and value not in (None, 1.0):
@@ -62,7 +64,7 @@ def _scale_value(index: int, row: DraftRow) -> Iterator[Finding]:
         yield Finding.error(place, text, "change the scaling or leave this blank")
 
 
-def _processing(index: int, row: DraftRow) -> Iterator[Finding]:
+def _processing(index: int, row: InputRow) -> Iterator[Finding]:
     start, end = row.get("from_s"), row.get("to_s")
     if end is not None and end <= (start or 0.0):
         wanted = f"give {(start or 0.0) + SHORTEST_S:g} s or more"
@@ -74,8 +76,8 @@ def _processing(index: int, row: DraftRow) -> Iterator[Finding]:
         yield Finding.error(Place("motions", index, "lowpass_hz"), text, wanted)
 
 
-def _building(draft: Draft, where: Where) -> Iterator[Finding]:
-    for row in draft["building"]:
+def _building(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    for row in inputs["building"]:
         first, second = row.get("period_s"), row.get("period_2_s")
         # The first mode has the longest period.
         if second is not None and (first is None or second > first):
@@ -83,8 +85,8 @@ def _building(draft: Draft, where: Where) -> Iterator[Finding]:
             text, wanted = f"period T2 is {second:g} s", f"give {longest}, or leave it blank"
             yield Finding.error(Place("building", 0, "period_2_s"), text, wanted)
     # Only a ground motion passes through the model of the building.
-    grounds = (row.get("recorded_at") is RecordedAt.GROUND for row in draft["motions"])
-    for row in draft["site"] if any(grounds) else ():
+    grounds = (row.get("recorded_at") is RecordedAt.GROUND for row in inputs["motions"])
+    for row in inputs["site"] if any(grounds) else ():
         count = row.get("stories", 1)
         if count > MOST_STORIES:
             text = (
@@ -93,8 +95,8 @@ def _building(draft: Draft, where: Where) -> Iterator[Finding]:
             yield Finding.error(Place("site", 0, "stories"), text, "give roof motions")
 
 
-def _own_spectrum(draft: Draft, where: Where) -> Iterator[Finding]:
-    rows = draft["spectrum"]
+def _own_spectrum(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    rows = inputs["spectrum"]
     if len(rows) == 1:
         yield Finding.error(Place("spectrum"), "one row is given", "give at least two, or none")
     periods = [(row["period_s"], index) for index, row in enumerate(rows) if "period_s" in row]
@@ -113,8 +115,8 @@ def _own_spectrum(draft: Draft, where: Where) -> Iterator[Finding]:
         yield Finding.error(Place("spectrum", index, "vertical_g"), "vertical is missing", wanted)
 
 
-def _scaled_to_target(draft: Draft, where: Where) -> Iterator[Finding]:
-    row = draft["target"][0] if draft["target"] else {}
+def _scaled_to_target(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    row = inputs["target"][0] if inputs["target"] else {}
     start, end = row.get("from_s"), row.get("to_s")
     if start is None or end is None:
         return
@@ -123,9 +125,9 @@ def _scaled_to_target(draft: Draft, where: Where) -> Iterator[Finding]:
         wanted = f"give more than the shortest, {start:g} s"
         yield Finding.error(Place("target", 0, "to_s"), text, wanted)
         return
-    scaled = [i for i, m in enumerate(draft["motions"]) if m.get("scaling") is Scaling.TARGET]
+    scaled = [i for i, m in enumerate(inputs["motions"]) if m.get("scaling") is Scaling.TARGET]
     for index in scaled:
-        corner = draft["motions"][index].get("highpass_hz")
+        corner = inputs["motions"][index].get("highpass_hz")
         # No factor brings back the periods that a high-pass has removed.
         if corner is not None and corner * end > 1.0 + 1e-9:
             text = (
@@ -133,15 +135,15 @@ def _scaled_to_target(draft: Draft, where: Where) -> Iterator[Finding]:
                 f" longest scaling period is {end:g} s"
             )
             yield Finding.error(Place("motions", index, "highpass_hz"), text, "reduce one of them")
-    if scaled and draft["spectrum"]:
-        yield from _covered(draft, start, end)
-    ground = [i for i in scaled if draft["motions"][i].get("recorded_at") is RecordedAt.GROUND]
-    if not draft["spectrum"]:
-        yield from _design_spectrum(draft, ground, where)
+    if scaled and inputs["spectrum"]:
+        yield from _covered(inputs, start, end)
+    ground = [i for i in scaled if inputs["motions"][i].get("recorded_at") is RecordedAt.GROUND]
+    if not inputs["spectrum"]:
+        yield from _design_spectrum(inputs, ground, where)
 
 
-def _covered(draft: Draft, start_s: float, end_s: float) -> Iterator[Finding]:
-    periods = [row["period_s"] for row in draft["spectrum"] if "period_s" in row]
+def _covered(inputs: Inputs, start_s: float, end_s: float) -> Iterator[Finding]:
+    periods = [row["period_s"] for row in inputs["spectrum"] if "period_s" in row]
     if len(periods) < 2 or (min(periods) <= start_s and end_s <= max(periods)):
         return
     text = (
@@ -151,13 +153,13 @@ def _covered(draft: Draft, start_s: float, end_s: float) -> Iterator[Finding]:
     yield Finding.error(Place("spectrum"), text, "add rows, or change the scaling periods")
 
 
-def _design_spectrum(draft: Draft, ground: list[int], where: Where) -> Iterator[Finding]:
+def _design_spectrum(inputs: Inputs, ground: list[int], where: Where) -> Iterator[Finding]:
     """Yield what the design spectrum lacks if a ground motion is scaled to it, and a short T_L."""
-    site = draft["site"][0] if draft["site"] else {}
+    site = inputs["site"][0] if inputs["site"] else {}
     parameters = site_parameters(site)
     # NaN stands for what could not be read: it is neither missing nor too small.
     s_d1_g = math.nan if parameters is None else parameters.s_d1
-    t_l_s = draft["target"][0].get("t_l_s", math.nan)
+    t_l_s = inputs["target"][0].get("t_l_s", math.nan)
     lacking = [name for name in ("s_1_g", "f_v") if site.get(name) is None]
     field = lacking[0] if len(lacking) == 1 else "s_d1_g"
     label = {"s_1_g": "S_1", "f_v": "F_v", "s_d1_g": "S_D1"}[field]
@@ -182,45 +184,48 @@ def _design_spectrum(draft: Draft, ground: list[int], where: Where) -> Iterator[
 MU_TOLERANCE = 0.005
 
 
-def friction_faults(draft: Draft, where: Where) -> Iterator[Finding]:
+def friction_faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
     """Yield runs given twice at a velocity, and friction coefficients larger than those tested."""
-    yield from _repeated(draft, where)
-    tested = _tested(draft)
+    yield from _repeated(inputs, where)
+    tested = _tested(inputs)
     if not tested:
         return
-    for index, array in enumerate(draft["arrays"]):
+    for index, array in enumerate(inputs["arrays"]):
         law = _law(array)
         if law is not None:
             tests = governing(tested, array.get("mu_report") or "")
-            yield from _beyond(index, law, tests, _first(draft, tests, where))
+            yield from _beyond(index, law, tests, _first(inputs, tests, where))
 
 
-def _report(draft: Draft, row: DraftRow) -> str:
-    return str(row.get("report") or draft["friction_tests"][0].get("report") or "")
+def _report(inputs: Inputs, row: InputRow) -> str:
+    return str(row.get("report") or inputs["friction_tests"][0].get("report") or "")
 
 
-def _repeated(draft: Draft, where: Where) -> Iterator[Finding]:
+def _repeated(inputs: Inputs, where: Where) -> Iterator[Finding]:
     files = (
-        (place, (_report(draft, row).casefold(), row["surface"], row.get("velocity_mps"), number))
-        for place, number in column(draft, ("friction_runs",), "number")
-        if "surface" in (row := draft["friction_runs"][place.row])
+        (
+            place,
+            (_report(inputs, row).casefold(), row["surface"], row.get("velocity_mps"), number),
+        )
+        for place, number in column(inputs, ("friction_runs",), "number")
+        if "surface" in (row := inputs["friction_runs"][place.row])
     )
     for place, (_, surface, _, number), first in repeated(files):
         text = f"run is {number}, {surface}, already given at {where(first)}"
         yield Finding.error(place, text, "give another number")
 
 
-def _tested(draft: Draft) -> tuple[Series, ...]:
+def _tested(inputs: Inputs) -> tuple[Series, ...]:
     """Return the runs as series; none if any run could not be read."""
-    rows, fields = draft["friction_runs"], FrictionTestRow.model_fields
+    rows, fields = inputs["friction_runs"], FrictionTestRow.model_fields
     # A run that is missing would change every mean.
     if any(field not in row for row in rows for field in fields):
         return ()
-    report = _report(draft, {})
+    report = _report(inputs, {})
     return series(FrictionTestRow.model_construct(**row).run(report) for row in rows)
 
 
-def _law(array: DraftRow) -> Friction | None:
+def _law(array: InputRow) -> Friction | None:
     """Return the friction law of an array, if it could be read and is consistent."""
     fields = ("mu", "mu_fast", "mu_rate_s_per_m", "mu_static")
     if not array.keys() >= {*fields, "mu_report"}:
@@ -230,10 +235,10 @@ def _law(array: DraftRow) -> Friction | None:
     return friction_law(mu, fast, rate, static) if (fast is None) == (rate is None) else None
 
 
-def _first(draft: Draft, tests: Series, where: Where) -> str:
+def _first(inputs: Inputs, tests: Series, where: Where) -> str:
     """Return the address of the first kinetic coefficient of a series."""
-    for index, row in enumerate(draft["friction_runs"]):
-        if (_report(draft, row), row["surface"]) == (tests.report, tests.surface):
+    for index, row in enumerate(inputs["friction_runs"]):
+        if (_report(inputs, row), row["surface"]) == (tests.report, tests.surface):
             return where(Place("friction_runs", index, "mu"))
     return where(Place("friction_runs"))
 

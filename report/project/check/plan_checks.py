@@ -11,7 +11,9 @@ from itertools import islice
 
 from report.project.check.findings import suggestion
 from report.project.model.choices import ObjectKind, RecordedAt, Scaling, UnitsFirst
-from report.project.model.fields import Draft, DraftRow, Finding, Place, Where
+from report.project.model.finding import Finding
+from report.project.model.input_rows import InputRow, Inputs
+from report.project.model.place import Place, Where
 from report.project.model.scene import ROOF, SIDES, WEIGHT_PARTS
 from report.project.model.shapes import (
     NEAR_M,
@@ -27,8 +29,8 @@ from report.project.model.shapes import (
 from report.project.workbook import SECTION
 from report.text.units import Quantity, pair
 
-# Whether a condition holds for a row of a draft; not where a cell could not be read.
-Condition = Callable[[DraftRow, Draft], bool]
+# Whether a condition holds for a row as read; not where a cell could not be read.
+Condition = Callable[[InputRow, Inputs], bool]
 
 
 def _filled(*fields: str) -> Condition:
@@ -39,8 +41,8 @@ def _chosen(field: str, *choices: str) -> Condition:
     return lambda row, _: row.get(field) in choices
 
 
-def _has_no_outline(row: DraftRow, draft: Draft) -> bool:
-    return "id" in row and all(vertex.get("name") != row["id"] for vertex in draft["outlines"])
+def _has_no_outline(row: InputRow, inputs: Inputs) -> bool:
+    return "id" in row and all(vertex.get("name") != row["id"] for vertex in inputs["outlines"])
 
 
 _OR_NONE = "give all four sides of the rectangle, or none"
@@ -75,8 +77,8 @@ REQUIRED: Mapping[tuple[str, str], tuple[Condition, str]] = {
     ("motions", "scale_value"): (
         _chosen("scaling", Scaling.FACTOR, Scaling.PPA), "give the factor, or the PPA in g"),
     ("building", "period_s"): (
-        lambda row, draft: row.get("structure", "") is None
-        and any(motion.get("recorded_at") is RecordedAt.GROUND for motion in draft["motions"]),
+        lambda row, inputs: row.get("structure", "") is None
+        and any(motion.get("recorded_at") is RecordedAt.GROUND for motion in inputs["motions"]),
         "give it, or a structure type: a motion is recorded at the ground"),
 }  # fmt: skip
 
@@ -101,13 +103,13 @@ LEAST_FAR_M, FAR_M = 30.0, 500.0
 ORDERED = (("x_from_m", "x_to_m"), ("y_from_m", "y_to_m"))
 
 
-def missing(draft: Draft, where: Where) -> Iterator[Finding]:
+def missing(inputs: Inputs, where: Where) -> Iterator[Finding]:
     """Yield the cells that are required by others, and blank."""
     for (section, field), (is_required, wanted) in REQUIRED.items():
-        for index, row in enumerate(draft[section]):
+        for index, row in enumerate(inputs[section]):
             # What could not be read is not blank, and has an error of its own.
             is_blank = field in row and row[field] in (None, "")
-            if is_blank and is_required(row, draft):
+            if is_blank and is_required(row, inputs):
                 fault = f"{SECTION[section].entry(field).spoken} is missing"
                 yield Finding.error(Place(section, index, field), fault, wanted)
 
@@ -127,28 +129,28 @@ class _Outline:
     vertices: tuple[Point, ...]  # none if a cell is unreadable
 
 
-def us_first(draft: Draft) -> bool:
+def us_first(inputs: Inputs) -> bool:
     """Whether US units come first."""
-    return all(row.get("units_first") is not UnitsFirst.SI for row in draft["project"])
+    return all(row.get("units_first") is not UnitsFirst.SI for row in inputs["project"])
 
 
-def _rows(draft: Draft, sections: Iterable[str] = _PLACED) -> Iterator[tuple[Place, DraftRow]]:
+def _rows(inputs: Inputs, sections: Iterable[str] = _PLACED) -> Iterator[tuple[Place, InputRow]]:
     for section in sections:
-        yield from ((Place(section, index), row) for index, row in enumerate(draft[section]))
+        yield from ((Place(section, index), row) for index, row in enumerate(inputs[section]))
 
 
-def shapes_of(draft: Draft) -> dict[str, Shape]:
+def shapes_of(inputs: Inputs) -> dict[str, Shape]:
     """Return the shape of each array and object that has a valid one, by id."""
-    outlines = _outlines(draft)
-    rows = {row["id"]: row for _, row in _rows(draft) if "id" in row}
+    outlines = _outlines(inputs)
+    rows = {row["id"]: row for _, row in _rows(inputs) if "id" in row}
     shapes = {name: _shape(row, outlines.get(name)) for name, row in rows.items()}
     return {name: shape for name, shape in shapes.items() if shape is not None}
 
 
-def roof_of(draft: Draft) -> Shape | None:
+def roof_of(inputs: Inputs) -> Shape | None:
     """Return the shape of the roof, if it has a valid one."""
-    outline = _outlines(draft).get(ROOF)
-    return next((_shape(row, outline) for row in draft["roof"]), None)
+    outline = _outlines(inputs).get(ROOF)
+    return next((_shape(row, outline) for row in inputs["roof"]), None)
 
 
 def far_off(
@@ -170,10 +172,10 @@ def far_off(
             yield name, f"{text} Delete it, or correct its place"
 
 
-def places_of(draft: Draft, names: Iterable[str], where: Where) -> str:
+def places_of(inputs: Inputs, names: Iterable[str], where: Where) -> str:
     """Return the cells of the rectangles of arrays and objects, or of the first of an outline."""
-    outlines = _outlines(draft)
-    rows = {row["id"]: place for place, row in _rows(draft) if "id" in row}
+    outlines = _outlines(inputs)
+    rows = {row["id"]: place for place, row in _rows(inputs) if "id" in row}
     return " and ".join(
         where(outlines[name].place) if name in outlines else _sides(rows[name], where)
         for name in names
@@ -185,16 +187,16 @@ def _sides(row: Place, where: Where) -> str:
     return f"{first}:{last.partition('!')[2]}"
 
 
-def plan_faults(draft: Draft, where: Where) -> Iterator[Finding]:
+def plan_faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
     """Yield what is wrong with the shapes in plan."""
-    yield from _rectangles(draft, where)
-    yield from _outline_rows(draft, where)
-    yield from _doubled(draft, where)
-    yield from _on_the_roof(draft, where)
-    yield from islice(_overlaps(draft, where), MOST_OVERLAPS)
+    yield from _rectangles(inputs, where)
+    yield from _outline_rows(inputs, where)
+    yield from _doubled(inputs, where)
+    yield from _on_the_roof(inputs, where)
+    yield from islice(_overlaps(inputs, where), MOST_OVERLAPS)
 
 
-def _shape(row: DraftRow, outline: _Outline | None) -> Shape | None:
+def _shape(row: InputRow, outline: _Outline | None) -> Shape | None:
     """Return the rectangle of a row or the polygon of its outline; None for what is neither."""
     if outline is not None:
         points = ring(outline.vertices)
@@ -207,9 +209,9 @@ def _shape(row: DraftRow, outline: _Outline | None) -> Shape | None:
     return Rectangle(*sides) if x_from < x_to and y_from < y_to else None
 
 
-def _outlines(draft: Draft) -> dict[str, _Outline]:
-    by_name: dict[str, list[tuple[Place, DraftRow]]] = {}
-    for place, row in _rows(draft, ("outlines",)):
+def _outlines(inputs: Inputs) -> dict[str, _Outline]:
+    by_name: dict[str, list[tuple[Place, InputRow]]] = {}
+    for place, row in _rows(inputs, ("outlines",)):
         if "name" in row:
             name = ROOF if row["name"].casefold() == ROOF else row["name"]
             by_name.setdefault(name, []).append((place._replace(field="name"), row))
@@ -221,13 +223,13 @@ def _outlines(draft: Draft) -> dict[str, _Outline]:
     return outlines
 
 
-def _rectangles(draft: Draft, where: Where) -> Iterator[Finding]:
-    for place, row in _rows(draft, ("roof", *_PLACED)):
+def _rectangles(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    for place, row in _rows(inputs, ("roof", *_PLACED)):
         for first, last in ORDERED:
             low, high = row.get(first), row.get(last)
             if low is None or high is None or low < high:
                 continue
-            shown, least = (pair(value, Quantity.PLAN, us_first(draft)) for value in (high, low))
+            shown, least = (pair(value, Quantity.PLAN, us_first(inputs)) for value in (high, low))
             at = where(place._replace(field=first))
             wanted = f"give more than {_label(first)} in {at}, {least}"
             fault = f"{_label(last)} is {shown}"
@@ -238,17 +240,17 @@ def _label(side: str) -> str:
     return side.removesuffix("_m").replace("_", " ")
 
 
-def _outline_rows(draft: Draft, where: Where) -> Iterator[Finding]:
-    ids = [row["id"] for _, row in _rows(draft) if "id" in row]
-    for outline in _outlines(draft).values():
+def _outline_rows(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    ids = [row["id"] for _, row in _rows(inputs) if "id" in row]
+    for outline in _outlines(inputs).values():
         if outline.name not in (ROOF, *ids):
             text = f"outline of '{outline.name}', which is not in Arrays or Objects"
             yield Finding.error(outline.place, text, suggestion(outline.name, [*ids, ROOF]))
         if outline.name == ROOF and ROOF in map(str.casefold, ids):
             text = "outline of 'roof', which is also the ID of an array or object"
             yield Finding.error(outline.place, text, "give that another ID")
-        yield from _ring_faults(outline, us_first(draft))
-    yield from _scattered(draft, where)
+        yield from _ring_faults(outline, us_first(inputs))
+    yield from _scattered(inputs, where)
 
 
 def _ring_faults(outline: _Outline, is_us: bool) -> Iterator[Finding]:
@@ -273,10 +275,10 @@ def spot(at: Point, is_us: bool) -> str:
     return f"x {x}, y {y}"
 
 
-def _scattered(draft: Draft, where: Where) -> Iterator[Finding]:
+def _scattered(inputs: Inputs, where: Where) -> Iterator[Finding]:
     """Yield the rows at which an outline goes on after rows of another one."""
     last: dict[str, int] = {}
-    for index, row in enumerate(draft["outlines"]):
+    for index, row in enumerate(inputs["outlines"]):
         name = row.get("name")
         if name is None:
             continue
@@ -289,9 +291,9 @@ def _scattered(draft: Draft, where: Where) -> Iterator[Finding]:
         last[name.casefold()] = index
 
 
-def _doubled(draft: Draft, where: Where) -> Iterator[Finding]:
-    outlines = _outlines(draft)
-    for place, row in _rows(draft, (*_PLACED, "roof")):
+def _doubled(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    outlines = _outlines(inputs)
+    for place, row in _rows(inputs, (*_PLACED, "roof")):
         name = ROOF if place.section == "roof" else row.get("id", "")
         side = next((side for side in SIDES if row.get(side) is not None), None)
         if name in outlines and side is not None:
@@ -301,35 +303,37 @@ def _doubled(draft: Draft, where: Where) -> Iterator[Finding]:
             yield Finding.error(place._replace(field=side), text, wanted)
 
 
-def _on_the_roof(draft: Draft, where: Where) -> Iterator[Finding]:
-    outlines = _outlines(draft)
-    for row in draft["roof"]:
+def _on_the_roof(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    outlines = _outlines(inputs)
+    for row in inputs["roof"]:
         roof = _shape(row, outlines.get(ROOF))
         if roof is None:
             continue
         at = outlines[ROOF].place if ROOF in outlines else Place("roof", 0, "x_from_m")
-        for index, array in enumerate(draft["arrays"]):
+        for index, array in enumerate(inputs["arrays"]):
             own = outlines.get(array.get("id", ""))
             if isinstance(roof, Rectangle) and own is None:
-                yield from _beyond(roof, index, array, draft, where)
+                yield from _beyond(roof, index, array, inputs, where)
                 continue
             shape = _shape(array, own)
             beyond = outside(shape, roof) if shape is not None else None
             if beyond is not None:
-                text = f"{array.get('id')} is outside the roof near {spot(beyond, us_first(draft))}"
+                text = (
+                    f"{array.get('id')} is outside the roof near {spot(beyond, us_first(inputs))}"
+                )
                 place = Place("arrays", index, "x_from_m") if own is None else own.place
                 wanted = f"correct it, or the outline of the roof at {where(at)}"
                 yield Finding.error(place, text, wanted)
 
 
 def _beyond(
-    roof: Rectangle, index: int, array: DraftRow, draft: Draft, where: Where
+    roof: Rectangle, index: int, array: InputRow, inputs: Inputs, where: Where
 ) -> Iterator[Finding]:
     for side in SIDES:
         value, edge, is_low = array.get(side), getattr(roof, side), "from" in side
         if value is None or (value >= edge if is_low else value <= edge):
             continue
-        shown, limit = (pair(at, Quantity.PLAN, us_first(draft)) for at in (value, edge))
+        shown, limit = (pair(at, Quantity.PLAN, us_first(inputs)) for at in (value, edge))
         inside, at = "more" if is_low else "less", where(Place("roof", 0, side))
         text = f"{_label(side)} is {shown}, outside the roof"
         wanted = f"give {limit} or {inside}, or correct the outline at {at}"
@@ -347,10 +351,10 @@ class _Body:
     bounds: Rectangle
 
 
-def _overlaps(draft: Draft, where: Where) -> Iterator[Finding]:
+def _overlaps(inputs: Inputs, where: Where) -> Iterator[Finding]:
     """Yield arrays that overlap each other or an object; `checks` has those with a clearance."""
-    cleared = {frozenset((row.get("array"), row.get("object"))) for row in draft["clearances"]}
-    bodies = sorted(_bodies(draft), key=lambda body: body.bounds.x_from_m)
+    cleared = {frozenset((row.get("array"), row.get("object"))) for row in inputs["clearances"]}
+    bodies = sorted(_bodies(inputs), key=lambda body: body.bounds.x_from_m)
     for count, body in enumerate(bodies):
         for other in bodies[count + 1 :]:
             # They are sorted from the left: none of the following reaches back either.
@@ -365,10 +369,10 @@ def _overlaps(draft: Draft, where: Where) -> Iterator[Finding]:
                 yield Finding.error(first.place, text, "correct one of them")
 
 
-def _bodies(draft: Draft) -> Iterator[_Body]:
+def _bodies(inputs: Inputs) -> Iterator[_Body]:
     """Yield the arrays and objects that have a shape, without edges: an array may reach them."""
-    outlines = _outlines(draft)
-    for place, row in _rows(draft):
+    outlines = _outlines(inputs)
+    for place, row in _rows(inputs):
         own = outlines.get(row.get("id", ""))
         shape = _shape(row, own) if "id" in row else None
         if shape is not None and row.get("kind") not in _EDGES:

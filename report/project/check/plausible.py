@@ -13,7 +13,8 @@ from report.project.check.findings import note, spoken, unusual, warning
 from report.project.check.plan_checks import far_off
 from report.project.model import ProjectInput
 from report.project.model.choices import Direction, SlopeUnit
-from report.project.model.fields import Finding, Level, Place
+from report.project.model.finding import Finding, Level
+from report.project.model.place import Place
 from report.project.model.scene import Array, Clearance
 from report.project.model.shapes import Shape, closest, gap_m
 from report.project.model.site import Site

@@ -24,7 +24,7 @@ from report.project.model.choices import (
     Text,
     decimals,
 )
-from report.project.model.fields import Frozen
+from report.project.model.frozen import Frozen
 from report.project.model.motions import (
     BuildingInput,
     Links,

@@ -36,6 +36,13 @@ def decimals(text: str) -> tuple[float, ...]:
     return tuple(map(float, parts)) if all(map(_DECIMAL.fullmatch, parts)) else ()
 
 
+class YesNo(StrEnum):
+    """Yes or no, as shown in a cell."""
+
+    YES = "Yes"
+    NO = "No"
+
+
 class RuleSetName(StrEnum):
     """Rule set to compare with: any of `solver.rules`."""
 

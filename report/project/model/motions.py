@@ -23,7 +23,7 @@ from report.project.model.choices import (
     Text,
     decimals,
 )
-from report.project.model.fields import Frozen
+from report.project.model.frozen import Frozen
 from report.text.units import G_MPS2
 from solver.bounds import ORDINATE
 from solver.friction_tests import MOST_MU

@@ -24,7 +24,8 @@ from report.project.model.choices import (
     SlopeUnit,
     Text,
 )
-from report.project.model.fields import DraftRow, Frozen
+from report.project.model.frozen import Frozen
+from report.project.model.input_rows import InputRow
 from report.project.model.shapes import Point, Polygon, Rectangle, Shape
 from solver.friction_tests import MOST_MU, MOST_RATE_S_PER_M
 from solver.model import DefectError, Friction
@@ -100,7 +101,7 @@ def friction_law(
 WEIGHT_PARTS = ("modules", "module_weight_n", "ballast_n")
 
 
-def weight_of_parts(row: DraftRow) -> float | None:
+def weight_of_parts(row: InputRow) -> float | None:
     """Return the weight [N] of modules and ballast, where they are given."""
     modules, each_n, ballast_n = (row.get(part) for part in WEIGHT_PARTS)
     if modules is None or each_n is None or ballast_n is None:

@@ -25,7 +25,8 @@ from report.project.model.choices import (
     Text,
     UnitsFirst,
 )
-from report.project.model.fields import DraftRow, Frozen
+from report.project.model.frozen import Frozen
+from report.project.model.input_rows import InputRow
 from solver.friction_tests import MOST_MU, FrictionRun, Surface
 from solver.model import DefectError
 from solver.rules.hazard import (
@@ -187,28 +188,28 @@ def site_class_or_default(site_class: SiteClass | None) -> SiteClass:
 _PARAMETERS = ("s_s_g", "f_a", "s_ms_g", "s_ds_g", "s_1_g", "f_v", "s_m1_g", "s_d1_g")
 
 
-def edition_of_row(row: DraftRow) -> Edition | None:
-    """Return the edition of a draft of the site; None if it cannot be determined."""
+def edition_of_row(row: InputRow) -> Edition | None:
+    """Return the edition of a row as read; None if it cannot be determined."""
     if "rule_set" not in row or "edition_name" not in row:
         return None
     return edition_of(row["rule_set"], row["edition_name"])
 
 
-def site_parameters(row: DraftRow) -> SeismicParameters | None:
-    """Return the parameters of a draft of the site; None if a cell could not be read."""
+def site_parameters(row: InputRow) -> SeismicParameters | None:
+    """Return the parameters of a row as read; None if a cell could not be read."""
     edition = edition_of_row(row)
     if edition is None or any(name not in row for name in _PARAMETERS):
         return None
     return _parameters(edition, row)
 
 
-def _parameters(edition: Edition, row: DraftRow) -> SeismicParameters:
+def _parameters(edition: Edition, row: InputRow) -> SeismicParameters:
     values = {name.removesuffix("_g"): row[name] for name in _PARAMETERS}
     return seismic_parameters(edition, **values)
 
 
-def categories(row: DraftRow) -> tuple[str, str, str]:
-    """Return the SDC of a draft by S_DS, by S_D1 and by S_1; empty where it cannot be known."""
+def categories(row: InputRow) -> tuple[str, str, str]:
+    """Return the SDC of a row by S_DS, by S_D1 and by S_1; empty where it cannot be known."""
     parameters, risk_category = site_parameters(row), row.get("risk_category")
     if parameters is None or parameters.s_ds is None or risk_category is None:
         return "", "", ""
@@ -220,8 +221,8 @@ def categories(row: DraftRow) -> tuple[str, str, str]:
     )
 
 
-def category_lacks(row: DraftRow) -> tuple[str, ...]:
-    """Return the symbols without which the SDC of a draft with S_DS does not follow."""
+def category_lacks(row: InputRow) -> tuple[str, ...]:
+    """Return the symbols without which the SDC of a row with S_DS does not follow."""
     by_s_ds, by_s_d1, by_s_1 = categories(row)
     # The tables end at D, and S_1 from 0.75 g on leads beyond them: there S_D1 changes nothing.
     needs_s_d1 = by_s_ds != MOST_BY_TABLES and not by_s_d1 and not by_s_1
@@ -229,18 +230,18 @@ def category_lacks(row: DraftRow) -> tuple[str, ...]:
     return tuple(symbol for symbol, is_lacking in lacks.items() if is_lacking)
 
 
-def least_i_e(row: DraftRow) -> float | None:
-    """Return the least I_e of the risk category of a draft."""
+def least_i_e(row: InputRow) -> float | None:
+    """Return the least I_e of the risk category of a row."""
     return LEAST_I_E.get(row.get("risk_category", ""))
 
 
-def least_category(row: DraftRow) -> Sdc | None:
-    """Return the SDC of a draft, if all that it depends on is given."""
+def least_category(row: InputRow) -> Sdc | None:
+    """Return the SDC of a row, if all that it depends on is given."""
     least = max(categories(row))
     return Sdc(least) if least and not category_lacks(row) else None
 
 
-def tabulated_f_a(row: DraftRow) -> float | None:
+def tabulated_f_a(row: InputRow) -> float | None:
     """Return F_a of its table where S_MS follows from it; None where that is site-specific."""
     edition, wanted = edition_of_row(row), ("s_s_g", "site_class", "hazard", "s_ms_g", "s_ds_g")
     if edition is None or edition.name != F_A.edition or not row.keys() >= {*wanted}:

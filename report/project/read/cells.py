@@ -17,8 +17,7 @@ from typing import Any
 from openpyxl.utils.datetime import WINDOWS_EPOCH
 from openpyxl.utils.escape import unescape
 
-from report.project.model.choices import SlopeUnit
-from report.project.model.fields import YesNo
+from report.project.model.choices import SlopeUnit, YesNo
 from report.project.read import typed_text
 from report.project.workbook.entries import Entry
 from report.text.counts import SHOWN, UNPRINTABLE, cut, trimmed

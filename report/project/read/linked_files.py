@@ -18,7 +18,9 @@ from unicodedata import normalize
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError
 
-from report.project.model.fields import Draft, Finding, Place
+from report.project.model.finding import Finding
+from report.project.model.input_rows import Inputs
+from report.project.model.place import Place
 from report.project.read.archive import OpenBook
 from report.project.workbook import SECTION
 from report.project.workbook.entries import Entry
@@ -164,13 +166,13 @@ def _meant(folder: Path, name: str, taken: Iterable[str]) -> str:
     return f"did you mean '{nearest(name, files) or files[0]}'?" if files else ""
 
 
-def read_documents(book: OpenBook, draft: Draft) -> tuple[tuple[Document, ...], list[Finding]]:
+def read_documents(book: OpenBook, inputs: Inputs) -> tuple[tuple[Document, ...], list[Finding]]:
     """Return the documents that a workbook attaches, and what is wrong with them."""
     documents: list[Document] = []
     faults: list[Finding] = []
     for section, field in DOCUMENTS:
         entry = SECTION[section].entry(field)
-        for name in filter(None, (row.get(field) for row in draft[section])):
+        for name in filter(None, (row.get(field) for row in inputs[section])):
             left = MAX_DOCUMENTS - sum(document.size for document in documents)
             try:
                 documents.append(_document(book, entry, name, left))

@@ -299,7 +299,7 @@ class GrowingTable:
 
     book: OpenBook
     section: SheetSection
-    inputs: TableFound
+    found: TableFound
     next_row: int = 0
     last: int = 0
     totals: int = 0
@@ -309,8 +309,8 @@ class GrowingTable:
         """Return a table as it is."""
         section = SECTION[key]
         table = cls(book, section, find_table(book, section))
-        top = table.inputs.heading.row
-        filled = [row for row in table.inputs.rows if not table.is_blank(row)]
+        top = table.found.heading.row
+        filled = [row for row in table.found.rows if not table.is_blank(row)]
         table.next_row = max(filled, default=top) + 1
         area = table_area(book, section)
         if area and area.totals and table.next_row <= area.totals:
@@ -325,12 +325,12 @@ class GrowingTable:
 
     def position(self, row: int, name: str) -> CellPosition:
         """Return where a field of a row is."""
-        columns = self.inputs.columns
+        columns = self.found.columns
         if name not in columns:
             label = self.section.entry(name).heading
-            where = self.inputs.heading.address
+            where = self.found.heading.address
             raise InputError(f"{where}: heading '{label}' is missing; {FRESH}")
-        return CellPosition(self.inputs.heading.sheet, row, columns[name].number)
+        return CellPosition(self.found.heading.sheet, row, columns[name].number)
 
     def cells(self, row: int, values: Mapping[str, Value]) -> dict[CellPosition, Value]:
         """Return values by field as the cells of a row."""
@@ -338,22 +338,22 @@ class GrowingTable:
 
     def is_blank(self, row: int) -> bool:
         """Whether no field of a row is filled."""
-        return all(self.cell(row, name).is_blank for name in self.inputs.columns)
+        return all(self.cell(row, name).is_blank for name in self.found.columns)
 
     def rows(self, name: str, value: str) -> list[int]:
         """Return the rows whose field is a text."""
         return [
             row
-            for row in self.inputs.rows
+            for row in self.found.rows
             if unescape(self.cell(row, name).shown).strip().casefold() == value.casefold()
         ]
 
     def added(self) -> int:
         """Return the next free row."""
         row, self.next_row = self.next_row, self.next_row + 1
-        where = self.inputs.heading.address
+        where = self.found.heading.address
         if self.totals and row > self.last:
-            title = self.inputs.heading.sheet
+            title = self.found.heading.sheet
             raise InputError(
                 f"{title}!{self.totals}: the table has a row of totals, and no blank row above it;"
                 " remove the row of totals, or insert rows above it"
@@ -365,4 +365,4 @@ class GrowingTable:
 
     def number(self, name: str, value_m: float) -> float:
         """Return a length in the unit of a column."""
-        return round(value_m / self.inputs.columns[name].si, DIGITS)
+        return round(value_m / self.found.columns[name].si, DIGITS)

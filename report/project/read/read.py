@@ -16,7 +16,10 @@ from pydantic import ValidationError
 
 from report.project.check.checks import faults
 from report.project.model import ProjectInput
-from report.project.model.fields import Draft, Finding, Frozen, Place, Where
+from report.project.model.finding import Finding
+from report.project.model.frozen import Frozen
+from report.project.model.input_rows import Inputs
+from report.project.model.place import Place, Where
 from report.project.read import locate
 from report.project.read.archive import OpenBook, open_book
 from report.project.read.cells import (
@@ -82,14 +85,14 @@ class SheetOf(Generic[Whole]):
     book: OpenBook  # for columns pasted into it and files beside it
     whole: type[Whole]  # what it is the input of
     sections: tuple[SheetSection, ...]  # of that
-    draft: Draft
+    inputs: Inputs
     echo: tuple[EchoRow, ...]  # every field, sheet by sheet and row by row
     problems: tuple[tuple[Place, Problem], ...]
     addresses: Mapping[Place, str]
     unfound: frozenset[str]  # sections
     unseen: tuple[Unseen, ...]
     warnings: tuple[Finding, ...]  # on sheets that are ignored, and values that may be former ones
-    check: Callable[[Draft, Where], Iterable[Finding]] = faults
+    check: Callable[[Inputs, Where], Iterable[Finding]] = faults
     documents: tuple[Document, ...] = ()  # beside it, that the package attaches
 
     @cached_property
@@ -99,7 +102,7 @@ class SheetOf(Generic[Whole]):
         parts: dict[str, Any] = {}
         for part in self.sections:
             # Each value was validated when its cell was read, and all together by `check`.
-            rows = tuple(part.model.model_construct(**row) for row in self.draft[part.key])
+            rows = tuple(part.model.model_construct(**row) for row in self.inputs[part.key])
             parts[part.key] = rows if part.is_table else rows[0]
         return self.whole.model_validate(parts)
 
@@ -123,7 +126,7 @@ class SheetOf(Generic[Whole]):
             For a part or a value that a workbook may not have, and for each problem of this one.
         """
         self.refuse(())
-        sections, draft = {part.key: part for part in self.sections}, dict(self.draft)
+        sections, inputs = {part.key: part for part in self.sections}, dict(self.inputs)
         if unknown := [key for key in parts if key not in sections]:
             raise InputError(f"no input {', '.join(unknown)}; give some of {', '.join(sections)}")
         for key, replaced in parts.items():
@@ -137,9 +140,9 @@ class SheetOf(Generic[Whole]):
                 )
                 raise InputError(list(wrong)) from error
             names = [entry.name for entry in sections[key].entries]
-            draft[key] = [{name: getattr(row, name) for name in names} for row in checked]
-        problems = _located(self.check(draft, self.where), self.addresses, self.unfound)
-        other = replace(self, draft=draft, problems=tuple(problems))
+            inputs[key] = [{name: getattr(row, name) for name in names} for row in checked]
+        problems = _located(self.check(inputs, self.where), self.addresses, self.unfound)
+        other = replace(self, inputs=inputs, problems=tuple(problems))
         other.refuse(())
         return other
 
@@ -181,14 +184,14 @@ def read_book(book: OpenBook) -> Sheet:
         run = f"roofslip study {quoted(book.path)}"
         raise InputError(f"{_STUDY}: this is the workbook of a study; run {run}")
     sheet = read_as(ProjectInput, SECTIONS, book, faults)
-    documents, wrong = read_documents(book, sheet.draft)
+    documents, wrong = read_documents(book, sheet.inputs)
     problems = (*sheet.problems, *_located(wrong, sheet.addresses, sheet.unfound))
     return replace(sheet, documents=documents, problems=problems)
 
 
 def without_motions(sheet: Sheet) -> ProjectInput:
     """Return the input, whatever its motions are; its clearances may contradict the plan."""
-    fields, rows = len(SECTION["clearances"].entries), sheet.draft["clearances"]
+    fields, rows = len(SECTION["clearances"].entries), sheet.inputs["clearances"]
     # A contradiction has all of its cells.
     passed = {"motions"} | ({"clearances"} if all(len(row) == fields for row in rows) else set())
     problems = (
@@ -196,21 +199,21 @@ def without_motions(sheet: Sheet) -> ProjectInput:
         for place, problem in sheet.problems
         if place.section not in passed or place == Place("clearances")  # of its headings
     )
-    draft = {**sheet.draft, "motions": ()}
-    return replace(sheet, draft=draft, problems=tuple(problems)).project
+    inputs = {**sheet.inputs, "motions": ()}
+    return replace(sheet, inputs=inputs, problems=tuple(problems)).project
 
 
 def read_as(
     whole: type[Whole],
     sections: tuple[SheetSection, ...],
     book: OpenBook,
-    check: Callable[[Draft, Where], Iterable[Finding]],
+    check: Callable[[Inputs, Where], Iterable[Finding]],
 ) -> SheetOf[Whole]:
     """Read every field of a whole input, with the errors of single cells and those of a check."""
     gathered = Gathered()
     for section in sections:
         _read_section(book, section, gathered)
-    gathered.take(check(gathered.draft, partial(where, gathered.addresses)))
+    gathered.take(check(gathered.inputs, partial(where, gathered.addresses)))
     hidden = unseen(book, gathered.used)
     marks, titles = by_cell(hidden), book.book.sheetnames
     return SheetOf(
@@ -220,7 +223,7 @@ def read_as(
         whole=whole,
         sections=sections,
         check=check,
-        draft=gathered.draft,
+        inputs=gathered.inputs,
         echo=tuple(
             replace(row, unseen=marks.get(row.address, ""))
             for row in sorted(
@@ -269,7 +272,7 @@ def _located(
 class Gathered:
     """What has been read so far; problems have the place used for sorting."""
 
-    draft: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
+    inputs: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
     echo: list[EchoRow] = field(default_factory=list)
     problems: list[tuple[Place, Problem]] = field(default_factory=list)
     addresses: dict[Place, str] = field(default_factory=dict)
@@ -291,11 +294,11 @@ class Gathered:
 
 
 def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
-    gathered.draft[section.key] = []
+    gathered.inputs[section.key] = []
     is_missing = locate.is_absent(book, section)
     if is_missing and section.may_be_absent:
         defaults = {entry.name: entry.default for entry in section.entries}
-        gathered.draft[section.key] += [] if section.is_table else [defaults]
+        gathered.inputs[section.key] += [] if section.is_table else [defaults]
         return
     try:
         if is_missing and not section.is_table:
@@ -315,7 +318,7 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
     absent = locate.added_later(book, section)
     row = {entry.name: entry.default for entry in absent}
     typed = locate.beside(book, section)
-    gathered.draft[section.key].append(row)
+    gathered.inputs[section.key].append(row)
     cells_read: list[_Typed] = []
     for entry in section.entries:
         if entry in absent:
@@ -370,7 +373,7 @@ def _read_table(
             for name, column in table.columns.items()
         }
         if not all(cell.is_blank for cell in cells.values()):
-            rows = gathered.draft[section.key]
+            rows = gathered.inputs[section.key]
             rows.append({name: section.entry(name).default for name in table.absent})
             for entry in section.entries:
                 if cell := cells.get(entry.name):
@@ -404,9 +407,9 @@ class _Typed:
 
 
 def _read_field(typed: _Typed, cells: Mapping[str, Found], gathered: Gathered) -> None:
-    """Read an input into its row of the draft; `cells` are those of its row by field."""
+    """Read an input into its row; `cells` are those of its row by field."""
     entry, place, cell, column = typed.entry, typed.place, typed.cell, typed.column
-    row = gathered.draft[place.section][place.row]
+    row = gathered.inputs[place.section][place.row]
     gathered.use(place, cell)
     try:
         if not cell.is_blank:

@@ -17,7 +17,8 @@ from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.project.check.findings import listed, warning
-from report.project.model.fields import Finding, Place
+from report.project.model.finding import Finding
+from report.project.model.place import Place
 from report.project.read.archive import OpenBook
 from report.project.read.cells import Found
 from report.project.read.positions import bounds_of, fields_by_label, labels

@@ -12,7 +12,7 @@ from typing import Any
 from openpyxl.utils import coordinate_to_tuple
 
 from report.project.check.checks import faults
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.project.read.cells import CellError, Found, blank_value, read_cell
 from report.project.read.positions import CellPosition
 from report.project.read.read import Gathered, Sheet
@@ -24,8 +24,8 @@ Typed = float | str | None
 
 def retyped(sheet: Sheet, typed: Mapping[Place, Typed]) -> Sheet:
     """Return a workbook with other values and their problems; the echo stays that of the file."""
-    draft = {key: [dict(row) for row in rows] for key, rows in sheet.draft.items()}
-    gathered = Gathered(draft=draft, addresses=dict(sheet.addresses), unfound=set(sheet.unfound))
+    inputs = {key: [dict(row) for row in rows] for key, rows in sheet.inputs.items()}
+    gathered = Gathered(inputs=inputs, addresses=dict(sheet.addresses), unfound=set(sheet.unfound))
     for place, value in typed.items():
         entry = SECTION[place.section].entry(place.field)
         read = entry.default
@@ -33,21 +33,21 @@ def retyped(sheet: Sheet, typed: Mapping[Place, Typed]) -> Sheet:
             if value is not None:
                 cell = Found(sheet="", cell="", value=value)
                 read = read_cell(cell, entry, *_unit_of(sheet, place))
-            draft[place.section][place.row][place.field] = read
+            inputs[place.section][place.row][place.field] = read
         except CellError as error:
             gathered.add(place, [error.parts[0].at(sheet.addresses[place], entry.spoken)])
-    _compute(sheet, typed, draft)
-    gathered.take(faults(draft, sheet.where))
-    return replace(sheet, draft=draft, problems=tuple(gathered.problems))
+    _compute(sheet, typed, inputs)
+    gathered.take(faults(inputs, sheet.where))
+    return replace(sheet, inputs=inputs, problems=tuple(gathered.problems))
 
 
 def _compute(
-    sheet: Sheet, typed: Mapping[Place, Typed], draft: Mapping[str, list[dict[str, Any]]]
+    sheet: Sheet, typed: Mapping[Place, Typed], inputs: Mapping[str, list[dict[str, Any]]]
 ) -> None:
     """Compute again what blank cells of the rows stand for in which something is typed."""
     blank = {row.address for row in sheet.echo if not row.typed}
     for section, index in {(place.section, place.row) for place in typed}:
-        row = draft[section][index]
+        row = inputs[section][index]
         for entry in SECTION[section].entries:
             place = Place(section, index, entry.name)
             # Emptied here, or blank in the file and left so.

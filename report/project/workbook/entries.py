@@ -15,7 +15,9 @@ from typing import Any, get_args
 
 from annotated_types import Ge, Gt, Le, Lt
 
-from report.project.model.fields import DraftRow, Frozen, YesNo
+from report.project.model.choices import YesNo
+from report.project.model.frozen import Frozen
+from report.project.model.input_rows import InputRow
 from report.text.units import Quantity, Unit
 
 
@@ -68,7 +70,7 @@ class Entry:
     sheet: str = ""  # of that block
     # What a blank cell stands for, by the fields read before it, and by which rule; None for the
     # default.
-    computed: Callable[[DraftRow], Any] | None = None
+    computed: Callable[[InputRow], Any] | None = None
     rule: str = ""
     key_of: Callable[[str], str] = str  # what a text in a cell stands for
     # Of the field in the model, by which `block` and `table` complete an entry.

@@ -18,7 +18,9 @@ from openpyxl.formula.translate import Translator
 from openpyxl.utils import coordinate_to_tuple
 
 from report.project.model.choices import ClearanceSource
-from report.project.model.fields import DraftRow, Finding, Level, Place
+from report.project.model.finding import Finding, Level
+from report.project.model.input_rows import InputRow
+from report.project.model.place import Place
 from report.project.read.archive import OpenBook, book_of, located, open_book
 from report.project.read.cells import Found, plain
 from report.project.read.locate import table_area
@@ -182,7 +184,7 @@ def withdrawn(change: WorkbookChange) -> list[str]:
     before = change.sheet_before
     stated = {
         Place("project", 0, field): row[field]
-        for row in before.draft["project"]
+        for row in before.inputs["project"]
         for field in ("drawing_confirmed_by", "drawing_confirmed_date", "drawing_covered")
         if row.get(field)
     }
@@ -198,8 +200,8 @@ def withdrawn(change: WorkbookChange) -> list[str]:
     ]
 
 
-def _drawn(sheet: Sheet) -> list[DraftRow]:
-    rows = sheet.draft["clearances"]
+def _drawn(sheet: Sheet) -> list[InputRow]:
+    rows = sheet.inputs["clearances"]
     return [row for row in rows if row.get("source") is ClearanceSource.DRAWING]
 
 

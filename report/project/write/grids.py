@@ -17,7 +17,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.project.model import provision_name
 from report.project.model.choices import UnitsFirst
-from report.project.model.fields import Frozen
+from report.project.model.frozen import Frozen
 from report.project.workbook.answers import SITE_ANSWERS, SITE_FORMAT, FormulaColumn, table_answers
 from report.project.workbook.entries import Entry, SheetSection, rows_of
 from report.project.workbook.layout import TablePlace, Tables, name_cell

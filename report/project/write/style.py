@@ -19,7 +19,7 @@ from openpyxl.styles.differential import DifferentialStyle
 from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.project.model.fields import YesNo
+from report.project.model.choices import YesNo
 from report.project.read.cells import escaped, wish
 from report.project.workbook.entries import Entry
 from report.text.counts import as_typed

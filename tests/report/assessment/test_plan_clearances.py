@@ -162,7 +162,7 @@ def test_motions_run_where_they_can_and_else_the_reason_is_given(tmp_path):
     output = fill(tmp_path)
     assert at("the motions are not run: <Motions/M2/Horizontal record>: ") in output
     assert "reach 163.2 in (4144 mm), twice the prescriptive displacement\n" in output
-    assert len(read(path).draft["clearances"]) == 2
+    assert len(read(path).inputs["clearances"]) == 2
 
 
 @pytest.mark.nightly
@@ -175,10 +175,10 @@ def test_rows_that_stand_are_kept_and_said_where_they_differ(tmp_path):
     assert at(wanted) in output
     assert "A2 to RTU-1, up, 60.0 in (1524 mm)" in output
     assert "2 kept" in output
-    draft = read(path).draft["clearances"]
-    assert [row["object"] for row in draft[:2]] == ["A2", "GONE"]
-    assert draft[0]["provided_m"] == pytest.approx(130 * INCH)
-    assert draft[0].get("source") is None
+    inputs = read(path).inputs["clearances"]
+    assert [row["object"] for row in inputs[:2]] == ["A2", "GONE"]
+    assert inputs[0]["provided_m"] == pytest.approx(130 * INCH)
+    assert inputs[0].get("source") is None
     again = path.read_bytes()
     assert "0 clearances added" in fill(tmp_path)
     assert path.read_bytes() == again

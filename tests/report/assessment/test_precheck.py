@@ -14,7 +14,8 @@ from report.assessment.checks.check import sentence
 from report.assessment.precheck import limits_before_runs, shaking_acceptance
 from report.assessment.routes import Route
 from report.motions.history import targets
-from report.project.model.fields import Level, Place
+from report.project.model.finding import Level
+from report.project.model.place import Place
 from report.project.model.scene import SIDES
 
 SEVEN = scenes.motions(7)

@@ -13,7 +13,7 @@ from report.assessment.checks.limits import of_overrides
 from report.assessment.checks.plan import of_roof
 from report.assessment.verdict import OVERRIDDEN, Verdict
 from report.project.check.covered import to_record
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from solver.rules.limit import Consequence
 from stand_in import FOOT, INCH
 

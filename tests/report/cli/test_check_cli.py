@@ -19,7 +19,7 @@ from report.assessment.assess import assess
 from report.assessment.checks.check import texts
 from report.assessment.precheck import findings
 from report.motions.prepare import prepare
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.project.model.scene import SIDES
 from report.text.units import LENGTHS, PRESSURES, WEIGHTS
 from sheets import arrays, at, make, project, read_workbook

@@ -189,13 +189,13 @@ def box(points_ft):
 
 
 def check_plan(path, array_ft):
-    draft = read(path).draft
+    inputs = read(path).inputs
     sides = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
-    assert tuple(draft["roof"][0][side] for side in sides) == box(ROOF_FT)
-    shapes = shapes_of(draft)
+    assert tuple(inputs["roof"][0][side] for side in sides) == box(ROOF_FT)
+    shapes = shapes_of(inputs)
     for name, points in (("A1", array_ft), ("RTU-1", UNIT_FT)):
         assert tuple(getattr(shapes[name].bounds, side) for side in sides) == box(points)
-    (height_m,) = (row["height_m"] for row in draft["objects"] if row["id"] == "RTU-1")
+    (height_m,) = (row["height_m"] for row in inputs["objects"] if row["id"] == "RTU-1")
     assert height_m == pytest.approx(42 * INCH)
 
 

@@ -123,9 +123,9 @@ def test_ballast_of_an_array_without_blocks_is_taken_out_with_replace(tmp_path):
     type_into(book, {"Arrays/A1/Ballast weight": None, "Arrays/A1/Weight": None,
                      "Arrays/A2/Ballast weight": 18000})  # fmt: skip
     assert "A2: no blocks; the 18000 lb (80.07 kN) given stay without --replace" in ran(*words)
-    assert read(book).draft["arrays"][1]["ballast_n"] == pytest.approx(18000 * LB)
+    assert read(book).inputs["arrays"][1]["ballast_n"] == pytest.approx(18000 * LB)
     assert "A2: no blocks; the 18000 lb (80.07 kN) given are taken out" in ran(*words, "--replace")
-    assert read(book).draft["arrays"][1]["ballast_n"] is None
+    assert read(book).inputs["arrays"][1]["ballast_n"] is None
 
 
 def test_a_workbook_without_the_column_is_refused_with_what_to_do(tmp_path):

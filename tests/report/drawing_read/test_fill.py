@@ -45,16 +45,16 @@ def test_a_blank_workbook_is_filled(tmp_path, units):
     assert "A1: array, 6 vertices" in output
     assert "Clearances are not added yet: Project!" in output
     sheet = read(path)
-    draft = sheet.draft
-    assert [row["id"] for row in draft["arrays"]] == ["A1", "A2"]
-    assert draft["arrays"][0]["x_from_m"] is None
-    assert draft["arrays"][1]["x_to_m"] == pytest.approx(200 * FT, abs=1e-6)
+    inputs = sheet.inputs
+    assert [row["id"] for row in inputs["arrays"]] == ["A1", "A2"]
+    assert inputs["arrays"][0]["x_from_m"] is None
+    assert inputs["arrays"][1]["x_to_m"] == pytest.approx(200 * FT, abs=1e-6)
     assert [(row["name"], round(row["x_m"] / FT), round(row["y_m"] / FT))
-            for row in draft["outlines"]] == [("A1", x, y) for x, y in L_FT]  # fmt: skip
-    assert draft["roof"][0]["x_to_m"] == pytest.approx(240 * FT, abs=1e-6)
-    ids = [row["id"] for row in draft["objects"]]
+            for row in inputs["outlines"]] == [("A1", x, y) for x, y in L_FT]  # fmt: skip
+    assert inputs["roof"][0]["x_to_m"] == pytest.approx(240 * FT, abs=1e-6)
+    ids = [row["id"] for row in inputs["objects"]]
     assert ids == ["N", "EDGE-1", "EDGE-2", "EDGE-3"]
-    assert draft["objects"][0]["height_m"] == pytest.approx(36 * 0.0254)
+    assert inputs["objects"][0]["height_m"] == pytest.approx(36 * 0.0254)
     assert not [p for p in sheet.problems if p[0].section in ("roof", "objects", "outlines")]
 
 
@@ -142,7 +142,7 @@ def test_rows_that_a_table_grows_by_have_its_formulas_and_formats(tmp_path, unit
         sketch.ring("ARRAY", tuple(box), f"A{number}")
     output = run(sketch.saved(tmp_path), path)
     sheet = read(path)
-    assert len(sheet.draft["arrays"]) == 30
+    assert len(sheet.inputs["arrays"]) == 30
     written = load_workbook(sheet.path)
     first, last = (cell(written, f"Arrays/{name}/ID") for name in ("A0", "A29"))
     assert f"{first.parent.title}!{first.coordinate}:" in output
@@ -178,7 +178,7 @@ def test_a_drawing_without_anything_known_lists_what_there_is(tmp_path):
 
 
 def layers_of(path):
-    return [(row["layer"], row["kind"].value) for row in read(path).draft["layers"]]
+    return [(row["layer"], row["kind"].value) for row in read(path).inputs["layers"]]
 
 
 def test_layers_that_nobody_named_are_shown_with_a_proposal_and_nothing_is_written(tmp_path):
@@ -201,16 +201,16 @@ def test_layers_that_nobody_named_are_shown_with_a_proposal_and_nothing_is_writt
 def test_layers_that_are_accepted_or_given_are_kept_on_the_sheet(tmp_path):
     path, drawn = new(tmp_path), roof_plan().saved(tmp_path)
     output = run(drawn, path, "--accept", "--layer", "a-roof-tank=Fixed object", "--rotate", "-17")
-    draft = read(path).draft
+    inputs = read(path).inputs
     assert layers_of(path) == [
         ("a-roof-tank", "fixed object"), ("A-ANNO-NOTE", "not read"), ("A-ROOF-OTLN", "roof"),
         ("E-SOLR-PANL", "array"), ("M-HVAC-EQPM", "fixed object"),
     ]  # fmt: skip
-    for row, points in zip(draft["arrays"], ARRAYS.values(), strict=True):
+    for row, points in zip(inputs["arrays"], ARRAYS.values(), strict=True):
         sides = [row[side] / FT for side in SIDES]
         (x0, y0), _, (x1, y1), _ = points
         assert sides == pytest.approx([x0, x1, y0, y1], abs=1e-4)
-    heights = {row["id"]: row.get("height_m") for row in draft["objects"]}
+    heights = {row["id"]: row.get("height_m") for row in inputs["objects"]}
     assert heights["RTU-1"] == pytest.approx(3.5 * FT)
     assert heights["RTU-2"] == pytest.approx(4.0 * FT)
     assert heights["TANK"] == pytest.approx(5.0 * FT)

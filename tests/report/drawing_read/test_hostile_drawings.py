@@ -175,9 +175,9 @@ def test_what_cannot_be_printed_is_neither_printed_nor_written(tmp_path, letter)
     assert "A1: array" in output
     assert " is not in Layers: 1 on NOT-KNOWN (" in output
     assert letter not in output
-    draft = read(book).draft
-    assert draft["arrays"][0]["id"] == "A1"
-    assert "OBJ-1" in [row["id"] for row in draft["objects"]]
+    inputs = read(book).inputs
+    assert inputs["arrays"][0]["id"] == "A1"
+    assert "OBJ-1" in [row["id"] for row in inputs["objects"]]
 
 
 @pytest.mark.nightly

@@ -50,7 +50,7 @@ def filled(tmp_path, arrays, objects=(), **roof):
     folder.mkdir()
     path = blank(folder / "input.xlsx", UnitsFirst.US)
     plan_read(drawn(tmp_path, arrays, objects, **roof), path)
-    ids = [row["id"] for row in read(path).draft["arrays"]]
+    ids = [row["id"] for row in read(path).inputs["arrays"]]
     type_into(path, {f"Arrays/{name}/Slope": 1.0 + k for k, name in enumerate(ids)})
     return path
 
@@ -64,7 +64,7 @@ def slopes(path):
     """The slope of each array by its lower left corner [ft]."""
     return {
         (round(row["x_from_m"] / FT), round(row["y_from_m"] / FT)): (row["id"], row["slope_value"])
-        for row in read(path).draft["arrays"]
+        for row in read(path).inputs["arrays"]
     }
 
 
@@ -110,10 +110,10 @@ def test_what_the_drawing_no_longer_has_is_taken_out_with_its_clearances(tmp_pat
             "Clearances/2/Array": "A1", "Clearances/2/Object": "RTU-1"}  # fmt: skip
     type_into(path, rows)
     output = revised(tmp_path, path, [((20, 60), "A1")])
-    draft = read(path).draft
-    assert [row["id"] for row in draft["arrays"]] == ["A1"]
-    assert not [row for row in draft["objects"] if row["id"] == "RTU-1"]
-    assert [row for row in draft["clearances"] if row] == []
+    inputs = read(path).inputs
+    assert [row["id"] for row in inputs["arrays"]] == ["A1"]
+    assert not [row for row in inputs["objects"] if row["id"] == "RTU-1"]
+    assert [row for row in inputs["clearances"] if row] == []
     for name in ("A2", "RTU-1"):
         (line,) = (line for line in output.splitlines() if line.startswith(f"{name} "))
         assert line.endswith("not in the drawing; taken out")
@@ -134,7 +134,7 @@ def test_a_second_drawing_adds_to_the_first_without_replace(tmp_path):
     sketch = Sketch()
     sketch.ring("ARRAY", box(20, 10), "A2")
     output = plan_read(sketch.saved(tmp_path), path)
-    assert [row["id"] for row in read(path).draft["arrays"]] == ["A1", "A2"]
+    assert [row["id"] for row in read(path).inputs["arrays"]] == ["A1", "A2"]
     assert "A1      x 20.00 to 100.00, y 60.00 to 100.00 ft" in output
     assert "not in the drawing; stays without --replace" in output
 
@@ -152,30 +152,30 @@ def test_modules_that_are_not_drawn_any_more_are_taken_out(tmp_path):
     sketch = Sketch()
     grid(sketch, 20, 20)
     plan_read(sketch.saved(tmp_path), path)
-    assert read(path).draft["arrays"][0]["modules"] == 6
+    assert read(path).inputs["arrays"][0]["modules"] == 6
     sketch = Sketch()
     sketch.ring("ARRAY", box(20, 20, (41.8, 3.4)))
     output = plan_read(sketch.saved(tmp_path), path, "--replace")
     assert "A1: 6 modules taken out, as they are not drawn" in output
-    assert read(path).draft["arrays"][0]["modules"] is None
+    assert read(path).inputs["arrays"][0]["modules"] is None
     # Typed, they stay.
     type_into(path, {"Arrays/A1/Modules": 30})
     output = plan_read(sketch.saved(tmp_path), path, "--replace")
     assert "A1: 30 modules stay as typed" in output
-    assert read(path).draft["arrays"][0]["modules"] == 30
+    assert read(path).inputs["arrays"][0]["modules"] == 30
 
 
 @pytest.mark.nightly
 def test_a_roof_that_grows_keeps_what_was_typed_of_its_edges(tmp_path):
     path = filled(tmp_path, [((20, 60), "A1")])
-    ids = [row["id"] for row in read(path).draft["objects"]]
+    ids = [row["id"] for row in read(path).inputs["objects"]]
     assert len(ids) == 4
     type_into(path, {f"Objects/{ids[1]}/Kind": "edge with parapet",
                      f"Objects/{ids[1]}/Height": 36})  # fmt: skip
-    before = {row["id"]: row["kind"] for row in read(path).draft["objects"]}
+    before = {row["id"]: row["kind"] for row in read(path).inputs["objects"]}
     larger = ((0, 0), (300, 0), (300, 160), (0, 160))
     revised(tmp_path, path, [((20, 60), "A1")], roof=larger)
-    after = read(path).draft["objects"]
+    after = read(path).inputs["objects"]
     assert {row["id"]: row["kind"] for row in after} == before
     assert max(row["x_to_m"] for row in after) == pytest.approx(301 * FT, abs=1e-5)
 
@@ -202,9 +202,9 @@ def rows_at(places):
 
 def matched_with(rows, places, names=()):
     """The plan of drawn places with the names of the rows of a workbook."""
-    draft = {"arrays": rows_at(rows), "objects": [], "outlines": [], "project": [], "roof": []}
+    inputs = {"arrays": rows_at(rows), "objects": [], "outlines": [], "project": [], "roof": []}
     arrays = tuple(drawn_at(places, names))
-    return matched(RoofPlan(roof=(), arrays=arrays, objects=(), unread=()), draft).plan.arrays
+    return matched(RoofPlan(roof=(), arrays=arrays, objects=(), unread=()), inputs).plan.arrays
 
 
 UPPER, LOWER, TOP = (20, 60, 80, 40), (20, 10, 80, 40), (20, 110, 80, 40)

@@ -261,13 +261,13 @@ def test_counts_are_filled_in_where_there_is_a_column(tmp_path):
     output = ended("plan", "read", path, book, "--gap", 18, "in")
     assert "A2: array of 21 modules 78.7 in (2000 mm) by 43.3 in (1100 mm) with gaps of" in output
     assert " of at most 18.0 in (457 mm), 6 vertices, " in output
-    rows = read(book).draft["arrays"]
+    rows = read(book).inputs["arrays"]
     assert {row["id"]: row["modules"] for row in rows} == COUNTS
     assert "it is 0; give more than 0." in refused("plan", "read", path, book, "--gap", 0, "in")
     book = make(tmp_path, clearances=[])
     edit(book, lambda found: retitle(found, "Arrays", "Modules", ""))
     ended("plan", "read", layout().saved(tmp_path), book, "--replace")
-    assert [row["modules"] for row in read(book).draft["arrays"]] == [None] * 5  # with A2 as typed
+    assert [row["modules"] for row in read(book).inputs["arrays"]] == [None] * 5  # with A2 as typed
 
 
 def rounded(unit, decimals, angle_deg, long=2.1):

@@ -52,18 +52,18 @@ def drawn(roof, places, move=(0.0, 1.0, (0.0, 0.0), False)):
 
 def draft_of(plan):
     """The rows of a workbook that a plan has filled."""
-    draft = {"project": [], "roof": [{}], "outlines": []}
+    inputs = {"project": [], "roof": [{}], "outlines": []}
     for key, places in (("arrays", plan.arrays), ("objects", plan.objects)):
-        draft[key] = [
+        inputs[key] = [
             {"id": place.name, "place_from": "drawing"}
             | ({"kind": place.kind} if key == "objects" else {})
             for place in places
         ]
     for place in (*plan.roof, *plan.arrays, *plan.objects):
-        draft["outlines"] += [
+        inputs["outlines"] += [
             {"name": place.name, "x_m": x, "y_m": y} for x, y in place.shape.points
         ]
-    return draft
+    return inputs
 
 
 def middle(shape):
@@ -230,7 +230,7 @@ def second_day(tmp_path, path, places, move, *words, exit_code=0, **options):
 
 def in_feet(path, key):
     return {row["id"]: tuple(round(row[side] / FT, 3) for side in SIDES)
-            for row in read(path).draft[key] if row["x_from_m"] is not None}  # fmt: skip
+            for row in read(path).inputs[key] if row["x_from_m"] is not None}  # fmt: skip
 
 
 def test_what_was_typed_turns_with_the_sheet_and_what_is_lost_is_named(tmp_path):
@@ -250,9 +250,9 @@ def test_what_was_typed_turns_with_the_sheet_and_what_is_lost_is_named(tmp_path)
     (line,) = (text for text in output.splitlines() if text.startswith("taken out with A2: "))
     assert "weight 41000 lb" in line
     assert "array A1, object A2, provided clearance 240 in, distance from measured" in line
-    draft = read(path).draft
-    assert draft["arrays"][0]["downslope_deg"] == 0.0
-    edge = next(row for row in draft["objects"] if row["id"] == "EDGE-2")
+    inputs = read(path).inputs
+    assert inputs["arrays"][0]["downslope_deg"] == 0.0
+    edge = next(row for row in inputs["objects"] if row["id"] == "EDGE-2")
     assert (edge["kind"].value, edge["height_m"]) == (
         "edge with parapet",
         pytest.approx(36 * FT / 12),

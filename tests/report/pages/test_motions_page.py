@@ -264,13 +264,13 @@ def test_another_friction_than_that_of_the_package_is_said(mu, is_said):
 
 def test_the_file_is_attached_or_refused_at_its_cell(tmp_path):
     book = SimpleNamespace(path=tmp_path / "input.xlsx", files={})
-    draft = {"options": [{"study_years": "years.json"}], "site": [], "friction_tests": []}
+    inputs = {"options": [{"study_years": "years.json"}], "site": [], "friction_tests": []}
     path = tmp_path / "years.json"
     path.write_text(json.dumps(YEARS))
-    (document,), faults = read_documents(book, draft)
+    (document,), faults = read_documents(book, inputs)
     assert not faults
     assert StudyYears.model_validate_json(book.files[document.sha256]).arrays[0].mu == 0.5
     path.write_text(json.dumps(YEARS | {"note": "code value"}))
-    _, (fault,) = read_documents(book, draft)
+    _, (fault,) = read_documents(book, inputs)
     assert "is no years.json of a study (note: " in fault.text
     assert fault.place.field == "study_years"

@@ -10,7 +10,7 @@ from inputs import INCH
 from nightly import by_day
 from report.project.check.covered import outdated, to_record
 from report.project.model.choices import UnitsFirst
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from sheets import SECTIONS as USUAL
 from sheets import make, project, read_workbook
 

@@ -15,7 +15,8 @@ from report.cli.main import main
 from report.project.check.findings import grouped, line_of, lines, note, unusual, warning
 from report.project.check.plausible import implausible
 from report.project.model.choices import ObjectKind
-from report.project.model.fields import Level, Place
+from report.project.model.finding import Level
+from report.project.model.place import Place
 from report.project.read.read import read
 from report.web.jobs import problems as shown_problems
 from sheets import arrays, at, make, project, row_changed, said, told, type_into

@@ -198,5 +198,5 @@ def test_a_text_is_read_back_as_it_was_written_whatever_it_looks_like(tmp_path, 
     path.write_bytes(changed(path.read_bytes(), {place("Arrays/A1/ID"): name}))
     at_id = place("Arrays/A1/ID")
     assert load_workbook(path)["Arrays"][at_id.cell].data_type == "s"
-    assert read(path).draft["arrays"][0]["id"] == name
+    assert read(path).inputs["arrays"][0]["id"] == name
     assert GrowingTable.of(open_book(path), "arrays").rows("id", name) == [at_id.row]

@@ -13,7 +13,7 @@ from report.cli.main import main
 from report.project.check.checks import site_faults
 from report.project.model import ProjectInput
 from report.project.model.choices import RuleSetName, SiteClass, SlopeUnit
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.project.model.scene import slope_rad
 from report.project.model.site import Site
 from report.project.read.read import read
@@ -108,8 +108,8 @@ UNSOURCED = {"s_s_g": 2.0, "s_1_g": 0.6, "site_class": SiteClass.D, "f_a": None,
 
 def faults(**changes):
     row = Site.model_construct(**Site.model_validate(CONSISTENT).model_dump() | changes)
-    draft = {"site": [dict(row)]}
-    found = site_faults(draft, lambda place: place.field)
+    inputs = {"site": [dict(row)]}
+    found = site_faults(inputs, lambda place: place.field)
     return [(fault.place.field, fault.problem("").text) for fault in found]
 
 

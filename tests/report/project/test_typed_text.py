@@ -154,10 +154,10 @@ def test_a_remark_in_a_cell_is_an_error_that_says_what_to_type(tmp_path):
 @pytest.mark.parametrize("cells", by_day(AS_TYPED, 1))
 def test_cells_are_read_as_they_are_typed(tmp_path, cells):
     typed = {name: text for name, (text, _, _) in cells.items()}
-    draft = read(type_into(make(tmp_path), typed)).draft
+    inputs = read(type_into(make(tmp_path), typed)).inputs
     for name, (_, field, value) in cells.items():
         section = name.partition("/")[0].lower()
-        assert draft[section][0][field] == value, name
+        assert inputs[section][0][field] == value, name
 
 
 LETTERS = "0123456789.,:;'\"/ -+()eEinfwetdry\u2019\u201d\u0661"

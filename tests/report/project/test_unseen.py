@@ -15,7 +15,7 @@ from cells import cell as named
 from nightly import by_day
 from printed import printed
 from report.assessment.precheck import findings
-from report.project.model.fields import Place
+from report.project.model.place import Place
 from report.project.read.read import read
 from report.project.read.unseen import Concealment, Unseen, warnings
 from sheets import at, blank, edit, make, of, read_workbook, told, type_into

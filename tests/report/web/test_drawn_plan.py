@@ -45,7 +45,7 @@ def test_a_second_drawing_says_on_the_page_what_the_command_prints(tmp_path):
     assert any(line.startswith("taken out with RTU-1: ") for line in lines)
     printed = ended("plan", "read", drawing, by_command, "--replace").splitlines()
     assert [line for line in lines if line not in printed] == []
-    assert read(book).draft["objects"] == read(by_command).draft["objects"]
+    assert read(book).inputs["objects"] == read(by_command).inputs["objects"]
 
 
 def test_a_size_that_few_have_is_asked_about_on_the_page_and_answered_by_a_unit(tmp_path):

@@ -171,10 +171,10 @@ def test_the_plan_is_read_from_a_drawing_beside_the_workbook(page, tmp_path):
     name, content = saved(page, lambda: page.click("text=Save filled workbook"))
     assert name == "input.xlsx"
     (tmp_path / name).write_bytes(content)
-    draft = read(tmp_path / name).draft
-    assert [row["id"] for row in draft["arrays"]] == ["A2"]
-    assert draft["roof"][0]["x_to_m"] == pytest.approx(240 * FT, abs=1e-6)
-    assert {row["layer"]: row["kind"] for row in draft["layers"]}["X-9"] == "roof"
+    inputs = read(tmp_path / name).inputs
+    assert [row["id"] for row in inputs["arrays"]] == ["A2"]
+    assert inputs["roof"][0]["x_to_m"] == pytest.approx(240 * FT, abs=1e-6)
+    assert {row["layer"]: row["kind"] for row in inputs["layers"]}["X-9"] == "roof"
 
 
 @pytest.mark.nightly

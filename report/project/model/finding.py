@@ -1,23 +1,12 @@
-"""Drafts of an input, places in them, what is found there, and the base of the models."""
+"""What is found in a workbook: an error, or what is permitted and perhaps not meant."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any, NamedTuple
 
-from pydantic import BaseModel, ConfigDict
-
+from report.project.model.place import Place
 from solver.model import Problem
-
-
-class Place(NamedTuple):
-    """A cell by meaning: section, row of its table, field; without the last two, a whole table."""
-
-    section: str
-    row: int = 0
-    field: str = ""
 
 
 class Level(StrEnum):
@@ -49,28 +38,3 @@ class Finding:
     def problem(self, where: str) -> Problem:
         """Return the error with its address."""
         return Problem(self.text, self.remedy, where)
-
-
-DraftRow = Mapping[str, Any]
-"""Fields of a row of a draft; a field that could not be read is absent."""
-
-Draft = Mapping[str, Sequence[DraftRow]]
-"""Rows by section, as far as they could be read."""
-
-Where = Callable[[Place], str]
-"""Returns the address of a place."""
-
-
-class YesNo(StrEnum):
-    """Yes or no, as shown in a cell."""
-
-    YES = "Yes"
-    NO = "No"
-
-
-class Frozen(BaseModel):
-    """Base of all models: frozen, complete, finite."""
-
-    model_config = ConfigDict(
-        frozen=True, extra="forbid", allow_inf_nan=False, str_strip_whitespace=True
-    )
