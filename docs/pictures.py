@@ -85,7 +85,7 @@ def _sheets(path: Path) -> None:
 
 
 def _browser(charts: Path) -> None:
-    from browsing import at_rest, chromium, moved, opened, quiet_page, served
+    from fixtures.browser import at_rest, chromium, moved, opened, quiet_page, served
 
     with chromium() as browser, quiet_page(browser) as page:
         example = report.read_project(ROOT / "projects" / "example").project

@@ -14,8 +14,8 @@ from hypothesis import settings
 
 import report  # noqa: F401 - before any test loads openpyxl: the package decides what that reads with
 import solver.kernels  # noqa: F401 - on Windows it adds a library that numba needs
-from browsing import chromium
-from places import RECORDS, SAMPLES
+from fixtures.browser import chromium
+from fixtures.paths import RECORDS, SAMPLES
 
 G = 9.80665
 
@@ -24,7 +24,7 @@ gc.disable()  # until all tests are collected: their modules live to the end
 # A run in the background of a shell ignores interrupts, and so would all that the tests start.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
-pytest_plugins = ("golden_texts",)
+pytest_plugins = ("fixtures.golden",)
 
 settings.register_profile("roofslip", deadline=None)  # a busy machine is no failure
 settings.load_profile("roofslip")

@@ -47,8 +47,8 @@ hadolint Dockerfile
 # Two processes of tests would compile the same kernels at once. As set-up does, at a level of
 # optimization that takes three quarters of the time.
 if ! ls solver/kernels/__pycache__/row.slide_row-*.nbi >/dev/null 2>&1; then
-    NUMBA_OPT=2 python -P tests/compiled.py axis &
-    NUMBA_OPT=2 python -P tests/compiled.py more
+    NUMBA_OPT=2 python -P tests/compile_kernels.py axis &
+    NUMBA_OPT=2 python -P tests/compile_kernels.py more
     wait "$!"
 fi
 # --quick: the inner loop; --nightly: all, with coverage; --golden: what changed in the words of

@@ -8,7 +8,7 @@ from importlib.util import module_from_spec, spec_from_file_location
 
 import pytest
 
-from places import ROOT
+from fixtures.paths import ROOT
 
 _SPEC = spec_from_file_location("core", ROOT / "docs" / "core.py")
 core = module_from_spec(_SPEC)

@@ -10,8 +10,8 @@ import pytest
 from scipy import signal
 
 import solver
-from nightly import by_day
-from places import ROOT
+from fixtures.marks import by_day
+from fixtures.paths import ROOT
 from projects.curves import make
 from projects.curves.equation import (
     LEAST_PRD_M,

@@ -20,13 +20,13 @@ import numpy as np
 import pytest
 from pypdfium2 import PdfDocument
 
-import packages
 import solver.public
-from cells import cell
-from places import RECORDS, ROOT
+from fixtures import packages
+from fixtures.cells import cell
+from fixtures.paths import RECORDS, ROOT
+from fixtures.workbooks import edit
 from report.project.model.choices import RuleSetName
 from report.results.publish import STAMP
-from sheets import edit
 from solver.model import Friction
 from solver.rules.rulesets import RULE_SETS
 from solver.sliding.checked import scene, slide

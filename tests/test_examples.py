@@ -11,8 +11,8 @@ import pytest
 from dlml._tabular import load_tabular
 from matplotlib import pyplot
 
-from nightly import nightly
-from places import ROOT, TESTS
+from fixtures.marks import nightly
+from fixtures.paths import ROOT, TESTS
 
 
 def loaded(path):

@@ -9,27 +9,26 @@ from pathlib import Path
 import playwright
 import pytest
 
-import golden_texts
-import nightly
-from places import ROOT, TESTS
+from fixtures import golden, marks
+from fixtures.paths import ROOT, TESTS
 
 pytestmark = pytest.mark.quick
 
 
 def test_a_golden_text_is_shown_as_a_difference_and_taken_over_where_asked_for(tmp_path):
     path = tmp_path / "golden" / "page.txt"
-    shown = golden_texts.difference(path, "a\nb\n", is_taken_over=False)
+    shown = golden.difference(path, "a\nb\n", is_taken_over=False)
     assert shown.splitlines()[-2:] == ["+a", "+b"]
     assert not path.exists()
-    golden_texts.difference(path, "a\nb\n", is_taken_over=True)
-    assert golden_texts.difference(path, "a\nb\n", is_taken_over=False) == ""
-    shown = golden_texts.difference(path, "a\nc\n", is_taken_over=False)
+    golden.difference(path, "a\nb\n", is_taken_over=True)
+    assert golden.difference(path, "a\nb\n", is_taken_over=False) == ""
+    shown = golden.difference(path, "a\nc\n", is_taken_over=False)
     assert shown.splitlines()[2:] == ["@@ -1,2 +1,2 @@", " a", "-b", "+c"]
 
 
 @pytest.mark.parametrize(("n", "kept"), [(1, [0]), (2, [0, 3]), (6, [0, 1, 2, 3, 4, 5])])
 def test_so_many_cases_run_by_day_evenly_spaced(n, kept):
-    cases = nightly.by_day(range(6), n)
+    cases = marks.by_day(range(6), n)
     assert [case for case in cases if isinstance(case, int)] == kept
     for k, case in enumerate(cases):
         assert k in kept or (case.values, case.marks[0].name) == ((k,), "nightly")

@@ -11,13 +11,11 @@ import zipfile
 
 import pytest
 
-import commands
-import sheets
-import waves
-from nightly import nightly
-from outside import changes_within
+from fixtures import commands, records, workbooks
+from fixtures.dxf import BOX_FT, Sketch
+from fixtures.file_changes import changes_within
+from fixtures.marks import nightly
 from report.motions.stored import unpack
-from sketch import BOX_FT, Sketch
 from solver.model import InputError
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="its folders have no such names")
@@ -31,7 +29,7 @@ def private(tmp_path, monkeypatch):
     """Where temporary files are, with one of somebody else."""
     folder = tmp_path / "tmp"
     for axis in "xyz":
-        waves.plain(folder / "theirs" / f"KJM-{axis}.csv", dt_s=0.02, count=300)
+        records.write_record(folder / "theirs" / f"KJM-{axis}.csv", dt_s=0.02, count=300)
     monkeypatch.setattr(tempfile, "tempdir", str(folder))
     monkeypatch.chdir(tmp_path)
     return folder
@@ -40,7 +38,9 @@ def private(tmp_path, monkeypatch):
 def zipped(path, *names):
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         for name in names:
-            archive.writestr(name, waves.plain(path.parent / "one.csv", 0.02, 300).read_text())
+            archive.writestr(
+                name, records.write_record(path.parent / "one.csv", 0.02, 300).read_text()
+            )
     return path
 
 
@@ -48,7 +48,7 @@ def zipped(path, *names):
 def test_a_zip_of_any_name_gives_only_its_own_records(tmp_path, private, name):
     path = zipped(tmp_path / f"{name}.zip", *(f"M-{axis}.csv" for axis in "xyz"))
     with changes_within(private):
-        told = commands.printed("motion", "rows", path)
+        told = commands.stdout_of("motion", "rows", path)
     assert "KJM" not in told
     assert told.count("M-x.csv") == 1
     assert sorted(entry.name for entry in private.iterdir()) == ["theirs"]
@@ -56,26 +56,26 @@ def test_a_zip_of_any_name_gives_only_its_own_records(tmp_path, private, name):
 
 @pytest.mark.parametrize("name", NAMES[:6])
 def test_a_workbook_of_any_name_leaves_the_results_of_others(tmp_path, private, name):
-    job = sheets.make(tmp_path / "job").parent
+    job = workbooks.make(tmp_path / "job").parent
     for path in (job / f"{name}.xlsx", job / "b.xlsx"):
         path.write_bytes(b"no workbook")
     theirs = job / "results.json"
     theirs.write_text("{}")
     with changes_within(job / "out", private):
-        told = commands.refused("report", job / f"{name}.xlsx", job / "b.xlsx")
+        told = commands.errors_of("report", job / f"{name}.xlsx", job / "b.xlsx")
     assert theirs.read_text() == "{}"
     assert "; rename it" in told or "; rename the file" in told
 
 
 def test_two_workbooks_with_one_folder_do_not_replace_each_other(tmp_path, private):
-    job = sheets.make(tmp_path / "job").parent
+    job = workbooks.make(tmp_path / "job").parent
     for name in ("a.xlsx", "b.xlsx"):
         (job / name).write_bytes((job / "input.xlsx").read_bytes())
     other = job / "out" / "a" / "results.json"
     other.parent.mkdir(parents=True)
     other.write_text('{"workbook": {"name": "a.XLSX"}}')
     (job / "b.xlsx").write_bytes(b"no workbook")
-    told = commands.refused("report", job / "a.xlsx", job / "b.xlsx")
+    told = commands.errors_of("report", job / "a.xlsx", job / "b.xlsx")
     assert "has the results of a.XLSX, not of a.xlsx" in told
     assert other.read_text() == '{"workbook": {"name": "a.XLSX"}}'
 
@@ -95,8 +95,10 @@ COMMANDS = [
                                    pytest.param(case.values, marks=case.marks)
                                    for case in COMMANDS], ids=lambda words: words[0])  # fmt: skip
 def test_a_command_writes_nowhere_else(tmp_path, private, monkeypatch, words):
-    monkeypatch.setattr("report.suite.files.make_suite", lambda *_, count, **__: waves.suite(count))
-    sheets.make(tmp_path / "job")
+    monkeypatch.setattr(
+        "report.suite.files.make_suite", lambda *_, count, **__: records.suite(count)
+    )
+    workbooks.make(tmp_path / "job")
     sketch = Sketch()
     sketch.ring("PV", BOX_FT, "A9")
     sketch.saved(tmp_path)
@@ -144,6 +146,6 @@ def test_a_zip_of_a_million_entries_is_refused_before_they_are_read(tmp_path):
     end = b"PK\x05\x06" + bytes(4) + b"\1\0\1\0" + (46_000_000).to_bytes(4, "little") + bytes(6)
     path = tmp_path / "many.zip"
     path.write_bytes(entry * 1_000_000 + end)
-    assert "has 1,000,000 parts, more than 2,000" in commands.refused("motion", "rows", path)
+    assert "has 1,000,000 parts, more than 2,000" in commands.errors_of("motion", "rows", path)
     path = path.rename(tmp_path / "many.xlsx")
-    assert "has 1,000,000 parts, more than 2,000" in commands.refused("check", path)
+    assert "has 1,000,000 parts, more than 2,000" in commands.errors_of("check", path)

@@ -14,13 +14,13 @@ from itertools import chain
 
 import pytest
 
-import packages
 import report
 import roofslip
 import solver
-from commands import no_override
-from nightly import by_day
-from places import ROOT, TESTS
+from fixtures import packages
+from fixtures.commands import no_override
+from fixtures.marks import by_day
+from fixtures.paths import ROOT, TESTS
 from report.cli.main import main
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())

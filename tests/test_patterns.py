@@ -16,9 +16,9 @@ from re import _parser as parser  # there is no other parser of patterns
 
 import pytest
 
-from growth import NOISE_S, grows_faster, seconds
-from mutations import trouble
-from places import ROOT
+from fixtures.growth import NOISE_S, grows_faster, seconds
+from fixtures.hostile_inputs import trouble
+from fixtures.paths import ROOT
 
 METHODS = ("match", "fullmatch", "search", "sub", "split", "findall", "finditer")
 

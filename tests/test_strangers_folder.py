@@ -11,23 +11,23 @@ from pathlib import Path
 
 import pytest
 
-import commands
-import sheets
-import waves
-from nightly import by_day
-from places import ROOT
+from fixtures import commands, records, workbooks
+from fixtures.dxf import BOX_FT, Sketch
+from fixtures.folders import KINDS, occupied, state
+from fixtures.marks import by_day
+from fixtures.paths import ROOT
 from report.project.read.parts import GrowingTable
 from report.project.read.read import read
 from report.project.write.filled import changing
-from sketch import BOX_FT, Sketch
 from solver.files import LOCK
-from stranger import KINDS, occupied, state
 
 
 @pytest.fixture(autouse=True)
 def quick_without_a_hang(monkeypatch):
     """Motions of sines at once; a command that opens a pipe would wait for ever."""
-    monkeypatch.setattr("report.suite.files.make_suite", lambda *_, count, **__: waves.suite(count))
+    monkeypatch.setattr(
+        "report.suite.files.make_suite", lambda *_, count, **__: records.suite(count)
+    )
     signal.alarm(120)
     yield
     signal.alarm(0)
@@ -37,17 +37,17 @@ def quick_without_a_hang(monkeypatch):
 def folder(tmp_path):
     """A project, and beside it what the commands are given."""
     for axis in "xyz":
-        waves.plain(tmp_path / "library" / f"KJM-{axis}.csv", dt_s=0.02, count=300)
+        records.write_record(tmp_path / "library" / f"KJM-{axis}.csv", dt_s=0.02, count=300)
     sketch = Sketch()
     sketch.ring("PV", BOX_FT, "A9")
     sketch.saved(tmp_path)
     x, y = (sum(pair) / 2 for pair in (X, Y))
     (tmp_path / "map.csv").write_text(f"x,y,blocks\n{x},{y},100\n")
-    sheets.make(tmp_path / "job", clearances=sheets.project().clearances[:1])
+    workbooks.make(tmp_path / "job", clearances=workbooks.project().clearances[:1])
     return tmp_path / "job"
 
 
-A1 = sheets.project().arrays[0].shape
+A1 = workbooks.project().arrays[0].shape
 X, Y = (A1.x_from_m, A1.x_to_m), (A1.y_from_m, A1.y_to_m)
 
 
@@ -72,7 +72,7 @@ def test_a_workbook_that_is_a_link_is_not_written_through(folder, writer):
     (folder / "input.xlsx").rename(outside)
     (folder / "input.xlsx").symlink_to(outside)
     before = state(folder.parent)
-    told = commands.refused(*writes(writer, folder))
+    told = commands.errors_of(*writes(writer, folder))
     assert f"{folder / 'input.xlsx'}: is a link to {outside}, and is not written to" in told
     assert state(folder.parent) == before
 
@@ -84,7 +84,7 @@ def test_a_workbook_that_the_user_gave_may_be_a_link_and_is_kept_as_it_was(folde
     before = (folder / "input.xlsx").read_bytes()
     (folder / "input.before.xlsx").write_bytes(b"of the command before")
     words = [link if word == folder else word for word in writes(writer, folder)]
-    commands.printed(*words)
+    commands.stdout_of(*words)
     assert link.is_symlink()
     assert (folder / "input.xlsx").read_bytes() != before
     assert (folder / "input.before.xlsx").read_bytes() == before
@@ -97,12 +97,12 @@ def test_a_workbook_that_the_user_gave_may_be_a_link_and_is_kept_as_it_was(folde
 def test_a_workbook_that_a_program_has_open_is_not_changed(folder, writer, lock):
     (folder / lock).write_bytes(b"")
     before = state(folder.parent)
-    told = commands.refused(*writes(writer, folder))
+    told = commands.errors_of(*writes(writer, folder))
     assert f"{folder / lock}: is there, so a program has the workbook open; close it there" in told
     assert "delete that file if none has" in told
     assert state(folder.parent) == before
     (folder / lock).unlink()
-    commands.printed(*writes(writer, folder))
+    commands.stdout_of(*writes(writer, folder))
 
 
 PLACES = ("input.before.xlsx", LOCK, "records/KJM-x.csv", "records")
@@ -118,7 +118,7 @@ def test_nothing_is_written_through_what_is_in_a_place(folder, place, kind):
         outside.write_bytes(b"theirs")
     occupied(folder / place, kind, outside)
     before = state(folder.parent)
-    told = commands.refused(*writes("motion rows", folder))
+    told = commands.errors_of(*writes("motion rows", folder))
     where = {"link": str(outside), "dangling link": "nowhere", "device": os.devnull}
     assert f"{folder / place}: is a" in told
     assert where.get(kind, kind) in told
@@ -134,7 +134,7 @@ def test_a_report_is_not_written_through_what_is_in_its_place(folder, place, kin
     occupied(folder / place, kind, folder.parent / "library")
     before = state(folder.parent)
     monkeypatch.setattr("report.typeset.pdf.lay_out", lambda *_: b"%PDF")
-    told = commands.refused("report", folder)
+    told = commands.errors_of("report", folder)
     assert f"{folder / place}: is a" in told
     assert state(folder.parent) == before
 
@@ -147,13 +147,13 @@ def test_other_outputs_are_not_written_through_a_link(tmp_path, monkeypatch):
     for name in ("out", "new/records"):
         (tmp_path / name).symlink_to(outside)
     monkeypatch.chdir(tmp_path)
-    assert f"out: is a link to {outside}" in commands.refused("verify", "--quick")
+    assert f"out: is a link to {outside}" in commands.errors_of("verify", "--quick")
     for more in ((), ("--example",), ("--study",)):
-        told = commands.refused("new", tmp_path / "new", *more)
+        told = commands.errors_of("new", tmp_path / "new", *more)
         assert f"records: is a link to {outside}" in told
     (tmp_path / "a.pdf").write_bytes(b"%PDF")
     (tmp_path / "a-signed.pdf").symlink_to(tmp_path / "nowhere")
-    told = commands.refused("sign", tmp_path / "a.pdf", "--p12", tmp_path / "a.pdf")
+    told = commands.errors_of("sign", tmp_path / "a.pdf", "--p12", tmp_path / "a.pdf")
     assert f"a-signed.pdf: is a link to {tmp_path / 'nowhere'}" in told
     assert list(outside.iterdir()) == []
     assert [path.name for path in (tmp_path / "new").iterdir()] == ["records"]
@@ -169,7 +169,7 @@ def test_a_new_project_on_a_full_disk_says_so_and_leaves_nothing(tmp_path, monke
             raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(os, "fsync", full)
-    told = commands.refused("new", tmp_path / "deep" / "new", *more)
+    told = commands.errors_of("new", tmp_path / "deep" / "new", *more)
     assert "cannot be written (No space left on device). No file was changed" in told
     assert list(tmp_path.iterdir()) == []
 
@@ -183,7 +183,7 @@ def test_a_plan_with_its_clearances_is_one_write(folder, monkeypatch):
         rename(source, target)
 
     monkeypatch.setattr(os, "replace", renamed)
-    commands.printed(*writes("plan read", folder))
+    commands.stdout_of(*writes("plan read", folder))
     assert replaced == ["input.before.xlsx", "input.xlsx"]
     assert len(read(folder).inputs["arrays"]) == before + 1
 

@@ -13,8 +13,8 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from measure import SMOKE, figure
 
 import report  # noqa: F401  # before openpyxl is loaded: it decides what that reads with
-from campaign import Ended, campaign, run_pair
-from mutations import trouble
+from fixtures.child_process import Ended, campaign, run_pair
+from fixtures.hostile_inputs import trouble
 from solver.verification.random_pairs import KINDS
 
 INPUTS, PAIRS = (40, 20) if SMOKE else (10_000, 10_000)

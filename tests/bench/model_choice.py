@@ -21,7 +21,7 @@ from pathlib import Path
 import numpy as np
 from measure import RECORDS, ROOT, SMOKE, figure
 
-from blocks import block
+from fixtures.blocks import block
 from report.motions.prepare import prepare
 from report.project.read.read import read
 from solver.formats import read_record

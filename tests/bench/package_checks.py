@@ -2,7 +2,8 @@
 
 veraPDF, the validator of the PDF Association, checks each package with its attachments; Maven
 fetches it on the first run, and without Java and Maven there are no figures of it. Then each
-package is verified as written, and tampered with by seed in every way of `tests/tampering.py`.
+package is verified as written, and tampered with by seed in every way of
+`tests/fixtures/tampering.py`.
 """
 
 import random
@@ -15,7 +16,7 @@ from pathlib import Path
 
 from measure import ROOT, SMOKE, command, figure, finished
 
-import tampering
+from fixtures import tampering
 
 PROJECTS = ("conditions", "example", "school")
 KINDS = (*tampering.OF_THE_FILE, *tampering.OF_THE_INPUT, *tampering.OF_THE_SOFTWARE)

@@ -10,7 +10,7 @@ import numpy as np
 from measure import SMOKE, figure
 from playwright.sync_api import Page
 
-from browsing import chromium, opened, quiet_page, served
+from fixtures.browser import chromium, opened, quiet_page, served
 
 MOVES = 2 if SMOKE else 30
 STEPS = {"friction": (0.69, 0.01), "slope": (0.1, 0.1), "intensity": (0.7, 0.02),

@@ -17,13 +17,13 @@ import numpy as np
 import pandas as pd
 from measure import SMOKE, figure, made_records
 
+from fixtures.campaigns import frozen, motion
 from peers import real_records
 from report.study.manifest import manifest_of
 from report.study.parts import begin, done_parts, peaks, read_part, run_missing
 from solver import read_record, sweep
 from solver.model import Motion
 from solver.studies.runs import Campaign, Runner, grid, run_part
-from studied import frozen, motion
 
 SLOPES = np.radians(np.linspace(-7.0, 7.0, 29))
 LEVELS = np.linspace(0.05, 1.5, 16)

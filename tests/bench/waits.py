@@ -12,8 +12,8 @@ from pathlib import Path
 
 from measure import ROOT, SMOKE, command, figure, finished
 
+from fixtures.dxf import Sketch
 from report.making import OUTPUTS
-from sketch import Sketch
 
 REPEATS = 1 if SMOKE else 3
 PROJECTS = ROOT / "projects"

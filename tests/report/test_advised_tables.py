@@ -16,9 +16,9 @@ import numpy as np
 import pytest
 from openpyxl import Workbook
 
-from inputs import FT
-from nightly import by_day
-from refused import refused
+from fixtures.errors import input_problems
+from fixtures.marks import by_day
+from fixtures.project_parts import FT
 from report.drawing_read.ballast import read_map
 from report.study.shaking import points_of
 from report.suite.target_table import read_target
@@ -189,7 +189,9 @@ KINDS = {
 @pytest.mark.parametrize("name", by_day(KINDS, 8))
 def test_what_the_refusal_of_a_table_says_would_do_does(file, name):
     kind = KINDS[name]
-    said = "\n".join(map(str, refused(kind.read, file(kind.content, kind.name), **kind.given)))
+    said = "\n".join(
+        map(str, input_problems(kind.read, file(kind.content, kind.name), **kind.given))
+    )
     assert re.search(kind.advice, said), said
     found = kind.read(file(kind.followed or kind.content, kind.name), **kind.then)
     assert np.array(found) == pytest.approx(np.array(TRUTHS[kind.read]), rel=1e-9)

@@ -5,13 +5,12 @@ from dataclasses import replace
 
 import pytest
 
-import scenes
-import stand_in
+from fixtures import assessments, projects
 from report import runs as module
 from report.runs import Runs, largest_two, run_motion
 from solver.model import DefectError
 
-MOTIONS = scenes.motions(2, 6.0)
+MOTIONS = assessments.motions(2, 6.0)
 COUNT = sum(len(motion.orientations) for motion in MOTIONS)
 
 
@@ -30,7 +29,7 @@ def begun(monkeypatch):
 
 
 def array(name="A1", slope_deg=2.0, **changes):
-    data = stand_in.project(arrays=[stand_in.array(name, slope_deg, **changes)], clearances=[])
+    data = projects.project(arrays=[projects.array(name, slope_deg, **changes)], clearances=[])
     return data.arrays[0]
 
 

@@ -12,10 +12,9 @@ from pathlib import Path
 
 import pytest
 
-import sheets
-import sketch
-from nightly import by_day
-from places import ROOT
+from fixtures import dxf, workbooks
+from fixtures.marks import by_day
+from fixtures.paths import ROOT
 
 PROGRAM = Path(sys.executable).with_name("roofslip")
 EXAMPLE = ROOT / "projects" / "example"
@@ -69,9 +68,9 @@ def project(tmp_path):
     folder = tmp_path / "project"
     folder.mkdir()
     layers = [{"layer": "PV", "kind": "array"}]
-    sheets.make(folder, layers=layers)
-    drawing = sketch.Sketch()
-    drawing.ring("PV", sketch.BOX_FT, "A1")
+    workbooks.make(folder, layers=layers)
+    drawing = dxf.Sketch()
+    drawing.ring("PV", dxf.BOX_FT, "A1")
     (folder / "blocks.csv").write_text("x,y,blocks\n1,1,2\n")
     drawing.saved(folder)
     return folder

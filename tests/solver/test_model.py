@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from blocks import block
+from fixtures.blocks import block
 from solver import friction_tests
 from solver.forces import forces, friction_demand
 from solver.friction_tests import FrictionRun, Surface, fit_law, governing, series

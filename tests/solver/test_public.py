@@ -11,8 +11,8 @@ import pytest
 
 import report
 import solver
-from nightly import nightly
-from places import ROOT
+from fixtures.marks import nightly
+from fixtures.paths import ROOT
 from solver import public
 
 pytestmark = pytest.mark.quick

@@ -10,14 +10,14 @@ from contextlib import contextmanager
 import pytest
 from click.testing import CliRunner
 
-import commands
-from growth import grows_faster
-from places import ROOT
+from fixtures import commands
+from fixtures.folders import LINKS, PIPES, SENTENCES, not_on_windows, occupied
+from fixtures.growth import grows_faster
+from fixtures.paths import ROOT
 from report.cli.main import main
 from solver.files import LOCK, locked, within, write_all, write_whole
 from solver.model import InputError
 from solver.suggestions import meant, nearest
-from stranger import LINKS, PIPES, SENTENCES, not_on_windows, occupied
 
 pytestmark = pytest.mark.quick
 
@@ -279,9 +279,11 @@ def test_names_that_are_near_are_found_free_and_among_many():
 def test_the_lock_file_of_a_workbook_is_never_meant(tmp_path):
     for name in ("My Project.xlsx", "~$input.xlsx", "~$My Project.xlsx", ".~lock.input.xlsx#"):
         (tmp_path / name).write_bytes(b"")
-    assert f"did you mean '{tmp_path / 'My Project.xlsx'}'?" in commands.refused("check", tmp_path)
+    assert f"did you mean '{tmp_path / 'My Project.xlsx'}'?" in commands.errors_of(
+        "check", tmp_path
+    )
     (tmp_path / "other.xlsx").write_bytes(b"")
-    asked = commands.refused("check", tmp_path)
+    asked = commands.errors_of("check", tmp_path)
     both = f"did you mean '{tmp_path / 'My Project.xlsx'}' or '{tmp_path / 'other.xlsx'}'?"
     assert both in asked
     assert "lock.input" not in asked

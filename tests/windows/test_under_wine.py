@@ -14,9 +14,9 @@ import pytest
 from pypdf import PdfReader
 from wine import WINE, command, installed, on_windows, roofslip
 
-from commands import ended
-from packages import reported
-from places import ROOT, TESTS
+from fixtures.commands import output_of
+from fixtures.packages import reported
+from fixtures.paths import ROOT, TESTS
 from report.proof.contents import differences
 
 pytestmark = pytest.mark.nightly
@@ -56,7 +56,7 @@ def test_a_package_of_windows_is_that_of_linux(windows, project, tmp_path_factor
     assert list(differences(one, two)) == []
     pages = [len(PdfReader(out / "calc-package.pdf").pages) for out in (project / "out", here)]
     assert pages[0] == pages[1]
-    told = ended("verify-package", project / "out" / "calc-package.pdf", exit_code=4)
+    told = output_of("verify-package", project / "out" / "calc-package.pdf", exit_code=4)
     assert "nothing differs in what was compared" in told
     assert "system Windows" in told
 

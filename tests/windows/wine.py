@@ -18,8 +18,8 @@ from zipfile import ZipFile
 
 import pytest
 
-from packages import once
-from places import ROOT
+from fixtures.packages import once
+from fixtures.paths import ROOT
 
 WINE = "/usr/lib/wine/wine64"
 _PYTHON = "3.11.3-1.5.9"

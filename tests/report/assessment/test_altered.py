@@ -1,13 +1,13 @@
 """The altered copies of the projects: between them they have every verdict."""
 
-import altered
+from fixtures import altered_projects
 from report.assessment.verdict import Verdict
 
 
 def test_the_copies_are_more_than_thirty_and_have_every_verdict():
-    made = dict(altered.copies())
-    assert len(altered.COPIES) >= 30
-    assert made.keys() > altered.COPIES.keys()
+    made = dict(altered_projects.copies())
+    assert len(altered_projects.COPIES) >= 30
+    assert made.keys() > altered_projects.COPIES.keys()
     done = [made[name]() for name in ("plainly OK", "no stated values", "short clearance",
                                       "too steep", "two motions")]  # fmt: skip
     projects = [each.verdict for each in done]

@@ -7,9 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-import inputs
-import scenes
-import stand_in
+from fixtures import assessments, project_parts, projects
 from report.assessment.links import assess_linked
 from solver.model import Status
 from solver.sliding.checked import scene, slide
@@ -17,18 +15,18 @@ from solver.sliding.least_model import DEFAULT
 from solver.sliding.row import BlockRow, slide_row
 
 G, LB, INCH = 9.80665, 4.4482216152605, 0.0254
-MOTIONS = scenes.motions(3, seconds=12.0)
+MOTIONS = assessments.motions(3, seconds=12.0)
 
 
 def assessed(friction, lb_per_in, *, shaking=MOTIONS, peer_reviewed=True, array=(), **changes):
     """An array of two degrees as a row, with its assessment."""
-    done = scenes.package(
+    done = assessments.package(
         shaking,
-        arrays=[stand_in.array("A1", 2.0, **dict(array))],
+        arrays=[projects.array("A1", 2.0, **dict(array))],
         objects=[],
         clearances=[],
-        links=[stand_in.links("A1", friction, lb_per_in, **changes)],
-        options=inputs.REVIEW | {"peer_reviewed": peer_reviewed},
+        links=[projects.links("A1", friction, lb_per_in, **changes)],
+        options=project_parts.REVIEW | {"peer_reviewed": peer_reviewed},
     ).assessment
     return done, done.linked[0]
 
@@ -99,7 +97,7 @@ def test_soft_links_few_motions_and_no_route_are_told():
     assert item.linked.value_m == pytest.approx(rigid_value(0.40), rel=0.01)
     assert item.farthest.block == 2
     # Nothing moves under motions that do not qualify, as one block or as a row.
-    (item,) = stand_in.unpermitted(links=[stand_in.links("A1", "0.3, 0.3", 50)]).linked
+    (item,) = projects.unpermitted(links=[projects.links("A1", "0.3, 0.3", 50)]).linked
     assert (item.is_within, item.is_final) == (True, True)
     assert not item.is_rigid_enough
     _, item = assessed("0.40, 0.50", 50, shaking=MOTIONS[:2])
@@ -133,7 +131,7 @@ def test_a_difference_below_the_model_tolerance_is_allowed():
 
 @pytest.mark.nightly
 def test_a_block_that_slides_where_one_rigid_one_does_not_has_no_ratio():
-    shaking = (stand_in.motion("M", 0.25 * G * np.sin(np.arange(400) / 10.0)),) * 3
+    shaking = (projects.motion("M", 0.25 * G * np.sin(np.arange(400) / 10.0)),) * 3
     done, item = assessed("0.10, 0.50", 0.01, shaking=shaking, array={"mu": 0.3})
     assert item.rigid.value_m == 0.0
     assert item.linked.value_m > 0.01
@@ -146,7 +144,7 @@ def test_a_block_that_slides_where_one_rigid_one_does_not_has_no_ratio():
 
 
 def test_uplift_withholds_the_row_as_well():
-    done, item = assessed("0.40, 0.50", 50, shaking=(*MOTIONS, stand_in.lifting()))
+    done, item = assessed("0.40, 0.50", 50, shaking=(*MOTIONS, projects.lifting()))
     assert item.farthest.row.status is Status.UPLIFT
     for value in (item.ratio, item.estimated_m, item.link_force_n, item.rigid_prd_m):
         assert math.isnan(value)
@@ -171,7 +169,7 @@ def test_a_row_that_cannot_be_followed_is_never_enough():
 @pytest.mark.nightly
 def test_a_row_that_still_slides_at_the_end_is_not_final():
     ax = np.concatenate([np.zeros(100), np.full(60, -4.0)])
-    cut = (stand_in.motion("CUT", ax, signs=(1,)),) * 3
+    cut = (projects.motion("CUT", ax, signs=(1,)),) * 3
     done, item = assessed("0.30, 0.60", 0.01, shaking=cut, array={"mu": 0.6})
     assert item.design.motions[0].governing.result.status is Status.OK
     assert item.farthest.row.status is Status.SLIDING_AT_END

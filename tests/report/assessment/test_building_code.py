@@ -2,9 +2,7 @@
 
 import pytest
 
-import inputs
-import scenes
-import stand_in
+from fixtures import assessments, project_parts, projects
 from report.assessment.checks.hazard import of_site
 from report.assessment.precheck import limits_before_runs
 from report.assessment.verdict import Verdict
@@ -19,7 +17,7 @@ OF_22 = {"edition_name": "ASCE 7-22", "f_a": None, "f_v": None}
 def site(code, **changes):
     year, _, name = code.rpartition(" ")
     given = {"building_code": name, "building_code_year": int(year)} if code else {}
-    return stand_in.site(**given, **changes)
+    return projects.site(**given, **changes)
 
 
 def listed(rows):
@@ -31,11 +29,11 @@ def not_so(rows):
 
 
 def before_runs(code, **changes):
-    return listed(of_site(stand_in.project(site=site(code, **changes))))
+    return listed(of_site(projects.project(site=site(code, **changes))))
 
 
 def assessed(code, *, sections=(), **changes):
-    return scenes.package(site=site(code, **changes), **dict(sections)).assessment
+    return assessments.package(site=site(code, **changes), **dict(sections)).assessment
 
 
 @pytest.mark.quick
@@ -78,7 +76,7 @@ def test_what_is_not_by_the_edition_of_the_building_code_is_a_condition(code, ch
 
 
 def test_check_says_so_at_the_cell_without_any_run():
-    made = stand_in.book(stand_in.project(site=site("2025 CBC")), scenes.motions())
+    made = projects.book(projects.project(site=site("2025 CBC")), assessments.motions())
     said = {f.place.field: f.text for f in limits_before_runs(made.sheet.project, made.shaking)}
     for field in ("rule_set", "edition_name"):
         assert "Required: ASCE 7-22 of the 2025 CBC†, or written acceptance of" in said[field]
@@ -113,9 +111,9 @@ def test_the_outcome_says_other_reasons_and_takes_no_override_over():
 
 
 def test_a_row_of_linked_blocks_counts_with_the_other_displacement_too():
-    links = [stand_in.links("A1", "0.40, 0.45, 0.50", 50)]
-    sections = {"arrays": [stand_in.array("A1", 2.0)], "objects": [], "clearances": [],
-                "links": links, "options": inputs.REVIEW}  # fmt: skip
+    links = [projects.links("A1", "0.40, 0.45, 0.50", 50)]
+    sections = {"arrays": [projects.array("A1", 2.0)], "objects": [], "clearances": [],
+                "links": links, "options": project_parts.REVIEW}  # fmt: skip
     done = assessed("2022 CBC", sections=sections)
     assert not done.is_rigid_enough(done.arrays[0])
     # The floor, which governs without the review, is more than the row slides.

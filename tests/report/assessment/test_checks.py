@@ -4,10 +4,8 @@ import math
 
 import pytest
 
-import altered
-import scenes
-import stand_in
-from inputs import INCH
+from fixtures import altered_projects, assessments, projects
+from fixtures.project_parts import INCH
 from report.assessment.checks.check import (
     Check,
     Sense,
@@ -42,10 +40,12 @@ def check(**fields):
 ALL = pytest.mark.parametrize(
     "make",
     [
-        *(pytest.param(make, id=name) for name, make in altered.copies()),
-        pytest.param(scenes.unpermitted, id="no permitted route"),
-        pytest.param(lambda: scenes.departing().assessment, id="every departure"),
-        pytest.param(lambda: scenes.package((stand_in.lifting(),)).assessment, id="lifted off"),
+        *(pytest.param(make, id=name) for name, make in altered_projects.copies()),
+        pytest.param(assessments.unpermitted, id="no permitted route"),
+        pytest.param(lambda: assessments.departing().assessment, id="every departure"),
+        pytest.param(
+            lambda: assessments.package((projects.lifting(),)).assessment, id="lifted off"
+        ),
     ],
 )
 

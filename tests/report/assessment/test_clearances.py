@@ -10,22 +10,20 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-import inputs
-import scenes
-import stand_in
+from fixtures import assessments, project_parts, projects
 from report.assessment.envelopes import design_envelope, hull, keep_clear_m, runs_envelope
 from report.assessment.verdict import Verdict
 from report.project.model.choices import Direction
 from report.project.model.shapes import Polygon, Rectangle, gap_m
 from solver.rules.provisions import Neighbor
 
-SEVEN = scenes.motions(7, 12.0)  # half a second less than those of eight seconds
-PEER = inputs.REVIEW
+SEVEN = assessments.motions(7, 12.0)  # half a second less than those of eight seconds
+PEER = project_parts.REVIEW
 SAME_SLOPE = {"slope_value": 100.0 * math.tan(math.radians(0.5)), "slope_unit": "percent"}
 
 
 def assessed(shaking=SEVEN, **changes):
-    return scenes.package(shaking, **changes).assessment
+    return assessments.package(shaking, **changes).assessment
 
 
 @pytest.fixture(scope="module")
@@ -44,15 +42,15 @@ def test_clearances_take_the_factor_of_what_lies_across(done):
 
 
 def test_larger_displacements_and_low_parapets_govern():
-    arrays = [stand_in.array("A1", 0.5, mu=0.6), stand_in.array("A2", 3.0, mu=0.3, x=120)]
-    done = assessed(arrays=arrays, clearances=[stand_in.clearance("A1", "a2", 3.0)], options=PEER)
+    arrays = [projects.array("A1", 0.5, mu=0.6), projects.array("A2", 3.0, mu=0.3, x=120)]
+    done = assessed(arrays=arrays, clearances=[projects.clearance("A1", "a2", 3.0)], options=PEER)
     (gap,) = done.clearances
     assert gap.governing_array == "A2"
     assert gap.design_m == done.arrays[1].design_m > done.arrays[0].design_m
     assert done.governing_gap("A2") is gap
     assert (gap.across_from("A2"), gap.across_from("A1")) == ("A1", "A2")
-    objects = [stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=0.5)]
-    done = assessed(objects=objects, clearances=[stand_in.clearance("A1", "N", 5.0)])
+    objects = [projects.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=0.5)]
+    done = assessed(objects=objects, clearances=[projects.clearance("A1", "N", 5.0)])
     assert done.clearances[0].neighbor is Neighbor.EDGE
 
 
@@ -63,26 +61,26 @@ def test_larger_displacements_and_low_parapets_govern():
      ({"construction": "Tray 5 deg, portrait"}, Neighbor.UNLIKE), (SAME_SLOPE, Neighbor.LIKE)],
 )  # fmt: skip
 def test_like_arrays_slide_alike(change, neighbor):
-    arrays = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=120) | change]
-    (gap,) = assessed(arrays=arrays, clearances=[stand_in.clearance("A1", "A2", 3.0)]).clearances
+    arrays = [projects.array("A1", 0.5), projects.array("A2", 0.5, x=120) | change]
+    (gap,) = assessed(arrays=arrays, clearances=[projects.clearance("A1", "A2", 3.0)]).clearances
     assert gap.neighbor is neighbor
     assert gap.factor == (0.5 if neighbor is Neighbor.LIKE else 1.0)
 
 
 def test_importance_enters_as_each_code_has_it():
-    pv1 = assessed(site=stand_in.site(risk_category="III", i_e=1.25))
-    asce = assessed(site=stand_in.site(risk_category="III", i_e=1.25, rule_set="ASCE 7-16"))
+    pv1 = assessed(site=projects.site(risk_category="III", i_e=1.25))
+    asce = assessed(site=projects.site(risk_category="III", i_e=1.25, rule_set="ASCE 7-16"))
     assert [gap.importance for gap in pv1.clearances] == [1.0, 1.0, 1.0, 1.25, 1.25]
     assert pv1.clearances[4].factor == 1.5 * 1.25
     assert asce.clearances[1].factor == 1.0
     ratio = asce.arrays[0].prescriptive.value_m / pv1.arrays[0].prescriptive.value_m
     assert ratio == pytest.approx(1.25)
-    arrays = [stand_in.array("A1", 0.5) | {"i_p": 1.25}, stand_in.array("A2", 0.5, x=120)]
-    objects = [stand_in.roof_object("RTU", "fixed object", 107, 112, 35, 42) | {"i_p": 1.5}]
-    gaps = [stand_in.clearance("A2", "A1", 3.0), stand_in.clearance("A1", "RTU", 7.0)]
+    arrays = [projects.array("A1", 0.5) | {"i_p": 1.25}, projects.array("A2", 0.5, x=120)]
+    objects = [projects.roof_object("RTU", "fixed object", 107, 112, 35, 42) | {"i_p": 1.5}]
+    gaps = [projects.clearance("A2", "A1", 3.0), projects.clearance("A1", "RTU", 7.0)]
     for rule_set, expected in (("SEAOC PV1-2012", [1.25, 1.5]), ("ASCE 7-16", [1.0, 1.0])):
         done = assessed(
-            arrays=arrays, objects=objects, clearances=gaps, site=stand_in.site(rule_set=rule_set)
+            arrays=arrays, objects=objects, clearances=gaps, site=projects.site(rule_set=rule_set)
         )
         assert [gap.importance for gap in done.clearances] == expected
 
@@ -98,7 +96,7 @@ def test_a_clearance_takes_the_full_displacement_in_any_direction():
 
 @pytest.fixture(scope="module")
 def unpermitted():
-    return stand_in.unpermitted()
+    return projects.unpermitted()
 
 
 def test_without_a_permitted_route_there_is_no_required_separation_and_no_verdict(unpermitted):
@@ -122,12 +120,12 @@ def test_beside_no_permitted_route_other_clearances_keep_their_verdicts(unpermit
     third = unpermitted.clearances[2]
     assert third.required_m == pytest.approx(1.5 * unpermitted.arrays[1].prescriptive.value_m)
     assert third.verdict is Verdict.OK
-    narrow = [stand_in.clearance("A2", "S edge", 5 * stand_in.FOOT)]
-    assert stand_in.unpermitted(clearances=narrow).clearances[0].verdict is Verdict.NG
+    narrow = [projects.clearance("A2", "S edge", 5 * projects.FOOT)]
+    assert projects.unpermitted(clearances=narrow).clearances[0].verdict is Verdict.NG
     assert [unpermitted.array_verdict(item) for item in unpermitted.arrays] == [Verdict.NG] * 2
     assert unpermitted.governing_gap("A2").verdict is Verdict.NONE
-    alone = [stand_in.clearance("A2", "S edge", 15 * stand_in.FOOT)]
-    done = stand_in.unpermitted(clearances=alone, objects=stand_in.project().objects[3:])
+    alone = [projects.clearance("A2", "S edge", 15 * projects.FOOT)]
+    done = projects.unpermitted(clearances=alone, objects=projects.project().objects[3:])
     assert done.array_verdict(done.arrays[1]) is not Verdict.NG
 
 
@@ -137,8 +135,10 @@ CIRCUMSCRIBED = 1.0 / math.cos(math.pi / 24)
 
 @pytest.fixture(scope="module")
 def turned():
-    arrays = [stand_in.array("A1", 2.0, downslope_deg=205.0), stand_in.array("A2", 3.0, x=120)]
-    return scenes.package(scenes.motions(3, 12.0), arrays=arrays, clearances=[]).assessment
+    arrays = [projects.array("A1", 2.0, downslope_deg=205.0), projects.array("A2", 3.0, x=120)]
+    return assessments.package(
+        assessments.motions(3, 12.0), arrays=arrays, clearances=[]
+    ).assessment
 
 
 def margins(outline, points):

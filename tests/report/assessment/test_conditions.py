@@ -5,10 +5,9 @@ import datetime as dt
 import numpy as np
 import pytest
 
-import inputs
-import scenes
-import stand_in
-from printed import printed
+from fixtures import assessments, project_parts, projects
+from fixtures.pages import page_of
+from fixtures.projects import FOOT, INCH
 from report.assessment.checks import arrays as of_arrays
 from report.assessment.checks import evidence, hazard, motions
 from report.assessment.checks.check import found_and_limit
@@ -16,11 +15,10 @@ from report.assessment.verdict import Verdict, worst
 from report.text.units import PRESSURES, WEIGHTS
 from solver import design_spectrum, spectrum
 from solver.rules.limit import Consequence
-from stand_in import FOOT, INCH
 
 
 def assessed(shaking=None, **changes):
-    return scenes.package(shaking, **changes).assessment
+    return assessments.package(shaking, **changes).assessment
 
 
 def row(done, key):
@@ -49,7 +47,7 @@ def without(given, missing):
 )
 def test_a_peer_review_without_name_license_date_and_letter_is_a_condition(missing):
     assert row(assessed(), "peer_review") is None
-    done = assessed(options=without(scenes.REVIEW, missing))
+    done = assessed(options=without(assessments.REVIEW, missing))
     found = row(done, "peer_review")
     assert found.is_satisfied is (missing is None)
     assert found.consequence is Consequence.CONDITION
@@ -59,13 +57,13 @@ def test_a_peer_review_without_name_license_date_and_letter_is_a_condition(missi
 
 def test_a_typed_name_alone_removes_no_floor_and_turns_no_clearance_ok():
     # The floor alone needs more than is provided: by analysis the arrays hardly slide.
-    given = {"arrays": [stand_in.array("A1", 0.5)], "objects": [stand_in.SECTIONS["objects"][0]],
-             "clearances": [stand_in.clearance("A1", "RTU-1", 30 * INCH)]}  # fmt: skip
-    weak = scenes.motions(peak_g=0.1)
+    given = {"arrays": [projects.array("A1", 0.5)], "objects": [projects.SECTIONS["objects"][0]],
+             "clearances": [projects.clearance("A1", "RTU-1", 30 * INCH)]}  # fmt: skip
+    weak = assessments.motions(peak_g=0.1)
     name = {"peer_reviewed": True, "peer_reviewer": "J"}
     plain, named, reviewed = (
-        scenes.package(weak, **given | {"options": options})
-        for options in ({}, name, scenes.REVIEW)
+        assessments.package(weak, **given | {"options": options})
+        for options in ({}, name, assessments.REVIEW)
     )
     (before,), (after,), (last,) = (p.assessment.clearances for p in (plain, named, reviewed))
     assert before.demand_capacity == after.demand_capacity == pytest.approx(1.36, abs=0.005)
@@ -73,9 +71,9 @@ def test_a_typed_name_alone_removes_no_floor_and_turns_no_clearance_ok():
     said = row(named.assessment, "peer_review")
     assert said.found == "J; license, date, letter missing"
     assert "until then the floor of the analysis procedure applies" in said.remedy
-    text = printed(named, "basis")
+    text = page_of(named, "basis")
     assert "The peer review stated does not count (part 1): the floor of part 2 applies." in text
-    assert "removed by peer review" not in printed(named, "summary")
+    assert "removed by peer review" not in page_of(named, "summary")
 
 
 @pytest.mark.parametrize(
@@ -83,8 +81,8 @@ def test_a_typed_name_alone_removes_no_floor_and_turns_no_clearance_ok():
     [("ASCE 7-16", "C", True), ("ASCE 7-16", "D", False), ("SEAOC PV1-2012", "C", False)],
 )
 def test_the_slope_limit_is_named_only_where_peer_review_lifts_it(rule_set, sdc, lifts):
-    site = stand_in.site(rule_set=rule_set, sdc=sdc)
-    data = stand_in.project(site=site, options={"peer_reviewed": True})
+    site = projects.site(rule_set=rule_set, sdc=sdc)
+    data = projects.project(site=site, options={"peer_reviewed": True})
     said = next(each for each in evidence.of_confirmations(data) if each.id == "peer_review")
     assert ("slope limit" in said.remedy) is lifts
     assert "floor" in said.remedy
@@ -99,7 +97,7 @@ CODE = {"building_code": "CBC", "building_code_year": 2022, "jurisdiction": "Cit
      (without(CODE, "jurisdiction"), "2022 CBC; jurisdiction missing")],
 )  # fmt: skip
 def test_without_building_code_and_jurisdiction_there_is_a_condition(given, found):
-    data = stand_in.project(site=stand_in.site(**given))
+    data = projects.project(site=projects.site(**given))
     said = evidence.of_building_code(data)
     assert said.found == found
     assert said.verdict is (Verdict.OK if given == CODE else Verdict.CONDITION)
@@ -107,8 +105,8 @@ def test_without_building_code_and_jurisdiction_there_is_a_condition(given, foun
 
 def before_runs(key, *, units="US", **given):
     """The row on an array of 42,000 lb on 80 ft x 60 ft, 8.75 psf."""
-    head = inputs.HEAD | {"units_first": units}
-    data = stand_in.project(arrays=[stand_in.array("A1", 0.5, **given)], project=head)
+    head = project_parts.HEAD | {"units_first": units}
+    data = projects.project(arrays=[projects.array("A1", 0.5, **given)], project=head)
     rows = of_arrays.before_runs(data, data.arrays[0], 0.0)
     return next((item for item in rows if item.id == key), None)
 
@@ -153,8 +151,8 @@ def test_another_weight_in_the_wind_design_is_a_condition(wind_psf, units, found
 
 def pathway(other, more_m, **second):
     """The row on a fire pathway where so much more is left than the 36 in required."""
-    arrays = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=140, **second)]
-    gap = stand_in.clearance("A1", other, 4.0) | {"pathway_m": 36 * INCH}
+    arrays = [projects.array("A1", 0.5), projects.array("A2", 0.5, x=140, **second)]
+    gap = projects.clearance("A1", other, 4.0) | {"pathway_m": 36 * INCH}
     slides = [item.design_m for item in assessed(arrays=arrays, clearances=[gap]).arrays]
     gap["provided_m"] = 36 * INCH + sum(slides[: 2 if second else 1]) + more_m
     done = assessed(arrays=arrays, clearances=[gap])
@@ -164,14 +162,14 @@ def pathway(other, more_m, **second):
 def test_whether_there_is_a_fire_pathway_is_asked_of_each_clearance():
     """Also where the plan calls for one: a row that is deleted answers nothing."""
     units = [
-        stand_in.roof_object(name, "fixed object", x_ft, x_ft + 6, 35, 42)
+        projects.roof_object(name, "fixed object", x_ft, x_ft + 6, 35, 42)
         for name, x_ft in (("RTU-1", 106), ("RTU-2", 180))
     ]
-    gaps = [stand_in.clearance("A1", "RTU-2", 20.0) | {"pathway_m": m} for m in (0.0, 0.5, None)]
-    near = stand_in.clearance("A1", "RTU-1", 6 * FOOT)
+    gaps = [projects.clearance("A1", "RTU-2", 20.0) | {"pathway_m": m} for m in (0.0, 0.5, None)]
+    near = projects.clearance("A1", "RTU-1", 6 * FOOT)
 
     def found(*rows):
-        done = assessed(arrays=[stand_in.array("A1", 0.5)], objects=units, clearances=rows)
+        done = assessed(arrays=[projects.array("A1", 0.5)], objects=units, clearances=rows)
         (asked,) = (row for row in done.checks if row.title == "Fire pathways along the clearances")
         return asked.verdict, asked.found
 
@@ -211,7 +209,7 @@ ASCE_7_22 |= {"edition_name": "ASCE 7-22"}
 
 def hazard_of(**changes):
     """The requirements on the hazard by id."""
-    found = list(hazard.of_site(stand_in.project(site=stand_in.site(**changes))))
+    found = list(hazard.of_site(projects.project(site=projects.site(**changes))))
     assert {item.consequence for item in found} == {Consequence.CONDITION}
     return {item.id: item for item in found}
 
@@ -254,7 +252,7 @@ def test_the_sdc_is_confirmed_by_s_1_and_by_s_d1_where_it_matters(given, words):
     found = hazard_of(**site)["sdc"]
     assert found.found == words
     assert found.is_satisfied is ("not" not in words)
-    data = stand_in.project(site=stand_in.site(**site))
+    data = projects.project(site=projects.site(**site))
     assert data.site.sdc_text == ("D" if found.is_satisfied else "D (not confirmed)")
 
 
@@ -291,7 +289,7 @@ def test_what_11_4_8_asks_for_is_said_also_where_it_cannot_be_told(given, asked)
 )  # fmt: skip
 def test_too_little_is_ng_and_no_value_is_a_condition(key, field, needed):
     def verdicts(**given):
-        done = assessed(arrays=[stand_in.array("A1", 0.5, **given)], clearances=[])
+        done = assessed(arrays=[projects.array("A1", 0.5, **given)], clearances=[])
         return done.arrays[0], row(done, key).verdict, done.array_verdict(done.arrays[0])
 
     item, plain, _ = verdicts()
@@ -304,8 +302,8 @@ def test_too_little_is_ng_and_no_value_is_a_condition(key, field, needed):
 
 def test_a_clearance_that_five_percent_less_friction_breaks_is_a_condition():
     def apart(provided_m):
-        gap = stand_in.clearance("A1", "RTU-1", provided_m)
-        return assessed(options=scenes.REVIEW, clearances=[gap])
+        gap = projects.clearance("A1", "RTU-1", provided_m)
+        return assessed(options=assessments.REVIEW, clearances=[gap])
 
     given = apart(30.0)
     assert row(given, "less_friction").is_satisfied
@@ -324,9 +322,9 @@ def test_a_gap_of_the_plan_without_a_clearance_is_ng_where_it_is_too_small(
     provided, apart_ft, verdict
 ):
     """A row that is deleted turns no NG into a condition."""
-    unit = stand_in.roof_object("RTU-1", "fixed object", 100 + apart_ft, 112, 35, 42)
-    rows = [stand_in.clearance("A1", "RTU-1", provided * FOOT)] if provided else []
-    done = assessed(arrays=[stand_in.array("A1", 0.5)], objects=[unit], clearances=rows)
+    unit = projects.roof_object("RTU-1", "fixed object", 100 + apart_ft, 112, 35, 42)
+    rows = [projects.clearance("A1", "RTU-1", provided * FOOT)] if provided else []
+    done = assessed(arrays=[projects.array("A1", 0.5)], objects=[unit], clearances=rows)
     (near,) = done.neighbors
     assert near.required_m == done.arrays[0].design_m  # factor 1.0, I_p 1.0
     assert 2.0 * FOOT < near.required_m < 6.0 * FOOT < near.reach_m
@@ -347,10 +345,10 @@ def test_a_gap_of_the_plan_without_a_clearance_is_ng_where_it_is_too_small(
 
 def test_an_edge_beyond_twice_the_displacement_that_is_nearer_than_required_is_ng():
     """ASCE asks for 4 ft to an edge, however little an array moves."""
-    outline = inputs.sides(0, 164, 15, 164) | {"y_from_m": 15 * FOOT - 1.0}
-    alone = {"arrays": [stand_in.array("A1", 0.5, mu=1.4)], "objects": [], "clearances": []}
-    site = stand_in.site(rule_set="ASCE 7-16")
-    done = assessed(**alone, roof=outline, options=scenes.REVIEW, site=site)
+    outline = project_parts.sides(0, 164, 15, 164) | {"y_from_m": 15 * FOOT - 1.0}
+    alone = {"arrays": [projects.array("A1", 0.5, mu=1.4)], "objects": [], "clearances": []}
+    site = projects.site(rule_set="ASCE 7-16")
+    done = assessed(**alone, roof=outline, options=assessments.REVIEW, site=site)
     (near,) = done.neighbors
     assert near.gap_m == pytest.approx(1.0)
     assert near.reach_m < near.gap_m < near.required_m == pytest.approx(4 * FOOT)
@@ -359,8 +357,8 @@ def test_an_edge_beyond_twice_the_displacement_that_is_nearer_than_required_is_n
 
 
 def test_no_slack_gap_or_pathway_is_enough_for_a_displacement_that_is_not_permitted():
-    path = stand_in.clearance("A2", "A1", 20 * FOOT) | {"pathway_m": 0.9}
-    done = stand_in.unpermitted(clearances=[path])
+    path = projects.clearance("A2", "A1", 20 * FOOT) | {"pathway_m": 0.9}
+    done = projects.unpermitted(clearances=[path])
     unknown = "unknown without a permitted design displacement"
     slack, pathway = row(done, "electrical_slack"), row(done, "fire_pathway")
     near = next(
@@ -375,8 +373,8 @@ def test_no_slack_gap_or_pathway_is_enough_for_a_displacement_that_is_not_permit
 
 @pytest.mark.parametrize(("mu", "is_closed"), [(0.41, True), (0.43, False)])  # the limit is 0.40
 def test_a_route_that_five_percent_less_friction_closes_is_a_note(mu, is_closed):
-    arrays = [stand_in.array("A1", 0.5, mu=mu)]
-    found = row(assessed(scenes.level(), arrays=arrays, clearances=[]), "less_friction")
+    arrays = [projects.array("A1", 0.5, mu=mu)]
+    found = row(assessed(assessments.level(), arrays=arrays, clearances=[]), "less_friction")
     assert found.is_satisfied is not is_closed
     if is_closed:
         assert found.title == "The prescriptive procedure with 5 % less friction"
@@ -397,8 +395,8 @@ def grounded(scale=1.0, place="ground", **changes):
         | {"scaling": "factor", "scale_value": scale}
         for k in (1, 2, 3)
     ]
-    data = stand_in.project(motions=rows, **BUILDING | changes)
-    book = scenes.grounded(data, scenes.level(), transverse=True, vertical=False)
+    data = projects.project(motions=rows, **BUILDING | changes)
+    book = assessments.grounded(data, assessments.level(), transverse=True, vertical=False)
     # As it is by analysis: where no array takes that value, a package has it as a note.
     found = motions.of_records(data, book.shaking.prepared)
     return next((each for each in found if each.id == "ground_motions"), None)
@@ -406,10 +404,10 @@ def grounded(scale=1.0, place="ground", **changes):
 
 def largest_ratio():
     """The mean of the ground spectra / the design spectrum, the largest from 1 s to 10 s."""
-    site = stand_in.project().site
+    site = projects.project().site
     target = design_spectrum(s_ds_g=site.s_ds, s_d1_g=site.s_d1, t_l_s=8.0)
     periods_s = np.geomspace(1.0, 10.0, 400)
-    each = [spectrum(motion, periods_s) for motion in scenes.level()]
+    each = [spectrum(motion, periods_s) for motion in assessments.level()]
     means = [np.mean([one.sa_mps2[axis] for one in each], axis=0) for axis in ("x", "y")]
     return max((mean / 9.80665 / target(1 / periods_s)).max() for mean in means)
 
@@ -420,8 +418,8 @@ def test_ground_motions_are_compared_with_the_design_spectrum_where_there_is_one
     assert grounded(place="roof") is None
     for given, said in (
         ({"target": {}}, "T_L not entered: no target"),
-        ({"target": {}, "site": inputs.SITE}, "S_D1 and T_L not entered: no target"),
-        ({"spectrum": stand_in.SHORT_SPECTRUM}, "no target from 1 s on"),
+        ({"target": {}, "site": project_parts.SITE}, "S_D1 and T_L not entered: no target"),
+        ({"spectrum": projects.SHORT_SPECTRUM}, "no target from 1 s on"),
     ):
         found = grounded(**given)
         assert (found.found, found.verdict) == (said, Verdict.CONDITION)
@@ -440,4 +438,4 @@ def test_ground_motions_far_above_the_design_spectrum_are_a_condition(ratio, is_
 def test_without_an_outline_of_the_roof_nothing_says_that_edges_were_looked_for():
     assert row(assessed(), "roof_outline").verdict is Verdict.CONDITION
     assert "were not looked for" in row(assessed(), "roof_outline").remedy
-    assert row(assessed(roof=inputs.sides(0, 220, 0, 170)), "roof_outline").is_satisfied
+    assert row(assessed(roof=project_parts.sides(0, 220, 0, 170)), "roof_outline").is_satisfied

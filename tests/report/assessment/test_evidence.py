@@ -6,12 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import inputs
-import scenes
-import stand_in
-from nightly import by_day
-from one_by_one import prd_m
-from printed import printed
+from fixtures import assessments, project_parts, projects
+from fixtures.marks import by_day
+from fixtures.pages import page_of
+from fixtures.single_runs import prd_m
+from fixtures.workbooks import cell_address, make, problems, read_workbook, type_into
 from report.assessment.assess import assess, changed
 from report.assessment.evidence import (
     building_case,
@@ -27,13 +26,12 @@ from report.document.templates import sentence
 from report.pages.marks import Marked
 from report.project.model import Override
 from report.typeset.pdf import TEMPLATES
-from sheets import at, make, problems, read_workbook, type_into
 from solver import at_roof, building_of_periods
 from solver.sliding.least_model import DEFAULT
 
 T1_S, T2_S, FACTOR = 0.5, 0.16, 1.4
 BUILDING = {"period_s": T1_S, "period_2_s": T2_S, "damping_percent": 3.0}
-GROUND = scenes.motions(3, peak_g=0.5)
+GROUND = assessments.motions(3, peak_g=0.5)
 PLACES = ("ground", "ground", "roof")
 
 
@@ -44,8 +42,8 @@ def made():
         | {"recorded_at": place, "scaling": "factor", "scale_value": FACTOR}
         for k, place in enumerate(PLACES, start=1)
     ]
-    data = stand_in.project(motions=rows, building=BUILDING, options=scenes.REVIEW)
-    done = stand_in.assessed(scenes.grounded(data, GROUND, transverse=True))
+    data = projects.project(motions=rows, building=BUILDING, options=assessments.REVIEW)
+    done = projects.assessed(assessments.grounded(data, GROUND, transverse=True))
     return done, building_variations(done)
 
 
@@ -87,10 +85,10 @@ def test_the_building_as_used_is_first_and_is_that_of_the_design(made):
 
 def test_the_slowest_building_is_made_no_slower_and_without_ground_motions_none_is_varied():
     rows = [{"id": f"M{k}", "record": "x", "recorded_at": "ground"} for k in (1, 2, 3)]
-    data = stand_in.project(motions=rows, building={"period_s": 10.0})
-    found = building_variations(stand_in.assessed(scenes.grounded(data, GROUND)))
+    data = projects.project(motions=rows, building={"period_s": 10.0})
+    found = building_variations(projects.assessed(assessments.grounded(data, GROUND)))
     assert [building.period_s for building, _ in found[:4]] == [10.0, 8.0, 10.0, 10.0]
-    assert building_variations(scenes.package().assessment) == ()
+    assert building_variations(assessments.package().assessment) == ()
 
 
 FACTORS = "0.50, 0.50, 0.25"
@@ -99,8 +97,8 @@ CELL = "Options/Smaller events"
 
 
 def with_events(events=FACTORS, found=None, **changes):
-    options = {**inputs.REVIEW, "smaller_events": events}
-    return scenes.package(found, options=options, **changes).assessment
+    options = {**project_parts.REVIEW, "smaller_events": events}
+    return assessments.package(found, options=options, **changes).assessment
 
 
 def scaled(motion, factor):
@@ -110,7 +108,7 @@ def scaled(motion, factor):
 
 def test_sums_are_those_of_separate_runs_and_carry_the_factor():
     for item in cumulative(with_events()):
-        for motion, total in zip(scenes.motions(), item.sums_m.values(), strict=True):
+        for motion, total in zip(assessments.motions(), item.sums_m.values(), strict=True):
             events = [scaled(motion, factor) for factor in (1.0, 0.5, 0.5, 0.25)]
             peaks = [prd_m(event, item.array.array) for event in events]
             assert abs(total - sum(peaks)) <= sum(map(DEFAULT.bound_m, peaks))
@@ -118,7 +116,7 @@ def test_sums_are_those_of_separate_runs_and_carry_the_factor():
         assert item.largest_m == max(item.sums_m.values())
     # Three motions: 1.1 times the largest, which is what a sum is compared with.
     done = with_events()
-    table = printed(done, "accuracy").table("Cumulative displacement over the motions")
+    table = page_of(done, "accuracy").table("Cumulative displacement over the motions")
     for item, row in zip(cumulative(done), table.cells, strict=True):
         shown = [f"{math.ceil(1100.0 * length_m - 1e-6)}"
                  for length_m in (item.mean_m, item.largest_m)]  # fmt: skip
@@ -132,8 +130,8 @@ def test_a_rectangular_pulse_gives_the_closed_form():
     mu, seconds, dt = 0.45, 0.5, 0.001
     pulse = np.zeros(4001)
     pulse[1000:1500] = 1.0 * G
-    motion = stand_in.motion("P", pulse, dt_s=dt, signs=(1,))
-    level = [stand_in.array("A1", 0.0, mu=mu)]
+    motion = projects.motion("P", pulse, dt_s=dt, signs=(1,))
+    level = [projects.array("A1", 0.0, mu=mu)]
     (item,) = cumulative(with_events("0.60", (motion,), arrays=level, objects=[], clearances=[]))
     closed = sum((a * seconds) ** 2 / 2 * (1 / (mu * G) - 1 / a) for a in (G, 0.6 * G))
     assert item.sums_m[motion.id] == pytest.approx(closed, rel=3e-3)
@@ -151,7 +149,7 @@ def test_factors_are_read_from_the_sheet_and_refused_by_cell_outside_of_the_rang
     path = type_into(make(tmp_path), {CELL: FACTORS})
     assert read_workbook(path).input.options.smaller_factors == (0.5, 0.5, 0.25)
     (line,) = problems(type_into(path, {CELL: typed}))
-    assert line.startswith(at(CELL))
+    assert line.startswith(cell_address(CELL))
     assert "give up to 20 factors with decimal points, above 0.0 and up to 1.0" in line
 
 
@@ -164,24 +162,28 @@ ROWS = [
 
 
 def assessed(provided_m, **changes):
-    gaps = [stand_in.clearance("A1", "RTU-1", provided_m)]
-    given = {"arrays": [stand_in.array("A1", 2.0)], "clearances": gaps, "options": scenes.REVIEW}
-    return scenes.package(scenes.motions(3), **given | changes).assessment
+    gaps = [projects.clearance("A1", "RTU-1", provided_m)]
+    given = {
+        "arrays": [projects.array("A1", 2.0)],
+        "clearances": gaps,
+        "options": assessments.REVIEW,
+    }
+    return assessments.package(assessments.motions(3), **given | changes).assessment
 
 
 def by_velocity(provided_m):
-    return assessed(provided_m, arrays=[stand_in.array("A1", 2.0, **LAW)])
+    return assessed(provided_m, arrays=[projects.array("A1", 2.0, **LAW)])
 
 
 @pytest.fixture(scope="module")
 def alone_m():
     """The design displacement with the low-velocity coefficient, of a project of its own."""
-    return assessed(9.0, arrays=[stand_in.array("A1", 2.0, mu=0.20)]).arrays[0].design_m
+    return assessed(9.0, arrays=[projects.array("A1", 2.0, mu=0.20)]).arrays[0].design_m
 
 
 def test_the_low_velocity_coefficient_is_a_case_where_the_slack_is_then_too_short(alone_m):
     def by_velocity_with(slack_m):
-        return support(assessed(9.0, arrays=[stand_in.array("A1", 2.0, slack_m=slack_m, **LAW)]))
+        return support(assessed(9.0, arrays=[projects.array("A1", 2.0, slack_m=slack_m, **LAW)]))
 
     (case,) = by_velocity_with(0.99 * alone_m).cases
     assert case.words(us_first=True).endswith(", NG: electrical slack (D/C 1.02).")
@@ -211,14 +213,16 @@ def test_the_low_velocity_coefficient_is_a_case_only_where_it_changes_something(
 @pytest.fixture(scope="module")
 def grounded():
     building = {"period_s": 0.5, "damping_percent": 5.0}
-    data = stand_in.project(
-        arrays=[stand_in.array("A1", 2.0)],
-        clearances=[stand_in.clearance("A1", "RTU-1", 2.0)],
+    data = projects.project(
+        arrays=[projects.array("A1", 2.0)],
+        clearances=[projects.clearance("A1", "RTU-1", 2.0)],
         motions=ROWS,
         building=building,
-        options=scenes.REVIEW,
+        options=assessments.REVIEW,
     )
-    done = stand_in.assessed(scenes.grounded(data, scenes.motions(3, peak_g=0.5), transverse=True))
+    done = projects.assessed(
+        assessments.grounded(data, assessments.motions(3, peak_g=0.5), transverse=True)
+    )
     array = done.arrays[0]
     limits = replace(array.limits, route=Route.ANALYSIS)
     by_analysis = {"limits": limits, "is_permitted": True, "floor_m": 0.0}
@@ -253,7 +257,7 @@ PRESCRIPTIVE_M = 60 * 0.0254 * (1.566 - 0.4) ** 2
 
 def with_inputs(*, slopes=(), **sections):
     """The example without motions, with other slopes of its arrays and other sections."""
-    given = scenes.without_motions()
+    given = assessments.without_motions()
     arrays = list(given.project.arrays)
     for k, slope in enumerate(slopes):
         arrays[k] = arrays[k].model_copy(update={"slope_value": slope})
@@ -266,13 +270,13 @@ def said(given):
 
 
 def test_the_floor_satisfies_clearances_that_it_does_not_exceed():
-    found = saving(scenes.without_motions())
+    found = saving(assessments.without_motions())
     assert found.prescriptive_m == pytest.approx(PRESCRIPTIVE_M, rel=1e-4)
     assert found.floor_m == pytest.approx(0.5 * PRESCRIPTIVE_M, rel=1e-4)
     # A1 to RTU-1 48 in, A3 to RTU-2 60, to PV-OLD 72 and to EAST 120 in; 40.8, and 61.2 to the edge
     assert (found.n_short, found.n_satisfied) == (4, 4)
     assert (found.ids, found.others) == (["A1", "A2", "A3"], [])
-    given = scenes.without_motions()
+    given = assessments.without_motions()
     rows = list(given.project.clearances)
     rows[1] = rows[1].model_copy(update={"provided_m": 40.0 * 0.0254})
     found = saving(with_inputs(clearances=tuple(rows)))
@@ -287,7 +291,7 @@ def test_steep_roofs_and_a_whole_floor_leave_nothing_to_save():
     assert text == (
         "No analysis is permitted instead: the roof of every array is too steep for it (PV1-2012†)."
     )
-    site = scenes.without_motions().project.site
+    site = assessments.without_motions().project.site
     low = type(site)(**site.model_dump() | {"rule_set": "ASCE 7-16", "sdc": "C"})
     text = said(with_inputs(slopes=[4.0, 4.0, 4.0], site=low))
     assert text.startswith("No analysis is permitted instead without peer review: ")

@@ -4,12 +4,11 @@ import random
 
 import pytest
 
-import altered
-import scenes
-from deletions import Deletable, improved
+from fixtures import altered_projects, assessments
+from fixtures.deletions import Deletable, improved
 
 PROJECTS = (
-    *scenes.SHIPPED, "each stated value fails", "complete friction tests", "plainly OK",
+    *assessments.SHIPPED, "each stated value fails", "complete friction tests", "plainly OK",
     "reviewer's name alone", "no motions", "school at half capacity",
 )  # fmt: skip
 
@@ -28,8 +27,8 @@ def milder(project, deletions):
 
 @pytest.mark.parametrize(("name", "seed"), [*zip(PROJECTS, range(76, 86), strict=True)])
 def test_of_two_deletions_none_makes_a_verdict_better(name, seed, tmp_path):
-    project = Deletable.of(altered.workbook(name, tmp_path / "project"))
-    assert project.done.verdict is altered.assessed(name).verdict
+    project = Deletable.of(altered_projects.workbook(name, tmp_path / "project"))
+    assert project.done.verdict is altered_projects.assessed(name).verdict
     chosen = random.Random(seed).sample(project.deletions(), 2)
     assert milder(project, chosen)[0] == []
 
@@ -37,7 +36,7 @@ def test_of_two_deletions_none_makes_a_verdict_better(name, seed, tmp_path):
 @pytest.mark.nightly
 @pytest.mark.parametrize("name", PROJECTS)
 def test_no_deletion_makes_a_verdict_better(name, tmp_path):
-    project = Deletable.of(altered.workbook(name, tmp_path / "project"))
+    project = Deletable.of(altered_projects.workbook(name, tmp_path / "project"))
     lines, count = milder(project, project.deletions())
     assert count > 25
     assert lines == []
@@ -51,7 +50,7 @@ FEWER = {
 
 @pytest.mark.parametrize(("what", "name", "verdicts"), FEWER.values(), ids=FEWER)
 def test_what_is_not_given_any_more_is_a_condition(what, name, verdicts, tmp_path):
-    project = Deletable.of(altered.workbook(name, tmp_path / "project"))
+    project = Deletable.of(altered_projects.workbook(name, tmp_path / "project"))
     (deletion,) = (each for each in project.deletions() if each.what == what)
     rows = {"arrays 1 slack_m": "electrical_slack", "friction_runs 5": "friction_velocity"}
     found = [
@@ -63,6 +62,8 @@ def test_what_is_not_given_any_more_is_a_condition(what, name, verdicts, tmp_pat
 
 @pytest.mark.parametrize("what", ["clearances 3 pathway_m", "clearances 3"])
 def test_a_fire_pathway_that_fails_cannot_be_left_out(what, tmp_path):
-    project = Deletable.of(altered.workbook("each stated value fails", tmp_path / "project"))
+    project = Deletable.of(
+        altered_projects.workbook("each stated value fails", tmp_path / "project")
+    )
     (deletion,) = (each for each in project.deletions() if each.what == what)
     assert milder(project, [deletion]) == ([], 1)

@@ -2,18 +2,18 @@
 
 import pytest
 
-import inputs
+from fixtures import project_parts
 from report.assessment.checks.check import found_and_limit
 from report.assessment.checks.existing_roof import of_existing_roof
 from report.assessment.verdict import Verdict
 from report.text.units import PRESSURES, WEIGHTS
 
-BARE = {name: value for name, value in inputs.SITE.items() if name != "roof_evaluation"}
+BARE = {name: value for name, value in project_parts.SITE.items() if name != "roof_evaluation"}
 
 
 def rows(**site):
     """The rows of an array of 42,000 lb on 80 ft x 60 ft, 8.75 psf."""
-    data = inputs.project(site=BARE | site, arrays=[inputs.array("A1", 0.5)])
+    data = project_parts.project(site=BARE | site, arrays=[project_parts.array("A1", 0.5)])
     return {row.id: row for row in of_existing_roof(data)}
 
 

@@ -6,8 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import scenes
-import stand_in
+from fixtures import assessments, projects
 from report.assessment.checks.check import found_and_limit
 from report.assessment.evidence import histories
 from report.assessment.friction import VelocityCheck, at_low_velocity, mu_words, mus_words
@@ -41,11 +40,11 @@ def test_friction_is_said_as_it_was_run(friction, words):
 
 @pytest.mark.quick
 def test_arrays_of_one_friction_and_the_low_velocity_coefficient_are_said():
-    alike = [stand_in.array("A1", 0.5), stand_in.array("A2", 2.0)]
-    data = stand_in.project(arrays=[*alike, stand_in.array("A3", 3.0, **LAW)])
+    alike = [projects.array("A1", 0.5), projects.array("A2", 2.0)]
+    data = projects.project(arrays=[*alike, projects.array("A3", 3.0, **LAW)])
     assert mus_words(data.arrays) == "A1, A2: 0.45; A3: 0.40 to 0.50, by velocity"
     assert mus_words(data.arrays[2:]) == "A3: 0.40 to 0.50, by velocity"
-    given = stand_in.project(arrays=[stand_in.array("A1", 3.0, mu_static=0.48, **LAW)]).arrays[0]
+    given = projects.project(arrays=[projects.array("A1", 3.0, mu_static=0.48, **LAW)]).arrays[0]
     assert at_low_velocity(given).friction == coulomb(0.40)
     assert at_low_velocity(given).slope_rad == given.slope_rad
 
@@ -68,7 +67,7 @@ def constant(mu):
 
 def basis(given, mu=FITTED.mu_slow, mu_fast=FITTED.mu_fast, rate=FITTED.rate_s_per_m):
     law = {"mu": mu, "mu_fast": mu_fast, "mu_rate_s_per_m": rate}
-    data = stand_in.project(arrays=[stand_in.array("A1", 1.0, **law)], friction_runs=given)
+    data = projects.project(arrays=[projects.array("A1", 1.0, **law)], friction_runs=given)
     return basis_words(data, data.arrays[0])
 
 
@@ -109,7 +108,7 @@ def test_the_velocities_of_the_tests_are_said_as_far_as_they_are_given(given, la
 
 
 RISING = {"mu": 0.30, "mu_fast": 0.45, "mu_rate_s_per_m": 20.0}
-MOTIONS = scenes.motions()
+MOTIONS = assessments.motions()
 
 
 def runs(mu=0.45, velocity_mps=0.0254, count=3):
@@ -121,11 +120,11 @@ def runs(mu=0.45, velocity_mps=0.0254, count=3):
 
 
 def assessed(arrays, tests, shaking=MOTIONS, **changes):
-    return scenes.package(shaking, arrays=arrays, friction_runs=tests, **changes).assessment
+    return assessments.package(shaking, arrays=arrays, friction_runs=tests, **changes).assessment
 
 
 def one(mu=0.45, slope=2.0, tests=(), shaking=MOTIONS, **law):
-    return assessed([stand_in.array("A1", slope, mu=mu, **law)], tests, shaking, clearances=[])
+    return assessed([projects.array("A1", slope, mu=mu, **law)], tests, shaking, clearances=[])
 
 
 def rows(done):
@@ -139,13 +138,13 @@ def said(check):
 @pytest.fixture(scope="module")
 def by_velocity():
     """A1 and A2 alike but for their friction: constant, and a law that begins with the same."""
-    arrays = [stand_in.array("A1", 2.0, mu=0.30), stand_in.array("A2", 2.0, x=120, **RISING)]
+    arrays = [projects.array("A1", 2.0, mu=0.30), projects.array("A2", 2.0, x=120, **RISING)]
     gaps = [
-        stand_in.clearance("A1", "RTU-1", 0.4),
-        stand_in.clearance("A1", "A2", 1.2),
-        stand_in.clearance("A2", "S edge", 1.7, "down"),
+        projects.clearance("A1", "RTU-1", 0.4),
+        projects.clearance("A1", "A2", 1.2),
+        projects.clearance("A2", "S edge", 1.7, "down"),
     ]
-    return assessed(arrays, runs(0.45, 0.254), clearances=gaps, options=scenes.REVIEW)
+    return assessed(arrays, runs(0.45, 0.254), clearances=gaps, options=assessments.REVIEW)
 
 
 @pytest.mark.quick
@@ -228,9 +227,9 @@ def test_friction_beyond_the_tests_needs_complete_ones_that_are_not_far_slower()
 
 def test_a_coefficient_below_the_tested_mean_is_no_worse_than_at_it():
     tests = runs(0.45, 0.254)
-    for motions in (MOTIONS, scenes.level()):
+    for motions in (MOTIONS, assessments.level()):
         at, below = (
-            assessed([stand_in.array("A1", 0.5, mu=mu)], tests, motions, clearances=[])
+            assessed([projects.array("A1", 0.5, mu=mu)], tests, motions, clearances=[])
             for mu in (0.45, 0.41)
         )
         assert [row.id for row in below.open] == [row.id for row in at.open]
@@ -267,9 +266,9 @@ def test_friction_beyond_is_the_largest_of_any_velocity_that_may_be():
 def test_the_low_velocity_coefficient_alone_is_as_entered_and_has_no_reruns(by_velocity):
     slow = by_velocity.low_velocity
     assert [item.id for item in slow.arrays] == ["A2"]
-    entered = [stand_in.array("A1", 2.0, mu=0.30), stand_in.array("A2", 2.0, x=120, mu=0.30)]
-    arrays = stand_in.project(arrays=entered).arrays
-    again = stand_in.assess_input(
+    entered = [projects.array("A1", 2.0, mu=0.30), projects.array("A2", 2.0, x=120, mu=0.30)]
+    arrays = projects.project(arrays=entered).arrays
+    again = projects.assess_input(
         by_velocity.project.model_copy(update={"arrays": arrays}), MOTIONS
     )
     assert slow.arrays[0].design_m == again.arrays[1].design_m

@@ -6,23 +6,21 @@ import re
 import numpy as np
 import pytest
 
-import inputs
-import scenes
-import stand_in
-from nightly import by_day
-from one_by_one import prd_m, slid
-from printed import printed
+from fixtures import assessments, project_parts, projects
+from fixtures.marks import by_day
+from fixtures.pages import page_of
+from fixtures.single_runs import prd_m, slid
 from report.assessment.evidence import accuracy
 from report.assessment.uncertainty import surface, uncertainty
 from report.text.counts import below_mm
 from solver.model import Friction
 
-PEER = inputs.REVIEW
-SHORT = scenes.motions()
+PEER = project_parts.REVIEW
+SHORT = assessments.motions()
 
 
 def made(found=SHORT, **changes):
-    return scenes.package(found, **{"options": PEER} | changes).assessment
+    return assessments.package(found, **{"options": PEER} | changes).assessment
 
 
 @pytest.fixture(scope="module")
@@ -72,9 +70,9 @@ def test_the_grid_is_around_the_arrays_and_agrees_with_runs_one_by_one(usual, gr
 # In the second and the third the governing headings pass a value that other headings refute.
 @pytest.mark.parametrize(("seed", "share"), by_day([(11, 1.3), (12, 1.25), (28, 1.7)], 1))
 def test_a_margin_satisfies_with_all_runs_and_one_hundredth_less_does_not(seed, share):
-    found = scenes.motions(seed=seed)
-    (roomy,) = made(found, clearances=[stand_in.clearance("A2", "A3", 9.0)]).clearances
-    close = stand_in.clearance("A2", "A3", share * roomy.required_m)
+    found = assessments.motions(seed=seed)
+    (roomy,) = made(found, clearances=[projects.clearance("A2", "A3", 9.0)]).clearances
+    close = projects.clearance("A2", "A3", share * roomy.required_m)
     every = uncertainty(made(found, clearances=[close])).margins
     searched = [one for one in every if not one.is_beyond]
     assert searched
@@ -89,7 +87,7 @@ def test_a_margin_satisfies_with_all_runs_and_one_hundredth_less_does_not(seed, 
 
 
 def test_margins_are_of_each_array_with_a_permitted_route():
-    gaps = [stand_in.clearance("A2", "A3", 0.05), stand_in.clearance("A1", "RTU-1", 9.0)]
+    gaps = [projects.clearance("A2", "A3", 0.05), projects.clearance("A1", "RTU-1", 9.0)]
     found = uncertainty(made(clearances=gaps))
     listed = [(one.number, one.array.id) for one in found.margins]
     assert listed == [(1, "A2"), (1, "A3"), (2, "A1")]
@@ -98,7 +96,7 @@ def test_margins_are_of_each_array_with_a_permitted_route():
     assert found.margins[2].is_beyond
     assert [one.limited_by for one in found.margins] == ["—", "—", "search"]
     assert found.margins[2].minimum_mu == pytest.approx(0.23)  # half of 0.45, in whole hundredths
-    first, second, across, own = uncertainty(stand_in.unpermitted()).margins
+    first, second, across, own = uncertainty(projects.unpermitted()).margins
     for margin in (first, second, across):  # the second and third are of one clearance
         assert math.isnan(margin.minimum_mu)
     assert own.array.id == "A2"
@@ -125,13 +123,13 @@ def test_turned_and_reversed_shaking_agree_with_the_public_solver(usual):
 
 @pytest.mark.quick
 def test_one_component_and_blocks_that_lift_off_leave_holes():
-    assessment = made(scenes.along(SHORT), clearances=[])
+    assessment = made(assessments.along(SHORT), clearances=[])
     found = uncertainty(assessment)
     assert found.margins == ()
     assert found.turned == ()
     assert math.isnan(found.reversed_m)
     assert (surface(assessment, assessment.governing).mean_m > 0).all()
-    lifting = made(tuple(stand_in.lifting(f"L{k}", signs=(1,)) for k in range(3)))
+    lifting = made(tuple(projects.lifting(f"L{k}", signs=(1,)) for k in range(3)))
     assert np.isnan(surface(lifting, lifting.governing).mean_m).all()
     assert all(math.isnan(one.minimum_mu) for one in uncertainty(lifting).margins)
 
@@ -139,9 +137,9 @@ def test_one_component_and_blocks_that_lift_off_leave_holes():
 def test_a_law_by_velocity_is_scaled_as_a_whole_and_the_other_arrays_are_named():
     law = {"mu_rate_s_per_m": 20.0}
     arrays = [
-        stand_in.array("A1", 0.5, mu=0.6),
-        stand_in.array("A2", 2.0, mu=0.45, mu_fast=0.54, **law),
-        stand_in.array("A3", 3.0, mu=0.3, mu_fast=0.36, **law),
+        projects.array("A1", 0.5, mu=0.6),
+        projects.array("A2", 2.0, mu=0.45, mu_fast=0.54, **law),
+        projects.array("A3", 3.0, mu=0.3, mu_fast=0.36, **law),
     ]
     assessment = made(arrays=arrays, clearances=[])
     found = surface(assessment, assessment.governing)
@@ -155,15 +153,15 @@ def test_a_law_by_velocity_is_scaled_as_a_whole_and_the_other_arrays_are_named()
 
 def paged(shaking=None, **changes):
     """A package, what is found of its accuracy, and the page."""
-    package = scenes.package(shaking, **changes)
+    package = assessments.package(shaking, **changes)
     found = accuracy(package.assessment)
-    return package, found, printed(package, "accuracy", accuracy=found)
+    return package, found, page_of(package, "accuracy", accuracy=found)
 
 
 @pytest.fixture(scope="module")
 def unfloored():
     """Without the floor, so that friction governs."""
-    return paged(scenes.motions(3, seconds=10.0), options=PEER)
+    return paged(assessments.motions(3, seconds=10.0), options=PEER)
 
 
 @pytest.mark.quick
@@ -172,7 +170,7 @@ def test_the_error_is_said_by_its_model_and_none_of_a_block_that_lifts_off(unflo
     result = scene.governing.worst.governing.result
     assert 0.0 < result.error_m < 1e-6
     assert f"the error of this PRD is below {below_mm(result.error_m)} (a bound)" in page
-    _, _, page = paged((*scenes.motions(3, seconds=4.0), stand_in.lifting(signs=(1,))))
+    _, _, page = paged((*assessments.motions(3, seconds=4.0), projects.lifting(signs=(1,))))
     assert "lifts off the roof" in page
     assert set(page.table("Design displacement with").rows[0].values()) >= {"none"}
     assert not re.search(r"\bnan\b", page)

@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import scenes
-import stand_in
-from inputs import FT, INCH, NO_SIDES, sides
-from plans import roof_plan
+from fixtures import assessments, projects
+from fixtures.plan_pictures import roof_plan
+from fixtures.project_parts import FT, INCH, NO_SIDES, sides
+from fixtures.workbooks import cell_address, make, project
 from report.assessment.assess import assess
 from report.assessment.checks.check import texts
 from report.assessment.neighbors import Cover, NearbyKind, bare_edges
@@ -26,14 +26,13 @@ from report.project.model import ProjectInput
 from report.project.model.shapes import Rectangle, gap_m
 from report.project.read.read import read
 from report.web.plan import plan, stamp
-from sheets import at, make, project
 
 OUTLINE = sides(0, 220, 0, 170)
 
 
 @pytest.fixture(scope="module")
 def done():
-    return scenes.package(scenes.motions(3, 12.0)).assessment
+    return assessments.package(assessments.motions(3, 12.0)).assessment
 
 
 def having(done, design_m=None, **changes):
@@ -58,7 +57,7 @@ def test_every_pair_with_a_clearance_from_either_side_is_listed(done):
     ]  # fmt: skip
     assert not any(neighbor.is_missing for neighbor in pairs.values())
     assert pairs["A1", "A3"].given[0].clearance == done.project.clearances[0]
-    rows = [stand_in.clearance("A3", "A1", 15 * FT)]
+    rows = [projects.clearance("A3", "A1", 15 * FT)]
     pairs = by_pair(having(done, design_m=10 * FT, clearances=rows))
     assert pairs["A1", "A3"].given
     assert not pairs["A1", "A3"].is_missing
@@ -89,7 +88,7 @@ def test_the_larger_displacement_or_the_prescriptive_one_decides(done):
 def test_a_gap_of_the_plan_that_contradicts_the_clearance_by_an_inch_is_named(
     done, provided, is_named
 ):
-    rows = [stand_in.clearance("A1", "RTU-1", provided * INCH)]  # 7 ft apart in plan
+    rows = [projects.clearance("A1", "RTU-1", provided * INCH)]  # 7 ft apart in plan
     neighbor = by_pair(having(done, clearances=rows))["A1", "RTU-1"]
     assert bool(neighbor.contradictions) is is_named
     assert len(neighbor.shortcomings()) == is_named
@@ -102,7 +101,7 @@ def test_a_gap_of_the_plan_that_contradicts_the_clearance_by_an_inch_is_named(
     [(4.0, 84.0, Cover.AS_IN_PLAN), (0.1, 90.0, Cover.DIFFERS), (0.1, 84.0, Cover.BEYOND)],
 )
 def test_a_clearance_covers_a_neighbor_as_the_plan_has_it(done, design_ft, provided, cover):
-    rows = [stand_in.clearance("A1", "RTU-1", provided * INCH)]  # 7 ft apart in plan
+    rows = [projects.clearance("A1", "RTU-1", provided * INCH)]  # 7 ft apart in plan
     neighbor = by_pair(having(done, design_m=design_ft * FT, clearances=rows))["A1", "RTU-1"]
     assert (neighbor.cover, [row.number for row in neighbor.given]) == (cover, [1])
     alone = by_pair(having(done, design_m=4 * FT, clearances=[]))["A1", "RTU-1"]
@@ -118,9 +117,9 @@ def test_cells_are_those_of_the_workbook_or_the_sheet_to_add_to(done, tmp_path):
     sheet = read(make(tmp_path, clearances=[project().clearances[2].model_dump()]))
     listed = assess(sheet, prepare(sheet)).neighbors
     row = next(neighbor for neighbor in listed if neighbor.given)
-    assert row.given[0].cell == at("Clearances/1/Provided clearance")
+    assert row.given[0].cell == cell_address("Clearances/1/Provided clearance")
     to_add = {near.to_add for near in listed if near.kind is not NearbyKind.BARE_EDGE}
-    assert to_add == {at("Clearances/heading/Array")}
+    assert to_add == {cell_address("Clearances/heading/Array")}
 
 
 def test_an_edge_of_the_roof_that_no_object_covers_is_a_neighbor(done):
@@ -142,13 +141,13 @@ def test_an_edge_of_the_roof_that_no_object_covers_is_a_neighbor(done):
      (45.0, "northeast southwest")],
 )  # fmt: skip
 def test_edges_are_named_by_the_compass(north_deg, names):
-    edges = bare_edges(stand_in.project(roof=OUTLINE | {"north_deg": north_deg}))
+    edges = bare_edges(projects.project(roof=OUTLINE | {"north_deg": north_deg}))
     assert [edge.name for edge in edges] == [f"{name} edge of the roof" for name in names.split()]
 
 
 def test_the_edges_of_an_l_shaped_roof_are_its_sides_and_none_without_an_outline():
-    assert bare_edges(stand_in.project()) == ()
-    data = stand_in.project(outlines=vertices("roof", L_ROOF))
+    assert bare_edges(projects.project()) == ()
+    data = projects.project(outlines=vertices("roof", L_ROOF))
     edges = bare_edges(data)
     assert [edge.name for edge in edges] == [
         "east edge of the roof (side 2)",
@@ -172,7 +171,7 @@ def test_bare_parts_and_strips_make_up_the_side(spans):
         for k, (a, b) in enumerate(spans)
     ]  # fmt: skip
     roof = {"x_from_m": 0.0, "x_to_m": 50.0, "y_from_m": 0.0, "y_to_m": 40.0}
-    data = stand_in.project(arrays=[stand_in.array("A1", 1.0)], objects=strips, clearances=[],
+    data = projects.project(arrays=[projects.array("A1", 1.0)], objects=strips, clearances=[],
                             roof=roof)  # fmt: skip
     south = [edge.line for edge in bare_edges(data) if edge.name.startswith("south")]
     for x_m in (0.25 + 0.5 * k for k in range(100)):
@@ -191,8 +190,8 @@ def _is_short(at, strips):
 
 @cache
 def one_array():
-    alone = {"arrays": [stand_in.array("A1", 1.0)], "objects": [], "clearances": []}
-    return scenes.package(scenes.motions(3, 12.0), **alone).assessment
+    alone = {"arrays": [projects.array("A1", 1.0)], "objects": [], "clearances": []}
+    return assessments.package(assessments.motions(3, 12.0), **alone).assessment
 
 
 @given(st.floats(0.0, 30.0), st.floats(0.01, 8.0), st.floats(-10.0, 30.0), st.floats(-10.0, 30.0))
@@ -217,8 +216,8 @@ def test_a_unit_in_the_notch_of_an_outlined_array_is_as_far_as_its_nearer_leg(do
     # A1 without its upper right quarter, and a unit 5 ft and 7 ft from the legs around it.
     first, *others = (array.model_dump() for array in done.project.arrays)
     notch = [(20, 20), (100, 20), (100, 50), (60, 50), (60, 75), (20, 75)]
-    unit = stand_in.roof_object("RTU-1", "fixed object", 67, 75, 55, 65)
-    rows = [stand_in.clearance("A1", "RTU-1", 10 * FT)]
+    unit = projects.roof_object("RTU-1", "fixed object", 67, 75, 55, 65)
+    rows = [projects.clearance("A1", "RTU-1", 10 * FT)]
     near = having(done, arrays=[first | NO_SIDES, *others], outlines=vertices("A1", notch),
                   objects=[unit], clearances=rows)  # fmt: skip
     pair = by_pair(near)["A1", "RTU-1"]
@@ -231,8 +230,8 @@ def test_an_oblique_edge_is_covered_by_an_oblique_strip():
     triangle = [(0, 0), (200, 0), (0, 200)]
     strip = [(200, 0), (201, 0.5), (101, 100.5), (100, 100)]  # along half of side 2
     edge = {"id": "E", "kind": "edge without parapet"}
-    data = stand_in.project(
-        arrays=[stand_in.array("A1", 1.0)], objects=[edge], clearances=[],
+    data = projects.project(
+        arrays=[projects.array("A1", 1.0)], objects=[edge], clearances=[],
         outlines=[*vertices("roof", triangle), *vertices("E", strip)],
     )  # fmt: skip
     edges = bare_edges(data)
@@ -246,21 +245,21 @@ def test_an_oblique_edge_is_covered_by_an_oblique_strip():
     assert math.dist(start, (100 * FT, 100 * FT)) < 1.0 * FT
 
 
-PARAPET = stand_in.roof_object("N", "edge with parapet", 0, 400, 200, 202, height=0.3)
-HIGH = stand_in.roof_object("S", "edge with parapet", 0, 400, -202, -200, height=1.2)
-NEAR = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42, height=1.0)
+PARAPET = projects.roof_object("N", "edge with parapet", 0, 400, 200, 202, height=0.3)
+HIGH = projects.roof_object("S", "edge with parapet", 0, 400, -202, -200, height=1.2)
+NEAR = projects.roof_object("RTU-9", "fixed object", 101, 106, 35, 42, height=1.0)
 
 
 @pytest.fixture(scope="module")
 def unlisted():
     """A unit a foot from an array without a row of its own, and a parapet of 11.8 in."""
-    return scenes.package(
-        arrays=[stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=220)],
+    return assessments.package(
+        arrays=[projects.array("A1", 0.5), projects.array("A2", 0.5, x=220)],
         objects=[NEAR, PARAPET, HIGH],
         clearances=[
-            stand_in.clearance("A2", "A1", 40.0),
-            stand_in.clearance("A1", "N", 60.0),
-            stand_in.clearance("A1", "S", 60.0),
+            projects.clearance("A2", "A1", 40.0),
+            projects.clearance("A1", "N", 60.0),
+            projects.clearance("A1", "S", 60.0),
         ],
     ).assessment
 
@@ -290,13 +289,13 @@ def lowered(**changes):
     overrides = [{"provision": key, "value": 0.75, "reason": "Agreed"}
                  for key in ("separation_fixed", "separation_edge")]  # fmt: skip
     options = {"clearances": [], "overrides": overrides}
-    return scenes.package(**options | changes).assessment
+    return assessments.package(**options | changes).assessment
 
 
 @pytest.mark.parametrize(
     "near",
-    [{"arrays": [stand_in.array("A1", 0.5)], "objects": [NEAR]},
-     {"arrays": [stand_in.array("A1", 0.5, x=1)], "objects": [],
+    [{"arrays": [projects.array("A1", 0.5)], "objects": [NEAR]},
+     {"arrays": [projects.array("A1", 0.5, x=1)], "objects": [],
       "roof": {"x_from_m": 0.0, "x_to_m": 120.0, "y_from_m": -60.0, "y_to_m": 120.0}}],
     ids=["object", "bare edge"],
 )  # fmt: skip
@@ -321,10 +320,10 @@ def test_a_required_separation_that_an_override_lowers_is_marked_without_a_row_t
 
 def test_of_two_bare_parts_of_a_side_the_one_that_is_near_is_marked():
     """A parapet along the middle of the west side leaves a part on each side of it bare."""
-    unlisted = scenes.package(
+    unlisted = assessments.package(
         roof={"x_from_m": 0.0, "x_to_m": 120.0, "y_from_m": 0.0, "y_to_m": 60.0},
-        arrays=[stand_in.array("A1", 0.5, x=1)],
-        objects=[stand_in.roof_object("W", "edge with parapet", 0, 0.5, 90, 120, height=1.2)],
+        arrays=[projects.array("A1", 0.5, x=1)],
+        objects=[projects.roof_object("W", "edge with parapet", 0, 0.5, 90, 120, height=1.2)],
         clearances=[],
     ).assessment
     bare = [gap for gap in plan_gaps(unlisted) if gap.other == "the west edge of the roof"]

@@ -11,13 +11,23 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 
-import inputs
 import report.assessment.assess
-import stand_in
-from cells import cell
-from inputs import FT, INCH, clearance, roof_object, sides
-from nightly import by_day
-from places import ROOT
+from fixtures import project_parts, projects
+from fixtures.cells import cell
+from fixtures.marks import by_day
+from fixtures.paths import ROOT
+from fixtures.project_parts import FT, INCH, clearance, roof_object, sides
+from fixtures.workbooks import (
+    SECTIONS,
+    cell_address,
+    different,
+    edit,
+    make,
+    parts,
+    problems,
+    put,
+    type_into,
+)
 from report.assessment.assess import assess
 from report.assessment.plan_clearances import direction_of, missing_rows, pairs_before_runs
 from report.assessment.precheck import missing_clearances
@@ -25,7 +35,6 @@ from report.cli.main import main
 from report.motions.prepare import prepare
 from report.project.model.choices import ClearanceSource, Direction, ObjectKind, UnitsFirst
 from report.project.read.read import read
-from sheets import SECTIONS, at, different, edit, make, parts, problems, put, type_into
 from solver.rules.provisions import RULE_SETS
 
 HEADING = "Clearances/heading/Distance from"
@@ -96,14 +105,14 @@ def test_before_runs_a_random_plan_has_every_pair_that_its_package_lists(
     places, rule_set, s_ds_g, kinds
 ):
     boxes = [sides(x, x + wide, y, y + tall) for x, y, wide, tall in places]
-    arrays = [inputs.array(f"A{n}", 0.5) | box for n, box in enumerate(boxes[:2])]
+    arrays = [project_parts.array(f"A{n}", 0.5) | box for n, box in enumerate(boxes[:2])]
     objects = [
         roof_object(f"O{n}", kind, height=0.5) | box
         for n, (box, kind) in enumerate(zip(boxes[2:], kinds, strict=False))
     ]
-    site = stand_in.site(rule_set=rule_set, s_ds_g=s_ds_g)
-    data = stand_in.project(arrays=arrays, objects=objects, clearances=[], site=site)
-    done = stand_in.assess_input(data, MOTIONS)
+    site = projects.site(rule_set=rule_set, s_ds_g=s_ds_g)
+    data = projects.project(arrays=arrays, objects=objects, clearances=[], site=site)
+    done = projects.assess_input(data, MOTIONS)
     before = {near.names: near for near in pairs_before_runs(data, {})}
     assert all(
         array.permitted_m <= near.reach_m / 2 + 1e-9
@@ -115,17 +124,17 @@ def test_before_runs_a_random_plan_has_every_pair_that_its_package_lists(
     assert named <= {name for name, near in before.items() if near.is_missing}
 
 
-MOTIONS = stand_in.motions(3, seconds=6.0, peak_g=0.3)
+MOTIONS = projects.motions(3, seconds=6.0, peak_g=0.3)
 
 
 @pytest.mark.quick
 def test_pairs_within_twice_a_larger_analysis_are_those_of_the_package():
-    strong = stand_in.motions(3, seconds=6.0, peak_g=2.0)
+    strong = projects.motions(3, seconds=6.0, peak_g=2.0)
     far = roof_object("FAR", "fixed object", height=0.5) | sides(60, 70, 0, 60)
     far["x_from_m"] = 60 * FT + 0.35  # within 2 x 198 mm of the runs, not 2 x 152 mm
-    arrays, site = [inputs.array("A1", 0.5) | sides(0, 60, 0, 60)], stand_in.site(s_ds_g=0.3)
-    data = stand_in.project(arrays=arrays, objects=[far], clearances=[], site=site)
-    done = stand_in.assess_input(data, strong)
+    arrays, site = [project_parts.array("A1", 0.5) | sides(0, 60, 0, 60)], projects.site(s_ds_g=0.3)
+    data = projects.project(arrays=arrays, objects=[far], clearances=[], site=site)
+    done = projects.assess_input(data, strong)
     named = {near.names for near in done.pairs if near.is_missing}
     assert "A1 to FAR" in named
     assert "A1 to FAR" not in {near.names for near in pairs_before_runs(data, {}) if near.is_near}
@@ -160,7 +169,7 @@ def test_motions_run_where_they_can_and_else_the_reason_is_given(tmp_path):
     path = make(tmp_path, **BARE)
     (tmp_path / "records" / "x2.csv").unlink()
     output = fill(tmp_path)
-    assert at("the motions are not run: <Motions/M2/Horizontal record>: ") in output
+    assert cell_address("the motions are not run: <Motions/M2/Horizontal record>: ") in output
     assert "reach 163.2 in (4144 mm), twice the prescriptive displacement\n" in output
     assert len(read(path).inputs["clearances"]) == 2
 
@@ -172,7 +181,7 @@ def test_rows_that_stand_are_kept_and_said_where_they_differ(tmp_path):
     type_into(path, {"Clearances/2/Object": "GONE", "Clearances/1/Provided clearance": 130})
     output = fill(tmp_path)
     wanted = "<Clearances/1/Provided clearance>: A1 to A2: 130.0 in (3302 mm) entered, 120.0 in"
-    assert at(wanted) in output
+    assert cell_address(wanted) in output
     assert "A2 to RTU-1, up, 60.0 in (1524 mm)" in output
     assert "2 kept" in output
     inputs = read(path).inputs["clearances"]
@@ -200,7 +209,9 @@ def test_rows_from_the_drawing_are_renewed_and_typed_ones_stay(tmp_path):
     assert after["A1", "A2"].provided_m == pytest.approx(156 * INCH)
     assert after["A2", "RTU-1"].provided_m == pytest.approx(55 * INCH)
     where = f"<Clearances/{typed['A1', 'A2']}/Provided clearance>"
-    assert at(f"{where}: A1 to A2: across, 120.0 in (3048 mm); now across, 156.0") in output
+    assert (
+        cell_address(f"{where}: A1 to A2: across, 120.0 in (3048 mm); now across, 156.0") in output
+    )
     assert "0 clearances added, 1 renewed, 1 kept" in output
 
 
@@ -226,7 +237,7 @@ def test_a_distance_is_rounded_down_in_the_unit_of_its_column(tmp_path, units, g
     near = roof_object("R", "fixed object") | sides(0, 10, 20, 30)
     near |= {"x_to_m": 20 * FT - gap_in * INCH}  # A1 begins at 20 ft
     path = make(tmp_path, units, clearances=[], objects=[near],
-                project=inputs.HEAD | {"units_first": units})  # fmt: skip
+                project=project_parts.HEAD | {"units_first": units})  # fmt: skip
     fill(tmp_path)
     (row,) = (row for row in read(path).project.clearances if row.object == "R")
     step_m = 0.1 * INCH if units.is_us else 0.001
@@ -247,7 +258,7 @@ def test_a_distance_is_rounded_down_in_the_unit_of_its_column(tmp_path, units, g
 @pytest.mark.quick
 def test_a_direction_is_that_of_the_whole_distance_or_any(downslope_deg, place, direction):
     unit = roof_object("R", "fixed object") | place
-    data = stand_in.project(arrays=[inputs.array("A1", 0.5)], objects=[unit], clearances=[])
+    data = projects.project(arrays=[project_parts.array("A1", 0.5)], objects=[unit], clearances=[])
     (near,) = pairs_before_runs(data, {})
     assert direction_of(near, downslope_deg) is direction
 
@@ -261,7 +272,7 @@ def test_motions_may_be_missing_and_nothing_else(tmp_path):
     assert lines[-1].startswith("2 clearances added, 0 kept; reach 163.2 in (4144 mm)")
     type_into(path, {"Arrays/A1/Weight": None, "Site/S_DS": None})
     output = run("plan", "clearances", tmp_path, exit_code=2)
-    assert at("<Arrays/A1/Weight>: weight is missing") in output
+    assert cell_address("<Arrays/A1/Weight>: weight is missing") in output
     assert "S_DS" in output
     assert "Motions!" not in output
 
@@ -283,11 +294,14 @@ def test_bare_edges_and_overlaps_are_said_and_not_written(tmp_path):
 def test_a_workbook_without_the_column_is_refused_as_it_is_until_it_has_the_heading(tmp_path):
     path = make(tmp_path, **BARE)
     edit(path, lambda book: put(book, {HEADING: None}))
-    where = at(HEADING)
+    where = cell_address(HEADING)
     before = path.read_bytes()
     assert not any(row.source for row in read(path).project.clearances)
     output = run("plan", "clearances", tmp_path, exit_code=2)
-    assert at("<Clearances/heading/Array>: heading 'Distance from' is missing; copy it") in output
+    assert (
+        cell_address("<Clearances/heading/Array>: heading 'Distance from' is missing; copy it")
+        in output
+    )
     assert path.read_bytes() == before
     type_into(path, {where: "Distance from"})
     fill(tmp_path)
@@ -298,7 +312,7 @@ def test_a_workbook_without_the_column_is_refused_as_it_is_until_it_has_the_head
 def test_a_name_without_a_date_confirms_nothing(tmp_path):
     label = "Project/Drawing distances confirmed"
     (problem,) = problems(type_into(make(tmp_path), {f"{label} by": "MT"}))
-    assert problem == at(
+    assert problem == cell_address(
         f"<{label} on>: drawing distances confirmed on is missing; give who confirmed the drawing"
         " distances and when, or neither"
     )
@@ -321,7 +335,7 @@ def test_check_names_the_pairs_without_a_row_before_any_run(tmp_path):
 
 
 CONFIRMED = {
-    **inputs.project(**SECTIONS).project.model_dump(),
+    **project_parts.project(**SECTIONS).project.model_dump(),
     "drawing_confirmed_by": "RG",
     "drawing_confirmed_date": dt.date(2025, 11, 18),
     "drawing_covered": "2025-11-18: Clearances 3f2a91",
@@ -331,7 +345,7 @@ CONFIRMED = {
 @pytest.mark.nightly
 def test_confirmed_distances_stay_until_other_ones_are_written(tmp_path):
     path = make(tmp_path, **BARE, project=CONFIRMED)
-    said = at(
+    said = cell_address(
         "<Project/Drawing distances confirmed by>, <Project/Drawing distances confirmed on>,"
         " <Project/Drawing distances covered>: 'Drawing distances confirmed by RG, 2025-11-18' is"
         " taken out: distances from the drawing have changed; confirm them again"

@@ -5,11 +5,8 @@ from dataclasses import replace
 
 import pytest
 
-import inputs
-import scenes
-import sheets
-import stand_in
-from commands import printed
+from fixtures import assessments, project_parts, projects, workbooks
+from fixtures.commands import stdout_of
 from report.assessment.checks.check import sentence
 from report.assessment.precheck import limits_before_runs, shaking_acceptance
 from report.assessment.routes import Route
@@ -18,22 +15,22 @@ from report.project.model.finding import Level
 from report.project.model.place import Place
 from report.project.model.scene import SIDES
 
-SEVEN = scenes.motions(7)
-BARE = stand_in.project(
-    arrays=[stand_in.array("A1", 8.0, mu_report="", x_to_m=200 * stand_in.FOOT)], clearances=[]
+SEVEN = assessments.motions(7)
+BARE = projects.project(
+    arrays=[projects.array("A1", 8.0, mu_report="", x_to_m=200 * projects.FOOT)], clearances=[]
 )
 LIMITS = {
-    "the usual project": (stand_in.project(), SEVEN),
+    "the usual project": (projects.project(), SEVEN),
     "slope, risk category and stories": (
-        stand_in.project(arrays=[stand_in.array("A1", 8.0)], clearances=[],
-                         site=stand_in.site(risk_category="IV", i_e=1.5, stories=7)),
+        projects.project(arrays=[projects.array("A1", 8.0)], clearances=[],
+                         site=projects.site(risk_category="IV", i_e=1.5, stories=7)),
         SEVEN,
     ),
-    "two motions on a slope that only analysis permits": (stand_in.steep(), SEVEN[:2]),
-    "two motions on a slope of the prescriptive procedure": (stand_in.project(), SEVEN[:2]),
+    "two motions on a slope that only analysis permits": (projects.steep(), SEVEN[:2]),
+    "two motions on a slope of the prescriptive procedure": (projects.project(), SEVEN[:2]),
     "no vertical, no test report, no fire lane": (
         BARE,
-        tuple(stand_in.motion(m.id, m.ax_mps2, ay=m.ay_mps2, dt_s=m.dt_s) for m in SEVEN[:3]),
+        tuple(projects.motion(m.id, m.ax_mps2, ay=m.ay_mps2, dt_s=m.dt_s) for m in SEVEN[:3]),
     ),
 }  # fmt: skip
 NEED_RUNS = {
@@ -45,8 +42,8 @@ NEED_RUNS = {
 @pytest.mark.parametrize("case", LIMITS)
 @pytest.mark.quick
 def test_check_and_report_name_the_same_limits_and_requirements(case):
-    book = stand_in.book(*LIMITS[case])
-    assessment = stand_in.assessed(book)
+    book = projects.book(*LIMITS[case])
+    assessment = projects.assessed(book)
     rows = [check for check in assessment.checks if check.is_open and check.id not in NEED_RUNS]
     slack = [a for a in assessment.arrays if a.array.slack_m is None]
     listed = list(limits_before_runs(book.sheet.project, book.shaking))
@@ -63,7 +60,7 @@ def test_check_and_report_name_the_same_limits_and_requirements(case):
 
 
 def findings(*given):
-    book = stand_in.book(*given)
+    book = projects.book(*given)
     return list(limits_before_runs(book.sheet.project, book.shaking))
 
 
@@ -103,16 +100,16 @@ def test_too_few_motions_and_no_vertical_are_said_at_the_motions(case, text):
 
 
 def test_a_statistic_that_needs_more_motions_is_the_reason_or_ng_at_its_cell():
-    data = stand_in.project(options={"statistic": "mean"})
+    data = projects.project(options={"statistic": "mean"})
     notes = [f.text for f in findings(data, SEVEN) if f.level is Level.NOTE]
     found = [text for text in notes if "uses the prescriptive displacement" in text]
     reason = "7 motions are given, and the statistic 'mean' needs 11 or more"
     assert found
     assert all(reason in text for text in found)
-    found = findings(stand_in.steep(options={"statistic": "mean"}), SEVEN)
+    found = findings(projects.steep(options={"statistic": "mean"}), SEVEN)
     texts = [f.text for f in found if f.place == Place("options", 0, "statistic")]
     assert "7 motions are given, and the statistic 'mean' needs 11 or more: NG" in texts
-    prescribed = findings(stand_in.project(options={"statistic": "mean"}), SEVEN)
+    prescribed = findings(projects.project(options={"statistic": "mean"}), SEVEN)
     assert not any(f.text.endswith(": NG") for f in prescribed if f.place.section == "options")
 
 
@@ -122,9 +119,9 @@ HAZARD = {
     "hazard_printout": "hazard.pdf",
 }
 TESTS = {"laboratory": "Laboratory", "report": "FT-1", "date": dt.date(2025, 6, 12)}
-REVIEW = scenes.REVIEW | {"peer_letter": ""}
+REVIEW = assessments.REVIEW | {"peer_letter": ""}
 RUN = {"surface": "dry", "number": 1, "mu": 0.5}
-SITE = {name: value for name, value in stand_in.site().items() if name not in HAZARD}
+SITE = {name: value for name, value in projects.site().items() if name not in HAZARD}
 
 
 def site(**changes):
@@ -168,7 +165,7 @@ CASES = {
         [("options", 0, "statistic")]),
     "drawn distances": (
         {"clearances": [row | {"source": source} for row, source in zip(
-            stand_in.SECTIONS["clearances"], ("drawing", "measured", "drawing", None, None),
+            projects.SECTIONS["clearances"], ("drawing", "measured", "drawing", None, None),
             strict=True)]},
         "Clear distances from the drawing, A3",
         [("clearances", 0, "source"), ("clearances", 2, "source")]),
@@ -177,7 +174,7 @@ CASES = {
             ("max_stories", 8.0), ("separation_fixed", 1.5), ("low_profile_in", 40.0))]},
         "Override", [("overrides", 0, "value"), ("overrides", 2, "value")]),
     "weight in wind": (
-        {"arrays": [inputs.array("A1", 0.5, wind_weight_pa=10.0)], "clearances": []},
+        {"arrays": [project_parts.array("A1", 0.5, wind_weight_pa=10.0)], "clearances": []},
         "Weight in wind design", [("arrays", 0, "weight_n"), ("arrays", 0, "wind_weight_pa")]),
 }  # fmt: skip
 
@@ -186,7 +183,7 @@ CASES = {
 @pytest.mark.quick
 def test_a_finding_names_the_cells_that_are_missing_or_wrong(case):
     changes, text, places = CASES[case]
-    book = stand_in.book(stand_in.project(**changes), scenes.motions(7))
+    book = projects.book(projects.project(**changes), assessments.motions(7))
     found = [f for f in limits_before_runs(book.sheet.project, book.shaking) if text in f.text]
     named = {place for finding in found for place in (finding.place, *finding.others)}
     assert named == {Place(*each) for each in places}
@@ -194,18 +191,23 @@ def test_a_finding_names_the_cells_that_are_missing_or_wrong(case):
 
 @pytest.mark.quick
 def test_cells_of_a_drift_and_of_several_values_are_printed(tmp_path):
-    path = sheets.make(tmp_path)
+    path = workbooks.make(tmp_path)
     drift = "".join(f"{2.0 if 20 < i < 60 else 0.0}\n" for i in range(200))
     (tmp_path / "records" / "z.csv").write_text(drift)
     found = [
         line
-        for line in printed("check", path).splitlines()
+        for line in stdout_of("check", path).splitlines()
         if "Final displacement of the record, M1" in line
     ]
-    assert [line.split(": ")[1] for line in found] == [sheets.at("Motions/M1/Vertical record")]
-    path = sheets.make(tmp_path, site=sheets.site(hazard_source="Tool"))
-    line = next(line for line in printed("check", path).splitlines() if "date and printout" in line)
-    cells = f"{sheets.at('Site/Date of hazard')}, {sheets.at('Site/Hazard printout')}"
+    assert [line.split(": ")[1] for line in found] == [
+        workbooks.cell_address("Motions/M1/Vertical record")
+    ]
+    path = workbooks.make(tmp_path, site=workbooks.site(hazard_source="Tool"))
+    line = next(
+        line for line in stdout_of("check", path).splitlines() if "date and printout" in line
+    )
+    date = workbooks.cell_address("Site/Date of hazard")
+    cells = f"{date}, {workbooks.cell_address('Site/Hazard printout')}"
     assert line.startswith(f"warning: {cells}: Condition. Source, date and printout of the seismic")
 
 
@@ -215,11 +217,11 @@ def scaled(factor):
 
 def spectral(motions):
     # A slope that only analysis permits: what the motions miss is NG.
-    return [f.text for f in findings(stand_in.steep(), motions) if "target" in f.text]
+    return [f.text for f in findings(projects.steep(), motions) if "target" in f.text]
 
 
 def test_a_factor_is_advised_where_one_reaches_the_target_and_then_it_does():
-    book = stand_in.book(stand_in.project(), SEVEN)
+    book = projects.book(projects.project(), SEVEN)
     rows = shaking_acceptance(book.shaking, targets(book.sheet.project)).rows
     just = max(row.limit / row.found for row in rows if row.is_ratio_to_target)
     assert spectral(scaled(1.001 * just)) == []

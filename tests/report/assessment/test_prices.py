@@ -4,10 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-import altered
-import scenes
-from nightly import nightly
-from printed import printed
+from fixtures import altered_projects, assessments
+from fixtures.marks import nightly
+from fixtures.pages import page_of
 from report.assessment.assess import Extent, assess
 from report.assessment.causes import governing_words
 from report.assessment.friction import at_low_velocity
@@ -15,7 +14,7 @@ from report.assessment.verdict import VELOCITY_ROW, as_adopted, under_code
 from report.text.units import Quantity, no_less, pair
 
 BY_DAY = ("campus", "peer review", "overrides", "short clearance", "motions without vertical")
-CASES = [name if name in BY_DAY else nightly(name) for name, _ in altered.copies()]
+CASES = [name if name in BY_DAY else nightly(name) for name, _ in altered_projects.copies()]
 
 
 def others(data):
@@ -37,7 +36,7 @@ def designs(done):
 
 @pytest.mark.parametrize("name", CASES)
 def test_a_price_is_what_the_project_comes_to_with_that_input(name):
-    done = altered.assessed(name)
+    done = altered_projects.assessed(name)
     open_ids = {check.id for check in done.checks if check.is_open}
     for id, other in others(done.project).items():
         after = assess(done.sheet, done.shaking, project=other)
@@ -54,23 +53,23 @@ def test_a_price_is_what_the_project_comes_to_with_that_input(name):
 
 
 def test_a_price_stands_with_its_condition_and_beside_a_review_that_removes_the_floor():
-    done = altered.assessed("little evidence")
+    done = altered_projects.assessed("little evidence")
     priced = {check.id for check in done.checks if check.is_open and check.otherwise}
     assert priced == {"rule_set", VELOCITY_ROW}
     # Of a letter of acceptance on file the first sheet says what comes without it, too.
-    assert {"rule_set"} <= scenes.shipped("example").otherwise.keys()
-    done = altered.assessed("peer review")
+    assert {"rule_set"} <= assessments.shipped("example").otherwise.keys()
+    done = altered_projects.assessed("peer review")
     line = done.otherwise["peer_review"]
     assert line.startswith("Without peer review: not NG, clearance A1 to RTU-1 (D/C ")
     assert line.endswith("; Δ up to 47.4 in (1204 mm).")
-    assert line in printed(scenes.package_data(done), "summary")
+    assert line in page_of(assessments.package_data(done), "summary")
     # What is not reviewed has its floor, and what changes nothing no price.
-    assert "peer_review" not in altered.assessed("reviewer's name alone").otherwise
+    assert "peer_review" not in altered_projects.assessed("reviewer's name alone").otherwise
     assert "override" not in done.otherwise
 
 
 def test_a_record_that_drifts_is_priced_by_the_project_without_it():
-    base = scenes.shipped("example")
+    base = assessments.shipped("example")
     first, *rest = base.shaking.prepared
     far = {name: replace(m, final_displacement_m=0.2) for name, m in first.measures.items()}
     drifting = replace(base.shaking, prepared=(replace(first, measures=far), *rest))

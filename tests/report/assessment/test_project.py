@@ -9,10 +9,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-import inputs
-import scenes
-import stand_in
-from one_by_one import slides
+from fixtures import assessments, project_parts, projects
+from fixtures.single_runs import slides
 from report import assess_project
 from report.assessment.arrays import DesignBasis, assess_array
 from report.assessment.checks.arrays import run_checks
@@ -25,17 +23,17 @@ from solver.rules.provisions import Basis
 from solver.sliding import least_model
 from solver.sliding.least_model import Model
 
-PEER = inputs.REVIEW
-STEEP = [stand_in.array("A1", 4.0)]
-SHORT = scenes.motions()
-SEVEN = scenes.motions(7, 12.0)  # half a second less than those of eight seconds
-RESTING = scenes.motions(7, 12.0, peak_g=0.05, vertical_peak_g=0.01)
+PEER = project_parts.REVIEW
+STEEP = [projects.array("A1", 4.0)]
+SHORT = assessments.motions()
+SEVEN = assessments.motions(7, 12.0)  # half a second less than those of eight seconds
+RESTING = assessments.motions(7, 12.0, peak_g=0.05, vertical_peak_g=0.01)
 CUT = np.concatenate([np.zeros(100), np.full(100, -12.0)])
 """Accelerations [m/s2] that end while an array slides."""
 
 
 def assessed(shaking=SEVEN, **changes):
-    return scenes.package(shaking, **changes).assessment
+    return assessments.package(shaking, **changes).assessment
 
 
 def alone(shaking=SEVEN, **changes):
@@ -70,14 +68,16 @@ def test_each_motion_and_direction_has_the_farthest_of_all_runs(done):
 def test_the_floor_governs_unless_reviewed_and_friction_by_speed_is_solved():
     law = {"mu_fast": 0.5, "mu_rate_s_per_m": 20.0}
     by_speed, constant = (
-        alone(SHORT, arrays=[stand_in.array("A1", 2.0, mu=0.4, **given)]).arrays[0]
+        alone(SHORT, arrays=[projects.array("A1", 2.0, mu=0.4, **given)]).arrays[0]
         for given in (law, {})
     )
     models = {run.solution.model for motion in by_speed.motions for run in motion.runs}
     assert models == {Model.SPEED_FRICTION}
     assert by_speed.analysis.mean_m < constant.analysis.mean_m
     for reviewed, governs in ((False, "floor"), (True, "analysis")):
-        item = assessed(RESTING, options=inputs.REVIEW | {"peer_reviewed": reviewed}).arrays[0]
+        item = assessed(RESTING, options=project_parts.REVIEW | {"peer_reviewed": reviewed}).arrays[
+            0
+        ]
         assert item.governs == governs
         assert item.design_m == (0.0 if reviewed else 0.5 * item.prescriptive.value_m)
 
@@ -104,7 +104,7 @@ def test_swapping_the_horizontal_components_changes_names_alone():
 
 
 def test_uplift_withholds_the_displacement_and_fails_every_clearance():
-    done = assessed((*SEVEN[:6], stand_in.lifting()))
+    done = assessed((*SEVEN[:6], projects.lifting()))
     item = done.arrays[0]
     assert item.worst.motion.id == "UP"
     assert item.worst.governing.result.status is Status.UPLIFT
@@ -150,7 +150,7 @@ def test_too_few_motions_are_never_ok_and_runs_bound_the_prescriptive_route():
     done = alone(SEVEN[:5], arrays=STEEP, options={"statistic": "mean"})
     assert math.isnan(done.arrays[0].design_m)
     assert not done.verdict.is_permitted
-    done = alone(scenes.motions(2, 30.0, peak_g=6.0, vertical_peak_g=0.1))
+    done = alone(assessments.motions(2, 30.0, peak_g=6.0, vertical_peak_g=0.1))
     for item in done.arrays:
         largest = max(run.governing.prd_m for run in item.motions)
         assert item.design_m == max(item.prescriptive.value_m, largest)
@@ -158,8 +158,8 @@ def test_too_few_motions_are_never_ok_and_runs_bound_the_prescriptive_route():
 
 
 def test_runs_that_never_stop_are_one_sentence_with_their_count_and_us_speed():
-    cut = [stand_in.motion(f"CUT{k}", CUT, signs=(1,)) for k in range(11)]
-    arrays = [stand_in.array("A1", 0.0), stand_in.array("A2", 0.0, x=120)]
+    cut = [projects.motion(f"CUT{k}", CUT, signs=(1,)) for k in range(11)]
+    arrays = [projects.array("A1", 0.0), projects.array("A2", 0.0, x=120)]
     (found,) = (check for check in alone(cut, arrays=arrays).open if check.id == "runs")
     # From rest, (12 - 0.45 g) m/s2 over 99 whole intervals of 0.01 s, and half the first.
     speed = (12.0 - 0.45 * 9.80665) * 0.99
@@ -179,15 +179,15 @@ def test_arrays_of_one_slope_friction_and_model_share_their_runs(monkeypatch):
 
     def found(*rows):
         solved.clear()
-        gaps = [stand_in.clearance(row["id"], "RTU-1", 7 * stand_in.FOOT) for row in rows]
-        data = stand_in.project(arrays=list(rows), clearances=gaps, options=PEER)
-        return stand_in.assess_input(data, SHORT)
+        gaps = [projects.clearance(row["id"], "RTU-1", 7 * projects.FOOT) for row in rows]
+        data = projects.project(arrays=list(rows), clearances=gaps, options=PEER)
+        return projects.assess_input(data, SHORT)
 
     def runs_of(assessment):
         support(assessment)
         return len(solved)
 
-    one, other = stand_in.array("A1", 1.0, x=0), stand_in.array("A2", 1.0, x=120)
+    one, other = projects.array("A1", 1.0, x=0), projects.array("A2", 1.0, x=120)
     turned = other | {"downslope_deg": 90.0, "weight_n": 1e4}
     both = found(one, turned)
     first, second = both.arrays

@@ -6,13 +6,10 @@ from functools import reduce
 import numpy as np
 import pytest
 
-import altered
-import inputs
-import scenes
-import stand_in
-from nightly import nightly
-from one_by_one import prd_m, slid
-from printed import printed
+from fixtures import altered_projects, assessments, project_parts, projects
+from fixtures.marks import nightly
+from fixtures.pages import page_of
+from fixtures.single_runs import prd_m, slid
 from report.assessment.assess import assess, changed, entered
 from report.assessment.causes import came_to
 from report.assessment.remedies import MOST, Remedies, RemedyKind, remedies
@@ -25,9 +22,9 @@ from report.web.answers import answer
 from solver.friction_tests import MOST_MU
 from solver.model import Friction, Status
 
-PEER = inputs.REVIEW
-SHORT = scenes.motions()
-FOOT, INCH, ARRAY, GAP = stand_in.FOOT, stand_in.INCH, stand_in.array, stand_in.clearance
+PEER = project_parts.REVIEW
+SHORT = assessments.motions()
+FOOT, INCH, ARRAY, GAP = projects.FOOT, projects.INCH, projects.array, projects.clearance
 
 
 # Those whose remedies are made anew by day.
@@ -35,7 +32,7 @@ BY_DAY = (
     "conditions", "two causes", "two causes and a slope", "much that is NG", "short clearance",
     "slides without end", "each stated value fails", "high center of gravity",
 )  # fmt: skip
-CASES = [name if name in BY_DAY else nightly(name) for name, _ in altered.copies()]
+CASES = [name if name in BY_DAY else nightly(name) for name, _ in altered_projects.copies()]
 
 
 def fresh(done, *changes):
@@ -51,7 +48,7 @@ def failed(done):
 
 @pytest.mark.parametrize("name", CASES)
 def test_every_remedy_that_is_printed_gives_the_verdict_that_was_printed(name):
-    done = altered.assessed(name)
+    done = altered_projects.assessed(name)
     found = remedies(done)
     lines = " ".join(remedy_lines(done, found))
     if done.verdict.is_permitted:
@@ -76,21 +73,23 @@ def test_every_remedy_that_is_printed_gives_the_verdict_that_was_printed(name):
 
 
 def test_what_fails_has_its_own_remedies_and_nothing_else_has():
-    (found,) = remedies(altered.assessed("small roof capacity")).own
+    (found,) = remedies(altered_projects.assessed("small roof capacity")).own
     assert found.words == (
         "Provide roof capacity of at least 5.5 psf (0.27 kPa) for A2 (given 2.0 psf (0.10 kPa))"
     )
     # Nobody changes the use of a building or its stories for an array.
     for name in ("risk category IV", "20 stories", "too steep"):
-        done = altered.assessed(name)
+        done = altered_projects.assessed(name)
         assert remedies(done) == Remedies()
         assert not any(line.startswith("remedy: ") for line in summary(done))
-    kinds = {remedy.kind for remedy in remedies(altered.assessed("slides without end")).own}
+    kinds = {
+        remedy.kind for remedy in remedies(altered_projects.assessed("slides without end")).own
+    }
     assert kinds == {RemedyKind.FRICTION}
 
 
 def test_of_several_causes_the_smallest_set_is_printed_as_one_remedy():
-    done = altered.assessed("two causes")
+    done = altered_projects.assessed("two causes")
     found = remedies(done)
     assert [remedy.kind for remedy in found.together] == [
         RemedyKind.CAPACITY, RemedyKind.SEPARATION
@@ -99,16 +98,16 @@ def test_of_several_causes_the_smallest_set_is_printed_as_one_remedy():
     assert line in summary(done)
     assert "Provide roof capacity of at least 5.5 psf" in line
     assert "and move A1 20.8 in (529 mm) west. Project verdict: OK with conditions" in line
-    assert found.sentence in printed(scenes.package_data(done), "summary")
+    assert found.sentence in page_of(assessments.package_data(done), "summary")
     # One array is too steep whatever the others do: no set is called enough.
-    done = altered.assessed("two causes and a slope")
+    done = altered_projects.assessed("two causes and a slope")
     found = remedies(done)
     assert (found.together, found.done) == ((), None)
     assert [*remedy_lines(done, found)][-1] == "No set of these changes is enough."
 
 
 def test_a_displacement_by_peer_review_is_that_of_each_array_by_its_name():
-    done = altered.assessed("short between arrays")
+    done = altered_projects.assessed("short between arrays")
     (found,) = (each for each in remedies(done).own if each.kind is RemedyKind.REVIEW)
     after = {item.id: item.design_m for item in fresh(done, found.change).arrays}
     assert after["A1"] != after["A2"]
@@ -123,14 +122,14 @@ def test_where_the_motions_do_not_permit_an_analysis_motions_that_do_are_named()
         ("overrides", "7 motions are given, and the statistic 'mean' needs 11 or more"),
         ("motions without vertical", "vertical together (2, at least 3†)"),
     ):
-        done = altered.assessed(name)
+        done = altered_projects.assessed(name)
         words = without_analysis(done)
         assert words.startswith("the motions do not permit an analysis (")
         assert f"{lack}): the package takes the prescriptive displacement, 81.6 in" in words
         assert "At 40.8 in (1036 mm), " in words
         assert f"note: {words}" in summary(done)
-        assert words[1:] in printed(scenes.package_data(done), "limits")
-    assert without_analysis(altered.assessed("short clearance")) == ""
+        assert words[1:] in page_of(assessments.package_data(done), "limits")
+    assert without_analysis(altered_projects.assessed("short clearance")) == ""
 
 
 def of(found, kind, name=""):
@@ -143,8 +142,8 @@ def of(found, kind, name=""):
 
 
 def made(provided_m, *, options=PEER, motions=SHORT, far="A3", **changes):
-    gap = stand_in.clearance("A2", far, provided_m)
-    return scenes.package(motions, clearances=[gap], options=options, **changes).assessment
+    gap = projects.clearance("A2", far, provided_m)
+    return assessments.package(motions, clearances=[gap], options=options, **changes).assessment
 
 
 def tight(share, **changes):
@@ -167,9 +166,9 @@ def failing():
 
 @pytest.mark.quick
 def test_nothing_is_tried_for_a_clearance_that_is_satisfied_or_without_a_permitted_route():
-    narrow = [stand_in.clearance("A1", "RTU-1", stand_in.FOOT)]
-    done = stand_in.unpermitted(options={}, clearances=narrow)
-    assert done.arrays[0].design_m == done.arrays[0].floor_m > stand_in.FOOT
+    narrow = [projects.clearance("A1", "RTU-1", projects.FOOT)]
+    done = projects.unpermitted(options={}, clearances=narrow)
+    assert done.arrays[0].design_m == done.arrays[0].floor_m > projects.FOOT
     assert remedies(done) == remedies(made(9.0)) == Remedies()  # nor where everything is satisfied
 
 
@@ -218,7 +217,7 @@ def test_the_least_friction_satisfies_there_and_beyond_and_not_below(failing):
 @pytest.mark.parametrize(
     ("provided_m", "changes"),
     [(0.1, {"options": {}}),  # by the floor
-     (0.2, {"far": "S edge", "site": stand_in.site(rule_set="ASCE 7-16")})],  # by the minimum
+     (0.2, {"far": "S edge", "site": projects.site(rule_set="ASCE 7-16")})],  # by the minimum
 )  # fmt: skip
 def test_a_floor_or_a_minimum_separation_that_forbids_leaves_no_friction(provided_m, changes):
     done = made(provided_m, **changes)
@@ -228,8 +227,8 @@ def test_a_floor_or_a_minimum_separation_that_forbids_leaves_no_friction(provide
 
 def test_a_friction_law_is_scaled_as_a_whole():
     arrays = [
-        stand_in.array("A2", 2.0, mu=0.3, mu_fast=0.36, mu_rate_s_per_m=20.0),
-        stand_in.array("A3", 3.0, mu=0.9, y=90),
+        projects.array("A2", 2.0, mu=0.3, mu_fast=0.36, mu_rate_s_per_m=20.0),
+        projects.array("A3", 3.0, mu=0.9, y=90),
     ]
     done, allowed = tight(0.7, arrays=arrays)
     _, least = dict(mus(done, remedies(done)))["A2"]
@@ -242,9 +241,11 @@ def test_a_friction_law_is_scaled_as_a_whole():
 
 
 def test_an_array_that_slides_at_the_end_needs_friction():
-    cut = tuple(stand_in.motion(m.id, m.ax_mps2[:700] / 3, dt_s=m.dt_s, signs=(1,)) for m in SHORT)
-    arrays = [stand_in.array("B1", 1.0, mu=0.08)]
-    failing = scenes.package(cut, arrays=arrays, objects=[], clearances=[], options=PEER).assessment
+    cut = tuple(projects.motion(m.id, m.ax_mps2[:700] / 3, dt_s=m.dt_s, signs=(1,)) for m in SHORT)
+    arrays = [projects.array("B1", 1.0, mu=0.08)]
+    failing = assessments.package(
+        cut, arrays=arrays, objects=[], clearances=[], options=PEER
+    ).assessment
     _, least = dict(mus(failing, remedies(failing)))["B1"]
     array = failing.arrays[0].array
 
@@ -259,7 +260,7 @@ def test_an_array_that_slides_at_the_end_needs_friction():
 
 @pytest.mark.quick
 def test_a_block_that_lifts_off_has_no_remedy():
-    lifted = tuple(stand_in.lifting(f"L{k}", signs=(1,)) for k in range(3))
+    lifted = tuple(projects.lifting(f"L{k}", signs=(1,)) for k in range(3))
     for provided_m in (0.5, 9.0):
         done = made(provided_m, motions=lifted)
         assert done.verdict is Verdict.NG
@@ -271,12 +272,12 @@ ROOF = {"x_from_m": 0.0, "x_to_m": 400 * FOOT, "y_from_m": 0.0, "y_to_m": 400 * 
 
 def unit(x, name="RTU-1", width=5.0):
     """A fixed object to the east of the array A1, which ends at 100 ft."""
-    return stand_in.roof_object(name, "fixed object", x, x + width, 35, 42, height=1.0)
+    return projects.roof_object(name, "fixed object", x, x + width, 35, 42, height=1.0)
 
 
 def beside(x=101.0, mu=0.45, *, objects=(), roof=ROOF, options=None, **changes):
     """One array, one object x ft from its axis and the clearance between the two."""
-    return scenes.package(
+    return assessments.package(
         arrays=[ARRAY("A1", 0.5, mu=mu)],
         objects=[unit(x), *objects],
         clearances=[GAP("A1", "RTU-1", (x - 100.0) * FOOT)],
@@ -334,7 +335,7 @@ def test_no_move_makes_something_else_ng_or_leaves_the_roof():
 
 def test_an_object_without_a_place_in_plan_needs_the_separation_alone():
     nowhere = {"x_from_m": None, "x_to_m": None, "y_from_m": None, "y_to_m": None}
-    given = scenes.package(
+    given = assessments.package(
         arrays=[ARRAY("A1", 0.5)],
         objects=[unit(101.0) | nowhere],
         clearances=[GAP("A1", "RTU-1", FOOT)],
@@ -347,15 +348,15 @@ def test_an_object_without_a_place_in_plan_needs_the_separation_alone():
 def test_of_many_clearances_the_worst_have_remedies_and_the_summary_says_so():
     count = MOST + 2
     units = [
-        stand_in.roof_object(f"U{k}", "fixed object", 100.5 + 0.1 * k, 103, 16 + 4 * k, 18 + 4 * k)
+        projects.roof_object(f"U{k}", "fixed object", 100.5 + 0.1 * k, 103, 16 + 4 * k, 18 + 4 * k)
         for k in range(count)
     ]
     gaps = [GAP("A1", f"U{k}", (0.5 + 0.1 * k) * FOOT) for k in range(count)]
-    beside = scenes.package(arrays=[ARRAY("A1", 0.5)], objects=units, clearances=gaps)
+    beside = assessments.package(arrays=[ARRAY("A1", 0.5)], objects=units, clearances=gaps)
     found = of_kind(beside.assessment, RemedyKind.SEPARATION)
     assert [one.checks[0].subject for one in found] == [f"A1 to U{k}" for k in range(MOST)]
     said = f"Searched for the {MOST} with the largest ratio of {count} that are NG."
-    assert said in printed(beside, "limits")
+    assert said in page_of(beside, "limits")
 
 
 def test_friction_is_assessed_as_entered_and_not_beyond_its_tests():
@@ -368,7 +369,7 @@ def test_friction_is_assessed_as_entered_and_not_beyond_its_tests():
              for surface in ("wet", "dry") for k in (1, 2, 3)]  # fmt: skip
     assert not of_kind(beside(mu=0.3, friction_runs=tests, **options), RemedyKind.FRICTION)
     arrays = tuple(with_mu(row, least) for row in free.project.arrays)
-    by_hand = stand_in.assess_input(changed(free.project, arrays=arrays), scenes.motions())
+    by_hand = projects.assess_input(changed(free.project, arrays=arrays), assessments.motions())
     (found,) = of_kind(free, RemedyKind.FRICTION)
     assert came_to(found.done) == came_to(by_hand)
     assert found.done.verdict is not Verdict.NG
@@ -390,7 +391,7 @@ def test_peer_review_is_offered_where_it_removes_a_floor_that_governs_and_only_t
     assert not of_kind(reviewed, RemedyKind.REVIEW)
     assert not of_kind(beside(x=150.0), RemedyKind.REVIEW)  # nothing is NG
     # A review of other inputs removes nothing: it is offered anew.
-    day = inputs.HEAD["date"]
+    day = project_parts.HEAD["date"]
     of_others = {"peer_date": day, "peer_covered": f"{day}: Arrays 000000"}
     (anew,) = of_kind(beside(x=102.5, options=PEER | of_others), RemedyKind.REVIEW)
     assert anew.words == found.words
@@ -404,7 +405,7 @@ def test_terminal_page_and_package_have_one_sentence_of_it():
     at = lines.index(f"remedy: {words}")
     assert lines[at - 1].startswith("NG: ")
     assert {"level": "remedy", "text": words} in answer(given, is_provisional=False)["reasons"]
-    package = scenes.package_data(given)
-    assert words in printed(package, "summary")
-    assert f"Clearance, A1 to RTU-1: {words}" in printed(package, "limits")
+    package = assessments.package_data(given)
+    assert words in page_of(package, "summary")
+    assert f"Clearance, A1 to RTU-1: {words}" in page_of(package, "limits")
     assert not any(line.startswith("remedy") for line in summary(beside(x=150.0)))

@@ -4,10 +4,9 @@ import datetime as dt
 
 import pytest
 
-import inputs
-import scenes
-import stand_in
-from nightly import by_day
+from fixtures import assessments, project_parts, projects
+from fixtures.marks import by_day
+from fixtures.projects import FOOT, INCH
 from report.assessment.checks.check import found_and_limit
 from report.assessment.checks.limits import of_overrides
 from report.assessment.checks.plan import of_roof
@@ -15,7 +14,6 @@ from report.assessment.verdict import OVERRIDDEN, Verdict
 from report.project.check.covered import to_record
 from report.project.model.place import Place
 from solver.rules.limit import Consequence
-from stand_in import FOOT, INCH
 
 SECTION = "2022 CFC, example section"
 
@@ -23,12 +21,12 @@ SECTION = "2022 CFC, example section"
 def rows(*x_ft, section=SECTION, units="US", **site):
     """Arrays side by side, each from one x to another, 60 ft deep."""
     arrays = [
-        stand_in.array(f"A{n}", 0.5, x_from_m=low * FOOT, x_to_m=high * FOOT)
+        projects.array(f"A{n}", 0.5, x_from_m=low * FOOT, x_to_m=high * FOOT)
         for n, (low, high) in enumerate(x_ft, start=1)
     ]
-    given = stand_in.site(fire_code_section=section, **site)
-    head = stand_in.project().project.model_dump() | {"units_first": units}
-    data = stand_in.project(arrays=arrays, clearances=[], site=given, project=head)
+    given = projects.site(fire_code_section=section, **site)
+    head = projects.project().project.model_dump() | {"units_first": units}
+    data = projects.project(arrays=arrays, clearances=[], site=given, project=head)
     return sections_of(data)
 
 
@@ -67,12 +65,12 @@ def test_arrays_closer_than_a_lane_by_their_shapes_are_one():
     ring = [(0, 0), (140, 0), (140, 140), (130, 140), (130, 10), (10, 10), (10, 140), (0, 140)]
     outlines = [{"name": "A1", "x_m": x * FOOT, "y_m": y * FOOT} for x, y in ring]
     arrays = [
-        stand_in.array("A1", 0.5, **dict.fromkeys(("x_from_m", "x_to_m", "y_from_m", "y_to_m"))),
-        stand_in.array("A2", 0.5, x_from_m=30 * FOOT, x_to_m=110 * FOOT, y_from_m=30 * FOOT,
+        projects.array("A1", 0.5, **dict.fromkeys(("x_from_m", "x_to_m", "y_from_m", "y_to_m"))),
+        projects.array("A2", 0.5, x_from_m=30 * FOOT, x_to_m=110 * FOOT, y_from_m=30 * FOOT,
                        y_to_m=160 * FOOT),
     ]  # fmt: skip
-    site = stand_in.site(fire_code_section=SECTION)
-    data = stand_in.project(arrays=arrays, outlines=outlines, clearances=[], site=site)
+    site = projects.site(fire_code_section=SECTION)
+    data = projects.project(arrays=arrays, outlines=outlines, clearances=[], site=site)
     found = {id: texts(row)[0] for id, row in sections_of(data).items()}
     assert found["A1"].startswith("140.00 ft")
     assert found["A2"].startswith("130.00 ft")
@@ -90,8 +88,8 @@ def test_a_gap_that_is_a_lane_within_rounding_is_one(gap_m, lane_m, is_one):
 
 
 def test_without_a_section_of_the_fire_code_all_arrays_have_a_condition():
-    site = stand_in.site(fire_code_section="")
-    (found,) = (row for row in of_roof(stand_in.project(site=site)) if row.id == "fire_code")
+    site = projects.site(fire_code_section="")
+    (found,) = (row for row in of_roof(projects.project(site=site)) if row.id == "fire_code")
     assert (found.verdict, found.arrays) == (Verdict.CONDITION, ("A1", "A2", "A3"))
     assert found.remedy == "Enter the section of the fire code on the Site worksheet."
     assert found.places == (Place("site", 0, "fire_code_section"),)
@@ -105,14 +103,14 @@ def overrides(**values):
 
 
 def overridden(options=None, **values):
-    return scenes.package(
-        scenes.motions(7),
+    return assessments.package(
+        assessments.motions(7),
         overrides=overrides(**values),
         options=options or {},
-        arrays=[stand_in.array("A1", 0.5), stand_in.array("A2", 2.0, x=120)],
+        arrays=[projects.array("A1", 0.5), projects.array("A2", 2.0, x=120)],
         clearances=[
-            stand_in.clearance("A1", "RTU-1", 7 * FOOT),
-            stand_in.clearance("A2", "S edge", 5 * FOOT, "down"),
+            projects.clearance("A1", "RTU-1", 7 * FOOT),
+            projects.clearance("A2", "S edge", 5 * FOOT, "down"),
         ],
     ).assessment
 
@@ -128,23 +126,23 @@ def overridden(options=None, **values):
 )  # fmt: skip
 @pytest.mark.quick
 def test_an_override_that_requires_less_is_a_condition(key, less, more):
-    (found,) = of_overrides(stand_in.project(overrides=overrides(**{key: less})))
+    (found,) = of_overrides(projects.project(overrides=overrides(**{key: less})))
     assert (found.is_satisfied, found.consequence) == (False, Consequence.CONDITION)
     assert found.verdict is Verdict.CONDITION
     assert "consent of the authority having jurisdiction" in found.remedy
     assert OVERRIDDEN in found.found
     assert "agreed" in found.found
-    (safe,) = of_overrides(stand_in.project(overrides=overrides(**{key: more})))
+    (safe,) = of_overrides(projects.project(overrides=overrides(**{key: more})))
     assert safe.is_satisfied
 
 
 @pytest.mark.quick
 def test_an_override_is_a_row_with_both_numbers_and_a_condition():
-    (found,) = of_overrides(stand_in.project(overrides=overrides(prescriptive_minimum_in=3.0)))
+    (found,) = of_overrides(projects.project(overrides=overrides(prescriptive_minimum_in=3.0)))
     assert found.title == "Override of the minimum prescriptive displacement"
     assert (found.found, found.limit) == ("3 in‡, agreed", "≥ 6 in")
     assert found.clause == "PV1-2012"
-    (slope,) = of_overrides(stand_in.project(overrides=overrides(analysis_max_slope_deg=10.0)))
+    (slope,) = of_overrides(projects.project(overrides=overrides(analysis_max_slope_deg=10.0)))
     assert slope.limit == "≤ 7 deg"
     plain, done = overridden(), overridden(separation_fixed=0.5)
     more = [row for row in done.open if row not in plain.open]
@@ -154,12 +152,12 @@ def test_an_override_is_a_row_with_both_numbers_and_a_condition():
 
 @pytest.mark.parametrize(("rule_set", "count"), [("SEAOC PV1-2012", 1), ("ASCE 7-16", 0)])
 def test_a_mean_without_factor_departs_from_a_rule_set_that_states_a_statistic(rule_set, count):
-    site = stand_in.site(rule_set=rule_set)
-    data = stand_in.project(site=site, options={"statistic": "mean"})
+    site = projects.site(rule_set=rule_set)
+    data = projects.project(site=site, options={"statistic": "mean"})
     rows = list(of_overrides(data))
     assert [row.verdict for row in rows] == [Verdict.CONDITION] * count
     assert [row.title for row in rows] == ["Design value statistic"] * count
-    assert not list(of_overrides(stand_in.project(options={"statistic": "1.1 x largest"})))
+    assert not list(of_overrides(projects.project(options={"statistic": "1.1 x largest"})))
 
 
 def marks(done):
@@ -187,32 +185,32 @@ def test_a_lowered_floor_marks_what_it_governed_alone():
     assert all(
         item.design_m < p.design_m for item, p in zip(done.arrays, plain.arrays, strict=True)
     )
-    strong = scenes.motions(7, peak_g=6.0)
+    strong = assessments.motions(7, peak_g=6.0)
     lower = overrides(analysis_floor=0.1)
-    done = scenes.package(strong, overrides=lower, clearances=[]).assessment
+    done = assessments.package(strong, overrides=lower, clearances=[]).assessment
     assert {item.governs for item in done.arrays} == {"analysis"}
     assert not done.is_overridden
     assert "override" in [row.id for row in done.open]
 
 
 def test_a_route_and_the_mean_that_an_override_alone_permits_are_marked():
-    done = scenes.package(
-        scenes.motions(7),
-        arrays=[stand_in.array("A1", 8.0, mu=0.6)],
+    done = assessments.package(
+        assessments.motions(7),
+        arrays=[projects.array("A1", 8.0, mu=0.6)],
         clearances=[],
         overrides=overrides(analysis_max_slope_deg=9.0, ibc_max_slope_deg=9.0),
     ).assessment
     assert done.arrays[0].is_permitted
     assert marks(done) == (["‡"], [])
-    strong = scenes.motions(11, peak_g=6.0)
-    done = scenes.package(strong, options={"statistic": "mean"}, clearances=[]).assessment
+    strong = assessments.motions(11, peak_g=6.0)
+    done = assessments.package(strong, options={"statistic": "mean"}, clearances=[]).assessment
     by_analysis = [item for item in done.arrays if item.governs == "analysis"]
     assert by_analysis
     assert all(item.overridden.design for item in by_analysis)
 
 
 def assessed(**changes):
-    return scenes.package(**changes).assessment
+    return assessments.package(**changes).assessment
 
 
 def row(done, key):
@@ -220,19 +218,21 @@ def row(done, key):
     return next((item for item in found if not item.is_satisfied), found[0] if found else None)
 
 
-ISSUED = inputs.HEAD["date"]
+ISSUED = project_parts.HEAD["date"]
 LATER = ISSUED + dt.timedelta(days=1)
 
 
 @pytest.mark.parametrize(
     ("changes", "what"),
     by_day([
-        ({"options": scenes.REVIEW | {"peer_date": LATER}}, "peer review"),
+        ({"options": assessments.REVIEW | {"peer_date": LATER}}, "peer review"),
         ({"friction_tests": {"date": LATER}}, "friction report"),
-        ({"site": inputs.SITE | {"hazard_date": LATER}}, "seismic parameters"),
-        ({"project": inputs.HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": LATER}},
+        ({"site": project_parts.SITE | {"hazard_date": LATER}}, "seismic parameters"),
+        ({"project": project_parts.HEAD
+          | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": LATER}},
          "confirmation of the drawing"),
-        (scenes.CONFIRMED | {"confirmation": scenes.CONFIRMED["confirmation"] | {"date": LATER}},
+        (assessments.CONFIRMED
+         | {"confirmation": assessments.CONFIRMED["confirmation"] | {"date": LATER}},
          "confirmation of the provisions"),
     ], 2),
 )  # fmt: skip
@@ -241,19 +241,19 @@ def test_what_is_dated_later_than_the_package_is_a_condition(changes, what):
     assert (late.title, late.verdict) == (f"Date of the {what}", Verdict.CONDITION)
     assert late.found == str(LATER)
     assert late.limit == f"not later than {ISSUED}, and for these inputs"
-    issued = {"project": inputs.HEAD | changes.get("project", {}) | {"date": LATER}}
+    issued = {"project": project_parts.HEAD | changes.get("project", {}) | {"date": LATER}}
     assert row(assessed(**changes | issued), "dates").is_satisfied
 
 
 def test_a_review_that_is_dated_later_removes_no_floor_and_confirms_no_distance():
-    reviewed = assessed(options=scenes.REVIEW)
-    late = assessed(options=scenes.REVIEW | {"peer_date": LATER})
+    reviewed = assessed(options=assessments.REVIEW)
+    late = assessed(options=assessments.REVIEW | {"peer_date": LATER})
     assert [item.floor_m for item in reviewed.arrays] == [0.0] * len(reviewed.arrays)
     assert [item.floor_m for item in late.arrays] == [item.floor_m for item in assessed().arrays]
     assert all(item.floor_m > 0.0 for item in late.arrays)
-    drawn = stand_in.clearance("A1", "RTU-1", 6.0) | {"source": "drawing"}
+    drawn = projects.clearance("A1", "RTU-1", 6.0) | {"source": "drawing"}
     for date, is_confirmed in ((ISSUED, True), (LATER, False)):
-        head = inputs.HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": date}
+        head = project_parts.HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": date}
         given = {"project": head, "clearances": [drawn]}
         assert row(assessed(**given), "drawing_distances").is_satisfied is is_confirmed
     given = on_record(project=head | {"drawing_confirmed_date": ISSUED}, clearances=[drawn])
@@ -266,8 +266,8 @@ RUN = {"surface": "wet", "number": 1, "mu": 0.46, "velocity_mps": INCH}
 
 def on_record(**changes):
     """Sections with what their confirmations cover, as `report` fills it in."""
-    records = stand_in.book(stand_in.project(**changes), scenes.motions()).shaking.hashes
-    for place, text in to_record(stand_in.project(**changes), records).items():
+    records = projects.book(projects.project(**changes), assessments.motions()).shaking.hashes
+    for place, text in to_record(projects.project(**changes), records).items():
         changes[place.section] = changes[place.section] | {place.field: text}
     return changes
 
@@ -280,10 +280,10 @@ def outdated_row(title, **changes):
 
 
 def test_a_review_given_before_an_array_changed_removes_no_floor_and_is_a_condition():
-    reviewed = on_record(options=scenes.REVIEW)
+    reviewed = on_record(options=assessments.REVIEW)
     assert outdated_row("peer review", **reviewed) is None
     assert not any(item.floor_m for item in assessed(**reviewed).arrays)
-    arrays = [stand_in.array("A1", 0.5, mu=0.42), *stand_in.project().model_dump()["arrays"][1:]]
+    arrays = [projects.array("A1", 0.5, mu=0.42), *projects.project().model_dump()["arrays"][1:]]
     found = outdated_row("peer review", **reviewed, arrays=arrays)
     assert found.verdict is Verdict.CONDITION
     assert found.found == "2026-03-01, given before these inputs changed: sheet Arrays"
@@ -301,8 +301,11 @@ def test_a_review_given_before_an_array_changed_removes_no_floor_and_is_a_condit
 
 
 def test_values_that_changed_after_their_document_are_a_condition_until_they_are_compared():
-    site = inputs.SITE | {"hazard_source": "Hazard Tool", "hazard_date": dt.date(2026, 2, 20)}
-    tests = {"friction_tests": scenes.TESTS, "friction_runs": [RUN]}
+    site = project_parts.SITE | {
+        "hazard_source": "Hazard Tool",
+        "hazard_date": dt.date(2026, 2, 20),
+    }
+    tests = {"friction_tests": assessments.TESTS, "friction_runs": [RUN]}
     given = on_record(site=site, **tests)
     for title, change, sheet, label, cell in (
         ("seismic parameters", {"site": given["site"] | {"s_ds_g": 1.6}}, "Site", "Hazard",
@@ -323,7 +326,7 @@ OVERRIDE = {"provision": "parapet_height_in", "value": 18.0, "reason": "Agreed o
 
 
 def test_provisions_that_are_confirmed_have_no_mark_but_where_they_are_overridden():
-    done = assessed(**scenes.CONFIRMED, overrides=[OVERRIDE])
+    done = assessed(**assessments.CONFIRMED, overrides=[OVERRIDE])
     assert row(done, "confirmation").verdict is Verdict.OK
     marked = {key for key, value in done.rules.values.items() if not value.verified}
     assert marked == {OVERRIDE["provision"]}
@@ -337,8 +340,8 @@ def test_provisions_that_are_confirmed_have_no_mark_but_where_they_are_overridde
 )  # fmt: skip
 def test_provisions_of_another_rule_set_edition_or_code_are_not_those_confirmed(change):
     """Also where no report has been made between, which would have put it on record."""
-    site = scenes.CONFIRMED["site"] | change
-    done = assessed(**scenes.CONFIRMED | {"site": site})
+    site = assessments.CONFIRMED["site"] | change
+    done = assessed(**assessments.CONFIRMED | {"site": site})
     found = row(done, "confirmation")
     assert found.verdict is Verdict.CONDITION
     assert found.found == "SEAOC PV1-2012, ASCE 7-16, 2022 CBC: RG, SE, 2026-03-01"
@@ -357,7 +360,7 @@ def test_provisions_of_another_rule_set_edition_or_code_are_not_those_confirmed(
     ], 1),
 )  # fmt: skip
 def test_a_later_change_of_what_was_confirmed_brings_the_marks_back(change, sheet):
-    given = on_record(**scenes.CONFIRMED)
+    given = on_record(**assessments.CONFIRMED)
     assert assessed(**given).project.confirmed == "RG, SE, 2026-03-01"
     rows = {key: given[key] | part for key, part in change.items() if key in given}
     done = assessed(**given | change | rows)

@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import scenes
-import stand_in
-from printed import printed
+from fixtures import assessments, projects
+from fixtures.pages import page_of
 from report.assessment.spectra import Spectra, spectra
 from report.motions.history import TargetSpectrum
 from report.project.model.choices import RecordedAt
@@ -18,26 +17,26 @@ G = 9.80665
 
 @pytest.fixture(scope="module")
 def assessment():
-    return scenes.package(spectrum=[]).assessment
+    return assessments.package(spectrum=[]).assessment
 
 
 def ordinates(assessment, *parts):
     """The table of these spectra."""
-    return printed(assessment, "spectra", spectra=parts).table("Pseudo-acceleration")
+    return page_of(assessment, "spectra", spectra=parts).table("Pseudo-acceleration")
 
 
-HALVED = tuple(replace(motion, scale=0.5) for motion in scenes.motions())
+HALVED = tuple(replace(motion, scale=0.5) for motion in assessments.motions())
 
 
 def under(assessment, motions=HALVED, places=()):
     """An assessment as if it were of other motions."""
-    book = stand_in.book(shaking=tuple(motions)).having(prepared=tuple(places))
+    book = projects.book(shaking=tuple(motions)).having(prepared=tuple(places))
     return replace(assessment, shaking=book.shaking)
 
 
 def of_rows(rows, motions=HALVED):
     """An assessment with a project-specific spectrum."""
-    return stand_in.assessed(stand_in.book(stand_in.project(spectrum=rows), motions))
+    return projects.assessed(projects.book(projects.project(spectrum=rows), motions))
 
 
 @pytest.mark.quick
@@ -70,7 +69,7 @@ def test_ordinates_are_of_mean_and_single_motions_that_have_the_component(assess
 
 def test_a_project_spectrum_applies_only_where_it_is_given():
     rows = [{"period_s": t, "horizontal_g": a} for t, a in ((0.1, 2.0), (2.0, 0.5))]
-    done = of_rows(rows, scenes.motions())
+    done = of_rows(rows, assessments.motions())
     part = spectra(under(done))[0]
     periods = part.periods_s[np.isfinite(part.target_g)]
     assert 0.1 <= periods.min() <= 0.11
@@ -84,7 +83,7 @@ def test_a_project_spectrum_applies_only_where_it_is_given():
 
 @pytest.mark.quick
 def test_ground_motions_are_shown_where_they_were_recorded_with_or_without_a_target():
-    preparations = [stand_in.prepared(m, recorded_at=RecordedAt.GROUND) for m in HALVED]
+    preparations = [projects.prepared(m, recorded_at=RecordedAt.GROUND) for m in HALVED]
     done = of_rows([])
     *_, across, transverse = spectra(under(done, places=preparations))
     assert (across.title, transverse.title) == ("Ground, horizontal", "Ground, transverse")
@@ -114,7 +113,7 @@ def relative(title, ratios, target=FLAT, *, is_ground=False):
 
 def said(*parts):
     """The sentences on the page of what departs from its target."""
-    lines = printed(scenes.package().assessment, "motions", spectra=parts).splitlines()
+    lines = page_of(assessments.package().assessment, "motions", spectra=parts).splitlines()
     return [line for line in lines if ": the mean of the motions " in line]
 
 

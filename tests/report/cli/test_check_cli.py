@@ -9,12 +9,12 @@ import shutil
 import pytest
 from openpyxl import load_workbook
 
-import packages
-import sheets
-from commands import as_json, printed, refused, run
-from inputs import LB
-from nightly import by_day
-from places import ROOT
+from fixtures import packages, workbooks
+from fixtures.commands import as_json, errors_of, run, stdout_of
+from fixtures.marks import by_day
+from fixtures.paths import ROOT
+from fixtures.project_parts import LB
+from fixtures.workbooks import arrays, cell_address, make, project, read_workbook
 from report.assessment.assess import assess
 from report.assessment.checks.check import texts
 from report.assessment.precheck import findings
@@ -22,7 +22,6 @@ from report.motions.prepare import prepare
 from report.project.model.place import Place
 from report.project.model.scene import SIDES
 from report.text.units import LENGTHS, PRESSURES, WEIGHTS
-from sheets import arrays, at, make, project, read_workbook
 
 REASON = {"warning": "weight A1", "reason": "Frames alone, ballast by others"}
 ANSWERED = {"arrays": arrays(weight_n=30 * LB), "acknowledged": [REASON]}
@@ -35,24 +34,24 @@ def with_text(text, lines):
 
 
 def test_check_prints_each_warning_with_its_reason_also_as_json(tmp_path):
-    first, *lines = printed("check", make(tmp_path, **ANSWERED)).splitlines()
+    first, *lines = stdout_of("check", make(tmp_path, **ANSWERED)).splitlines()
     assert "input.xlsx: no errors, " in first
     weight = with_text("[weight A1]", lines)
-    assert weight.startswith(at("warning: <Arrays/A1/Weight>: weight is 30 lb"))
+    assert weight.startswith(cell_address("warning: <Arrays/A1/Weight>: weight is 30 lb"))
     assert weight.endswith("[weight A1] Acknowledged: Frames alone, ballast by others")
-    components = at("note: <Motions/heading/ID>: Number of components of each motion")
+    components = cell_address("note: <Motions/heading/ID>: Number of components of each motion")
     assert any(line.startswith(components) for line in lines)
     done = run("check", "--quiet", make(tmp_path))
     assert (done.exit_code, done.output) == (0, "")
-    assert "no such file" in refused("check", "--quiet", tmp_path / "nothing")
+    assert "no such file" in errors_of("check", "--quiet", tmp_path / "nothing")
     document = as_json("check", make(tmp_path, **ANSWERED))
     assert (document["schema_version"], document["errors"]) == (1, [])
     (weight,) = (f for f in document["findings"] if f["id"] == "weight A1")
-    place = at("Arrays/A1/Weight")
+    place = cell_address("Arrays/A1/Weight")
     assert (weight["level"], weight["cell"]) == ("warning", place)
     assert weight["reason"] == REASON["reason"]
     assert (document["arrays"], document["motions"]) == (2, 3)
-    document = json.loads(refused("check", "--json", tmp_path / "nothing"))
+    document = json.loads(errors_of("check", "--json", tmp_path / "nothing"))
     assert document["schema_version"] == 1
     assert document["errors"][0].startswith("no such file")
 
@@ -61,13 +60,13 @@ def test_check_prints_each_warning_with_its_reason_also_as_json(tmp_path):
 def test_check_alone_says_that_a_package_is_dated_in_the_future(tmp_path):
     issue = project().project.model_dump() | {"date": dt.date(9999, 1, 1)}
     folder = make(tmp_path, project=issue)
-    assert with_text("after today", printed("check", folder).splitlines()) == (
-        f"note: {at('Project/Date')}: date is 9999-01-01, after today, {dt.date.today()}; correct"
-        " it if that is not intended"
+    assert with_text("after today", stdout_of("check", folder).splitlines()) == (
+        f"note: {cell_address('Project/Date')}: date is 9999-01-01, after today, {dt.date.today()};"
+        " correct it if that is not intended"
     )
     sheet = read_workbook(folder)
     assert not any("after today" in f.text for f in findings(sheet, prepare(sheet)))
-    assert "after today" not in printed("check", make(tmp_path / "past"))
+    assert "after today" not in stdout_of("check", make(tmp_path / "past"))
 
 
 @pytest.fixture(scope="module")
@@ -108,7 +107,10 @@ def test_a_steep_roof_is_ng_with_its_value_and_limit_everywhere(steep, reported,
     assert "Frames alone, ballast by others" in text
     results = json.loads((out / "results.json").read_text())
     (finding,) = (f for f in results["findings"] if f["id"] == "weight A1")
-    assert (finding["cell"], finding["reason"]) == (at("Arrays/A1/Weight"), REASON["reason"])
+    assert (finding["cell"], finding["reason"]) == (
+        cell_address("Arrays/A1/Weight"),
+        REASON["reason"],
+    )
     # An NG that is not of the clearance says what it is of.
     (of_the_array,) = (line for line in lines if line.startswith("A1 "))
     assert "NG: roof slope, any ballasted system (D/C 1.68) and " in of_the_array
@@ -165,13 +167,13 @@ def altered(tmp_path):
         folder = tmp_path / f"the {source}"
         left_out = shutil.ignore_patterns("out", "make.py", "__pycache__")
         shutil.copytree(ROOT / "projects" / source, folder, ignore=left_out)
-        return sheets.type_into(folder / "input.xlsx", cells)
+        return workbooks.type_into(folder / "input.xlsx", cells)
 
     return copied
 
 
 def assessed(path):
-    book = sheets.read_workbook(path)
+    book = workbooks.read_workbook(path)
     return assess(book.sheet, book.shaking)
 
 
@@ -222,7 +224,7 @@ def test_a_value_that_is_required_satisfies_as_it_is_printed(altered, name):
         if place.section == "clearances":
             cells |= unplaced(given, place.row)
     assert asked
-    left = {key for key, _, _ in required(assessed(sheets.type_into(path, cells)))}
+    left = {key for key, _, _ in required(assessed(workbooks.type_into(path, cells)))}
     assert not left & {key for key, _, _ in asked}
 
 
@@ -270,11 +272,11 @@ def advice(path):
 @pytest.mark.parametrize("name", by_day(CELLS, 2))
 def test_what_check_advises_is_accepted_as_it_is_printed(tmp_path, name):
     cells, count = CELLS[name]
-    path = sheets.type_into(sheets.make(tmp_path), cells)
+    path = workbooks.type_into(workbooks.make(tmp_path), cells)
     given, book = list(advice(path)), load_workbook(path)
     assert len(given) >= count, given
     # Of two limits on one cell the first is the smaller: it is entered last.
-    sheets.type_into(path, {cell: typed(book, cell, text) for cell, _, text in given[::-1]})
+    workbooks.type_into(path, {cell: typed(book, cell, text) for cell, _, text in given[::-1]})
     left = {(cell, what) for cell, what, _ in advice(path)}
     assert not left & {(cell, what) for cell, what, _ in given}
 

@@ -14,16 +14,15 @@ import pytest
 from click.testing import CliRunner
 from openpyxl import load_workbook
 
-import inputs
-import packages
 import report.package.html
-from commands import printed, refused, run
-from nightly import by_day
-from places import ROOT
+from fixtures import packages, project_parts
+from fixtures.commands import errors_of, run, stdout_of
+from fixtures.marks import by_day
+from fixtures.paths import ROOT
+from fixtures.workbooks import arrays, cell_address, make, project
 from report.cli.main import NATIVE, main
 from report.cli.terminal import color_choice, colored
 from report.text.counts import as_typed
-from sheets import arrays, at, make, project
 
 EXAMPLE = ROOT / "projects" / "example"
 MANY = (
@@ -58,22 +57,22 @@ def test_help_and_errors_wait_for_nothing_heavy(tmp_path):
 
 
 def test_new_writes_a_workbook_or_the_example_and_never_overwrites_one(tmp_path):
-    printed("new", tmp_path / "job")
+    stdout_of("new", tmp_path / "job")
     assert (tmp_path / "job" / "records").is_dir()
     book = tmp_path / "job" / "input.xlsx"
     before = book.read_bytes()
-    assert "already exists" in refused("new", tmp_path / "job", "--units", "si")
+    assert "already exists" in errors_of("new", tmp_path / "job", "--units", "si")
     assert book.read_bytes() == before
     (tmp_path / "input.xlsx").symlink_to(tmp_path / "elsewhere.xlsx")
-    assert "already exists" in refused("new", tmp_path)
+    assert "already exists" in errors_of("new", tmp_path)
     assert not (tmp_path / "elsewhere.xlsx").exists()
     (tmp_path / "job" / "records" / "mine.csv").write_text("0,0")
     book.unlink()
-    told = refused("new", "--example", tmp_path / "job")
+    told = errors_of("new", "--example", tmp_path / "job")
     assert "records: is not empty; choose another folder" in told
     assert not book.exists()
     made = tmp_path / "example"
-    printed("new", "--example", made)
+    stdout_of("new", "--example", made)
     names = {path.relative_to(made) for path in made.rglob("*.*")}
     assert len(names) == 25  # the workbook, 21 records and three documents
     for name in names - {Path("input.xlsx")}:
@@ -82,18 +81,18 @@ def test_new_writes_a_workbook_or_the_example_and_never_overwrites_one(tmp_path)
         parts = [part for part in one.namelist() if part.endswith(".xml")]
         for part in set(parts) - {"docProps/core.xml"}:
             assert one.read(part) == other.read(part), part
-    told = printed("check", made)
+    told = stdout_of("check", made)
     assert "no problems found. 3 arrays, 6 clearances, 7 motions, S_DS 1.566 g" in told
 
 
 def test_input_errors_and_failed_runs_leave_the_older_package(tmp_path, monkeypatch):
-    printed("new", tmp_path)
-    told = refused("check", tmp_path)
-    assert at("<Project/Project name>: project name is missing") in told
-    assert at("<Arrays/heading/ID>: no array is given") in told
+    stdout_of("new", tmp_path)
+    told = errors_of("check", tmp_path)
+    assert cell_address("<Project/Project name>: project name is missing") in told
+    assert cell_address("<Arrays/heading/ID>: no array is given") in told
     former = tmp_path / "issued.json"
     former.write_bytes(b'{"schema_version": 2, "arr')
-    told = refused("report", tmp_path / "no-such-project", "--since", former)
+    told = errors_of("report", tmp_path / "no-such-project", "--since", former)
     assert "issued.json: is no results.json or is damaged" in told
     assert not (tmp_path / "out").exists()
     monkeypatch.setattr(report.package.html, "pages", lambda *_: 1 / 0)
@@ -105,7 +104,7 @@ def test_input_errors_and_failed_runs_leave_the_older_package(tmp_path, monkeypa
     out.mkdir()
     (out / "calc-package.pdf").write_bytes(b"older")
     (tmp_path / "records" / "x3.csv").write_text("time_s,acceleration_g\n0,abc\n")
-    told = refused("report", book)
+    told = errors_of("report", book)
     assert "x3.csv" in told
     assert f"{out / 'calc-package.pdf'} is of an earlier run, " in told
     assert [path.read_bytes() for path in out.iterdir()] == [b"older"]
@@ -118,12 +117,12 @@ def test_a_rigid_block_that_is_not_adequate_is_ng(tmp_path):
     book = make(
         tmp_path,
         links=[{"array": "A2", "friction": "0.30, 0.45, 0.60", "stiffness_n_per_m": 1e3}],
-        options={"statistic": "rule set", **inputs.REVIEW},
+        options={"statistic": "rule set", **project_parts.REVIEW},
         motions=[motion | {"pad_s": 20.0} for motion in given["motions"]],
         arrays=[array | {"slope_value": 7.0} for array in given["arrays"]],
     )
     with packages.unlaid():
-        told = printed("report", book)
+        told = stdout_of("report", book)
     assert "NG: one rigid block has not been shown to be adequate for array A2" in told
     results = json.loads((tmp_path / "out" / "results.json").read_text())
     (row,) = results["linked"]
@@ -136,15 +135,15 @@ def test_a_rigid_block_that_is_not_adequate_is_ng(tmp_path):
 def test_since_a_former_revision_the_terminal_counts_and_the_package_lists(tmp_path):
     former = tmp_path / "issued.json"
     with packages.unlaid():
-        assert "since revision" not in printed("report", make(tmp_path))
+        assert "since revision" not in stdout_of("report", make(tmp_path))
         former.write_bytes((tmp_path / "out" / "results.json").read_bytes())
         book = make(tmp_path, arrays=arrays(mu=0.33))
-        told = printed("report", book, "--since", former)
+        told = stdout_of("report", book, "--since", former)
         words = packages.words((tmp_path / "out" / "calc-package.pdf").read_text(encoding="utf-8"))
         document = json.loads(former.read_text(encoding="utf-8"))
         document["input"]["project"] |= {"name": "Elsewhere", "number": "99-1"}
         former.write_text(json.dumps(document), encoding="utf-8")
-        of_another = printed("report", book, "--since", former)
+        of_another = stdout_of("report", book, "--since", former)
     (line,) = (text for text in told.splitlines() if text.startswith("since revision"))
     assert line.startswith("since revision 1: ")
     assert "input 1," in line
@@ -160,7 +159,7 @@ VERDICT = "\x1b[31m\x1b[1mNG\x1b[0m"
 
 @pytest.mark.quick
 def test_the_help_lists_every_command_under_a_title_with_its_whole_first_sentence():
-    lines = printed("--help").splitlines()
+    lines = stdout_of("--help").splitlines()
     titles = [line[:-1] for line in lines if re.fullmatch(r"[A-Z]\w+:", line)]
     assert titles == ["Options", "Package", "Sheet", "Motions", "Studies", "Trust", "Installation"]
     words = " ".join(" ".join(lines).split())
@@ -168,7 +167,7 @@ def test_the_help_lists_every_command_under_a_title_with_its_whole_first_sentenc
         first = " ".join(command.help.partition("\n\n")[0].split())
         assert f" {name} {first}" in words
     for group in ("motion", "plan"):
-        assert "..." not in printed(group, "--help").replace("[ARGS]...", "")
+        assert "..." not in stdout_of(group, "--help").replace("[ARGS]...", "")
 
 
 def on_a_terminal(*words, env=None):
@@ -179,7 +178,7 @@ def on_a_terminal(*words, env=None):
 def test_levels_and_verdicts_are_colored_on_a_terminal_alone(tmp_path):
     book = make(tmp_path)
     assert "\x1b[33mwarning\x1b[0m: " in on_a_terminal("check", book)
-    assert "\x1b" not in printed("check", book)
+    assert "\x1b" not in stdout_of("check", book)
     assert colored("A1  0.8 in  NG: slope") == f"A1  0.8 in  {VERDICT}: slope"
     assert click.unstyle(colored("verdict: OK with conditions")) == "verdict: OK with conditions"
     assert colored("verdict: OK with conditions").count("\x1b[33m") == 1
@@ -199,7 +198,7 @@ def test_a_reader_may_want_no_color(monkeypatch):
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 @pytest.mark.quick
 def test_completion_prints_the_script_of_a_shell(shell):
-    script = printed("completion", shell)
+    script = stdout_of("completion", shell)
     assert "_ROOFSLIP_COMPLETE" in script
     assert f"{shell}_complete" in script
 
@@ -216,14 +215,14 @@ def test_completion_prints_the_script_of_a_shell(shell):
 )  # fmt: skip
 def test_a_word_that_is_not_known_is_answered_with_the_nearest(monkeypatch, words, told):
     monkeypatch.chdir(ROOT)
-    assert told in refused(*words)
+    assert told in errors_of(*words)
 
 
 @pytest.mark.parametrize("typed", by_day(["./roofslip", "'my programs/roofslip'"], 1))
 def test_the_command_is_called_as_the_reader_typed_it(tmp_path, monkeypatch, typed):
     monkeypatch.setenv("ROOFSLIP_COMMAND", typed.strip("'"))
-    assert f"then run: {typed} check {tmp_path}" in printed("new", tmp_path)
-    told = printed("check", make(tmp_path / "filled"))
+    assert f"then run: {typed} check {tmp_path}" in stdout_of("new", tmp_path)
+    told = stdout_of("check", make(tmp_path / "filled"))
     assert told.splitlines()[-1].startswith(f"Next: {typed} report ")
     assert as_typed("Run roofslip check FOLDER.") == f"Run {typed} check FOLDER."
     assert as_typed("of Roofslip, roofslip.pdf") == "of Roofslip, roofslip.pdf"
@@ -236,14 +235,14 @@ def test_the_command_is_called_as_the_reader_typed_it(tmp_path, monkeypatch, typ
 def test_doctor_looks_for_a_package_by_its_name_without_bounds_and_for_no_extra(monkeypatch):
     wanted = ["numpy>=1.0,<99", "nobody; extra == 'web'"]
     monkeypatch.setattr("importlib.metadata.requires", lambda _: wanted)
-    told = printed("doctor")
+    told = stdout_of("doctor")
     assert re.search(r"^numpy +\d", told, re.MULTILINE)
     assert "nobody" not in told
 
 
 @pytest.mark.nightly
 def test_with_everything_installed_it_says_so():
-    told = printed("doctor")
+    told = stdout_of("doctor")
     lines = told.splitlines()
     names = [line.split("  ")[0] for line in lines]
     assert {"Python", "cores", "numpy", "weasyprint", "fontconfig", "test run"} <= set(names)

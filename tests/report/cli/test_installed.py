@@ -17,10 +17,8 @@ import click
 import pytest
 from packaging.requirements import Requirement
 
-import packages
-import sheets
-import sketch
-from places import ROOT
+from fixtures import dxf, packages, workbooks
+from fixtures.paths import ROOT
 from report.cli.main import main
 
 RECORD = ROOT / "projects" / "example" / "records" / "RM1-x.csv"
@@ -109,9 +107,9 @@ def ended(tmp_path):
     project, study, out = (tmp_path / name for name in ("project", "study", "out"))
     for folder in (project, study, out):
         folder.mkdir()
-    sheets.make(project, layers=[{"layer": "PV", "kind": "array"}])
-    drawing = sketch.Sketch()
-    drawing.ring("PV", sketch.BOX_FT, "A1")
+    workbooks.make(project, layers=[{"layer": "PV", "kind": "array"}])
+    drawing = dxf.Sketch()
+    drawing.ring("PV", dxf.BOX_FT, "A1")
     drawing.saved(project)
     (project / "blocks.csv").write_text("x,y,blocks\n30,30,2\n")
     (out / "a.mseed").write_bytes(b"000001D STA" + bytes(600))

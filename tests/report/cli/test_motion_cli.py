@@ -9,8 +9,8 @@ from functools import partial
 import numpy as np
 import pytest
 
-import commands
-from places import DATA, ROOT
+from fixtures import commands
+from fixtures.paths import DATA, ROOT
 from solver.formats import read_record
 from solver.records.measures import measures
 from solver.sliding.checked import slide
@@ -25,7 +25,8 @@ READING = ("--dt", 0.02, "--units", "g")
 
 
 printed, as_json, refused = (
-    partial(command, "motion") for command in (commands.printed, commands.as_json, commands.refused)
+    partial(command, "motion")
+    for command in (commands.stdout_of, commands.as_json, commands.errors_of)
 )
 
 
@@ -162,7 +163,7 @@ PLACE = ("--slope-deg", 2, "--mu", 0.5)
 
 
 found, slide_refused = (
-    partial(command, "slide") for command in (commands.as_json, commands.refused)
+    partial(command, "slide") for command in (commands.as_json, commands.errors_of)
 )
 
 
@@ -174,7 +175,7 @@ def test_slide_gives_what_the_solver_gives_for_files_or_channels():
     assert values["residual_m"] == expected.residual_m
     assert values["t_uplift_s"] is None
     assert values["dt_s"] == 0.005
-    assert f"prd_m  {expected.prd_m:.6g}" in commands.printed("slide", RECORD, *PLACE)
+    assert f"prd_m  {expected.prd_m:.6g}" in commands.stdout_of("slide", RECORD, *PLACE)
     peak = np.abs(read_record(RECORD, units="g").a_mps2).max() / 9.80665
     scaled, doubled = (
         found(RECORD, *PLACE, *words) for words in (("--ppa-g", 2 * peak), ("--factor", 2))

@@ -9,10 +9,8 @@ import click
 import numpy as np
 import pytest
 
-import commands
-import sheets
-import waves
-from nightly import by_day
+from fixtures import commands, records, workbooks
+from fixtures.marks import by_day
 from report.cli.main import main
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="none of these has a place there")
@@ -102,9 +100,9 @@ def test_every_option_and_argument_that_names_a_file_is_tried():
 def beside(tmp_path, monkeypatch):
     """A folder with a project and records, in which commands run that may not wait."""
     monkeypatch.chdir(tmp_path)
-    sheets.make(tmp_path / "job")
+    workbooks.make(tmp_path / "job")
     for axis in "xyz":
-        waves.plain(tmp_path / "set" / f"M-{axis}.csv", dt_s=0.02, count=300)
+        records.write_record(tmp_path / "set" / f"M-{axis}.csv", dt_s=0.02, count=300)
     (tmp_path / "x.csv").write_text("0.1\n-0.1\n" * 50)
     (tmp_path / "map.csv").write_text("x,y,blocks\n1,1,1\n")
     obspy = pytest.importorskip("obspy")

@@ -12,13 +12,14 @@ from pathlib import Path
 
 import pytest
 
-import scenes
-from cells import address
-from commands import printed, refused, run
-from inputs import SITE
-from nightly import by_day
-from packages import unlaid
-from places import ROOT
+from fixtures import assessments
+from fixtures.cells import address
+from fixtures.commands import errors_of, run, stdout_of
+from fixtures.marks import by_day
+from fixtures.packages import unlaid
+from fixtures.paths import ROOT
+from fixtures.project_parts import SITE
+from fixtures.workbooks import cell_address, edit, make, type_into
 from report.cli import several
 from report.cli.several import ReportOutcome
 from report.cli.terminal import Progress, show_warnings
@@ -28,7 +29,6 @@ from report.project.check.covered import outdated, to_record
 from report.project.read.archive import open_book
 from report.project.read.read import read
 from report.proof.package import opened
-from sheets import at, edit, make, type_into
 
 
 @pytest.mark.nightly
@@ -45,7 +45,7 @@ def test_a_project_that_fails_stops_no_other(tmp_path):
     assert "1 problem" in rows[2]
     assert (tmp_path / "one" / "out" / "calc-package.pdf").is_file()
     assert not (tmp_path / "two" / "out").exists()
-    record = at("Motions/M1/Horizontal record")
+    record = cell_address("Motions/M1/Horizontal record")
     assert f"{tmp_path / 'two'}: 1 problem found.\n  {record}: horizontal record: " in done.stderr
     assert "x.csv:2: found 'abc'" in done.stderr
     assert f"{tmp_path / 'none'}: 1 problem found.\n  no such file" in done.stderr
@@ -60,7 +60,7 @@ def outcome(**about):
 
 @pytest.mark.parametrize("option", ["--out", "--since"])
 def test_an_option_of_one_project_is_refused_for_several(option, tmp_path):
-    told = " ".join(refused("report", tmp_path, tmp_path / "b", option, tmp_path / "c").split())
+    told = " ".join(errors_of("report", tmp_path, tmp_path / "b", option, tmp_path / "c").split())
     assert "--out and --since are of one project; leave them out" in told
     assert not list(tmp_path.iterdir())
 
@@ -118,12 +118,12 @@ def test_workbooks_of_one_folder_are_written_to_folders_of_their_own(tmp_path):
     book = make(tmp_path)
     shutil.copy(book, tmp_path / "b.xlsx")
     with unlaid():
-        printed("report", tmp_path)
+        stdout_of("report", tmp_path)
         before = (tmp_path / "out" / "results.json").read_bytes()
         refused = run("report", tmp_path / "b.xlsx")
         done = run("report", tmp_path, tmp_path / "b.xlsx", book)
         assert (refused.exit_code, done.exit_code) == (2, 0)
-        printed("report", tmp_path / "b.xlsx", "--out", tmp_path / "out" / "input")
+        stdout_of("report", tmp_path / "b.xlsx", "--out", tmp_path / "out" / "input")
     assert f"{tmp_path / 'out'}: has the results of input.xlsx, not of b.xlsx;" in refused.stderr
     assert "--out" in refused.stderr
     assert (tmp_path / "out" / "results.json").read_bytes() == before
@@ -152,12 +152,12 @@ PLACES = "<Site/Hazard covered>, <Options/Review covered>"
 
 def confirmed(folder: Path, **changes) -> Path:
     """A project with a hazard and a peer review that have dates."""
-    options = scenes.REVIEW | {"peer_letter": ""}
+    options = assessments.REVIEW | {"peer_letter": ""}
     site = SITE | {"hazard_source": "Hazard Tool", "hazard_date": dt.date(2026, 2, 20)}
     return make(folder, **{"site": site, "options": options} | changes)
 
 
-@pytest.mark.parametrize("name", by_day(scenes.SHIPPED, 1))
+@pytest.mark.parametrize("name", by_day(assessments.SHIPPED, 1))
 @pytest.mark.quick
 def test_a_shipped_project_has_on_record_what_its_confirmations_cover(name):
     sheet = read(ROOT / "projects" / name)
@@ -168,7 +168,7 @@ def test_a_shipped_project_has_on_record_what_its_confirmations_cover(name):
 
 @pytest.mark.nightly
 def test_the_example_in_si_has_on_record_what_its_confirmations_cover(tmp_path):
-    printed("new", tmp_path, "--example", "--units", "SI")
+    stdout_of("new", tmp_path, "--example", "--units", "SI")
     sheet = read(tmp_path)
     assert sheet.project.site.hazard_covered
     assert to_record(sheet.project, prepare(sheet).hashes) == {}
@@ -178,8 +178,8 @@ def test_the_example_in_si_has_on_record_what_its_confirmations_cover(tmp_path):
 def test_report_puts_a_confirmation_on_record_once_and_attaches_the_workbook_with_it(tmp_path):
     path = confirmed(tmp_path)
     says = open_book(path).calculation
-    output = printed("report", path)
-    assert f"{path}: {at(PLACES)}: what was confirmed is on record" in output.splitlines()
+    output = stdout_of("report", path)
+    assert f"{path}: {cell_address(PLACES)}: what was confirmed is on record" in output.splitlines()
     sheet = read(path)
     assert sheet.project.site.hazard_covered.startswith("2026-02-20: Site ")
     assert sheet.project.options.peer_covered.startswith("2026-03-01: Site ")
@@ -189,13 +189,13 @@ def test_report_puts_a_confirmation_on_record_once_and_attaches_the_workbook_wit
     package = opened((tmp_path / "out" / "calc-package.pdf").read_bytes())
     (workbook,) = package.manifest.of_kind("workbook")
     assert workbook.sha256 == sheet.sha256
-    printed("verify-package", tmp_path / "out" / "calc-package.pdf")
+    stdout_of("verify-package", tmp_path / "out" / "calc-package.pdf")
 
     # What changes is named, and the record stays until there is a new date.
     type_into(path, {"Arrays/A1/Friction coefficient": 0.4})
     before = path.read_bytes()
     (tmp_path / "records" / "z.csv").write_text("0.1\n" * 200)
-    output = printed("report", path)
+    output = stdout_of("report", path)
     (line,) = (line for line in output.splitlines() if "given before" in line)
     said = "peer review: 2026-03-01, given before these inputs changed: sheets Arrays, Motions;"
     assert line.startswith(f"condition: {said}")
@@ -218,12 +218,14 @@ def test_a_workbook_that_is_not_to_be_written_stays_as_it_is(tmp_path, monkeypat
     beside = path.with_name("~$input.xlsx")
     beside.touch()
     before = path.read_bytes()
-    output = printed("report", path)
+    output = stdout_of("report", path)
     assert path.read_bytes() == before
     (line,) = (line for line in output.splitlines() if "on record" in line)
-    assert line.startswith(f"{path}: {at(PLACES)}: what was confirmed is not put on record: ")
+    assert line.startswith(
+        f"{path}: {cell_address(PLACES)}: what was confirmed is not put on record: "
+    )
     assert "a program has the workbook open" in line
-    printed("verify-package", tmp_path / "out" / "calc-package.pdf")
+    stdout_of("verify-package", tmp_path / "out" / "calc-package.pdf")
     beside.unlink()
 
     for label in ("Site/Hazard covered", "Options/Review covered"):
@@ -235,7 +237,7 @@ def test_a_workbook_that_is_not_to_be_written_stays_as_it_is(tmp_path, monkeypat
             del book.defined_names[name]
 
     earlier = edit(path, without_names).read_bytes()
-    output = printed("report", path)
+    output = stdout_of("report", path)
     assert "on record" not in output
     assert path.read_bytes() == earlier
 

@@ -17,8 +17,8 @@ from subprocess import PIPE
 
 import pytest
 
-from commands import hearing, printed, refused
-from places import ROOT
+from fixtures.commands import errors_of, hearing, stdout_of
+from fixtures.paths import ROOT
 from report.cli.serve import names_of
 from report.web.access import ENTRY, KEY_HEADER, TOKEN_HEADER
 
@@ -29,21 +29,21 @@ TOKEN = "a-token-of-twenty-letters"
 
 
 def test_a_host_needs_a_token_and_a_port_that_is_taken_and_a_missing_package_are_named(monkeypatch):
-    assert "--host needs --token-file" in refused("serve", "--host", "127.0.0.1")
+    assert "--host needs --token-file" in errors_of("serve", "--host", "127.0.0.1")
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
-        told = refused("serve", "--no-browser", "--port", port)
+        told = errors_of("serve", "--no-browser", "--port", port)
     assert f"Port {port} of 127.0.0.1 is in use: end what uses it, or give another --port." in told
     assert "Address already in use" not in told
     monkeypatch.setitem(sys.modules, "uvicorn", None)
-    assert "install roofslip[web]" in refused("serve", "--no-browser")
+    assert "install roofslip[web]" in errors_of("serve", "--no-browser")
 
 
 @pytest.mark.parametrize("token", ["", "short", "a token with spaces in it", "x" * 19])
 def test_a_token_that_can_be_guessed_or_is_no_part_of_an_address_is_refused(token, tmp_path):
     path = tmp_path / "token"
     path.write_text(token)
-    told = refused("serve", "--host", "127.0.0.1", "--token-file", path)
+    told = errors_of("serve", "--host", "127.0.0.1", "--token-file", path)
     assert "20 or more letters" in told
 
 
@@ -151,5 +151,5 @@ def test_a_server_that_ends_during_an_upload_prints_no_traceback(tmp_path):
 
 @pytest.mark.nightly
 def test_once_says_the_verdict_of_the_example():
-    told = printed("serve", "--once", "--no-browser", "--port", 0)
+    told = stdout_of("serve", "--once", "--no-browser", "--port", 0)
     assert re.search(r"^the example: OK, after \d+\.\d s$", told, re.MULTILINE)

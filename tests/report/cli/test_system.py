@@ -10,11 +10,11 @@ from subprocess import DEVNULL, PIPE
 
 import pytest
 
-from commands import hearing, no_override, printed, refused
-from places import ROOT
+from fixtures.commands import errors_of, hearing, no_override, stdout_of
+from fixtures.paths import ROOT
+from fixtures.workbooks import cell_address, edit, make, type_into
 from report.cli.several import package
 from report.cli.terminal import plain
-from sheets import at, edit, make, type_into
 
 RECORD = ROOT / "projects" / "example" / "records" / "RM1-x.csv"
 FULL = "/dev/full"
@@ -270,7 +270,7 @@ TOO_LONG = "File name too long"
 )
 def test_a_name_that_is_too_long_is_an_input_error(arguments, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    assert TOO_LONG in refused(*arguments)
+    assert TOO_LONG in errors_of(*arguments)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -278,7 +278,7 @@ def test_too_long_names_are_refused_before_the_run_odd_letters_and_long_values_s
     outcome = package(tmp_path / LONG, False, quiet=True, as_json=False)
     (problem,) = outcome.errors
     assert f"the system refuses it ({TOO_LONG})" in problem
-    told = refused("report", make(tmp_path), "--out", tmp_path / LONG)
+    told = errors_of("report", make(tmp_path), "--out", tmp_path / LONG)
     assert TOO_LONG in told
     assert "running" not in told
     assert plain("a\x1b[31m\u202eb\u2066c\u2028d\x9be") == "a?[31m?b?c?d?e"
@@ -287,10 +287,10 @@ def test_too_long_names_are_refused_before_the_run_odd_letters_and_long_values_s
     named = tmp_path / "a\u202eb\x1b[31m.csv"
     named.write_text("abc\n")
     for command in (["motion", "info"], ["check"], ["report"]):
-        assert not set("\u202e\x1b") & set(refused(*command, named))
-    told = refused("check", type_into(make(tmp_path), {"Arrays/A1/CG height": 10**400}))
+        assert not set("\u202e\x1b") & set(errors_of(*command, named))
+    told = errors_of("check", type_into(make(tmp_path), {"Arrays/A1/CG height": 10**400}))
     line = f"<Arrays/A1/CG height>: CG height is 1{'0' * 58}…; give a number of more than 0"
-    assert at(line) in told
+    assert cell_address(line) in told
     assert max(map(len, told.splitlines())) < 300
 
 
@@ -299,7 +299,7 @@ def test_a_name_defined_off_the_sheet_is_no_name(tmp_path):
         name = next(name for name in book.defined_names if name.startswith("site_"))
         book.defined_names[name].attr_text = "'Site'!$ZZZ$9999999"
 
-    printed("check", edit(make(tmp_path), change))
+    stdout_of("check", edit(make(tmp_path), change))
 
 
 @pytest.mark.parametrize(
@@ -318,4 +318,4 @@ def test_a_name_defined_off_the_sheet_is_no_name(tmp_path):
 def test_records_of_no_earthquake_are_refused(largest, dt_s, said, tmp_path):
     path = tmp_path / "a.csv"
     path.write_text(f"{largest}\n-0.1\n0\n")
-    assert said in refused("motion", "info", path, "--units", "g", "--dt", dt_s)
+    assert said in errors_of("motion", "info", path, "--units", "g", "--dt", dt_s)

@@ -14,8 +14,9 @@ import pytest
 from pypdf import PdfReader
 
 import solver.verification.run
-import verified
-from commands import refused, run
+from fixtures import verify_run
+from fixtures.commands import errors_of, run
+from fixtures.verify_run import only
 from report.manual import render
 from report.manual import work_figures as work
 from report.text import formats
@@ -23,7 +24,6 @@ from report.text.counts import lettered
 from solver.model import Status
 from solver.rivals.methods import METHODS
 from solver.verification.evidence import Verified
-from verified import only
 
 pytestmark = pytest.mark.skipif(
     numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
@@ -33,7 +33,7 @@ pytestmark = pytest.mark.skipif(
 @pytest.fixture(scope="module")
 def quick(tmp_path_factory):
     """What `roofslip verify --quick` does."""
-    return verified.verified(tmp_path_factory)
+    return verify_run.verified(tmp_path_factory)
 
 
 @pytest.fixture(scope="module")
@@ -102,7 +102,7 @@ def verifying(verify):
         yield patch
 
 
-MEASURED = ["time per run [s]", *verified.NO_RUNS.filter(like="error")]
+MEASURED = ["time per run [s]", *verify_run.NO_RUNS.filter(like="error")]
 
 
 @pytest.fixture(scope="module")
@@ -266,7 +266,7 @@ def test_a_verification_of_two_checks_is_laid_out_and_the_one_that_failed_ends_w
 def test_a_folder_at_fault_is_refused_before_any_run(tmp_path):
     (tmp_path / "v").write_text("a file")
     with verifying(lambda *_, **__: 1 / 0):
-        assert "choose another folder" in refused("verify", "--out", tmp_path / "v")
+        assert "choose another folder" in errors_of("verify", "--out", tmp_path / "v")
 
 
 @pytest.mark.parametrize(

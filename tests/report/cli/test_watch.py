@@ -14,15 +14,15 @@ from contextlib import contextmanager
 
 import pytest
 
-from cells import address
-from commands import hearing, refused
-from nightly import by_day
-from packages import unlaid
-from places import ROOT, TESTS
+from fixtures.cells import address
+from fixtures.commands import errors_of, hearing
+from fixtures.marks import by_day
+from fixtures.packages import unlaid
+from fixtures.paths import ROOT, TESTS
+from fixtures.workbooks import make, type_into
 from report.cli.report import report_again, settled, stamps
 from report.cli.terminal import INTERRUPTED
 from report.making import OUTPUTS
-from sheets import make, type_into
 
 pytestmark = pytest.mark.quick
 
@@ -113,8 +113,8 @@ def test_a_workbook_that_is_not_finished_is_read_again(tmp_path, patient, start)
 
 
 def test_a_workbook_that_is_not_there_is_an_error_at_once(tmp_path):
-    assert "no such file" in refused("watch", tmp_path / "none.xlsx")
-    assert "no such file" in refused("watch", tmp_path)
+    assert "no such file" in errors_of("watch", tmp_path / "none.xlsx")
+    assert "no such file" in errors_of("watch", tmp_path)
 
 
 @pytest.mark.nightly

@@ -3,12 +3,12 @@
 import pytest
 from ezdxf.xclip import XClip
 
-from commands import ended, printed, refused
-from nightly import by_day
+from fixtures.commands import errors_of, output_of, stdout_of
+from fixtures.dxf import BOX_FT, ROOF_FT, UNIT_FT, Sketch, plan
+from fixtures.marks import by_day
+from fixtures.workbooks import blank
 from report.drawing_read.read_dxf import read_dxf
 from report.project.model.choices import UnitsFirst
-from sheets import blank
-from sketch import BOX_FT, ROOF_FT, UNIT_FT, Sketch, plan
 from solver.model import InputError
 
 
@@ -131,7 +131,7 @@ def test_a_unit_that_no_roof_is_drawn_in_is_named(tmp_path, code, said):
 
 def said_by_read(sketch, tmp_path):
     path = blank(tmp_path / "input.xlsx", UnitsFirst.US)
-    output = refused("plan", "read", sketch.saved(tmp_path), path, "--accept")
+    output = errors_of("plan", "read", sketch.saved(tmp_path), path, "--accept")
     return output.splitlines()[1].strip()
 
 
@@ -212,11 +212,11 @@ def test_a_size_that_few_have_is_asked_about_with_the_units_that_would_do(
     path = blank(tmp_path / "input.xlsx", UnitsFirst.US)
     before = path.read_bytes()
     drawing = sized(tmp_path, unit, factor, has_roof=has_roof)
-    output = refused("plan", "read", drawing, path)
+    output = errors_of("plan", "read", drawing, path)
     for part in said:
         assert part in output
     assert path.read_bytes() == before
-    printed("plan", "read", drawing, path, "--units", unit)
+    stdout_of("plan", "read", drawing, path, "--units", unit)
 
 
 @pytest.mark.parametrize(
@@ -226,5 +226,5 @@ def test_a_size_that_few_have_is_asked_about_with_the_units_that_would_do(
 def test_a_unit_below_a_foot_or_above_sixty_is_asked_about(tmp_path, item, is_asked):
     path = blank(tmp_path / "input.xlsx", UnitsFirst.US)
     drawing = sized(tmp_path, "ft", 1.0, item=item)
-    output = ended("plan", "read", drawing, path, exit_code=2 if is_asked else 0)
+    output = output_of("plan", "read", drawing, path, exit_code=2 if is_asked else 0)
     assert ("a size that few have" in output) is is_asked

@@ -16,11 +16,10 @@ from ezdxf.enums import TextEntityAlignment
 from ezdxf.fonts.fonts import make_font
 from ezdxf.math import BoundingBox2d, Vec2
 
-import scenes
-import stand_in
-from inputs import FT, sides
-from nightly import by_day
-from printed import printed
+from fixtures import assessments, projects
+from fixtures.marks import by_day
+from fixtures.pages import page_of
+from fixtures.project_parts import FT, sides
 from report.assessment.envelopes import design_envelope
 from report.assessment.plan_clearances import plan_gaps
 from report.drawing.items import APPLICATION, Layer, write_dxf
@@ -30,7 +29,7 @@ from report.project.model.choices import UnitsFirst
 
 @pytest.fixture(scope="module")
 def done():
-    return scenes.package(roof=sides(0, 220, 0, 170) | {"north_deg": 30.0}).assessment
+    return assessments.package(roof=sides(0, 220, 0, 170) | {"north_deg": 30.0}).assessment
 
 
 @pytest.fixture(scope="module", params=UnitsFirst)
@@ -183,7 +182,7 @@ def test_a_gap_short_by_less_than_a_digit_does_not_read_as_enough(done):
 
 
 def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_clear():
-    plan = plan_drawing(stand_in.unpermitted())
+    plan = plan_drawing(projects.unpermitted())
     said = [text.words for text in plan.texts]
     assert said.count("A1: displacement not permitted") == 1
     array = next(row for row in rows(plan) if row[0] == "A1")
@@ -204,27 +203,29 @@ def crowded():
     """Small arrays six inches apart, with long names, and a unit a foot from them."""
     ids = [f"NORTHWEST CORNER OF THE UPPER ROOF {k}" for k in range(12)]
     arrays = [
-        stand_in.array(name, 1.0)
+        projects.array(name, 1.0)
         | sides(8.5 * (k % 4), 8.5 * (k % 4) + 8, 8.5 * (k // 4), 8.5 * (k // 4) + 8)
         for k, name in enumerate(ids)
     ]
-    unit = stand_in.roof_object(
+    unit = projects.roof_object(
         "MAKE-UP AIR UNIT OF THE KITCHEN", "fixed object", 34.5, 36, 3, 5, height=1.2
     )
-    return scenes.package(
+    return assessments.package(
         arrays=arrays,
-        objects=[unit, stand_in.roof_object("E", "edge with parapet", 40, 40.5, 0, 26, height=0.5)],
+        objects=[unit, projects.roof_object("E", "edge with parapet", 40, 40.5, 0, 26, height=0.5)],
         clearances=[
-            *(stand_in.clearance(near, far, 6.0) for near, far in itertools.pairwise(ids)),
-            stand_in.clearance(ids[3], unit["id"], 12.0),
+            *(projects.clearance(near, far, 6.0) for near, far in itertools.pairwise(ids)),
+            projects.clearance(ids[3], unit["id"], 12.0),
         ],
     ).assessment
 
 
-@pytest.fixture(scope="module", params=by_day([*scenes.SHIPPED, "unpermitted", "crowded"], 2))
+@pytest.fixture(scope="module", params=by_day([*assessments.SHIPPED, "unpermitted", "crowded"], 2))
 def roof(request):
-    others = {"unpermitted": scenes.unpermitted, "crowded": crowded}
-    return others[request.param]() if request.param in others else scenes.shipped(request.param)
+    others = {"unpermitted": assessments.unpermitted, "crowded": crowded}
+    return (
+        others[request.param]() if request.param in others else assessments.shipped(request.param)
+    )
 
 
 @pytest.fixture(scope="module")
@@ -276,7 +277,7 @@ def test_no_text_is_over_another_and_one_that_is_is_found(roof, space):
 def test_every_gap_is_a_dimension_whose_text_is_that_of_the_schedule(roof, space):
     unit = "in" if roof.project.us_first else "mm"
     head = f"Prov’d [{unit}]"
-    tables = [table for table in printed(roof, "plan").tables if head in table.headings]
+    tables = [table for table in page_of(roof, "plan").tables if head in table.headings]
     schedule = {row["No."]: row[head] for table in tables for row in table.rows}
     assert len(schedule) == len(roof.clearances)
     unit_m = 0.3048 if roof.project.us_first else 1.0

@@ -7,11 +7,11 @@ import pikepdf
 import pytest
 import shapely
 
-import scenes
-import stand_in
-from inputs import HEAD, sides
-from plans import SMALL
-from printed import printed
+from fixtures import assessments, projects
+from fixtures.pages import page_of
+from fixtures.plan_pictures import SMALL
+from fixtures.project_parts import HEAD, sides
+from fixtures.projects import FOOT
 from report.drawing.items import TYPE_PT, Circle, Layer, Lines, Mark, Outline, Text, width_in
 from report.drawing.on_paper import plan_on_paper, printed_plan
 from report.drawing.placer import Frame, Placer, centered
@@ -21,7 +21,6 @@ from report.package.html import part
 from report.pages.registry import package_data
 from report.project.model.choices import PlanPaper
 from report.typeset.pdf import lay_out
-from stand_in import FOOT
 
 ROWS, COLUMNS = 6, 5
 WIDE, DEEP, LANE = 52, 24, 4  # ft
@@ -34,25 +33,25 @@ def thirty(paper=PlanPaper.BY_SIZE, us_first=True):
     for row, column in itertools.product(range(ROWS), range(COLUMNS)):
         name, x, y = f"A{1 + row * COLUMNS + column}", 16 + column * 56, 8 + row * 28
         wide = WIDE - 16 if name == "A10" else WIDE
-        arrays.append(stand_in.array(name, 1.0) | sides(x, x + wide, y, y + DEEP))
+        arrays.append(projects.array(name, 1.0) | sides(x, x + wide, y, y + DEEP))
         if column:
-            rows.append(stand_in.clearance(name, f"A{row * COLUMNS + column}", LANE * FOOT))
+            rows.append(projects.clearance(name, f"A{row * COLUMNS + column}", LANE * FOOT))
         if row:
             rows.append(
-                stand_in.clearance(name, f"A{1 + (row - 1) * COLUMNS + column}", LANE * FOOT)
+                projects.clearance(name, f"A{1 + (row - 1) * COLUMNS + column}", LANE * FOOT)
             )
     units = [
-        stand_in.roof_object("RTU-1", "fixed object", 282, 288, 40, 52, height=1.0),
-        stand_in.roof_object("RTU-2", "fixed object", 100, 114, 182, 190, height=1.0),
-        stand_in.roof_object("W", "edge with parapet", -1, 0, 0, 200, height=1.0),
+        projects.roof_object("RTU-1", "fixed object", 282, 288, 40, 52, height=1.0),
+        projects.roof_object("RTU-2", "fixed object", 100, 114, 182, 190, height=1.0),
+        projects.roof_object("W", "edge with parapet", -1, 0, 0, 200, height=1.0),
     ]
     rows += [
-        stand_in.clearance("A10", "RTU-1", 6 * FOOT),
-        stand_in.clearance("A27", "RTU-2", 0.5 * FOOT),
-        *(stand_in.clearance(f"A{1 + row * COLUMNS}", "W", 16 * FOOT) for row in range(ROWS)),
+        projects.clearance("A10", "RTU-1", 6 * FOOT),
+        projects.clearance("A27", "RTU-2", 0.5 * FOOT),
+        *(projects.clearance(f"A{1 + row * COLUMNS}", "W", 16 * FOOT) for row in range(ROWS)),
     ]
     roof = sides(0, 310, 0, 200)
-    return scenes.package(
+    return assessments.package(
         arrays=arrays,
         objects=units,
         clearances=rows,
@@ -62,7 +61,10 @@ def thirty(paper=PlanPaper.BY_SIZE, us_first=True):
     ).assessment
 
 
-PLANS = {"thirty": thirty, **{name: partial(scenes.shipped, name) for name in scenes.SHIPPED}}
+PLANS = {
+    "thirty": thirty,
+    **{name: partial(assessments.shipped, name) for name in assessments.SHIPPED},
+}
 
 
 @pytest.fixture(params=PLANS)
@@ -114,14 +116,14 @@ def test_no_leader_crosses_an_array_or_a_label(done):
     ]
     for leader in leaders(paper):
         assert not leader.intersects(shapely.union_all([*arrays, *labels])), leader
-    assert [row[0] for row in scheduled(printed(done, "plan"))] == numbers(done)
+    assert [row[0] for row in scheduled(page_of(done, "plan"))] == numbers(done)
 
 
 def test_large_roofs_have_leaders_and_small_plans_sizes_and_numbers():
     assert all(leaders(printed_plan(PLANS[name]()).plan) for name in ("thirty", "example"))
-    shown = [text.words for text in words_of(printed_plan(scenes.shipped("example")).plan)]
+    shown = [text.words for text in words_of(printed_plan(assessments.shipped("example")).plan)]
     assert {"120 × 92 ft", "120 × 102 ft", "150 × 150 ft"} <= set(shown)
-    tables = printed(thirty(), "plan").tables
+    tables = page_of(thirty(), "plan").tables
     (arrays,) = (table for table in tables if table.headings[:2] == ("Arrays", "Size [ft]"))
     rows = [row[:2] for row in arrays.cells]
     assert rows == [("A1 to A9, A11 to A30", "52 × 24"), ("A10", "36 × 24")]
@@ -168,7 +170,7 @@ def test_the_page_has_each_number_once_in_its_gap_and_equal_gaps_dimensioned_onc
 @pytest.mark.quick
 def test_equal_gaps_of_several_kinds_are_dimensioned_once_with_their_numbers():
     """Of the example: 96 in from A1 to A2, an array, and to NORTH, a roof edge."""
-    shown = [text.words for text in words_of(printed_plan(scenes.shipped("example")).plan)]
+    shown = [text.words for text in words_of(printed_plan(assessments.shipped("example")).plan)]
     assert shown.count("96.0 in: No. 1 and 3") == 1
     assert not [words for words in shown if "typ." in words]
 
@@ -177,13 +179,13 @@ def test_equal_gaps_of_several_kinds_are_dimensioned_once_with_their_numbers():
 def vents():
     """Small vents in rows between two arrays, so close that their names have no room between."""
     objects = [
-        stand_in.roof_object(f"VENT-{k}", "fixed object", x, x + 3, y, y + 3, height=1.0)
+        projects.roof_object(f"VENT-{k}", "fixed object", x, x + 3, y, y + 3, height=1.0)
         for k, (x, y) in enumerate(itertools.product(range(80, 140, 7), range(60, 100, 7)))
     ]
-    arrays = [stand_in.array("A1", 1.0) | sides(0, 60, 0, 160),
-              stand_in.array("A2", 1.0) | sides(160, 220, 0, 160)]  # fmt: skip
+    arrays = [projects.array("A1", 1.0) | sides(0, 60, 0, 160),
+              projects.array("A2", 1.0) | sides(160, 220, 0, 160)]  # fmt: skip
     roof = sides(-10, 230, -10, 170)
-    return scenes.package(arrays=arrays, objects=objects, clearances=[], roof=roof).assessment
+    return assessments.package(arrays=arrays, objects=objects, clearances=[], roof=roof).assessment
 
 
 @pytest.mark.quick
@@ -248,11 +250,11 @@ def scheduled(page):
 
 @pytest.mark.quick
 def test_tables_stand_beside_the_large_plan_or_follow_it():
-    page = printed(thirty(), "plan")
+    page = page_of(thirty(), "plan")
     assert "Roof plan" in page
     for name, value in (("Scale", "1 in = 40 ft"), ("Sheet title", "Roof plan")):
         assert f"{name} {value}" in " ".join(page.split())
-    page = printed(thirty(PlanPaper.LETTER), "plan")
+    page = page_of(thirty(PlanPaper.LETTER), "plan")
     assert [row[0] for row in scheduled(page)] == numbers(thirty())
 
 

@@ -10,13 +10,13 @@ from pathlib import Path
 import pytest
 from ezdxf.math import Matrix44
 
-from commands import ended
-from inputs import FT, INCH
-from nightly import by_day
+from fixtures.commands import output_of
+from fixtures.dxf import BOX_FT, ROOF_FT, UNIT_FT, Sketch
+from fixtures.marks import by_day
+from fixtures.project_parts import FT, INCH
+from fixtures.workbooks import blank, edit, put
 from report.project.check.plan_checks import shapes_of
 from report.project.read.read import read
-from sheets import blank, edit, put
-from sketch import BOX_FT, ROOF_FT, UNIT_FT, Sketch
 
 RTU = 'RTU-1, HT 42"'
 OURS = ("ROOF-OUTLINE", "ARRAY", "OBJECT")
@@ -207,9 +207,9 @@ def test_what_the_refusal_of_a_drawing_says_would_do_does(tmp_path, name):
     drawing = tmp_path / "roof.dxf"
     if kind.before:
         drawing.write_bytes(kind.before())
-        ended("plan", "read", drawing, path)
+        output_of("plan", "read", drawing, path)
     drawing.write_bytes(kind.drawn())
-    said = ended("plan", "read", tmp_path / kind.name, path, *kind.given, exit_code=2)
+    said = output_of("plan", "read", tmp_path / kind.name, path, *kind.given, exit_code=2)
     advised = re.search(kind.advice, said)
     assert advised, said
     if kind.followed:
@@ -217,5 +217,5 @@ def test_what_the_refusal_of_a_drawing_says_would_do_does(tmp_path, name):
     if kind.workbook:
         kind.workbook(path)
     value = advised.groups() if kind.then and kind.then[-1] == "--units" else ()
-    ended("plan", "read", drawing, path, *kind.then, *value)
+    output_of("plan", "read", drawing, path, *kind.then, *value)
     check_plan(path, kind.array_ft)

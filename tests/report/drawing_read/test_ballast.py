@@ -5,14 +5,14 @@ from functools import partial
 import numpy as np
 import pytest
 
-from commands import ended
-from inputs import FT, LB
-from refused import refused
+from fixtures.commands import output_of
+from fixtures.errors import input_problems
+from fixtures.project_parts import FT, LB
+from fixtures.workbooks import arrays, edit, make, problems, project, type_into
 from report.drawing_read.ballast import MAX_BYTES, center_of_gravity, loads, read_map
 from report.project.check.plausible import implausible
 from report.project.model.shapes import Polygon, Rectangle
 from report.project.read.read import read
-from sheets import arrays, edit, make, problems, project, type_into
 
 pytestmark = pytest.mark.quick
 
@@ -38,7 +38,7 @@ pytestmark = pytest.mark.quick
     ],
 )  # fmt: skip
 def test_a_wrong_map_is_refused_with_every_line(file, content, wanted):
-    assert list(refused(read_map, file(content), 1.0)) == wanted
+    assert list(input_problems(read_map, file(content), 1.0)) == wanted
 
 
 def test_a_map_is_read_in_its_unit_with_the_separator_that_it_says(file):
@@ -80,7 +80,7 @@ def test_the_center_of_gravity_is_that_of_blocks_and_modules():
 PARTS = {"modules": 320, "module_weight_n": 75 * LB, "ballast_n": 18000 * LB}
 
 
-ran = partial(ended, "plan", "ballast")
+ran = partial(output_of, "plan", "ballast")
 
 
 @pytest.mark.nightly

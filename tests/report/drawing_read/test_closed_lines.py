@@ -7,11 +7,11 @@ import pytest
 import shapely
 from ezdxf.render.forms import cube
 
-from inputs import FT
+from fixtures.dxf import BOX_FT, ROOF_FT, UNIT_FT, Sketch, plan
+from fixtures.project_parts import FT
 from report.drawing_read.closed_lines import BRANCHED, OPEN, curve, join
 from report.drawing_read.read_dxf import read_dxf
 from report.project.model.shapes import Polygon, ring
-from sketch import BOX_FT, ROOF_FT, UNIT_FT, Sketch, plan
 
 pytestmark = pytest.mark.quick
 

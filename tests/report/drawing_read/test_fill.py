@@ -7,20 +7,31 @@ import pytest
 from openpyxl import load_workbook
 from openpyxl.utils import range_boundaries
 
-from architect import ARRAYS, roof_plan
-from cells import cell
-from commands import ended
-from inputs import FT, HEAD, NO_SIDES
-from nightly import by_day
+from fixtures.architect_plan import ARRAYS, roof_plan
+from fixtures.cells import cell
+from fixtures.commands import output_of
+from fixtures.dxf import BOX_FT, L_FT, ROOF_FT, UNIT_FT, Sketch
+from fixtures.marks import by_day
+from fixtures.project_parts import FT, HEAD, NO_SIDES
+from fixtures.workbooks import (
+    blank,
+    cell_address,
+    different,
+    edit,
+    make,
+    parts,
+    project,
+    put,
+    same,
+    type_into,
+)
 from report.project.model.choices import ClearanceSource, UnitsFirst
 from report.project.model.scene import SIDES
 from report.project.model.shapes import Polygon
 from report.project.read.read import read
 from report.project.write.filled import overwritten
-from sheets import at, blank, different, edit, make, parts, project, put, same, type_into
-from sketch import BOX_FT, L_FT, ROOF_FT, UNIT_FT, Sketch
 
-run = partial(ended, "plan", "read")
+run = partial(output_of, "plan", "read")
 
 
 def drawing(tmp_path, version="R2018"):
@@ -71,7 +82,7 @@ def test_filled_places_and_full_tables_are_told(tmp_path):
         put(book, {f"Outlines/{row}/Outline of": "A9" for row in range(1, 20)})
 
     output = run(drawing(tmp_path), edit(new(tmp_path), close), exit_code=2)
-    row = re.sub(r"[A-Z]+(?=\d)", "", at("Outlines/20/Outline of"))
+    row = re.sub(r"[A-Z]+(?=\d)", "", cell_address("Outlines/20/Outline of"))
     assert f"{row}: the table has a row of totals, and no blank row above it" in output
 
 

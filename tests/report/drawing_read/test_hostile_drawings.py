@@ -11,21 +11,21 @@ from ezdxf.xclip import XClip
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from commands import ended
-from growth import grows_faster
-from nightly import by_day, nightly
-from refused import refused
+from fixtures.commands import output_of
+from fixtures.dxf import BOX_FT, LIBRECAD_R12, UNIT_FT, Sketch, plan
+from fixtures.errors import input_problems
+from fixtures.growth import grows_faster
+from fixtures.marks import by_day, nightly
+from fixtures.workbooks import make
 from report.drawing_read.read_dxf import MAX_LETTERS, read_dxf
 from report.drawing_read.roof_drawing import MAX_ENTITIES, MAX_VALUES
 from report.project.model.choices import LayerKind
 from report.project.read.read import read
-from sheets import make
-from sketch import BOX_FT, LIBRECAD_R12, UNIT_FT, Sketch, plan
 from solver.model import InputError
 
 
 def hostile(file, content):
-    (problem,) = refused(read_dxf, file(content), 1.0)
+    (problem,) = input_problems(read_dxf, file(content), 1.0)
     return problem
 
 
@@ -83,7 +83,7 @@ def test_a_drawing_in_degrees_is_refused_as_such(tmp_path, unit, close, corner):
     for wide, tall in ((3e-4, 2e-4), (2e-5, 1e-5)):
         points = [(x, y), (x + wide, y), (x + wide, y + tall), (x, y + tall)]
         sketch.space.add_lwpolyline(points, close=close, dxfattribs={"layer": "ARRAY"})
-    (problem,) = refused(read_dxf, sketch.saved(tmp_path))
+    (problem,) = input_problems(read_dxf, sketch.saved(tmp_path))
     assert problem == (
         f"the drawing is in degrees: {x:.5f}, {y:.5f} is a longitude and latitude; export it in ft"
         " or m, such as in State Plane or UTM coordinates"
@@ -171,7 +171,7 @@ def test_what_cannot_be_printed_is_neither_printed_nor_written(tmp_path, letter)
     sketch.ring("NOT-KNOWN", UNIT_FT)
     path = sketch.saved(tmp_path)
     path.write_bytes(path.read_bytes().replace(b"NOT-KNOWN", f"NOT-{letter}KNOWN".encode()))
-    output = ended("plan", "read", path, book, "--replace", "--accept")
+    output = output_of("plan", "read", path, book, "--replace", "--accept")
     assert "A1: array" in output
     assert " is not in Layers: 1 on NOT-KNOWN (" in output
     assert letter not in output

@@ -10,18 +10,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from commands import ended, printed, refused
-from inputs import FT
+from fixtures.commands import errors_of, output_of, stdout_of
+from fixtures.dxf import ROOF_FT, Sketch
+from fixtures.filled_cells import typed_cells
+from fixtures.project_parts import FT
+from fixtures.workbooks import blank, type_into
 from report.drawing_read.fill import MOST_TOLD, matched
 from report.drawing_read.plan_read import DrawnOutline, RoofPlan
 from report.project.model.choices import ClearanceSource, LayerKind, UnitsFirst
 from report.project.model.scene import SIDES
 from report.project.model.shapes import Polygon, Rectangle
 from report.project.read.read import read
-from sheets import blank, type_into
-from sketch import ROOF_FT, Sketch
 from solver.model import InputError
-from typed import typed_cells
 
 SIZE_FT = (80, 40)
 
@@ -41,7 +41,7 @@ def drawn(tmp_path, arrays, objects=(), roof=ROOF_FT):
     return sketch.saved(tmp_path)
 
 
-plan_read = partial(ended, "plan", "read")
+plan_read = partial(output_of, "plan", "read")
 
 
 def filled(tmp_path, arrays, objects=(), **roof):
@@ -335,10 +335,10 @@ def test_a_roof_goes_from_its_drawing_to_a_verdict_with_no_place_clearance_or_re
 ):
     drawing, roof = layout().saved(tmp_path), tmp_path / "roof"
     workbook = roof / "input.xlsx"
-    printed("new", roof)
-    assert "nothing is written" in refused("plan", "read", drawing, roof)
+    stdout_of("new", roof)
+    assert "nothing is written" in errors_of("plan", "read", drawing, roof)
     assert all(not cells for cells in typed_cells(workbook).values())
-    printed("plan", "read", drawing, roof, "--accept")
+    stdout_of("plan", "read", drawing, roof, "--accept")
     filled = typed_cells(workbook)
     type_into(workbook, typed())
     by_hand = [
@@ -349,8 +349,8 @@ def test_a_roof_goes_from_its_drawing_to_a_verdict_with_no_place_clearance_or_re
     ]
     assert {field.partition(".")[0] for field in by_hand} == {"project", "site", "arrays"}
     assert not any(field.endswith(("_from_m", "_to_m", ".id")) for field in by_hand)
-    printed("motion", "suite", roof / "records", "--into", roof, "--count", 3)
-    printed("plan", "clearances", roof)
+    stdout_of("motion", "suite", roof / "records", "--into", roof, "--count", 3)
+    stdout_of("plan", "clearances", roof)
 
     every = sum(map(len, typed_cells(workbook).values()))
     assert (len(by_hand), every - len(by_hand)) == (62, 193)  # as in docs/roof-drawing.md
@@ -363,7 +363,7 @@ def test_a_roof_goes_from_its_drawing_to_a_verdict_with_no_place_clearance_or_re
     assert len(data.motions) == 3
     assert {row.source for row in data.clearances} == {ClearanceSource.DRAWING}
     assert len(data.clearances) == 11
-    done = printed("report", roof, "--out", tmp_path / "out")
+    done = stdout_of("report", roof, "--out", tmp_path / "out")
     assert "verdict: OK with conditions" in done
     assert "clear distances from the drawing: not confirmed" in done
     assert "no clearance" not in done

@@ -7,17 +7,17 @@ import random
 
 import pytest
 
-from commands import ended, refused
-from inputs import INCH
-from nightly import by_day
+from fixtures.commands import errors_of, output_of
+from fixtures.dxf import Sketch, plan
+from fixtures.marks import by_day
+from fixtures.project_parts import INCH
+from fixtures.workbooks import blank, edit, make, retitle
 from report.drawing_read.modules import GAP_M
 from report.drawing_read.plan_read import plan_of
 from report.drawing_read.read_dxf import read_dxf
 from report.project.model.choices import LayerKind
 from report.project.model.shapes import Rectangle
 from report.project.read.read import read
-from sheets import blank, edit, make, retitle
-from sketch import Sketch, plan
 from solver.model import InputError
 
 pytestmark = pytest.mark.quick
@@ -258,15 +258,15 @@ def test_modules_that_are_turned_to_each_other_are_arrays_of_their_own(tmp_path)
 @pytest.mark.nightly
 def test_counts_are_filled_in_where_there_is_a_column(tmp_path):
     path, book = layout().saved(tmp_path), blank(tmp_path / "input.xlsx")
-    output = ended("plan", "read", path, book, "--gap", 18, "in")
+    output = output_of("plan", "read", path, book, "--gap", 18, "in")
     assert "A2: array of 21 modules 78.7 in (2000 mm) by 43.3 in (1100 mm) with gaps of" in output
     assert " of at most 18.0 in (457 mm), 6 vertices, " in output
     rows = read(book).inputs["arrays"]
     assert {row["id"]: row["modules"] for row in rows} == COUNTS
-    assert "it is 0; give more than 0." in refused("plan", "read", path, book, "--gap", 0, "in")
+    assert "it is 0; give more than 0." in errors_of("plan", "read", path, book, "--gap", 0, "in")
     book = make(tmp_path, clearances=[])
     edit(book, lambda found: retitle(found, "Arrays", "Modules", ""))
-    ended("plan", "read", layout().saved(tmp_path), book, "--replace")
+    output_of("plan", "read", layout().saved(tmp_path), book, "--replace")
     assert [row["modules"] for row in read(book).inputs["arrays"]] == [None] * 5  # with A2 as typed
 
 

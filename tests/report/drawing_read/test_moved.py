@@ -6,16 +6,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from commands import ended, printed
-from inputs import FT
+from fixtures.commands import output_of, stdout_of
+from fixtures.dxf import Sketch
+from fixtures.project_parts import FT
+from fixtures.workbooks import blank, type_into
 from report.drawing_read.fill import matched
 from report.drawing_read.plan_read import plan_of
 from report.drawing_read.roof_drawing import Drawn, RoofDrawing
 from report.project.model.choices import UnitsFirst
 from report.project.model.scene import SIDES
 from report.project.read.read import read
-from sheets import blank, type_into
-from sketch import Sketch
 from solver.model import InputError
 
 ROOFS = (
@@ -212,7 +212,7 @@ def first_day(tmp_path):
     folder = tmp_path / "project"
     folder.mkdir()
     path = blank(folder / "input.xlsx", UnitsFirst.US)
-    printed("plan", "read", saved(tmp_path, FEET), path)
+    stdout_of("plan", "read", saved(tmp_path, FEET), path)
     return type_into(path, {
         "Objects/EDGE-2/Kind": "edge with parapet", "Objects/EDGE-2/Height": 36,
         "Objects/RTU-2/Place from": None,
@@ -225,7 +225,7 @@ def first_day(tmp_path):
 
 def second_day(tmp_path, path, places, move, *words, exit_code=0, **options):
     drawing = saved(tmp_path, places, move, **options)
-    return ended("plan", "read", drawing, path, "--replace", *words, exit_code=exit_code)
+    return output_of("plan", "read", drawing, path, "--replace", *words, exit_code=exit_code)
 
 
 def in_feet(path, key):

@@ -8,10 +8,10 @@ import pytest
 import shapely
 from ezdxf.math import UCS
 
-import scenes
-import stand_in
-from architect import at
-from inputs import FT, INCH, NO_SIDES
+from fixtures import assessments, projects
+from fixtures.architect_plan import at
+from fixtures.dxf import BOX_FT, L_FT, LIBRECAD_R12, ROOF_FT, UNIT_FT, UNITS, Sketch, plan
+from fixtures.project_parts import FT, INCH, NO_SIDES
 from report.drawing.items import Layer, write_dxf
 from report.drawing.plan import plan_drawing
 from report.drawing_read.closed_lines import OPEN
@@ -20,7 +20,6 @@ from report.drawing_read.read_dxf import read_dxf
 from report.drawing_read.roof_drawing import first_height, proposed, read_line
 from report.project.model.choices import LayerKind
 from report.project.model.shapes import Polygon, Rectangle
-from sketch import BOX_FT, L_FT, LIBRECAD_R12, ROOF_FT, UNIT_FT, UNITS, Sketch, plan
 
 pytestmark = pytest.mark.quick
 
@@ -136,13 +135,13 @@ def test_r12_without_handles_and_with_own_layers_is_read(file):
 
 def test_a_plan_that_report_wrote_reads_back_to_itself(file):
     """With an L-shaped array, and a roof with an oblique side."""
-    first, *others = (array.model_dump() for array in stand_in.project().arrays)
+    first, *others = (array.model_dump() for array in projects.project().arrays)
     vertices = [
         {"name": name, "x_m": x * FT, "y_m": y * FT}
         for name, ring in (("A1", L_FT), ("roof", ((0, 0), (220, 0), (220, 170), (-9, 170))))
         for x, y in ring
     ]
-    package = scenes.package(arrays=[first | NO_SIDES, *others], outlines=vertices)
+    package = assessments.package(arrays=[first | NO_SIDES, *others], outlines=vertices)
     path = file(write_dxf(plan_drawing(package.assessment)), "plan.dxf")
     assert read_dxf(path).layouts == ()  # a title block is no plan
     found = plan(path)
@@ -161,7 +160,7 @@ def test_a_plan_that_report_wrote_reads_back_to_itself(file):
 
 
 def test_a_height_that_is_changed_in_a_plan_of_ours_is_read_wherever_its_text_is(file):
-    document = ezdxf.read(io.StringIO(write_dxf(plan_drawing(scenes.usual())).decode()))
+    document = ezdxf.read(io.StringIO(write_dxf(plan_drawing(assessments.usual())).decode()))
     (text,) = document.modelspace().query('TEXT[text == "RTU-1, height 42.0 in"]')
     text.dxf.text = "RTU-1, height 50.0 in"
     text.set_placement((0.0, -90.0))

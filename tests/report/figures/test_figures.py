@@ -13,10 +13,10 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
-import scenes
-import stand_in
-from nightly import by_day
-from plans import SMALL, roof_plan
+from fixtures import assessments, projects
+from fixtures.marks import by_day
+from fixtures.plan_pictures import SMALL, roof_plan
+from fixtures.study_workbooks import limit_state
 from report.assessment.spectra import spectra
 from report.drawing.sheet import LETTER
 from report.figures import charts as figures
@@ -34,12 +34,11 @@ from solver.rivals.methods import METHODS
 from solver.studies.uncertainty import Bar
 from solver.verification import workprecision
 from solver.verification.evidence import StabilityMap
-from study_books import limit_state
 
 
 @pytest.fixture(scope="module")
 def assessment():
-    return scenes.package().assessment
+    return assessments.package().assessment
 
 
 @pytest.fixture(scope="module")
@@ -89,7 +88,7 @@ def test_envelopes_histories_and_comparisons_keep_what_they_show(assessment):
     assert sum(bool(re.fullmatch(r"[\d.]+ in \(\d+ mm\)", text)) for text in printed) == 3
     printed = words(histories(assessment.arrays[1], us_first=False))
     assert sum(bool(re.fullmatch(r"\d+ mm \([\d.]+ in\)", text)) for text in printed) == 3
-    printed = words(figures.comparison(stand_in.unpermitted().alike, True))
+    printed = words(figures.comparison(projects.unpermitted().alike, True))
     assert "no design displacement" in printed
     assert "prescriptive not permitted" in printed
 
@@ -97,9 +96,9 @@ def test_envelopes_histories_and_comparisons_keep_what_they_show(assessment):
 def test_short_records_and_runs_without_a_value_are_drawn_as_such():
     t, u = np.arange(5.0), np.arange(5.0)
     assert history.envelope(t, u) == (t, u)
-    up = np.repeat((0.0, -1.5 * stand_in.G, 0.0), 100)
-    still = stand_in.motion("M1", np.zeros(300), up, signs=(1,))
-    done = scenes.package((still,) * 3).assessment
+    up = np.repeat((0.0, -1.5 * projects.G, 0.0), 100)
+    still = projects.motion("M1", np.zeros(300), up, signs=(1,))
+    done = assessments.package((still,) * 3).assessment
     printed = words(histories(done.arrays[0]))
     assert printed.count("none") == 6  # above and within each panel
     assert "no design displacement" in words(figures.comparison(done.alike, True))
@@ -115,8 +114,8 @@ def test_the_wanted_unit_is_on_the_main_axis(assessment, us_first):
 def bars(peak_g, n=11312, dt_s=1.0 / 300.0):
     """Labels of the bars, and height of bar and of peak, width of bar and of motion, in points."""
     wave = np.sin(np.linspace(0.0, 40.0, n))
-    wave *= peak_g * stand_in.G / np.abs(wave).max()
-    svg = accelerations((stand_in.motion("M1", wave, dt_s=dt_s),))
+    wave *= peak_g * projects.G / np.abs(wave).max()
+    svg = accelerations((projects.motion("M1", wave, dt_s=dt_s),))
     lines = [
         np.array([float(v) for v in re.findall(r"-?[0-9.]+", path)]).reshape(-1, 2)
         for path in re.findall(r'<path d="(M [^"]*)" clip-path', svg)
@@ -149,7 +148,7 @@ def test_the_bar_of_times_is_round_and_as_long_as_it_says(n, label):
 
 @pytest.fixture(scope="module")
 def array():
-    return scenes.package(scenes.motions(3, 12.0)).assessment.arrays[1]
+    return assessments.package(assessments.motions(3, 12.0)).assessment.arrays[1]
 
 
 @pytest.mark.quick
@@ -284,10 +283,10 @@ def faults(drawn):
 @pytest.mark.parametrize("units", UnitsFirst)
 @pytest.mark.nightly
 def test_in_a_package(drawn, units):
-    project = stand_in.project().project.model_copy(update={"units_first": units})
-    package = scenes.package(scenes.motions(7, seconds=12.0), project=project)
+    project = projects.project().project.model_copy(update={"units_first": units})
+    package = assessments.package(assessments.motions(7, seconds=12.0), project=project)
     draw_assessment(package)
-    evidence = scenes.evidence(package.assessment)
+    evidence = assessments.evidence(package.assessment)
     draw_plotted(package, evidence)
     assert len(drawn.figures) >= 10
     assert not list(faults(drawn))

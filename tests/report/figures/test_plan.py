@@ -9,21 +9,20 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-import scenes
-import stand_in
-from inputs import NO_SIDES
-from nightly import by_day
-from plans import SMALL, roof_plan
-from printed import printed
+from fixtures import assessments, projects
+from fixtures.dxf import L_FT
+from fixtures.marks import by_day
+from fixtures.pages import page_of
+from fixtures.plan_pictures import SMALL, roof_plan
+from fixtures.project_parts import NO_SIDES
+from fixtures.projects import FOOT
 from report.assessment.envelopes import keep_clear
 from report.drawing.items import TYPE_PT, Text, width_in
 from report.drawing.on_paper import plan_on_paper, printed_plan
 from report.drawing.sheet import LETTER, PlanSize, round_scale
 from report.figures.base import style
 from report.figures.plan import painted, paper_svg
-from sketch import L_FT
 from solver.model import INCH_M
-from stand_in import FOOT
 
 NARROW = PlanSize(wide=4.5, tall=8.0, is_full=True)
 SIZES = [SMALL, LETTER, NARROW]
@@ -31,12 +30,12 @@ SIZES = [SMALL, LETTER, NARROW]
 
 @pytest.fixture(scope="module")
 def done():
-    return scenes.package().assessment
+    return assessments.package().assessment
 
 
 @pytest.fixture(scope="module")
 def crowded():
-    return scenes.twelve(is_long=False).assessment
+    return assessments.twelve(is_long=False).assessment
 
 
 ROOF_FT = ((0, 0), (240, 0), (240, 90), (150, 160), (0, 160))
@@ -46,18 +45,18 @@ PARAPET_FT = ((240, 90), (241, 91), (151, 161), (150, 160))
 @pytest.fixture(scope="module")
 def outlined():
     """An array around a unit, a roof with an oblique side, and a parapet along it."""
-    return scenes.package(
+    return assessments.package(
         arrays=[
-            stand_in.array("A1", 2.0) | NO_SIDES,
-            stand_in.array("A2", 2.0, x=120, y=20, x_to_m=180 * FOOT, y_to_m=75 * FOOT),
+            projects.array("A1", 2.0) | NO_SIDES,
+            projects.array("A2", 2.0, x=120, y=20, x_to_m=180 * FOOT, y_to_m=75 * FOOT),
         ],
         objects=[
-            stand_in.roof_object("RTU-1", "fixed object", 67, 75, 55, 65),
+            projects.roof_object("RTU-1", "fixed object", 67, 75, 55, 65),
             {"id": "NE", "kind": "edge with parapet", "height_m": 30 * INCH_M},
         ],
         clearances=[
-            stand_in.clearance("A1", "RTU-1", 5 * FOOT),
-            stand_in.clearance("A1", "A2", 20 * FOOT),
+            projects.clearance("A1", "RTU-1", 5 * FOOT),
+            projects.clearance("A1", "A2", 20 * FOOT),
         ],
         outlines=[
             {"name": name, "x_m": x * FOOT, "y_m": y * FOOT}
@@ -140,7 +139,7 @@ def test_arrays_objects_and_clearances_are_drawn_marked_and_named(done):
         assert name in found
     assert "N edge: parapet 30.0 in (762 mm)" in found
     assert "S edge: no parapet" in found
-    (table,) = (table for table in printed(done, "plan").tables if table.title.startswith("Sched"))
+    (table,) = (table for table in page_of(done, "plan").tables if table.title.startswith("Sched"))
     for gap, row in zip(done.clearances, table.rows, strict=True):
         values = gap.required_m, gap.clearance.provided_m
         heads = "Req’d [in]", "Prov’d [in]"
@@ -164,16 +163,16 @@ def test_arrays_objects_and_clearances_are_drawn_marked_and_named(done):
 
 
 def test_upright_edges_and_dollar_signs_are_named_as_they_are():
-    west = stand_in.roof_object("W", "edge with parapet", -1, 0, 0, 170, height=30)
-    objects = [*stand_in.project().objects, west]
-    drawn = figure(scenes.package(objects=objects).assessment, LETTER)
+    west = projects.roof_object("W", "edge with parapet", -1, 0, 0, 170, height=30)
+    objects = [*projects.project().objects, west]
+    drawn = figure(assessments.package(objects=objects).assessment, LETTER)
     box = next(box for text, box in extents(drawn) if text.get_text().startswith("W: "))
     (_, low), (_, tall) = place(drawn, "A2")
     middle = low + (85.0 - 15.0) * tall / 60.0
     assert (box.y0 + box.y1) / 2 == pytest.approx(middle, abs=0.02)
-    given = scenes.package(arrays=[stand_in.array("$x_1$", 2.0)], objects=[], clearances=[])
+    given = assessments.package(arrays=[projects.array("$x_1$", 2.0)], objects=[], clearances=[])
     assert "$x_1$" in words(roof_plan(given.assessment, SMALL))
-    shown = printed_plan(scenes.shipped("conditions")).key
+    shown = printed_plan(assessments.shipped("conditions")).key
     texts = [item for item in shown.items if isinstance(item, Text)]
     assert "clearance not satisfied" in [text.words for text in texts]
     for text in texts:
@@ -210,7 +209,7 @@ def test_outlines_gaps_and_names_are_where_they_are(outlined):
 
 def test_all_is_named_and_neighbors_without_a_clearance_are_in_the_notes(crowded):
     on = printed_plan(crowded)
-    shown, page = words(paper_svg(on.plan)), printed(crowded, "plan")
+    shown, page = words(paper_svg(on.plan)), page_of(crowded, "plan")
     for item in (*crowded.arrays, *crowded.project.objects):
         assert item.id in shown
         assert item.id not in on.unnamed
@@ -221,13 +220,13 @@ def test_all_is_named_and_neighbors_without_a_clearance_are_in_the_notes(crowded
 
 @pytest.mark.parametrize("size", SIZES)
 def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_clear(size):
-    found = words(roof_plan(stand_in.unpermitted(), size))
+    found = words(roof_plan(projects.unpermitted(), size))
     assert "Δ 0.0 in (0 mm)" not in found
     assert not any("keep clear 0" in text.lower() for text in found)
     assert not {"OK", "NG"} & set(found)
     if size.is_full:
         assert "Δ not permitted" in found or size is NARROW  # where A1 has room for its name alone
-        page = printed(stand_in.unpermitted(), "plan")
+        page = page_of(projects.unpermitted(), "plan")
         assert "no procedure to a design displacement is permitted for A1;" in page
         row = page.tables[0].row("A1")
         assert (row["Δ [in]"], row["Keep clear [in]"]) == ("none", "unknown")

@@ -4,13 +4,13 @@ import re
 
 import pytest
 
-import printed
+from fixtures import pages
+from fixtures.verify_run import only
 from report.document.templates import section
 from report.text.formats import VALIDATION
 from solver.verification.design_checks import design_checks
 from solver.verification.evidence import SECTIONS, Verified
 from solver.verification.features import FEATURES, statuses
-from verified import only
 
 pytestmark = pytest.mark.quick
 
@@ -28,7 +28,7 @@ def every():
 def features_of(checks):
     """The rows of the table of features by name."""
     given = only(checks=tuple(checks))
-    table = printed.manual(given, section("manual/features", "Features")).table("Features")
+    table = pages.manual(given, section("manual/features", "Features")).table("Features")
     return {name: list(cells) for name, *cells in table.cells}
 
 
@@ -80,11 +80,11 @@ def test_checks_of_rules_spectra_filters_uplift_and_tipping_pass_and_fail_where_
 
 
 def test_the_manual_says_that_no_test_validates_the_solution():
-    assert VALIDATION in printed.manual(only(), section("manual/features", "Features"))
+    assert VALIDATION in pages.manual(only(), section("manual/features", "Features"))
 
 
 def test_every_error_of_a_released_version_has_an_effect_and_an_action():
-    said = printed.manual(only(), section("manual/known-errors", "Known errors"))
+    said = pages.manual(only(), section("manual/known-errors", "Known errors"))
     heads = [found for cells in said.table("Errors").cells if (found := RELEASE.match(cells[0]))]
     errors = [cells for cells in said.table("Errors").cells if cells[1]]
     assert sum(int(head["count"]) for head in heads) == len(errors) > 0

@@ -10,9 +10,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-import commands
-import printed
-from places import RECORDS
+from fixtures import commands, pages
+from fixtures.paths import RECORDS
+from fixtures.verify_run import only
 from report.manual.measured import building, models
 from report.manual.precision import methods, work
 from report.manual.render import summary, verification_csv
@@ -41,7 +41,6 @@ from solver.verification.study import (
     own_triples,
     shortened,
 )
-from verified import only
 
 pytestmark = pytest.mark.skipif(
     numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
@@ -68,7 +67,7 @@ def recorded(made):
 def page(part, **found):
     """A section below the summary."""
     found = only(**found)
-    return printed.manual(found, summary(found), part(found))
+    return pages.manual(found, summary(found), part(found))
 
 
 # What the verification finds
@@ -188,7 +187,7 @@ def test_records_are_cut_to_the_shortest_and_turned_to_one_direction_and_a_lost_
 
 @pytest.mark.quick
 def test_the_command_names_a_folder_without_records_and_exits_2(tmp_path):
-    told = commands.refused("verify", "--records", tmp_path, "--out", tmp_path / "out")
+    told = commands.errors_of("verify", "--records", tmp_path, "--out", tmp_path / "out")
     assert "no subfolder roof_575_market; give a folder that contains it" in told
     assert not (tmp_path / "out").exists()
 

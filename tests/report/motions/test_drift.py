@@ -5,20 +5,19 @@ from dataclasses import replace
 
 import pytest
 
-import scenes
-import stand_in
-from inputs import motion
-from places import RECORDS
+from fixtures import assessments, projects
+from fixtures.paths import RECORDS
+from fixtures.project_parts import motion
+from fixtures.workbooks import make
 from report.assessment.checks.motions import MOST_DRIFT_M, MOST_END_MPS, drift_limits
 from report.assessment.verdict import Verdict
 from report.motions.prepare import prepare
 from report.project.read.read import read
-from sheets import make
 
 
 def ended(displacement_m, velocity_mps=0.0, basis=""):
     """Return an assessment of roofs for analysis alone; the second of three motions ends so."""
-    book = stand_in.book(stand_in.steep(), scenes.motions())
+    book = projects.book(projects.steep(), assessments.motions())
     prepared = [replace(item, drift_basis="") for item in book.shaking.prepared]
     ends = {"final_displacement_m": 0.0, "final_velocity_mps": 0.0}
     for number, item in enumerate(prepared):
@@ -27,7 +26,7 @@ def ended(displacement_m, velocity_mps=0.0, basis=""):
         measures = {name: replace(each, **ends) for name, each in item.measures.items()}
         prepared[number] = replace(item, measures=measures, drift_basis=basis)
         ends = dict.fromkeys(ends, 0.0)
-    return stand_in.assessed(book.having(prepared=tuple(prepared)))
+    return projects.assessed(book.having(prepared=tuple(prepared)))
 
 
 @pytest.mark.parametrize(

@@ -7,15 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import stand_in
-from inputs import motion
-from nightly import by_day
+from fixtures import projects
+from fixtures.marks import by_day
+from fixtures.project_parts import motion
+from fixtures.workbooks import cell_address, make, problems, read_workbook
 from report.motions.components import FACTOR, Components, processing_of, spikes
 from report.motions.history import ac156, first_period_s, shake, targets
 from report.motions.prepare import MAX_BESIDE_FAULTS, MAX_TOGETHER, MOST_FAULTS
 from report.project.model.choices import RecordedAt
 from report.project.model.motions import MotionInput
-from sheets import at, make, problems, read_workbook
 from solver.building.roof import shaking_to_roof
 from solver.building.structure import building_of_periods
 from solver.records.measures import measures
@@ -38,7 +38,7 @@ def components(motion):
 
 def records(count=3, seconds=6.0):
     """Components of one motion, by the fields of the sheet."""
-    (given,) = stand_in.motions(1, seconds=seconds, peak_g=0.6)
+    (given,) = projects.motions(1, seconds=seconds, peak_g=0.6)
     fields = ("record", "transverse", "vertical")[:count]
     return {
         field: Record(name=field, dt_s=given.dt_s, a_mps2=a)
@@ -47,7 +47,7 @@ def records(count=3, seconds=6.0):
 
 
 def shaken(records, data_changes=None, unfiltered=None, **changes):
-    data = stand_in.project(motions=[row(**changes)], **(data_changes or {}))
+    data = projects.project(motions=[row(**changes)], **(data_changes or {}))
     given = Components(files=(), records=records, unfiltered=unfiltered or {}, whole={})
     (pair,) = shake(data, [given])
     return pair
@@ -91,7 +91,7 @@ def log_ratio(motion, target, periods_s):
 def test_a_motion_scaled_to_the_target_matches_it_over_the_scaling_periods(start, end):
     data = {"target": {"from_s": start, "to_s": end}}
     motion, prepared = shaken(records(), data, scaling="target spectrum")
-    target = stand_in.assessed(stand_in.book(shaking=(motion,) * 3)).targets.roof
+    target = projects.assessed(projects.book(shaking=(motion,) * 3)).targets.roof
     assert log_ratio(motion, target, np.geomspace(start, end, 400)) == pytest.approx(0, abs=2e-3)
     assert prepared.scaling == f"target, {start:g} to {end:g} s"
 
@@ -132,8 +132,8 @@ def test_processing_and_the_period_follow_their_cells():
         ({"structure": "other"}, 0.02 * height_ft**0.75),
         ({"structure": "steel moment frame"}, 0.028 * height_ft**0.8),
     ):
-        assert first_period_s(stand_in.project(building=building)) == pytest.approx(period)
-    assert math.isnan(first_period_s(stand_in.project()))
+        assert first_period_s(projects.project(building=building)) == pytest.approx(period)
+    assert math.isnan(first_period_s(projects.project()))
     asked = {"from_s": 1.0, "to_s": 5.0, "highpass_hz": 0.2, "lowpass_hz": 20.0, "order": 6}
     asked |= {"pad_s": 3.0}
     typed = MotionInput(**row(**asked, baseline="quadratic", new_dt_s=0.0025))
@@ -152,7 +152,7 @@ ON_GROUND = [{"id": "M1", "record": "records/m1-x.csv", "recorded_at": "ground"}
 
 
 def made(**changes):
-    return targets(stand_in.project(**{"spectrum": []} | changes))
+    return targets(projects.project(**{"spectrum": []} | changes))
 
 
 def own(*, with_vertical=True):
@@ -174,7 +174,7 @@ def test_targets_at_the_roof_and_on_the_ground_are_those_of_code_and_project():
     assert goals.roof.name == "AC156"
     assert np.array_equal(goals.roof.ordinates(inside), across.at(1 / inside))
     assert np.array_equal(goals.vertical.ordinates(inside), upward.at(1 / inside))
-    data = stand_in.project(target={"tail": "1/T"}, spectrum=[])
+    data = projects.project(target={"tail": "1/T"}, spectrum=[])
     wanted = across_of({"tail": Tail.RECIPROCAL})
     assert np.array_equal(ac156(data)[0].sa_g, wanted.sa_g)
     assert np.array_equal(targets(data).roof.at(np.array([0.2])), wanted.at(np.array([0.2])))
@@ -233,17 +233,17 @@ def grown(path, together, names):
 
 def test_records_of_too_many_bytes_are_refused_by_cell_and_of_fewer_once_one_is_at_fault(tmp_path):
     path, names = make(tmp_path), ("x", "z", "x2", "x3")
-    last = at("<Motions/M3/Horizontal record>: ")
+    last = cell_address("<Motions/M3/Horizontal record>: ")
     read = (f"{last}horizontal record: x3.csv: {NO_TEXT}",)
     assert grown(path, MAX_TOGETHER, names) == read
     assert grown(path, MAX_TOGETHER + 1, names) == (last + TOO_MUCH,)
     path, names = make(tmp_path), ("x", "z", "x2")
     (path.parent / "records" / "x.csv").write_text("0.1\nabc\n0.2\n")
-    wrong = at(
+    wrong = cell_address(
         "<Motions/M1/Horizontal record>: horizontal record: x.csv:2: found 'abc'; give a number"
     )
-    read = at(f"<Motions/M2/Horizontal record>: horizontal record: x2.csv: {NO_TEXT}")
-    second, third = (at(f"<Motions/M{k}/Horizontal record>: ") + NOT_READ for k in (2, 3))
+    read = cell_address(f"<Motions/M2/Horizontal record>: horizontal record: x2.csv: {NO_TEXT}")
+    second, third = (cell_address(f"<Motions/M{k}/Horizontal record>: ") + NOT_READ for k in (2, 3))
     assert grown(path, MAX_BESIDE_FAULTS, names) == (wrong, read, third)
     assert grown(path, MAX_BESIDE_FAULTS + 1, names) == (wrong, second)
 
@@ -308,7 +308,7 @@ CASES = {
 def test_a_motion_that_is_given_again_is_refused_with_both_cells(tmp_path, name):
     motions, records, line = CASES[name]
     (problem,) = problems(book(tmp_path, *motions, **records))
-    assert problem.startswith(at(line))
+    assert problem.startswith(cell_address(line))
 
 
 @pytest.mark.nightly

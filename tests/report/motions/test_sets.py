@@ -6,12 +6,20 @@ import re
 import numpy as np
 import pytest
 
-from nightly import by_day
-from places import RECORDS, SAMPLES
+from fixtures.marks import by_day
+from fixtures.paths import RECORDS, SAMPLES
+from fixtures.records import write_record
+from fixtures.workbooks import (
+    cell_address,
+    edit,
+    make,
+    problems,
+    read_workbook,
+    type_into,
+    with_addresses,
+)
 from report.motions.sets import LENGTHS_WITHIN, STARTS_WITHIN, sets_of, table
-from sheets import at, edit, make, problems, read_workbook, said, type_into
 from solver.model import InputError
-from waves import plain
 
 
 def peer(path, component, dt_s=0.01):
@@ -47,7 +55,7 @@ def taken(folder):
 )
 def test_sets_of_three_are_told_by_the_ends_of_names(tmp_path, names, motion):
     for name in names.split():
-        plain(tmp_path / "quake" / f"{name}.csv")
+        write_record(tmp_path / "quake" / f"{name}.csv")
     (found,), left = taken(tmp_path)[0].items(), taken(tmp_path)[1]
     assert left == {}
     assert found[0] == motion
@@ -107,7 +115,7 @@ def test_the_location_in_the_identity_of_a_channel_is_no_azimuth(tmp_path):
 )  # fmt: skip
 def test_what_is_not_clear_is_left_with_the_reason(tmp_path, names, why):
     for name in names.split():
-        plain(tmp_path / f"{name}.csv")
+        write_record(tmp_path / f"{name}.csv")
     sets, left = taken(tmp_path)
     assert sets == {}
     ((what, said),) = left.items()
@@ -118,7 +126,7 @@ def test_what_is_not_clear_is_left_with_the_reason(tmp_path, names, why):
 @pytest.mark.parametrize("names", ["one two three", "site1 site2 site3", "a-x b-y c-z"])
 def test_records_without_a_common_name_make_no_set(tmp_path, names):
     for name in names.split():
-        plain(tmp_path / f"{name}.csv")
+        write_record(tmp_path / f"{name}.csv")
     sets, left = taken(tmp_path)
     assert (sets, len(left)) == ({}, 3)
 
@@ -134,8 +142,8 @@ def test_records_without_a_common_name_make_no_set(tmp_path, names):
 def test_components_have_one_time_step_and_about_one_length(tmp_path, dt_s, count, why):
     assert LENGTHS_WITHIN == 0.05
     for axis in "xy":
-        plain(tmp_path / f"A-{axis}.csv")
-    plain(tmp_path / "A-z.csv", dt_s, count)
+        write_record(tmp_path / f"A-{axis}.csv")
+    write_record(tmp_path / "A-z.csv", dt_s, count)
     sets, left = taken(tmp_path)
     assert (list(sets), list(left.values())) == (([], [why]) if why else (["A"], []))
 
@@ -209,7 +217,7 @@ def test_files_named_by_their_channel_alone_are_a_set_and_the_corrected_one_is_t
 
 def test_two_horizontal_records_are_a_set_where_that_is_asked(tmp_path):
     for name in ("P-000", "P-090", "Q-000", "Q-090", "Q-UP", "R-000"):
-        plain(tmp_path / f"{name}.csv")
+        write_record(tmp_path / f"{name}.csv")
     sets, left = sets_of(tmp_path, without_vertical=True)
     assert {name: len(group) for name, group in sets.items()} == {"P": 2, "Q": 3}
     assert [what for what, _ in left] == ["R-000.csv (horizontal 0 deg)"]
@@ -217,7 +225,7 @@ def test_two_horizontal_records_are_a_set_where_that_is_asked(tmp_path):
 
 def test_the_table_says_what_each_file_was_taken_for(tmp_path):
     for name in ("K-NS", "K-EW", "K-UD", "M-H1"):
-        plain(tmp_path / f"{name}.csv")
+        write_record(tmp_path / f"{name}.csv")
     sets, left = sets_of(tmp_path)
     words = ["horizontal e", "horizontal n", "vertical, positive up"]
     assert [each.taken_for for each in sets["K"]] == words
@@ -239,9 +247,9 @@ def test_several_channels_of_a_file_are_named_as_in_the_sheet(tmp_path):
 def test_a_name_of_two_sets_or_too_long_for_an_id_is_left(tmp_path):
     for name in ("a/M", "b/M", f"{'n' * 41}/x", "c/K"):
         for axis in "xyz":
-            plain(tmp_path / f"{name}-{axis}.csv")
+            write_record(tmp_path / f"{name}-{axis}.csv")
     for axis in "xyz":
-        plain(tmp_path / "d" / f"{'q' * 41}-{axis}.csv")
+        write_record(tmp_path / "d" / f"{'q' * 41}-{axis}.csv")
     sets, left = taken(tmp_path)
     assert list(sets) == ["K", "x"]
     assert len(left) == 3
@@ -251,7 +259,7 @@ def test_a_name_of_two_sets_or_too_long_for_an_id_is_left(tmp_path):
 
 def test_hidden_files_and_numbers_that_are_no_azimuth_are_no_components(tmp_path):
     for name in (".git/A-x", "__MACOSX/A-x", ".A-x", "B.400", "C.x²", "D-361"):
-        plain(tmp_path / f"{name}.csv")
+        write_record(tmp_path / f"{name}.csv")
     (tmp_path / "B.²").write_bytes((tmp_path / "D-361.csv").read_bytes())
     sets, left = taken(tmp_path)
     assert (sets, sorted(left)) == ({}, ["B.400.csv", "B.²", "C.x².csv", "D-361.csv"])
@@ -347,7 +355,7 @@ def test_a_pasted_column_is_shown_in_its_units(paste, cell, code, line):
     if line is None:
         read_workbook(path)
     else:
-        line = at(f"{PASTED} Pasted!{cell} is {line} by its number format")
+        line = cell_address(f"{PASTED} Pasted!{cell} is {line} by its number format")
         assert problems(path)[0].startswith(line)
 
 
@@ -400,7 +408,7 @@ def test_a_pasted_column_is_shown_in_its_units(paste, cell, code, line):
     ], 2),
 )  # fmt: skip
 def test_a_pasted_column_is_refused_by_its_cell(paste, cells, lines):
-    assert problems(paste(cells)) == said(*(f"{PASTED} {line}" for line in lines))
+    assert problems(paste(cells)) == with_addresses(*(f"{PASTED} {line}" for line in lines))
 
 
 @pytest.mark.quick

@@ -8,7 +8,7 @@ from contextlib import suppress
 
 import pytest
 
-from nightly import by_day
+from fixtures.marks import by_day
 from report.motions.stored import store, unpack
 from solver.model import InputError
 

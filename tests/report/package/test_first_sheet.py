@@ -5,8 +5,8 @@ from xml.etree import ElementTree
 
 import pytest
 
-import altered
-from nightly import by_day
+from fixtures import altered_projects
+from fixtures.marks import by_day
 from report.assessment.evidence import support
 from report.assessment.verdict import Verdict
 from report.libraries import load_renderer
@@ -14,7 +14,7 @@ from report.package.html import first
 from report.pages.registry import package_data
 from report.typeset.pdf import _parsed
 
-COPIES = dict(altered.copies())
+COPIES = dict(altered_projects.copies())
 # With most that is NG, most conditions, none of either, and without motions.
 FIRST = ("two causes and a slope", "conditions", "plainly OK", "no motions")
 

@@ -8,18 +8,17 @@ from functools import partial
 
 import pytest
 
-import printed
-import scenes
-from places import GOLDEN
+from fixtures import assessments, pages
+from fixtures.paths import GOLDEN
 
 SETS = {
-    "": scenes.usual,
-    "unpermitted": scenes.unpermitted,
-    "departing": scenes.departing,
-    "school": partial(scenes.shipped, "school"),
-    "conditions": partial(scenes.shipped, "conditions"),
-    "campus": partial(scenes.shipped, "campus"),
-    "without-motions": scenes.without_motions,
+    "": assessments.usual,
+    "unpermitted": assessments.unpermitted,
+    "departing": assessments.departing,
+    "school": partial(assessments.shipped, "school"),
+    "conditions": partial(assessments.shipped, "conditions"),
+    "campus": partial(assessments.shipped, "campus"),
+    "without-motions": assessments.without_motions,
 }
 ALIKE = {"contents", "plan", "echo", "symbols"}
 """Parts that other projects print as the first one does."""
@@ -33,7 +32,7 @@ CHANGING = (
 )
 """What changes with versions, files and machines."""
 
-KEYS = (*printed.FRONT, *printed.IDS)
+KEYS = (*pages.FRONT, *pages.IDS)
 CHOSEN = {
     "": KEYS,
     "unpermitted": [key for key in KEYS if key not in ALIKE],
@@ -49,7 +48,7 @@ PAGES = [(name, key) for name, keys in CHOSEN.items() for key in keys]
 
 @pytest.mark.parametrize(("name", "key"), PAGES, ids=lambda word: word or "usual")
 def test_a_page_has_the_words_that_it_had(golden, name, key):
-    text = printed.printed(SETS[name](), key)
+    text = pages.page_of(SETS[name](), key)
     for pattern, placeholder in CHANGING:
         text = re.sub(pattern, placeholder, text)
     golden(f"{name}/{key}.txt" if name else f"{key}.txt", text)

@@ -16,12 +16,17 @@ import pikepdf
 import pytest
 from PIL import Image
 
-import altered
-import looked
-import packages
-import stand_in
-from commands import printed
-from places import ROOT
+from fixtures import altered_projects, packages, projects
+from fixtures.commands import stdout_of
+from fixtures.paths import ROOT
+from fixtures.pdf import (
+    broken_numbers,
+    contact_sheet,
+    headings_left_behind,
+    is_drawing,
+    read_sheets,
+    short_sheets,
+)
 from report.assessment.evidence import support
 from report.package.html import pages
 from report.typeset.finish import FIELD, Attached
@@ -52,7 +57,7 @@ def _made(name, factory):
     def run(folder):
         left_out = shutil.ignore_patterns("out")
         shutil.copytree(ROOT / "projects" / name, folder / name, ignore=left_out)
-        printed("study", folder / name)
+        stdout_of("study", folder / name)
 
     return packages.once(factory, "looked-study", run) / name / "out" / "study" / "study.pdf"
 
@@ -61,18 +66,18 @@ def _made(name, factory):
 def sheets(request, tmp_path_factory):
     path = _made(request.param, tmp_path_factory)
     folder = os.environ.get("CONTACT_SHEETS") or tmp_path_factory.mktemp("contact-sheets")
-    looked.contact_sheet(path, Path(folder) / f"{request.param}.png")
-    return looked.sheets(path)
+    contact_sheet(path, Path(folder) / f"{request.param}.png")
+    return read_sheets(path)
 
 
 @pytest.mark.nightly
 def test_the_sheets_have_no_fault_that_a_program_sees(sheets):
     assert len(sheets) > 10
-    assert looked.broken_numbers(sheets) == []
-    assert looked.headings_left_behind(sheets) == []
+    assert broken_numbers(sheets) == []
+    assert headings_left_behind(sheets) == []
     # Each section of a study begins a sheet.
     is_study = sheets[0].blocks[0].lines[0].startswith("Study")
-    assert is_study or looked.short_sheets(sheets, LEAST_FILLED) == []
+    assert is_study or short_sheets(sheets, LEAST_FILLED) == []
 
 
 @pytest.mark.nightly
@@ -84,7 +89,7 @@ def test_plan_and_notes_begin_a_sheet_and_captions_and_equations_stay_whole(shee
     assert any("Roof plan and schedule" in text for text in first)
     blocks = [block for sheet in sheets for block in sheet.blocks]
     (caption,) = {block.sheet for block in blocks if block.text.startswith("To the scale stated")}
-    assert any(looked.is_drawing(block) for block in blocks if block.sheet == caption)
+    assert any(is_drawing(block) for block in blocks if block.sheet == caption)
     for title in ("Design displacement", "Separations"):
         of = [b for b in blocks if b.kind in ("H1", "H2", "Figure")]
         at = next(k for k, b in enumerate(of) if b.kind == "H2" and b.text.endswith(title))
@@ -96,11 +101,11 @@ def test_plan_and_notes_begin_a_sheet_and_captions_and_equations_stay_whole(shee
 @pytest.mark.nightly
 @pytest.mark.parametrize("name", COPIES)
 def test_packages_that_are_ng_or_prescriptive_have_no_short_sheet(name, tmp_path):
-    done = altered.assessed(name)
+    done = altered_projects.assessed(name)
     made = tmp_path / "made.pdf"
     made.write_bytes(lay_out(pages(done, support(done))))
-    sheets = looked.sheets(made)
-    assert looked.short_sheets(sheets, LEAST_FILLED) == []
+    sheets = read_sheets(made)
+    assert short_sheets(sheets, LEAST_FILLED) == []
     assert len(sheets) <= COPIES[name]
 
 
@@ -130,19 +135,19 @@ h2 {{ break-after: auto }}
 def test_each_fault_is_seen_where_there_is_one(tmp_path):
     made = tmp_path / "faults.pdf"
     made.write_bytes(lay_out(FAULTS))
-    sheets = looked.sheets(made)
-    assert looked.headings_left_behind(sheets) == [(1, "Left behind")]
-    ((sheet, cell),) = looked.broken_numbers(sheets)
+    sheets = read_sheets(made)
+    assert headings_left_behind(sheets) == [(1, "Left behind")]
+    ((sheet, cell),) = broken_numbers(sheets)
     assert (sheet, cell.replace(" / ", "")) == (3, "2025-11-01")
-    assert [number for number, _ in looked.short_sheets(sheets, LEAST_FILLED)] == [3]
-    looked.contact_sheet(made, tmp_path / "faults.png")
+    assert [number for number, _ in short_sheets(sheets, LEAST_FILLED)] == [3]
+    contact_sheet(made, tmp_path / "faults.png")
     with Image.open(tmp_path / "faults.png") as drawn:
         assert drawn.width > drawn.height
 
 
 @pytest.fixture(scope="module")
 def pdf():
-    html = stand_in.html(stand_in.book(shaking=stand_in.motions(1, seconds=8.0)))
+    html = projects.html(projects.book(shaking=projects.motions(1, seconds=8.0)))
     with pikepdf.open(io.BytesIO(lay_out(html, FILES))) as opened:
         yield opened
 

@@ -10,11 +10,11 @@ import numpy as np
 import openpyxl
 import pytest
 
-import scenes
-import stand_in
-from cells import cell
-from nightly import by_day
-from printed import IDS, printed
+from fixtures import assessments, projects
+from fixtures.cells import cell
+from fixtures.marks import by_day
+from fixtures.pages import IDS, page_of
+from fixtures.workbooks import make
 from report.assessment.assess import reassess
 from report.assessment.checks.check import alike
 from report.assessment.spectra import spectra
@@ -30,21 +30,20 @@ from report.project.read.archive import open_book
 from report.results.results_json import results_json
 from report.results.xlsx import results_xlsx
 from report.web.answers import answer
-from sheets import make
 
 CASES = {
-    "example": lambda: scenes.shipped("example"),
-    "conditions": lambda: scenes.shipped("conditions"),
-    "unpermitted": scenes.unpermitted,
-    "departing": lambda: scenes.departing().assessment,
+    "example": lambda: assessments.shipped("example"),
+    "conditions": lambda: assessments.shipped("conditions"),
+    "unpermitted": assessments.unpermitted,
+    "departing": lambda: assessments.departing().assessment,
 }
 
 
 @pytest.fixture(scope="module", params=by_day(CASES, 2))
 def made(request):
     """A package, its results.json and its results.xlsx."""
-    package = scenes.package_data(CASES[request.param]())
-    found = scenes.evidence(package.assessment)
+    package = assessments.package_data(CASES[request.param]())
+    found = assessments.evidence(package.assessment)
     content = results_xlsx(package.assessment, found.spectra)
     book = openpyxl.load_workbook(io.BytesIO(content), data_only=True)
     return package, json.loads(results_json(package.assessment, found)), book
@@ -67,7 +66,7 @@ def plain(text):
 
 def test_verdicts_of_arrays_clearances_and_neighbors_are_one_word(made):
     package, document, book = made
-    table = printed(package, "summary").table("Arrays").rows
+    table = page_of(package, "summary").table("Arrays").rows
     arrays = document["arrays"]
     assert [row["Verdict"].split(" ")[0] for row in table] == [row["verdict"] for row in arrays]
     governs = [row["design_governs"] for row in arrays]
@@ -78,11 +77,11 @@ def test_verdicts_of_arrays_clearances_and_neighbors_are_one_word(made):
     assert [row["Verdict"] for row in cells] == [row["verdict"] for row in arrays]
     assert cell(book, "Summary/Verdict").value == document["verdict"]
     gaps = document["clearances"]
-    table = printed(package, "plan").table("Schedule of clearances").rows
+    table = page_of(package, "plan").table("Schedule of clearances").rows
     kinds = [f"{row['neighbor']}, {row['direction']}" for row in gaps]
     shown = [kind.removesuffix(", any") for kind in kinds]
     assert [row["Verdict"] for row in table] == [row["verdict"] for row in gaps]
-    measured = printed(package, "notes").table("Schedule of gaps").rows
+    measured = page_of(package, "notes").table("Schedule of gaps").rows
     assert [bare(row["Kind"]) for row in measured] == shown
     cells = rows_of(book["Clearances"], 4)
     assert [row["Verdict"] for row in cells] == [row["verdict"] for row in gaps]
@@ -105,7 +104,7 @@ def test_the_verdicts_of_requirements(made):
     # In the PDF those that ask the same are one; clearances and motions have tables of their own.
     checks = alike(check for check in package.assessment.checks if check.id not in APART)
     said = [(c.subject or "project", plain(c.title), c.verdict.value) for c in checks]
-    table = printed(package, "limits").table("All checks").rows
+    table = page_of(package, "limits").table("All checks").rows
     shown = [(r["Of"], plain(r["Check"]), r["Verdict"]) for r in table if r["Check"]]
     assert shown == said
 
@@ -118,7 +117,7 @@ PAGES = ("letter", "summary", "plan", "comparison", "method", "model", "accuracy
 @pytest.fixture(scope="module")
 def example():
     """The example with a slope of A3 whose displacement would be less, rounded to the nearest."""
-    given = scenes.shipped("example")
+    given = assessments.shipped("example")
     for slope_deg in np.arange(3.0, 2.5, -0.03).tolist():
         arrays = (
             array.model_copy(update={"slope_value": slope_deg}) if array.id == "A3" else array
@@ -127,7 +126,7 @@ def example():
         data = given.project.model_copy(update={"arrays": tuple(arrays)})
         other = reassess(given, data)
         if round(inches := other.governing.design_m / INCH, 1) < inches:
-            return scenes.package_data(other)
+            return assessments.package_data(other)
     raise AssertionError
 
 
@@ -139,10 +138,10 @@ def test_no_page_rounds_the_design_displacement_down(example):
     assert round(inches, 1) == float(down)  # rounded to the nearest it would be less
     assert set(PAGES) <= {"letter", *IDS}
     for page in PAGES:
-        words = printed(example, page)
+        words = page_of(example, page)
         assert not re.search(rf"(?<![\d.]){re.escape(down)}(?!\d)", words), page
     for page in ("letter", "summary", "comparison", "plan"):
-        assert up in printed(example, page)
+        assert up in page_of(example, page)
     said = "\n".join(summary(example.assessment))
     assert up in said
     assert f"{down} in" not in said
@@ -158,10 +157,10 @@ LENGTH = r"[\d.,]+ in \([\d.,]+ mm\)"
 
 @pytest.fixture(scope="module")
 def done():
-    outline = {"x_from_m": 0.0, "x_to_m": 220 * stand_in.FOOT,
-               "y_from_m": 0.0, "y_to_m": 171 * stand_in.FOOT}  # fmt: skip
+    outline = {"x_from_m": 0.0, "x_to_m": 220 * projects.FOOT,
+               "y_from_m": 0.0, "y_to_m": 171 * projects.FOOT}  # fmt: skip
     changes = {"overrides": [FACTOR, MINIMUM], "roof": outline}
-    return scenes.package(**changes).assessment
+    return assessments.package(**changes).assessment
 
 
 @pytest.mark.quick
@@ -169,20 +168,20 @@ def test_lowered_values_are_marked_where_they_govern_on_the_plan_and_in_results_
     assert {item.governs for item in done.arrays} == {"floor"}
     assert {item.overridden.design for item in done.arrays} == {"‡"}
     assert done.verdict is not Verdict.OK
-    row = printed(done, "comparison").table("Displacement by analysis").row("A1")
+    row = page_of(done, "comparison").table("Displacement by analysis").row("A1")
     assert all(row[f"{name} [in]"].endswith("‡") for name in ("Prescriptive", "Floor", "Design"))
     with style():
         figure = painted(plan_on_paper(done, LETTER).paper)
     said = " ".join(text.get_text() for text in figure.findobj(lambda a: hasattr(a, "get_text")))
     assert re.search(rf"Δ {LENGTH}‡", said)
-    arrays, schedule = printed(done, "plan").tables[:2]
+    arrays, schedule = page_of(done, "plan").tables[:2]
     for row in arrays.rows:
         assert all(re.fullmatch(r"[\d.]+‡", row[f"{name} [in]"]) for name in ("Δ", "Keep clear"))
     assert all(re.fullmatch(r"[\d.]+‡", row["Req’d [in]"]) for row in schedule.rows)
     said = " ".join(text.words for text in plan_drawing(done).texts)
     assert re.search(rf"A1 {LENGTH} \(overridden\) \d+ in \(overridden\)", said)
     assert "‡" not in said
-    found = json.loads(results_json(done, scenes.evidence(done)))
+    found = json.loads(results_json(done, assessments.evidence(done)))
     assert all(item["design_is_overridden"] for item in found["arrays"])
     assert all(item["required_is_overridden"] for item in found["clearances"])
     ids = [row["id"] for row in found["checks"] if row["verdict"] != "OK"]

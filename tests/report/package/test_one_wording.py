@@ -5,9 +5,9 @@ import io
 import openpyxl
 import pytest
 
-import altered
-from nightly import by_day
-from printed import printed
+from fixtures import altered_projects
+from fixtures.marks import by_day
+from fixtures.pages import page_of
 from report.assessment.checks.check import alike, sentence, texts
 from report.assessment.precheck import limits_before_runs
 from report.assessment.remedies import Remedies
@@ -52,7 +52,7 @@ def has(text, words):
 def made(request, monkeypatch):
     """An altered copy, and what is open in it; no friction is searched that would satisfy it."""
     monkeypatch.setattr(terminal, "remedies", lambda done, **_: Remedies())
-    done = altered.assessed(request.param)
+    done = altered_projects.assessed(request.param)
     return done, done.project.us_first
 
 
@@ -70,8 +70,8 @@ def test_terminal_and_page_say_the_sentence_of_each_check_that_is_open(made):
 
 def test_the_package_has_the_parts_of_each_check_that_is_open(made):
     done, us_first = made
-    first = printed(done, "summary", remedies=Remedies(), cases=()).splitlines()
-    every = printed(done, "limits", remedies=Remedies()).splitlines()
+    first = page_of(done, "summary", remedies=Remedies(), cases=()).splitlines()
+    every = page_of(done, "limits", remedies=Remedies()).splitlines()
     following = 0
     for check in done.open:
         # What only lacks a design displacement is counted on the first sheet.
@@ -113,7 +113,7 @@ KNOWN = {
 
 @pytest.mark.parametrize("name", by_day(COPIES, 3))
 def test_check_says_the_same_sentence_of_what_it_knows(name):
-    done = altered.assessed(name)
+    done = altered_projects.assessed(name)
     told = [finding.text for finding in limits_before_runs(done.project, done.shaking)]
     known = set()
     for check in done.checks:

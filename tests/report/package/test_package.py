@@ -11,11 +11,10 @@ import numpy as np
 import pytest
 from pypdf import PdfReader
 
-import scenes
-import stand_in
-from inputs import HEAD
-from nightly import by_day, nightly
-from printed import FRONT, IDS, printed, read
+from fixtures import assessments, projects
+from fixtures.marks import by_day, nightly
+from fixtures.pages import FRONT, IDS, page_of, read
+from fixtures.project_parts import HEAD
 from report.drawing.on_paper import printed_plan
 from report.figures.plan import paper_svg
 from report.package.html import pages as written
@@ -36,8 +35,8 @@ def flat(text):
 
 @pytest.fixture(scope="module")
 def html():
-    done = scenes.usual()
-    return written(done, scenes.evidence(done))
+    done = assessments.usual()
+    return written(done, assessments.evidence(done))
 
 
 @pytest.fixture(scope="module")
@@ -108,22 +107,22 @@ def test_no_type_is_smaller_than_eight_and_a_half_points(name):
 @pytest.fixture(scope="module")
 def crowded():
     """The texts of the pages of twelve arrays, long names and markup."""
-    project = stand_in.project().project.model_dump() | {
+    project = projects.project().project.model_dump() | {
         "name": "<script>alert('x')</script> & " + "Unbreakable" * 40,
         "client": "<img src='file:///etc/hostname'>",
         "prepared_by": "W" * 200,
     }
     arrays = [
-        stand_in.array(f"A{k}", 0.25 * k, x=90 * (k % 4), y=70 * (k // 4)) for k in range(1, 12)
+        projects.array(f"A{k}", 0.25 * k, x=90 * (k % 4), y=70 * (k // 4)) for k in range(1, 12)
     ]
     arrays.insert(
-        0, stand_in.array("<b>" + "A" * 37, 0.0, mu_report="R" * 500, construction="{{ 7 * 7 }}")
+        0, projects.array("<b>" + "A" * 37, 0.0, mu_report="R" * 500, construction="{{ 7 * 7 }}")
     )
-    edge = stand_in.roof_object("E" * 40, "edge without parapet", 0, 220, -1, 0)
-    clearances = [stand_in.clearance(f"A{k}", f"A{k + 1}", 3.0) for k in range(1, 11)]
-    clearances.append(stand_in.clearance("<b>" + "A" * 37, "E" * 40, 3.0))
-    data = stand_in.project(project=project, arrays=arrays, objects=[edge], clearances=clearances)
-    return pages(stand_in.package(stand_in.book(data, scenes.motions(3, seconds=4.0))))
+    edge = projects.roof_object("E" * 40, "edge without parapet", 0, 220, -1, 0)
+    clearances = [projects.clearance(f"A{k}", f"A{k + 1}", 3.0) for k in range(1, 11)]
+    clearances.append(projects.clearance("<b>" + "A" * 37, "E" * 40, 3.0))
+    data = projects.project(project=project, arrays=arrays, objects=[edge], clearances=clearances)
+    return pages(projects.package(projects.book(data, assessments.motions(3, seconds=4.0))))
 
 
 @pytest.mark.nightly
@@ -136,24 +135,24 @@ def test_markup_in_a_field_is_printed_not_obeyed_and_twelve_arrays_have_room(cro
 
 
 def test_few_and_thirty_motions_and_an_analysis_above_the_prescriptive_value_are_told():
-    arrays = [stand_in.array(f"A{k}", 4.0, x=100 * k) for k in (1, 2, 3)]
-    package = scenes.package(scenes.motions(2), arrays=arrays)
-    summary = printed(package, "summary")
+    arrays = [projects.array(f"A{k}", 4.0, x=100 * k) for k in (1, 2, 3)]
+    package = assessments.package(assessments.motions(2), arrays=arrays)
+    summary = page_of(package, "summary")
     for row in summary.table("Arrays").rows:
         assert row["Prescriptive [in]"] == "81.6§"
         assert {row[f"{name} [in]"] for name in ("Analysis", "Design")} == {"none"}
         assert (row["Governs"], row["D/C"]) == ("none", "none")
         assert row["Verdict"].startswith("NG")
     assert "cannot be made without a permitted design displacement" in summary
-    arrays = [stand_in.array("A1", 2.0)]
-    shaking = scenes.motions(30, seconds=3.0)
-    package = scenes.package(shaking, arrays=arrays, objects=[], clearances=[])
-    listed = printed(package, "results").tables[0].column("Motion")
+    arrays = [projects.array("A1", 2.0)]
+    shaking = assessments.motions(30, seconds=3.0)
+    package = assessments.package(shaking, arrays=arrays, objects=[], clearances=[])
+    listed = page_of(package, "results").tables[0].column("Motion")
     assert listed[:30] == [f"M{k}" for k in range(1, 31)]
-    arrays = [stand_in.array("A1", 3.0, mu=0.2)]
-    shaking = scenes.motions(3, seconds=30.0)
-    package = scenes.package(shaking, arrays=arrays, objects=[], clearances=[])
-    text = printed(package, "comparison").line("Array A1: ")
+    arrays = [projects.array("A1", 3.0, mu=0.2)]
+    shaking = assessments.motions(3, seconds=30.0)
+    package = assessments.package(shaking, arrays=arrays, objects=[], clearances=[])
+    text = page_of(package, "comparison").line("Array A1: ")
     match = re.search(r"by analysis is (\d\.\d\d) times the prescriptive displacement \(", text)
     (array,) = package.assessment.arrays
     ratio = array.analysis.value_m / array.prescriptive.value_m
@@ -164,27 +163,27 @@ def test_few_and_thirty_motions_and_an_analysis_above_the_prescriptive_value_are
 
 @pytest.mark.nightly
 def test_a_block_that_leaves_the_roof_gives_no_value_with_its_time():
-    up = np.repeat((0.0, -1.4 * stand_in.G, 0.0), 100)
-    lifted = stand_in.motion("LIFT", np.zeros(300), up, signs=(1,))
-    package = scenes.package((*scenes.motions(), lifted))
-    results = printed(package, "results")
+    up = np.repeat((0.0, -1.4 * projects.G, 0.0), 100)
+    lifted = projects.motion("LIFT", np.zeros(300), up, signs=(1,))
+    package = assessments.package((*assessments.motions(), lifted))
+    results = page_of(package, "results")
     assert "1 of 13 runs: the normal force falls below zero, from 0.997 s on (LIFT)" in results
     for table in results.tables:
         *values, force, status = table.row("LIFT").values()
         assert set(values[1:-1]) == {"", "none"}  # it has no transverse runs
         assert (values[-1], force, status) == ("—", "−0.40", "uplift")
-    row = printed(package, "summary").table("Governing").row("Runs that come to rest")
+    row = page_of(package, "summary").table("Governing").row("Runs that come to rest")
     assert (row["Of"], row["Verdict"]) == ("A1 to A3", "NG")
 
 
 @pytest.mark.parametrize("edition", by_day(["ASCE 7-16", "ASCE 7-22"], 1))
 def test_other_editions_say_their_own_name_and_clauses(edition):
-    site = stand_in.project().site.model_dump() | {"rule_set": edition, "s_ds_g": None}
+    site = projects.project().site.model_dump() | {"rule_set": edition, "s_ds_g": None}
     is_new = edition == "ASCE 7-22"
     if is_new:
         site |= {"f_a": None, "f_v": None, "s_ms_g": 2.36}
-    package = scenes.package(site=site)
-    said = "\n".join(printed(package, id) for id in (*FRONT, *IDS))
+    package = assessments.package(site=site)
+    said = "\n".join(page_of(package, id) for id in (*FRONT, *IDS))
     assert f"Code {edition}" in said
     assert f"{edition} 13.6.12" in said
     listed = said.split("References. ")[1]
@@ -199,11 +198,11 @@ def test_other_editions_say_their_own_name_and_clauses(edition):
 @pytest.mark.nightly
 def test_how_much_of_the_slip_a_high_pass_takes_is_printed():
     row = {"id": "G1", "record": "x", "recorded_at": "ground", "highpass_hz": 0.2}
-    data = stand_in.project(spectrum=[], motions=[row], building={"period_s": 0.5})
-    book = scenes.grounded(data, scenes.motions(1, peak_g=0.5))
+    data = projects.project(spectrum=[], motions=[row], building={"period_s": 0.5})
+    book = assessments.grounded(data, assessments.motions(1, peak_g=0.5))
     half = tuple(replace(motion, ax_mps2=0.5 * motion.ax_mps2) for motion in book.motions)
     book = book.having(motions=half * 3, prepared=book.prepared * 3)
-    table = printed(stand_in.assessed(book), "motions").table("Effect of the")
+    table = page_of(projects.assessed(book), "motions").table("Effect of the")
     *_, with_it, _, without, _, share = table.cells[0]
     assert float(without) > float(with_it)
     lost = 100 * (1.0 - float(with_it) / float(without))
@@ -212,7 +211,7 @@ def test_how_much_of_the_slip_a_high_pass_takes_is_printed():
 
 def drifting(given, end_m):
     """What became of a motion that ends at rest, its first component at a displacement."""
-    prepared = stand_in.prepared(given)
+    prepared = projects.prepared(given)
     level = {
         name: replace(measures, final_displacement_m=0.0, final_velocity_mps=0.0)
         for name, measures in prepared.measures.items()
@@ -237,10 +236,10 @@ def test_what_was_done_is_one_sentence_where_nothing_was_done_and_no_motion_drif
     done, end_m, drift
 ):
     """Above ten millimeters a motion drifts."""
-    book = stand_in.book(shaking=scenes.motions())
+    book = projects.book(shaking=assessments.motions())
     first, *others = (drifting(motion, 0.0) for motion in book.motions)
     first = replace(drifting(book.motions[0], end_m), done=done)
-    page = printed(stand_in.assessed(book.having(prepared=(first, *others))), "motions")
+    page = page_of(projects.assessed(book.having(prepared=(first, *others))), "motions")
     if drift is None:
         assert "The final velocity of every component is at most 0.00 in/s" in page
         assert "Processing, and final velocity" not in page
@@ -254,7 +253,7 @@ LETTERS, WIDE_PT = 64, 175.0
 
 
 def test_numbers_stand_below_an_equation_where_there_is_no_room_beside_it():
-    page = ElementTree.fromstring(part(scenes.package(), None, "method", defaultdict(tuple)))
+    page = ElementTree.fromstring(part(assessments.package(), None, "method", defaultdict(tuple)))
     places = [one for one in page.iter("div") if one.get("class") in ("numbers", "below-line")]
     widths = [
         float(re.match(r"width: ([\d.]+)pt", image.get("style"))[1])
@@ -280,7 +279,9 @@ LETTER, A4 = (8.5, 11.0), (210 / 25.4, 297 / 25.4)
     ],
 )
 def test_the_sheets_are_of_the_family_of_the_plan(paper, units, size_in):
-    package = scenes.package(options={"plan_paper": paper}, project=HEAD | {"units_first": units})
+    package = assessments.package(
+        options={"plan_paper": paper}, project=HEAD | {"units_first": units}
+    )
     made = lay_out(part(package, None, "provisions", {}))
     for sheet in PdfReader(io.BytesIO(made)).pages:
         assert [float(v) / 72 for v in sheet.mediabox[2:]] == pytest.approx(size_in, abs=0.01)
@@ -289,11 +290,11 @@ def test_the_sheets_are_of_the_family_of_the_plan(paper, units, size_in):
 @pytest.mark.parametrize("id_", by_day(["summary", "plan", "limits", "notes"], 1))
 def test_a_name_of_one_word_is_not_broken_in_a_table(id_):
     names = "ROOFTOPWEST2", "WAREHOUSEA12"
-    arrays = [stand_in.array(name, 1.0 + k, x=200 * k) for k, name in enumerate(names)]
-    given = stand_in.clearance(names[0], names[1], 3.0)
-    package = scenes.package(arrays=arrays, objects=[], clearances=[given])
+    arrays = [projects.array(name, 1.0 + k, x=200 * k) for k, name in enumerate(names)]
+    given = projects.clearance(names[0], names[1], 3.0)
+    package = assessments.package(arrays=arrays, objects=[], clearances=[given])
     drawings = draw_assessment(package)
-    evidence = scenes.evidence(package.assessment)
+    evidence = assessments.evidence(package.assessment)
     html = part(package, evidence, id_, drawings)
     # Of the parts that it refers to each is a place.
     places = "".join(f'<p id="{id}">.</p>' for id in set(re.findall(r'href="#([^"]+)"', html)))
@@ -306,11 +307,11 @@ def test_a_name_of_one_word_is_not_broken_in_a_table(id_):
 def test_places_in_plan_fill_the_sheet_before_the_plan_where_the_schedule_leaves_it_empty():
     def precede(name):
         at = {f"{name}{k}": {"x": 120 * (k // 2), "y": 100 * (k % 2)} for k in range(4)}
-        arrays = [stand_in.array(name, 1.0, **corner) for name, corner in at.items()]
+        arrays = [projects.array(name, 1.0, **corner) for name, corner in at.items()]
         a, b, c, d = at
         pairs = ((a, b), (a, c), (b, d), (c, d))
-        given = [stand_in.clearance(*pair, 40 * stand_in.FOOT) for pair in pairs]
-        page = printed(scenes.package(arrays=arrays, objects=[], clearances=given), "plan")
+        given = [projects.clearance(*pair, 40 * projects.FOOT) for pair in pairs]
+        page = page_of(assessments.package(arrays=arrays, objects=[], clearances=given), "plan")
         return page.index("place in plan") < page.index("To the scale stated")
 
     assert not precede("A")
@@ -319,7 +320,7 @@ def test_places_in_plan_fill_the_sheet_before_the_plan_where_the_schedule_leaves
 
 @pytest.fixture(scope="module")
 def long():
-    return scenes.twelve(is_long=True)
+    return assessments.twelve(is_long=True)
 
 
 @pytest.mark.nightly
@@ -332,9 +333,9 @@ def test_long_names_are_printed_as_they_are_on_the_plan_in_lines(long):
     lines = Counter(line for row in rows for line in name_lines(row.id))
     assert {line: shown[line] for line in lines} == lines
     assert not on.unnamed
-    texts = pages(lay_out(written(long.assessment, scenes.evidence(long.assessment))))
+    texts = pages(lay_out(written(long.assessment, assessments.evidence(long.assessment))))
     whole = flat(" ".join(texts))
     assert all(row.id in whole for row in (*rows, *long.data.motions))
-    short = scenes.twelve(is_long=False)
-    count = len(pages(lay_out(written(short.assessment, scenes.evidence(short.assessment)))))
+    short = assessments.twelve(is_long=False)
+    count = len(pages(lay_out(written(short.assessment, assessments.evidence(short.assessment)))))
     assert len(texts) <= 1.6 * count

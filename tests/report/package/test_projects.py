@@ -13,12 +13,11 @@ import pytest
 from openpyxl import load_workbook
 from pypdf import PdfReader
 
-import altered
-import packages
-import scenes
-from nightly import by_day
-from places import ROOT
-from printed import FRONT, IDS, printed
+from fixtures import altered_projects, assessments, packages
+from fixtures.marks import by_day
+from fixtures.pages import FRONT, IDS, page_of
+from fixtures.paths import ROOT
+from fixtures.workbooks import read_workbook
 from projects.rows import write_document
 from report.assessment.verdict import Verdict
 from report.making import make
@@ -29,7 +28,6 @@ from report.project.model import ProjectInput
 from report.project.model.choices import PackageEdition
 from report.project.read.read import read
 from report.project.write.template import write_template
-from sheets import read_workbook
 from solver.formats import read_record
 from solver.friction_tests import series
 from solver.records.spectrum import response_spectrum
@@ -65,12 +63,12 @@ def results_of_clearances(book):
 
 
 def page(name, key):
-    return printed(scenes.shipped(name), key)
+    return page_of(assessments.shipped(name), key)
 
 
 def test_the_required_separation_of_a_clearance_stands_in_four_places_at_most():
     """A3 to EAST of the example: beside the plan, in an equation, and to be measured."""
-    given = scenes.shipped("example")
+    given = assessments.shipped("example")
     (gap,) = (gap for gap in given.clearances if gap.clearance.object == "EAST")
     inches = re.escape(f"{math.ceil(round(gap.required_m / 0.0254 * 10, 6)) / 10:.1f}")
     keys = [part.id for part in PAGES if part.edition is PackageEdition.PLAN_CHECK]
@@ -134,7 +132,7 @@ def test_the_example_is_plainly_ok_and_its_first_sheet_says_what_other_inputs_co
 
 
 def test_the_friction_tests_of_the_example_are_complete_and_reach_a_tenth_of_its_velocities():
-    done = scenes.shipped("example")
+    done = assessments.shipped("example")
     report = done.project.friction_tests.report
     for item in done.arrays:
         for tests in series(row.run(report) for row in done.project.friction_runs):
@@ -144,7 +142,7 @@ def test_the_friction_tests_of_the_example_are_complete_and_reach_a_tenth_of_its
 
 
 def test_each_document_of_the_example_says_that_it_is_one_and_has_the_values_of_the_workbook():
-    given = scenes.shipped("example")
+    given = assessments.shipped("example")
     folder, site = PROJECTS / "example", given.project.site
     texts = {
         document.label: PdfReader(folder / document.path).pages[0].extract_text()
@@ -165,7 +163,7 @@ def test_each_document_of_the_example_says_that_it_is_one_and_has_the_values_of_
 
 
 def test_without_its_evidence_the_example_has_a_condition_for_each_part_of_it():
-    done = altered.assessed("little evidence")
+    done = altered_projects.assessed("little evidence")
     assert done.verdict is Verdict.CONDITIONS
     assert {(check.id, check.subject) for check in done.open} == {
         *((id, "") for id in ("rule_set", "hazard_source", "friction_tests")),

@@ -9,10 +9,10 @@ from dataclasses import replace
 import openpyxl
 import pytest
 
-import scenes
-import stand_in
-from nightly import by_day
-from printed import printed
+from fixtures import assessments, projects
+from fixtures.marks import by_day
+from fixtures.pages import page_of
+from fixtures.workbooks import make
 from report.assessment.checks.check import texts as check_texts
 from report.assessment.clearances import beside
 from report.assessment.spectra import spectra
@@ -23,7 +23,6 @@ from report.results.results_json import results_json
 from report.results.xlsx import results_xlsx
 from report.text.units import Quantity
 from report.web.answers import answer
-from sheets import make
 
 INCH, POUND = 0.0254, 4.4482216152605
 # By hand: what is required and a demand up, what is provided and a capacity down.
@@ -61,19 +60,19 @@ def opened(done, folder):
 def failing():
     """The stand-in with clearances, slack, strength and a capacity that are not enough."""
     arrays = [
-        stand_in.array("A1", 0.5, slack_m=0.9, interconnection_n=5e3, roof_capacity_pa=410.0),
-        stand_in.array("A2", 0.5, slack_m=40.0 * INCH, wind_weight_pa=430.0),
+        projects.array("A1", 0.5, slack_m=0.9, interconnection_n=5e3, roof_capacity_pa=410.0),
+        projects.array("A2", 0.5, slack_m=40.0 * INCH, wind_weight_pa=430.0),
     ]
-    gaps = [stand_in.clearance("A1", "RTU-1", 20.03 * INCH), stand_in.clearance("A1", "A2", 1.2)]
-    return scenes.package(arrays=arrays, clearances=gaps).assessment
+    gaps = [projects.clearance("A1", "RTU-1", 20.03 * INCH), projects.clearance("A1", "A2", 1.2)]
+    return assessments.package(arrays=arrays, clearances=gaps).assessment
 
 
 CASES = {
-    **{name: lambda name=name: scenes.shipped(name)
+    **{name: lambda name=name: assessments.shipped(name)
        for name in ("example", "school", "campus", "conditions")},
-    "without motions": scenes.without_motions,
-    "departing": lambda: scenes.departing().assessment,
-    "not permitted": scenes.unpermitted,
+    "without motions": assessments.without_motions,
+    "departing": lambda: assessments.departing().assessment,
+    "not permitted": assessments.unpermitted,
 }  # fmt: skip
 
 
@@ -112,13 +111,13 @@ def amounts(done):
 
 def texts(done):
     """What is printed, by output."""
-    package = scenes.package_data(done)
-    found = scenes.evidence(done)
+    package = assessments.package_data(done)
+    found = assessments.evidence(done)
     book = openpyxl.load_workbook(io.BytesIO(results_xlsx(done, found.spectra)), data_only=True)
     cells = [c.value for sheet in book for row in sheet.iter_rows() for c in row]
     return {
         **{
-            f"sheet {id}": re.sub(r"\s+", " ", printed(package, id))
+            f"sheet {id}": re.sub(r"\s+", " ", page_of(package, id))
             for id in SHEETS
             if done.has_motions or id not in OF_RUNS
         },

@@ -8,13 +8,12 @@ from itertools import pairwise
 
 import pytest
 
-import commands
-import packages
-import printed
-import scenes
-from inputs import FT, NO_SIDES, clearance
-from places import ROOT
-from recalculated import recalculated
+from fixtures import assessments, commands, packages, pages
+from fixtures.dxf import Sketch
+from fixtures.libreoffice import recalculated
+from fixtures.paths import ROOT
+from fixtures.project_parts import FT, NO_SIDES, clearance
+from fixtures.workbooks import type_into, without_motions
 from report.assessment.assess import assess, changed
 from report.assessment.checks.check import sentence
 from report.assessment.routes import Route
@@ -31,28 +30,26 @@ from report.project.read.read import read
 from report.project.write.template import write_template
 from report.results.results_json import former_from, results_json
 from report.results.xlsx import results_xlsx
-from sheets import type_into, without_motions
-from sketch import Sketch
 
 PRESCRIPTIVE_M = 60 * 0.0254 * (1.566 - 0.4) ** 2
 
 
 def with_arrays(**changes):
     """The example without motions, its first array changed."""
-    given = scenes.without_motions()
+    given = assessments.without_motions()
     first, *others = given.project.arrays
     arrays = (first.model_copy(update=changes), *others)
     return assess(given.sheet, given.shaking, project=changed(given.project, arrays=arrays))
 
 
 def test_all_take_the_prescriptive_displacement_and_what_is_not_permitted_is_ng():
-    for item in scenes.without_motions().arrays:
+    for item in assessments.without_motions().arrays:
         assert item.route is Route.PRESCRIPTIVE
         assert item.is_permitted
         assert item.design_m == pytest.approx(PRESCRIPTIVE_M, rel=1e-4)
         assert not item.runs
         assert math.isnan(item.analysis.value_m)
-    given = scenes.without_motions()
+    given = assessments.without_motions()
     verdicts = {gap.between: gap.verdict for gap in given.clearances}
     assert verdicts["A1", "A2"] is Verdict.OK  # 96 in, for 81.6
     assert verdicts["A1", "RTU-1"] is Verdict.NG  # 48 in
@@ -76,16 +73,16 @@ def test_pages_and_plan_are_those_that_need_no_run():
     array = with_arrays(mu=0.5, cg_height_m=1.0, support_spacing_m=0.8).arrays[0]
     assert array.tipping.ratio == pytest.approx(0.5 / (0.8 / 2.0))
     assert not array.tipping.is_ok
-    package = package_data(scenes.without_motions(), edition=PackageEdition.COMPLETE)
+    package = package_data(assessments.without_motions(), edition=PackageEdition.COMPLETE)
     ids = [page.id for page in PAGES]
     assert set(ids) >= OF_MOTIONS
     left = [id for id in ids if id not in OF_MOTIONS]
     # The plan begins a sheet, and follows the first one where nothing else would fill the second.
     assert left[1:3] == ["basis", "plan"]
     assert [page.id for page in pages_in(package)] == [left[0], "plan", "basis", *left[3:]]
-    usual = package_data(scenes.usual(), edition=PackageEdition.COMPLETE)
+    usual = package_data(assessments.usual(), edition=PackageEdition.COMPLETE)
     assert [page.id for page in pages_in(usual)] == ids
-    drawn = write_dxf(plan_drawing(scenes.without_motions())).decode()
+    drawn = write_dxf(plan_drawing(assessments.without_motions())).decode()
     layers = [after.strip() for at, after in pairwise(drawn.splitlines()) if at.strip() == "8"]
     assert Layer.DESIGN.title in layers
     assert Layer.RUNS.title not in layers
@@ -99,10 +96,10 @@ CLAIMED = re.compile(
 
 
 @pytest.mark.parametrize(
-    "id", [*printed.FRONT, *(id for id in printed.IDS if id not in OF_MOTIONS | {"symbols"})]
+    "id", [*pages.FRONT, *(id for id in pages.IDS if id not in OF_MOTIONS | {"symbols"})]
 )
 def test_no_page_states_anything_of_runs(id):
-    text = printed.printed(scenes.without_motions(), id)
+    text = pages.page_of(assessments.without_motions(), id)
     # What the workbook was given, and the numbers of the rule set, are no claims.
     if id not in ("echo", "provisions"):
         assert not CLAIMED.search(text)
@@ -116,7 +113,7 @@ def test_check_says_what_is_made_and_the_screen_what_an_analysis_could_save(tmp_
     assert any("Motions!" in note and "takes the prescriptive displacement" in note
                for note in notes)  # fmt: skip
     assert any("smaller events needs motions" in note for note in notes)
-    said = list(summary(scenes.without_motions()))
+    said = list(summary(assessments.without_motions()))
     assert said[0].split()[:3] == ["array", "prescriptive", "design"]
     (note,) = [line for line in said if line.startswith("note: no motions are given")]
     assert "81.6 in (2072 mm)" in note
@@ -125,8 +122,8 @@ def test_check_says_what_is_made_and_the_screen_what_an_analysis_could_save(tmp_
 
 
 def test_results_json_has_null_for_what_needs_runs_and_is_read_as_a_former_revision():
-    given = scenes.without_motions()
-    content = results_json(given, scenes.evidence(given))
+    given = assessments.without_motions()
+    content = results_json(given, assessments.evidence(given))
     document = json.loads(content)
     assert document["motions"] == []
     assert "motions" not in {row["id"] for row in document["checks"]}
@@ -142,7 +139,7 @@ def test_results_json_has_null_for_what_needs_runs_and_is_read_as_a_former_revis
 @pytest.mark.nightly
 def test_results_xlsx_follows_from_the_site_by_formula(tmp_path):
     path = tmp_path / "results.xlsx"
-    path.write_bytes(results_xlsx(scenes.without_motions(), ()))
+    path.write_bytes(results_xlsx(assessments.without_motions(), ()))
     (book,) = recalculated([path], tmp_path)
     assert book.sheetnames == [
         "Summary", "Design", "Clearances", "Neighbors", "Requirements", "Inputs",
@@ -161,7 +158,7 @@ def test_results_xlsx_follows_from_the_site_by_formula(tmp_path):
 def test_the_package_is_made_and_verified_from_the_workbook_alone(tmp_path):
     _, folder, made, _ = make(without_motions(tmp_path), None, None, lambda _: None)
     assert {path.name for path in folder.iterdir()} >= made.keys()
-    commands.printed("verify-package", folder / "calc-package.pdf")
+    commands.stdout_of("verify-package", folder / "calc-package.pdf")
 
 
 L_FT = ((30, 140), (180, 140), (180, 190), (140, 190), (140, 232), (30, 232))
@@ -211,8 +208,8 @@ def reported(tmp_path_factory):
     without_places(job / "input.xlsx")
     shutil.copytree(ROOT / "projects" / "example" / "records", job / "records")
     with packages.unlaid(), packages.undrawn():
-        commands.printed("plan", "read", drawing(job), job)
-        commands.printed("report", job)
+        commands.stdout_of("plan", "read", drawing(job), job)
+        commands.stdout_of("report", job)
     return job
 
 

@@ -2,14 +2,13 @@
 
 import re
 
-import altered
-import scenes
-from printed import printed
+from fixtures import altered_projects, assessments
+from fixtures.pages import page_of
 from report.pages.registry import package_data
 
 
 def equations(name):
-    return printed(package_data(altered.assessed(name)), "method")
+    return page_of(package_data(altered_projects.assessed(name)), "method")
 
 
 def test_the_governing_clearance_is_first_with_its_verdict():
@@ -42,6 +41,6 @@ def test_an_array_without_a_displacement_is_said_once_in_words():
 
 
 def test_without_motions_the_equations_have_their_verdicts():
-    text = printed(package_data(scenes.without_motions()), "method")
+    text = page_of(package_data(assessments.without_motions()), "method")
     assert "81.6 in (2072 mm) > 48.0 in, D/C 1.70, NG" in text
     assert "Electrical slack, A1: 81.6 in (2072 mm) > 60.0 in, D/C 1.36, NG" in text

@@ -9,40 +9,37 @@ import numpy as np
 import pytest
 from jinja2 import Environment, meta
 
-import inputs
-import packages
-import scenes
-import stand_in
-from nightly import by_day
-from printed import FRONT, printed, read
+from fixtures import assessments, packages, project_parts, projects
+from fixtures.marks import by_day
+from fixtures.pages import FRONT, page_of, read
 from report.assessment.project import NO_FORMER, Change, ChangeKind
 from report.package.html import pages
 from report.pages.registry import package_data, pages_of
 from report.project.read.read import EchoRow
 from report.typeset.pdf import TEMPLATES
 
-ARRAY, GAP, FOOT = stand_in.array, stand_in.clearance, stand_in.FOOT
-MOTIONS = scenes.motions(3, seconds=3.0)
-LEVEL = tuple(replace(motion, az_mps2=stand_in.NO_RECORD) for motion in MOTIONS)
-LIFTING = stand_in.motion("UP", np.zeros(300), np.repeat((0.0, -1.4 * stand_in.G, 0.0), 100))
+ARRAY, GAP, FOOT = projects.array, projects.clearance, projects.FOOT
+MOTIONS = assessments.motions(3, seconds=3.0)
+LEVEL = tuple(replace(motion, az_mps2=projects.NO_RECORD) for motion in MOTIONS)
+LIFTING = projects.motion("UP", np.zeros(300), np.repeat((0.0, -1.4 * projects.G, 0.0), 100))
 TWO = {
     "arrays": [ARRAY("A1", 0.5), ARRAY("A2", 0.5, x=220)],
-    "objects": [stand_in.roof_object("N", "edge with parapet", 0, 320, 270, 271, height=0.8)],
+    "objects": [projects.roof_object("N", "edge with parapet", 0, 320, 270, 271, height=0.8)],
     "clearances": [GAP("A1", "A2", 120 * FOOT), GAP("A2", "N", 195 * FOOT, "up")],
 }
 ONE = {"arrays": [ARRAY("A1", 0.5)], "objects": [], "clearances": []}
 NARROW = {"clearances": [GAP("A1", "A2", 0.5 * FOOT)]}
 OVERRIDE = {"provision": "analysis_factor", "value": 1.0, "reason": "Agreed on 2026-02-11"}
-LINKS = stand_in.links("A1", "0.40, 0.45, 0.50", 50)
+LINKS = projects.links("A1", "0.40, 0.45, 0.50", 50)
 
 
 def of(shaking=MOTIONS, **changes):
-    return lambda: scenes.package(shaking, **TWO | changes)
+    return lambda: assessments.package(shaking, **TWO | changes)
 
 
 def revised():
     former, now = of()().assessment, of(**NARROW)().assessment
-    return package_data(now, scenes.since(former, now))
+    return package_data(now, assessments.since(former, now))
 
 
 STATES = {
@@ -71,18 +68,21 @@ STATES = {
     ),
     "one motion": (of(MOTIONS[:1]), "number of motions (1, at least 3†)"),
     "no vertical": (of(LEVEL), "there is no vertical component to reverse"),
-    "no transverse": (of(scenes.along(MOTIONS)), "No motion has a second horizontal component"),
+    "no transverse": (
+        of(assessments.along(MOTIONS)),
+        "No motion has a second horizontal component",
+    ),
     "prescriptive": (
-        of(scenes.along(MOTIONS)),
+        of(assessments.along(MOTIONS)),
         "Arrays A1, A2: the prescriptive procedure is taken",
     ),
     "peer review": (
-        of(options=scenes.REVIEW),
+        of(options=assessments.REVIEW),
         "Analysis peer reviewed by Reviewer of record",
     ),
     "override": (of(overrides=[OVERRIDE]), "One number of the rule set is overridden"),
     "links": (of(links=[LINKS]), "Adequacy of the rigid-block model"),
-    "ground": (lambda: package_data(scenes.unpermitted()), "Motions given at the ground are"),
+    "ground": (lambda: package_data(assessments.unpermitted()), "Motions given at the ground are"),
     "revision": (revised, "Compared with revision 0 of"),
 }
 
@@ -96,7 +96,7 @@ def package(state):
 def test_every_page_is_whole(state):
     made = package(state)
     with packages.undrawn():
-        html = pages(made.assessment, scenes.evidence(made.assessment), made.changes)
+        html = pages(made.assessment, assessments.evidence(made.assessment), made.changes)
     words = packages.words(html)  # every link leads to a place
     _, *claims = STATES[state]
     assert [claim for claim in claims if claim not in words] == []
@@ -142,13 +142,13 @@ def row(cell, label, typed="", value="", unit="", unseen=""):
 
 def echo(*rows, changed=()):
     """The page of an echo, where cells at some addresses changed."""
-    done = scenes.package().assessment
+    done = assessments.package().assessment
     done = replace(done, sheet=replace(done.sheet, echo=rows))
     items = (
         Change(kind=ChangeKind.INPUT, title="", before="", now="", cell=cell) for cell in changed
     )
     since = replace(NO_FORMER, revision="0", items=tuple(items))
-    return printed(package_data(done, since), "echo")
+    return page_of(package_data(done, since), "echo")
 
 
 def table(*rows, **changed):
@@ -251,8 +251,8 @@ def values(page):
 @pytest.fixture(scope="module", params=[False, True], ids=["as usual", "confirmed"])
 def shown(request):
     """The pages with marks, and whether the provisions are confirmed."""
-    done = scenes.package(**scenes.CONFIRMED if request.param else {}).assessment
-    return {page: printed(done, page) for page in PAGES}, request.param
+    done = assessments.package(**assessments.CONFIRMED if request.param else {}).assessment
+    return {page: page_of(done, page) for page in PAGES}, request.param
 
 
 def test_confirmed_provisions_have_no_mark_and_are_said_by_whom(shown):
@@ -278,8 +278,8 @@ def test_confirmed_provisions_have_no_mark_and_are_said_by_whom(shown):
 
 
 def test_an_override_stays_marked():
-    done = scenes.package(**scenes.CONFIRMED, overrides=[FLOOR]).assessment
-    marked = {value for value in values(printed(done, "provisions")) if value[-1] in "†‡"}
+    done = assessments.package(**assessments.CONFIRMED, overrides=[FLOOR]).assessment
+    marked = {value for value in values(page_of(done, "provisions")) if value[-1] in "†‡"}
     assert marked == {"0.6†‡"}
 
 
@@ -291,21 +291,21 @@ def test_an_override_stays_marked():
     ],
 )
 def test_the_symbols_are_those_of_the_edition(edition, own, others):
-    table = printed(scenes.package(site=inputs.SITE | {"edition_name": edition}), "symbols").table(
-        "Symbols"
-    )
+    table = page_of(
+        assessments.package(site=project_parts.SITE | {"edition_name": edition}), "symbols"
+    ).table("Symbols")
     listed = {cell.replace(" ", "").replace("_", "") for row in table.cells for cell in row}
     assert own <= listed
     assert not others & listed
 
 
 def test_the_symbols_of_the_approximate_period_are_listed():
-    data = stand_in.project(
+    data = projects.project(
         motions=[{"id": "M1", "record": "x", "recorded_at": "ground"}],
         building={"structure": "other"},
         spectrum=[],
     )
-    done = stand_in.assessed(scenes.grounded(data, scenes.motions(1)))
-    assert "12.8.2.1, structure type “other”: Ct" in printed(done, "motions").replace(" t h", "t h")
-    listed = {cell for row in printed(done, "symbols").table("Symbols").cells for cell in row}
+    done = projects.assessed(assessments.grounded(data, assessments.motions(1)))
+    assert "12.8.2.1, structure type “other”: Ct" in page_of(done, "motions").replace(" t h", "t h")
+    listed = {cell for row in page_of(done, "symbols").table("Symbols").cells for cell in row}
     assert {"Ct", "x"} <= listed

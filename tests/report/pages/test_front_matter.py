@@ -10,11 +10,8 @@ from html import unescape
 import pytest
 from pypdf import PdfReader
 
-import inputs
-import packages
-import scenes
-import stand_in
-from printed import printed
+from fixtures import assessments, packages, project_parts, projects
+from fixtures.pages import page_of
 from report.assessment.verdict import Verdict
 from report.pages.symbols import SYMBOLS
 from report.typeset.pdf import lay_out
@@ -23,7 +20,7 @@ from solver.rules.limit import Consequence
 pytestmark = pytest.mark.quick
 
 
-MOTIONS = scenes.motions(3, seconds=4.0)
+MOTIONS = assessments.motions(3, seconds=4.0)
 
 
 def with_open(done, rows):
@@ -41,20 +38,20 @@ def plain(text):
 @pytest.fixture(scope="module")
 def html():
     tests = {"standard": "ASTM G115-10", "laboratory": "L", "report": "R"}
-    data = stand_in.project(friction_tests=tests)
+    data = projects.project(friction_tests=tests)
     with packages.undrawn():
-        return stand_in.html(stand_in.book(data, MOTIONS))
+        return projects.html(projects.book(data, MOTIONS))
 
 
 def test_the_records_say_that_large_files_are_left_out():
-    done = scenes.package().assessment
+    done = assessments.package().assessment
     large = tuple(replace(file, size=9_000_000) for file in done.shaking.records)
     given = replace(done, shaking=replace(done.shaking, records=large))
-    line = printed(given, "records").line("In this file")
+    line = page_of(given, "records").line("In this file")
     assert "; not the nine record files, 81.0 MB in all; results.json. Issued with it" in line
     assert "verify-package FILE --records FOLDER" in line
-    assert line.endswith(f"{scenes.package().fingerprint}.")
-    line = printed(done, "records").line("In this file")
+    assert line.endswith(f"{assessments.package().fingerprint}.")
+    line = page_of(done, "records").line("In this file")
     assert "; nine record files; results.json. Issued with it" in line
     assert "verify-package FILE computes" in line
 
@@ -63,10 +60,10 @@ def test_the_records_say_that_large_files_are_left_out():
 @pytest.mark.parametrize("n_arrays", [1, 12])
 def test_the_letter_is_one_page(n_arrays):
     """Only the letter and the parts around it are laid out."""
-    arrays = [stand_in.array(f"A{k}", 0.5, x=90 * k) for k in range(n_arrays)]
-    data = stand_in.project(arrays=arrays, objects=[], clearances=[])
+    arrays = [projects.array(f"A{k}", 0.5, x=90 * k) for k in range(n_arrays)]
+    data = projects.project(arrays=arrays, objects=[], clearances=[])
     with packages.undrawn():
-        html = stand_in.html(stand_in.book(data, MOTIONS[:1]))
+        html = projects.html(projects.book(data, MOTIONS[:1]))
     head, *_ = html.partition("<section")
     _, *parts = re.split(r'(?=<section class="[^"]*\bstarts\b)', html)
     (at,) = (k for k, part in enumerate(parts) if '<h1 id="letter">' in part)
@@ -92,23 +89,23 @@ def test_the_letter_is_one_page(n_arrays):
     ],
 )  # fmt: skip
 def test_the_letter_says_where_open_requirements_are_listed(n_conditions, n_severe, text):
-    done = scenes.package().assessment
+    done = assessments.package().assessment
     row = next(check for check in done.checks if check.id == "roof_outline")
     assert row.verdict is Verdict.CONDITION
     severe = replace(row, consequence=Consequence.NG)
     every = (row,) * n_conditions + (severe,) * n_severe
     rows = tuple(replace(one, title=str(k)) for k, one in enumerate(every))
-    assert printed(with_open(done, rows), "letter").line(text)
+    assert page_of(with_open(done, rows), "letter").line(text)
 
 
 def test_what_is_said_of_several_arrays_counts_once_wherever_conditions_are_counted():
-    done = scenes.package().assessment
+    done = assessments.package().assessment
     row = next(check for check in done.checks if check.id == "roof_outline")
     rows = tuple(replace(row, subject=item.id) for item in done.arrays)
     alike = with_open(done, rows)
     assert len([check for check in alike.checks if check.is_open]) > 1
-    assert "One requirement is open" in printed(alike, "letter")
-    assert "One condition of part 1 is to be met first." in printed(alike, "notes")
+    assert "One requirement is open" in page_of(alike, "letter")
+    assert "One condition of part 1 is to be met first." in page_of(alike, "notes")
 
 
 def test_every_document_is_listed_exactly_where_it_is_cited(html):
@@ -133,12 +130,12 @@ def test_every_document_is_listed_exactly_where_it_is_cited(html):
       "International Building Code.")],
 )  # fmt: skip
 def test_the_slope_limit_of_the_code_is_cited_by_the_code_that_is_named(code, clause, name):
-    made = scenes.package(site=stand_in.site(**code))
-    assert f"{clause}: {name}" in printed(made, "records")
-    assert f"; {clause}; AC156" in printed(made, "cover").facts["Codes"]
-    rows = printed(made, "limits").table("All checks").rows
+    made = assessments.package(site=projects.site(**code))
+    assert f"{clause}: {name}" in page_of(made, "records")
+    assert f"; {clause}; AC156" in page_of(made, "cover").facts["Codes"]
+    rows = page_of(made, "limits").table("All checks").rows
     assert f"{clause}†" in [row["Section of the code"] for row in rows]
-    assert "due to Seismic Motion, manuscript that names no authors" in printed(made, "records")
+    assert "due to Seismic Motion, manuscript that names no authors" in page_of(made, "records")
 
 
 @pytest.mark.quick
@@ -147,27 +144,27 @@ def test_the_head_has_firm_license_place_and_drawing_where_they_are_given():
              "license": "CA S0000", "plan_number": "S-101",
              "plan_date": dt.date(2026, 2, 27)}  # fmt: skip
     place = {"latitude_deg": 34.0362, "longitude_deg": -118.2334}
-    made = scenes.package(project=inputs.HEAD | given, site=stand_in.site(**place))
-    head = printed(made, "cover")
+    made = assessments.package(project=project_parts.HEAD | given, site=projects.site(**place))
+    head = page_of(made, "cover")
     assert head.facts["Lat., long."] == "34.0362°, −118.2334°"
     assert head.facts["Drawing"] == "S-101, 2026-02-27"
     assert head.facts["Firm"] == "Example Engineers, 500 Main St; 213 555 0100"
     assert "License no. CA S0000" in head
-    assert "CA S0000 License no., state" in " ".join(printed(made, "letter").split())
-    bare = printed(scenes.package(), "cover").facts
+    assert "CA S0000 License no., state" in " ".join(page_of(made, "letter").split())
+    bare = page_of(assessments.package(), "cover").facts
     assert not {"Lat., long.", "Drawing", "Firm"} & bare.keys()
-    assert "structural observation" in printed(made, "notes")
+    assert "structural observation" in page_of(made, "notes")
 
 
 def test_contact_pressures_stand_beside_each_other_and_are_not_compared():
-    arrays = [stand_in.array("A1", 0.5, contact_pressure_pa=4788.0), ARRAYS[1]]
-    tests = scenes.TESTS | {"contact_pressure_pa": 7182.0}
-    said = printed(package(arrays=arrays, friction_tests=tests), "inputs").line("Contact pressure")
+    arrays = [projects.array("A1", 0.5, contact_pressure_pa=4788.0), ARRAYS[1]]
+    tests = assessments.TESTS | {"contact_pressure_pa": 7182.0}
+    said = page_of(package(arrays=arrays, friction_tests=tests), "inputs").line("Contact pressure")
     assert said == (
         "Contact pressure, not compared by a rule: of the tests 150.0 psf (7.18 kPa); of the"
         " supports array A1 100.0 psf (4.79 kPa), array A2 not entered."
     )
-    assert "Contact pressure" not in printed(package(), "inputs")
+    assert "Contact pressure" not in page_of(package(), "inputs")
 
 
 def test_every_symbol_is_in_the_list_and_none_printed_as_typed(html):
@@ -201,24 +198,24 @@ def symbols(latex):
     return set(names) - {"e"}  # of the exponential
 
 
-FOOT = stand_in.FOOT
-ARRAYS = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=220)]
-GAPS = [stand_in.clearance("A1", "A2", 120 * FOOT)]
+FOOT = projects.FOOT
+ARRAYS = [projects.array("A1", 0.5), projects.array("A2", 0.5, x=220)]
+GAPS = [projects.clearance("A1", "A2", 120 * FOOT)]
 
 
 def package(**changes):
-    return scenes.package(**{"arrays": ARRAYS, "objects": [], "clearances": GAPS} | changes)
+    return assessments.package(**{"arrays": ARRAYS, "objects": [], "clearances": GAPS} | changes)
 
 
 def notes(**changes):
-    return printed(package(**changes), "notes")
+    return page_of(package(**changes), "notes")
 
 
 def test_the_schedule_of_gaps_is_rounded_up():
-    near = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42)
-    rows = [*GAPS, stand_in.clearance("A1", "RTU-9", FOOT)]
-    made = package(objects=[near], clearances=rows, options=inputs.REVIEW)
-    table = printed(made, "notes").table("Schedule of gaps")
+    near = projects.roof_object("RTU-9", "fixed object", 101, 106, 35, 42)
+    rows = [*GAPS, projects.clearance("A1", "RTU-9", FOOT)]
+    made = package(objects=[near], clearances=rows, options=project_parts.REVIEW)
+    table = page_of(made, "notes").table("Schedule of gaps")
     least = [math.ceil(gap.required_m * 1e3) for gap in made.assessment.clearances]
     assert [(row["To"], row["At least [mm]"], row["Measured, date, by"]) for row in table.rows] == [
         ("A2", str(least[0]), ""), ("RTU-9", str(least[1]), ""),
@@ -228,7 +225,7 @@ def test_the_schedule_of_gaps_is_rounded_up():
 
 @pytest.mark.parametrize("height_m", [1.2, 0.3])
 def test_only_a_parapet_that_qualifies_is_relied_on(height_m):
-    edge = stand_in.roof_object("N", "edge with parapet", 0, 400, 200, 202, height=height_m)
-    page = notes(objects=[edge], clearances=[stand_in.clearance("A1", "N", 60.0)])
+    edge = projects.roof_object("N", "edge with parapet", 0, 400, 200, 202, height=height_m)
+    page = notes(objects=[edge], clearances=[projects.clearance("A1", "N", 60.0)])
     assert ("Parapets that the clearances rely on" in page) is (height_m == 1.2)
     assert ("Height of the parapets above the roof is measured: N." in page) is (height_m == 1.2)

@@ -4,17 +4,16 @@ import re
 
 import pytest
 
-import scenes
-import stand_in
-from inputs import LB
-from printed import printed
+from fixtures import assessments, projects
+from fixtures.assessments import TESTS as REPORT
+from fixtures.pages import page_of
+from fixtures.project_parts import LB
 from report.assessment.checks.friction import of_tests
 from report.assessment.tested import tested as series_of
 from report.assessment.verdict import Verdict
 from report.drawing.items import drawn_slope_deg
 from report.figures.charts import friction_by_velocity
 from report.figures.plan import array_section
-from scenes import TESTS as REPORT
 from solver.friction_tests import fit_law
 
 AT = "at 1.00 in/s (25.4 mm/s)"
@@ -37,11 +36,11 @@ def runs(dry=(0.60, 0.61, 0.62), wet=(0.46, 0.45, 0.47)):
 
 
 def page(**changes):
-    return printed(scenes.package(**changes), "inputs")
+    return page_of(assessments.package(**changes), "inputs")
 
 
 def row(title, **changes):
-    return next(r for r in of_tests(stand_in.project(**changes)) if r.title == title)
+    return next(r for r in of_tests(projects.project(**changes)) if r.title == title)
 
 
 APART = [run("dry", k, 0.6, velocity_mps=v) for k, v in enumerate(VELOCITIES[1:], 1)]
@@ -85,17 +84,17 @@ def test_a_row_is_satisfied_by_what_its_report_and_its_runs_have(
 
 @pytest.mark.quick
 def test_the_row_has_the_units_of_the_project():
-    si = stand_in.project().project.model_dump() | {"units_first": "SI"}
+    si = projects.project().project.model_dump() | {"units_first": "SI"}
     found = row(REPEATS, friction_runs=runs(), project=si).found
     assert found == "dry and wet 3 runs at 25.4 mm/s (1.00 in/s)"
 
 
 def test_a_law_is_fitted_to_four_velocities_and_none_to_one_coefficient():
     law = {"mu": 0.38, "mu_fast": 0.46, "mu_rate_s_per_m": 20.0}
-    arrays = [stand_in.array("A1", 0.5, **law)]
-    friction = stand_in.project(arrays=arrays).arrays[0].friction
+    arrays = [projects.array("A1", 0.5, **law)]
+    friction = projects.project(arrays=arrays).arrays[0].friction
     wet = [run("wet", k, friction.at(v), velocity_mps=v) for k, v in enumerate(VELOCITIES, 1)]
-    shown = printed(scenes.package(arrays=arrays, friction_runs=wet, clearances=[]), "inputs")
+    shown = page_of(assessments.package(arrays=arrays, friction_runs=wet, clearances=[]), "inputs")
     assert "no dry runs are given" in shown
     assert shown.line("Wet, 4 velocities").startswith(
         "Wet, 4 velocities: fit μ = 0.380 at low and 0.460 at high velocity, rate 20.0 s/m;"
@@ -103,7 +102,7 @@ def test_a_law_is_fitted_to_four_velocities_and_none_to_one_coefficient():
     )
     assert shown.line("Array A1: mean of μ(v) at the tested velocities")
     assert "Light: laws fitted" in shown
-    data = stand_in.project(arrays=arrays, friction_runs=wet)
+    data = projects.project(arrays=arrays, friction_runs=wet)
     (found,) = series_of(data)
     fit = fit_law([run.velocity_mps for run in found.runs], [run.mu for run in found.runs])
     svg = friction_by_velocity(found.runs, data.arrays, {found.surface: fit}, True)
@@ -122,7 +121,7 @@ def words(svg):
 
 @pytest.mark.parametrize("slope", [0.0, 2.0, 10.0, 40.0])
 def test_the_section_states_its_dimensions(slope):
-    array = stand_in.project(arrays=[stand_in.array("A1", slope)]).arrays[0]
+    array = projects.project(arrays=[projects.array("A1", slope)]).arrays[0]
     svg = array_section(array, True)
     texts = words(svg)
     for text in (
@@ -135,10 +134,10 @@ def test_the_section_states_its_dimensions(slope):
 
 @pytest.mark.quick
 def test_the_weight_is_over_the_plan_area_with_its_parts():
-    array = stand_in.project().arrays[0]  # 42,000 lb on 80 ft x 60 ft
+    array = projects.project().arrays[0]  # 42,000 lb on 80 ft x 60 ft
     assert array.weight_pa == pytest.approx(8.75 * 47.880259)
     parts = {"modules": 320, "module_weight_n": 75 * LB, "ballast_n": 18000 * LB}
-    first, second, *others = stand_in.project().model_dump()["arrays"]
+    first, second, *others = projects.project().model_dump()["arrays"]
     arrays = [first | parts, second | parts | {"weight_n": 42100 * LB}, *others]
     text = page(arrays=arrays).line("Weight of modules with their racking")
     one = "320 × 75 lb (0.33 kN) + 18000 lb (80.07 kN)"
@@ -159,18 +158,20 @@ def test_a_friction_report_is_on_file_only_where_it_is_attached(file, is_on_file
 BLANK = dict.fromkeys(
     ("s_s_g", "s_1_g", "f_a", "f_v", "s_ms_g", "s_m1_g", "s_ds_g", "s_d1_g", "site_class")
 )
-FT = stand_in.FOOT
+FT = projects.FOOT
 
 
 def package(sections=None, **site):
     """A package of one array, its site given by `site` alone."""
-    usual = {"arrays": [stand_in.array("A1", 1.0)], "objects": [], "clearances": []}
-    shaking = scenes.motions(3, seconds=3.0)
-    return scenes.package(shaking, site=stand_in.site(**BLANK | site), **usual | (sections or {}))
+    usual = {"arrays": [projects.array("A1", 1.0)], "objects": [], "clearances": []}
+    shaking = assessments.motions(3, seconds=3.0)
+    return assessments.package(
+        shaking, site=projects.site(**BLANK | site), **usual | (sections or {})
+    )
 
 
 def table(made):
-    return printed(made, "inputs").table("8.1 Site and seismic parameters")
+    return page_of(made, "inputs").table("8.1 Site and seismic parameters")
 
 
 def rows(made):
@@ -271,7 +272,7 @@ def test_the_force_and_its_factors_are_those_of_a_permit_sheet():
     made = package(s_ds_g=1.0504, force_factor=1.0, force_divisor=1.5, **height)
     assert forces(made) == [("0.840", "computed, from 0.315 to 1.681")]
     assert values(made)["Ta"] == "0.288 s"
-    arrays = [stand_in.array("A1", 1.0, i_p=1.5), stand_in.array("A2", 1.0, x=120)]
+    arrays = [projects.array("A1", 1.0, i_p=1.5), projects.array("A2", 1.0, x=120)]
     made = package({"arrays": arrays}, s_ds_g=1.0, force_factor=1.0, force_divisor=1.5)
     assert values(made)["Ip"] == "1.00 to 1.50"
     assert "to 2.400" in forces(made)[0][1]  # 1.6 x S_DS x the larger I_p

@@ -6,21 +6,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import inputs
-import scenes
-import stand_in
-from printed import printed
+from fixtures import assessments, project_parts, projects
+from fixtures.pages import page_of
 from report.assessment.neighbors import Cover
 from report.assessment.verdict import Verdict
 from solver.sliding.least_model import Model
 
 
 def scene(shaking=None, **changes):
-    return scenes.package(shaking, objects=[], clearances=[], **changes)
+    return assessments.package(shaking, objects=[], clearances=[], **changes)
 
 
 def table(package, title):
-    return printed(package, "model").table(title)
+    return page_of(package, "model").table(title)
 
 
 USED, NEGLECTED, CHECKS = "Model used, by array", "Neglected effects", "Checks independent"
@@ -32,8 +30,8 @@ def alone(motions):
 
 @pytest.mark.nightly
 def test_a_neglected_vertical_component_has_its_exact_effect():
-    gentle = tuple(replace(m, az_mps2=m.az_mps2 * 1e-3) for m in alone(scenes.motions(3, 8.0)))
-    package = scene(gentle, arrays=[stand_in.array("A1", 1.0, mu=0.5)])
+    gentle = tuple(replace(m, az_mps2=m.az_mps2 * 1e-3) for m in alone(assessments.motions(3, 8.0)))
+    package = scene(gentle, arrays=[projects.array("A1", 1.0, mu=0.5)])
     item = package.assessment.arrays[0]
     solutions = [run.solution for m in item.motions for run in m.runs]
     assert {solution.model for solution in solutions} == {Model.ONE_AXIS}
@@ -46,27 +44,27 @@ def test_a_neglected_vertical_component_has_its_exact_effect():
 
 
 def test_a_model_that_is_run_or_not_requested_is_said_so():
-    gentle, full = alone(scenes.motions(2, 8.0))
+    gentle, full = alone(assessments.motions(2, 8.0))
     gentle = replace(gentle, az_mps2=gentle.az_mps2 * 1e-3)
-    package = scene((gentle, full, full), arrays=[stand_in.array("A1", 1.0, mu=0.5)])
+    package = scene((gentle, full, full), arrays=[projects.array("A1", 1.0, mu=0.5)])
     models = {run.solution.model for m in package.assessment.arrays[0].motions for run in m.runs}
     assert models == {Model.ONE_AXIS, Model.ONE_AXIS_VERTICAL}
     assert float(table(package, NEGLECTED).cells[0][2]) < 0.1
-    one = tuple(replace(motion, signs=(1,)) for motion in scenes.motions())
+    one = tuple(replace(motion, signs=(1,)) for motion in assessments.motions())
     package = scene(one)
-    said = printed(package, "model")
+    said = page_of(package, "model")
     assert "in the polarities that the workbook requests: two runs for each motion" in said
-    assert "in either polarity: four runs for each motion" in printed(scene(), "model")
+    assert "in either polarity: four runs for each motion" in page_of(scene(), "model")
 
 
 @pytest.mark.quick
 def test_where_nothing_slips_nothing_is_neglected_and_the_largest_demand_said():
-    still = tuple(replace(motion, scale=1e-3) for motion in scenes.motions(3, 4.0))
-    package = scene(still, arrays=[stand_in.array("A1", 1.0)])
+    still = tuple(replace(motion, scale=1e-3) for motion in assessments.motions(3, 4.0))
+    package = scene(still, arrays=[projects.array("A1", 1.0)])
     assert table(package, USED).row("A1")["Model"] == "0, no slip"
     assert table(package, NEGLECTED).row("A1")["Neglected"] == "None: no slip"
-    still = [replace(m, scale=0.02 * k) for k, m in enumerate(scenes.motions(3, 4.0), start=1)]
-    row = table(scene(tuple(still[::-1]), arrays=[stand_in.array("A1", 1.0)]), USED).row("A1")
+    still = [replace(m, scale=0.02 * k) for k, m in enumerate(assessments.motions(3, 4.0), start=1)]
+    row = table(scene(tuple(still[::-1]), arrays=[projects.array("A1", 1.0)]), USED).row("A1")
     assert row["Model"] == "0, no slip"
     assert f"the required friction coefficient, {row['Demand']}," in row["Reason"]
 
@@ -74,8 +72,8 @@ def test_where_nothing_slips_nothing_is_neglected_and_the_largest_demand_said():
 @pytest.mark.quick
 def test_a_stable_array_has_its_tipping_ratios():
     """Of the whole motion, also where the model of the array neglects its vertical component."""
-    arrays = [stand_in.array("A1", 1.0, mu=0.5), stand_in.array("A2", 1.0, mu=0.5)]
-    gentle = tuple(replace(m, az_mps2=m.az_mps2 * 1e-3) for m in alone(scenes.motions(3, 8.0)))
+    arrays = [projects.array("A1", 1.0, mu=0.5), projects.array("A2", 1.0, mu=0.5)]
+    gentle = tuple(replace(m, az_mps2=m.az_mps2 * 1e-3) for m in alone(assessments.motions(3, 8.0)))
     package = scene(gentle, arrays=arrays)
     (row,) = table(package, CHECKS).cells
     assert row[0] == "A1, A2"  # all of their numbers are equal
@@ -106,8 +104,8 @@ def test_a_stable_array_has_its_tipping_ratios():
 def test_uplift_is_said_to_be_checked_only_under_motions_with_a_vertical(
     n_vertical, uplift_s, text
 ):
-    found = (*scenes.motions()[:n_vertical], *scenes.level()[n_vertical:])
-    page = printed(scene(found, arrays=[stand_in.array("A1", 0.5)]), "model")
+    found = (*assessments.motions()[:n_vertical], *assessments.level()[n_vertical:])
+    page = page_of(scene(found, arrays=[projects.array("A1", 0.5)]), "model")
     assert page.table(CHECKS).row("A1")["Uplift time [s]"] == uplift_s
     assert ("uplift is not checked" in page) is bool(text)
     assert text in page
@@ -115,34 +113,34 @@ def test_uplift_is_said_to_be_checked_only_under_motions_with_a_vertical(
 
 @pytest.mark.quick
 def test_an_array_that_begins_to_tip_is_not_ok_and_is_named():
-    tall = stand_in.array("A1", 0.5, cg_height_m=0.9, support_spacing_m=0.5)
-    package = scene(scenes.motions(3, 6.0), arrays=[tall])
+    tall = projects.array("A1", 0.5, cg_height_m=0.9, support_spacing_m=0.5)
+    package = scene(assessments.motions(3, 6.0), arrays=[tall])
     done = package.assessment
     assert done.arrays[0].tipping.ratio > 1.0
     assert not done.verdict.is_permitted
     assert not done.array_verdict(done.arrays[0]).is_permitted
-    row = printed(package, "summary").table("Governing").row("V/N over the tipping limit b/(2c)")
+    row = page_of(package, "summary").table("Governing").row("V/N over the tipping limit b/(2c)")
     assert (row["Of"], row["Verdict"]) == ("A1", "NG")
     assert float(row["Found"]) > 1.0
     assert table(package, CHECKS).row("A1")["Verdict"] == "NG"
 
 
 def linked(requested, shaking=None, **changes):
-    arrays = [stand_in.array("A1", 2.0, mu=0.45), stand_in.array("A2", 2.0, mu=0.40, x=120)]
-    usual = {"arrays": arrays, "options": inputs.REVIEW, "objects": [], "clearances": []}
-    return scenes.package(shaking, **usual | changes, links=requested)
+    arrays = [projects.array("A1", 2.0, mu=0.45), projects.array("A2", 2.0, mu=0.40, x=120)]
+    usual = {"arrays": arrays, "options": project_parts.REVIEW, "objects": [], "clearances": []}
+    return assessments.package(shaking, **usual | changes, links=requested)
 
 
 @pytest.fixture(scope="module")
 def both():
     return linked(
-        [stand_in.links(name, "0.40, 0.45, 0.50", 50, damping_ratio=0.05) for name in ("A1", "A2")]
+        [projects.links(name, "0.40, 0.45, 0.50", 50, damping_ratio=0.05) for name in ("A1", "A2")]
     )
 
 
 def held(package):
     """The page, and the rows of its two tables on linked blocks."""
-    page = printed(package, "model")
+    page = page_of(package, "model")
     tables = map(page.table, ("Rows of linked blocks", "Adequacy of one rigid block"))
     return page, *(table.cells for table in tables)
 
@@ -152,57 +150,57 @@ def test_a_row_is_ng_by_one_block_and_stiffer_links_may_help(both):
     done = both.assessment
     assert [done.array_verdict(item).is_permitted for item in done.arrays] == [False, True]
     assert [design[-1] for design in held(both)[2]] == ["NG", "OK"]
-    row = printed(both, "summary").table("Governing").rows[0]
+    row = page_of(both, "summary").table("Governing").rows[0]
     assert (row["Of"], row["Verdict"]) == ("A1", "NG")
-    assert "(part 5 compares A1, A2 with a row" in printed(both, "basis")
+    assert "(part 5 compares A1, A2 with a row" in page_of(both, "basis")
     # Its row slides farther here than it does: it is given the result of the other one.
     far, near = both.assessment.linked
     near = replace(near, rigid=far.rigid, linked=far.linked)
     assert near.design.array.mu == min(near.row.mus)
     done = replace(both.assessment, linked=(near,))
-    text = printed(done, "model").line("Design displacement as a row of linked blocks, A2: ")
+    text = page_of(done, "model").line("Design displacement as a row of linked blocks, A2: ")
     assert text.endswith("To close: provide stiffer links between the parts of the array.")
 
 
 @pytest.mark.quick
 def test_a_row_without_a_displacement_or_a_limit_says_so():
     up = np.zeros(400)
-    up[200:300] = -1.3 * stand_in.G
-    lifted = stand_in.motion("UP", np.zeros(400), up, signs=(1,))
-    shaking = (*scenes.motions(3, 4.0), lifted)
-    page, rows, designs = held(linked([stand_in.links("A1", "0.40, 0.50", 50)], shaking))
+    up[200:300] = -1.3 * projects.G
+    lifted = projects.motion("UP", np.zeros(400), up, signs=(1,))
+    shaking = (*assessments.motions(3, 4.0), lifted)
+    page, rows, designs = held(linked([projects.links("A1", "0.40, 0.50", 50)], shaking))
     assert rows[0][6:] == ("none",) * 7
     assert designs[0][5:] == (*("none",) * 5, "NG")
     assert page.line(
         "Design displacement as a row of linked blocks, A1: not every block comes to rest (UP)"
     )
     assert not re.search(r"\bnan\b", page)
-    pushed = np.concatenate([0.25 * stand_in.G * np.sin(np.arange(400) / 10.0), np.zeros(600)])
-    shaking = (stand_in.motion("M", pushed),) * 3
-    row = stand_in.links("A1", "0.30, 0.31, 0.10", 0.01)
-    page, _, designs = held(linked([row], shaking, arrays=[stand_in.array("A1", 2.0, mu=0.3)]))
+    pushed = np.concatenate([0.25 * projects.G * np.sin(np.arange(400) / 10.0), np.zeros(600)])
+    shaking = (projects.motion("M", pushed),) * 3
+    row = projects.links("A1", "0.30, 0.31, 0.10", 0.01)
+    page, _, designs = held(linked([row], shaking, arrays=[projects.array("A1", 2.0, mu=0.3)]))
     assert designs[0][5:] == ("∞", "none", "none", "∞", "∞", "NG")
     assert " = no limit" in page
     assert "one rigid block does not slide in one axis" in page
 
 
-FOOT = stand_in.FOOT
-NEAR = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42)
-FAR = stand_in.roof_object("RTU-8", "fixed object", 190, 200, 35, 42)
+FOOT = projects.FOOT
+NEAR = projects.roof_object("RTU-9", "fixed object", 101, 106, 35, 42)
+FAR = projects.roof_object("RTU-8", "fixed object", 190, 200, 35, 42)
 NOWHERE = {"id": "OLD", "kind": "fixed object"}
-ARRAYS = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=220)]
+ARRAYS = [projects.array("A1", 0.5), projects.array("A2", 0.5, x=220)]
 CAPTION = "Neighbors in plan"
 PARTS = ["Array", "Neighbor", "Kind", "In plan [in]", "Twice displ. [in]", "Clearance", "Remark"]
 
 
 def page(**changes):
-    package = scenes.package(**{"arrays": ARRAYS, "objects": [], "clearances": []} | changes)
-    return printed(package, "plan")
+    package = assessments.package(**{"arrays": ARRAYS, "objects": [], "clearances": []} | changes)
+    return page_of(package, "plan")
 
 
 def test_distances_are_printed_with_their_rows_and_rounded_up():
     rows = [
-        stand_in.clearance("A1", "RTU-9", 2 * FOOT), stand_in.clearance("A2", "A1", 120 * FOOT),
+        projects.clearance("A1", "RTU-9", 2 * FOOT), projects.clearance("A2", "A1", 120 * FOOT),
     ]  # fmt: skip
     made = page(objects=[NEAR, FAR], clearances=rows)
     table = made.table(CAPTION)
@@ -213,11 +211,11 @@ def test_distances_are_printed_with_their_rows_and_rounded_up():
         " The other three pairs of the plan are farther apart than twice the design displacement, "
         "and no less than is required; the nearest are A2 and RTU-8, 240.0 in (6096 mm)."
     )
-    arrays, options = [stand_in.array("A1", 0.5, mu=0.3)], inputs.REVIEW
-    made = scenes.package(arrays=arrays, objects=[NEAR], clearances=[], options=options)
+    arrays, options = [projects.array("A1", 0.5, mu=0.3)], project_parts.REVIEW
+    made = assessments.package(arrays=arrays, objects=[NEAR], clearances=[], options=options)
     (near,) = made.assessment.neighbors
     assert near.reach_m / 0.0254 % 0.1 < 0.05  # rounded it would print less
-    row = printed(made, "plan").table(CAPTION).row("RTU-9")
+    row = page_of(made, "plan").table(CAPTION).row("RTU-9")
     assert float(row["Twice displ. [in]"]) > near.reach_m / 0.0254
     table = page(objects=[NEAR]).table(CAPTION)
     assert [[row[part] for part in PARTS] for row in table.rows] == [
@@ -228,7 +226,7 @@ def test_distances_are_printed_with_their_rows_and_rounded_up():
 @pytest.mark.quick
 @pytest.mark.parametrize("other", [("A2", 120 * FOOT), ("RTU-9", FOOT)])
 def test_clearances_that_are_as_in_the_plan_are_named_and_not_listed(other):
-    made = page(objects=[NEAR], clearances=[stand_in.clearance("A1", *other)])
+    made = page(objects=[NEAR], clearances=[projects.clearance("A1", *other)])
     is_lacking = other[0] == "A2"  # the near unit has no clearance
     assert (CAPTION in made) is is_lacking
     assert made.line(f"Clearances provided as in the plan: {'No. 1' if is_lacking else 'all'}.")
@@ -237,7 +235,7 @@ def test_clearances_that_are_as_in_the_plan_are_named_and_not_listed(other):
 @pytest.mark.quick
 def test_what_is_not_in_plan_or_near_is_named():
     lost = NOWHERE | {"id": "LOST"}
-    made = page(objects=[NOWHERE, lost], clearances=[stand_in.clearance("A1", "OLD", 9.0)])
+    made = page(objects=[NOWHERE, lost], clearances=[projects.clearance("A1", "OLD", 9.0)])
     line = made.line("To the scale stated")
     assert (
         "Neither drawn nor measured, because a place in plan is not entered: clearance 1." in line
@@ -254,16 +252,16 @@ def test_what_is_not_in_plan_or_near_is_named():
 @pytest.mark.quick
 @pytest.mark.parametrize("is_given", [True, False])
 def test_edges_are_those_of_the_outline_where_it_is_given(is_given):
-    roof = stand_in.inputs.sides(0, 380, 0, 170) if is_given else {}
+    roof = project_parts.sides(0, 380, 0, 170) if is_given else {}
     assert ("The outline of the roof is not entered" in page(roof=roof)) is not is_given
 
 
 @pytest.mark.quick
 def test_distances_that_are_not_known_or_not_of_the_plan_are_told():
-    made = printed(scenes.unpermitted(), "plan")
+    made = page_of(assessments.unpermitted(), "plan")
     (line,) = (line for line in made.splitlines() if "The other seven pairs of the plan" in line)
     assert "farther apart than twice the design displacement; the nearest are A1 and" in line
-    rows = [stand_in.clearance("A1", "RTU-9", 2 * FOOT) | {"source": "drawing"}]
+    rows = [projects.clearance("A1", "RTU-9", 2 * FOOT) | {"source": "drawing"}]
     (near,) = (near for near in drawn(clearances=rows).assessment.neighbors)
     assert near.cover is Cover.DIFFERS
 
@@ -271,11 +269,11 @@ def test_distances_that_are_not_known_or_not_of_the_plan_are_told():
 def drawn(**changes):
     """A package with a distance from the drawing, and one that is measured."""
     rows = [
-        stand_in.clearance("A1", "RTU-9", FOOT) | {"source": "drawing"},
-        stand_in.clearance("A2", "A1", 120 * FOOT) | {"source": "measured"},
+        projects.clearance("A1", "RTU-9", FOOT) | {"source": "drawing"},
+        projects.clearance("A2", "A1", 120 * FOOT) | {"source": "measured"},
     ]
     given = {"arrays": ARRAYS, "objects": [NEAR], "clearances": rows}
-    return scenes.package(**given | changes)
+    return assessments.package(**given | changes)
 
 
 @pytest.mark.quick
@@ -284,17 +282,17 @@ def test_drawing_distances_are_conditions_until_confirmed():
     (row,) = (row for row in package.assessment.checks if row.id == "drawing_distances")
     assert (row.subject, row.found, row.is_satisfied) == ("A1", "not confirmed", False)
     assert row.verdict is Verdict.CONDITION
-    made = printed(package, "plan")
+    made = page_of(package, "plan")
     words = " Distances provided: drawing, not confirmed No. 1; measured No. 2."
     assert made.line("Factor").endswith(words)
-    line = printed(package, "notes").line("Gaps to be measured first")
+    line = page_of(package, "notes").line("Gaps to be measured first")
     assert line.endswith("because their distance is from the drawing and not confirmed: No. 1.")
-    confirmed = {"drawing_confirmed_by": "MT", "drawing_confirmed_date": inputs.HEAD["date"]}
-    package = drawn(project=inputs.HEAD | confirmed)
+    confirmed = {"drawing_confirmed_by": "MT", "drawing_confirmed_date": project_parts.HEAD["date"]}
+    package = drawn(project=project_parts.HEAD | confirmed)
     (row,) = (row for row in package.assessment.checks if row.id == "drawing_distances")
     assert row.is_satisfied
     assert row.found == "confirmed by MT, 2026-03-05"
-    made = printed(package, "plan")
+    made = page_of(package, "plan")
     words = " Distances provided: drawing, confirmed No. 1; measured No. 2."
     assert made.line("Factor").endswith(words)
-    assert "Gaps to be measured first" not in printed(package, "notes")
+    assert "Gaps to be measured first" not in page_of(package, "notes")

@@ -11,10 +11,8 @@ import numpy as np
 import pytest
 from openpyxl import Workbook
 
-import inputs
-import scenes
-import stand_in
-from printed import printed
+from fixtures import assessments, project_parts, projects
+from fixtures.pages import page_of
 from report.assessment.precheck import shaking_acceptance
 from report.assessment.spectra import spectra
 from report.assessment.uncertainty import uncertainty
@@ -34,8 +32,8 @@ from solver.rules.limit import Limit
 def limits(given, **evidence):
     """The table of the limits, of an assessment or of other acceptance beside it."""
     if isinstance(given, Acceptance):
-        given = replace(scenes.package().assessment, acceptance=given)
-    return printed(given, "motions", **evidence).table("Limits on the motions")
+        given = replace(assessments.package().assessment, acceptance=given)
+    return page_of(given, "motions", **evidence).table("Limits on the motions")
 
 
 @pytest.mark.parametrize(
@@ -50,7 +48,7 @@ def limits(given, **evidence):
 def test_a_motion_is_generated_where_all_its_files_state_a_hold(
     first_hold_s, recorded_at, generated
 ):
-    book = stand_in.book(shaking=scenes.motions(3, seconds=6.0))
+    book = projects.book(shaking=assessments.motions(3, seconds=6.0))
     first, *others = (replace(file, hold_s=20.0) for file in book.records)
     files = (replace(first, hold_s=first_hold_s), *others)
     prepared = tuple(replace(given, recorded_at=recorded_at) for given in book.prepared)
@@ -86,7 +84,7 @@ def test_a_miss_never_rounds_onto_its_limit(value, shown, word):
 
 
 def test_a_spectrum_that_falls_between_the_points_of_the_limits_is_said():
-    done = scenes.package().assessment
+    done = assessments.package().assessment
     row = Limit(title="Each component", found=1.0, limit=0.9, is_at_least=True, worst="M1 x",
                 is_ratio_to_target=True)  # fmt: skip
     given = replace(done, acceptance=Acceptance(rows=(row,), motions=()))
@@ -110,10 +108,10 @@ def test_a_spectrum_that_falls_between_the_points_of_the_limits_is_said():
 @pytest.mark.quick
 def test_a_limit_that_is_a_note_is_one_in_each_table():
     """Without an array that takes the value from analysis, what makes that value NG is a note."""
-    alone = {"arrays": [stand_in.array("A1", 0.5)], "objects": [], "clearances": []}
-    package = scenes.package(scenes.motions(2, 4.0), **alone)
+    alone = {"arrays": [projects.array("A1", 0.5)], "objects": [], "clearances": []}
+    package = assessments.package(assessments.motions(2, 4.0), **alone)
     title = "Number of motions"
-    shown = printed(package, "motions").table("Limits on the motions").rows
+    shown = page_of(package, "motions").table("Limits on the motions").rows
     assert [row["Verdict"] for row in shown if row["Limit"] == title] == ["note"]
 
 
@@ -123,14 +121,14 @@ def test_friction_beyond_its_tests_has_one_verdict_in_each_table():
     slow = [{"surface": "wet", "number": k, "mu": 0.2, "velocity_mps": 0.001} for k in range(1, 4)]
     given = {"friction_runs": slow, "objects": [], "clearances": []}
     for count, verdict in ((2, "note"), (3, "Condition")):
-        arrays = [stand_in.array("A1", 0.5 if count == 2 else 2.0)]
-        package = scenes.package(scenes.motions(count, 4.0), arrays=arrays, **given)
+        arrays = [projects.array("A1", 0.5 if count == 2 else 2.0)]
+        package = assessments.package(assessments.motions(count, 4.0), arrays=arrays, **given)
         title = "Friction at the sliding velocity"
-        assert printed(package, "limits").table("All checks").row(title)["Verdict"] == verdict
-        first = printed(package, "summary")
+        assert page_of(package, "limits").table("All checks").row(title)["Verdict"] == verdict
+        first = page_of(package, "summary")
         opened = " ".join(first.table("Open conditions").column("Condition"))
         assert (title.lower() in opened) is (verdict == "Condition")
-        table = printed(package, "inputs").table("Friction at the sliding velocities")
+        table = page_of(package, "inputs").table("Friction at the sliding velocities")
         assert table.row("A1")["Verdict"] == verdict
 
 
@@ -139,11 +137,11 @@ def test_friction_beyond_its_tests_has_one_verdict_in_each_table():
     [("XXX", ["Source: X."]), ("XYX", ["Source of M1, M3: X.", "Source of M2: Y."]), ("XYZ", [])],
 )
 def test_a_source_that_motions_share_is_said_once(sources, notes):
-    assessment = scenes.package().assessment
+    assessment = assessments.package().assessment
     pairs = zip(assessment.shaking.motions, sources, strict=True)
     motions = tuple(replace(motion, source=source) for motion, source in pairs)
     given = replace(assessment, shaking=replace(assessment.shaking, motions=motions))
-    table = printed(given, "motions").table("Roof motions as run")
+    table = page_of(given, "motions").table("Roof motions as run")
     assert list(table.notes[1:]) == notes  # below what all motions have alike
     assert ("Source" in table.headings) is (not notes)
     assert "Source" not in table.headings or table.column("Source") == list(sources)
@@ -151,14 +149,14 @@ def test_a_source_that_motions_share_is_said_once(sources, notes):
 
 def made(found=None, **changes):
     """A package, what it has of margins, and the page."""
-    package = scenes.package(found, **{"options": inputs.REVIEW} | changes)
+    package = assessments.package(found, **{"options": project_parts.REVIEW} | changes)
     done = uncertainty(package.assessment)
-    return package, done, printed(package, "accuracy", uncertainty=done)
+    return package, done, page_of(package, "accuracy", uncertainty=done)
 
 
 def test_the_smallest_margin_is_said_with_what_ends_the_search():
-    (roomy,) = made(clearances=[stand_in.clearance("A2", "A3", 9.0)])[0].assessment.clearances
-    _, found, page = made(clearances=[stand_in.clearance("A2", "A3", 1.3 * roomy.required_m)])
+    (roomy,) = made(clearances=[projects.clearance("A2", "A3", 9.0)])[0].assessment.clearances
+    _, found, page = made(clearances=[projects.clearance("A2", "A3", 1.3 * roomy.required_m)])
     least = max(found.margins, key=lambda one: one.minimum_mu / one.array.array.mu)
     text = page.line("The smallest margin")
     assert f"{least.array.array.mu:.2f}, may be " in text
@@ -172,7 +170,7 @@ def test_the_smallest_margin_is_said_with_what_ends_the_search():
             found.margins, ("clearance", "Friction", "search"), strict=False
         )
     )
-    page = printed(package, "accuracy", uncertainty=replace(found, margins=margins))
+    page = page_of(package, "accuracy", uncertainty=replace(found, margins=margins))
     rows = page.table("Least friction").rows
     assert {row["Required there [mm]"] for row in rows} == {"101"}
     assert [row["Limited by"] for row in rows] == ["clearance", "friction", "search"]
@@ -180,8 +178,8 @@ def test_the_smallest_margin_is_said_with_what_ends_the_search():
 
 @pytest.mark.quick
 def test_ratios_need_slip_and_levels_are_round():
-    still = tuple(replace(motion, scale=1e-3) for motion in scenes.motions(3, 4.0))
-    _, _, page = made(still, arrays=[stand_in.array("B1", 0.5, mu=1.0)], objects=[], clearances=[])
+    still = tuple(replace(motion, scale=1e-3) for motion in assessments.motions(3, 4.0))
+    _, _, page = made(still, arrays=[projects.array("B1", 0.5, mu=1.0)], objects=[], clearances=[])
     assert "lists no clearances: there is no margin" in page
     assert not re.search(r"\b(nan|inf|None)\b", page)
     line = page.line("PRD used for array B1")
@@ -221,7 +219,7 @@ YEARS = {
 
 def with_study(years):
     """The stand-in's package with a study of years beside its workbook."""
-    given = scenes.package().assessment
+    given = assessments.package().assessment
     content = json.dumps(years).encode()
     sha256 = hashlib.sha256(content).hexdigest()
     document = Document(label="Study of years", path="years.json", size=len(content), sha256=sha256)
@@ -232,7 +230,7 @@ def with_study(years):
 
 def test_the_comparison_has_the_years_of_its_own_arrays():
     package = with_study(YEARS)
-    text = printed(package, "comparison")
+    text = page_of(package, "comparison")
     row = text.table("Beside the design displacement").rows[0]
     assert row["Array"] == "A1"
     assert row["PRD of 700 years"] == "none"
@@ -240,15 +238,15 @@ def test_the_comparison_has_the_years_of_its_own_arrays():
     assert row["95 %"] == "15.8 in (400 mm)"
     assert f"{SUPPORTING}: neither a design displacement nor a verdict depends on it" in text
     assert "Here; Survey; Model 2018; Vs30 of the curve 760 m/s" in text
-    design = printed(scenes.package(), "comparison").tables
-    assert printed(package, "comparison").tables[: len(design)] == design
-    text = printed(with_study(YEARS | {"arrays": [ARRAY | {"array": "Z"}]}), "comparison")
+    design = page_of(assessments.package(), "comparison").tables
+    assert page_of(package, "comparison").tables[: len(design)] == design
+    text = page_of(with_study(YEARS | {"arrays": [ARRAY | {"array": "Z"}]}), "comparison")
     assert "None of its arrays has the name of an array of this package" in text
 
 
 def test_a_former_mean_without_the_lives_that_have_no_distance_is_none():
     never = DISTANCE | {"without_value": 0.001}
-    text = printed(with_study(YEARS | {"arrays": [ARRAY | {"largest": {"never": never}}]}),
+    text = page_of(with_study(YEARS | {"arrays": [ARRAY | {"largest": {"never": never}}]}),
                    "comparison")  # fmt: skip
     row = text.table("Beside the design displacement").rows[0]
     assert (row["Largest distance, mean"], row["95 %"]) == ("none", "15.8 in (400 mm)")
@@ -256,9 +254,9 @@ def test_a_former_mean_without_the_lives_that_have_no_distance_is_none():
 
 @pytest.mark.parametrize(("mu", "is_said"), [(0.4, True), (None, False)])
 def test_another_friction_than_that_of_the_package_is_said(mu, is_said):
-    (array, *_) = scenes.package().assessment.arrays
+    (array, *_) = assessments.package().assessment.arrays
     one = ARRAY | {"mu": mu or array.array.mu, "slope_deg": array.array.slope_value}
-    text = printed(with_study(YEARS | {"arrays": [one]}), "comparison")
+    text = page_of(with_study(YEARS | {"arrays": [one]}), "comparison")
     assert ("differ from those of this package" in text) is is_said
 
 

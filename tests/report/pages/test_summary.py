@@ -6,32 +6,31 @@ from dataclasses import replace
 
 import pytest
 
-import scenes
-import stand_in
-from places import ROOT
-from printed import printed
+from fixtures import assessments, projects
+from fixtures.assessments import FOOT, REVIEW
+from fixtures.pages import page_of
+from fixtures.paths import ROOT
+from fixtures.projects import INCH
 from report.assessment.assess import assess
 from report.assessment.checks.check import texts, words
 from report.assessment.checks.motions import of_records
 from report.assessment.routes import Route
 from report.pages.summary import document, summary
 from report.web.open_project import open_project
-from scenes import FOOT, REVIEW
-from stand_in import INCH
 
 
 @pytest.mark.quick
 def test_prescriptive_designs_have_no_floor_and_clearances_without_verdict_are_counted():
-    arrays = [stand_in.array("A2", 0.5, x=120)]
-    done = stand_in.unpermitted(arrays=arrays, clearances=[])
+    arrays = [projects.array("A2", 0.5, x=120)]
+    done = projects.unpermitted(arrays=arrays, clearances=[])
     assert {array.route for array in done.arrays} == {Route.PRESCRIPTIVE}
-    shown = printed(done, "summary")
+    shown = page_of(done, "summary")
     assert "Floor" not in shown
     review = "Peer review by Reviewer of record, CA S0000, 2026-03-01; no array uses the analysis"
     assert review in shown
-    assert "floor" not in printed(done, "letter")
-    gaps = [stand_in.clearance("A1", "RTU-1", 7 * stand_in.FOOT)]
-    page = printed(stand_in.unpermitted(clearances=gaps), "summary")
+    assert "floor" not in page_of(done, "letter")
+    gaps = [projects.clearance("A1", "RTU-1", 7 * projects.FOOT)]
+    page = page_of(projects.unpermitted(clearances=gaps), "summary")
     assert "cannot be made without a permitted design displacement" in page
 
 
@@ -51,22 +50,22 @@ def test_the_terminal_marks_what_is_not_permitted_and_calls_nothing_beside_it_ok
 
 @pytest.mark.quick
 def test_what_is_alike_of_several_arrays_or_clearances_is_said_once():
-    arrays = [stand_in.array(f"A{k}", 0.5, x=120 * k) for k in (1, 2, 3)]
-    done = stand_in.assess_input(stand_in.project(arrays=arrays), stand_in.motions(1, seconds=4.0))
+    arrays = [projects.array(f"A{k}", 0.5, x=120 * k) for k in (1, 2, 3)]
+    done = projects.assess_input(projects.project(arrays=arrays), projects.motions(1, seconds=4.0))
     (one,) = [check for check in done.open if check.id == "interconnection"]
     assert one.arrays == ("A1", "A2", "A3")
-    row = printed(done, "limits").table("All checks").row("Interconnection strength")
+    row = page_of(done, "limits").table("All checks").row("Interconnection strength")
     assert row["Of"] == "A1 to A3"
     assert "not entered" in row["Found"]
-    arrays = [stand_in.array(f"A{k}", 0.5, x=120 * k, y=20) for k in (1, 2, 3)]
-    rows = [stand_in.clearance("A1", "A2", 2.0), stand_in.clearance("A2", "A3", 2.0)]
-    data = stand_in.project(arrays=arrays, clearances=rows, objects=[])
-    done = stand_in.assess_input(data, stand_in.motions(1, seconds=4.0))
+    arrays = [projects.array(f"A{k}", 0.5, x=120 * k, y=20) for k in (1, 2, 3)]
+    rows = [projects.clearance("A1", "A2", 2.0), projects.clearance("A2", "A3", 2.0)]
+    data = projects.project(arrays=arrays, clearances=rows, objects=[])
+    done = projects.assess_input(data, projects.motions(1, seconds=4.0))
     differing = [row for row in done.checks if row.id == "neighbors"]
     (one,) = [check for check in done.open if check.id == "neighbors"]
     assert (len(differing), one.subject) == (2, "A1 to A2 and 1 more")
     assert one.remedy.startswith("Correct the clearance")
-    rows = printed(done, "limits").table("All checks").rows
+    rows = page_of(done, "limits").table("All checks").rows
     found = [row["Found"] for row in rows if row["Required"] == "as on the plan"]
     assert found
     assert all(" on the plan" in text for text in found)
@@ -76,30 +75,30 @@ def test_what_is_alike_of_several_arrays_or_clearances_is_said_once():
 def test_a_requirement_that_is_found_differently_is_one_row_with_each_array_before_its_own():
     given = {"A1": 10.0, "A2": 20.0, "A3": 20.0}
     arrays = [
-        stand_in.array(id, 0.5, x=120 * k, interconnection_n=strength_n)
+        projects.array(id, 0.5, x=120 * k, interconnection_n=strength_n)
         for k, (id, strength_n) in enumerate(given.items())
     ]
-    done = stand_in.assess_input(stand_in.project(arrays=arrays), stand_in.motions(1, seconds=4.0))
-    row = printed(done, "limits").table("All checks").row("Interconnection strength")
+    done = projects.assess_input(projects.project(arrays=arrays), projects.motions(1, seconds=4.0))
+    row = page_of(done, "limits").table("All checks").row("Interconnection strength")
     # 1 lb = 4.448 N; provided is rounded down
     assert (row["Of"], row["Found"]) == ("A1 to A3", "2 lb (0.01 kN)")  # the worst
     assert row["Required"] == "≥ 4374 lb (19.46 kN) (A1)"
 
 
-NEAR = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42, height=1.0)
+NEAR = projects.roof_object("RTU-9", "fixed object", 101, 106, 35, 42, height=1.0)
 
 
 @pytest.mark.quick
 def test_an_array_that_is_ng_by_a_missing_clearance_says_so_in_its_row():
     """The clearance that is listed is OK, and its D/C alone stands beside the NG."""
-    made = scenes.package(
-        arrays=[stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=220)],
+    made = assessments.package(
+        arrays=[projects.array("A1", 0.5), projects.array("A2", 0.5, x=220)],
         objects=[NEAR],
-        clearances=[stand_in.clearance("A2", "A1", 40.0)],
+        clearances=[projects.clearance("A2", "A1", 40.0)],
     )
-    verdicts = printed(made, "letter").table("Results").column("Verdict")
+    verdicts = page_of(made, "letter").table("Results").column("Verdict")
     assert verdicts == ["NG clearance as on the plan A1 to RTU-9 (D/C 3.40)", "Condition"]
-    assert printed(made, "summary").table("Arrays").column("Verdict") == ["NG", "Condition"]
+    assert page_of(made, "summary").table("Arrays").column("Verdict") == ["NG", "Condition"]
     assert any(
         "NG: clearance as on the plan A1 to RTU-9 (D/C 3.40)" in line
         for line in summary(made.assessment)
@@ -109,20 +108,20 @@ def test_an_array_that_is_ng_by_a_missing_clearance_says_so_in_its_row():
 @pytest.fixture(scope="module")
 def barely():
     """A clearance, a slack and a strength a hair below what is required."""
-    array = stand_in.array("A1", 0.5)
-    objects = [stand_in.roof_object("RTU-1", "fixed object", 140, 145, 35, 42, height=1.0)]
-    gap = stand_in.clearance("A1", "RTU-1", 9.0)
-    given = scenes.package(arrays=[array], objects=objects, clearances=[gap]).assessment
+    array = projects.array("A1", 0.5)
+    objects = [projects.roof_object("RTU-1", "fixed object", 140, 145, 35, 42, height=1.0)]
+    gap = projects.clearance("A1", "RTU-1", 9.0)
+    given = assessments.package(arrays=[array], objects=objects, clearances=[gap]).assessment
     (item,), (gap,) = given.arrays, given.clearances
     less_m, less_n = ((1.0 - 1e-5) * v for v in (gap.required_m, item.interconnection_n))
     array |= {"slack_m": less_m, "interconnection_n": less_n}
-    listed = [stand_in.clearance("A1", "RTU-1", less_m)]
-    return scenes.package(arrays=[array], objects=objects, clearances=listed)
+    listed = [projects.clearance("A1", "RTU-1", less_m)]
+    return assessments.package(arrays=[array], objects=objects, clearances=listed)
 
 
 @pytest.mark.quick
 def test_what_is_short_by_a_hair_prints_as_less_than_is_required(barely):
-    governing = printed(barely, "summary").table("Governing")
+    governing = page_of(barely, "summary").table("Governing")
     for check in ("Clearance", "Electrical slack", "Interconnection strength"):
         row = governing.row(check)
         had, least = (re.search(r"[\d.]+", row[name])[0] for name in ("Found", "Required"))
@@ -132,35 +131,35 @@ def test_what_is_short_by_a_hair_prints_as_less_than_is_required(barely):
 @pytest.mark.quick
 def test_deleting_the_row_of_a_clearance_lowers_nothing():
     """What the plan shows and no row covers counts as the row did: D/C, letter, cover, counts."""
-    array, far = stand_in.array("A1", 0.5), stand_in.clearance("A1", "RTU-8", 40.0 * stand_in.FOOT)
-    objects = [NEAR, stand_in.roof_object("RTU-8", "fixed object", 140, 145, 35, 42, height=1.0)]
-    near = stand_in.clearance("A1", "RTU-9", stand_in.FOOT)  # as in plan
-    both = scenes.package(arrays=[array], objects=objects, clearances=[far, near])
-    deleted = scenes.package(arrays=[array], objects=objects, clearances=[far])
+    array, far = projects.array("A1", 0.5), projects.clearance("A1", "RTU-8", 40.0 * projects.FOOT)
+    objects = [NEAR, projects.roof_object("RTU-8", "fixed object", 140, 145, 35, 42, height=1.0)]
+    near = projects.clearance("A1", "RTU-9", projects.FOOT)  # as in plan
+    both = assessments.package(arrays=[array], objects=objects, clearances=[far, near])
+    deleted = assessments.package(arrays=[array], objects=objects, clearances=[far])
     ratios, names = [], []
     for made in (both, deleted):
         gap = made.assessment.governing_gap()
         assert gap.demand_capacity == made.assessment.governing_gap("A1").demand_capacity > 1.0
         ratios.append(gap.demand_capacity)
-        row = printed(made, "letter").table("Results").row("A1")
+        row = page_of(made, "letter").table("Results").row("A1")
         names.append((row["Governing clearance to"], row["D/C"]))
-        failed = printed(made, "summary").table("Governing").rows[0]
+        failed = page_of(made, "summary").table("Governing").rows[0]
         assert failed["Verdict"] == "NG"
         assert "A1 to RTU-9" in failed["Of"] + failed["Check"]
-        assert "One of two clearances is satisfied." in printed(made, "letter")
+        assert "One of two clearances is satisfied." in page_of(made, "letter")
     assert ratios[0] == pytest.approx(ratios[1])
     assert names == [("RTU-9", names[0][1]), ("RTU-9 (not entered)", names[0][1])]
-    assert "The plan shows one of them without a row" in printed(deleted, "letter")
+    assert "The plan shows one of them without a row" in page_of(deleted, "letter")
 
 
 @pytest.mark.quick
 def test_the_letter_and_the_cause_say_what_is_not_given():
-    made = scenes.package(arrays=[stand_in.array("A1", 0.5)], objects=[NEAR], clearances=[])
-    said = printed(made, "letter")
+    made = assessments.package(arrays=[projects.array("A1", 0.5)], objects=[NEAR], clearances=[])
+    said = page_of(made, "letter")
     assert (
         "The clearance is not satisfied. The plan shows it without a row in the workbook." in said
     )
-    given = scenes.package(arrays=[stand_in.array("A1", 0.5)], objects=[], clearances=[])
+    given = assessments.package(arrays=[projects.array("A1", 0.5)], objects=[], clearances=[])
     rows = {check.id: words(check, "A1") for check in given.assessment.checks}
     assert rows["electrical_slack"] == "electrical slack: not entered"
     assert rows["interconnection"] == "interconnection strength: not entered"
@@ -177,12 +176,12 @@ def test_the_letter_and_the_cause_say_what_is_not_given():
     ],
 )
 def test_a_cause_says_what_is_wrong_and_not_what_is_compared(array, gap, cause):
-    given = scenes.package(
-        arrays=[stand_in.array("A1", 0.5) | array],
-        objects=[stand_in.roof_object("RTU-1", "fixed object", 140, 145, 35, 42, height=1.0)],
-        clearances=[stand_in.clearance("A1", "RTU-1", 9.0) | gap],
+    given = assessments.package(
+        arrays=[projects.array("A1", 0.5) | array],
+        objects=[projects.roof_object("RTU-1", "fixed object", 140, 145, 35, 42, height=1.0)],
+        clearances=[projects.clearance("A1", "RTU-1", 9.0) | gap],
     )
-    assert printed(given, "letter").table("Results").column("Verdict") == [f"NG {cause}"]
+    assert page_of(given, "letter").table("Results").column("Verdict") == [f"NG {cause}"]
 
 
 @pytest.mark.parametrize(
@@ -195,24 +194,24 @@ def test_a_cause_says_what_is_wrong_and_not_what_is_compared(array, gap, cause):
 )
 def test_the_letter_counts_the_clearances(provided_ft, text):
     given = zip(("A1", "A2"), provided_ft, strict=False)
-    rows = [stand_in.clearance(name, "RTU-1", ft * FOOT) for name, ft in given]
-    assert printed(scenes.package(clearances=rows), "letter").line(text)
+    rows = [projects.clearance(name, "RTU-1", ft * FOOT) for name, ft in given]
+    assert page_of(assessments.package(clearances=rows), "letter").line(text)
 
 
 @pytest.mark.quick
 def test_the_smallest_margin_is_of_a_satisfied_clearance_and_a_drift_over_its_limit_larger():
     """A1 alone would satisfy the first one; A3 beside it does not."""
-    arrays = [stand_in.array("A1", 0.5, mu=1.0), stand_in.array("A3", 4.0, y=90)]
+    arrays = [projects.array("A1", 0.5, mu=1.0), projects.array("A3", 4.0, y=90)]
 
     def made(provided_m):
-        gaps = [stand_in.clearance("A1", "A3", provided_m)]
-        return scenes.package(arrays=arrays, options=REVIEW, clearances=gaps)
+        gaps = [projects.clearance("A1", "A3", provided_m)]
+        return assessments.package(arrays=arrays, options=REVIEW, clearances=gaps)
 
     low, high = (array.design_m for array in made(9.0).assessment.arrays)
-    page = printed(made((low + high) / 2.0), "accuracy")
+    page = page_of(made((low + high) / 2.0), "accuracy")
     assert "satisfied clearance" not in page
     assert page.line("Clearance 1 is not satisfied as given")
-    book = stand_in.book(stand_in.project(clearances=[]), scenes.motions())
+    book = projects.book(projects.project(clearances=[]), assessments.motions())
     drifting = replace(
         book.shaking.prepared[0].measures["horizontal"], final_displacement_m=0.010004
     )
@@ -225,9 +224,9 @@ def test_the_smallest_margin_is_of_a_satisfied_clearance_and_a_drift_over_its_li
 
 @pytest.mark.quick
 def test_a_low_parapet_does_not_qualify_by_the_heights_of_the_package():
-    edge = stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=20 * INCH)
-    package = scenes.package(objects=[edge], clearances=[stand_in.clearance("A3", "N", 6.0)])
-    row = printed(package, "plan").table("Parapets").row("N")
+    edge = projects.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=20 * INCH)
+    package = assessments.package(objects=[edge], clearances=[projects.clearance("A3", "N", 6.0)])
+    row = page_of(package, "plan").table("Parapets").row("N")
     assert (row["Beside"], row["Result"]) == ("A3", "does not qualify")
     assert row["Top above the roof [in]"] == "20.0"
     of_center = float(row["Center of gravity [in]"])
@@ -236,7 +235,7 @@ def test_a_low_parapet_does_not_qualify_by_the_heights_of_the_package():
 
 def test_the_plan_says_which_displacement_a_separation_takes():
     words = "the factor ×, importance included, times Δ, of two"
-    assert words in printed(scenes.package(options=REVIEW), "plan")
+    assert words in page_of(assessments.package(options=REVIEW), "plan")
 
 
 @pytest.mark.quick
@@ -249,10 +248,10 @@ def test_the_plan_says_which_displacement_a_separation_takes():
     ],
 )
 def test_the_length_that_limits_the_center_of_gravity_is_the_one_compared(rule_set, base_m, words):
-    site = stand_in.project().site.model_dump() | {"rule_set": rule_set}
-    array = stand_in.array("A1", 0.5, base_m=base_m)
-    package = scenes.package(site=site, arrays=[array], clearances=[])
-    text = printed(package, "inputs").line("Center of gravity at most 36.0 in (914 mm)")
+    site = projects.project().site.model_dump() | {"rule_set": rule_set}
+    array = projects.array("A1", 0.5, base_m=base_m)
+    package = assessments.package(site=site, arrays=[array], clearances=[])
+    text = page_of(package, "inputs").line("Center of gravity at most 36.0 in (914 mm)")
     assert text.endswith(words)
     (check,) = [c for c in package.assessment.arrays[0].limits.checks if "center" in c.title]
     length_m = 1.524 if "60.0" in words else 1.016
@@ -260,34 +259,36 @@ def test_the_length_that_limits_the_center_of_gravity_is_the_one_compared(rule_s
 
 
 @pytest.mark.quick
-@pytest.mark.parametrize("clearances", [[], [stand_in.clearance("A1", "RTU-1", 60 * FOOT)]])
+@pytest.mark.parametrize("clearances", [[], [projects.clearance("A1", "RTU-1", 60 * FOOT)]])
 def test_a_limit_that_may_be_exceeded_is_nowhere_said_to_be_satisfied(clearances):
-    package = scenes.package(
-        scenes.motions(7),
-        site=stand_in.site(rule_set="ASCE 7-16", sdc="C"),
+    package = assessments.package(
+        assessments.motions(7),
+        site=projects.site(rule_set="ASCE 7-16", sdc="C"),
         options=REVIEW,
-        arrays=[stand_in.array("A1", 3.5, mu=0.6)],
+        arrays=[projects.array("A1", 3.5, mu=0.6)],
         clearances=clearances,
     )
     assert package.assessment.verdict.is_permitted
     assert any(check.is_excepted for check in package.assessment.checks)
     for key in ("letter", "summary"):
-        page = printed(package, key)
+        page = page_of(package, key)
         assert "No check is NG" in page or "or exceeded where the rule set permits it" in page
         assert ("No clearance is entered, and none is checked." in page) is not bool(clearances)
-    row = printed(package, "limits").table("All checks").row("Roof slope, analysis procedure")
+    row = page_of(package, "limits").table("All checks").row("Roof slope, analysis procedure")
     assert "permitted" in row["Found"]
 
 
 @pytest.mark.quick
 def test_the_largest_peak_of_a_prescriptive_array_is_printed_with_one_rounding():
     """Rounded up in the design displacement, it is the same number three lines below."""
-    gaps = [stand_in.clearance("A1", "RTU-1", 60 * FOOT)]
-    package = scenes.package(scenes.motions(1), arrays=[stand_in.array("A1", 0.5)], clearances=gaps)
+    gaps = [projects.clearance("A1", "RTU-1", 60 * FOOT)]
+    package = assessments.package(
+        assessments.motions(1), arrays=[projects.array("A1", 0.5)], clearances=gaps
+    )
     (item,) = package.assessment.arrays
     assert item.route.value == "prescriptive"
     inches = item.analysis.largest_m / INCH
     rounded_up = f"{math.ceil(10.0 * inches) / 10.0:.1f}"
     assert f"{inches:.1f}" != rounded_up
-    found = re.findall(r"max\([\d.]+ in \(\d+ mm\), ([\d.]+) in", printed(package, "method"))
+    found = re.findall(r"max\([\d.]+ in \(\d+ mm\), ([\d.]+) in", page_of(package, "method"))
     assert found == [rounded_up]

@@ -12,11 +12,12 @@ from openpyxl import Workbook, load_workbook
 from openpyxl.formula.translate import Translator
 from openpyxl.utils.cell import get_column_letter
 
-import inputs
-from cells import cell
-from inputs import INCH
-from places import ROOT
-from recalculated import Cell, Sheets, recalculated_sheets
+from fixtures import project_parts
+from fixtures.cells import cell
+from fixtures.libreoffice import Cell, Sheets, recalculated_sheets
+from fixtures.paths import ROOT
+from fixtures.project_parts import INCH
+from fixtures.workbooks import formula_cells, project, retitle, site
 from report.assessment.arrays import Displacement
 from report.assessment.clearances import check_clearance
 from report.project.model import ProjectInput
@@ -38,7 +39,6 @@ from report.project.read.read import read
 from report.project.workbook import SECTION
 from report.project.write.template import template, write_template
 from report.text.units import Quantity, number, ratio
-from sheets import formula_cells, project, retitle, site
 from solver.rules import hazard, provisions
 from solver.rules.provisions import Neighbor
 from solver.rules.rulesets import RULE_SETS, RuleSet
@@ -236,7 +236,7 @@ def random_rows(pick: random.Random) -> dict[str, list[dict[str, object]]]:
     for name in ("A*", "A?~", *(f"A{k}" for k in range(6))):
         value, unit = pick.choice(slopes)
         arrays.append(
-            inputs.array(
+            project_parts.array(
                 name, value, slope_unit=unit, construction=pick.choice(["Tray", "TRAY", "Rail"]),
                 # Within half a degree of north in both.
                 downslope_deg=pick.choice([0.0, 0.3, 359.8, 90.0]),
@@ -246,7 +246,7 @@ def random_rows(pick: random.Random) -> dict[str, list[dict[str, object]]]:
     kinds = ("fixed object", "unlike array", *["edge with parapet"] * 2, "edge without parapet")
     heights = (17.9, 18.0, 23.9, 24.0, 36.0)
     objects = [
-        inputs.roof_object(f"O{k}", pick.choice(kinds), height=pick.choice(heights) * INCH)
+        project_parts.roof_object(f"O{k}", pick.choice(kinds), height=pick.choice(heights) * INCH)
         | {"i_p": pick.choice([1.0, 1.0, 1.25])}
         for k in range(8)
     ]
@@ -254,7 +254,7 @@ def random_rows(pick: random.Random) -> dict[str, list[dict[str, object]]]:
     pairs = [*itertools.combinations(ids, 2)]
     pairs += [*itertools.product(ids, [str(row["id"]) for row in objects])]
     clearances = [
-        inputs.clearance(*pair, pick.choice([0.0, 6.0, 24.0, 40.0, 81.6, 240.0]) * INCH)
+        project_parts.clearance(*pair, pick.choice([0.0, 6.0, 24.0, 40.0, 81.6, 240.0]) * INCH)
         for pair in pick.sample(pairs, N_INPUTS // 5)
     ]
     return {"arrays": arrays, "objects": objects, "clearances": clearances}

@@ -10,11 +10,20 @@ from functools import partial
 import pytest
 from openpyxl import DEFUSEDXML, LXML, load_workbook
 
-from cells import cell
-from nightly import by_day
+from fixtures.cells import cell
+from fixtures.marks import by_day
+from fixtures.workbooks import (
+    cell_address,
+    edit,
+    make,
+    parts,
+    problems,
+    project,
+    read_workbook,
+    same,
+)
 from report.project.read.archive import open_book, sheet_parts
 from report.project.read.scan import MAX_CELLS, MAX_OTHERS, MAX_TAGS
-from sheets import at, edit, make, parts, problems, project, read_workbook, same
 from solver.model import InputError
 
 SAVE_AS = "save it as .xlsx (Excel Workbook)"
@@ -254,7 +263,7 @@ def test_what_openpyxl_says_reaches_nobody(tmp_path, old, new):
 
 def test_a_cell_or_a_name_that_the_file_has_twice_is_refused(tmp_path):
     path = make(tmp_path)
-    name = at("Options/1/Value")
+    name = cell_address("Options/1/Value")
     sheet, coordinate = name.split("!")
     cells = rb'<c r="%b"[^>]*?(?:/>|>.*?</c>)' % coordinate.encode()
     again = partial(re.sub, cells, rb"\g<0>\g<0>")

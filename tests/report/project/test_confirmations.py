@@ -4,31 +4,30 @@ import datetime as dt
 
 import pytest
 
-import inputs
-import scenes
-from inputs import INCH
-from nightly import by_day
+from fixtures import assessments, project_parts
+from fixtures.marks import by_day
+from fixtures.project_parts import INCH
+from fixtures.workbooks import SECTIONS as USUAL
+from fixtures.workbooks import make, project, read_workbook
 from report.project.check.covered import outdated, to_record
 from report.project.model.choices import UnitsFirst
 from report.project.model.place import Place
-from sheets import SECTIONS as USUAL
-from sheets import make, project, read_workbook
 
 pytestmark = pytest.mark.quick
 
 ON = dt.date(2026, 2, 20)
 RECORDS = ("M1 horizontal ab", "M2 horizontal cd")
 RUN = {"surface": "wet", "number": 1, "mu": 0.46, "velocity_mps": 0.0254}
-DRAWN = inputs.clearance("A2", "RTU-1", 60 * INCH) | {"source": "drawing"}
+DRAWN = project_parts.clearance("A2", "RTU-1", 60 * INCH) | {"source": "drawing"}
 ARRAYS = USUAL["arrays"]
 GIVEN = {
-    "project": inputs.HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": ON},
-    "site": inputs.SITE | {"hazard_source": "Hazard Tool", "hazard_date": ON},
-    "friction_tests": scenes.TESTS,
+    "project": project_parts.HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": ON},
+    "site": project_parts.SITE | {"hazard_source": "Hazard Tool", "hazard_date": ON},
+    "friction_tests": assessments.TESTS,
     "friction_runs": [RUN],
     "clearances": [*USUAL["clearances"][:2], DRAWN],
-    "options": scenes.REVIEW,
-    "confirmation": scenes.CONFIRMED["confirmation"],
+    "options": assessments.REVIEW,
+    "confirmation": assessments.CONFIRMED["confirmation"],
 }
 
 
@@ -69,8 +68,9 @@ def test_confirmations_are_put_on_record_where_they_cover_something():
     }
     assert to_record(recorded(given()), RECORDS) == {}
     assert outdated(recorded(given()), RECORDS).outdated == {}
-    none = given(project=inputs.HEAD, site=inputs.SITE, friction_runs=[], confirmation={},
-                 options=scenes.REVIEW | {"peer_reviewed": False})  # fmt: skip
+    none = given(project=project_parts.HEAD, site=project_parts.SITE, friction_runs=[],
+                 confirmation={},
+                 options=assessments.REVIEW | {"peer_reviewed": False})  # fmt: skip
     assert to_record(none, RECORDS) == {}
 
 
@@ -92,7 +92,7 @@ CHANGES = [
     (of("clearances", 0, source="drawing"), {"project": "sheet Clearances"}),
     ({"target": {"t_l_s": 6.0}}, {"options": "sheet Site"}),
     ({"target": {"to_s": 3.0}}, {"options": "sheet Building"}),
-    ({"links": [inputs.links("A1", "0.40, 0.45", 50)]}, {"options": "sheet Links"}),
+    ({"links": [project_parts.links("A1", "0.40, 0.45", 50)]}, {"options": "sheet Links"}),
     ({"overrides": []}, {"options": "sheet Options", "confirmation": "sheet Options"}),
     ({"confirmation": {"by": "MT"}}, {"confirmation": "sheet Options"}),
     ({"site": {"rule_set": "ASCE 7-16"}}, {"options": "sheet Site", "confirmation": "sheet Site"}),
@@ -131,7 +131,7 @@ def test_the_order_of_rows_is_no_change_and_a_record_in_the_order_of_rows_holds(
     assert outdated(again, RECORDS[::-1]).outdated == {}
     # As 0.3 put it on record: by the rows in their order.
     text = "2025-06-12: Friction tests d04a95"
-    tests = scenes.TESTS | {"tests_covered": text}
+    tests = assessments.TESTS | {"tests_covered": text}
     assert outdated(given(**rows, friction_tests=tests), RECORDS).outdated == {}
     other = outdated(given(friction_runs=rows["friction_runs"][:2], friction_tests=tests), RECORDS)
     assert other.outdated == {"friction_tests": "sheet Friction tests"}
@@ -149,7 +149,7 @@ def test_another_date_is_a_new_confirmation():
 
 @pytest.mark.parametrize("text", ["2026-03-01: ", "2026-03-01: none", "2026-03-01: Nowhere 3f, ,"])
 def test_a_record_that_was_typed_over_covers_nothing(text):
-    found = outdated(given(options=scenes.REVIEW | {"peer_covered": text}), RECORDS).outdated
+    found = outdated(given(options=assessments.REVIEW | {"peer_covered": text}), RECORDS).outdated
     if text.endswith(": "):
         assert "options" not in found  # blank: the next report fills it in
     else:
@@ -158,7 +158,7 @@ def test_a_record_that_was_typed_over_covers_nothing(text):
 
 @pytest.mark.parametrize("units", by_day(UnitsFirst, 1))
 def test_what_is_covered_does_not_depend_on_the_units_of_the_cells(tmp_path, units):
-    options = scenes.REVIEW | {"peer_letter": ""}
+    options = assessments.REVIEW | {"peer_letter": ""}
     book = read_workbook(make(tmp_path, units=units, **GIVEN | {"options": options}))
     found = to_record(book.input, RECORDS)
     assert found == to_record(given(), RECORDS)

@@ -6,10 +6,11 @@ import shutil
 import pytest
 from click.testing import CliRunner
 
-from cells import address, cell
-from nightly import by_day
-from packages import undrawn, unlaid
-from places import DATA, ROOT
+from fixtures.cells import address, cell
+from fixtures.marks import by_day
+from fixtures.packages import undrawn, unlaid
+from fixtures.paths import DATA, ROOT
+from fixtures.workbooks import edit, make, project, read_workbook, same, type_into
 from report.cli.main import main
 from report.project.check.covered import CONFIRMATIONS, outdated
 from report.project.model import ProjectInput
@@ -18,7 +19,6 @@ from report.project.workbook import SECTION, SECTIONS
 from report.project.write.filled import overwritten
 from report.study.read import read_study
 from report.study.schema import StudyInput
-from sheets import edit, make, project, read_workbook, same, type_into
 
 EARLIER = DATA / "0.3.0"
 RECORDED = json.loads((EARLIER / "recorded.json").read_text())

@@ -5,12 +5,12 @@ import re
 import pytest
 from openpyxl.worksheet.worksheet import Worksheet
 
-import commands
+from fixtures import commands
+from fixtures.workbooks import edit, make, pack, parts, problems, type_into
 from report.project.read.archive import open_book
 from report.project.read.scan import LAST_COLUMN, LAST_ROW
 from report.project.write.filled import overwritten
 from report.project.write.style import put_answer
-from sheets import edit, make, pack, parts, problems, type_into
 
 ENDS = ((LAST_ROW, 1), (1, LAST_COLUMN), (LAST_ROW, LAST_COLUMN))
 MOST_LOOKS = 300_000

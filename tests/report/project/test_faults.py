@@ -5,16 +5,25 @@ import re
 
 import pytest
 
-import sheets
-from cells import address
-from inputs import links
-from nightly import by_day
-from places import ROOT
-from refused import refused
+from fixtures import workbooks
+from fixtures.cells import address
+from fixtures.errors import input_problems
+from fixtures.marks import by_day
+from fixtures.paths import ROOT
+from fixtures.project_parts import links
+from fixtures.workbooks import (
+    cell_address,
+    edit,
+    make,
+    problems,
+    read_workbook,
+    row_cells,
+    type_into,
+    with_addresses,
+)
 from report.project.check.findings import suggestion
 from report.project.check.plan_checks import MOST_OVERLAPS
 from report.project.read.read import read
-from sheets import at, edit, make, of, problems, read_workbook, said, type_into
 
 
 def together(folder, cases, touched):
@@ -119,13 +128,13 @@ def of_cells(tmp_path_factory):
 @pytest.mark.nightly
 def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(of_cells, number):
     name, _, line = CONTENTS[number]
-    assert set(said(f"{name} is {line}")) <= set(of_cells[number])
+    assert set(with_addresses(f"{name} is {line}")) <= set(of_cells[number])
 
 
 NO_CLEARANCE = dict.fromkeys(("Array", "Object", "Direction", "Provided clearance"))
 IN_ARRAYS, AND_OBJECTS = "which is not in Arrays; give one of", "which is not in Objects or Arrays;"
-SPECTRUM = of("Spectrum/1", {"Period": 8, "Horizontal": 8})
-SPECTRUM |= of("Spectrum/2", {"Period": 9, "Horizontal": 9})
+SPECTRUM = row_cells("Spectrum/1", {"Period": 8, "Horizontal": 8})
+SPECTRUM |= row_cells("Spectrum/2", {"Period": 9, "Horizontal": 9})
 NEEDS = "<Motions/M1/Scaling> scales a ground motion to the design spectrum, which requires S_D1"
 
 
@@ -156,13 +165,13 @@ CONTRADICTIONS = [
     ({"Objects/RTU-1/y from": 70},
      "Clearances/3/Provided clearance is 60.0 in (1524 mm), but A2 and RTU-1 overlap in plan;"
      " correct their rectangles in <Arrays/A2/x from:y to> and <Objects/RTU-1/x from:y to>"),
-    ({"Arrays/A1/x to": 120} | of("Clearances/1", NO_CLEARANCE),
+    ({"Arrays/A1/x to": 120} | row_cells("Clearances/1", NO_CLEARANCE),
      "<Arrays/A1/x from>: A1 and A2 at <Arrays/A2/x from> overlap in plan; correct one of them"),
     ({"Site/Risk category": "IV", "Site/Importance factor I_e": 1.25},
      "Site/Importance factor I_e is 1.25; give at least 1.5 for risk category IV"),
     ({"Site/S_DS": None}, "Site/S_DS is missing; give S_DS, S_MS, or both S_S and F_a"),
     ({"Arrays/A2/Slope": 120}, "Arrays/A2/Slope is 120 percent; give 0 to less than 100 percent"),
-    (of("Arrays/A2", {"Friction rate": 20, "Static friction": 0.4}),
+    (row_cells("Arrays/A2", {"Friction rate": 20, "Static friction": 0.4}),
      "Arrays/A2/High-velocity friction is missing; give high-velocity friction and friction rate,"
      " or neither",
      "Arrays/A2/Static friction is 0.4; give the friction coefficient, 0.45, or more"),
@@ -178,12 +187,12 @@ CONTRADICTIONS = [
     ({"Motions/M1/Transverse record": "records/x.csv"},
      "Motions/M1/Transverse record is 'records/x.csv', the same as the horizontal record; give"
      " another record"),
-    (of("Motions/M1", {"Scaling": "target spectrum", "Factor or PPA": 2}),
+    (row_cells("Motions/M1", {"Scaling": "target spectrum", "Factor or PPA": 2}),
      "Motions/M1/Factor or PPA is 2, but scaling is 'target spectrum'; change the scaling or leave"
      " this blank"),
-    (of("Motions/M1", {"Start time": 1.5, "End time": 1.5}),
+    (row_cells("Motions/M1", {"Start time": 1.5, "End time": 1.5}),
      "Motions/M1/End time is 1.5 s; give 2.5 s or more"),
-    (of("Motions/M1", {"High-pass corner": 20, "Low-pass corner": 20}),
+    (row_cells("Motions/M1", {"High-pass corner": 20, "Low-pass corner": 20}),
      "Motions/M1/Low-pass corner is 20 Hz; give more than the high-pass corner, 20 Hz"),
     ({"Motions/M2/Recorded at": "ground"},
      "Building/Period T1 is missing; give it, or a structure type: a motion is recorded at the"
@@ -197,19 +206,19 @@ CONTRADICTIONS = [
     (SPECTRUM | {"Motions/M1/Scaling": "target spectrum"},
      "<Spectrum/heading/Period>: periods range from 8 to 9 s, but motions are scaled over 0.2 to"
      " 5 s; add rows, or change the scaling periods"),
-    (of("Options", {"Confirmed by": "RG", "Confirmed rule set": "SEAOC PV1-2012"}),
+    (row_cells("Options", {"Confirmed by": "RG", "Confirmed rule set": "SEAOC PV1-2012"}),
      *(f"Options/{label} is missing; give all five cells of the confirmation, or none"
        for label in ("Confirmed on", "Confirmed edition of ASCE 7", "Confirmed building code"))),
-    (of("Motions/M1", {"Scaling": "target spectrum", "High-pass corner": 0.5}),
+    (row_cells("Motions/M1", {"Scaling": "target spectrum", "High-pass corner": 0.5}),
      "Motions/M1/High-pass corner is 0.5 Hz, a period of 2 s, but the longest scaling period is"
      " 5 s; reduce one of them"),
-    (of("Motions/M1", {"Scaling": "target spectrum", "Recorded at": "ground"})
+    (row_cells("Motions/M1", {"Scaling": "target spectrum", "Recorded at": "ground"})
      | {"Building/Period T1": 0.5},
      *(f"Site/{label} is missing; {NEEDS}, or S_1 and F_v, and T_L"
        for label in ("F_v", "Long-period transition T_L"))),
     ({"Site/Long-period transition T_L": 0.5, "Site/F_v": 1.7},
      "Site/Long-period transition T_L is 0.5 s; give more than T_S = S_D1/S_DS = 0.507 s"),
-    (of("Options/2", {"Provision": "parapet_height_in", "Value": 20, "Reason": "x"}),
+    (row_cells("Options/2", {"Provision": "parapet_height_in", "Value": 20, "Reason": "x"}),
      "Options/2/Provision is 'Minimum height of a qualifying parapet above the roof', already given"
      " at <Options/1/Provision>; delete one"),
     ({"Site/Latitude": 34.0},
@@ -248,12 +257,14 @@ def test_inconsistencies_are_reported_at_the_cell_to_change(of_contradictions, n
     """And nothing else is, on the sheets of the case."""
     case, reported = CONTRADICTIONS[number], of_contradictions[number]
     own = sheets_of(case)
-    assert tuple(line for line in reported if line.partition("!")[0] in own) == said(*case[1:])
+    assert tuple(line for line in reported if line.partition("!")[0] in own) == with_addresses(
+        *case[1:]
+    )
 
 
 @pytest.mark.nightly
 def test_nothing_else_is_reported_beside_inconsistencies(of_contradictions):
-    known = {line for _, *lines in CONTRADICTIONS for line in said(*lines)}
+    known = {line for _, *lines in CONTRADICTIONS for line in with_addresses(*lines)}
     assert {line for reported in of_contradictions for line in reported} == known
 
 
@@ -268,20 +279,20 @@ def test_all_errors_are_reported_together_in_the_order_of_the_sheets(tmp_path):
         "Motions/M1/Horizontal record": "records/none.csv",
     }
     reported = problems(type_into(make(tmp_path), dict(reversed(wrong.items()))))
-    assert tuple(line.split(": ")[0] for line in reported) == said(*wrong)
+    assert tuple(line.split(": ")[0] for line in reported) == with_addresses(*wrong)
 
 
 @pytest.mark.nightly
 def test_thousands_of_overlaps_and_settings_given_twice_are_told(tmp_path):
-    assert problems(make(tmp_path, clearances=[], arrays=[])) == said(
+    assert problems(make(tmp_path, clearances=[], arrays=[])) == with_addresses(
         "<Arrays/heading/ID>: no array is given; fill in at least one row"
     )
     assert read_workbook(make(tmp_path, motions=[])).input.motions == ()
     twice = {"Site!A90": "S_DS *", "Site!B90": 0.2, "Site!A91": "S_1"}  # S_1 is beside nothing
-    assert problems(edit(make(tmp_path), lambda book: sheets.put(book, twice))) == said(
-        "<Site/S_DS>: label 'S_DS' appears twice, also in Site!B90; keep one"
-    )
-    same = [sheets.arrays()[0] | {"id": f"A{k}"} for k in range(1, 51)]
+    assert problems(
+        edit(make(tmp_path), lambda book: workbooks.put(book, twice))
+    ) == with_addresses("<Site/S_DS>: label 'S_DS' appears twice, also in Site!B90; keep one")
+    same = [workbooks.arrays()[0] | {"id": f"A{k}"} for k in range(1, 51)]
     found = problems(make(tmp_path, arrays=same))
     assert sum("overlap in plan; correct one of them" in each for each in found) == MOST_OVERLAPS
 
@@ -311,7 +322,7 @@ TYPED = [
      f" found; {HEADING}"),
     ({"Arrays/heading/High-velocity friction": "Slope"},
      "<Arrays/heading/High-velocity friction>: heading 'Slope' appears twice, also in"
-     f" {at('Arrays/heading/Slope').partition('!')[2]}; keep one"),
+     f" {cell_address('Arrays/heading/Slope').partition('!')[2]}; keep one"),
     ({"Site/Structure height h/Unit": "yd", "Site/Height of the array z/Unit": None},
      f"<Site/Structure height h/Unit>: unit of structure height h is 'yd'; {LENGTHS}",
      f"<Site/Height of the array z/Unit>: unit of height of the array z is missing; {LENGTHS}"),
@@ -328,7 +339,7 @@ TYPED = [
 )
 def test_what_is_typed_is_reported_with_what_to_write(tmp_path, number):
     cells, *lines = TYPED[number]
-    assert problems(type_into(make(tmp_path), cells)) == said(*lines)
+    assert problems(type_into(make(tmp_path), cells)) == with_addresses(*lines)
 
 
 @pytest.mark.parametrize(
@@ -342,7 +353,7 @@ def test_the_cell_of_an_extreme_value_is_named_where_another_cell_is_wrong_by_it
     path = tmp_path / "input.xlsx"
     path.write_bytes((ROOT / "projects" / "example" / "input.xlsx").read_bytes())
     sheet, at_cell = address(path, name).split("!")
-    message = "; ".join(refused(lambda: read(type_into(path, {name: value})).project))
+    message = "; ".join(input_problems(lambda: read(type_into(path, {name: value})).project))
     named = re.findall(rf"{sheet}!([A-Z]+)(\d+)(?::([A-Z]+)\2)?", message)
     assert any(
         low <= at_cell.rstrip("0123456789") <= (high or low) and at_cell.endswith(row)
@@ -351,11 +362,13 @@ def test_the_cell_of_an_extreme_value_is_named_where_another_cell_is_wrong_by_it
 
 
 def test_references_are_spelled_as_the_id_that_they_refer_to():
-    rows = sheets.project().model_dump()
+    rows = workbooks.project().model_dump()
     first = rows["clearances"][1]
     first["array"], first["object"] = first["array"].lower(), first["object"].lower()
-    respelled = sheets.project(clearances=rows["clearances"], links=[links("a2", "0.40, 0.50", 50)])
-    assert respelled.clearances[1] == sheets.project().clearances[1]
+    respelled = workbooks.project(
+        clearances=rows["clearances"], links=[links("a2", "0.40, 0.50", 50)]
+    )
+    assert respelled.clearances[1] == workbooks.project().clearances[1]
     assert respelled.links[0].array == "A2"
 
 
@@ -368,4 +381,4 @@ def test_an_id_that_looks_like_another_is_refused_with_its_letter(tmp_path):
     assert suggestion("RTU-11", ["RTU-1"]) == "did you mean 'RTU-1'?"
     reported = problems(type_into(make(tmp_path), {"Arrays/A2/ID": f"{CYRILLIC}1"}))
     again = f"'{CYRILLIC}1', already used at <Arrays/A1/ID>; '{CYRILLIC}' is a Cyrillic letter"
-    assert any(line.startswith(*said(f"Arrays/A2/ID is {again}")) for line in reported)
+    assert any(line.startswith(*with_addresses(f"Arrays/A2/ID is {again}")) for line in reported)

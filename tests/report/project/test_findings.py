@@ -9,8 +9,18 @@ from dataclasses import replace
 import pytest
 from click.testing import CliRunner
 
-from inputs import FT, INCH, LB, sides
-from nightly import by_day
+from fixtures.marks import by_day
+from fixtures.project_parts import FT, INCH, LB, sides
+from fixtures.workbooks import (
+    arrays,
+    cell_address,
+    findings_of,
+    make,
+    project,
+    row_changed,
+    type_into,
+    with_addresses,
+)
 from report.cli.main import main
 from report.project.check.findings import grouped, line_of, lines, note, unusual, warning
 from report.project.check.plausible import implausible
@@ -19,7 +29,6 @@ from report.project.model.finding import Level
 from report.project.model.place import Place
 from report.project.read.read import read
 from report.web.jobs import problems as shown_problems
-from sheets import arrays, at, make, project, row_changed, said, told, type_into
 from solver.model import InputError, Problem
 
 
@@ -196,17 +205,20 @@ def test_equal_findings_are_one_line_with_a_count():
 @pytest.mark.nightly
 def test_an_acknowledgment_of_no_warning_is_a_note_at_its_cell(tmp_path):
     rows = [{"warning": "wieght A1", "reason": "Frames alone"}]
-    cell, text = at("Acknowledged/1/Warning"), "warning is 'wieght A1', which is not entered;"
-    _, found = told(make(tmp_path, acknowledged=rows, arrays=arrays(weight_n=30 * LB)))
+    cell, text = (
+        cell_address("Acknowledged/1/Warning"),
+        "warning is 'wieght A1', which is not entered;",
+    )
+    _, found = findings_of(make(tmp_path, acknowledged=rows, arrays=arrays(weight_n=30 * LB)))
     assert found == ("", cell, f"{text} did you mean 'weight A1'?")
-    assert told(make(tmp_path, acknowledged=rows)) == [("", cell, f"{text} delete the row")]
+    assert findings_of(make(tmp_path, acknowledged=rows)) == [("", cell, f"{text} delete the row")]
 
 
 def of_records(path, **changes):
     """What is said of a motion by name, once samples are given to its records, some with times."""
     for name, samples in changes.items():
         (path.parent / "records" / f"{name}.csv").write_text("\n".join([*samples, ""]))
-    return {name or "note": text for name, _, text in told(path)}
+    return {name or "note": text for name, _, text in findings_of(path)}
 
 
 @pytest.mark.parametrize(
@@ -312,7 +324,10 @@ def test_check_prints_one_line_and_counts_all(tmp_path):
     # After a second, a slow machine says what it does.
     head, *lines = (line for line in done.stderr.splitlines() if not line.startswith("["))
     assert head == f"{path}: 3 problems found."
-    assert lines == [f"  {', '.join(said(*WET))}: {WRONG}", at(f"  <Arrays/A1/Weight>: {OTHER}")]
+    assert lines == [
+        f"  {', '.join(with_addresses(*WET))}: {WRONG}",
+        cell_address(f"  <Arrays/A1/Weight>: {OTHER}"),
+    ]
     data = json.loads(CliRunner().invoke(main, ["check", str(path), "--json"]).stdout)
     assert len(data["errors"]) == 3
 

@@ -6,11 +6,19 @@ import os
 import numpy as np
 import pytest
 
-import sheets
-from nightly import by_day
+from fixtures import workbooks
+from fixtures.marks import by_day
+from fixtures.workbooks import (
+    cell_address,
+    make,
+    problems,
+    read_workbook,
+    row_cells,
+    type_into,
+    with_addresses,
+)
 from report.project.read import linked_files
 from report.project.read.read import read
-from sheets import at, make, of, problems, read_workbook, said, type_into
 
 
 @pytest.fixture(scope="module")
@@ -106,7 +114,7 @@ def test_a_record_must_be_a_file_within_the_folder(tmp_path, start):
     with (folder / "big.csv").open("wb") as file:
         file.truncate(65_000_000)
     lines = zip(rows, cases, strict=True)
-    assert problems(path) == said(
+    assert problems(path) == with_addresses(
         *(f"<{row}>: horizontal record: {line}" for row, (_, line) in lines)
     )
 
@@ -126,7 +134,7 @@ CHANNELS = "time (s),East (g),North (g),Up (g)\n" + "".join(
     f"{0.01 * i:.2f},{0.003 * i:.3f},{0.006 * i:.3f},{0.009 * i:.3f}\n" for i in range(101)
 )
 ONE_OF = "give one by name or number: 1 East; 2 North; 3 Up"
-AS_IN_FILE = of("Motions/M1", {"Record units": None, "Time step": None})
+AS_IN_FILE = row_cells("Motions/M1", {"Record units": None, "Time step": None})
 PART = "0.1\n" * 100 + "0\n" * 100
 STILL = {"Motions/M2/Horizontal record": "records/still.csv"}
 FIRST, SECOND, THIRD = (f"<Motions/M{k}/Horizontal record>: horizontal record" for k in (1, 2, 3))
@@ -140,12 +148,13 @@ FAULTS = [
      f"{VERTICAL} has a time step of 0.02 s, but the horizontal record has 0.01 s; make them"
      " equal"),
     ({"all": CHANNELS},
-     AS_IN_FILE | of("Motions/M1", {"Horizontal record": "records/all.csv",
+     AS_IN_FILE | row_cells("Motions/M1", {"Horizontal record": "records/all.csv",
                                     "Vertical record": "records/all.csv | Down"}),
      f"{FIRST}: all.csv: found several channels; {ONE_OF}",
      f"{VERTICAL}: all.csv: found no channel 'Down'; {ONE_OF}"),
     ({"x3": "0\n" * 200}, {}, f"{THIRD} {NO_PEAK} PPA; change the record or scaling"),
-    *(({"x": PART}, of("Motions/M1", {"Scaling": scaling, "Factor or PPA": scale, "Start time": 1}),
+    *(({"x": PART},
+       row_cells("Motions/M1", {"Scaling": scaling, "Factor or PPA": scale, "Start time": 1}),
        f"{FIRST} {NO_PEAK} {scaling}; change the record or scaling")
       for scaling, scale in (("PPA", 1), ("target spectrum", None))),
     # A verdict of OK followed from any of these.
@@ -165,7 +174,7 @@ FAULTS = [
 )
 def test_a_record_that_cannot_be_run_is_refused_at_its_cell(tmp_path, number):
     texts, cells, *lines = FAULTS[number]
-    assert problems(type_into(recorded(make(tmp_path), **texts), cells)) == said(*lines)
+    assert problems(type_into(recorded(make(tmp_path), **texts), cells)) == with_addresses(*lines)
 
 
 @pytest.mark.parametrize(
@@ -189,9 +198,9 @@ def test_a_record_that_cannot_be_run_is_refused_at_its_cell(tmp_path, number):
     ], 2),
 )  # fmt: skip
 def test_what_does_not_suit_a_record_is_reported_at_its_cell(tmp_path, cells, wanted):
-    path = type_into(recorded(make(tmp_path), all=CHANNELS), of("Motions/M1", cells))
+    path = type_into(recorded(make(tmp_path), all=CHANNELS), row_cells("Motions/M1", cells))
     for line, (heading, words) in zip(problems(path), wanted.items(), strict=True):
-        assert line.startswith(at(f"<Motions/M1/{heading.strip()}>: "))
+        assert line.startswith(cell_address(f"<Motions/M1/{heading.strip()}>: "))
         assert words in line
 
 
@@ -232,7 +241,7 @@ PDF = b"%PDF-1.7\nletter"
 
 @pytest.fixture
 def workbook(tmp_path):
-    return sheets.make(tmp_path / "project")
+    return workbooks.make(tmp_path / "project")
 
 
 def naming(workbook, name, content=None):
@@ -270,7 +279,7 @@ def test_what_may_not_be_attached_is_an_error_of_its_cell(workbook, name, said):
         (home / "letter.pdf").write_bytes(PDF)
     (folder / "up").symlink_to(folder.parent)
     (problem,) = problems(naming(workbook, name))
-    assert problem.startswith(f"{at(LETTER)}: letter of review: '{name}' {said}")
+    assert problem.startswith(f"{cell_address(LETTER)}: letter of review: '{name}' {said}")
 
 
 @pytest.mark.nightly
@@ -280,7 +289,7 @@ def test_all_documents_together_have_a_limit(workbook, monkeypatch):
     assert len(read(workbook).documents) == 1
     (workbook.parent / "report.pdf").write_bytes(PDF)
     (problem,) = problems(type_into(workbook, {REPORT: "report.pdf"}))
-    assert problem.startswith(f"{at(LETTER)}: ")
+    assert problem.startswith(f"{cell_address(LETTER)}: ")
     assert "'letter.pdf' and the other documents have more than" in problem
 
 

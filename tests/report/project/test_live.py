@@ -6,18 +6,28 @@ from xml.sax.saxutils import unescape
 import pytest
 from openpyxl import load_workbook
 
-import commands
-import sheets
-from cells import address, cell
-from nightly import by_day
-from places import DATA
-from recalculated import converted
+from fixtures import commands, workbooks
+from fixtures.cells import address, cell
+from fixtures.libreoffice import converted
+from fixtures.marks import by_day
+from fixtures.paths import DATA
+from fixtures.workbooks import (
+    edit,
+    findings_of,
+    formula_cells,
+    make,
+    pack,
+    parts,
+    put,
+    retitle,
+    type_into,
+    with_addresses,
+)
 from report.project.model.choices import UnitsFirst
 from report.project.read.archive import open_book
 from report.project.read.positions import CellPosition
 from report.project.read.read import read
 from report.project.write.filled import filled, findings, overwritten
-from sheets import edit, formula_cells, make, pack, parts, put, retitle, said, told, type_into
 
 
 def lost(path):
@@ -64,19 +74,27 @@ OVER = {
 def test_each_cell_is_named_with_what_is_in_it_and_what_belongs_there(tmp_path):
     path = edit(make(tmp_path), typed_over)
     found = overwritten(open_book(path))
-    assert tuple(item.position.address for item in found) == said(*OVER)
+    assert tuple(item.position.address for item in found) == with_addresses(*OVER)
     texts = {item.cell: item.text for item in findings(found)}
-    ratios = ":".join((sheets.at(RATIO.format(1)), sheets.at(RATIO.format(3)).partition("!")[2]))
+    ratios = ":".join(
+        (
+            workbooks.cell_address(RATIO.format(1)),
+            workbooks.cell_address(RATIO.format(3)).partition("!")[2],
+        )
+    )
     for place, words in {
         "Site/S_DS/Computed": "S_DS, computed, is 1.2, typed over its formula",
         "Arrays/A1/Kind of array": "is blank, and its formula is gone",
         ratios: "D/C, prescriptive (3 cells) is 0.5, typed",
     }.items():
-        assert words in texts[sheets.at(place)]
+        assert words in texts[workbooks.cell_address(place)]
     fresh = "copy it from a fresh workbook (roofslip new FOLDER)"
     assert all(text.endswith(fresh) for text in texts.values())
-    warned = commands.printed("check", path)
-    assert all(f"warning: {sheets.at(name)}: " in warned for name in ("Site/S_DS/Computed", FACTOR))
+    warned = commands.stdout_of("check", path)
+    assert all(
+        f"warning: {workbooks.cell_address(name)}: " in warned
+        for name in ("Site/S_DS/Computed", FACTOR)
+    )
 
 
 def test_a_renamed_sheet_other_units_and_new_rows_give_no_warning(tmp_path):
@@ -121,7 +139,7 @@ def test_a_color_that_a_program_saves_as_opaque_is_that_color(tmp_path):
     files = parts(path)
     assert b'rgb="00E3EDF5"' in files["xl/styles.xml"]
     files["xl/styles.xml"] = files["xl/styles.xml"].replace(b'rgb="00', b'rgb="FF')
-    assert tuple(lost(pack(path, files))) == said(*OVER)
+    assert tuple(lost(pack(path, files))) == with_addresses(*OVER)
 
 
 def saying(path, attributes):
@@ -132,7 +150,7 @@ def saying(path, attributes):
 
 @pytest.fixture
 def saved(tmp_path):
-    return sheets.saved_by_libreoffice(tmp_path)
+    return workbooks.saved_by_libreoffice(tmp_path)
 
 
 def typed_formulas(path):
@@ -147,15 +165,15 @@ MANUAL = b'calcId="191029" calcMode="manual" calcCompleted="0"'
 @pytest.mark.quick
 def test_formulas_that_are_not_calculated_since_are_named(saved):
     first, second = typed_formulas(saved)
-    ((name, _, text),) = told(saved)  # the names of its records were changed
+    ((name, _, text),) = findings_of(saved)  # the names of its records were changed
     assert name == "calculation"
     assert text.startswith(f"the workbook asks to be calculated when it is opened, and {first},")
-    assert told(saying(saved, MANUAL)) == [(
+    assert findings_of(saying(saved, MANUAL)) == [(
         "calculation", first,
         "the workbook was saved before its formulas were calculated (calculation is manual), and"
         f" {first}, {second} may show former values: {CALCULATE}",
     )]  # fmt: skip
-    ((_, _, text),) = told(saying(saved, b'calcCompleted="false"'))
+    ((_, _, text),) = findings_of(saying(saved, b'calcCompleted="false"'))
     assert text.startswith("the workbook was saved before its formulas were calculated, and Arrays")
 
 
@@ -164,13 +182,13 @@ def test_formulas_that_are_not_calculated_since_are_named(saved):
     [b"", b'calcMode="manual"', b'calcMode="manual" calcCompleted="1"', b'fullCalcOnLoad="0"'],
 )
 def test_a_workbook_that_was_calculated_is_no_warning(saved, says):
-    assert told(saying(saved, says)) == []
+    assert findings_of(saying(saved, says)) == []
 
 
 def test_computed_cells_alone_are_a_warning_in_manual_mode_and_none_in_a_fresh_workbook(tmp_path):
     path = make(tmp_path)
-    assert told(path) == []  # it asks to be calculated when it is opened
-    assert told(saying(path, MANUAL)) == [(
+    assert findings_of(path) == []  # it asks to be calculated when it is opened
+    assert findings_of(saying(path, MANUAL)) == [(
         "calculation", "Project",
         "the workbook was saved before its formulas were calculated (calculation is manual), and"
         f" its computed cells may show former values: {CALCULATE}",
@@ -213,7 +231,7 @@ def test_a_formula_of_a_formula_loses_its_value_and_check_and_report_agree(saved
     monkeypatch.setattr("report.cli.terminal.time.monotonic", lambda: 0.0)  # prints no progress
     slope = CellPosition("Arrays", 8, 3)
     assert valued(saved, {FIRST: "C8*0.9", SECOND: "E8"}, slope, 0.6) == [None, None]
-    check, report = (commands.refused(name, saved) for name in ("check", "report"))
+    check, report = (commands.errors_of(name, saved) for name in ("check", "report"))
     assert check == report
     for place, formula in ((FIRST, "C8*0.9"), (SECOND, "E8")):
         assert f"{place.address}: friction coefficient is a formula with no saved value" in check
@@ -243,7 +261,7 @@ OUTSIDE = {
 def test_links_to_elsewhere_are_named(tmp_path, name):
     path = make(tmp_path)
     pack(path, parts(path) | {f"xl/links/{part}.xml": xml for part, xml in OUTSIDE[name].items()})
-    assert told(path) == [elsewhere(name)]
+    assert findings_of(path) == [elsewhere(name)]
 
 
 def elsewhere(name):
@@ -259,18 +277,18 @@ def elsewhere(name):
 def test_formulas_that_fetch_are_named_wherever_they_are(tmp_path, formula):
     path = make(tmp_path)
     edit(path, lambda book: book["Site"].cell(90, 60, formula))
-    assert elsewhere(formula) in told(path)
+    assert elsewhere(formula) in findings_of(path)
 
 
 @pytest.mark.nightly
 def test_a_bar_in_a_text_and_a_link_of_a_cell_fetch_nothing(tmp_path):
     formula = """="a|b"&'Ar|rays'!A1&"it's|" """
-    assert not told(edit(make(tmp_path), lambda book: book["Site"].cell(90, 60, formula)))
+    assert not findings_of(edit(make(tmp_path), lambda book: book["Site"].cell(90, 60, formula)))
 
     def linked(book):
         book["Arrays"]["A1"].hyperlink = "http://a.test"
 
-    assert not told(edit(make(tmp_path), linked))
+    assert not findings_of(edit(make(tmp_path), linked))
 
 
 WEIGHT = "Arrays/A1/Weight"
@@ -281,7 +299,7 @@ def all_saved(tmp_path_factory):
     """Workbooks by name, beside their records, as LibreOffice saves them in one start."""
     folder = tmp_path_factory.mktemp("saved")
     filled = type_into(make(folder), {WEIGHT: "=21000*2"}).rename(folder / "filled.xlsx")
-    empty = sheets.blank(folder / "blank.xlsx", UnitsFirst.SI)
+    empty = workbooks.blank(folder / "blank.xlsx", UnitsFirst.SI)
     paths = converted([filled, empty], folder)
     (paths[0].parent / "records").symlink_to(folder / "records")
     return {path.stem: path for path in paths}
@@ -290,7 +308,7 @@ def all_saved(tmp_path_factory):
 @pytest.mark.nightly
 def test_what_libreoffice_saved_is_read_and_changed(all_saved):
     """With formulas as LibreOffice writes them, and the value of one that was typed."""
-    assert sheets.same(read(all_saved["filled"]).project, sheets.project())
+    assert workbooks.same(read(all_saved["filled"]).project, workbooks.project())
     book = all_saved["filled"].with_name("changed.xlsx")
     book.write_bytes(all_saved["filled"].read_bytes())
     before = read(book).project
@@ -313,4 +331,4 @@ def test_a_saved_book_gives_no_warning_but_of_what_is_typed_over(all_saved, tmp_
         assert (sheet.unseen, sheet.warnings) == ((), ()), name
     spoiled = book.with_name("spoiled.xlsx")
     spoiled.write_bytes(book.read_bytes())
-    assert tuple(lost(edit(spoiled, typed_over))) == said(*OVER)
+    assert tuple(lost(edit(spoiled, typed_over))) == with_addresses(*OVER)

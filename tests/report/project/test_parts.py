@@ -10,14 +10,14 @@ from lxml import etree
 from openpyxl import load_workbook
 from openpyxl.utils import coordinate_to_tuple, range_boundaries
 
-from cells import cell
-from nightly import by_day
+from fixtures.cells import cell
+from fixtures.marks import by_day
+from fixtures.workbooks import cell_address, edit, make, pack, parts
 from report.project.read.archive import open_book
 from report.project.read.parts import GrowingTable, changed
 from report.project.read.positions import CellPosition
 from report.project.read.read import read
 from report.project.write import style
-from sheets import at, edit, make, pack, parts
 from solver.model import InputError
 
 DRAWING = b"<a/>"  # whatever it is, it stays
@@ -25,7 +25,7 @@ DRAWING = b"<a/>"  # whatever it is, it stays
 
 def place(name):
     """The position of a cell."""
-    sheet, coordinate = at(name).split("!")
+    sheet, coordinate = cell_address(name).split("!")
     return CellPosition(sheet, *coordinate_to_tuple(coordinate))
 
 
@@ -37,7 +37,7 @@ WEIGHT, BELOW, HEIGHT, REPORT = (
 
 def named(name):
     """The address of a cell within its sheet, as it is in the part."""
-    return at(name).partition("!")[2].encode()
+    return cell_address(name).partition("!")[2].encode()
 
 
 def without(sheet, *names):
@@ -167,7 +167,7 @@ def test_a_shared_formula_and_a_sheet_that_is_not_there_are_refused(book):
     again = b'<c r="%b"><f t="shared" si="0"/><v>1</v></c>' % below
     files[name] = files[name].replace(b"<f>21000*2</f>", shared)
     files[name] = re.sub(whole(BELOW), again, files[name])
-    with pytest.raises(InputError, match=at(f"<{WEIGHT}>: shares its formula")):
+    with pytest.raises(InputError, match=cell_address(f"<{WEIGHT}>: shares its formula")):
         after(pack(path, files), {place(WEIGHT): 1.0})
     with pytest.raises(InputError, match="Nowhere: the sheet is missing"):
         after(book[0], {CellPosition("Nowhere", 1, 1): 1.0})

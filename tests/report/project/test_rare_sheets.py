@@ -5,17 +5,28 @@ import math
 import pytest
 from openpyxl import load_workbook
 
-import inputs
-from cells import cell
-from inputs import FT, INCH, LB, NO_SIDES, SIDES, clearance, sides
-from nightly import by_day
+from fixtures import project_parts
+from fixtures.assessments import TESTS
+from fixtures.cells import cell
+from fixtures.marks import by_day
+from fixtures.project_parts import FT, INCH, LB, NO_SIDES, SIDES, clearance, sides
+from fixtures.workbooks import (
+    arrays,
+    cell_address,
+    make,
+    problems,
+    project,
+    read_workbook,
+    row_cells,
+    same,
+    type_into,
+    with_addresses,
+)
 from report.project.model.choices import UnitsFirst
 from report.project.model.motions import Links, coefficients
 from report.project.model.scene import ROOF
 from report.project.model.shapes import Polygon, Rectangle
 from report.project.read.read import read
-from scenes import TESTS
-from sheets import arrays, at, make, of, problems, project, read_workbook, said, same, type_into
 from solver.sliding.row import MOST_STEPS, minimum_steps
 
 SHEET = "Friction tests"
@@ -39,7 +50,7 @@ def path(tmp_path):
 
 @pytest.mark.parametrize("units", by_day(UnitsFirst, 1))
 def test_runs_and_links_are_read_in_the_units_of_the_sheet(tmp_path, units):
-    rows = {"friction_runs": runs(), "links": [inputs.links("A1", "0.40, 0.45, 0.50", 5000)]}
+    rows = {"friction_runs": runs(), "links": [project_parts.links("A1", "0.40, 0.45, 0.50", 5000)]}
     path = make(tmp_path, units, friction_tests=TESTS, **rows)
     opened = load_workbook(path)
     velocity, stiffness = (1.0, 5000) if units is UnitsFirst.US else (25.4, 5 * LB / INCH)
@@ -63,16 +74,16 @@ MU = "Arrays/{}/Friction coefficient"
 
 def test_coefficients_above_the_tested_means_are_reported(tmp_path):
     path = make(tmp_path, arrays=arrays(mu=0.50), friction_tests=TESTS, friction_runs=runs())
-    assert problems(path) == said(
+    assert problems(path) == with_addresses(
         f"{MU.format('A1')} is 0.5; the tests give 0.46 (wet, mean of 3 from"
         f" <{SHEET}/4/Kinetic coefficient>); give 0.46 or less"
     )
     assert read_workbook(type_into(path, {MU.format("A1"): 0.46})).input
     # They are not compared while a run cannot be read.
     (line,) = problems(type_into(path, {f"{SHEET}/1/Kinetic coefficient": "x"}))
-    assert line.startswith(*said(f"{SHEET}/1/Kinetic coefficient is 'x'"))
+    assert line.startswith(*with_addresses(f"{SHEET}/1/Kinetic coefficient is 'x'"))
     path = make(tmp_path, arrays=arrays(mu_static=0.52), friction_runs=runs())
-    assert problems(path) == said(
+    assert problems(path) == with_addresses(
         "Arrays/A1/Static friction is 0.52; the tests give 0.5 (wet); give 0.5 or less"
     )
 
@@ -83,7 +94,7 @@ def test_one_run_is_compared_and_rounding_is_allowed(tmp_path):
     assert len(problems(path)) == 1
     assert read_workbook(type_into(path, {MU.format("A1"): 0.4649})).input
     path = make(tmp_path, friction_runs=runs(dry=(), wet=(0.44,)))
-    assert tuple(line.split(";")[0] for line in problems(path)) == said(
+    assert tuple(line.split(";")[0] for line in problems(path)) == with_addresses(
         *(f"{MU.format(array)} is 0.45" for array in ("A1", "A2"))
     )
 
@@ -93,7 +104,7 @@ def test_a_run_number_counts_at_each_velocity_anew(tmp_path):
     table = [run("dry", k, 0.6, velocity_mps=v * INCH) for v in (1.0, 10.0) for k in (1, 2, 3)]
     path = make(tmp_path, friction_tests=TESTS, friction_runs=table)
     assert len(read_workbook(path).input.friction_runs) == 6
-    assert problems(type_into(path, {f"{SHEET}/4/Velocity": 1.0})) == said(
+    assert problems(type_into(path, {f"{SHEET}/4/Velocity": 1.0})) == with_addresses(
         f"{SHEET}/4/Run is 1, dry, already given at <{SHEET}/1/Run>; give another number"
     )
 
@@ -109,7 +120,7 @@ def test_a_law_is_compared_at_the_tested_velocities(tmp_path):
 
     assert read_workbook(tested(1e-4)).input
     for velocity_mps in (1.0, None):
-        assert problems(tested(velocity_mps)) == said(
+        assert problems(tested(velocity_mps)) == with_addresses(
             f"<{MU.format('A1')}>: friction coefficient averages 0.6 at the tested velocities; the"
             f" tests give 0.41 (dry, mean of 3 from <{SHEET}/1/Kinetic coefficient>); reduce it"
         )
@@ -120,7 +131,7 @@ WANTED = "give 2 to 20 coefficients from 0 to 1.5 with decimal points, such as 0
 
 
 def row_of(array="A1", friction="0.40, 0.45, 0.50", lb_in=5000, **changes):
-    return inputs.links(array, friction, lb_in, **changes)
+    return project_parts.links(array, friction, lb_in, **changes)
 
 
 @pytest.fixture
@@ -168,7 +179,7 @@ CELLS = [
 @pytest.mark.parametrize("cells", by_day(CELLS, 1))
 def test_what_contradicts_the_arrays_is_named_with_what_to_give(linked, cells):
     reported = problems(type_into(linked, {name: typed for name, (typed, _) in cells.items()}))
-    assert reported == said(*(f"{name} is {line}" for name, (_, line) in cells.items()))
+    assert reported == with_addresses(*(f"{name} is {line}" for name, (_, line) in cells.items()))
 
 
 @pytest.mark.parametrize(
@@ -176,7 +187,7 @@ def test_what_contradicts_the_arrays_is_named_with_what_to_give(linked, cells):
 )
 def test_a_row_takes_one_coefficient_for_each_block(tmp_path, friction):
     linked = make(tmp_path, arrays=arrays(**friction), links=[row_of(), row_of("A2")])
-    assert problems(linked) == said(
+    assert problems(linked) == with_addresses(
         "Links/1/Array is 'A1', which has high-velocity or static friction; leave both"
         " blank on the sheet Arrays, or delete this row"
     )
@@ -189,7 +200,7 @@ def test_links_that_are_too_stiff_are_reported_with_a_stiffness_that_is_accepted
     wanted = ("5e+12 lb/in (8.8e+11 kN/m), too stiff to", "4e+12 lb/in")
     for row, (stiffness, line) in enumerate(zip(wanted, problems(linked), strict=True), start=1):
         name = f"Links/{row}/Link stiffness"
-        assert line.startswith(at(f"<{name}>: link stiffness is {stiffness}"))
+        assert line.startswith(cell_address(f"<{name}>: link stiffness is {stiffness}"))
         type_into(linked, {name: float(line.split("give ")[1].split(" lb/in")[0])})
     book = read_workbook(linked)
     seconds = sum(len(m.orientations) * m.dt_s * len(m.ax_mps2) for m in book.motions)
@@ -249,12 +260,12 @@ def test_outlines_are_read_in_either_direction_and_refused_in_two_places(tmp_pat
     assert list(data.arrays[0].shape.points) == in_meters([first, *rest[::-1]])
     here, before = "<Outlines/5/Outline of>", "<Outlines/3/Outline of>"
     line = f"outline of 'A1' goes on here after {before}; put all of its rows together"
-    assert at(f"{here}: {line}") in changed(tmp_path, {"4/Outline of": "A2"})
+    assert cell_address(f"{here}: {line}") in changed(tmp_path, {"4/Outline of": "A2"})
 
 
 def changed(tmp_path, cells):
     """The problems of a workbook with an outline of A1, after cells of it are typed."""
-    return problems(type_into(make(tmp_path, **outlined()), of("Outlines", cells)))
+    return problems(type_into(make(tmp_path, **outlined()), row_cells("Outlines", cells)))
 
 
 FIRST = "<Outlines/1/Outline of>"
@@ -262,7 +273,7 @@ FIRST = "<Outlines/1/Outline of>"
 
 def test_an_unknown_name_is_told_by_its_cell(tmp_path):
     found = changed(tmp_path, {f"{row}/Outline of": "A11" for row in range(1, 7)})
-    assert found[-1] == at(
+    assert found[-1] == cell_address(
         f"{FIRST}: outline of 'A11', which is not in Arrays or Objects; did you mean 'A1'?"
     )
     assert found[0].endswith(
@@ -288,7 +299,7 @@ NO_NUMBER = "<Outlines/2/y>: y is "
 )  # fmt: skip
 def test_what_is_no_outline_is_told_by_its_cell(tmp_path, typed, begin, end):
     (line,) = changed(tmp_path, typed)
-    assert line.startswith(at(begin))
+    assert line.startswith(cell_address(begin))
     assert line.endswith(end)
 
 
@@ -314,7 +325,7 @@ NOTCHED = ((0, 0), (300, 0), (300, 60), (80, 60), (80, 100), (0, 100))
 )  # fmt: skip
 def test_what_contradicts_an_outline_is_told_by_its_cell(tmp_path, changes, words):
     (line,) = problems(make(tmp_path, **changes))
-    assert at(words) in line
+    assert cell_address(words) in line
 
 
 def test_a_clearance_is_compared_with_the_gap_to_the_outline(tmp_path):
@@ -326,7 +337,9 @@ def test_a_clearance_is_compared_with_the_gap_to_the_outline(tmp_path):
     (found,) = problems(type_into(path, {"Clearances/1/Provided clearance": 72}))
     assert "A1 and RTU-1 are 60.0 in (1524 mm) apart in plan" in found
     assert found.endswith(
-        at(f"reduce it, or correct the outlines in {FIRST} and <Objects/RTU-1/x from:y to>")
+        cell_address(
+            f"reduce it, or correct the outlines in {FIRST} and <Objects/RTU-1/x from:y to>"
+        )
     )
 
 

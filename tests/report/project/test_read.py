@@ -11,15 +11,27 @@ from openpyxl import load_workbook
 from openpyxl.utils import coordinate_to_tuple, get_column_letter, range_boundaries
 from openpyxl.worksheet.table import Table
 
-from cells import address, cell
-from inputs import FT, INCH
-from nightly import by_day
+from fixtures.cells import address, cell
+from fixtures.marks import by_day
+from fixtures.project_parts import FT, INCH
+from fixtures.workbooks import (
+    cell_address,
+    edit,
+    findings_of,
+    make,
+    problems,
+    project,
+    read_workbook,
+    row_cells,
+    same,
+    type_into,
+    with_addresses,
+)
+from fixtures.workbooks import saved_by_libreoffice as by_libreoffice
 from report.assessment.precheck import findings
 from report.project.model import Options
 from report.project.model.choices import Polarity, SlopeUnit, UnitsFirst
 from report.project.write.template import write_template
-from sheets import at, edit, make, of, problems, project, read_workbook, said, same, told, type_into
-from sheets import saved_by_libreoffice as by_libreoffice
 
 
 @pytest.fixture(params=list(UnitsFirst))
@@ -36,11 +48,11 @@ def test_a_project_is_read_as_written_and_every_cell_echoed(path):
     book = read_workbook(path)
     rows = echo(book)
     assert len(rows) == len(book.echo)
-    weight = rows[at("Arrays/A1/Weight")]
+    weight = rows[cell_address("Arrays/A1/Weight")]
     assert (weight.label, weight.value) == ("Weight", "186825 N")
     assert (weight.typed, weight.unit) in [("42000", "lb"), ("186.825307841", "kN")]
     names = ("Site/S_1", "Objects/OLD/Height", "Options/Peer review")
-    assert [rows[at(name)].value for name in names] == ["0.7 g", "—", "Yes"]
+    assert [rows[cell_address(name)].value for name in names] == ["0.7 g", "—", "Yes"]
 
 
 letters = st.characters(exclude_categories=["Cc", "Cf", "Cs", "Cn", "Zs", "Zl", "Zp"])
@@ -211,8 +223,8 @@ def test_spelling_and_notes_do_not_matter_and_units_are_followed(tmp_path):
     """All in one workbook: each is in a cell that no other depends on."""
     path = type_into(make(tmp_path), dict(SPELLINGS.values()))
     assert same(read_workbook(path).input, project())
-    cells = of("Arrays/heading", {"CG height": "CG height [mm]", "Weight": "Weight [kg]"})
-    cells |= of("Arrays/A1", {"CG height": 250, "Weight": 1000}) | {"Arrays/A2/CG height": 1}
+    cells = row_cells("Arrays/heading", {"CG height": "CG height [mm]", "Weight": "Weight [kg]"})
+    cells |= row_cells("Arrays/A1", {"CG height": 250, "Weight": 1000}) | {"Arrays/A2/CG height": 1}
     cells |= {"Site/Structure height h": 12, "Site/Structure height h/Unit": "m"}
     data = read_workbook(type_into(make(tmp_path), cells)).input
     assert data.arrays[0].cg_height_m == pytest.approx(0.25)
@@ -227,7 +239,7 @@ def test_a_fire_pathway_is_a_width_or_none_or_not_answered(tmp_path):
     book = read_workbook(type_into(make(tmp_path), cells))
     widths = [row.pathway_m for row in book.input.clearances]
     assert widths == [0.0, 0.0, pytest.approx(36 * INCH), pytest.approx(48 * INCH), None]
-    shown = [echo(book)[at(name)].value for name in cells]
+    shown = [echo(book)[cell_address(name)].value for name in cells]
     assert (shown[:2], shown[4]) == (["none", "none"], "—")
     # None is no width that is too small, and is written as the word.
     assert not [found for found in findings(book.sheet, book.shaking) if "pathway" in found.text]
@@ -241,7 +253,7 @@ def test_what_is_blank_or_absent_takes_its_default(tmp_path):
     book = read_workbook(type_into(make(tmp_path), dict.fromkeys(blank)))
     assert book.input.options == Options()
     assert book.input.motions[1].polarity is Polarity.BOTH
-    row = echo(book)[at(statistic)]
+    row = echo(book)[cell_address(statistic)]
     assert (row.typed, row.value) == ("", "rule set (default)")
 
     # `test_earlier` has the cells that earlier workbooks lack.
@@ -293,13 +305,13 @@ def copied(book, title):
 
 def test_a_copied_sheet_is_ignored_with_a_warning(tmp_path):
     path = edit(make(tmp_path), lambda book: copied(book, "Arrays"))
-    ((name, cell, text),) = told(path)
-    assert (name, cell) == ("copy Arrays Copy", at("Arrays/heading/ID"))
+    ((name, cell, text),) = findings_of(path)
+    assert (name, cell) == ("copy Arrays Copy", cell_address("Arrays/heading/ID"))
     assert text == (
         "sheets 'Arrays' and 'Arrays Copy' both have the labels of Arrays; 'Arrays' is read,"
         " and 'Arrays Copy' is ignored: delete the one that is not meant"
     )
-    ((name, _, _),) = told(edit(make(tmp_path), lambda book: copied(book, "Options")))
+    ((name, _, _),) = findings_of(edit(make(tmp_path), lambda book: copied(book, "Options")))
     assert name == "copy Options Copy"  # of several parts, named once
 
 
@@ -307,7 +319,7 @@ def test_a_sheet_with_some_of_the_headings_is_no_copy(tmp_path):
     def change(book):
         book.create_sheet("Notes").append(["ID", "Slope", "x [g]", "y [g]", "Period [s]"])
 
-    assert told(edit(make(tmp_path), change)) == []
+    assert findings_of(edit(make(tmp_path), change)) == []
 
 
 FRESH = "copy it from a fresh workbook (roofslip new FOLDER)"
@@ -348,7 +360,7 @@ EDITED = [
     ("change", "line"), by_day(EDITED, 1), ids=[line[:40] for _, line in EDITED]
 )
 def test_what_is_missing_is_reported_once(tmp_path, change, line):
-    assert problems(edit(make(tmp_path), change)) == said(*line.splitlines())
+    assert problems(edit(make(tmp_path), change)) == with_addresses(*line.splitlines())
 
 
 @pytest.mark.parametrize(
@@ -358,7 +370,7 @@ def test_what_is_missing_is_reported_once(tmp_path, change, line):
     ids=["table", "below", "unit", "label"],
 )  # fmt: skip
 def test_merged_cells_of_a_table_or_over_a_single_field_are_reported(tmp_path, name, to):
-    sheet, first = at(name).split("!")
+    sheet, first = cell_address(name).split("!")
     row, column = coordinate_to_tuple(first)
     (top, bottom), (left, right) = (sorted((0, step)) for step in to)
     corners = ((row + top, column + left), (row + bottom, column + right))

@@ -6,9 +6,19 @@ import pytest
 from click.testing import CliRunner
 from pydantic import TypeAdapter, ValidationError
 
-import inputs
-from inputs import SITE
-from nightly import by_day
+from fixtures import project_parts
+from fixtures.marks import by_day
+from fixtures.project_parts import SITE
+from fixtures.workbooks import (
+    cell_address,
+    make,
+    problems,
+    project,
+    row_cells,
+    same,
+    type_into,
+    with_addresses,
+)
 from report.cli.main import main
 from report.project.check.checks import site_faults
 from report.project.model import ProjectInput
@@ -20,11 +30,10 @@ from report.project.read.read import read
 from report.project.read.what_if import retyped
 from report.project.workbook import SECTIONS
 from report.study.workbook import STUDY_SECTIONS
-from sheets import at, make, of, problems, project, said, same, type_into
 from solver.model import DefectError, InputError
 from solver.rules.hazard import HazardBasis
 
-BARE_SITE = inputs.SITE | {"rule_set": "ASCE 7-16", "s_1_g": None, "site_class": None}
+BARE_SITE = project_parts.SITE | {"rule_set": "ASCE 7-16", "s_1_g": None, "site_class": None}
 BARE_SITE.pop("s_ds_g")
 
 
@@ -185,7 +194,7 @@ NAMES = ("Importance factor I_e", "F_a", "Seismic design category")
 
 
 def made(folder, **changes):
-    return type_into(make(folder), of("Site", GIVEN | changes))
+    return type_into(make(folder), row_cells("Site", GIVEN | changes))
 
 
 @pytest.mark.quick
@@ -207,7 +216,7 @@ def test_what_is_blank_is_computed_and_the_echo_says_so(tmp_path):
 def test_what_is_computed_is_said_unless_it_is_given(tmp_path):
     done = CliRunner().invoke(main, ["check", str(made(tmp_path))])
     for name, value in zip(NAMES, ("I_e is 1.25", "F_a is 1.2", "category is D"), strict=True):
-        begin = f"note: {at('Site/' + name)}"
+        begin = f"note: {cell_address('Site/' + name)}"
         (line,) = (line for line in done.output.splitlines() if line.startswith(begin))
         assert f"{value} (computed, ASCE 7" in line
     typed = {"F_a": 1.3, "Importance factor I_e": 1.5, "Seismic design category": "E"}
@@ -238,7 +247,7 @@ NO_SDC = "Site/Seismic design category is missing; choose A, B, C, D, E or F, or
     ),
 )
 def test_what_does_not_follow_is_asked_for(tmp_path, changes, line):
-    assert problems(made(tmp_path, **changes)) == said(line)
+    assert problems(made(tmp_path, **changes)) == with_addresses(line)
 
 
 @pytest.mark.parametrize(

@@ -8,18 +8,18 @@ from openpyxl import load_workbook
 from openpyxl.utils import get_column_letter, range_boundaries
 from pypdf import PdfReader
 
-import sheets
-from cells import address, cell
-from nightly import by_day
+from fixtures import workbooks
+from fixtures.cells import address, cell
+from fixtures.libreoffice import converted
+from fixtures.marks import by_day
+from fixtures.workbooks import arrays, blank, formula_cells, make, project, type_into
 from projects.example.make import project as example
-from recalculated import converted
 from report.drawing.items import TYPE_PT, width_in
 from report.project.model import provision_name
 from report.project.model.choices import UnitsFirst
 from report.project.read.read import read
 from report.project.workbook import SECTIONS
 from report.project.write.template import write_template
-from sheets import arrays, blank, formula_cells, make, project, type_into
 from solver.rules.rulesets import ALLOWED
 
 SHEETS = [
@@ -214,7 +214,7 @@ FUNCTIONS = {
 def parts(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("parts")
     path = make(folder) if request.param == "filled" else blank(folder / "input.xlsx")
-    return sheets.parts(path)
+    return workbooks.parts(path)
 
 
 def elements(parts, tag, folder="xl/"):
@@ -296,7 +296,7 @@ def test_rare_columns_are_folded_until_one_is_filled(tmp_path):
     rare = column(empty, "High-velocity friction")
     assert (rare.outlineLevel, rare.hidden) == (1, True)
     assert column(empty, "Weight").outlineLevel == 0
-    filled = load_workbook(make(tmp_path, arrays=sheets.arrays(i_p=1.25)))
+    filled = load_workbook(make(tmp_path, arrays=workbooks.arrays(i_p=1.25)))
     assert not column(filled, "Importance factor I_p").hidden
     assert column(filled, "Kind of array").hidden
 

@@ -7,15 +7,23 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cells import cell
-from inputs import FT
-from nightly import by_day, nightly
+from fixtures.cells import cell
+from fixtures.marks import by_day, nightly
+from fixtures.project_parts import FT
+from fixtures.workbooks import (
+    cell_address,
+    edit,
+    make,
+    problems,
+    read_workbook,
+    type_into,
+    with_addresses,
+)
 from report.project.model.choices import RuleSetName, UnitsFirst
 from report.project.read import typed_text
 from report.project.read.cells import plain
 from report.project.read.read import read
 from report.project.read.typed_text import choice_in, dates_in, inches_in, number_in, rise_in
-from sheets import at, edit, make, problems, read_workbook, said, type_into
 
 NUMBERS = {
     "0.45": 0.45, "0,5": 0.5, ",45": 0.45, "-12,5": -12.5, "0,500": 0.5, "1,234.5": 1234.5,
@@ -148,7 +156,7 @@ REMARKS = {
 def test_a_remark_in_a_cell_is_an_error_that_says_what_to_type(tmp_path):
     path = type_into(make(tmp_path), {name: text for name, (text, _) in REMARKS.items()})
     expected = [f"{name} is '{text}'; {wanted}" for name, (text, wanted) in REMARKS.items()]
-    assert sorted(problems(path)) == sorted(said(*expected))
+    assert sorted(problems(path)) == sorted(with_addresses(*expected))
 
 
 @pytest.mark.parametrize("cells", by_day(AS_TYPED, 1))
@@ -263,7 +271,7 @@ def test_a_number_shown_in_another_unit_or_in_thousands_is_an_error(
     tmp_path, name, code, what, wish
 ):
     (line,) = problems(formatted(make(tmp_path), {name: code}))
-    (begin,) = said(f"{name} is {what} by its number format ({code}); give a number")
+    (begin,) = with_addresses(f"{name} is {what} by its number format ({code}); give a number")
     assert line.startswith(begin)
     assert line.endswith(", formatted as a number")
     assert wish in line
@@ -310,7 +318,7 @@ def test_a_unit_must_be_valid(tmp_path, units):
     cells = {name: unit for name, (unit, _) in units.items()}
     reported = problems(type_into(make(tmp_path), cells))
     for line, (name, (_, wanted)) in zip(reported, units.items(), strict=True):
-        assert line.startswith(f"{at(name)}: unit of {wanted}")
+        assert line.startswith(f"{cell_address(name)}: unit of {wanted}")
 
 
 def test_a_percentage_is_an_error_with_the_number_that_excel_holds(tmp_path):
@@ -318,7 +326,7 @@ def test_a_percentage_is_an_error_with_the_number_that_excel_holds(tmp_path):
         slope = cell(book, "Arrays/A2/Slope")
         slope.value, slope.number_format = 0.05, "0.0%"
 
-    assert problems(edit(make(tmp_path), percent)) == said(
+    assert problems(edit(make(tmp_path), percent)) == with_addresses(
         "Arrays/A2/Slope is a percentage (5%, which Excel holds as 0.05); give a number of 0 or"
         " more, formatted as a number"
     )

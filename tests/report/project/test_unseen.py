@@ -10,20 +10,29 @@ from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.filters import AutoFilter, FilterColumn, Filters
 
-import scenes
-from cells import cell as named
-from nightly import by_day
-from printed import printed
+from fixtures import assessments
+from fixtures.cells import cell as named
+from fixtures.marks import by_day
+from fixtures.pages import page_of
+from fixtures.workbooks import (
+    blank,
+    cell_address,
+    edit,
+    findings_of,
+    make,
+    read_workbook,
+    row_cells,
+    type_into,
+)
 from report.assessment.precheck import findings
 from report.project.model.place import Place
 from report.project.read.read import read
 from report.project.read.unseen import Concealment, Unseen, warnings
-from sheets import at, blank, edit, make, of, read_workbook, told, type_into
 
 
 def cell_of(name):
     """Sheet, column letter and row of a cell of `make`."""
-    sheet, cell = at(name).split("!")
+    sheet, cell = cell_address(name).split("!")
     row, column = coordinate_to_tuple(cell)
     return sheet, get_column_letter(column), row
 
@@ -46,7 +55,7 @@ def hide_options(path, state):
 )
 def test_an_override_on_a_hidden_sheet_is_a_warning(tmp_path, state, said):
     sheet, column, row = cell_of("Options/1/Value")
-    ((name, _, text),) = told(hide_options(make(tmp_path), state))
+    ((name, _, text),) = findings_of(hide_options(make(tmp_path), state))
     assert name == f"hidden sheet {sheet}"
     assert text.startswith(f"the sheet is {said}, and cells B")
     assert has(text, f"{column}{row}")
@@ -60,7 +69,7 @@ def test_hidden_rows_and_columns_are_one_warning_with_their_cells(tmp_path):
         book[sheet].row_dimensions[row].hidden = True
         book[sheet].column_dimensions[letter].hidden = True
 
-    ((name, cell, text),) = told(edit(make(tmp_path), change))
+    ((name, cell, text),) = findings_of(edit(make(tmp_path), change))
     assert name == f"hidden {sheet}"
     assert has(text, f"{letter}{row - 2}", f"{letter}{row - 1}", f"B{row}")  # with the heading
     assert not has(text, f"B{row - 1}")
@@ -83,7 +92,7 @@ def test_a_cell_in_a_row_or_column_without_size_is_hidden(tmp_path):
         book["Objects"].column_dimensions[height[1]].width = 0.1
 
     for (name, _, text), (sheet, letter, row) in zip(
-        told(edit(make(tmp_path), change)), (number, unit, factor, height), strict=True
+        findings_of(edit(make(tmp_path), change)), (number, unit, factor, height), strict=True
     ):
         assert name == f"hidden {sheet}"
         assert has(text, f"{letter}{row}")
@@ -108,7 +117,7 @@ def test_a_row_that_a_filter_hides_is_filtered_out(tmp_path, change):
         change(book, sheet)
         book[sheet].row_dimensions[row].hidden = True
 
-    ((name, cell, text),) = told(edit(make(tmp_path), hide))
+    ((name, cell, text),) = findings_of(edit(make(tmp_path), hide))
     assert (name, cell) == (f"filtered out {sheet}", f"{sheet}!B{row}")
     assert "are in rows that a filter hides, and are read: clear the filter, and delete" in text
 
@@ -126,7 +135,7 @@ def test_a_row_that_is_struck_through_is_a_warning_and_a_blank_one_is_none(tmp_p
         f"cells B{row}:{letter}{row} are struck through, and are read: clear what is not meant,"
         " and remove the strikethrough from the rest"
     )
-    assert told(edit(path, change)) == [(f"struck through {sheet}", f"{sheet}!B{row}", text)]
+    assert findings_of(edit(path, change)) == [(f"struck through {sheet}", f"{sheet}!B{row}", text)]
 
 
 def looking(path, look):
@@ -157,9 +166,9 @@ SEEN = (
 
 @pytest.mark.parametrize("look", by_day(INVISIBLE, 1))
 def test_a_number_that_cannot_be_seen_is_a_warning(tmp_path, look):
-    ((name, place, text),) = told(looking(make(tmp_path), look))
+    ((name, place, text),) = findings_of(looking(make(tmp_path), look))
     sheet, _, cell = place.partition("!")
-    assert (name, place) == (f"invisible {sheet}", at("Arrays/A1/Friction coefficient"))
+    assert (name, place) == (f"invisible {sheet}", cell_address("Arrays/A1/Friction coefficient"))
     assert text == (
         f"cell {cell} cannot be seen for the color of the text or the number format, and is read:"
         " change it, or clear what is not meant"
@@ -172,13 +181,13 @@ def test_what_the_template_folds_and_unread_sheets_are_no_warnings(tmp_path):
             book[name].sheet_state = "hidden"
         assert any(c.hidden for c in book["Arrays"].column_dimensions.values())
 
-    assert told(edit(make(tmp_path), change)) == []
+    assert findings_of(edit(make(tmp_path), change)) == []
     assert read(blank(tmp_path / "blank.xlsx")).unseen == ()
 
 
 @pytest.mark.parametrize("look", by_day(SEEN, 1))
 def test_a_number_in_another_color_that_can_be_seen_is_no_warning(tmp_path, look):
-    assert told(looking(make(tmp_path), look)) == []
+    assert findings_of(looking(make(tmp_path), look)) == []
 
 
 @pytest.mark.nightly
@@ -189,8 +198,8 @@ def test_a_warning_is_acknowledged_by_its_name_and_the_echo_marks_its_cells(tmp_
     (found,) = findings(book.sheet, book.shaking)
     assert found.reason == "Kept from the client's view"
     sheet, _, _ = cell_of("Options/1/Value")
-    done = replace(scenes.package().assessment, sheet=book.sheet)
-    tables = [table for table in printed(done, "echo").tables if table.title == sheet]
+    done = replace(assessments.package().assessment, sheet=book.sheet)
+    tables = [table for table in page_of(done, "echo").tables if table.title == sheet]
     assert "18 (hidden sheet)" in {cell for table in tables for row in table.cells for cell in row}
     assert not any(row.unseen for row in book.sheet.echo if row.sheet != sheet)
 
@@ -208,12 +217,12 @@ def test_a_pasted_record_on_a_hidden_sheet_is_one_warning_and_a_note_of_the_reco
 
     path = edit(make(tmp_path), change)
     records = {"Horizontal record": "Pasted!x [g]", "Transverse record": "Pasted!y [g]"}
-    book = read_workbook(type_into(path, of("Motions/M1", records)))
+    book = read_workbook(type_into(path, row_cells("Motions/M1", records)))
     found = [f for f in findings(book.sheet, book.shaking) if f.id]
     ((name, text),) = [(f.id, f.text) for f in found if f.id.startswith("hidden")]
     assert name == "hidden sheet Pasted"
     assert "and cells A1:C150 on it are read" in text
-    page = printed(replace(scenes.package().assessment, shaking=book.shaking), "records")
+    page = page_of(replace(assessments.package().assessment, shaking=book.shaking), "records")
     assert "M1 horizontal: cells A1:B150 on the sheet Pasted: hidden sheet" in page
 
 

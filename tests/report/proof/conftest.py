@@ -4,8 +4,7 @@ from functools import cache
 
 import pytest
 
-import packages
-import tampering
+from fixtures import packages, tampering
 from report.proof.package import compared, opened
 
 

@@ -6,7 +6,7 @@ import pikepdf
 import pytest
 from pypdf import PdfReader
 
-from growth import grows_faster
+from fixtures.growth import grows_faster
 from report.proof.contents import differences, first_other_word, pages, parsed, refused, words
 from solver.model import InputError
 

@@ -25,9 +25,8 @@ from pyhanko.sign.validation import validate_pdf_signature
 from pyhanko_certvalidator import ValidationContext
 from pypdf import PdfReader
 
-import commands
-import tampering
-from nightly import by_day
+from fixtures import commands, tampering
+from fixtures.marks import by_day
 from report.cli.terminal import warn_of_others
 from report.proof.contents import refused
 from report.proof.package import compared, opened
@@ -324,7 +323,7 @@ def test_a_signature_that_cannot_be_checked_is_said_not_to_be(made, sign, tmp_pa
     path = tmp_path / "calc-package-signed.pdf"
     path.write_bytes(sign(content=made)[1])
     monkeypatch.setitem(sys.modules, "pyhanko.sign.validation", None)
-    told = commands.ended("verify-package", path, exit_code=4)
+    told = commands.output_of("verify-package", path, exit_code=4)
     assert "Same" not in told
     assert "were not checked" in told
     assert "./roofslip sign installs" in told
@@ -358,7 +357,7 @@ def test_what_was_painted_over_before_it_was_signed_is_never_the_same(made, sign
     path = tmp_path / "calc-package-signed.pdf"
     painted = tampering.rewritten(made, tampering.painted_over)
     path.write_bytes(sign(content=painted)[1])
-    told = commands.ended("verify-package", path, exit_code=4)
+    told = commands.output_of("verify-package", path, exit_code=4)
     assert "drawings not compared: read the package made again" in told
     assert "by 'Jane Doe, S.E.'" in told
     assert (tmp_path / "calc-package-signed-again.pdf").read_bytes() == made
@@ -384,7 +383,7 @@ def test_a_file_that_is_not_there_is_told_before_a_password_is_asked_for(missing
     for name in {"calc-package.pdf", "yours.p12"} - {missing}:
         (tmp_path / name).write_bytes(b"")
     package, p12 = (tmp_path / name for name in ("calc-package.pdf", "yours.p12"))
-    told = commands.refused("sign", package, "--p12", p12)
+    told = commands.errors_of("sign", package, "--p12", p12)
     assert missing in told
     assert "assword" not in told
 
@@ -394,7 +393,7 @@ def test_the_package_is_not_overwritten_by_the_one_that_is_signed(tmp_path):
     package = tmp_path / "calc-package.pdf"
     package.write_bytes(b"as it was")
     words = ("sign", package, "--p12", package, "--password", "x", "--out", package)
-    assert "choose another --out" in commands.refused(*words)
+    assert "choose another --out" in commands.errors_of(*words)
     assert package.read_bytes() == b"as it was"
 
 

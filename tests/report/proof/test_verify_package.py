@@ -14,14 +14,12 @@ from pathlib import Path
 import pikepdf
 import pytest
 
-import commands
-import packages
-import tampering
-from nightly import by_day
-from places import ROOT
+from fixtures import commands, packages, tampering
+from fixtures.marks import by_day
+from fixtures.paths import ROOT
+from fixtures.workbooks import type_into
 from report.making import OUTPUTS
 from report.proof.package import Agreement, compared, failed, opened, take_out
-from sheets import type_into
 from solver.model import InputError
 
 RECORD = "records/RM1-x.csv"
@@ -72,7 +70,7 @@ def after_record_changed(whole, given):
 @pytest.mark.nightly
 def test_a_package_is_the_same_to_the_byte_unless_a_record_was_changed(whole, after_record_changed):
     """A process of its own wrote it; this one has laid out a package before."""
-    told = commands.printed("verify-package", whole / "out" / "calc-package.pdf")
+    told = commands.stdout_of("verify-package", whole / "out" / "calc-package.pdf")
     assert "Same: the input in the package gives this package, to the byte." in told
     assert sorted(path.name for path in whole.iterdir()) == ["input.xlsx", "out", "records"]
     assert sorted(path.name for path in (whole / "out").glob("*.pdf")) == ["calc-package.pdf"]
@@ -99,13 +97,13 @@ def test_a_package_of_another_commit_is_that_of_other_software(whole, tmp_path):
 def test_a_painted_package_is_not_compared_in_full_and_is_made_again_beside_it(whole, given):
     data = (whole / "out" / "calc-package.pdf").read_bytes()
     path = given(data, tampering.painted_over)
-    told = commands.ended("verify-package", path, exit_code=4)
+    told = commands.output_of("verify-package", path, exit_code=4)
     assert "drawings not compared: read the package made again" in told
     assert "Same" not in told
     assert "OK" not in told
     again = path.with_name("given-again.pdf")
     assert again.read_bytes() == data
-    told = commands.refused("verify-package", path)
+    told = commands.errors_of("verify-package", path)
     assert "given-again.pdf: already exists; give another --out" in told
 
 
@@ -140,10 +138,10 @@ def test_a_package_with_a_document_verifies_and_with_another_one_differs(tmp_pat
     shutil.copy(LETTER, tmp_path / "job" / name)
     named = {"Friction tests/Test report file": name}
     type_into(tmp_path / "job" / "input.xlsx", named)
-    commands.printed("report", tmp_path / "job")
+    commands.stdout_of("report", tmp_path / "job")
     path = tmp_path / "job" / "out" / "calc-package.pdf"
     assert opened(path.read_bytes()).files[name] == LETTER.read_bytes()
-    commands.printed("verify-package", path)
+    commands.stdout_of("verify-package", path)
     another = given(path.read_bytes(), with_file(name, LETTER.read_bytes() + b"%"))
     done = commands.run("verify-package", another, "--json")
     assert done.exit_code == 1, done.output
@@ -179,7 +177,7 @@ def test_a_name_with_an_accent_is_one_name_in_the_two_encodings_of_the_renderer(
 
 def test_an_input_that_no_longer_runs_differs(data, given):
     path = given(data, with_file(RECORD, b"none"))
-    assert "its input does not run: " in commands.ended("verify-package", path, exit_code=1)
+    assert "its input does not run: " in commands.output_of("verify-package", path, exit_code=1)
 
 
 def test_the_end_of_an_attached_pdf_is_not_that_of_the_package(data):
@@ -203,7 +201,7 @@ def test_what_is_no_package_differs_and_a_file_that_is_not_there_is_an_input_err
     path = tmp_path / "given.pdf"
     if content is not None:
         path.write_bytes(content)
-    commands.ended("verify-package", path, exit_code=2 if content is None else 1)
+    commands.output_of("verify-package", path, exit_code=2 if content is None else 1)
 
 
 @pytest.mark.quick
@@ -212,7 +210,7 @@ def test_a_pdf_without_the_input_is_no_package(tmp_path):
     with pikepdf.new() as pdf:
         pdf.add_blank_page()
         pdf.save(path)
-    assert "holds no roofslip.json" in commands.ended("verify-package", path, exit_code=1)
+    assert "holds no roofslip.json" in commands.output_of("verify-package", path, exit_code=1)
 
 
 @pytest.mark.parametrize("name", by_day(["roofslip.json", "results.json"], 1))
@@ -222,7 +220,7 @@ def test_an_attachment_that_is_no_json_of_ours_makes_no_package(few_sheets, give
         if name == "results.json":
             tampering.relisted(pdf)
 
-    told = commands.ended("verify-package", given(few_sheets, change), exit_code=1)
+    told = commands.output_of("verify-package", given(few_sheets, change), exit_code=1)
     assert f"{name} is damaged" in told
 
 
@@ -234,14 +232,14 @@ def test_an_attachment_that_is_no_json_of_ours_makes_no_package(few_sheets, give
 )  # fmt: skip
 def test_an_entry_of_another_type_makes_no_package(few_sheets, given, entries):
     path = given(few_sheets, tampering.of_manifest(lambda manifest: manifest.update(entries)))
-    assert "roofslip.json" in commands.ended("verify-package", path, exit_code=1)
+    assert "roofslip.json" in commands.output_of("verify-package", path, exit_code=1)
 
 
 @pytest.mark.nightly
 def test_an_attachment_that_unpacks_to_a_thousand_times_its_size_is_refused(few_sheets, given):
     path = given(few_sheets, lambda pdf: tampering.set_file(pdf, RECORD, bytes(90_000_000)))
     assert path.stat().st_size < 2_000_000
-    commands.ended("verify-package", path, exit_code=1)
+    commands.output_of("verify-package", path, exit_code=1)
 
 
 def test_a_package_that_needs_no_password_and_is_encrypted_is_refused(few_sheets):

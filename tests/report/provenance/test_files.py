@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-import scenes
-import stand_in
-from nightly import by_day
-from places import ROOT
+from fixtures import assessments, projects
+from fixtures.marks import by_day
+from fixtures.paths import ROOT
+from fixtures.workbooks import type_into
 from report import making
 from report.motions import files as motion_files
 from report.motions.prepare import prepare
@@ -31,7 +31,6 @@ from report.provenance.files import (
 from report.provenance.release import version
 from report.results.results_json import results_json
 from report.web.open_project import open_project
-from sheets import type_into
 from solver.model import InputError
 
 EXAMPLE = ROOT / "projects" / "example"
@@ -154,9 +153,9 @@ def with_documents(sheet, folder, *paths):
 
 @pytest.mark.nightly
 def test_former_results_are_attached_as_they_were_compared(tmp_path, monkeypatch):
-    assessment = scenes.package(scenes.motions(3, 4.0)).assessment
+    assessment = assessments.package(assessments.motions(3, 4.0)).assessment
     (tmp_path / "results.json").write_bytes(
-        was := results_json(assessment, scenes.evidence(assessment))
+        was := results_json(assessment, assessments.evidence(assessment))
     )
     kept = {}
     monkeypatch.setattr(
@@ -191,7 +190,7 @@ def test_records_are_kept_up_to_the_limit_and_hashed_beyond_it(job, monkeypatch)
 
 @pytest.mark.quick
 def test_a_file_with_several_channels_counts_once():
-    row = stand_in.book().shaking.records[0]
+    row = projects.book().shaking.records[0]
     rows = [
         replace(row, name="records/a.v2 | Up", size=MOST_RECORDS),
         replace(row, name=".\\records\\a.v2|North", size=MOST_RECORDS),

@@ -5,9 +5,7 @@ import math
 
 import pytest
 
-import inputs
-import scenes
-import stand_in
+from fixtures import assessments, project_parts, projects
 from report.assessment.causes import came_to
 from report.assessment.checks.check import sentence
 from report.project.model.choices import Direction
@@ -16,22 +14,22 @@ from report.text.amounts import Amount
 
 
 def made(assessment):
-    return json.loads(results_json(assessment, scenes.evidence(assessment)))
+    return json.loads(results_json(assessment, assessments.evidence(assessment)))
 
 
 def run(shaking=None, **changes):
     """An assessment with its document."""
-    assessment = scenes.package(shaking, **changes).assessment
+    assessment = assessments.package(shaking, **changes).assessment
     return assessment, made(assessment)
 
 
 @pytest.fixture(scope="module")
 def document():
-    return made(scenes.usual())
+    return made(assessments.usual())
 
 
 def test_json_has_the_assessment_in_si_with_models_and_peaks(document):
-    assessment = scenes.usual()
+    assessment = assessments.usual()
     designs = [array["design_m"] for array in document["arrays"]]
     assert designs == [item.design_m for item in assessment.arrays]
     assert document["arrays"][0]["prescriptive_m"] == pytest.approx(1.166**2 * 60 * 0.0254)
@@ -54,9 +52,9 @@ def test_json_has_the_assessment_in_si_with_models_and_peaks(document):
 
 
 def test_json_has_smaller_events_links_and_prescriptive_values():
-    for array in run(scenes.motions(2))[1]["arrays"]:
+    for array in run(assessments.motions(2))[1]["arrays"]:
         assert array["route"] == "prescriptive"
-    links = [stand_in.links("A2", "0.40, 0.50", 50, damping_ratio=0.05)]
+    links = [projects.links("A2", "0.40, 0.50", 50, damping_ratio=0.05)]
     assessment, document = run(links=links)
     (item,), (row,) = assessment.linked, document["linked"]
     assert (row["array"], row["mus"], row["damping_ratio"]) == ("A2", [0.4, 0.5], 0.05)
@@ -67,7 +65,7 @@ def test_json_has_smaller_events_links_and_prescriptive_values():
     assert tuple(row["runs"][5]["prd_m"]) == item.motions[1].runs[1].row.prd_m
     assert max(one["link_force_n"] for one in row["runs"]) == row["link_force_n"]
     check_units(document)
-    options = {**inputs.REVIEW, "smaller_events": "0.50, 0.50, 0.25"}
+    options = {**project_parts.REVIEW, "smaller_events": "0.50, 0.50, 0.25"}
     assessment, document = run(options=options)
     for row, item in zip(document["cumulative"], assessment.arrays, strict=True):
         assert row["array"] == item.id
@@ -77,10 +75,10 @@ def test_json_has_smaller_events_links_and_prescriptive_values():
 
 def test_json_has_velocities_and_what_the_low_velocity_coefficient_alone_gives():
     arrays = [
-        stand_in.array("A1", 0.5),
-        stand_in.array("A3", 3.0, y=90, mu=0.30, mu_fast=0.45, mu_rate_s_per_m=20.0),
+        projects.array("A1", 0.5),
+        projects.array("A3", 3.0, y=90, mu=0.30, mu_fast=0.45, mu_rate_s_per_m=20.0),
     ]
-    gaps = [stand_in.clearance("A1", "RTU-1", 2.0), stand_in.clearance("A3", "T-1", 2.0)]
+    gaps = [projects.clearance("A1", "RTU-1", 2.0), projects.clearance("A3", "T-1", 2.0)]
     assessment, document = run(arrays=arrays, clearances=gaps)
     for array in document["arrays"]:
         assert array["peak_speed_mps"] == max(one["peak_speed_mps"] for one in array["runs"])
@@ -117,12 +115,12 @@ def check_units(value, key=""):
 
 
 def test_a_missing_value_and_infinite_demand_over_zero_clearance_are_null():
-    document = made(stand_in.assess_input(stand_in.steep(), scenes.motions(2)))
+    document = made(projects.assess_input(projects.steep(), assessments.motions(2)))
     assert document["arrays"][0]["design_m"] is None
     gap = document["clearances"][0]
     assert (gap["required_m"], gap["verdict"]) == (None, "none")
     assert document["verdict"] == "NG"
-    assessment, document = run(clearances=[stand_in.clearance("A1", "RTU-1", 0.0)])
+    assessment, document = run(clearances=[projects.clearance("A1", "RTU-1", 0.0)])
     assert math.isinf(assessment.clearances[0].demand_capacity)
     (gap,) = document["clearances"]
     assert (gap["demand_capacity"], gap["verdict"]) == (None, "NG")
@@ -131,9 +129,9 @@ def test_a_missing_value_and_infinite_demand_over_zero_clearance_are_null():
 @pytest.fixture(scope="module")
 def supported():
     """A clearance that is NG beside one that contradicts the plan, with the evidence."""
-    gaps = [stand_in.clearance("A1", "RTU-1", 0.5), stand_in.clearance("A1", "A3", 4.572)]
-    assessment = scenes.package(clearances=gaps).assessment
-    evidence = scenes.evidence(assessment)
+    gaps = [projects.clearance("A1", "RTU-1", 0.5), projects.clearance("A1", "A3", 4.572)]
+    assessment = assessments.package(clearances=gaps).assessment
+    evidence = assessments.evidence(assessment)
     return assessment, evidence, json.loads(results_json(assessment, evidence))
 
 
@@ -175,7 +173,7 @@ def test_json_has_what_would_do_margins_angles_and_neighbors(supported):
 
 @pytest.mark.quick
 def test_json_has_no_verdict_where_no_route_is_permitted():
-    document = made(stand_in.unpermitted())
+    document = made(projects.unpermitted())
     first, _ = document["arrays"]
     assert (first["design_m"], first["design_permitted"], first["verdict"]) == (0.0, False, "NG")
     for gap in document["clearances"][:2]:

@@ -4,11 +4,11 @@ import zipfile
 
 import pytest
 
-import commands
+from fixtures import commands
+from fixtures.records import write_record
+from fixtures.workbooks import make, problems, type_into
 from report.motions.prepare import prepare
 from report.project.read.read import read
-from sheets import make, problems, type_into
-from waves import plain
 
 pytestmark = pytest.mark.quick
 
@@ -17,9 +17,9 @@ pytestmark = pytest.mark.quick
 def library(tmp_path):
     """Two sets, one in a folder, and a record that belongs to none."""
     for axis in "xyz":
-        plain(tmp_path / "library" / "kobe" / f"KJM-{axis}.csv", count=200)
-        plain(tmp_path / "library" / f"PET-{axis}.csv", count=200)
-    plain(tmp_path / "library" / "lone.csv")
+        write_record(tmp_path / "library" / "kobe" / f"KJM-{axis}.csv", count=200)
+        write_record(tmp_path / "library" / f"PET-{axis}.csv", count=200)
+    write_record(tmp_path / "library" / "lone.csv")
     return tmp_path / "library"
 
 
@@ -28,13 +28,13 @@ def rows(*words):
 
 
 def test_a_folder_is_listed_and_where_records_were_recorded_asked(library, tmp_path):
-    told = commands.printed(*rows(library))
+    told = commands.stdout_of(*rows(library))
     assert "KJM     x  kobe/KJM-x.csv" in told
     assert "not taken: lone.csv: neither its heading (none) nor its name has a component" in told
     path = make(tmp_path / "p")
-    assert "give --at roof or --at ground" in commands.refused(*rows(library, path))
+    assert "give --at roof or --at ground" in commands.errors_of(*rows(library, path))
     assert not (tmp_path / "p" / "records" / "kobe").exists()
-    told = commands.refused(*rows(library, path, "--at", "roof", "--only", "nothing"))
+    told = commands.errors_of(*rows(library, path, "--at", "roof", "--only", "nothing"))
     assert "no set of two horizontal records and a vertical one to take" in told
 
 
@@ -42,7 +42,7 @@ def test_a_folder_is_listed_and_where_records_were_recorded_asked(library, tmp_p
 def test_sets_become_rows_and_their_files_are_copied(library, tmp_path):
     path = make(tmp_path / "p")
     before = read(path).project.motions
-    told = commands.printed(*rows(library, tmp_path / "p", "--at", "roof"))
+    told = commands.stdout_of(*rows(library, tmp_path / "p", "--at", "roof"))
     assert "6 records copied." in told
     assert f"{path}: 2 rows added to the sheet Motions: Motions!" in told
     *standing, first, second = read(path).project.motions
@@ -59,7 +59,7 @@ def test_sets_become_rows_and_their_files_are_copied(library, tmp_path):
     assert not (tmp_path / "p" / "records" / "lone.csv").exists()
     # Everything stands already: each cell is listed, and nothing changes.
     after = path.read_bytes()
-    told = commands.refused(*rows(library, path, "--at", "ground", "--only", "k*"))
+    told = commands.errors_of(*rows(library, path, "--at", "ground", "--only", "k*"))
     assert told.count("already; remove the row, or leave the motion out") == 1
     assert path.read_bytes() == after
 
@@ -70,7 +70,7 @@ def test_records_keep_their_units_and_the_level_goes_into_the_rows(library, tmp_
         (library / f"raw-{axis}.txt").write_text("".join(f"0.{k:03d}\n" for k in range(200)))
     path = make(tmp_path / "p")
     words = ("--at", "roof", "--only", "raw", "--units", "m/s2", "--dt", 0.02)
-    commands.printed(*rows(library, path, *words))
+    commands.stdout_of(*rows(library, path, *words))
     new = prepare(read(path)).motions[-1]
     assert (new.id, new.dt_s) == ("raw", 0.02)
     assert abs(new.ax_mps2).max() == pytest.approx(0.199)
@@ -80,16 +80,16 @@ def test_records_keep_their_units_and_the_level_goes_into_the_rows(library, tmp_
 def test_records_in_the_project_stay_where_they_are(library, tmp_path):
     path = make(tmp_path / "p")
     library.rename(tmp_path / "p" / "own")
-    told = commands.printed(*rows(tmp_path / "p" / "own", path, "--at", "roof"))
+    told = commands.stdout_of(*rows(tmp_path / "p" / "own", path, "--at", "roof"))
     assert "0 records copied." in told
     assert read(path).project.motions[-1].record == "own/kobe/KJM-x.csv"
 
 
 def test_another_file_is_never_overwritten(library, tmp_path):
     path = make(tmp_path / "p")
-    other = plain(tmp_path / "p" / "records" / "PET-y.csv", count=7)
+    other = write_record(tmp_path / "p" / "records" / "PET-y.csv", count=7)
     before = path.read_bytes(), other.read_bytes()
-    told = commands.refused(*rows(library, path, "--at", "roof"))
+    told = commands.errors_of(*rows(library, path, "--at", "roof"))
     assert f"{other}: is another file than {library / 'PET-y.csv'}; rename one" in told
     assert (path.read_bytes(), other.read_bytes()) == before
     assert not (tmp_path / "p" / "records" / "PET-x.csv").exists()
@@ -100,7 +100,7 @@ def test_a_link_out_of_the_folder_is_not_followed(library, tmp_path):
     (tmp_path / "p" / "records").rename(outside)
     (tmp_path / "p" / "records").symlink_to(outside)
     names = {entry.name for entry in outside.iterdir()}
-    told = commands.refused(*rows(library, path, "--at", "roof"))
+    told = commands.errors_of(*rows(library, path, "--at", "roof"))
     assert f"records: is a link to {outside}, and is not written to" in told
     assert {entry.name for entry in outside.iterdir()} == names
 
@@ -112,21 +112,21 @@ def test_a_zip_is_checked_and_unpacked_elsewhere(library, tmp_path, name):
     with zipfile.ZipFile(zipped, "w") as archive:
         for axis in "xyz":
             archive.write(library / "kobe" / f"KJM-{axis}.csv", f"kobe/KJM-{axis}.csv")
-    commands.printed(*rows(zipped, path, "--at", "roof"))
+    commands.stdout_of(*rows(zipped, path, "--at", "roof"))
     assert read(path).project.motions[-1].vertical == "records/kobe/KJM-z.csv"
     with zipfile.ZipFile(zipped, "a") as archive:
         for axis in "xyz":
             archive.write(library / "kobe" / f"KJM-{axis}.csv", f"{axis}.csv")
-    assert "kobe    x  x.csv" in commands.printed(*rows(zipped))  # the zip gives the name
+    assert "kobe    x  x.csv" in commands.stdout_of(*rows(zipped))  # the zip gives the name
     with zipfile.ZipFile(zipped, "a") as archive:
         archive.writestr(name, "0,0")
-    assert "is no path within a folder" in commands.refused(*rows(zipped))
+    assert "is no path within a folder" in commands.errors_of(*rows(zipped))
 
 
 def test_a_folder_that_is_not_there_is_asked_about_and_one_elsewhere_is_no_record(
     library, tmp_path
 ):
-    assert f"did you mean '{library}'?" in commands.refused(*rows(tmp_path / "librar"))
+    assert f"did you mean '{library}'?" in commands.errors_of(*rows(tmp_path / "librar"))
     path = make(tmp_path / "p")
     assert "is outside the workbook's folder" in "".join(
         problems(type_into(path, {"Motions/M1/Horizontal record": str(library / "PET-x.csv")}))

@@ -11,8 +11,8 @@ import sys
 import pytest
 
 import report.results.publish
-from nightly import by_day
-from places import ROOT
+from fixtures.marks import by_day
+from fixtures.paths import ROOT
 from report.results.publish import (
     STAMP,
     check_apart,

@@ -5,7 +5,7 @@ import json
 import pytest
 from click.testing import CliRunner
 
-import scenes
+from fixtures import assessments
 from report.cli.main import main
 from report.results.model import Results
 from report.results.results_json import results_json
@@ -15,8 +15,8 @@ pytestmark = pytest.mark.quick
 
 @pytest.fixture(scope="module")
 def content():
-    assessment = scenes.package().assessment
-    return results_json(assessment, scenes.evidence(assessment))
+    assessment = assessments.package().assessment
+    return results_json(assessment, assessments.evidence(assessment))
 
 
 def test_what_is_written_is_read_back_and_the_schema_names_every_key(content):

@@ -9,16 +9,15 @@ import pytest
 from openpyxl.utils import get_column_letter, range_boundaries
 from pypdf import PdfReader
 
-import scenes
-import stand_in
-from cells import cell
-from nightly import by_day
-from recalculated import converted, recalculated
+from fixtures import assessments, projects
+from fixtures.cells import cell
+from fixtures.libreoffice import converted, recalculated
+from fixtures.marks import by_day
+from fixtures.workbooks import put, row_cells
 from report.assessment.spectra import spectra
 from report.provenance.files import fingerprint
 from report.results.xlsx import results_xlsx
 from report.text.units import ratio
-from sheets import of, put
 
 LETTER_PX, MARGIN_PX = 7, 5
 PAGE_IN = {"1": (11.0, 8.5), "9": (11.69, 8.27)}  # Letter and A4: long side, short side
@@ -28,7 +27,9 @@ LEGIBLE = 0.6  # of 11 pt
 
 @pytest.fixture(
     scope="module",
-    params=by_day([scenes.usual, scenes.unpermitted, lambda: scenes.shipped("campus")], 1),
+    params=by_day(
+        [assessments.usual, assessments.unpermitted, lambda: assessments.shipped("campus")], 1
+    ),
     ids=["usual", "unpermitted", "campus"],
 )
 def done(request):
@@ -131,12 +132,12 @@ def test_every_sheet_says_what_it_is_of_and_shows_a_verdict_that_changes_to_ng(d
 
 INCH = 0.0254
 GOVERNING = "Governing array"
-SITE = stand_in.site()
-REVIEWED = scenes.REVIEW | {"statistic": "1.1 x largest"}
+SITE = projects.site()
+REVIEWED = assessments.REVIEW | {"statistic": "1.1 x largest"}
 
 
 def assessed(**changes):
-    return scenes.package(scenes.motions(7), **changes).assessment
+    return assessments.package(assessments.motions(7), **changes).assessment
 
 
 def written(assessment):
@@ -161,7 +162,10 @@ NARROW_M = 5 * INCH
 
 
 def change_inputs(book):
-    put(book, of("Inputs", {"S_DS": 1.3, "Importance factor I_e": 1.25, "Peer review": "Yes"}))
+    put(
+        book,
+        row_cells("Inputs", {"S_DS": 1.3, "Importance factor I_e": 1.25, "Peer review": "Yes"}),
+    )
     put(book, {"Inputs/Design value statistic": "1.1 x largest"})
     put(book, {"Clearances/2/Provided": NARROW_M / INCH})
 
@@ -196,7 +200,7 @@ def changed(before, reviewed, tmp_path_factory):
 
 @pytest.mark.nightly
 def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(before, changed):
-    gaps = [gap.model_dump() for gap in stand_in.project().clearances]
+    gaps = [gap.model_dump() for gap in projects.project().clearances]
     gaps[1] |= {"provided_m": NARROW_M}
     site = SITE | {"s_ds_g": 1.3, "i_e": 1.25}
     after = assessed(site=site, options=REVIEWED, clearances=gaps)
@@ -260,7 +264,7 @@ def test_every_printed_page_names_its_sheet(before, tmp_path):
 
 @pytest.mark.nightly
 def test_the_example_prints_ten_pages(tmp_path):
-    done = scenes.shipped("example")
+    done = assessments.shipped("example")
     path = tmp_path / "results.xlsx"
     path.write_bytes(results_xlsx(done, spectra(done)))
     (printed,) = converted([path], tmp_path, "pdf")

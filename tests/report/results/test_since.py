@@ -11,10 +11,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-import inputs as parts_of
-import scenes
-import stand_in
-from printed import IDS, printed
+from fixtures import assessments, projects
+from fixtures import project_parts as parts_of
+from fixtures.pages import IDS, page_of
 from report.assessment.project import ChangeKind
 from report.assessment.verdict import Verdict
 from report.pages.registry import package_data, parts
@@ -25,7 +24,7 @@ from solver.model import InputError
 
 
 def made(**project):
-    return scenes.package(scenes.motions(3, 4.0), **project).assessment
+    return assessments.package(assessments.motions(3, 4.0), **project).assessment
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +34,7 @@ def assessment():
 
 @pytest.fixture(scope="module")
 def content(assessment):
-    return results_json(assessment, scenes.evidence(assessment))
+    return results_json(assessment, assessments.evidence(assessment))
 
 
 @pytest.fixture
@@ -73,12 +72,12 @@ def test_nothing_changed_since_itself_nor_by_the_word_of_version_0_2(assessment,
 def test_an_input_with_its_results_and_verdicts_is_found(assessment, document):
     # A2 weighs more; A3 has less friction; the clearance of A1 to RTU-1 is 6 in.
     arrays = [
-        stand_in.array("A1", 0.5),
-        stand_in.array("A2", 2.0, x=120, weight_n=50000 * 4.4482216152605),
-        stand_in.array("A3", 3.0, mu=0.30, y=90),
+        projects.array("A1", 0.5),
+        projects.array("A2", 2.0, x=120, weight_n=50000 * 4.4482216152605),
+        projects.array("A3", 3.0, mu=0.30, y=90),
     ]
     gaps = [row.model_dump() for row in assessment.project.clearances]
-    gaps[1]["provided_m"] = 6 * stand_in.INCH
+    gaps[1]["provided_m"] = 6 * projects.INCH
     found = changes(former(document), made(arrays=arrays, clearances=gaps))
     assert inputs(found) == {
         ("Arrays, A2: Weight", "42000 lb", "50000 lb"),
@@ -111,8 +110,8 @@ def reissue(done, document):
     [
         ({}, False),
         ({"options": {"peer_covered": "2026-03-01: Site 3f2a91"}}, False),  # no input
-        ({"arrays": [stand_in.array("A1", 0.5, mu=0.42)], "clearances": []}, True),
-        ({"site": stand_in.site(s_ds_g=1.5)}, True),
+        ({"arrays": [projects.array("A1", 0.5, mu=0.42)], "clearances": []}, True),
+        ({"site": projects.site(s_ds_g=1.5)}, True),
     ],
 )
 def test_a_revision_that_was_issued_with_other_inputs_is_a_condition(document, change, is_said):
@@ -134,7 +133,7 @@ def test_a_revision_with_another_record_is_a_condition(assessment, document):
 
 def test_rows_records_and_digits_that_differ_are_named(assessment, document):
     gaps = [row.model_dump() for row in assessment.project.clearances][1:]
-    gaps.append(stand_in.clearance("A2", "RTU-1", 30 * stand_in.FOOT))
+    gaps.append(projects.clearance("A2", "RTU-1", 30 * projects.FOOT))
     found = changes(former(document), made(clearances=gaps))
     assert inputs(found) == {
         ("Clearances, A1 A3 any", "given", "removed"),
@@ -174,7 +173,7 @@ def test_a_record_with_another_hash_the_rule_set_and_the_version_are_found(asses
 def test_a_document_with_another_hash_is_found_unless_the_former_file_does_not_say(assessment):
     letter = Document(label="Letter of review", path="r.pdf", size=9, sha256="ab" * 32)
     now = replace(assessment, sheet=replace(assessment.sheet, documents=(letter,)))
-    document = json.loads(results_json(now, scenes.evidence(now)))
+    document = json.loads(results_json(now, assessments.evidence(now)))
     assert document["documents"] == [asdict(letter)]
     assert not changes(former(document), now).items
     document["documents"][0]["sha256"] = "00" * 32
@@ -191,8 +190,8 @@ def test_the_page_and_the_bars_are_there_only_if_asked_for(assessment, document)
     document["clearances"][2]["verdict"] = "NG"
     document["arrays"][0]["design_m"] *= 1.1
     package = package_data(assessment, changes(former(document), assessment))
-    assert "Changes since revision <B>" in printed(package, "contents")
-    assert "Number of stories" in printed(package, "changes").table("Changes").column("Quantity")
+    assert "Changes since revision <B>" in page_of(package, "contents")
+    assert "Number of stories" in page_of(package, "changes").table("Changes").column("Quantity")
     usual = package_data(assessment)
     listed, plain = (parts(one) for one in (package, usual))
     first, *others = plain
@@ -210,7 +209,7 @@ def marked(package, id):
     """The first cell of each row of a page that has a bar in the margin."""
     return [
         row[0]
-        for table in printed(package, id).tables
+        for table in page_of(package, id).tables
         for row, kind in zip(table.cells, table.kinds, strict=True)
         if "changed" in kind
     ]
@@ -322,8 +321,8 @@ def test_damaged_bytes_are_read_or_refused_and_never_crash(assessment, content, 
 @pytest.mark.quick
 def test_a_verdict_that_is_lost_with_the_route_is_named():
     """A former version took the displacement of 0 and called the clearance OK."""
-    now = stand_in.unpermitted()
-    document = json.loads(results_json(now, scenes.evidence(now)))
+    now = projects.unpermitted()
+    document = json.loads(results_json(now, assessments.evidence(now)))
     document["clearances"][0] |= {"required_m": 0.0, "verdict": "OK"}
     found = changes(former(document), now)
     shown = {(item.kind, item.title): (item.before, item.now) for item in found.items}
@@ -335,8 +334,8 @@ def test_a_verdict_that_is_lost_with_the_route_is_named():
 
 
 def test_an_array_that_is_new_and_has_no_value_has_none():
-    now = stand_in.assess_input(stand_in.steep(), scenes.motions(2))
-    document = json.loads(results_json(now, scenes.evidence(now)))
+    now = projects.assess_input(projects.steep(), assessments.motions(2))
+    document = json.loads(results_json(now, assessments.evidence(now)))
     first = document["arrays"].pop(0)["id"]
     found = changes(former(document), now)
     shown = {(item.kind, item.title): (item.before, item.now) for item in found.items}

@@ -6,20 +6,18 @@ import openpyxl
 import pytest
 from xlsxwriter.workbook import Workbook
 
-import inputs
-import scenes
-import stand_in
-from cells import address, cell
-from recalculated import recalculated
+from fixtures import assessments, project_parts, projects
+from fixtures.cells import address, cell
+from fixtures.libreoffice import recalculated
+from fixtures.workbooks import formula_cells
 from report.assessment.checks.check import alike, found_and_limit
 from report.assessment.spectra import spectra
 from report.provenance.files import fingerprint
 from report.results.sheets import Pages, SheetColumn, SheetLayout, SheetRow, up_column, write_live
 from report.results.xlsx import results_xlsx
-from sheets import formula_cells
 
 GOVERNING = "Governing array"
-SEVEN = scenes.motions(7)
+SEVEN = assessments.motions(7)
 
 
 def xlsx(assessment):
@@ -33,7 +31,7 @@ def opened(content):
 
 def made(shaking=SEVEN, **changes):
     """An assessment with the formulas and the values of its workbook."""
-    assessment = scenes.package(shaking, **changes).assessment
+    assessment = assessments.package(shaking, **changes).assessment
     return assessment, *opened(xlsx(assessment))
 
 
@@ -55,7 +53,7 @@ def rows_of(sheet, head_row=1):
 
 @pytest.fixture(scope="module")
 def content():
-    return xlsx(scenes.usual())
+    return xlsx(assessments.usual())
 
 
 @pytest.fixture(scope="module")
@@ -63,15 +61,15 @@ def usual(content):
     return opened(content)
 
 
-SITE = stand_in.site()
+SITE = projects.site()
 CASES = {
     "PV1": {},
     "PV1, low category": {"site": SITE | {"sdc": "C", "s_ds_g": 0.45}},
     "ASCE 7-16": {"site": SITE | {"rule_set": "ASCE 7-16", "risk_category": "III", "i_e": 1.25}},
-    "peer reviewed": {"options": {**inputs.REVIEW, "statistic": "1.1 x largest"}},
+    "peer reviewed": {"options": {**project_parts.REVIEW, "statistic": "1.1 x largest"}},
     "a row of linked blocks": {
-        "links": [stand_in.links("A1", "0.40, 0.50", 50), stand_in.links("A3", "0.55, 0.55", 50)],
-        "options": inputs.REVIEW,
+        "links": [projects.links("A1", "0.40, 0.50", 50), projects.links("A3", "0.55, 0.55", 50)],
+        "options": project_parts.REVIEW,
     },
     "prescriptive": {"site": SITE | {"s_ds_g": 1.0}, "options": {"statistic": "mean"}},
 }
@@ -81,8 +79,8 @@ CASES = {
 def test_every_formula_gives_in_libreoffice_the_value_written_with_it(tmp_path):
     """In one start, from copies without the values."""
     books = [made(**changes)[1:] for changes in CASES.values()]
-    links = [stand_in.links("A1", "0.3, 0.3", 50)]
-    books.append(opened(xlsx(stand_in.unpermitted(links=links))))
+    links = [projects.links("A1", "0.3, 0.3", 50)]
+    books.append(opened(xlsx(projects.unpermitted(links=links))))
     paths = [tmp_path / f"{number}.xlsx" for number in range(len(books))]
     for path, (formulas, _) in zip(paths, books, strict=True):
         formulas.save(path)
@@ -127,7 +125,7 @@ def test_values_runs_and_clearances_are_live_and_listed(usual):
     )
     assert cell(formulas, name).value == f"=MAX({factor}*{i_e}*MAX({s_ds}-0.4,0)^2,{minimum})"
     assert cell(values, name).value == pytest.approx(81.573, abs=5e-4)
-    gap = scenes.usual().clearances[3]
+    gap = assessments.usual().clearances[3]
     assert cell(values, f"Clearances/4/{GOVERNING}").value == "A3"
     source = cell(formulas, "Clearances/4/Design, unrounded").value
     assert source.replace("$", "") == f"={address(formulas, 'Design/A3/Design, unrounded')}"
@@ -157,7 +155,7 @@ def test_values_runs_and_clearances_are_live_and_listed(usual):
 
 def test_the_design_displacement_follows_from_the_runs(usual):
     formulas, values = usual
-    item = scenes.usual().arrays[2]
+    item = assessments.usual().arrays[2]
     largest = "Any direction, unrounded"
     first, last = (of(formulas, f"Peaks/{n}/{largest}") for n in (15, 21))  # of the third array
     mean = cell(formulas, "Design/A3/Mean PRD, unrounded").value
@@ -168,8 +166,8 @@ def test_the_design_displacement_follows_from_the_runs(usual):
 
 
 def test_without_a_value_or_a_route_the_workbook_has_no_verdict():
-    steep = stand_in.steep(links=[stand_in.links("A1", "0.40, 0.50", 50)])
-    values = opened(xlsx(stand_in.assess_input(steep, scenes.motions(2))))[1]
+    steep = projects.steep(links=[projects.links("A1", "0.40, 0.50", 50)])
+    values = opened(xlsx(projects.assess_input(steep, assessments.motions(2))))[1]
     assert valued(values, "Design/1", "Design [in]", "Verdict") == ["none", "NG"]
     assert valued(values, "Clearances/1", "Required [in]", "Verdict") == ["none", "none"]
     linked = valued(values, "Links/1", "Array", "Design with links", "Verdict")
@@ -177,8 +175,8 @@ def test_without_a_value_or_a_route_the_workbook_has_no_verdict():
     assert cell(values, "Summary/Verdict").value == "NG"
     rows = list(values["Requirements"].iter_rows(min_row=5, values_only=True))
     assert any(row[1] == "Number of motions" and row[5] == "NG" for row in rows)
-    links = [stand_in.links("A1", "0.3, 0.3", 50)]
-    values = opened(xlsx(stand_in.unpermitted(links=links)))[1]
+    links = [projects.links("A1", "0.3, 0.3", 50)]
+    values = opened(xlsx(projects.unpermitted(links=links)))[1]
     headings = ("Design [in]", "Required [in]", "Required [mm]", "D/C", "Verdict")
     first, second, third = rows_of(values["Clearances"], 4)
     for row in (first, second):
@@ -191,7 +189,7 @@ def test_without_a_value_or_a_route_the_workbook_has_no_verdict():
 
 def test_a_number_is_marked_as_changed_only_where_an_override_changes_it():
     # Its slope is beyond the limit of the prescriptive procedure, and nothing is overridden.
-    steep = scenes.shipped("school")
+    steep = assessments.shipped("school")
     assert not steep.is_overridden
     book = openpyxl.load_workbook(io.BytesIO(results_xlsx(steep, spectra(steep))))
     formats = {cell.number_format for row in book["Design"].iter_rows() for cell in row}
@@ -199,16 +197,16 @@ def test_a_number_is_marked_as_changed_only_where_an_override_changes_it():
 
 
 def test_texts_stay_texts_and_two_runs_give_the_same_bytes(content, usual):
-    _, formulas, _ = made(arrays=[stand_in.array("=1+1", 1.0)], clearances=[])
+    _, formulas, _ = made(arrays=[projects.array("=1+1", 1.0)], clearances=[])
     for sheet in ("Design", "Runs"):
         name = cell(formulas, f"{sheet}/1/Array")
         assert (name.value, name.data_type) == ("=1+1", "s")
-    assert xlsx(scenes.usual()) == content
-    assert usual[0].properties.created.date() == scenes.usual().project.project.date
+    assert xlsx(assessments.usual()) == content
+    assert usual[0].properties.created.date() == assessments.usual().project.project.date
 
 
 def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(usual):
-    assessment, values = scenes.usual(), usual[1]
+    assessment, values = assessments.usual(), usual[1]
     assert values.sheetnames[:2] == ["Summary", "Design"]
     assert not {"Links", "LinkRuns"} & set(values.sheetnames)  # no row of blocks is asked for
     assert cell(values, "Summary/Verdict").value == assessment.verdict.value
@@ -225,7 +223,7 @@ def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(usual)
 
 @pytest.mark.quick
 def test_the_summary_has_every_check_that_is_open_and_no_kind_twice(usual):
-    assessment, values = scenes.usual(), usual[1]
+    assessment, values = assessments.usual(), usual[1]
     rows = [row for row in values["Summary"].iter_rows(values_only=True) if row[0]]
     heads = [row[0] for row in rows]
     last = rows[heads.index("Not satisfied") + 1 :]

@@ -2,10 +2,10 @@
 
 import pytest
 
+from fixtures.study_workbooks import command, small, write
 from report.study import files
 from report.study.run import planned, run_study
 from report.typeset.pdf import lay_out
-from study_books import command, small, write
 
 
 @pytest.fixture(scope="session")

@@ -14,7 +14,19 @@ import pytest
 from click.testing import CliRunner
 from openpyxl import load_workbook
 
-import printed
+from fixtures import pages
+from fixtures.study_workbooks import (
+    cell_address,
+    command,
+    having,
+    in_one_go,
+    peak,
+    sheet_rows,
+    small,
+    study_input,
+    with_study,
+    write,
+)
 from report.cli.main import main
 from report.study import figures
 from report.study.curves import compare
@@ -25,18 +37,6 @@ from report.study.schema import Intensity, NoValue, StudyArray, StudyBuilding
 from report.study.tables import curves_csv, study_xlsx
 from report.study.wording import headline, sentence
 from report.text.units import Quantity
-from study_books import (
-    at,
-    command,
-    given,
-    having,
-    in_one_go,
-    peak,
-    sheet_rows,
-    small,
-    with_study,
-    write,
-)
 
 
 @pytest.mark.nightly
@@ -110,7 +110,7 @@ def test_a_chance_without_a_value_at_the_medians_has_no_chart_and_says_so(result
         dataclasses.replace(bar, prd_low_m=math.nan, prd_high_m=math.nan) for bar in one.bars
     )
     one = dataclasses.replace(one, bars=bars, center_m=math.nan)
-    page = printed.study(having(results, one))
+    page = pages.study(having(results, one))
     _, chances = page.split("no final PRD with all variables at their medians")
     assert "[" not in chances.partition("#")[0]
 
@@ -127,7 +127,7 @@ def test_a_sheet_is_drawn_where_cases_without_a_value_leave_a_contour_no_line():
 @pytest.mark.nightly
 def test_motions_without_a_final_prd_are_counted(results):
     lost = dataclasses.replace(results.curves, without_value=results.curves.without_value + 1)
-    cases, said = lost.mean_m.size, printed.study(dataclasses.replace(results, curves=lost))
+    cases, said = lost.mean_m.size, pages.study(dataclasses.replace(results, curves=lost))
     assert int(results.curves.without_value.sum()) == 0
     assert f"{cases} of {6 * cases} pairs of case and motion have no final PRD" in said
 
@@ -188,7 +188,7 @@ def test_new_writes_a_blank_study_that_is_read(tmp_path):
     assert both.exit_code == 2
     done = command(tmp_path / "new")
     assert done.exit_code == 2
-    assert f"{at('<Study/Title>')}: title is missing" in done.output
+    assert f"{cell_address('<Study/Title>')}: title is missing" in done.output
 
 
 @pytest.mark.nightly
@@ -262,7 +262,7 @@ def test_the_prescriptive_displacement_is_compared_where_the_intensity_is_s_ds(o
     ratio = 1.1 * found.curves.largest_m[0, 1, 1, 6] / wanted
     assert one.ratio[1, 1, 6] == pytest.approx(ratio, nan_ok=True)
     safe = int((one.ratio <= 1.0).sum())
-    assert f"sufficient in {safe:,} of {one.ratio.size:,} cases" in printed.study(found)
+    assert f"sufficient in {safe:,} of {one.ratio.size:,} cases" in pages.study(found)
     assert export_files(found) == {}
 
 
@@ -278,7 +278,7 @@ def test_a_family_of_buildings_has_curves_each(other):
     for b in (0, 1):
         prd = [peak(found.plan, k, b, 3.0, 0.4, 0.8) for k in range(6)]
         assert found.curves.mean_m[b, 1, 0, 1] == pytest.approx(np.mean(prd), nan_ok=True)
-    said = printed.study(found)
+    said = pages.study(found)
     assert "Design curves, building T1" in said
     assert "Design curves, building T2" in said
 
@@ -289,13 +289,13 @@ def test_one_case_makes_a_report(other):
         site_intensity=None, intensity_beta=0.0, allowed_m=None,
     )  # fmt: skip
     assert isinstance(found.fits[0], str)
-    assert "None is given" in printed.study(found)
+    assert "None is given" in pages.study(found)
 
 
 def test_two_axes_say_how_large_the_error_of_a_displacement_is(tmp_path):
-    one = given(slopes_deg="2", intensities="1", study_arrays=())
+    one = study_input(slopes_deg="2", intensities="1", study_arrays=())
     said = {
-        letters: printed.study(
+        letters: pages.study(
             run_study(planned(str(write(tmp_path / letters, one, motions=1, letters=letters)))[0],
                       str(tmp_path / f"out-{letters}"))
         )
@@ -308,9 +308,9 @@ def test_two_axes_say_how_large_the_error_of_a_displacement_is(tmp_path):
 @pytest.mark.nightly
 def test_warnings_on_the_workbook_are_printed_with_the_basis(results):
     warned = dataclasses.replace(results.plan, warnings=(("Mats!B8", "cell B8 is struck through"),))
-    table = printed.study(dataclasses.replace(results, plan=warned)).table("Warnings on the")
+    table = pages.study(dataclasses.replace(results, plan=warned)).table("Warnings on the")
     assert table.cells == (("Mats!B8", "cell B8 is struck through."),)
-    assert "Warnings on the workbook" not in printed.study(results)
+    assert "Warnings on the workbook" not in pages.study(results)
 
 
 CHANGING = (
@@ -324,7 +324,7 @@ def test_a_study_has_the_words_that_it_had(golden, tmp_path):
     """Taken over by `./roofslip test --golden`: of S_DS, tests, a clearance and a tolerance."""
     study = small(intensity=Intensity.S_DS, s_ds_g=1.0, intensities="0.2 to 2 by 0.2")
     folder = write(tmp_path, study, motions=4)
-    text = printed.study(run_study(planned(str(folder))[0], str(tmp_path / "out")))
+    text = pages.study(run_study(planned(str(folder))[0], str(tmp_path / "out")))
     for pattern, placeholder in CHANGING:
         text = re.sub(pattern, placeholder, text)
     golden("study.txt", text)

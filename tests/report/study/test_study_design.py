@@ -11,9 +11,9 @@ from hypothesis import HealthCheck, example, settings
 from hypothesis import given as over
 from hypothesis import strategies as st
 
-import printed
-import stand_in
-from nightly import by_day
+from fixtures import pages, projects
+from fixtures.marks import by_day
+from fixtures.study_workbooks import sheet_rows, study_input, with_study, write
 from report.assessment.routes import Route
 from report.study.curves import allowed, compare
 from report.study.page_parts import design_length
@@ -28,7 +28,6 @@ from solver.rules.provisions import (
     prescriptive_displacement,
 )
 from solver.studies.fragility import Lognormal
-from study_books import given, sheet_rows, with_study, write
 
 S_DS = 1.0
 S_DS_GIVEN = {"intensity": Intensity.S_DS, "s_ds_g": 0.5, "intensities": "0.5, 1, 2"}
@@ -37,7 +36,7 @@ S_DS_GIVEN = {"intensity": Intensity.S_DS, "s_ds_g": 0.5, "intensities": "0.5, 1
 def run(folder, *, motions=7, **changes):
     """Run a study whose intensity is S_DS."""
     about = {**S_DS_GIVEN, "study_arrays": (), "slopes_deg": "0, 4, 6", "mus": "0.3"}
-    study = given(**{**about, **changes})
+    study = study_input(**{**about, **changes})
     write(folder, study, motions=motions)
     return run_study(planned(folder)[0], folder / "out")
 
@@ -52,11 +51,11 @@ def peaks_m(results, slope_deg, mu, level):
     motions = [
         dataclasses.replace(m, scale=m.scale * level) for m in results.plan.motions.motions[0]
     ]
-    site = stand_in.site(s_ds_g=level)
-    data = stand_in.project(
-        arrays=[stand_in.array("A1", slope_deg, mu=mu)], objects=[], clearances=[], site=site
+    site = projects.site(s_ds_g=level)
+    data = projects.project(
+        arrays=[projects.array("A1", slope_deg, mu=mu)], objects=[], clearances=[], site=site
     )
-    (array,) = stand_in.assess_input(data, motions).arrays
+    (array,) = projects.assess_input(data, motions).arrays
     return [run.governing.prd_m for run in array.motions], array
 
 
@@ -104,7 +103,7 @@ def test_the_rule_set_and_the_number_of_motions_decide(tmp_path, motions, rule_s
 def test_too_few_motions_give_no_design_displacement_and_it_is_said(tmp_path, motions):
     found = run(tmp_path, motions=motions, allowed_m=0.3)
     assert np.isnan(found.design_m).all()
-    text = printed.study(found)
+    text = pages.study(found)
     assert "There is no design displacement: SEAOC PV1-2012 needs 3† motions or more" in text
     assert compare(found, 0) == ()
     assert "For a mean PRD of at most" in text
@@ -115,7 +114,7 @@ def test_too_few_motions_give_no_design_displacement_and_it_is_said(tmp_path, mo
 def test_without_s_ds_the_displacement_is_called_before_the_floor(tmp_path):
     found = run(tmp_path, intensity=Intensity.PPA, intensities="0.5, 1", s_ds_g=None, allowed_m=0.3)
     assert found.design_m == pytest.approx(1.1 * found.curves.mean_m, nan_ok=True)
-    text = printed.study(found)
+    text = pages.study(found)
     assert "before its floor of 0.5† times the prescriptive displacement, which follows" in text
     assert "For a design displacement before the floor of at most" in text
     assert "the floor alone" not in text
@@ -146,7 +145,7 @@ TABLES = st.lists(LENGTHS, min_size=36, max_size=36)
 
 def made_up(results, values):
     """The results with other axes and displacements."""
-    study = given(**S_DS_GIVEN, **AXES)
+    study = study_input(**S_DS_GIVEN, **AXES)
     lengths = np.array(values).reshape(1, 3, 4, 3)
     return dataclasses.replace(
         results,
@@ -205,9 +204,9 @@ def test_printed_and_exported_answers_are_on_the_safe_side(results, values, allo
                 check(np.array(axes.slopes_deg), lengths[:, line, x], reading(cell), allowed_m,
                       0.1, upward=False)  # fmt: skip
         # The workbook and the first lines have the same numbers as the tables.
-        printed = [[reading(cell) for cell in row.cells[1:]] for row in slopes.rows]
+        printed_values = [[reading(cell) for cell in row.cells[1:]] for row in slopes.rows]
         values = found.largest_slopes(0, name, allowed_m)
-        assert np.array_equal(values, np.array(printed), equal_nan=True)
+        assert np.array_equal(values, np.array(printed_values), equal_nan=True)
     values = found.largest_slopes(0, found.plan.design_rule.name, allowed_m)
     lines = headline(with_study(found, allowed_m=allowed_m))[1 : 1 + len(axes.mus)]
     for line, values_at in zip(lines, values[:, len(levels) // 2], strict=True):
@@ -242,6 +241,6 @@ def test_chances_and_medians_are_rounded_to_the_safe_side(tmp_path):
             array, exceedances=(), states=(dataclasses.replace(state, fragility=known),)
         )
         line = headline(dataclasses.replace(found, arrays=(one,)))[-1]
-        printed, spread = map(float, re.search(r" ([\d.]+) g, beta ([\d.]+)", line).groups())
-        assert 0.0 <= theta - printed < 0.1
+        printed_theta, spread = map(float, re.search(r" ([\d.]+) g, beta ([\d.]+)", line).groups())
+        assert 0.0 <= theta - printed_theta < 0.1
         assert 0.0 <= spread - beta < 0.1

@@ -9,8 +9,18 @@ import pytest
 from dlml import get_fragility, vocabulary
 from dlml._tabular import load_tabular
 
-import printed
-from nightly import by_day
+from fixtures import pages
+from fixtures.marks import by_day
+from fixtures.study_workbooks import (
+    command,
+    having,
+    library,
+    sheet_rows,
+    study_input,
+    with_fit,
+    with_study,
+    write,
+)
 from report.study.array_capacities import curves_of
 from report.study.exports import component_id, export_files, known_states
 from report.study.plan import FRICTION, SLOPE
@@ -20,7 +30,6 @@ from report.study.wording import dispersions, exported, headline
 from solver.studies.capacity import capacities
 from solver.studies.fragility import UNKNOWN, Lognormal, fit_lognormal
 from solver.studies.runs import Runner, Track
-from study_books import command, given, having, library, sheet_rows, with_fit, with_study, write
 
 ROOF, GROUND = "roof motion, not of the ground.", "ground motion, not of the roof."
 
@@ -112,7 +121,7 @@ def study(**changes):
         "slopes_deg": "2", "intensity": Intensity.PPV, "intensities": "0.5 to 4 by 0.5",
         "slope_tolerance_deg": TOLERANCE_DEG, "study_arrays": arrays,
     }  # fmt: skip
-    return given(**{**about, **changes})
+    return study_input(**{**about, **changes})
 
 
 @pytest.fixture(scope="module")
@@ -154,7 +163,7 @@ def test_a_slope_about_none_disperses_as_its_size(dispersed):
 
 def table_of(dispersed, one):
     """The dispersions on the page of an array."""
-    page = printed.study(dataclasses.replace(dispersed, arrays=(one,)))
+    page = pages.study(dataclasses.replace(dispersed, arrays=(one,)))
     return page.table("Dispersions of the capacity by name")
 
 
@@ -252,4 +261,4 @@ def test_the_runs_of_the_capacities_are_counted_and_no_more_than_a_dry_run_says(
     done = command(folder, "--dry-run")
     assert f"at most {said.capacity_runs:,} more runs for the capacities" in done.output
     assert f", and {made.capacity_runs:,} for the capacities" in headline(made)[0]
-    assert f" {made.capacity_runs:,} more runs find the capacities" in printed.study(made)
+    assert f" {made.capacity_runs:,} more runs find the capacities" in pages.study(made)

@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import printed
-import stranger
-from nightly import by_day
+from fixtures import folders, pages
+from fixtures.campaigns import forged
+from fixtures.marks import by_day
+from fixtures.study_workbooks import command, sheet_rows, small, write
 from report.cli.study import make
 from report.study.exports import export_files
 from report.study.manifest import KEY_BYTES, state_folder, user_key
@@ -19,8 +20,6 @@ from report.study.run import planned, run_study
 from report.study.wording import headline
 from solver.files import LOCK, locked
 from solver.model import InputError
-from studied import forged
-from study_books import command, sheet_rows, small, write
 
 
 @pytest.mark.quick
@@ -103,7 +102,7 @@ def test_a_forged_part_is_taken_over_on_the_word_of_the_option_and_every_file_sa
         " were computed on 2001-02-03 (UTC)"
     )
     assert json.loads((out / "manifest.json").read_text())["taken_over"] == [own, other]
-    assert told in printed.study(found)
+    assert told in pages.study(found)
     assert {"What": "Runs taken over", "Value": told} in sheet_rows(found, "Study")
     assert f"{told}." in export_files(found)["fragility.csv"].decode()
     again = r": 1 part \([0-9,]+ runs\) without .*--trust-parts takes"
@@ -145,11 +144,11 @@ def test_a_study_is_not_written_through_what_is_in_its_place(tmp_path, place, ki
     outside.write_bytes(b"theirs")
     job = write(tmp_path / "job", small())
     (job / place).parent.mkdir(parents=True, exist_ok=True)
-    stranger.occupied(job / place, kind, outside)
-    before = stranger.state(tmp_path)
+    folders.occupied(job / place, kind, outside)
+    before = folders.state(tmp_path)
     told = command(job).output
     assert f"{job / place}: is a" in told
-    assert stranger.state(tmp_path) == before
+    assert folders.state(tmp_path) == before
 
 
 @pytest.fixture

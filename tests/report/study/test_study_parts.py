@@ -14,7 +14,9 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
-from places import ROOT, TESTS
+from fixtures.campaigns import KEY, campaign, forged, row_bytes
+from fixtures.paths import ROOT, TESTS
+from fixtures.study_workbooks import command, write
 from report.study import run as clusters
 from report.study.manifest import NAME, check_former, manifest_of
 from report.study.parts import (
@@ -31,8 +33,6 @@ from report.study.run import connected, run_on_cluster
 from solver.model import InputError
 from solver.sliding.least_model import Model
 from solver.studies.runs import LENGTHS, STATUSES, Runner, run_part
-from studied import KEY, campaign, forged, row_bytes
-from study_books import command, write
 
 NAMES = ["roof"]
 

@@ -12,10 +12,20 @@ import numpy as np
 import pytest
 from openpyxl import load_workbook
 
-import printed
-from cells import address, cell
-from nightly import by_day
-from places import ROOT
+from fixtures import pages
+from fixtures.cells import address, cell
+from fixtures.marks import by_day
+from fixtures.paths import ROOT
+from fixtures.study_workbooks import (
+    cell_address,
+    command,
+    plan,
+    problems,
+    study_input,
+    usual,
+    write,
+)
+from fixtures.workbooks import edit, type_into
 from projects.study.make import study
 from report.project.model.choices import UnitsFirst
 from report.project.read.linked_files import SUPPORTING, StudyYears
@@ -40,11 +50,9 @@ from report.study.schema import (
 from report.study.shaking import points_of
 from report.study.years import RECURRENCES
 from report.typeset.pdf import lay_out
-from sheets import edit, type_into
 from solver.friction_tests import Surface
 from solver.model import InputError
 from solver.studies.rates import exceedance_rates
-from study_books import at, command, given, plan, problems, usual, write
 
 FOLDER = "<Study/Folder of motions>"
 
@@ -64,7 +72,7 @@ def test_lists_are_read_or_refused(text, wanted):
 @pytest.mark.parametrize("units", list(UnitsFirst))
 def test_what_is_written_is_read(tmp_path, units):
     write(tmp_path)
-    study = given(allowed_m=0.5, site_intensity=1.2, s_ds_g=1.0)
+    study = study_input(allowed_m=0.5, site_intensity=1.2, s_ds_g=1.0)
     write_study(tmp_path / "input.xlsx", units=units, example=study)
     found = read_study(tmp_path).project
     assert found.study.allowed_m == pytest.approx(0.5)
@@ -74,7 +82,7 @@ def test_what_is_written_is_read(tmp_path, units):
 
 
 def test_the_grid_has_the_friction_of_the_mats(tmp_path):
-    found = plan(write(tmp_path, given(mus="0.5, 0.7")))
+    found = plan(write(tmp_path, study_input(mus="0.5, 0.7")))
     assert found.input.mus == (0.4, 0.5, 0.6, 0.7)
     assert found.shape == (1, 3, 4, 4)
     assert len(found.campaign.cases) == 3 * 4 * 4 + 4
@@ -88,13 +96,13 @@ def test_a_folder_gives_motions_with_their_components(tmp_path):
 
 def test_intensity_one_has_the_measure_one(tmp_path):
     for kind, s_ds_g, scale in ((Intensity.PPA, None, 1.0), (Intensity.S_DS, 0.8, 1.25)):
-        found = plan(write(tmp_path, given(intensity=kind, s_ds_g=s_ds_g)))
+        found = plan(write(tmp_path, study_input(intensity=kind, s_ds_g=s_ds_g)))
         assert found.motions.motions[0][0].scale == pytest.approx(scale, rel=1e-6)
 
 
 def test_ground_motions_go_through_every_building(tmp_path):
     buildings = (StudyBuilding(id="stiff", period_s=0.05), StudyBuilding(id="soft", period_s=0.8))
-    study = given(intensity=Intensity.PGA, recorded_at="ground", buildings=buildings)
+    study = study_input(intensity=Intensity.PGA, recorded_at="ground", buildings=buildings)
     found = plan(write(tmp_path, study))
     assert found.motions.buildings == ("stiff", "soft")
     assert found.shape[0] == 2
@@ -105,12 +113,14 @@ def test_ground_motions_go_through_every_building(tmp_path):
 
 def test_listed_motions_are_read(tmp_path):
     rows = (StudyMotion(id="K1", record="records/M0-x.csv", source="Kobe"),)
-    found = plan(write(tmp_path, given(folder="", motions=rows)))
+    found = plan(write(tmp_path, study_input(folder="", motions=rows)))
     assert [(m.id, m.source) for m in found.motions.motions[0]] == [("K1", "Kobe")]
 
 
 def test_all_combinations_take_every_tested_value(tmp_path):
-    study = given(site_intensity=1.0, sampling=Sampling.ALL_COMBINATIONS, slope_tolerance_deg=0.5)
+    study = study_input(
+        site_intensity=1.0, sampling=Sampling.ALL_COMBINATIONS, slope_tolerance_deg=0.5
+    )
     found = plan(write(tmp_path, study))
     cases = found.campaign.cases[found.arrays[0].samples]
     assert sorted(set(cases.mu)) == [0.38, 0.40, 0.42]
@@ -119,7 +129,7 @@ def test_all_combinations_take_every_tested_value(tmp_path):
 
 @pytest.mark.quick
 def test_a_study_workbook_is_told_which_command_reads_it(tmp_path):
-    folder = write(tmp_path, given())
+    folder = write(tmp_path, study_input())
     with pytest.raises(InputError, match="run roofslip study"):
         read(folder)
 
@@ -163,8 +173,8 @@ def test_an_ordinary_workbook_is_told_what_to_do(tmp_path):
     ids=lambda value: str(value)[:40] if isinstance(value, dict) else "",
 )  # fmt: skip
 def test_errors_name_the_cell_and_what_to_do(tmp_path, changes, wanted):
-    found = problems(write(tmp_path, given(**changes)))
-    assert all(at(text) in found for text in wanted), found
+    found = problems(write(tmp_path, study_input(**changes)))
+    assert all(cell_address(text) in found for text in wanted), found
 
 
 def test_cells_of_a_wrong_kind_are_all_listed(tmp_path):
@@ -202,17 +212,17 @@ def test_a_folder_of_motions_is_refused_at_its_cell(tmp_path, letters, change, w
     (folder / "records" / "suite.json").write_text("{}")
     change(folder / "records")
     (line,) = problems(folder).splitlines()
-    assert line.startswith(at(FOLDER))
+    assert line.startswith(cell_address(FOLDER))
     assert wanted in line
 
 
 def test_too_many_samples_and_runs_are_refused_at_their_cell(tmp_path, monkeypatch):
     folder = write(tmp_path)
     monkeypatch.setattr("report.study.shaking.MOST_SAMPLES", 1000)
-    assert at(f"{FOLDER}: the records have 1,200 samples") in problems(folder)
+    assert cell_address(f"{FOLDER}: the records have 1,200 samples") in problems(folder)
     monkeypatch.undo()
     monkeypatch.setattr("report.study.plan.MOST_RUNS", 10)
-    assert at("<Study/Intensities>: make") in problems(folder)
+    assert cell_address("<Study/Intensities>: make") in problems(folder)
 
 
 def test_the_project_is_what_its_script_writes(tmp_path):
@@ -240,7 +250,7 @@ def test_what_a_study_reads_from_hidden_cells_is_a_warning(tmp_path):
 
 
 def test_an_intensity_may_be_shown_in_the_unit_of_its_measure(tmp_path):
-    folder = write(tmp_path, given(site_intensity=1.2))
+    folder = write(tmp_path, study_input(site_intensity=1.2))
     name = "Study/Intensity at the site"
     plan(formatted(folder, name, '0.0" g"'))
     formatted(folder, name, '0.0" m/s"')
@@ -295,7 +305,7 @@ def yearly(**changes):
     )
     arrays = (StudyArray(id="S1", mat="A", slope_deg=2.0, clearance_m=0.3, reaches="RTU"),)
     about = {"hazard": hazard(), "hazard_points": rows, "friction_runs": runs}
-    return given(**{**about, "study_arrays": arrays, **changes})
+    return study_input(**{**about, "study_arrays": arrays, **changes})
 
 
 @pytest.fixture(scope="module")
@@ -500,12 +510,12 @@ def test_the_page_of_the_years_is_laid_out(results):
 
 
 def test_the_page_says_what_the_curve_is_and_what_follows(results):
-    text = printed.study(results)
+    text = pages.study(results)
     assert text.count(SUPPORTING) >= 1
     for said in ("Here, 34, -118; Survey; Model 2018", "760 m/s, which is rock", "(Table S)"):
         assert said in text
     assert "The hazard curve ends" not in text
-    shown = printed.study(
+    shown = pages.study(
         replace(results, plan=replace(results.plan, hazard=(ended(results.plan.hazard[0]),)))
     )
     assert "The hazard curve ends at PPA = 0.9 g" in shown

@@ -7,11 +7,22 @@ import re
 import numpy as np
 import pytest
 
-import printed
-from nightly import by_day
+from fixtures import pages
+from fixtures.campaigns import motion
+from fixtures.marks import by_day
+from fixtures.study_workbooks import (
+    command,
+    library,
+    limit_state,
+    sheet_rows,
+    study_input,
+    with_fit,
+    with_study,
+    write,
+)
 from report.study import files
 from report.study.array_capacities import spectral_spread
-from report.study.array_page import fragility as pages
+from report.study.array_page import fragility as fragility_page
 from report.study.exports import export_files
 from report.study.plan import FRICTION, SLOPE, ArrayPlan
 from report.study.results import ArrayStudyResult
@@ -21,17 +32,6 @@ from report.study.wording import headline, sentence
 from report.text.units import digits_down
 from solver.studies.fragility import Lognormal
 from solver.studies.uncertainty import Spread
-from studied import motion
-from study_books import (
-    command,
-    given,
-    library,
-    limit_state,
-    sheet_rows,
-    with_fit,
-    with_study,
-    write,
-)
 
 
 def like(number, factor):
@@ -71,13 +71,13 @@ def test_one_motion_or_a_component_of_zeros_has_no_spread():
 
 @pytest.fixture(scope="module")
 def results(tmp_path_factory):
-    folder = write(tmp_path_factory.mktemp("spread"), given(study_arrays=()), motions=3)
+    folder = write(tmp_path_factory.mktemp("spread"), study_input(study_arrays=()), motions=3)
     return run_study(planned(folder)[0], folder / "out")
 
 
 def said(results, motions):
     spread = spectral_spread([motions])
-    return printed.study(dataclasses.replace(results, spread=spread))
+    return pages.study(dataclasses.replace(results, spread=spread))
 
 
 def test_the_limits_name_the_spread_and_call_it_small_only_where_it_is(results):
@@ -120,7 +120,7 @@ def test_a_fragility_without_record_to_record_dispersion_is_not_exported(results
     assert export_files(found) == {}
     assert "fragility.csv is not written: the " in headline(found)[-1]
     assert headline(found)[-1].endswith("or write it with --allow-matched")
-    assert printed.study(found).table("Dispersions").column("β exported") == ["not exported"]
+    assert pages.study(found).table("Dispersions").column("β exported") == ["not exported"]
 
 
 def test_allow_matched_writes_the_warning_in_the_comments(results):
@@ -154,10 +154,10 @@ def test_an_entered_record_to_record_value_replaces_that_of_the_motions(results)
         "rigid block with Coulomb friction."
     )
     assert said in row["Comments"]
-    page = printed.study(found)
+    page = pages.study(found)
     assert "the dispersions β of the fits do not contain how much the spectra" in page
     assert "contains the record-to-record dispersion that is entered" in page
-    assert "the dispersions β do not contain" in printed.study(with_state(results, MATCHED))
+    assert "the dispersions β do not contain" in pages.study(with_state(results, MATCHED))
     table = page.table("Dispersions")
     assert table.title.endswith(
         ". Not included: quality of data (not entered), friction (mat A has no tests) and slope "
@@ -169,7 +169,7 @@ def test_an_entered_record_to_record_value_replaces_that_of_the_motions(results)
 @pytest.mark.nightly
 def test_a_run_that_exports_nothing_leaves_no_export_of_a_former_one(tmp_path, monkeypatch):
     monkeypatch.setattr(files, "lay_out", str.encode)
-    folder = write(tmp_path, given(intensities="0.2 to 2.4 by 0.2"), motions=1)
+    folder = write(tmp_path, study_input(intensities="0.2 to 2.4 by 0.2"), motions=1)
     first = command(folder, "--allow-matched")
     assert first.exit_code == 0, first.output
     assert "Warning: the record-to-record spread of 1 motion cannot be measured" in first.output
@@ -184,7 +184,7 @@ def test_a_run_that_exports_nothing_leaves_no_export_of_a_former_one(tmp_path, m
 @pytest.fixture(scope="module")
 def fitted(tmp_path_factory):
     """A study whose array has one state that fits, one of two groups, and one that is censored."""
-    folder = write(tmp_path_factory.mktemp("goodness"), given(), motions=1)
+    folder = write(tmp_path_factory.mktemp("goodness"), study_input(), motions=1)
     found = run_study(planned(folder)[0], folder / "out")
     rng = np.random.default_rng(3)
     states = (
@@ -198,18 +198,18 @@ def fitted(tmp_path_factory):
 
 @pytest.mark.nightly
 def test_the_chart_has_a_panel_for_each_state_with_the_p_value_of_the_table(fitted):
-    charts = pages(fitted, fitted.arrays[0]).charts
+    charts = fragility_page(fitted, fitted.arrays[0]).charts
     assert list(charts) == ["fragility", "goodness"]
     texts = re.findall(r">(LS\d: [^<]*)<", charts["goodness"])
     p = [digits_down(s.fragility.p_value, 2) for s in fitted.arrays[0].states[:2]]
     assert texts == [f"LS1: p = {p[0]}", f"LS2: p = {p[1]}"]
-    assert printed.study(fitted).table("Fragilities").column("p of fit") == [*p, "—"]
-    assert "leave in 5 % of lognormal samples." in printed.study(fitted)
+    assert pages.study(fitted).table("Fragilities").column("p of fit") == [*p, "—"]
+    assert "leave in 5 % of lognormal samples." in pages.study(fitted)
 
 
 def test_without_a_p_value_there_is_no_chart(fitted):
     one = dataclasses.replace(fitted.arrays[0], states=fitted.arrays[0].states[2:])
-    assert list(pages(fitted, one).charts) == ["fragility"]
+    assert list(fragility_page(fitted, one).charts) == ["fragility"]
 
 
 def test_the_band_leaves_out_the_capacities_whose_p_value_is_below_5_percent(fitted):

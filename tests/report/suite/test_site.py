@@ -8,18 +8,17 @@ import numpy as np
 import pytest
 from openpyxl import Workbook, load_workbook
 
-import commands
 import report.suite.files
-import waves
-from cells import address, cell
-from nightly import by_day
-from packages import unlaid
+from fixtures import commands, records
+from fixtures.cells import address, cell
+from fixtures.marks import by_day
+from fixtures.packages import unlaid
+from fixtures.workbooks import cell_address, edit, make, type_into
 from report.project.read.read import read
 from report.results.motions import other_sources
 from report.results.publish import STAMP
 from report.suite.inputs import ac156_targets, site_targets
 from report.suite.target_table import MAX_ROWS, read_target
-from sheets import at, edit, make, type_into
 from solver.model import InputError
 from solver.rules.hazard import Tail
 
@@ -31,12 +30,16 @@ def test_the_target_of_a_suite_is_the_site_of_the_workbook_with_its_cells_and_ed
     assert targets.facts["s_ds_g"] == site.s_ds
     assert targets.facts["z_over_h"] == pytest.approx(site.z_over_h, rel=1e-11)
     assert (targets.facts["tail"], targets.facts["code"]) == (Tail.AC156, site.rule_set)
-    given = at("Site/S_DS") if site.s_ds_g else f"{at('Site/S_S')} and {at('Site/F_a')}"
+    given = (
+        cell_address("Site/S_DS")
+        if site.s_ds_g
+        else f"{cell_address('Site/S_S')} and {cell_address('Site/F_a')}"
+    )
     assert lines[0] == f"S_DS {site.s_ds:.4g} g from {given}"
-    assert f"code pv1 from {at('Site/Rule set')}" in lines
+    assert f"code pv1 from {cell_address('Site/Rule set')}" in lines
     path = type_into(make(tmp_path), {"Site/Edition of ASCE 7": "ASCE 7-22", "Site/S_DS": 1.2})
     targets, lines = site_targets(read(path))
-    assert f"edition ASCE 7-22 from {at('Site/Edition of ASCE 7')}" in lines
+    assert f"edition ASCE 7-22 from {cell_address('Site/Edition of ASCE 7')}" in lines
     alike = {name: targets.facts[name] for name in ("s_ds_g", "z_over_h")}
     alike = ac156_targets("asce7-22", **alike, tail=Tail(targets.facts["tail"]))
     assert targets.horizontal[1].tolist() == alike.horizontal[1].tolist()
@@ -57,7 +60,7 @@ def test_a_target_is_that_of_the_options_or_of_the_workbook(tmp_path, quick, opt
     path, made = make(tmp_path), tmp_path / "made"
     words = (*suite(made, "--into", path), *options)
     refused = said.startswith("no target")
-    assert said in (commands.refused(*words) if refused else commands.printed(*words))
+    assert said in (commands.errors_of(*words) if refused else commands.stdout_of(*words))
     assert made.exists() != refused
 
 
@@ -68,7 +71,7 @@ def test_what_the_workbook_lacks_or_has_out_of_range_or_beside_is_an_error_at_it
         site_targets(read(path))
     lacking = [text.partition(": ")[2].split()[0] for text in caught.value.problems]
     assert lacking == ["S_DS", "z/h", "code"]
-    assert caught.value.problems[2].startswith(at("Site/Rule set"))
+    assert caught.value.problems[2].startswith(cell_address("Site/Rule set"))
     with pytest.raises(InputError) as caught:
         site_targets(read(edit(path, lambda book: book.remove(book["Site"]))))
     assert len(caught.value.problems) == 3
@@ -85,7 +88,7 @@ def test_what_the_workbook_lacks_or_has_out_of_range_or_beside_is_an_error_at_it
 def quick(monkeypatch):
     """Motions of sines at once."""
     monkeypatch.setattr(
-        report.suite.files, "make_suite", lambda *_, count, **__: waves.suite(count)
+        report.suite.files, "make_suite", lambda *_, count, **__: records.suite(count)
     )
 
 
@@ -97,10 +100,10 @@ def test_a_suite_goes_into_the_workbook_with_its_rows(tmp_path, quick):
     path = make(tmp_path)
     path.chmod(0o640)
     before = read(path).project.motions
-    told = commands.printed(*suite(tmp_path / "records" / "made", "--into", path))
+    told = commands.stdout_of(*suite(tmp_path / "records" / "made", "--into", path))
     cells = address(path, "Motions/motion-01/ID:Source")
     assert f"{path}: 1 row added to the sheet Motions: {cells}\n" in told
-    assert f"code pv1 from {at('Site/Rule set')}" in told
+    assert f"code pv1 from {cell_address('Site/Rule set')}" in told
     *standing, new = read(path).project.motions
     assert tuple(standing) == before
     assert (new.id, new.record) == ("motion-01", "records/made/motion-01-x.csv")
@@ -122,9 +125,9 @@ MADE = "Motions/motion-01/Source"
 @pytest.mark.nightly
 def test_rows_of_a_suite_are_renewed_and_those_of_a_person_are_not(tmp_path, quick):
     path, made = make(tmp_path), tmp_path / "records" / "made"
-    commands.printed(*suite(made, "--into", path))
+    commands.stdout_of(*suite(made, "--into", path))
     type_into(path, {"Motions/motion-01/Polarity": "as recorded"})
-    told = commands.printed(*suite(made, "--into", path, "--seed", 2), "--count", 2)
+    told = commands.stdout_of(*suite(made, "--into", path, "--seed", 2), "--count", 2)
     assert f"{path}: 1 row added to the sheet Motions, 1 renewed: Motions!" in told
     *_, first, second = read(path).project.motions
     assert (first.id, first.polarity, second.id) == ("motion-01", "as recorded", "motion-02")
@@ -132,7 +135,7 @@ def test_rows_of_a_suite_are_renewed_and_those_of_a_person_are_not(tmp_path, qui
     assert first.source.startswith("Generated, seed 2; AC156 with ")
     for typed in ({MADE: "by hand"}, {"Motions/motion-01/Vertical record": "records/z.csv"}):
         before = type_into(path, typed).read_bytes()
-        refused = commands.refused(*suite(made, "--into", path), "--count", 2)
+        refused = commands.errors_of(*suite(made, "--into", path), "--count", 2)
         assert refused.count("already; remove the row, or leave the motion out") == 1
         assert path.read_bytes() == before
 
@@ -140,7 +143,7 @@ def test_rows_of_a_suite_are_renewed_and_those_of_a_person_are_not(tmp_path, qui
 @pytest.mark.nightly
 def test_a_suite_that_is_made_anew_names_the_workbook_whose_source_is_the_former(tmp_path, quick):
     path, made = make(tmp_path), tmp_path / "records" / "made"
-    commands.printed(*suite(made, "--into", path))
+    commands.stdout_of(*suite(made, "--into", path))
     source = cell(load_workbook(path), MADE).value
     anew = (*suite(made), "--sds", 1.5, "--code", "pv1")
     told = commands.run(*anew).stderr
@@ -151,12 +154,12 @@ def test_a_suite_that_is_made_anew_names_the_workbook_whose_source_is_the_former
     )
     assert told.endswith(line.format(f"{path}: "))
     # What `check` prints, `report` warns of; the package has no suite.json inside.
-    assert line.format("") in commands.printed("check", path)
+    assert line.format("") in commands.stdout_of("check", path)
     with unlaid(), warnings.catch_warnings():
         warnings.simplefilter("always")
         assert line.format("") in commands.run("report", path).stderr
-    commands.printed(*anew, "--into", path)
-    assert "suite.json" not in commands.printed("check", path)
+    commands.stdout_of(*anew, "--into", path)
+    assert "suite.json" not in commands.stdout_of("check", path)
     assert "suite.json" not in commands.run(*anew).stderr
 
 
@@ -174,7 +177,7 @@ def test_a_suite_that_is_made_anew_names_the_workbook_whose_source_is_the_former
 @pytest.mark.nightly
 def test_a_source_that_a_person_typed_is_another_by_its_numbers(tmp_path, quick, source, is_other):
     path = make(tmp_path)
-    commands.printed(*suite(tmp_path / "made", "--into", path), "--sds", 1.566, "--code", "pv1")
+    commands.stdout_of(*suite(tmp_path / "made", "--into", path), "--sds", 1.566, "--code", "pv1")
     found = list(other_sources(read(type_into(path, {MADE: source}))))
     assert bool(found) == is_other
 
@@ -183,7 +186,7 @@ def test_a_source_that_a_person_typed_is_another_by_its_numbers(tmp_path, quick,
 @pytest.mark.nightly
 def test_a_suite_json_that_is_of_other_records_or_damaged_says_nothing(tmp_path, quick, content):
     path, made = make(tmp_path), tmp_path / "made"
-    commands.printed(*suite(made, "--into", path))
+    commands.stdout_of(*suite(made, "--into", path))
     type_into(path, {MADE: "seed 7"})
     assert list(other_sources(read(path)))
     (made / "suite.json").write_bytes(content)
@@ -196,7 +199,7 @@ def test_a_suite_outside_the_folder_of_the_workbook_is_refused(tmp_path, quick, 
     outside.mkdir()
     (tmp_path / "p" / "link").symlink_to(outside)
     before = path.read_bytes()
-    told = commands.refused(*suite(tmp_path / "p" / place, "--into", path))
+    told = commands.errors_of(*suite(tmp_path / "p" / place, "--into", path))
     assert "is outside the workbook's folder" in told or "in its name; rename it" in told
     assert path.read_bytes() == before
     assert not list(outside.iterdir())
@@ -208,7 +211,7 @@ def test_where_a_file_cannot_be_written_nothing_changes(tmp_path, quick, files_u
     path = make(tmp_path)
     before = path.read_bytes()
     with files_up_to(5_000):
-        commands.refused(*suite(tmp_path / "made", "--into", path))
+        commands.errors_of(*suite(tmp_path / "made", "--into", path))
     assert path.read_bytes() == before
     assert not (tmp_path / "made").exists() or not list((tmp_path / "made").iterdir())
 

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from openpyxl import Workbook
 
-import commands
-import waves
+from fixtures import commands, records
+from fixtures.records import PEAK_G
 from report.results.publish import STAMP
 from report.suite.files import suite_files, suite_table
 from report.suite.inputs import ac156_targets, read_seeds
@@ -21,7 +21,6 @@ from solver.formats import read_motion_file, read_record
 from solver.model import InputError
 from solver.records.spectrum import response_spectrum
 from solver.rules.hazard import EDITIONS, Tail, ac156_horizontal, ac156_vertical
-from waves import PEAK_G
 
 pytestmark = [
     pytest.mark.skipif(
@@ -37,7 +36,7 @@ G = 9.80665
 
 def run(*words, exit_code=0):
     """The output of the command."""
-    return commands.ended("motion", "suite", *words, exit_code=exit_code)
+    return commands.output_of("motion", "suite", *words, exit_code=exit_code)
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +51,7 @@ def document(made):
     return json.loads((made[0] / "suite.json").read_text())
 
 
-def records(folder, motion):
+def components_of(folder, motion):
     return [read_record(folder / f"motion-{motion:02d}-{axis}.csv", units="g") for axis in "xyz"]
 
 
@@ -75,7 +74,7 @@ def test_the_files_agree_with_suite_json(made, document):
     assert document["seed"] == 5
     assert document["envelope_s"] == [5.0, 20.0, 5.0]
     for k, motion in enumerate(document["motions"], start=1):
-        components = records(made[0], k)
+        components = components_of(made[0], k)
         assert motion["id"] == f"motion-0{k}"
         together = np.corrcoef([record.a_mps2 for record in components])
         said = [motion[f"correlation_{pair}"] for pair in ("xy", "xz", "yz")]
@@ -120,7 +119,7 @@ def test_the_rows_of_the_acceptance_are_stated(made, document):
     for axis in (0, 1):
         spectra = [
             response_spectrum(record.a_mps2, record.dt_s, 1.0 / points) / G / target
-            for record in (records(made[0], k)[axis] for k in (1, 2))
+            for record in (components_of(made[0], k)[axis] for k in (1, 2))
         ]
         assert ours[0]["found"] <= np.min(spectra) * (1 + 1e-9)
         assert ours[1]["found"] <= np.mean(spectra, axis=0).min() * (1 + 1e-9)
@@ -191,8 +190,8 @@ def test_records_are_listed_or_the_option_is_repeated(made, tmp_path, again):
 
 def columns(path, heading):
     t = 0.01 * np.arange(1000)
-    waves = [np.sin(k * t) * np.exp(-0.1 * t) for k in (7.0, 9.0, 20.0, 30.0)]
-    rows = np.column_stack([t, *waves[: heading.count(",")]])
+    sines = [np.sin(k * t) * np.exp(-0.1 * t) for k in (7.0, 9.0, 20.0, 30.0)]
+    rows = np.column_stack([t, *sines[: heading.count(",")]])
     body = "\n".join(",".join(f"{value:.6f}" for value in row) for row in rows)
     path.write_text(f"{heading}\n{body}\n")
     return path
@@ -274,7 +273,7 @@ def test_seed_records_are_hashed_as_they_were_read(tmp_path, monkeypatch):
 
 
 def test_the_files_of_a_suite_say_what_its_samples_are():
-    suite = waves.suite(1)
+    suite = records.suite(1)
     targets = ac156_targets("asce7-16", s_ds_g=1.2, z_over_h=1.0, tail=Tail.AC156)
     files = suite_files(suite, targets, seed=3, records={})
     document = json.loads(files["suite.json"])

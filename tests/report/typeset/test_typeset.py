@@ -9,11 +9,11 @@ from xml.etree import ElementTree
 import pytest
 from pypdf import PdfReader
 
-from commands import refused
+from fixtures.commands import errors_of
+from fixtures.workbooks import cell_address, make, type_into
 from report.typeset.equations import data_uri, formula, fraction, symbol
 from report.typeset.letters import undrawable
 from report.typeset.pdf import lay_out
-from sheets import at, make, type_into
 from solver.model import DefectError
 
 
@@ -140,8 +140,8 @@ NO_FONT = "no font of this machine has 棟 (U+68DF); install one that does, or u
 def test_a_cell_with_letters_without_a_font_is_named(tmp_path, fonts, command, cell, typed, line):
     """An ID is in the figures, whose font is the only one there."""
     fonts("蔵")
-    told = refused(command, type_into(make(tmp_path), {cell: typed}))
-    assert at(f"<{cell}>: {line}") in told
+    told = errors_of(command, type_into(make(tmp_path), {cell: typed}))
+    assert cell_address(f"<{cell}>: {line}") in told
     assert not (tmp_path / "out").exists()
 
 
@@ -149,6 +149,6 @@ def test_a_cell_with_letters_without_a_font_is_named(tmp_path, fonts, command, c
 @pytest.mark.parametrize(("command", "name"), [("check", b"a\x01.xlsx"), ("report", b"a\xff.xlsx")])
 def test_a_file_name_that_cannot_be_printed_is_refused_before_the_runs(tmp_path, command, name):
     book = make(tmp_path).rename(tmp_path / os.fsdecode(name))
-    told = refused(command, book)
+    told = errors_of(command, book)
     assert "the file name: no font of this machine has" in told
     assert "rename the workbook" in told

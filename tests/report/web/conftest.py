@@ -3,7 +3,7 @@
 import pytest
 from starlette.testclient import TestClient
 
-from browsing import opened, quiet_page, serve_scripts, served
+from fixtures.browser import opened, quiet_page, serve_scripts, served
 from report.web.access import KEY_HEADER, Keys
 from report.web.app import made
 from report.web.session import Session

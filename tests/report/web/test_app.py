@@ -12,15 +12,15 @@ from pathlib import Path
 
 import pytest
 
-from inputs import HEAD
-from nightly import by_day
-from places import ROOT
+from fixtures.marks import by_day
+from fixtures.paths import ROOT
+from fixtures.project_parts import HEAD
+from fixtures.workbooks import SECTIONS, blank, cell_address, make, type_into
 from report.motions.stored import store
 from report.project.model.choices import ClearanceSource
 from report.project.read.read import read
 from report.web.access import KEY_HEADER
 from report.web.worker import State, answered
-from sheets import SECTIONS, at, blank, make, type_into
 
 EXAMPLE = ROOT / "projects" / "example"
 CONDITIONS = ROOT / "projects" / "conditions"
@@ -75,7 +75,7 @@ def test_a_value_that_the_workbook_could_not_have_is_refused_with_its_cell(clien
     answer = asked(client, {"rule_set": "ASCE 7-22"})
     assert answer.status_code == 422
     found = answer.json()["problems"][0]
-    assert found["text"].startswith(at("<Site/F_a>: F_a is 1.2"))
+    assert found["text"].startswith(cell_address("<Site/F_a>: F_a is 1.2"))
     assert found["remedy"].startswith("leave it blank")
     assert found["row"]["cells"][found["row"]["at"]] == "1.2"
 
@@ -263,7 +263,7 @@ def test_every_error_of_a_workbook_is_shown_at_once_with_its_row(client, tmp_pat
     assert state["project"] is state["answer"] is None
     assert state["is_alone"]
     by_cell = {item["cell"]: item for item in state["problems"] if item["sheet"] == "Arrays"}
-    row = by_cell[at(name).partition("!")[2]]["row"]
+    row = by_cell[cell_address(name).partition("!")[2]]["row"]
     assert (row["heads"][row["at"]], row["cells"][row["at"]]) == ("Friction coefficient", "wet")
     # Of 40 columns those that the page shows: the first, and two on either side of the cell.
     assert row["at"] == 3

@@ -5,12 +5,12 @@ import shutil
 
 import pytest
 
-from commands import ended
+from fixtures.commands import output_of
+from fixtures.dxf import BOX_FT, ROOF_FT, UNIT_FT, Sketch
+from fixtures.workbooks import blank, type_into
 from report.project.model.choices import UnitsFirst
 from report.project.read.read import read
 from report.web.jobs import perform
-from sheets import blank, type_into
-from sketch import BOX_FT, ROOF_FT, UNIT_FT, Sketch
 
 FEET_DRAWN_AS_INCHES = 1 / 12
 
@@ -43,7 +43,7 @@ def test_a_second_drawing_says_on_the_page_what_the_command_prints(tmp_path):
     lines = plan_read(book)["answer"]["lines"]
     assert any("the plan as a whole is moved by x 150.00" in line for line in lines)
     assert any(line.startswith("taken out with RTU-1: ") for line in lines)
-    printed = ended("plan", "read", drawing, by_command, "--replace").splitlines()
+    printed = output_of("plan", "read", drawing, by_command, "--replace").splitlines()
     assert [line for line in lines if line not in printed] == []
     assert read(book).inputs["objects"] == read(by_command).inputs["objects"]
 

@@ -8,9 +8,9 @@ import json
 
 import pytest
 
-from places import ROOT
+from fixtures.paths import ROOT
+from fixtures.workbooks import type_into
 from report.web.access import KEY_HEADER
-from sheets import type_into
 
 pytestmark = pytest.mark.quick
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from places import ROOT
+from fixtures.paths import ROOT
 from report.assessment.assess import Extent
 from report.web.open_project import KEPT_VALUES, open_project
 

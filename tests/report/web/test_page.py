@@ -8,7 +8,7 @@ from urllib.parse import urlsplit
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 
-from browsing import (
+from fixtures.browser import (
     PHONE,
     TABLET,
     at_rest,
@@ -19,8 +19,8 @@ from browsing import (
     quiet_page,
     verdicts,
 )
-from nightly import by_day
-from places import ROOT
+from fixtures.marks import by_day
+from fixtures.paths import ROOT
 
 EXAMPLE = ROOT / "projects" / "example"
 

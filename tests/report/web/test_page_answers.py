@@ -2,8 +2,8 @@
 
 import pytest
 
-from nightly import by_day
-from places import ROOT
+from fixtures.marks import by_day
+from fixtures.paths import ROOT
 from report.assessment.assess import assess, reassess
 from report.assessment.friction import with_friction
 from report.assessment.project import Assessment

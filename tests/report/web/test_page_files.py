@@ -12,14 +12,24 @@ import openpyxl
 import pytest
 from pypdf import PdfReader
 
-import cells
-from browsing import DESKTOP, PHONE, TABLET, at_rest, moved, numbers, opened, quiet_page, saved
-from commands import printed
-from inputs import FT
-from places import ROOT
+from fixtures import cells
+from fixtures.browser import (
+    DESKTOP,
+    PHONE,
+    TABLET,
+    at_rest,
+    moved,
+    numbers,
+    opened,
+    quiet_page,
+    saved,
+)
+from fixtures.commands import stdout_of
+from fixtures.dxf import BOX_FT, ROOF_FT, Sketch
+from fixtures.paths import ROOT
+from fixtures.project_parts import FT
+from fixtures.workbooks import SECTIONS, blank, make, type_into
 from report.project.read.read import read
-from sheets import SECTIONS, blank, make, type_into
-from sketch import BOX_FT, ROOF_FT, Sketch
 
 EXAMPLE = ROOT / "projects" / "example"
 CONDITIONS = ROOT / "projects" / "conditions"
@@ -182,7 +192,7 @@ def test_a_second_drawing_is_asked_for_its_unit_and_what_it_moved_is_listed(page
     folder = tmp_path / "revised"
     folder.mkdir()
     book = blank(folder / "input.xlsx")
-    printed("plan", "read", plan_of(tmp_path, FT), book)
+    stdout_of("plan", "read", plan_of(tmp_path, FT), book)
     plan_of(folder, INCH_M, unit="in")
     page.set_input_files("#folder", folder)
     page.wait_for_selector("#drawing .field")

@@ -4,8 +4,8 @@ import re
 
 import pytest
 
-from browsing import STATIC, called, cases
-from nightly import by_day
+from fixtures.browser import STATIC, called, cases
+from fixtures.marks import by_day
 
 
 @pytest.fixture(scope="module")

@@ -6,13 +6,12 @@ import re
 import numpy as np
 import pytest
 
-import inputs
-import stand_in
-from browsing import called, quiet_page, serve_scripts
+from fixtures import project_parts, projects
+from fixtures.browser import called, quiet_page, serve_scripts
 from report.text.units import Quantity, measured, number, pair
 from report.web import views
 
-MOTIONS = stand_in.motions(2, seconds=8.0)
+MOTIONS = projects.motions(2, seconds=8.0)
 MOUNT = """
 async ([view, data, wide]) => {
   document.body.innerHTML =
@@ -34,17 +33,17 @@ async ([view, data, wide]) => {
 }"""
 
 
-DATA = stand_in.project(
-    options=inputs.REVIEW,
-    arrays=[stand_in.array("A1", 0.5), stand_in.array("A2", 2.0, x=120, downslope_deg=30.0)],
-    objects=[stand_in.roof_object("RTU-1", "fixed object", 107, 112, 35, 42)],
-    clearances=[stand_in.clearance("A1", "RTU-1", 9.0)],
+DATA = projects.project(
+    options=project_parts.REVIEW,
+    arrays=[projects.array("A1", 0.5), projects.array("A2", 2.0, x=120, downslope_deg=30.0)],
+    objects=[projects.roof_object("RTU-1", "fixed object", 107, 112, 35, 42)],
+    clearances=[projects.clearance("A1", "RTU-1", 9.0)],
 )
 
 
 @pytest.fixture(scope="module")
 def assessment():
-    return stand_in.assess_input(DATA, MOTIONS)
+    return projects.assess_input(DATA, MOTIONS)
 
 
 @pytest.fixture(scope="module")
@@ -278,8 +277,8 @@ def test_an_answer_that_comes_while_the_tab_is_closed_is_drawn_when_it_opens(pag
 
 
 def test_a_run_without_displacement_is_drawn_at_rest(page):
-    lifted = stand_in.motion("M1", MOTIONS[0].ax_mps2, 4.0 * MOTIONS[0].az_mps2, dt_s=0.005)
-    answer = views.slide(stand_in.assess_input(DATA, [lifted]), "A2", "M1")
+    lifted = projects.motion("M1", MOTIONS[0].ax_mps2, 4.0 * MOTIONS[0].az_mps2, dt_s=0.005)
+    answer = views.slide(projects.assess_input(DATA, [lifted]), "A2", "M1")
     mounted(page, "slide", answer)
     assert "normal force falls below zero" in text(page, ".slip-text")
     assert "—" in page.locator(".panel-head").first.inner_text()
@@ -324,7 +323,7 @@ def test_histories_zoom_and_read_by_keys(page, run):
     before = when(page)
     page.keyboard.press("ArrowRight")
     assert when(page) == pytest.approx(before + run["dt_s"], abs=1e-3)
-    shown = value_at(run["acceleration"]["series"][0], run["dt_s"], when(page)) / stand_in.G
+    shown = value_at(run["acceleration"]["series"][0], run["dt_s"], when(page)) / projects.G
     found = first_value(page)
     assert found.endswith(" g")
     assert number_of(found) == pytest.approx(shown, abs=0.02)
@@ -368,14 +367,14 @@ def test_the_wheel_zooms_what_is_chosen_and_else_scrolls_and_a_drag_enlarges(pag
 
 @pytest.mark.nightly
 def test_a_reading_is_that_of_its_sample_in_a_record_of_more_than_the_page_is_wide(page):
-    motions = stand_in.motions(1, seconds=20.0)
-    data = views.slide(stand_in.assess_input(DATA, motions), "A1", "M1")
+    motions = projects.motions(1, seconds=20.0)
+    data = views.slide(projects.assess_input(DATA, motions), "A1", "M1")
     mounted(page, "histories", data)
     press(page, ".stage", "Home")
     samples = data["acceleration"]["series"][0]["v"]
     for _ in range(60):
         page.keyboard.press("ArrowRight")
-        sample = samples[round(when(page) / data["dt_s"])] / stand_in.G
+        sample = samples[round(when(page) / data["dt_s"])] / projects.G
         assert number_of(first_value(page)) == pytest.approx(sample, abs=0.0051)
     press(page, ".stage", *"+" * 20)
     # The shortest span has 20 samples, and the curve goes through each of them.

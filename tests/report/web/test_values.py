@@ -8,10 +8,10 @@ from itertools import combinations
 
 import pytest
 
-import inputs
-import stand_in
-from nightly import by_day, nightly
-from places import ROOT
+from fixtures import project_parts, projects
+from fixtures.marks import by_day, nightly
+from fixtures.paths import ROOT
+from fixtures.workbooks import make
 from report.assessment.assess import Extent, assess
 from report.project.model.choices import Scaling
 from report.project.read.what_if import retyped
@@ -21,7 +21,6 @@ from report.web.answers import answer
 from report.web.controls import shown
 from report.web.open_project import PASSING, open_project, reference_of
 from report.web.values import typed
-from sheets import make
 from solver.sliding import least_model
 
 PROJECTS = ROOT / "projects"
@@ -210,15 +209,15 @@ def test_the_written_workbook_is_the_model_that_was_assessed(project, tmp_path):
 
 @pytest.mark.quick
 def test_where_no_run_gives_a_displacement_the_page_says_no_value():
-    lifted = stand_in.motions(1, seconds=4.0)[0]
-    lifted = stand_in.motion("M1", lifted.ax_mps2, 4.0 * lifted.az_mps2, dt_s=0.005)
-    data = stand_in.project(
-        options=inputs.REVIEW,
-        arrays=[stand_in.array("A1", 0.5)],
-        objects=[stand_in.roof_object("RTU-1", "fixed object", 107, 112, 35, 42)],
-        clearances=[stand_in.clearance("A1", "RTU-1", 9.0)],
+    lifted = projects.motions(1, seconds=4.0)[0]
+    lifted = projects.motion("M1", lifted.ax_mps2, 4.0 * lifted.az_mps2, dt_s=0.005)
+    data = projects.project(
+        options=project_parts.REVIEW,
+        arrays=[projects.array("A1", 0.5)],
+        objects=[projects.roof_object("RTU-1", "fixed object", 107, 112, 35, 42)],
+        clearances=[projects.clearance("A1", "RTU-1", 9.0)],
     )
-    found = answer(stand_in.assess_input(data, [lifted]), is_provisional=True)
+    found = answer(projects.assess_input(data, [lifted]), is_provisional=True)
     (array,), (gap,) = (rows(found[name]) for name in ("arrays", "clearances"))
     assert array["Mean PRD"] == gap["Required"] == {"text": "no value"}
     assert "required no value" in found["plan"]["described"][0]["text"]

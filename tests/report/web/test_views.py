@@ -7,22 +7,21 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-import inputs
-import stand_in
+from fixtures import project_parts, projects
 from report.assessment import uncertainty
 from report.web import views
 from report.web.run_forces import during, run_forces, slips_of
 from solver.model import InputError
 from solver.sliding import least_model
 
-LONG = stand_in.motions(2, seconds=20.0)  # 4,000 samples
+LONG = projects.motions(2, seconds=20.0)  # 4,000 samples
 X_MPS2, DT_S = LONG[0].ax_mps2, LONG[0].dt_s
-G = stand_in.G
+G = projects.G
 
 
 def made(*found, **changes):
-    data = stand_in.project(options=inputs.REVIEW, **changes)
-    return stand_in.assess_input(data, found)
+    data = projects.project(options=project_parts.REVIEW, **changes)
+    return projects.assess_input(data, found)
 
 
 @pytest.fixture(scope="module")
@@ -30,16 +29,16 @@ def usual():
     fast = {"mu": 0.4, "mu_fast": 0.5, "mu_rate_s_per_m": 30.0}
     return made(
         *LONG,
-        arrays=[stand_in.array("A1", 0.5), stand_in.array("A2", 2.0, x=120, **fast)],
-        objects=[stand_in.roof_object("RTU-1", "fixed object", 107, 112, 35, 42)],
-        clearances=[stand_in.clearance("A1", "RTU-1", 9.0)],
+        arrays=[projects.array("A1", 0.5), projects.array("A2", 2.0, x=120, **fast)],
+        objects=[projects.roof_object("RTU-1", "fixed object", 107, 112, 35, 42)],
+        clearances=[projects.clearance("A1", "RTU-1", 9.0)],
     )
 
 
 @pytest.fixture(scope="module")
 def along():
     """One horizontal component, and no vertical one."""
-    return made(stand_in.motion("M1", X_MPS2[::2]))
+    return made(projects.motion("M1", X_MPS2[::2]))
 
 
 def named(assessment, array):
@@ -175,7 +174,7 @@ def test_in_one_axis_the_forces_are_those_of_the_model(along):
 
 @pytest.mark.quick
 def test_a_run_that_lifts_off_has_forces_and_no_displacement():
-    assessment = made(stand_in.motion("M1", X_MPS2, 3.0 * LONG[0].az_mps2, dt_s=DT_S))
+    assessment = made(projects.motion("M1", X_MPS2, 3.0 * LONG[0].az_mps2, dt_s=DT_S))
     answer = views.slide(assessment, "A2", "M1")
     assert answer["prd_m"] is answer["peak"] is None
     assert answer["slips"] == []
@@ -190,7 +189,7 @@ def test_a_run_that_lifts_off_has_forces_and_no_displacement():
 
 
 def test_a_block_that_never_slips_uses_what_friction_is_demanded():
-    answer = views.slide(made(stand_in.motion("M1", 0.1 * X_MPS2)), "A1", "M1")
+    answer = views.slide(made(projects.motion("M1", 0.1 * X_MPS2)), "A1", "M1")
     used, demand = answer["friction"]["series"]
     assert used["v"] == demand["v"]
     assert answer["slips"] == []
@@ -199,7 +198,7 @@ def test_a_block_that_never_slips_uses_what_friction_is_demanded():
 
 @pytest.mark.nightly
 def test_a_slip_that_the_record_cuts_off_ends_with_it():
-    assessment = made(stand_in.motion("M1", X_MPS2[:1800:2]))
+    assessment = made(projects.motion("M1", X_MPS2[:1800:2]))
     answer = views.slide(assessment, "A2", "M1")
     _, history = solved(assessment, "A2", "M1", answer["run"])
     assert history.result.end_speed_mps != 0.0
@@ -260,7 +259,7 @@ def test_around_a_lost_value_and_across_a_saddle_a_contour_stays_whole():
 
 
 def test_a_grid_where_nothing_slides_says_so_and_has_no_levels():
-    answer = views.contour(made(stand_in.motion("M1", 1e-3 * X_MPS2)), "A1")
+    answer = views.contour(made(projects.motion("M1", 1e-3 * X_MPS2)), "A1")
     assert answer["levels"] == []
     assert answer["texts"]["notes"][1:] == [
         "Nothing slides on the whole grid: no contours are drawn."

@@ -8,14 +8,14 @@ import zipfile
 import pytest
 
 import report.suite.files
-import waves
-from browsing import called, cases, opened, quiet_page, served
-from nightly import by_day
+from fixtures import records
+from fixtures.browser import called, cases, opened, quiet_page, served
+from fixtures.marks import by_day
+from fixtures.workbooks import cell_address, make, type_into
 from report.project.read.read import read
 from report.web import worker
 from report.web.jobs import perform
 from report.web.worker import MOTIONS, PROJECT, motions_made
-from sheets import at, make, type_into
 
 MOTION_CELLS = ("ID", "Horizontal record", "Vertical record", "Time step", "Scaling",
                 "Factor or PPA", "Polarity", "Source", "Record units", "Recorded at")  # fmt: skip
@@ -52,7 +52,7 @@ def test_motions_are_made_into_the_copy_and_its_zip(tmp_path, monkeypatch):
 
     def motions(*_, count, progress, **__):
         progress("motion 1 of 7")
-        return waves.suite(count)
+        return records.suite(count)
 
     monkeypatch.setattr(report.suite.files, "make_suite", motions)
     monkeypatch.setattr(worker, "tell", told.append)
@@ -76,7 +76,7 @@ def test_a_site_that_lacks_a_value_is_told_with_its_cell(tmp_path, monkeypatch):
     path = without_motions(tmp_path / "p", **{"Rule set": None})
     before = path.read_bytes()
     said = motions_made(path, tmp_path / "p" / "out")
-    assert said.startswith(f"{at('Site/Rule set')}: ") or "missing" in said
+    assert said.startswith(f"{cell_address('Site/Rule set')}: ") or "missing" in said
     assert path.read_bytes() == before
 
 

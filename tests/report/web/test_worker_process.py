@@ -17,7 +17,7 @@ from pkgutil import iter_modules
 import pytest
 
 import report.assessment
-from places import ROOT
+from fixtures.paths import ROOT
 from report.web.processes import WorkerProcess, tell
 from solver.model import DefectError, InputError
 

@@ -6,8 +6,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from nightly import by_day
-from refused import refused
+from fixtures.errors import input_problems
+from fixtures.marks import by_day
 from solver.building.structure import (
     FOOT_M,
     approximate_period_s,
@@ -149,5 +149,5 @@ def test_the_approximate_period_is_that_of_the_table(system, height_ft, period_s
 
 
 def test_an_unknown_structure_and_a_height_of_nothing_are_both_named():
-    unknown, _ = refused(approximate_period_s, "timber", 0.0)
+    unknown, _ = input_problems(approximate_period_s, "timber", 0.0)
     assert "'timber'" in unknown

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from openpyxl import Workbook
 
-from nightly import by_day
-from refused import refused
+from fixtures.errors import input_problems
+from fixtures.marks import by_day
 from solver.formats import read_record
 
 G = 9.80665
@@ -289,7 +289,7 @@ KINDS = {
 @pytest.mark.parametrize("name", by_day(KINDS, 12))
 def test_what_the_refusal_of_a_record_says_would_do_does(file, name):
     kind = KINDS[name]
-    said = "\n".join(map(str, refused(read_record, file(kind.content), **kind.given)))
+    said = "\n".join(map(str, input_problems(read_record, file(kind.content), **kind.given)))
     advised = re.search(kind.advice, said)
     assert advised, said
     then = {key: literal_eval(advised[1]) if value == "1" else value

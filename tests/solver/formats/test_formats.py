@@ -9,8 +9,8 @@ from functools import partial
 import numpy as np
 import pytest
 
-from places import SAMPLES
-from refused import refused
+from fixtures.errors import input_problems
+from fixtures.paths import SAMPLES
 from solver.formats import read_motion_file
 
 pytestmark = pytest.mark.quick
@@ -134,7 +134,7 @@ HELD = {
 }  # fmt: skip
 
 
-problems_of = partial(refused, read_motion_file)
+problems_of = partial(input_problems, read_motion_file)
 
 
 @pytest.mark.parametrize("name", HELD)

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from refused import refused
+from fixtures.errors import input_problems
 from solver.formats import read_motion_file
 from solver.formats.channels import distinct, motion_file, offset_notes, peak_notes
 from solver.formats.numbers import (
@@ -64,21 +64,21 @@ def test_a_channel_is_chosen_by_name_then_by_number():
     ],
 )  # fmt: skip
 def test_a_channel_that_is_not_there_is_refused_with_those_that_are(names, wanted, problem):
-    assert refused(made(*names.split()).channel, wanted) == (f"a.v2: {problem}",)
+    assert input_problems(made(*names.split()).channel, wanted) == (f"a.v2: {problem}",)
 
 
 def test_names_and_notes_of_channels_differ_and_long_lists_are_cut():
-    (problem,) = refused(made(*(f"c{i}" for i in range(40))).channel, "roof")
+    (problem,) = input_problems(made(*(f"c{i}" for i in range(40))).channel, "roof")
     assert problem.endswith("30 c29; ... and 10 more")
     assert distinct(["x", " X", "", "x (2)", "x"]) == [
         "x", "X (2)", "channel 3", "x (2) (2)", "x (3)",
     ]  # fmt: skip
     assert made("x", notes=("odd",)).notes == ("of the file", "odd")
     assert made("x", "y", notes=("odd",)).notes == ("of the file", "x: odd", "y: odd")
-    (problem,) = refused(made)
+    (problem,) = input_problems(made)
     assert problem.startswith("a.v2: found no acceleration in this made file; give a")
     short = Record(name="x", dt_s=0.01, a_mps2=np.zeros(1), notes=())
-    (problem,) = refused(motion_file, SOURCE, "made", [short])
+    (problem,) = input_problems(motion_file, SOURCE, "made", [short])
     assert problem == "a.v2: found 1 sample; give at least 2"
 
 
@@ -119,7 +119,9 @@ def shaken(code, at=(20,), unit="g", peak=0.3):
     ],
 )  # fmt: skip
 def test_a_code_for_missing_data_is_no_sample(file, code, unit, at):
-    (problem,) = refused(read_motion_file, file(shaken(code, at, unit)), units=unit, dt_s=0.01)
+    (problem,) = input_problems(
+        read_motion_file, file(shaken(code, at, unit)), units=unit, dt_s=0.01
+    )
     shown = "99999" if code == "999.99" else f"{float(code):g}"  # the file may be of cm/s2
     assert f"roof.csv: sample {at[0] + 1} is {shown} where no other exceeds" in problem
     assert "code for missing data" in problem
@@ -128,7 +130,7 @@ def test_a_code_for_missing_data_is_no_sample(file, code, unit, at):
 def test_codes_beside_shaking_and_gravity_are_told(file):
     for code, unit, peak in (("-999", "cm/s2", 0.05), ("-999", "g", 1.4)):
         path = file(shaken(code, unit=unit, peak=peak))
-        (problem,) = refused(read_motion_file, path, units=unit, dt_s=0.01)
+        (problem,) = input_problems(read_motion_file, path, units=unit, dt_s=0.01)
         assert "code for missing data" in problem
     rows = "".join(f"{k / 100},{0.1 * (-1) ** k},{1 - 0.1 * (-1) ** k}\n" for k in range(50))
     path = file(f"t_s,X_g,Z_g\n{rows}")
@@ -295,9 +297,9 @@ def test_numbers_may_be_set_left_touch_or_be_unused():
 def test_short_lines_are_allowed_only_where_they_are_asked_for():
     layout, lines = FieldFormat(per_line=2, width=4), ("   1   2", "   3    ", "   4   5")
     assert fixed_rows(source(*lines), block(5, 3), layout).tolist() == [1, 2, 3, 4, 5]
-    told = refused(fixed_values, source(*lines), block(6, 3), layout)
+    told = input_problems(fixed_values, source(*lines), block(6, 3), layout)
     assert told == ("a:2: found 1 value; give 2",)
-    told = refused(fixed_rows, source("  1x   2"), block(2, 1), layout)
+    told = input_problems(fixed_rows, source("  1x   2"), block(2, 1), layout)
     assert told == ("a:1: found '1x'; give a number",)
 
 
@@ -305,7 +307,7 @@ def test_short_lines_are_allowed_only_where_they_are_asked_for():
 def test_what_python_or_numpy_may_take_but_is_no_number_is_refused(field):
     lines = (f"{field:>8}       2", "       3       4")
     layout = FieldFormat(per_line=2, width=8)
-    (problem,) = refused(fixed_values, source(*lines), block(4, 2), layout)
+    (problem,) = input_problems(fixed_values, source(*lines), block(4, 2), layout)
     assert problem.startswith(f"a:1: found {field!r}")
 
 
@@ -320,7 +322,9 @@ def test_what_python_or_numpy_may_take_but_is_no_number_is_refused(field):
 )
 def test_counts_that_do_not_hold_are_told_at_the_line_of_the_promise(count, told):
     lines = source("   1   2", "   3   4", "no more")
-    problem = refused(fixed_values, lines, block(count, 3), FieldFormat(per_line=2, width=4))[0]
+    problem = input_problems(
+        fixed_values, lines, block(count, 3), FieldFormat(per_line=2, width=4)
+    )[0]
     assert problem.startswith(f"a:10: states {count} values, {told}")
 
 
@@ -349,4 +353,4 @@ def test_problems_of_all_items_are_told_together():
 
     assert each(read, [2, 4]) == [20, 40]
     told = ("1 is odd", "that is all", "3 is odd", "that is all")
-    assert refused(each, read, [1, 2, 3]) == told
+    assert input_problems(each, read, [1, 2, 3]) == told

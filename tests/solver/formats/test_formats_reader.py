@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from test_formats import HELD
 
-from places import RECORDS, SAMPLES
-from refused import refused
+from fixtures.errors import input_problems
+from fixtures.paths import RECORDS, SAMPLES
 from solver.formats import read_motion_file, read_record
 from solver.formats.source import MAX_BYTES, Stated, open_source
 from solver.model import InputError
@@ -84,7 +84,7 @@ def values_of(motion_file):
     return [(record.dt_s, record.a_mps2.tobytes()) for record in motion_file.channels]
 
 
-problems_of = partial(refused, read_motion_file)
+problems_of = partial(input_problems, read_motion_file)
 
 
 intact = cache(read_motion_file)
@@ -223,7 +223,7 @@ def test_a_text_that_states_its_samples_is_held_to_it(file, words):
 
 
 def refusals(path, units="g", dt_s=math.nan):
-    return refused(open_source, path, units=units, dt_s=dt_s)
+    return input_problems(open_source, path, units=units, dt_s=dt_s)
 
 
 @pytest.mark.parametrize(
@@ -280,5 +280,5 @@ def test_unknown_units_and_impossible_steps_are_refused_together(file, dt_s):
     assert problems[0] == "roof.csv: unit is 'furlong'; give one of g, m/s2, cm/s2, mm/s2, gal"
     assert problems[1].startswith(f"roof.csv: time step dt is {dt_s!r}; give a number")
     source = open_source(file("x"), units="", dt_s=math.nan)
-    (problem,) = refused(source.step, Stated(value=dt_s, rounding=0.0, index=0))
+    (problem,) = input_problems(source.step, Stated(value=dt_s, rounding=0.0, index=0))
     assert problem == f"roof.csv:1: found time step {dt_s:g} s; give a number above 0"

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from refused import refused
+from fixtures.errors import input_problems
 from solver.formats import read_motion_file, read_record
 
 pytestmark = pytest.mark.quick
@@ -15,7 +15,7 @@ G = 9.80665
 
 
 def problems_of(path, **how):
-    return refused(read_record, path, **({"units": "g"} | how))
+    return input_problems(read_record, path, **({"units": "g"} | how))
 
 
 @pytest.mark.parametrize(
@@ -108,7 +108,7 @@ def test_gravity_raw_counts_and_values_across_lines_are_read_as_told(file):
         record = read_record(file(f"{heading}\n0,100\n1,200\n"), response="50")
         assert record.a_mps2.tolist() == [2.0, 4.0]
     for how in ({"response": "50"}, {"response": "50", "units": "g"}):
-        assert len(refused(read_record, file("time_s,x_g\n0,100\n1,200\n"), **how)) == 1
+        assert len(input_problems(read_record, file("time_s,x_g\n0,100\n1,200\n"), **how)) == 1
 
 
 @pytest.mark.parametrize(

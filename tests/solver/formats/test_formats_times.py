@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from refused import refused
+from fixtures.errors import input_problems
 from solver.formats import read_motion_file, read_record
 from solver.formats.source import Source
 from solver.formats.times import LOSS, is_even, sampled
@@ -51,7 +51,7 @@ class TestRoundedTimes:
     )  # fmt: skip
     def test_times_that_stand_twice_take_the_step_that_is_said(self, file, dt_s, places, n):
         text = "".join(f"{i * dt_s:.{places}f},{i % 7 - 3}\n" for i in range(n))
-        (problem,) = refused(read_motion_file, file(text), units="m/s2")
+        (problem,) = input_problems(read_motion_file, file(text), units="m/s2")
         told = f"roof.csv: the times are rounded to {10**-places:g} s, {n - 1} steps over "
         assert problem.startswith(told)
         advised = float(problem.split("such as ")[1])
@@ -60,11 +60,13 @@ class TestRoundedTimes:
         assert motion_file.channel().dt_s == advised
         assert motion_file.channel().a_mps2.tolist() == [i % 7 - 3 for i in range(n)]
         assert "a missing sample would not show" in motion_file.notes[0]
-        assert refused(read_motion_file, file(text), units="m/s2", dt_s=1.1 * dt_s) == (problem,)
+        assert input_problems(read_motion_file, file(text), units="m/s2", dt_s=1.1 * dt_s) == (
+            problem,
+        )
 
     def test_one_time_that_is_there_twice_is_a_fault(self, file):
         text = "".join(f"{0.01 * (i - (i > 50)):.2f},1\n" for i in range(100))
-        (problem,) = refused(read_motion_file, file(text), units="g", dt_s=0.01)
+        (problem,) = input_problems(read_motion_file, file(text), units="g", dt_s=0.01)
         assert problem.startswith("roof.csv:52: found time 0.5 s after 0.5 s, with a typical")
 
 
@@ -139,12 +141,12 @@ class TestUnevenTimes:
         )
 
     def test_uneven_times_agree_with_no_step_and_grow_to_a_limit(self, file):
-        assert refused(read_record, file("0 1\n1 2\n3 4\n"), units="g", dt_s=1.0) == (
+        assert input_problems(read_record, file("0 1\n1 2\n3 4\n"), units="g", dt_s=1.0) == (
             "roof.csv: found uneven times but the time step given is 1 s; give none, and the"
             " record is resampled",
         )
         path = file("0 1\n1e-6 2\n2e-6 3\n3e-6 4\n1e9 5\n")
-        (problem,) = refused(read_record, path, units="g")
+        (problem,) = input_problems(read_record, path, units="g")
         assert problem.endswith("give a record of at most 2,000,000 steps")
         record = read_record(file("0 1\n1 2\n2 1\n3 2\n1999999 3\n"), units="g")
         assert (record.dt_s, record.a_mps2.size) == (1.0, 2_000_000)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from refused import refused
+from fixtures.errors import input_problems
 from solver.formats import read_motion_file, read_record
 
 pytestmark = pytest.mark.quick
@@ -137,7 +137,7 @@ def test_a_heading_gives_step_unit_components_and_start(file, form):
 )
 def test_what_a_heading_states_must_be_so(file, content, change, problem):
     assert change[0] in content
-    told = refused(read_motion_file, file(content.replace(*change)))
+    told = input_problems(read_motion_file, file(content.replace(*change)))
     assert told[0].startswith(f"roof.csv{problem}")
 
 

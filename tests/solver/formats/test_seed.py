@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from refused import refused
+from fixtures.errors import input_problems
 from solver.formats import read_motion_file
 from solver.model import InputError
 
@@ -54,7 +54,7 @@ def obspy():
         return pytest.importorskip("obspy")
 
 
-problems_of = partial(refused, read_motion_file)
+problems_of = partial(input_problems, read_motion_file)
 
 
 @pytest.mark.parametrize("is_station", [False, True])

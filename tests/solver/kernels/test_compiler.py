@@ -14,7 +14,7 @@ import pytest
 import test_row_kernel
 import test_two_axes_kernel
 
-from places import ROOT
+from fixtures.paths import ROOT
 from solver.kernels import row
 
 pytestmark = pytest.mark.nightly

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from blocks import block, readonly, shaking
+from fixtures.blocks import block, readonly, shaking
 from solver.forces import components, forces
 from solver.kernels.cross_slope import cross_slope_effect, first_slip
 from solver.sliding import one_axis, two_axes

@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from blocks import SCENES, readonly
+from fixtures.blocks import SCENES, readonly
 from solver.kernels import one_axis, oscillator
 from solver.kernels.lives import live
 

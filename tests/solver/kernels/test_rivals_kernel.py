@@ -6,7 +6,7 @@ import os
 import numpy as np
 import pytest
 
-from blocks import SCENES, readonly
+from fixtures.blocks import SCENES, readonly
 from solver.kernels import rivals
 from solver.sliding import two_axes
 from solver.verification.model_checks import stopped_scene

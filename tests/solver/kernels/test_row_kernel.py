@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from blocks import readonly
+from fixtures.blocks import readonly
 from solver.kernels import row
 
 pytestmark = pytest.mark.quick

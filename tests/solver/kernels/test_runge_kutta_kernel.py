@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from blocks import SCENES, readonly
+from fixtures.blocks import SCENES, readonly
 from solver.kernels import one_axis, runge_kutta
 from solver.model import coulomb
 from solver.sliding import two_axes

@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 
-from blocks import readonly
+from fixtures.blocks import readonly
 from solver.kernels import one_axis, two_axes
 
 pytestmark = pytest.mark.quick

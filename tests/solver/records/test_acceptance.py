@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from modal import psa_g
+from modal_oracle import psa_g
 from solver.model import Motion
 from solver.records.acceptance import POINTS_HZ, acceptance
 from solver.records.record import read_only

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from scipy import signal
 from scipy.interpolate import PPoly
 
-from blocks import record
-from refused import refused
+from fixtures.blocks import record
+from fixtures.errors import input_problems
 from solver.records.measures import measures, velocity_displacement
 from solver.records.processing import Processing, process, process_together
 from solver.sliding.checked import slide
@@ -275,7 +275,7 @@ def test_components_keep_one_length_and_others_are_named(noise):
     assert np.array_equal(processed[0].a_mps2, process(parts[0], settings).a_mps2)
     parts = [record(noise, name="x"), record(noise[1:], name="y"), record(noise, 0.02, "z")]
     like_x = "but x has 2000 of 0.01 s; give components of one length and step"
-    assert refused(process_together, parts, Processing()) == (
+    assert input_problems(process_together, parts, Processing()) == (
         f"y: 1999 samples of 0.01 s, {like_x}",
         f"z: 2000 samples of 0.02 s, {like_x}",
     )
@@ -312,4 +312,4 @@ def test_words_say_everything_that_is_done_and_problems_at_once():
     ],
 )  # fmt: skip
 def test_what_makes_no_sense_is_said(noise, settings, message):
-    assert message in "\n".join(refused(process, record(noise), Processing(**settings)))
+    assert message in "\n".join(input_problems(process, record(noise), Processing(**settings)))

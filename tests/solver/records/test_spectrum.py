@@ -11,9 +11,9 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 import solver
-from blocks import record
-from modal import psa_g
-from refused import refused
+from fixtures.blocks import record
+from fixtures.errors import input_problems
+from modal_oracle import psa_g
 from solver.formats import read_record
 from solver.model import InputError
 from solver.records import spectrum
@@ -30,7 +30,7 @@ class TestPastedValues:
     @pytest.mark.quick
     def test_pasted_values_make_the_record_of_a_file_or_are_named_by_their_place(self, file):
         values = [0.1, None, "0,2", math.nan, 3, True, 10**400]
-        problems = refused(record_from_values, "Motions!D", values, units="g", dt_s=0.01)
+        problems = input_problems(record_from_values, "Motions!D", values, units="g", dt_s=0.01)
         assert [problem.split(";")[0] for problem in problems] == [
             "Motions!D: value 2 is None",
             "Motions!D: value 3 is '0,2'",
@@ -38,7 +38,7 @@ class TestPastedValues:
             "Motions!D: value 6 is True",
             "Motions!D: value 7 is 1000000000000000000000000000...0",
         ]
-        (problem,) = refused(record_from_values, "M1", [1.0], units="g", dt_s=0.01)
+        (problem,) = input_problems(record_from_values, "M1", [1.0], units="g", dt_s=0.01)
         assert "give at least 2 values" in problem
         pasted = record_from_values("M1", np.array([1.0, 2.5]), units="g", dt_s=0.5)
         filed = read_record(file("0,1\n0.5,2.5\n"), units="g")
@@ -179,7 +179,7 @@ class TestSpectrum:
     @pytest.mark.quick
     def test_impossible_arguments_are_refused(self, how, expected):
         arguments = {"a_mps2": [0.0, 1.0], "dt_s": 0.1, "periods_s": [1.0]} | how
-        assert refused(response_spectrum, **arguments)[0].startswith(expected)
+        assert input_problems(response_spectrum, **arguments)[0].startswith(expected)
 
 
 G = 9.80665
@@ -244,13 +244,13 @@ class TestDesignSpectrum:
         for period in (0.2 * 0.83 / 1.566, 0.83 / 1.566, 6.0):
             below, above = target(1.0 / (period * np.array([1 - 1e-9, 1 + 1e-9])))
             assert below == pytest.approx(above, rel=1e-8)
-        problems = refused(design_spectrum, s_ds_g=0.0, s_d1_g=-1.0, t_l_s=math.nan)
+        problems = input_problems(design_spectrum, s_ds_g=0.0, s_d1_g=-1.0, t_l_s=math.nan)
         assert problems == (
             "S_DS is 0 g; give a number above 0",
             "S_D1 is -1 g; give a number above 0",
             "T_L is nan s; give a number above 0",
         )
-        (problem,) = refused(design_spectrum, s_ds_g=1.2, s_d1_g=0.6, t_l_s=0.4)
+        (problem,) = input_problems(design_spectrum, s_ds_g=1.2, s_d1_g=0.6, t_l_s=0.4)
         assert "T_L is 0.4 s; give more than T_S = 0.5 s" in problem
 
 

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 import oracle
 import solver
-from blocks import block, readonly, trapezoid
-from nightly import by_day
+from fixtures.blocks import block, readonly, trapezoid
+from fixtures.marks import by_day
 from solver.model import InputError, Status, coulomb
 from solver.rivals import by_scipy
 from solver.rivals.methods import METHODS

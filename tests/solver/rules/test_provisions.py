@@ -8,8 +8,8 @@ from functools import partial
 import numpy as np
 import pytest
 
-from places import DATA
-from refused import refused
+from fixtures.errors import input_problems
+from fixtures.paths import DATA
 from solver.model import InputError
 from solver.rules.hazard import EDITIONS, Tail, ac156_horizontal, ac156_vertical
 from solver.rules.limit import MOTIONS, PROGRAM, Limit, Measure
@@ -284,7 +284,7 @@ def test_an_override_keeps_its_reason_and_its_range_has_the_numbers_of_the_codes
     ],
 )
 def test_an_override_outside_of_its_range_is_refused(key, value, words):
-    (problem,) = refused(PV1.overridden, {key: (value, "a reason")})
+    (problem,) = input_problems(PV1.overridden, {key: (value, "a reason")})
     assert words in problem
     assert len(problem) < 200
 

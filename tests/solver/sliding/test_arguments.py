@@ -10,8 +10,8 @@ import pandas as pd
 import pytest
 
 import solver
-from places import DATA
-from refused import refused
+from fixtures.errors import input_problems
+from fixtures.paths import DATA
 from solver import METHODS, InputError, Model, Motion, Outcome, Record, Settings, Status
 from solver.records.record import record_from_values
 
@@ -51,7 +51,7 @@ CALLS = {
 
 def short(call, *arguments, longest=200, **options):
     """Expect an input error, told in short lines."""
-    assert all(len(problem) < longest for problem in refused(call, *arguments, **options))
+    assert all(len(problem) < longest for problem in input_problems(call, *arguments, **options))
 
 
 @pytest.mark.parametrize("name", CALLS)
@@ -292,5 +292,5 @@ def test_the_index_of_a_series_is_its_time_and_its_name_may_have_the_unit(name, 
     ],
 )
 def test_a_series_without_unit_or_even_times_is_refused(name, index, how, problem):
-    (told,) = refused(solver.slide, series(name, index), slope_rad=0.0, mu=0.2, **how)
+    (told,) = input_problems(solver.slide, series(name, index), slope_rad=0.0, mu=0.2, **how)
     assert told.startswith(problem)

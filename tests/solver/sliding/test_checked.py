@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 
 import oracle
 import solver
-from blocks import shaking, trapezoid
-from nightly import by_day
-from places import ROOT, TESTS
+from fixtures.blocks import shaking, trapezoid
+from fixtures.marks import by_day
+from fixtures.paths import ROOT, TESTS
 from solver.model import EventKind, Friction, InputError, Status
 from solver.sliding.checked import slide, slide_history
 from solver.verification import reference

@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from blocks import block, shaking
+from fixtures.blocks import block, shaking
 from solver.forces import friction_demand
 from solver.model import Friction, InputError, Status, coulomb
 from solver.sliding import one_axis, two_axes

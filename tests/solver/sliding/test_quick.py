@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import solver
-from blocks import block, shaking
-from places import ROOT
+from fixtures.blocks import block, shaking
+from fixtures.paths import ROOT
 from solver.model import InputError, Status
 from solver.sliding import one_axis
 

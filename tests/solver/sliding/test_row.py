@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from blocks import block, readonly, shaking
-from nightly import by_day
+from fixtures.blocks import block, readonly, shaking
+from fixtures.marks import by_day
 from solver.model import InputError, Status, coulomb
 from solver.sliding import one_axis
 from solver.sliding.row import BlockRow, row_history, slide_row

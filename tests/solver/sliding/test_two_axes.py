@@ -15,8 +15,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import plane_oracle
-from blocks import block, places, readonly
-from places import DATA
+from fixtures.blocks import block, places, readonly
+from fixtures.paths import DATA
 from solver.model import EventKind, Friction, Status
 from solver.sliding import checked, one_axis, two_axes
 from solver.sliding.two_axes import follow, follow_history

@@ -12,9 +12,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from blocks import block, places
-from campaign import campaign, run_pair
-from places import DATA
+from fixtures.blocks import block, places
+from fixtures.child_process import campaign, run_pair
+from fixtures.paths import DATA
 from solver.model import Friction, Status, coulomb
 from solver.records.record import read_only
 from solver.sliding import checked, least_model, two_axes

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from blocks import block
+from fixtures.blocks import block
 from solver.model import Friction, InputError, Status
 from solver.sliding import one_axis
 from solver.sliding.uplift import Supports, tipping, uplift

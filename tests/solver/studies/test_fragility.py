@@ -8,7 +8,8 @@ import pytest
 from scipy.optimize import brentq, minimize, minimize_scalar
 from scipy.stats import goodness_of_fit, norm
 
-from nightly import by_day
+from fixtures.campaigns import frozen, motion
+from fixtures.marks import by_day
 from solver import solve
 from solver.model import coulomb
 from solver.studies.capacity import (
@@ -29,7 +30,6 @@ from solver.studies.fragility import (
     log_likelihood,
 )
 from solver.studies.runs import Campaign, Runner, grid
-from studied import frozen, motion
 
 G = 9.80665
 LEVELS = np.linspace(0.2, 2.4, 12)

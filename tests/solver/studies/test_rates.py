@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from scipy.special import ndtr, ndtri
 
-from nightly import by_day
+from fixtures.campaigns import motion
+from fixtures.marks import by_day
 from solver import solve
 from solver.kernels import lives as kernel
 from solver.model import coulomb
@@ -35,7 +36,6 @@ from solver.studies.rates import (
     realizations,
 )
 from solver.studies.runs import SETTINGS, Campaign, Runner, grid
-from studied import motion
 
 K0, K = 0.002, 2.5
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import solver
+from fixtures.campaigns import campaign, motion
 from solver import InputError, Model, Status, coulomb, solve
 from solver.studies import runs as made
 from solver.studies.curves import first_allowed, statistics
@@ -15,7 +16,6 @@ from solver.studies.runs import LENGTHS, STATUSES, Campaign, Runner, cases_of, g
 from solver.verification.paper_studies import MUS as PAPER_MUS
 from solver.verification.paper_studies import PPAS_G, SLOPES_DEG, design_curves
 from solver.verification.study import own_records, scale_to
-from studied import campaign, motion
 
 pytestmark = pytest.mark.quick
 

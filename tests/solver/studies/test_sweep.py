@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import solver
-from places import ROOT
+from fixtures.paths import ROOT
 from solver.model import InputError
 
 FOLDER = ROOT / "projects" / "example" / "records"

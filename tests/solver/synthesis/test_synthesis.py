@@ -9,8 +9,8 @@ import numba
 import numpy as np
 import pytest
 
-from modal import psa_g
-from nightly import by_day
+from fixtures.marks import by_day
+from modal_oracle import psa_g
 from solver.formats import read_motion_file, read_record
 from solver.model import InputError, Motion
 from solver.records.acceptance import acceptance

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import oracle
-import verified
+from fixtures import verify_run
 from solver.rivals import by_scipy
 from solver.rivals.methods import METHODS
 from solver.sliding.checked import slide
@@ -41,7 +41,7 @@ from solver.verification.study import (
 @pytest.fixture(scope="module")
 def verification(tmp_path_factory):
     """That of the command, which counts the steps that it reports."""
-    return verified.verified(tmp_path_factory).verification
+    return verify_run.verified(tmp_path_factory).verification
 
 
 @pytest.fixture(scope="module")

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from blocks import readonly
-from places import RECORDS, SAMPLES
+from fixtures.blocks import readonly
+from fixtures.paths import RECORDS, SAMPLES
 from solver.model import STANDARD_GRAVITY_MPS2, HorizontalComponent, Orientation, coulomb
 from solver.records.record import read_only
 from solver.sliding import one_axis, two_axes

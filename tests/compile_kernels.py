@@ -1,4 +1,4 @@
-"""Compiles the kernels that tests of every day run and set-up does not: `python tests/compiled.py`.
+"""Compiles the kernels that tests of every day run and set-up does not.
 
 Two processes of tests would compile each of them twice. Their parts are compiled side by side, each
 kernel once; `tests/run.sh` does it before the tests. A kernel that is called with other types than
