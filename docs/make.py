@@ -4,8 +4,9 @@
 
 `commands.md` is the command line's own help and scripts, which the launchers print;
 `workbook-fields*.md` is the schema of the input sheets, `results-json.md` has the first keys of
-results.json, `api.md` a table of the public names, and `examples.md` the scripts of `docs/examples`
-with their own first words. A test compares the pages with what this would write.
+results.json, `known-errors.md` the errors of earlier versions, `api.md` a table of the public
+names, and `examples.md` the scripts of `docs/examples` with their own first words. A test compares
+the pages with what this would write.
 """
 
 from __future__ import annotations
@@ -24,7 +25,9 @@ from report.cli.main import VARIABLE, main
 from report.cli.options import SectionedGroup
 from report.project.workbook import SECTIONS
 from report.project.workbook.entries import Entry, rows_of
+from report.provenance.known_errors import known_errors
 from report.results.schema import schema
+from report.text.counts import grouped_by
 from solver import public
 
 HERE = Path(__file__).resolve().parent
@@ -74,6 +77,14 @@ def pages() -> Mapping[Path, str]:
         ),
         "results-json": "\n".join(_results()),
         "examples": "\n".join(_examples()),
+        "known-errors": _page(
+            "Known errors",
+            "Errors that could change a number, a verdict or a refusal, by the last version with "
+            "them. States between releases that print the same version may contain them. "
+            "`./roofslip verify-package FILE.pdf` lists those that a package may have; the "
+            "engineer of record decides whether an issued package is affected.",
+            _errors(),
+        ),
         "api": _NAMES.sub(
             lambda found: f"{found[1]}\n{_names()}\n\n{found[2]}",
             (HERE / "api.md").read_text(encoding="utf-8"),
@@ -98,6 +109,15 @@ def _completions() -> Parts:
     for shell in ("bash", "zsh", "fish"):
         script = get_completion_class(shell)(main, {}, "roofslip", VARIABLE).source()
         yield f"Completion in {shell}", f"```text\n{script.rstrip()}\n```"
+
+
+def _errors() -> Parts:
+    for until, errors in grouped_by(known_errors(), lambda error: error.until).items():
+        rows = [f"| {error.error} | {error.effect} | {error.action} |" for error in errors]
+        yield (
+            f"Through version {until}",
+            "\n".join(("| error | effect | what to do |", "|---|---|---|", *rows)),
+        )
 
 
 def _named(command: click.Command, words: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Any]]:

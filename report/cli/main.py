@@ -37,7 +37,6 @@ from report.cli.terminal import (
     unwritten,
 )
 from report.libraries import stay_apart
-from report.provenance.release import version
 from report.text.counts import called
 
 # Set by the script in which the shell asks for completions.
@@ -111,6 +110,7 @@ def _checks() -> Iterator[tuple[str, Callable[[str], str | None], str]]:
     from importlib.metadata import version as installed
 
     from report.libraries import library
+    from report.provenance.release import version
 
     yield "Python", lambda _: f"{platform.python_version()}, {platform.platform()}", ""
     yield "cores", lambda _: str(os.cpu_count()), ""
@@ -181,8 +181,9 @@ class _Commands(SectionedGroup):
 
 
 def _print_version(ctx: click.Context, _: click.Parameter, is_asked: bool) -> None:
-    # Looked up where it is printed: in a checkout, git is asked.
     if is_asked and not ctx.resilient_parsing:
+        from report.provenance.release import version
+
         click.echo(f"roofslip, version {version()}")
         ctx.exit()
 

@@ -14,7 +14,7 @@ import tempfile
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -178,6 +178,7 @@ def _proof(
         opened,
         take_out,
     )
+    from report.provenance.known_errors import touching
     from report.results.publish import STAMP, warn_if_mixed
     from solver.model import InputError
 
@@ -185,15 +186,16 @@ def _proof(
         warn_if_mixed(file.parent, OUTPUTS)
     try:
         package = opened(data)
+        errors = tuple(touching(package.manifest.roofslip_version, package.results))
         with tempfile.TemporaryDirectory(prefix="roofslip-") as folder:
             workbook, former = take_out(package, Path(folder, "input"), records)
             try:
                 made = made_again(workbook, Path(folder, "out"), former, progress)
             except InputError as error:
                 # Its own input is refused: the package was not made from it, or by another version.
-                return failed(package, error.problems), b""
+                return replace(failed(package, error.problems), known_errors=errors), b""
         progress("comparing")
-        return compared(package, opened(made)), made
+        return replace(compared(package, opened(made)), known_errors=errors), made
     # No verdict on the package: it can be given once the records are there.
     except RecordsMissingError:
         raise
@@ -208,6 +210,10 @@ def made_again(workbook: Path, out: Path, former: list[Path], progress: Progress
 
 
 def _print(proof: Proof, written: str) -> None:
+    if proof.known_errors:
+        click.echo("Errors of the version that made the package, which it may have:")
+    for error in proof.known_errors:
+        click.echo(f"  {error.error} {error.action}")
     click.echo(_SAID[proof.answer])
     for reason in proof.reasons:
         say(f"  {reason}")

@@ -26,6 +26,7 @@ from report.manual.precision import conditioning, convergence, curves, floor, li
 from report.pages.parts import verdict
 from report.pages.symbols import with_symbols
 from report.provenance.files import installed, processor
+from report.provenance.known_errors import known_errors
 from report.provenance.release import version
 from report.text.counts import grouped_by, lettered
 from report.text.formats import (
@@ -204,8 +205,17 @@ def sections(verification: Verification) -> tuple[Section, ...]:
         building(verification),
         *((models(verification),) if verification.models else ()),
         section("manual/features", "Status of each feature"),
-        section("manual/known-errors", "Known errors of released versions"),
+        errors_by_version(),
         section("manual/software", "Software and machine"),
+    )
+
+
+def errors_by_version() -> Section:
+    """Return the known errors, under the last version that has them."""
+    return section(
+        "manual/known-errors",
+        "Known errors of earlier versions",
+        by_version=grouped_by(known_errors(), lambda error: error.until),
     )
 
 

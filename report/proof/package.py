@@ -26,6 +26,7 @@ from report.project.read.archive import MAX_FILE, MAX_MEMBERS, MAX_TOTAL, MB
 from report.proof.contents import differences, first_other_word, guarded, parsed, refused, words
 from report.proof.signatures import Appended, Signature, appended
 from report.provenance.files import MANIFEST, RESULTS, SCHEMA_VERSION, Listed, Manifest
+from report.provenance.known_errors import KnownError
 from report.provenance.release import version
 from solver.files import read_file, within
 from solver.model import InputError
@@ -248,6 +249,7 @@ class Proof:
     reasons: Sequence[str] = ()  # what differs, or what was not compared
     signed: Sequence[Signature] = ()  # put on after the package was written
     is_to_be_read: bool = False  # whether the package made again shows what was not compared
+    known_errors: Sequence[KnownError] = ()  # of earlier versions, which the package may have
 
 
 _UNCHECKED = (

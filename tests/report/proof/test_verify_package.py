@@ -81,6 +81,21 @@ def test_a_package_is_the_same_to_the_byte_unless_a_record_was_changed(whole, af
     assert said["reasons"][0].startswith("roofslip.json: hash is ")
 
 
+def test_errors_of_the_version_that_made_a_package_are_named_first(few_sheets, given, monkeypatch):
+    def change(pdf):
+        tampering.of_manifest(lambda manifest: manifest.update(roofslip_version="0.3.0"))(pdf)
+
+    monkeypatch.setattr("report.cli.verify.made_again", lambda *_: few_sheets)
+    path = given(few_sheets, change)
+    head, *errors, answer, _, _ = commands.ended("verify-package", path, exit_code=4).splitlines()
+    assert head == "Errors of the version that made the package, which it may have:"
+    assert any("above 10 g were accepted. A record in cm/s²" in error for error in errors)
+    assert answer.startswith("Not compared in full")
+    path.with_name("given-again.pdf").unlink()
+    listed = json.loads(commands.run("verify-package", path, "--json").stdout)["known_errors"]
+    assert len(listed) == len(errors)
+
+
 @pytest.mark.nightly
 def test_a_package_of_another_commit_is_that_of_other_software(whole, tmp_path):
     program = [sys.executable, "-m", "report.cli", "verify-package"]
