@@ -87,7 +87,8 @@ def test_errors_of_the_version_that_made_a_package_are_named_first(few_sheets, g
 
     monkeypatch.setattr("report.cli.verify.made_again", lambda *_: few_sheets)
     path = given(few_sheets, change)
-    head, *errors, answer, _, _ = commands.ended("verify-package", path, exit_code=4).splitlines()
+    told = commands.output_of("verify-package", path, exit_code=4)
+    head, *errors, answer, _, _ = told.splitlines()
     assert head == "Errors of the version that made the package, which it may have:"
     assert any("above 10 g were accepted. A record in cm/s²" in error for error in errors)
     assert answer.startswith("Not compared in full")
