@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from report.assessment.project import Assessment
+    from report.assessment.assessment import Assessment
     from report.project.read.read import Sheet
 
 __all__ = ["assess_project", "read_project"]

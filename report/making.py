@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from report.assessment.project import Assessment, Changes
+    from report.assessment.assessment import Assessment
+    from report.assessment.revision_changes import Changes
     from report.motions.prepare import Shaking
     from report.project.read.read import Sheet
     from report.results.model import Compared
@@ -55,7 +56,7 @@ def make(
     that.
     """
     from report.assessment.assess import assess
-    from report.assessment.evidence import support
+    from report.assessment.support.evidence import support
     from report.drawing.items import write_dxf
     from report.drawing.plan import plan_drawing
     from report.package.html import pages
@@ -167,7 +168,7 @@ def _record(sheet: Sheet, shaking: Shaking, tell: Callable[[str], None]) -> bool
 
 
 def _changes(former: Compared | None, assessment: Assessment) -> Changes:
-    from report.assessment.project import NO_FORMER
+    from report.assessment.revision_changes import NO_FORMER
 
     if former is None:
         return NO_FORMER

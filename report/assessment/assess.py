@@ -12,19 +12,15 @@ from dataclasses import replace
 from enum import IntEnum
 from typing import Any
 
-from report.assessment.arrays import assess_array, marked
-from report.assessment.clearances import by_id, check_clearance, marked_gap
-from report.assessment.friction import (
-    NOT_BY_VELOCITY,
-    low_velocity,
-    with_friction,
-    with_low_velocity,
-)
-from report.assessment.links import assess_linked
-from report.assessment.precheck import shaking_acceptance
+from report.assessment.assessment import Assessment
+from report.assessment.design.arrays import assess_array, marked
+from report.assessment.design.clearances import by_id, check_clearance, marked_gap
+from report.assessment.design.linked_blocks import assess_linked
+from report.assessment.design.other_friction import SHIFT, with_friction, with_low_velocity
+from report.assessment.design.rule_set import as_adopted, rule_set_of
+from report.assessment.low_velocity import NOT_BY_VELOCITY, low_velocity
+from report.assessment.motion_acceptance import shaking_acceptance
 from report.assessment.prices import prices
-from report.assessment.project import Assessment
-from report.assessment.verdict import SHIFT, as_adopted, rule_set_of
 from report.motions.history import targets
 from report.motions.prepare import Shaking
 from report.project.check.checks import faults

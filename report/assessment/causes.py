@@ -8,14 +8,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from report.assessment.checks.check import Check, alike, by_ratio, words
-from report.assessment.verdict import MOTIONS_ID, Verdict
+from report.assessment.checks.alike import alike
+from report.assessment.checks.check import Check, by_ratio
+from report.assessment.checks.ids import MOTIONS_ID
+from report.assessment.checks.sentence import words
+from report.assessment.design.verdict import Verdict
 from report.text.counts import grouped_by, numbered
 from report.text.units import nan_is_worst
 
 if TYPE_CHECKING:
-    from report.assessment.arrays import ArrayAssessment
-    from report.assessment.project import Assessment
+    from report.assessment.assessment import Assessment
+    from report.assessment.design.arrays import ArrayAssessment
+
 
 # Checks that a sentence names.
 MOST_NAMED = 4

@@ -1,46 +1,39 @@
 """What is known of a project before any run: limits, requirements, warnings on the input.
 
-Runs nothing. `report.assessment.project` decides the verdict after the runs. Read `findings` and
-`limits_before_runs`.
+Runs nothing. Read `findings` and `limits_before_runs`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Iterator
 from functools import partial
 
-from report.assessment.checks.arrays import slack_check
-from report.assessment.checks.check import Check, sentence
+from report.assessment.checks.array_capacities import slack_check
+from report.assessment.checks.check import Check
 from report.assessment.checks.every import before_runs
-from report.assessment.checks.limits import against_analysis
-from report.assessment.checks.motions import drift_limits
-from report.assessment.checks.plan import of_pathways
-from report.assessment.neighbors import REACH_FACTOR, NearbyKind
-from report.assessment.plan_clearances import design_before_runs_m, pairs_before_runs
-from report.assessment.routes import (
-    Route,
-    lacking_motions,
-    limits_of,
-    statistic_basis,
-)
-from report.assessment.verdict import Verdict, rule_set_of
-from report.motions.components import RecordFile
-from report.motions.history import PreparedMotion, Targets, targets
+from report.assessment.checks.fire_access import of_pathways
+from report.assessment.checks.rule_limits import against_analysis
+from report.assessment.checks.sentence import sentence
+from report.assessment.design.routes import Route, lacking_motions, limits_of, statistic_basis
+from report.assessment.design.rule_set import rule_set_of
+from report.assessment.design.verdict import Verdict
+from report.assessment.motion_acceptance import shaking_acceptance
+from report.assessment.plan.before_runs import design_before_runs_m, pairs_before_runs
+from report.assessment.plan.neighbors import REACH_FACTOR, NearbyKind
+from report.motions.history import targets
 from report.motions.prepare import Shaking, record_findings
 from report.project.check.covered import outdated
 from report.project.check.findings import acknowledged, limit, listed, note
 from report.project.check.plausible import implausible
 from report.project.model import ProjectInput
-from report.project.model.choices import RecordedAt
 from report.project.model.finding import Finding
 from report.project.model.place import Place
 from report.project.read.read import Sheet
 from report.project.read.unseen import warnings
 from report.text.counts import numbered, quoted
 from report.text.units import Quantity, no_less, no_more, pair
-from solver.records.acceptance import POINTS_HZ, Acceptance, SpectraOf, acceptance, one_by_one
+from solver.records.acceptance import POINTS_HZ
 from solver.records.block_spectra import together
 
 # Pairs without a clearance that are named; the nearest.
@@ -139,27 +132,3 @@ def missing_clearances(sheet: Sheet) -> Iterator[Finding]:
         f" clearances {quoted(sheet.path)}, or add the rows"
     )
     yield limit(text, Place("clearances"))
-
-
-def shaking_acceptance(
-    shaking: Shaking, targets: Targets, spectra_of: SpectraOf = one_by_one
-) -> Acceptance:
-    """Compare the motions as run with the targets at the roof, and with the other limits."""
-    if not shaking.motions:
-        return Acceptance(rows=(), motions=())
-    done = acceptance(
-        shaking.motions,
-        [_hold_s(prepared, shaking.records) for prepared in shaking.prepared],
-        lambda freq_hz: targets.roof.ordinates(1.0 / freq_hz),
-        lambda freq_hz: targets.vertical.ordinates(1.0 / freq_hz),
-        spectra_of,
-    )
-    return replace(done, rows=(*done.rows, *drift_limits(shaking.prepared)))
-
-
-def _hold_s(prepared: PreparedMotion, files: Sequence[RecordFile]) -> float:
-    """Hold of the envelope that all files of a motion state [s]; NaN if any does not."""
-    holds = [file.hold_s for file in files if file.motion_id == prepared.motion_id]
-    # The response of a building no longer has the envelope of the ground motion.
-    is_stated = prepared.recorded_at is RecordedAt.ROOF and not any(map(math.isnan, holds))
-    return min(holds, default=math.nan) if is_stated else math.nan

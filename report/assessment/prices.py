@@ -12,15 +12,19 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from report.assessment.causes import came_to, governing_words
-from report.assessment.clearances import by_id
-from report.assessment.friction import at_low_velocity, mus_words, with_low_velocity
-from report.assessment.verdict import LOWERING, VELOCITY_ROW, Verdict, as_adopted, under_code
+from report.assessment.checks.ids import LOWERING, VELOCITY_ROW
+from report.assessment.design.clearances import by_id
+from report.assessment.design.friction_words import mus_words
+from report.assessment.design.other_friction import at_low_velocity, with_low_velocity
+from report.assessment.design.rule_set import as_adopted, under_code
+from report.assessment.design.verdict import Verdict
 from report.project.model import ProjectInput
 from report.text.counts import capitalized, ranged
 from report.text.units import Quantity, nan_is_worst, no_less, pair
 
 if TYPE_CHECKING:
-    from report.assessment.project import Assessment
+    from report.assessment.assessment import Assessment
+
 
 _REVIEW, _RULE_SET = "peer_review", "rule_set"
 

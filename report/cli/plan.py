@@ -18,7 +18,7 @@ from report.cli.terminal import SOURCE, Progress, input_errors, plain, say_next
 from report.text.counts import command, numbered
 
 if TYPE_CHECKING:
-    from report.assessment.arrays import ArrayAssessment
+    from report.assessment.design.arrays import ArrayAssessment
     from report.drawing_read.ballast import Load
     from report.drawing_read.plan_read import DrawnOutline
     from report.drawing_read.roof_drawing import RoofDrawing
@@ -232,7 +232,7 @@ def _add_clearances(change: WorkbookChange) -> Sequence[str]:
     # An error in it does not wait for the compiler, which the imports below load.
     without_motions(sheet)
     from report.assessment.assess import assess
-    from report.assessment.plan_clearances import missing_rows, without_clearances
+    from report.assessment.plan.missing_rows import missing_rows, without_clearances
     from report.motions.prepare import prepare
 
     arrays: Sequence[ArrayAssessment] = ()

@@ -36,7 +36,7 @@ from report.making import OUTPUTS
 from report.text.counts import command, numbered
 
 if TYPE_CHECKING:
-    from report.assessment.project import Changes
+    from report.assessment.revision_changes import Changes
     from report.making import Made
 
 

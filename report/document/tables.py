@@ -13,7 +13,7 @@ from typing import Any
 
 from markupsafe import Markup
 
-from report.assessment.verdict import Verdict
+from report.assessment.design.verdict import Verdict
 from report.document.columns import ColumnHead, TableColumn
 from report.text.counts import LONGEST, grouped_by, joined, name_order, ranged
 from report.text.unit_format import UnitFormat

@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from report.assessment.plan_clearances import PlanGap
+from report.assessment.support.plan_gaps import PlanGap
 from report.drawing.items import TYPE_PT, Arrow, Layer, Look, Mark, width_in
 from report.drawing.placer import Frame, Placer, centered
 from report.drawing.sheet import BASE_IN, LINE_IN, Gap, Paper, PlanSheet

@@ -10,11 +10,11 @@ from collections.abc import Iterator, Sequence
 from itertools import accumulate, product
 from typing import NamedTuple
 
-from report.assessment.arrays import ArrayAssessment
-from report.assessment.envelopes import keep_clear, keep_clear_m, keep_clear_mark
-from report.assessment.plan_clearances import parapet_note
-from report.assessment.project import Assessment
-from report.assessment.routes import NOT_PERMITTED
+from report.assessment.assessment import Assessment
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.design.routes import NOT_PERMITTED
+from report.assessment.support.keep_clear import keep_clear, keep_clear_m, keep_clear_mark
+from report.assessment.support.plan_gaps import parapet_note
 from report.drawing.items import Mark, width_in
 from report.drawing.placer import Frame, centered
 from report.drawing.sheet import LINE_IN, PAD_IN, PlanSheet, PlanSize, text_size

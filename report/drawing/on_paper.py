@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from report.assessment.project import Assessment
+from report.assessment.assessment import Assessment
 from report.drawing.dimensions import draw_dimensions, draw_key, draw_numbers, key_on_paper
 from report.drawing.items import Layer, Mark, level, width_in
 from report.drawing.labels import (

@@ -9,20 +9,14 @@ import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from report.assessment.arrays import ArrayAssessment
-from report.assessment.envelopes import (
-    Outline,
-    design_envelope,
-    keep_clear,
-    keep_clear_m,
-    keep_clear_mark,
-    runs_envelope,
-)
-from report.assessment.neighbors import EDGES, bare_edges
-from report.assessment.plan_clearances import PlanGap, parapet_note, plan_gaps
-from report.assessment.project import Assessment
-from report.assessment.routes import NOT_PERMITTED
-from report.assessment.verdict import Verdict
+from report.assessment.assessment import Assessment
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.design.routes import NOT_PERMITTED
+from report.assessment.design.verdict import Verdict
+from report.assessment.plan.bare_edges import EDGES, bare_edges
+from report.assessment.support.envelopes import Outline, design_envelope, runs_envelope
+from report.assessment.support.keep_clear import keep_clear, keep_clear_m, keep_clear_mark
+from report.assessment.support.plan_gaps import PlanGap, parapet_note, plan_gaps
 from report.drawing.dimensions import alongside, gap_texts, lane_of
 from report.drawing.items import (
     TYPE_PT,

@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import product
 
-from report.assessment.neighbors import EDGES
-from report.assessment.plan_clearances import PlanGap, plan_gaps, shapes_of
-from report.assessment.project import Assessment
+from report.assessment.assessment import Assessment
+from report.assessment.plan.bare_edges import EDGES
+from report.assessment.support.plan_gaps import PlanGap, plan_gaps
 from report.drawing import items
 from report.drawing.items import TYPE_PT, Item, Layer, Look, Mark, tick_text, width_in
 from report.drawing.placer import Frame, Placer, centered
@@ -225,7 +225,7 @@ class PlanSheet:
     @cached_property
     def shapes(self) -> Mapping[str, Shape]:
         """What is on the plan, by name [m]."""
-        return shapes_of(self.assessment.project)
+        return self.assessment.project.shapes
 
     @cached_property
     def gaps(self) -> Sequence[Gap]:

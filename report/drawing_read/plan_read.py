@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
 
-from report.assessment.neighbors import EDGE_STRIP_M, bare_sides
+from report.assessment.plan.bare_edges import EDGE_STRIP_M, bare_sides
 from report.drawing.items import Layer
 from report.drawing_read.modules import GAP_M, MOST_TEXTS, SIDES_M, Known, joined
 from report.drawing_read.roof_drawing import (

@@ -17,8 +17,8 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 
-from report.assessment.arrays import ArrayAssessment
-from report.assessment.routes import NOT_PERMITTED
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.design.routes import NOT_PERMITTED
 from report.drawing.items import TYPE_PT
 from report.figures.base import (
     ACCENT,

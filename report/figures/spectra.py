@@ -14,7 +14,7 @@ from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
-from report.assessment.spectra import Spectra
+from report.assessment.support.spectra import Spectra
 from report.figures.base import (
     ACCENT,
     GRAY,

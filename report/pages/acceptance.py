@@ -11,9 +11,11 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 
-from report.assessment.checks.check import THIS_PROGRAM, texts
-from report.assessment.spectra import LEAST_MEAN, Spectra
-from report.assessment.verdict import MOTIONS_ID
+from report.assessment.checks.check import THIS_PROGRAM
+from report.assessment.checks.ids import MOTIONS_ID
+from report.assessment.checks.sentence import texts
+from report.assessment.support.departures import LEAST_MEAN
+from report.assessment.support.spectra import Spectra
 from report.document.columns import plain, text, words
 from report.document.tables import Column, Table, by_place, listed, stamp
 from report.motions.components import RecordFile

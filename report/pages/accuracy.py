@@ -9,15 +9,16 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from report.assessment.arrays import ArrayAssessment
-from report.assessment.checks.check import sentence
-from report.assessment.clearances import by_id
-from report.assessment.evidence import Accuracy, Cumulative, Evidence
-from report.assessment.friction import mu_words
-from report.assessment.project import Assessment
-from report.assessment.trials import with_mu
-from report.assessment.uncertainty import Margin
-from report.assessment.verdict import SHIFT
+from report.assessment.assessment import Assessment
+from report.assessment.checks.sentence import sentence
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.design.clearances import by_id
+from report.assessment.design.friction_words import mu_words
+from report.assessment.design.other_friction import SHIFT, with_mu
+from report.assessment.support.evidence import Evidence
+from report.assessment.support.margins import Margin
+from report.assessment.support.shifted_friction import Accuracy
+from report.assessment.support.smaller_events import Cumulative
 from report.document.columns import length, required, text, words
 from report.document.tables import Column, Table, listed
 from report.pages.parts import PackageData

@@ -12,10 +12,13 @@ from dataclasses import dataclass, replace
 
 from markupsafe import Markup
 
+from report.assessment.assessment import Assessment
 from report.assessment.causes import failed, governing_words, largest
-from report.assessment.checks.check import Check, alike, found_and_limit, texts
-from report.assessment.project import Assessment
-from report.assessment.verdict import MOTIONS_ID, Verdict
+from report.assessment.checks.alike import alike
+from report.assessment.checks.check import Check
+from report.assessment.checks.ids import MOTIONS_ID
+from report.assessment.checks.sentence import found_and_limit, texts
+from report.assessment.design.verdict import Verdict
 from report.document.tables import Table, TableRow, Wide, headed, stamp
 from report.pages.symbols import with_symbols
 from report.text.counts import capitalized, counted, lowered, numbered

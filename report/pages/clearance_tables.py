@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from report.assessment.clearances import ClearanceCheck
-from report.assessment.neighbors import PlanNeighbor
-from report.assessment.project import Assessment
+from report.assessment.assessment import Assessment
+from report.assessment.design.clearances import ClearanceCheck
+from report.assessment.plan.neighbors import PlanNeighbor
 from report.document.columns import ColumnHead, centered, plain, provided, required, text, words
 from report.document.tables import Column, Table, listed
 from report.pages.parts import PackageData

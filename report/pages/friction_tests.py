@@ -9,11 +9,14 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from report.assessment.arrays import ArrayAssessment
-from report.assessment.clearances import by_id
-from report.assessment.friction import mu_words, velocity_check
-from report.assessment.tested import MOST_BEYOND, tested
-from report.assessment.verdict import NOT_GIVEN, VELOCITY_ROW, Verdict
+from report.assessment.checks.ids import VELOCITY_ROW
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.design.clearances import by_id
+from report.assessment.design.friction_words import mu_words
+from report.assessment.design.tested_friction import MOST_BEYOND, tested
+from report.assessment.design.velocity_check import velocity_check
+from report.assessment.design.verdict import Verdict
+from report.assessment.design.words import NOT_GIVEN
 from report.document.columns import ColumnHead, centered, text, words
 from report.document.tables import Table, Wide, by_place, listed, stamp
 from report.pages.parts import PackageData

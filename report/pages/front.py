@@ -14,14 +14,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from report.assessment.arrays import ArrayAssessment
-from report.assessment.checks.check import alike, sentence, words
-from report.assessment.checks.limits import building_limits, of_limit
-from report.assessment.evidence import Evidence
-from report.assessment.project import Assessment, ChangeKind, Changes
-from report.assessment.remedies import Remedies
-from report.assessment.routes import Route
-from report.assessment.verdict import LOWERING, VELOCITY_ROW
+from report.assessment.assessment import Assessment
+from report.assessment.checks.alike import alike
+from report.assessment.checks.ids import LOWERING, VELOCITY_ROW
+from report.assessment.checks.rule_limits import building_limits, of_limit
+from report.assessment.checks.sentence import sentence, words
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.design.routes import Route
+from report.assessment.remedies.remedies import Remedies
+from report.assessment.revision_changes import ChangeKind, Changes
+from report.assessment.support.evidence import Evidence
 from report.pages.array_tables import comparison_table, letter_table, summary_table
 from report.pages.checks import (
     FirstSheet,

@@ -14,12 +14,12 @@ from typing import Any
 from markupsafe import Markup, escape
 
 from report.assessment.checks.check import dagger
-from report.assessment.evidence import Evidence
-from report.assessment.friction import mus_words
-from report.assessment.neighbors import Cover
-from report.assessment.plan_clearances import plan_gaps
+from report.assessment.design.friction_words import mus_words
+from report.assessment.design.verdict import Verdict
+from report.assessment.plan.neighbors import Cover
 from report.assessment.precheck import findings
-from report.assessment.verdict import Verdict
+from report.assessment.support.evidence import Evidence
+from report.assessment.support.plan_gaps import plan_gaps
 from report.document.columns import ColumnHead, length, provided, text, words
 from report.document.tables import LONG_NAME, Table, grouped, listed
 from report.drawing.labels import alike_arrays

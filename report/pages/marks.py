@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from report.assessment.arrays import ArrayAssessment, DesignBasis
+from report.assessment.assessment import Assessment
 from report.assessment.checks.check import dagger
-from report.assessment.clearances import ClearanceCheck
-from report.assessment.project import Assessment
-from report.assessment.routes import SEAOC
+from report.assessment.design.arrays import ArrayAssessment, DesignBasis
+from report.assessment.design.clearances import ClearanceCheck
+from report.assessment.design.routes import SEAOC
 from report.project.model import ProjectInput
 from report.text.unit_format import UnitFormat
 from report.text.units import Quantity, no_less

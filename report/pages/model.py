@@ -11,8 +11,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from report.assessment.arrays import ArrayAssessment
-from report.assessment.tested import tested
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.design.tested_friction import tested
 from report.document.columns import (
     ColumnHead,
     centered,

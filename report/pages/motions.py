@@ -14,9 +14,11 @@ from operator import itemgetter
 import numpy as np
 from markupsafe import Markup
 
-from report.assessment.checks.motions import DRIFT_M, drifts
-from report.assessment.evidence import Beyond, Evidence
-from report.assessment.spectra import PRINTED_S, Spectra, departures
+from report.assessment.checks.records import DRIFT_M, drifts
+from report.assessment.support.departures import departures
+from report.assessment.support.evidence import Evidence
+from report.assessment.support.filter_effect import Beyond
+from report.assessment.support.spectra import PRINTED_S, Spectra
 from report.document.columns import centered, length, plain, required, text, words
 from report.document.tables import Column, Table, Wide, by_place, listed
 from report.motions.history import PreparedMotion, first_period_s

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from report.assessment.verdict import Verdict
+from report.assessment.design.verdict import Verdict
 from report.pages.array_tables import schedule
 from report.pages.clearance_tables import field_schedule, numbered_gaps
 from report.pages.parts import PackageData

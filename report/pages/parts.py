@@ -11,12 +11,13 @@ from functools import cached_property
 
 from markupsafe import Markup
 
-from report.assessment.arrays import ArrayAssessment
-from report.assessment.checks.check import alike, sentence
-from report.assessment.evidence import Saving, saving
-from report.assessment.project import NO_FORMER, Changes
-from report.assessment.tested import basis_words
-from report.assessment.verdict import Verdict
+from report.assessment.checks.alike import alike
+from report.assessment.checks.sentence import sentence
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.design.tested_friction import basis_words
+from report.assessment.design.verdict import Verdict
+from report.assessment.revision_changes import NO_FORMER, Changes
+from report.assessment.support.saving import Saving, saving
 from report.document.tables import stamp
 from report.pages.marks import Marked
 from report.project.model.choices import PackageEdition, RecordedAt

@@ -12,9 +12,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from report.assessment.arrays import ArrayAssessment
-from report.assessment.evidence import Evidence
-from report.assessment.project import NO_FORMER, Assessment, Changes
+from report.assessment.assessment import Assessment
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.revision_changes import NO_FORMER, Changes
+from report.assessment.support.evidence import Evidence
 from report.document.templates import Part
 from report.drawing.on_paper import printed_plan
 from report.pages import (

@@ -13,10 +13,13 @@ from operator import attrgetter, methodcaller
 
 from markupsafe import Markup
 
-from report.assessment.arrays import ArrayAssessment
-from report.assessment.checks.check import Check, alike, texts
-from report.assessment.evidence import Evidence
-from report.assessment.verdict import STRENGTH_ROW, severity
+from report.assessment.checks.alike import alike
+from report.assessment.checks.check import Check
+from report.assessment.checks.ids import STRENGTH_ROW
+from report.assessment.checks.sentence import texts
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.design.verdict import severity
+from report.assessment.support.evidence import Evidence
 from report.document.columns import ColumnHead, required, text, words
 from report.document.tables import Column, Table, TableRow, Wide, listed, stamp
 from report.drawing.items import drawn_slope_deg

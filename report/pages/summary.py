@@ -12,14 +12,16 @@ from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from report.assessment.assessment import Assessment
 from report.assessment.causes import causes, unshown_cause
-from report.assessment.checks.check import alike, sentence, subjects
-from report.assessment.evidence import saving
+from report.assessment.checks.alike import alike, subjects
+from report.assessment.checks.sentence import sentence
+from report.assessment.design.routes import NOT_PERMITTED
+from report.assessment.design.rule_set import MEANING
+from report.assessment.design.verdict import Verdict
 from report.assessment.precheck import findings
-from report.assessment.project import Assessment
-from report.assessment.remedies import MOST, Remedies, remedies
-from report.assessment.routes import NOT_PERMITTED
-from report.assessment.verdict import MEANING, Verdict
+from report.assessment.remedies.remedies import MOST, Remedies, remedies
+from report.assessment.support.saving import saving
 from report.document.templates import sentence as of_template
 from report.pages.array_tables import governing_name, ratio_words
 from report.pages.marks import Marked
@@ -32,8 +34,8 @@ from report.typeset.pdf import TEMPLATES
 from solver.rules.limit import Consequence
 
 if TYPE_CHECKING:
-    from report.assessment.arrays import ArrayAssessment
-    from report.assessment.project import Assessment
+    from report.assessment.assessment import Assessment
+    from report.assessment.design.arrays import ArrayAssessment
 
 
 def remedy_lines(assessment: Assessment, found: Remedies) -> Iterator[str]:

@@ -8,7 +8,7 @@ from itertools import zip_longest
 
 from markupsafe import Markup, escape
 
-from report.assessment.tested import STANDARD
+from report.assessment.design.tested_friction import STANDARD
 from report.pages.parts import PackageData
 from report.text.units import kept
 from report.typeset.equations import symbol

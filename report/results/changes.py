@@ -11,8 +11,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
 from typing import Any, TypeVar
 
+from report.assessment.assessment import Assessment
 from report.assessment.checks.check import condition
-from report.assessment.project import Assessment, Change, ChangeKind, Changes
+from report.assessment.revision_changes import Change, ChangeKind, Changes
 from report.project.check.covered import COVERED
 from report.project.model.choices import Direction, YesNo
 from report.project.model.frozen import Frozen

@@ -1,6 +1,6 @@
 """The sheet Clearances of results.xlsx: required and provided separations, as live formulas.
 
-Computes nothing: each formula is written with the value from `report.assessment.project`. Read
+Computes nothing: each formula is written with the value from `report.assessment.assessment`. Read
 `GAPS`.
 """
 
@@ -10,9 +10,10 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from report.assessment.clearances import ClearanceCheck, beside
-from report.assessment.project import Assessment
-from report.assessment.verdict import MEANING, Verdict
+from report.assessment.assessment import Assessment
+from report.assessment.design.clearances import ClearanceCheck, beside
+from report.assessment.design.rule_set import MEANING
+from report.assessment.design.verdict import Verdict
 from report.results.design import DESIGN, InputCells
 from report.results.sheets import (
     TOP,

@@ -1,6 +1,6 @@
 """The sheet Design of results.xlsx: from the peaks to the design displacement and the verdicts.
 
-Live formulas, each written with the value from `report.assessment.project`: with the sheets Peaks,
+Live formulas, each written with the value from `report.assessment`: with the sheets Peaks,
 and Inputs that Design follows from. Read `DESIGN`.
 """
 
@@ -11,11 +11,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
-from report.assessment.arrays import ArrayAssessment
+from report.assessment.assessment import Assessment
 from report.assessment.causes import unshown_cause
-from report.assessment.project import Assessment
-from report.assessment.routes import Route
-from report.assessment.verdict import MEANING, OVERRIDDEN, Verdict, worst
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.design.routes import Route
+from report.assessment.design.rule_set import MEANING, OVERRIDDEN
+from report.assessment.design.verdict import Verdict, worst
 from report.project.model.choices import Direction, YesNo
 from report.results.lists import RUNS
 from report.results.sheets import (

@@ -10,11 +10,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from operator import attrgetter
 
-from report.assessment.arrays import ArrayAssessment
-from report.assessment.checks.check import Check, alike, found_and_limit
-from report.assessment.links import LinkedArray, LinkedMotion, LinkedRun
-from report.assessment.project import Assessment
-from report.assessment.spectra import Spectra
+from report.assessment.assessment import Assessment
+from report.assessment.checks.alike import alike
+from report.assessment.checks.check import Check
+from report.assessment.checks.sentence import found_and_limit
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.design.linked_blocks import LinkedArray, LinkedMotion, LinkedRun
+from report.assessment.support.spectra import Spectra
 from report.motions.history import PreparedMotion
 from report.motions.prepare import Shaking
 from report.project.model.choices import Direction

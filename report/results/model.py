@@ -12,12 +12,12 @@ from typing import Annotated
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, WithJsonSchema
 
-from report.assessment.arrays import DesignBasis
 from report.assessment.checks.check import Actor
-from report.assessment.neighbors import Cover, NearbyKind
-from report.assessment.remedies import RemedyKind
-from report.assessment.routes import Route
-from report.assessment.verdict import ItemVerdict, Verdict
+from report.assessment.design.arrays import DesignBasis
+from report.assessment.design.routes import Route
+from report.assessment.design.verdict import ItemVerdict, Verdict
+from report.assessment.plan.neighbors import Cover, NearbyKind
+from report.assessment.remedies.remedies import RemedyKind
 from report.project.model import ProjectInput
 from report.project.model.choices import Direction, DistanceBasis, RecordedAt
 from report.project.model.finding import Level

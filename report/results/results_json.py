@@ -13,8 +13,8 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import from_json
 
-from report.assessment.evidence import Evidence
-from report.assessment.project import Assessment
+from report.assessment.assessment import Assessment
+from report.assessment.support.evidence import Evidence
 from report.results.model import SCHEMA_VERSION, Compared
 from report.results.rows import results
 from report.text.counts import UNPRINTABLE, cut

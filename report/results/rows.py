@@ -5,18 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 
-from report.assessment.arrays import ArrayAssessment
+from report.assessment.assessment import Assessment
 from report.assessment.causes import came_to
-from report.assessment.checks.check import sentence, texts
-from report.assessment.clearances import ClearanceCheck
-from report.assessment.evidence import Cumulative, Evidence
-from report.assessment.friction import mu_words
-from report.assessment.links import LinkedArray, LinkedMotion, LinkedRun
-from report.assessment.neighbors import PlanNeighbor
+from report.assessment.checks.sentence import sentence, texts
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.design.clearances import ClearanceCheck
+from report.assessment.design.friction_words import mu_words
+from report.assessment.design.linked_blocks import LinkedArray, LinkedMotion, LinkedRun
+from report.assessment.plan.neighbors import PlanNeighbor
 from report.assessment.precheck import findings
-from report.assessment.project import Assessment
-from report.assessment.remedies import Remedies
-from report.assessment.uncertainty import Uncertainty
+from report.assessment.remedies.remedies import Remedies
+from report.assessment.support.evidence import Evidence
+from report.assessment.support.smaller_events import Cumulative
+from report.assessment.support.uncertainty import Uncertainty
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
 from report.project.check.findings import located

@@ -19,7 +19,8 @@ from xlsxwriter.utility import xl_col_to_name
 from xlsxwriter.workbook import Workbook
 from xlsxwriter.worksheet import Worksheet
 
-from report.assessment.verdict import OVERRIDDEN, Verdict
+from report.assessment.design.rule_set import OVERRIDDEN
+from report.assessment.design.verdict import Verdict
 from report.text.unit_format import NO_VALUE
 from report.text.units import NEWTONS_PER_POUND, NOISE, Rounding
 from solver.model import INCH_M

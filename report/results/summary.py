@@ -11,10 +11,11 @@ from operator import itemgetter
 
 from xlsxwriter.worksheet import Worksheet
 
+from report.assessment.assessment import Assessment
 from report.assessment.causes import largest
-from report.assessment.checks.check import Check, found_and_limit
-from report.assessment.project import Assessment
-from report.assessment.verdict import Verdict, worst
+from report.assessment.checks.check import Check
+from report.assessment.checks.sentence import found_and_limit
+from report.assessment.design.verdict import Verdict, worst
 from report.provenance.files import fingerprint
 from report.results.clearances import GAPS, GapRow
 from report.results.design import DESIGN, DesignRow, any_of

@@ -1,6 +1,6 @@
 """results.xlsx: the tables, and live formulas from the peaks to the separations.
 
-Computes nothing: each formula is written with the value from `report.assessment.project`, and that
+Computes nothing: each formula is written with the value from `report.assessment`, and that
 value is repeated beside it as a number, so that a checker can trace, change and compare it.
 """
 
@@ -9,8 +9,8 @@ from __future__ import annotations
 import io
 from collections.abc import Sequence
 
-from report.assessment.project import Assessment
-from report.assessment.spectra import Spectra
+from report.assessment.assessment import Assessment
+from report.assessment.support.spectra import Spectra
 from report.provenance.files import fingerprint
 from report.results.clearances import result_cells, write_clearances
 from report.results.design import DESIGN, write_design, write_inputs, write_peaks

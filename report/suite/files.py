@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from report.assessment.spectra import Spectra
+from report.assessment.support.spectra import Spectra
 from report.figures.base import png_bytes
 from report.figures.spectra import spectra
 from report.motions.history import TargetSpectrum

@@ -9,12 +9,13 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from report.assessment.arrays import ArrayAssessment
+from report.assessment.assessment import Assessment
 from report.assessment.causes import governing_words
-from report.assessment.neighbors import PlanNeighbor
-from report.assessment.project import Assessment
-from report.assessment.routes import NOT_PERMITTED
-from report.assessment.verdict import MEANING, Verdict
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.design.routes import NOT_PERMITTED
+from report.assessment.design.rule_set import MEANING
+from report.assessment.design.verdict import Verdict
+from report.assessment.plan.neighbors import PlanNeighbor
 from report.drawing.sheet import unit_format
 from report.pages.checks import verdict_sentence
 from report.pages.clearance_tables import NumberedGap, numbered_gaps

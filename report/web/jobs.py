@@ -16,10 +16,10 @@ from openpyxl.utils import coordinate_to_tuple
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.assessment.assess import Extent
-from report.assessment.neighbors import NearbyKind
-from report.assessment.plan_clearances import missing_rows
-from report.assessment.project import Assessment
-from report.assessment.verdict import Verdict
+from report.assessment.assessment import Assessment
+from report.assessment.design.verdict import Verdict
+from report.assessment.plan.missing_rows import missing_rows
+from report.assessment.plan.neighbors import NearbyKind
 from report.drawing_read.fill import changes, layers_of, plan_as_rows, unread
 from report.drawing_read.plan_read import known_layers
 from report.drawing_read.read_dxf import read_dxf

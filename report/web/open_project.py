@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from report.assessment.assess import Extent, assess
-from report.assessment.project import Assessment
+from report.assessment.assessment import Assessment
 from report.motions.components import Components
 from report.motions.prepare import Shaking, read_records, shaking, stiff_links
 from report.project.model.finding import Finding

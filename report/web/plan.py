@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from report.assessment.neighbors import PlanNeighbor
-from report.assessment.verdict import Verdict
+from report.assessment.design.verdict import Verdict
+from report.assessment.plan.neighbors import PlanNeighbor
 from report.drawing.items import (
     TYPE_PT,
     Arrow,

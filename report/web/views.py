@@ -14,9 +14,9 @@ from typing import Any, TypeVar
 import numpy as np
 from contourpy import contour_generator
 
-from report.assessment.arrays import ArrayAssessment
-from report.assessment.project import Assessment
-from report.assessment.uncertainty import ResponseSurface, surface
+from report.assessment.assessment import Assessment
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.support.response_surface import ResponseSurface, surface
 from report.document.templates import sentence
 from report.drawing.sheet import unit_format
 from report.runs import MotionRun, OrientedRun

@@ -48,7 +48,7 @@ def stages() -> Iterator[str]:
     yield "the runs once more"
     assess(sheet, shaking)
     yield "spectra, histories, other friction, searches, every method"
-    from report.assessment.evidence import support
+    from report.assessment.support.evidence import support
 
     evidence = support(assessment)
     yield "charts, text and formulas of the pages, with imports"

@@ -7,26 +7,37 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from report.assessment.checks import (
-    arrays,
-    evidence,
+    array_capacities,
+    clearance_checks,
+    confirmations,
+    displacement,
     existing_roof,
-    friction,
-    hazard,
-    limits,
-    motions,
-    plan,
+    fire_access,
+    friction_evidence,
+    less_friction,
+    motion_limits,
+    overrides,
+    records,
+    roof_plan,
+    rule_limits,
+    seismic_parameters,
 )
 from report.assessment.checks.check import Check
-from report.assessment.routes import Route, RouteLimits, interconnection_n
-from report.assessment.verdict import MOTIONS_ID, VELOCITY_ROW
+from report.assessment.checks.ids import MOTIONS_ID, VELOCITY_ROW
+from report.assessment.design.routes import Route, RouteLimits, interconnection_n
 from report.project.model import ProjectInput
 from solver.records.acceptance import Acceptance
 from solver.rules.limit import Consequence
 from solver.rules.provisions import RuleSet
 
 if TYPE_CHECKING:
-    from report.assessment.project import Assessment
+    from report.assessment.assessment import Assessment
     from report.motions.prepare import Shaking
+
+
+# Of a check on the analysis where nothing follows from it.
+NO_EFFECT = "For information only: the design displacement is prescriptive."
+
 
 # Who takes the prescriptive displacement need not meet them.
 _OF_ANALYSIS = (MOTIONS_ID, "drift", "ground_motions", "peer_review", VELOCITY_ROW)
@@ -39,16 +50,16 @@ def every(done: Assessment) -> tuple[Check, ...]:
     has_variations = done.at_reduced_friction is not None and done.has_motions
     found = (
         *before_runs(data, done.rules, done.shaking, done.acceptance, routes, by_runs),
-        *(check for item in done.arrays for check in arrays.of_array(done, item)),
-        *map(arrays.of_links, done.linked),
-        *plan.of_clearances(done),
-        *plan.of_pathways(data, done.pairs),
-        *plan.of_neighbors(done),
+        *(check for item in done.arrays for check in displacement.of_array(done, item)),
+        *map(displacement.of_links, done.linked),
+        *clearance_checks.of_clearances(done),
+        *fire_access.of_pathways(data, done.pairs),
+        *roof_plan.of_neighbors(done),
         *noted(
-            friction.of_velocities(data, done.arrays) if has_variations else (),
+            friction_evidence.of_velocities(data, done.arrays) if has_variations else (),
             by_runs,
         ),
-        *friction.of_less(done),
+        *less_friction.of_less(done),
     )
     return tuple(
         replace(check, otherwise=done.otherwise[check.id]) if check.id in done.otherwise else check
@@ -70,20 +81,20 @@ def before_runs(
     """
     ids = [array.id for array in data.arrays]
     analyzed = [id for id, item in zip(ids, routes, strict=True) if item.route is Route.ANALYSIS]
-    yield from limits.of_building(data, rules)
+    yield from rule_limits.of_building(data, rules)
     for index, (id, item) in enumerate(zip(ids, routes, strict=True)):
-        yield from limits.of_array(item, index, id, has_motions=bool(shaking.motions))
-    yield evidence.of_building_code(data)
-    yield from plan.of_roof(data)
+        yield from rule_limits.of_array(item, index, id, has_motions=bool(shaking.motions))
+    yield confirmations.of_building_code(data)
+    yield from roof_plan.of_roof(data)
     yield from existing_roof.of_existing_roof(data)
-    yield from noted(evidence.of_confirmations(data), by_runs)
-    yield from limits.of_overrides(data)
-    yield from hazard.of_site(data)
-    yield from noted(motions.of_records(data, shaking.prepared), by_runs)
-    yield from friction.of_tests(data)
-    yield from noted(motions.of_acceptance(acceptance, analyzed, shaking), by_runs)
+    yield from noted(confirmations.of_confirmations(data), by_runs)
+    yield from overrides.of_overrides(data)
+    yield from seismic_parameters.of_site(data)
+    yield from noted(records.of_records(data, shaking.prepared), by_runs)
+    yield from friction_evidence.of_tests(data)
+    yield from noted(motion_limits.of_acceptance(acceptance, analyzed, shaking), by_runs)
     for array in data.arrays:
-        yield from arrays.before_runs(data, array, interconnection_n(data, rules, array))
+        yield from array_capacities.before_runs(data, array, interconnection_n(data, rules, array))
 
 
 def noted(checks: Iterator[Check] | tuple[()], by_runs: Collection[str]) -> Iterator[Check]:
@@ -93,4 +104,4 @@ def noted(checks: Iterator[Check] | tuple[()], by_runs: Collection[str]) -> Iter
         if concerned or check.id not in _OF_ANALYSIS:
             yield check
         else:
-            yield replace(check, consequence=Consequence.NOTE, remedy=motions.NO_EFFECT, arrays=())
+            yield replace(check, consequence=Consequence.NOTE, remedy=NO_EFFECT, arrays=())

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator
 
 from report.assessment.checks.check import Check, Sense, condition
-from report.assessment.verdict import NOT_GIVEN
+from report.assessment.design.words import NOT_GIVEN
 from report.project.model import ProjectInput
 from report.project.model.choices import BuildingCode
 from report.project.model.place import Place

@@ -38,7 +38,7 @@ from solver.suggestions import nearest
 
 GAP_TOLERANCE = 0.01
 # Below the inch at which a package states that a clearance contradicts the plan
-# (`report.assessment.neighbors`): what passes here passes there.
+# (`report.assessment.plan.neighbors`): what passes here passes there.
 GAP_TOLERANCES_M = (0.5 * INCH_M, 0.99 * INCH_M)
 
 

@@ -85,19 +85,16 @@ def _contradictory(data: ProjectInput) -> Iterator[Finding]:
 def _far(data: ProjectInput) -> Iterator[Finding]:
     places = {array.id: Place("arrays", k, "id") for k, array in enumerate(data.arrays)}
     places |= {item.id: Place("objects", k, "id") for k, item in enumerate(data.objects)}
-    shapes = {array.id: array.shape for array in data.arrays}
-    shapes |= {item.id: item.placed for item in data.objects if item.placed}
-    for name, text in far_off(shapes, data.roof.placed, data.us_first):
+    for name, text in far_off(data.shapes, data.roof.placed, data.us_first):
         yield warning(f"far {name}", places[name], text)
 
 
 def _objects_in_plan(data: ProjectInput) -> Iterator[tuple[int, Shape]]:
     """Yield the row of each clearance to what is placed in plan, and its shape."""
-    plan = {item.id: item.placed for item in data.objects}
-    plan |= {array.id: array.shape for array in data.arrays}
+    shapes = data.shapes
     for index, row in enumerate(data.clearances):
-        if other := plan[row.object]:
-            yield index, other
+        if row.object in shapes:
+            yield index, shapes[row.object]
 
 
 def _short_of_plan(data: ProjectInput) -> dict[int, float]:

@@ -41,7 +41,7 @@ from report.project.model.scene import (
     RoofObject,
     Vertex,
 )
-from report.project.model.shapes import Point, ring
+from report.project.model.shapes import Point, Shape, ring
 from report.project.model.site import FrictionTestRow, FrictionTests, Project, Revision, Site
 from solver.rules.rulesets import ALLOWED
 
@@ -202,6 +202,12 @@ class ProjectInput(Frozen):
         is_of_these = "confirmation" not in self.outdated and confirmation.of == self.site.adopted
         is_dated = confirmation.date is not None and confirmation.date <= self.project.date
         return f"{confirmation.by}, {confirmation.date}" if is_of_these and is_dated else ""
+
+    @property
+    def shapes(self) -> dict[str, Shape]:
+        """The arrays and the objects that have a place in plan, by id."""
+        shapes: dict[str, Shape] = {item.id: item.placed for item in self.objects if item.placed}
+        return shapes | {array.id: array.shape for array in self.arrays}
 
     def basis_of(self, row: Clearance) -> DistanceBasis:
         """Return the basis of the distance of a clearance."""

@@ -113,9 +113,9 @@ def _times(unit: Unit) -> str:
     return "" if factor == "1" else f"*{factor}"
 
 
-# As `report.assessment.clearances.are_alike`, in words: arrays of the same words are alike. Of what
-# is nearly the same (slopes to 0.0001 deg, directions to 1 deg) some words may still differ, which
-# asks for the larger separation. A row without friction is of its own kind.
+# As `report.assessment.design.separation.are_alike`, in words: arrays of the same words are alike.
+# Of what is nearly the same (slopes to 0.0001 deg, directions to 1 deg) some words may still
+# differ, which asks for the larger separation. A row without friction is of its own kind.
 _KIND_OF_ARRAY = FormulaColumn(
     "kind_of_array",
     "Kind of array",

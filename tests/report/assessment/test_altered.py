@@ -1,7 +1,7 @@
 """The altered copies of the projects: between them they have every verdict."""
 
 from fixtures import altered_projects
-from report.assessment.verdict import Verdict
+from report.assessment.design.verdict import Verdict
 
 
 def test_the_copies_are_more_than_thirty_and_have_every_verdict():

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from fixtures import assessments, project_parts, projects
-from report.assessment.links import assess_linked
+from report.assessment.design.linked_blocks import assess_linked
 from solver.model import Status
 from solver.sliding.checked import scene, slide
 from solver.sliding.least_model import DEFAULT

@@ -3,9 +3,9 @@
 import pytest
 
 from fixtures import assessments, project_parts, projects
-from report.assessment.checks.hazard import of_site
+from report.assessment.checks.seismic_parameters import of_site
+from report.assessment.design.verdict import Verdict
 from report.assessment.precheck import limits_before_runs
-from report.assessment.verdict import Verdict
 from report.project.model.choices import BuildingCode
 from solver.rules.hazard import EDITIONS, REFERENCED
 from solver.rules.rulesets import RULE_SETS

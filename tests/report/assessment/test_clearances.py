@@ -11,8 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fixtures import assessments, project_parts, projects
-from report.assessment.envelopes import design_envelope, hull, keep_clear_m, runs_envelope
-from report.assessment.verdict import Verdict
+from report.assessment.design.verdict import Verdict
+from report.assessment.support.envelopes import design_envelope, hull, runs_envelope
+from report.assessment.support.keep_clear import keep_clear_m
 from report.project.model.choices import Direction
 from report.project.model.shapes import Polygon, Rectangle, gap_m
 from solver.rules.provisions import Neighbor

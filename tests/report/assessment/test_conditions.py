@@ -8,10 +8,14 @@ import pytest
 from fixtures import assessments, project_parts, projects
 from fixtures.pages import page_of
 from fixtures.projects import FOOT, INCH
-from report.assessment.checks import arrays as of_arrays
-from report.assessment.checks import evidence, hazard, motions
-from report.assessment.checks.check import found_and_limit
-from report.assessment.verdict import Verdict, worst
+from report.assessment.checks import (
+    array_capacities,
+    confirmations,
+    records,
+    seismic_parameters,
+)
+from report.assessment.checks.sentence import found_and_limit
+from report.assessment.design.verdict import Verdict, worst
 from report.text.units import PRESSURES, WEIGHTS
 from solver import design_spectrum, spectrum
 from solver.rules.limit import Consequence
@@ -83,7 +87,7 @@ def test_a_typed_name_alone_removes_no_floor_and_turns_no_clearance_ok():
 def test_the_slope_limit_is_named_only_where_peer_review_lifts_it(rule_set, sdc, lifts):
     site = projects.site(rule_set=rule_set, sdc=sdc)
     data = projects.project(site=site, options={"peer_reviewed": True})
-    said = next(each for each in evidence.of_confirmations(data) if each.id == "peer_review")
+    said = next(each for each in confirmations.of_confirmations(data) if each.id == "peer_review")
     assert ("slope limit" in said.remedy) is lifts
     assert "floor" in said.remedy
 
@@ -98,7 +102,7 @@ CODE = {"building_code": "CBC", "building_code_year": 2022, "jurisdiction": "Cit
 )  # fmt: skip
 def test_without_building_code_and_jurisdiction_there_is_a_condition(given, found):
     data = projects.project(site=projects.site(**given))
-    said = evidence.of_building_code(data)
+    said = confirmations.of_building_code(data)
     assert said.found == found
     assert said.verdict is (Verdict.OK if given == CODE else Verdict.CONDITION)
 
@@ -107,7 +111,7 @@ def before_runs(key, *, units="US", **given):
     """The row on an array of 42,000 lb on 80 ft x 60 ft, 8.75 psf."""
     head = project_parts.HEAD | {"units_first": units}
     data = projects.project(arrays=[projects.array("A1", 0.5, **given)], project=head)
-    rows = of_arrays.before_runs(data, data.arrays[0], 0.0)
+    rows = array_capacities.before_runs(data, data.arrays[0], 0.0)
     return next((item for item in rows if item.id == key), None)
 
 
@@ -209,7 +213,7 @@ ASCE_7_22 |= {"edition_name": "ASCE 7-22"}
 
 def hazard_of(**changes):
     """The requirements on the hazard by id."""
-    found = list(hazard.of_site(projects.project(site=projects.site(**changes))))
+    found = list(seismic_parameters.of_site(projects.project(site=projects.site(**changes))))
     assert {item.consequence for item in found} == {Consequence.CONDITION}
     return {item.id: item for item in found}
 
@@ -398,7 +402,7 @@ def grounded(scale=1.0, place="ground", **changes):
     data = projects.project(motions=rows, **BUILDING | changes)
     book = assessments.grounded(data, assessments.level(), transverse=True, vertical=False)
     # As it is by analysis: where no array takes that value, a package has it as a note.
-    found = motions.of_records(data, book.shaking.prepared)
+    found = records.of_records(data, book.shaking.prepared)
     return next((each for each in found if each.id == "ground_motions"), None)
 
 

@@ -12,16 +12,13 @@ from fixtures.pages import page_of
 from fixtures.single_runs import prd_m
 from fixtures.workbooks import cell_address, make, problems, read_workbook, type_into
 from report.assessment.assess import assess, changed
-from report.assessment.evidence import (
-    building_case,
-    building_variations,
-    cases,
-    cumulative,
-    saving,
-    support,
-)
-from report.assessment.routes import Route
-from report.assessment.verdict import Verdict
+from report.assessment.design.routes import Route
+from report.assessment.design.verdict import Verdict
+from report.assessment.support.building_variations import building_case, building_variations
+from report.assessment.support.evidence import support
+from report.assessment.support.other_inputs import cases
+from report.assessment.support.saving import saving
+from report.assessment.support.smaller_events import cumulative
 from report.document.templates import sentence
 from report.pages.marks import Marked
 from report.project.model import Override

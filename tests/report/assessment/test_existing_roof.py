@@ -3,9 +3,9 @@
 import pytest
 
 from fixtures import project_parts
-from report.assessment.checks.check import found_and_limit
 from report.assessment.checks.existing_roof import of_existing_roof
-from report.assessment.verdict import Verdict
+from report.assessment.checks.sentence import found_and_limit
+from report.assessment.design.verdict import Verdict
 from report.text.units import PRESSURES, WEIGHTS
 
 BARE = {name: value for name, value in project_parts.SITE.items() if name != "roof_evaluation"}

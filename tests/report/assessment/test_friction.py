@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 
 from fixtures import assessments, projects
-from report.assessment.checks.check import found_and_limit
-from report.assessment.evidence import histories
-from report.assessment.friction import VelocityCheck, at_low_velocity, mu_words, mus_words
-from report.assessment.tested import basis_words
-from report.assessment.verdict import Verdict
+from report.assessment.checks.sentence import found_and_limit
+from report.assessment.design.friction_words import mu_words, mus_words
+from report.assessment.design.other_friction import at_low_velocity
+from report.assessment.design.tested_friction import basis_words
+from report.assessment.design.velocity_check import VelocityCheck
+from report.assessment.design.verdict import Verdict
+from report.assessment.support.evidence import histories
 from solver.friction_tests import FrictionRun, Series, Surface
 from solver.model import Friction, coulomb
 from solver.rules.provisions import Neighbor

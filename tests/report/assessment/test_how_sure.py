@@ -10,8 +10,9 @@ from fixtures import assessments, project_parts, projects
 from fixtures.marks import by_day
 from fixtures.pages import page_of
 from fixtures.single_runs import prd_m, slid
-from report.assessment.evidence import accuracy
-from report.assessment.uncertainty import surface, uncertainty
+from report.assessment.support.response_surface import surface
+from report.assessment.support.shifted_friction import accuracy
+from report.assessment.support.uncertainty import uncertainty
 from report.text.counts import below_mm
 from solver.model import Friction
 

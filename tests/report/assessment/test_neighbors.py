@@ -14,9 +14,10 @@ from fixtures.plan_pictures import roof_plan
 from fixtures.project_parts import FT, INCH, NO_SIDES, sides
 from fixtures.workbooks import cell_address, make, project
 from report.assessment.assess import assess
-from report.assessment.checks.check import texts
-from report.assessment.neighbors import Cover, NearbyKind, bare_edges
-from report.assessment.plan_clearances import plan_gaps
+from report.assessment.checks.sentence import texts
+from report.assessment.plan.bare_edges import bare_edges
+from report.assessment.plan.neighbors import Cover, NearbyKind
+from report.assessment.support.plan_gaps import plan_gaps
 from report.drawing.items import Layer
 from report.drawing.plan import plan_drawing
 from report.drawing.sheet import LETTER

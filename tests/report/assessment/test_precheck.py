@@ -7,9 +7,10 @@ import pytest
 
 from fixtures import assessments, project_parts, projects, workbooks
 from fixtures.commands import stdout_of
-from report.assessment.checks.check import sentence
-from report.assessment.precheck import limits_before_runs, shaking_acceptance
-from report.assessment.routes import Route
+from report.assessment.checks.sentence import sentence
+from report.assessment.design.routes import Route
+from report.assessment.motion_acceptance import shaking_acceptance
+from report.assessment.precheck import limits_before_runs
 from report.motions.history import targets
 from report.project.model.finding import Level
 from report.project.model.place import Place

@@ -12,10 +12,10 @@ import pytest
 from fixtures import assessments, project_parts, projects
 from fixtures.single_runs import slides
 from report import assess_project
-from report.assessment.arrays import DesignBasis, assess_array
-from report.assessment.checks.arrays import run_checks
-from report.assessment.evidence import support
-from report.assessment.verdict import Verdict
+from report.assessment.checks.displacement import run_checks
+from report.assessment.design.arrays import DesignBasis, assess_array
+from report.assessment.design.verdict import Verdict
+from report.assessment.support.evidence import support
 from report.project.model.choices import Direction
 from report.runs import motion_run
 from solver.model import InputError, Status

@@ -6,9 +6,9 @@ import pytest
 from fixtures import altered_projects, assessments, project_parts, projects
 from fixtures.marks import by_day
 from fixtures.pages import page_of
-from report.assessment.checks.check import sentence
-from report.assessment.routes import Route
-from report.assessment.verdict import Verdict
+from report.assessment.checks.sentence import sentence
+from report.assessment.design.routes import Route
+from report.assessment.design.verdict import Verdict
 from report.pages.summary import summary
 from report.text.counts import lowered
 from report.web.answers import answer

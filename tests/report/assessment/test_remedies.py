@@ -12,9 +12,10 @@ from fixtures.pages import page_of
 from fixtures.single_runs import prd_m, slid
 from report.assessment.assess import assess, changed, entered
 from report.assessment.causes import came_to
-from report.assessment.remedies import MOST, Remedies, RemedyKind, remedies
-from report.assessment.trials import above, below, search, with_mu
-from report.assessment.verdict import Verdict
+from report.assessment.design.other_friction import with_mu
+from report.assessment.design.verdict import Verdict
+from report.assessment.remedies.friction_search import above, below, search
+from report.assessment.remedies.remedies import MOST, Remedies, RemedyKind, remedies
 from report.pages.summary import remedy_lines, summary, without_analysis
 from report.project.check.covered import outdated
 from report.project.model.shapes import gap_m

@@ -16,7 +16,7 @@ from fixtures.paths import ROOT
 from fixtures.project_parts import LB
 from fixtures.workbooks import arrays, cell_address, make, project, read_workbook
 from report.assessment.assess import assess
-from report.assessment.checks.check import texts
+from report.assessment.checks.sentence import texts
 from report.assessment.precheck import findings
 from report.motions.prepare import prepare
 from report.project.model.place import Place

@@ -20,8 +20,8 @@ from fixtures import assessments, projects
 from fixtures.marks import by_day
 from fixtures.pages import page_of
 from fixtures.project_parts import FT, sides
-from report.assessment.envelopes import design_envelope
-from report.assessment.plan_clearances import plan_gaps
+from report.assessment.support.envelopes import design_envelope
+from report.assessment.support.plan_gaps import plan_gaps
 from report.drawing.items import APPLICATION, Layer, write_dxf
 from report.drawing.plan import gap_cells, plan_drawing, title_block
 from report.project.model.choices import UnitsFirst

@@ -7,8 +7,8 @@ import pytest
 
 from fixtures import altered_projects
 from fixtures.marks import by_day
-from report.assessment.evidence import support
-from report.assessment.verdict import Verdict
+from report.assessment.design.verdict import Verdict
+from report.assessment.support.evidence import support
 from report.libraries import load_renderer
 from report.package.html import first
 from report.pages.registry import package_data

@@ -27,7 +27,7 @@ from fixtures.pdf import (
     read_sheets,
     short_sheets,
 )
-from report.assessment.evidence import support
+from report.assessment.support.evidence import support
 from report.package.html import pages
 from report.typeset.finish import FIELD, Attached
 from report.typeset.pdf import lay_out

@@ -16,9 +16,9 @@ from fixtures.marks import by_day
 from fixtures.pages import IDS, page_of
 from fixtures.workbooks import make
 from report.assessment.assess import reassess
-from report.assessment.checks.check import alike
-from report.assessment.spectra import spectra
-from report.assessment.verdict import Verdict
+from report.assessment.checks.alike import alike
+from report.assessment.design.verdict import Verdict
+from report.assessment.support.spectra import spectra
 from report.drawing.on_paper import plan_on_paper
 from report.drawing.plan import plan_drawing
 from report.drawing.sheet import LETTER

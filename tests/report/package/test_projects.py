@@ -19,7 +19,7 @@ from fixtures.pages import FRONT, IDS, page_of
 from fixtures.paths import ROOT
 from fixtures.workbooks import read_workbook
 from projects.rows import write_document
-from report.assessment.verdict import Verdict
+from report.assessment.design.verdict import Verdict
 from report.making import make
 from report.motions.history import targets
 from report.motions.prepare import prepare

@@ -13,9 +13,9 @@ from fixtures import assessments, projects
 from fixtures.marks import by_day
 from fixtures.pages import page_of
 from fixtures.workbooks import make
-from report.assessment.checks.check import texts as check_texts
-from report.assessment.clearances import beside
-from report.assessment.spectra import spectra
+from report.assessment.checks.sentence import texts as check_texts
+from report.assessment.design.clearances import beside
+from report.assessment.support.spectra import spectra
 from report.drawing.plan import plan_drawing
 from report.pages.summary import summary
 from report.project.read.archive import open_book

@@ -15,9 +15,9 @@ from fixtures.paths import ROOT
 from fixtures.project_parts import FT, NO_SIDES, clearance
 from fixtures.workbooks import type_into, without_motions
 from report.assessment.assess import assess, changed
-from report.assessment.checks.check import sentence
-from report.assessment.routes import Route
-from report.assessment.verdict import Verdict
+from report.assessment.checks.sentence import sentence
+from report.assessment.design.routes import Route
+from report.assessment.design.verdict import Verdict
 from report.cli.check import checked, lines
 from report.drawing.items import Layer, write_dxf
 from report.drawing.plan import plan_drawing

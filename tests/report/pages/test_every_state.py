@@ -12,7 +12,7 @@ from jinja2 import Environment, meta
 from fixtures import assessments, packages, project_parts, projects
 from fixtures.marks import by_day
 from fixtures.pages import FRONT, page_of, read
-from report.assessment.project import NO_FORMER, Change, ChangeKind
+from report.assessment.revision_changes import NO_FORMER, Change, ChangeKind
 from report.package.html import pages
 from report.pages.registry import package_data, pages_of
 from report.project.read.read import EchoRow

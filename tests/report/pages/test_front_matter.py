@@ -12,7 +12,7 @@ from pypdf import PdfReader
 
 from fixtures import assessments, packages, project_parts, projects
 from fixtures.pages import page_of
-from report.assessment.verdict import Verdict
+from report.assessment.design.verdict import Verdict
 from report.pages.symbols import SYMBOLS
 from report.typeset.pdf import lay_out
 from solver.rules.limit import Consequence

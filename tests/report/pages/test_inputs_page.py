@@ -8,9 +8,9 @@ from fixtures import assessments, projects
 from fixtures.assessments import TESTS as REPORT
 from fixtures.pages import page_of
 from fixtures.project_parts import LB
-from report.assessment.checks.friction import of_tests
-from report.assessment.tested import tested as series_of
-from report.assessment.verdict import Verdict
+from report.assessment.checks.friction_evidence import of_tests
+from report.assessment.design.tested_friction import tested as series_of
+from report.assessment.design.verdict import Verdict
 from report.drawing.items import drawn_slope_deg
 from report.figures.charts import friction_by_velocity
 from report.figures.plan import array_section

@@ -8,8 +8,8 @@ import pytest
 
 from fixtures import assessments, project_parts, projects
 from fixtures.pages import page_of
-from report.assessment.neighbors import Cover
-from report.assessment.verdict import Verdict
+from report.assessment.design.verdict import Verdict
+from report.assessment.plan.neighbors import Cover
 from solver.sliding.least_model import Model
 
 

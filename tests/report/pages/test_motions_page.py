@@ -13,9 +13,9 @@ from openpyxl import Workbook
 
 from fixtures import assessments, project_parts, projects
 from fixtures.pages import page_of
-from report.assessment.precheck import shaking_acceptance
-from report.assessment.spectra import spectra
-from report.assessment.uncertainty import uncertainty
+from report.assessment.motion_acceptance import shaking_acceptance
+from report.assessment.support.spectra import spectra
+from report.assessment.support.uncertainty import uncertainty
 from report.motions.components import read_components
 from report.motions.history import TargetSpectrum, targets
 from report.pages.registry import package_data

@@ -12,9 +12,9 @@ from fixtures.pages import page_of
 from fixtures.paths import ROOT
 from fixtures.projects import INCH
 from report.assessment.assess import assess
-from report.assessment.checks.check import texts, words
-from report.assessment.checks.motions import of_records
-from report.assessment.routes import Route
+from report.assessment.checks.records import of_records
+from report.assessment.checks.sentence import texts, words
+from report.assessment.design.routes import Route
 from report.pages.summary import document, summary
 from report.web.open_project import open_project
 

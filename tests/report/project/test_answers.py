@@ -18,8 +18,8 @@ from fixtures.libreoffice import Cell, Sheets, recalculated_sheets
 from fixtures.paths import ROOT
 from fixtures.project_parts import INCH
 from fixtures.workbooks import formula_cells, project, retitle, site
-from report.assessment.arrays import Displacement
-from report.assessment.clearances import check_clearance
+from report.assessment.design.arrays import Displacement
+from report.assessment.design.clearances import check_clearance
 from report.project.model import ProjectInput
 from report.project.model.choices import (
     EditionName,

@@ -7,7 +7,7 @@ import pytest
 
 from fixtures import assessments, project_parts, projects
 from report.assessment.causes import came_to
-from report.assessment.checks.check import sentence
+from report.assessment.checks.sentence import sentence
 from report.project.model.choices import Direction
 from report.results.results_json import results_json
 from report.text.amounts import Amount

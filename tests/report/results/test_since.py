@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from fixtures import assessments, projects
 from fixtures import project_parts as parts_of
 from fixtures.pages import IDS, page_of
-from report.assessment.project import ChangeKind
-from report.assessment.verdict import Verdict
+from report.assessment.design.verdict import Verdict
+from report.assessment.revision_changes import ChangeKind
 from report.pages.registry import package_data, parts
 from report.project.read.linked_files import Document
 from report.results.changes import MOST_CHANGES, changes, check_listed, with_reissue

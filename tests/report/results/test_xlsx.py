@@ -10,8 +10,9 @@ from fixtures import assessments, project_parts, projects
 from fixtures.cells import address, cell
 from fixtures.libreoffice import recalculated
 from fixtures.workbooks import formula_cells
-from report.assessment.checks.check import alike, found_and_limit
-from report.assessment.spectra import spectra
+from report.assessment.checks.alike import alike
+from report.assessment.checks.sentence import found_and_limit
+from report.assessment.support.spectra import spectra
 from report.provenance.files import fingerprint
 from report.results.sheets import Pages, SheetColumn, SheetLayout, SheetRow, up_column, write_live
 from report.results.xlsx import results_xlsx

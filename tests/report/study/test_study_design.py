@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from fixtures import pages, projects
 from fixtures.marks import by_day
 from fixtures.study_workbooks import sheet_rows, study_input, with_study, write
-from report.assessment.routes import Route
+from report.assessment.design.routes import Route
 from report.study.curves import allowed, compare
 from report.study.page_parts import design_length
 from report.study.results import STATISTICS

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from fixtures import project_parts, projects
-from report.assessment import uncertainty
+from report.assessment.support import response_surface
 from report.web import views
 from report.web.run_forces import during, run_forces, slips_of
 from solver.model import InputError
@@ -208,7 +208,7 @@ def test_a_slip_that_the_record_cuts_off_ends_with_it():
 
 
 def test_the_contour_is_the_surface_of_the_array(usual):
-    surface = uncertainty.surface(usual, usual.governing)
+    surface = response_surface.surface(usual, usual.governing)
     answer = views.contour(usual, usual.governing.array.id)
     assert answer["mus"] == surface.mus.tolist()
     assert answer["prd_m"] == surface.mean_m.tolist()

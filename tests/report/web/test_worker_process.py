@@ -12,7 +12,7 @@ from functools import cached_property
 from importlib import import_module
 from multiprocessing import connection
 from operator import truediv
-from pkgutil import iter_modules
+from pkgutil import walk_packages
 
 import pytest
 
@@ -144,8 +144,8 @@ def left_file():
 @pytest.mark.quick
 def test_no_part_of_an_assessment_can_change():
     modules = [
-        import_module(f"report.assessment.{each.name}")
-        for each in iter_modules(report.assessment.__path__)
+        import_module(each.name)
+        for each in walk_packages(report.assessment.__path__, "report.assessment.")
     ]
     found = {
         each

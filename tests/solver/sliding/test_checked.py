@@ -406,7 +406,7 @@ for name in PARTS:
     PARTS[name]()
 before = compiled()
 import stand_in
-from report.assessment.evidence import support
+from report.assessment.support.evidence import support
 support(stand_in.assess_input(stand_in.project(), stand_in.motions(2, seconds=8.0)))
 print(json.dumps([sorted(compiled() - before), sorted(before)]))
 """

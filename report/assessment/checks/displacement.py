@@ -1,0 +1,163 @@
+"""What is required of the displacement of an array: a value, runs that end, no tipping."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from report.assessment.checks.array_capacities import slack_check
+from report.assessment.checks.check import THIS_PROGRAM, Check, Sense
+from report.assessment.design.routes import Route, lacking_motions, statistic_basis
+from report.text.amounts import Amount, capacity, demand
+from report.text.counts import grouped_by, lowered, ranged
+from report.text.units import Quantity, no_less, pair
+from solver.model import Status
+from solver.rules.provisions import review_lifts_slope
+
+if TYPE_CHECKING:
+    from report.assessment.assessment import Assessment
+    from report.assessment.design.arrays import ArrayAssessment
+    from report.assessment.design.linked_blocks import LinkedArray
+    from report.runs import OrientedRun
+
+
+def of_array(done: Assessment, item: ArrayAssessment) -> Iterator[Check]:
+    """Yield whether an array has a design displacement, comes to rest and stays flat."""
+    yield _design(done, item)
+    if item.runs:
+        yield from run_checks(item, done.project.us_first)
+    yield _tipping(item)
+    index = [each.id for each in done.arrays].index(item.id)
+    yield slack_check(item.array, item.permitted_m, index)
+
+
+def _design(done: Assessment, item: ArrayAssessment) -> Check:
+    found: Amount | str = demand(item.design_m, Quantity.DISPLACEMENT, item.overridden.design)
+    note = item.source
+    if math.isnan(item.design_m):
+        found, note = "none", f"by the {item.route} procedure"
+        if item.lacks_motions:
+            basis = statistic_basis(done.project)
+            note = lacking_motions(done.rules, basis, len(done.shaking.motions))
+    return Check(
+        id="design",
+        title="Design displacement",
+        subject=item.id,
+        arrays=(item.id,),
+        found=found,
+        note=note,
+        limit="a value by a procedure that is permitted",
+        clause=done.rules.name,
+        is_satisfied=item.is_permitted and not math.isnan(item.design_m),
+        remedy=_way_out(done, item),
+    )
+
+
+def _way_out(done: Assessment, item: ArrayAssessment) -> str:
+    """Return what gives a permitted displacement: motions, if the project has none."""
+    if done.has_motions:
+        # Runs that do not come to rest, and slopes, have checks of their own.
+        is_of_motions = item.lacks_motions or not done.acceptance.qualifies
+        is_analyzed = item.route is Route.ANALYSIS
+        return "Complete or replace the motions." if is_analyzed and is_of_motions else ""
+    is_lifted = review_lifts_slope(done.rules, done.project.site.sdc)
+    if not (item.limits.may_be_analyzed or is_lifted):
+        return ""
+    review = "" if item.limits.may_be_analyzed else " with peer review"
+    return f"Enter motions on the Motions worksheet, for an analysis{review}."
+
+
+_WOULD_DO = {
+    Status.SLIDING_AT_END: "Enter a longer record, or Zero padding on the Motions worksheet.",
+    Status.UPLIFT: "Replace the motion.",
+    Status.DIVERGED: "Replace the motion.",
+    Status.STEP_LIMIT: "Replace the motion.",
+}
+
+
+def _would_do(run: OrientedRun) -> str:
+    status, scene = run.result.status, run.scene
+    if status is Status.SLIDING_AT_END and scene.friction.mu_slow <= math.tan(scene.slope_rad):
+        return (
+            "Provide more friction: the friction coefficient is not above "
+            "tan θ of the roof slope, so that no record is long enough."
+        )
+    return _WOULD_DO.get(status, "")
+
+
+def run_checks(item: ArrayAssessment, us_first: bool) -> Iterator[Check]:
+    """Yield whether every run of an array comes to rest, one check for each outcome."""
+    named = [(motion.motion.id, run) for motion in item.motions for run in motion.runs]
+    outcomes = grouped_by(named, lambda each: (each[1].result.status, _would_do(each[1])))
+    failed = {key: of for key, of in outcomes.items() if key[0] is not Status.OK}
+    for (status, remedy), of in (failed or outcomes).items():
+        outcome = _outcome(status, [run for _, run in of], us_first)
+        yield Check(
+            id="runs",
+            title="Runs that come to rest",
+            subject=item.id,
+            arrays=(item.id,),
+            found=f"{len(of)} of {len(named)} runs: {outcome}" if failed else "all",
+            note=ranged(name for name, _ in of) if failed else "",
+            limit="all",
+            clause=THIS_PROGRAM,
+            is_satisfied=not failed,
+            remedy=remedy,
+        )
+
+
+def _outcome(status: Status, runs: list[OrientedRun], us_first: bool) -> str:
+    # Up to its colon a sentence says what happened, and after it what follows.
+    words = lowered(status.sentence.split(":")[0])
+    if status is Status.UPLIFT:
+        return f"{words}, from {min(run.result.t_uplift_s for run in runs):.3f} s on"
+    if status is Status.SLIDING_AT_END:
+        fastest = max(abs(run.result.end_speed_mps) for run in runs)
+        return f"{words}, at {pair(fastest, Quantity.VELOCITY, us_first, no_less)}"
+    return words
+
+
+def _tipping(item: ArrayAssessment) -> Check:
+    return Check(
+        id="tipping",
+        title="V/N over the tipping limit b/(2c)",
+        subject=item.id,
+        arrays=(item.id,),
+        found=demand(item.tipping.ratio),
+        note=item.tipping.governs,
+        limit=capacity(1.0),
+        sense=Sense.AT_MOST,
+        clause="statics of a rigid body",
+        is_satisfied=item.tipping.is_ok,
+        remedy="Lower the center of gravity, or widen the supports.",
+    )
+
+
+def of_links(linked: LinkedArray) -> Check:
+    """Return whether one rigid block is adequate for an array, where the workbook asks."""
+    design, estimated_m = linked.design, linked.estimated_m
+    found: Amount | str = demand(estimated_m, Quantity.DISPLACEMENT)
+    note = "one rigid block does not slide in one axis" if math.isinf(estimated_m) else ""
+    if not linked.is_final:
+        found = "not every block comes to rest"
+        lost = (each for each in linked.motions if not all(run.is_final for run in each.runs))
+        note = ranged(each.motion.id for each in lost)
+    elif math.isnan(estimated_m):
+        found = "none"
+    has_limit = not math.isnan(linked.most_m)
+    limit = capacity(linked.most_m, Quantity.DISPLACEMENT)
+    return Check(
+        id="links",
+        title="Design displacement as a row of linked blocks",
+        subject=design.id,
+        arrays=(design.id,),
+        found=found,
+        note=note,
+        limit=limit if has_limit else "that of one rigid block",
+        sense=Sense.AT_MOST if has_limit else Sense.STATED,
+        clause=THIS_PROGRAM,
+        # That the design is permitted is a check of its own.
+        is_satisfied=linked.is_final and linked.is_within,
+        remedy="Provide stiffer links between the parts of the array.",
+    )

@@ -1,0 +1,173 @@
+"""Friction tests on file, and at the velocities of sliding."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from typing import TYPE_CHECKING
+
+from report.assessment.checks.check import Actor, Check, Sense, condition
+from report.assessment.checks.ids import VELOCITY_ROW
+from report.assessment.checks.stated import stated
+from report.assessment.design.tested_friction import (
+    LEAST_RUNS,
+    MOST_BEYOND,
+    STANDARD,
+    is_complete,
+    runs_by_velocity,
+    tested,
+)
+from report.assessment.design.words import NOT_GIVEN
+from report.project.model import ProjectInput
+from report.project.model.place import Place
+from report.text.amounts import capacity, compared_pairs, demand, entered
+from report.text.counts import grouped_by
+from report.text.units import Quantity
+from solver.friction_tests import Series, Surface
+
+if TYPE_CHECKING:
+    from report.assessment.design.arrays import ArrayAssessment
+    from report.assessment.design.velocity_check import VelocityCheck
+
+
+_row = partial(condition, clause="friction tests", actor=Actor.LABORATORY)
+
+
+def of_tests(data: ProjectInput) -> Iterator[Check]:
+    """Yield what is required of the friction tests."""
+    yield _on_file(data)
+    yield _standard(data)
+    yield _wet_and_dry(data)
+
+
+def _on_file(data: ProjectInput) -> Check:
+    tests = data.friction_tests
+    on_file = stated(
+        "friction_tests",
+        laboratory=("laboratory", tests.laboratory),
+        report=("report number", tests.report),
+        date=("date", tests.date),
+    )
+    attached = "; attached" if tests.report_file else ""
+    return _row(
+        id="friction_tests",
+        title="Friction test report",
+        found=on_file.found + attached,
+        is_satisfied=not on_file.missing,
+        places=on_file.missing,
+        limit="laboratory, report number and date",
+        remedy="Obtain the friction test report, and enter it on the Friction tests worksheet.",
+    )
+
+
+def _standard(data: ProjectInput) -> Check:
+    tests = data.friction_tests
+    lacking = {
+        "standard": not STANDARD.search(tests.standard),
+        "accreditation": not tests.accreditation,
+    }
+    standard = f"standard {tests.standard or NOT_GIVEN}"
+    accreditation = f"accreditation {tests.accreditation or NOT_GIVEN}"
+    return _row(
+        id="friction_tests",
+        title="Friction test standard",
+        found=f"{standard}; {accreditation}",
+        limit="ASTM G115, accredited laboratory",
+        is_satisfied=not any(lacking.values()),
+        remedy="Obtain tests to ASTM G115 by an accredited laboratory, and enter both on the "
+        "Friction tests worksheet.",
+        places=tuple(
+            Place("friction_tests", 0, field) for field, lacks in lacking.items() if lacks
+        ),
+    )
+
+
+def _wet_and_dry(data: ProjectInput) -> Check:
+    by_surface = {(series.report, series.surface): series for series in tested(data)}
+    reports = dict.fromkeys(report for report, _ in by_surface)
+    still = [index for index, row in enumerate(data.friction_runs) if row.velocity_mps is None]
+    rows = [
+        (f"report {report or 'without a number'}: " if len(reports) > 1 else "")
+        + ", ".join(_runs({s: by_surface.get((report, s)) for s in Surface}, data.us_first))
+        for report in reports
+    ]
+    return _row(
+        id="friction_tests",
+        title="Friction test repeats",
+        found="; ".join(rows) or "no runs",
+        limit=f"{LEAST_RUNS} runs or more at each velocity, wet and dry",
+        is_satisfied=bool(reports) and all(is_complete(data, report) for report in reports),
+        remedy="Obtain the missing runs, and enter them with their velocities on the Friction "
+        "tests worksheet.",
+        places=tuple(Place("friction_runs", index, "velocity_mps") for index in still)
+        or (Place("friction_runs"),),
+    )
+
+
+def _runs(by_surface: Mapping[Surface, Series | None], us_first: bool) -> Iterator[str]:
+    """Yield the runs in each condition, those that are alike together."""
+    words = {
+        s: runs_by_velocity(series, us_first) if series else "0 runs"
+        for s, series in by_surface.items()
+    }
+    for said, alike in grouped_by(words, words.__getitem__).items():
+        yield f"{' and '.join(alike)} {said}"
+
+
+def of_velocities(data: ProjectInput, arrays: Sequence[ArrayAssessment]) -> Iterator[Check]:
+    """Yield for each array whether friction beyond the velocities tested is shown by tests."""
+    # What knows of runs loads the compiler: the other checks here do without.
+    from report.assessment.design.velocity_check import velocity_check
+
+    for item in arrays:
+        yield _velocity(item.id, velocity_check(data, item), data.us_first)
+
+
+def _velocity(array_id: str, check: VelocityCheck, us_first: bool) -> Check:
+    return _row(
+        id=VELOCITY_ROW,
+        title="Friction at the sliding velocity",
+        subject=array_id,
+        arrays=(array_id,),
+        **_compared(check, us_first),
+        is_satisfied=check.is_satisfied,
+        # That a test is fast enough is no use of a capacity.
+        is_capacity=False,
+        # No coefficient is offered but the one that is run: with less friction it may be NG.
+        remedy="Obtain friction tests at the sliding velocities.",
+    )
+
+
+def _compared(check: VelocityCheck, us_first: bool) -> Mapping[str, object]:
+    """Return what is compared: the sliding velocity, or the friction above the tested range."""
+    fastest_mps, tested_mps = check.fastest_mps, check.tested_mps
+    found, most = demand(fastest_mps, Quantity.VELOCITY), entered(tested_mps, Quantity.VELOCITY)
+    if not check.is_beyond:
+        if math.isnan(tested_mps):
+            return {"found": "does not slide", "limit": "tests at the sliding velocities"}
+        return {"found": found, "limit": most, "sense": Sense.AT_MOST, "note": "as tested"}
+    slides, to = compared_pairs(found, most, Quantity.VELOCITY, us_first, is_at_least=False)
+    slides = "a run gives no velocity" if math.isnan(fastest_mps) else f"slides at {slides}"
+    if check.tests is None:
+        said = f"{slides}; no runs of friction tests"
+        return {"found": said, "limit": "tests at the sliding velocities"}
+    to = f"velocities tested {NOT_GIVEN}" if math.isnan(tested_mps) else f"tested to {to}"
+    mu, least = f"μ above the tested range {check.beyond_words}", check.minimum_words
+    incomplete = "" if check.is_complete else "tests not complete"
+    notes = filter(None, (to, f"{mu}, smallest tested {least}", incomplete))
+    if check.is_far and math.isfinite(fastest_mps) and tested_mps > 0.0:
+        limit = capacity(MOST_BEYOND * tested_mps, Quantity.VELOCITY)
+        note = f"{'; '.join(notes)}; at most {MOST_BEYOND:g} times as fast"
+        return {"found": found, "limit": limit, "sense": Sense.AT_MOST, "note": note}
+    if check.is_far or incomplete:
+        return {
+            "found": "; ".join((slides, *notes)),
+            "limit": f"complete tests, up to {MOST_BEYOND:g} times as fast",
+        }
+    return {
+        "found": demand(check.mu_beyond, Quantity.COEFFICIENT),
+        "limit": capacity(check.minimum_mu, Quantity.COEFFICIENT),
+        "sense": Sense.AT_MOST,
+        "note": f"μ above the tested range; {slides}, {to}",
+    }

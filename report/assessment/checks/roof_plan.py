@@ -1,0 +1,112 @@
+"""The roof plan: what it shows near an array, its outline, distances from the drawing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from report.assessment.checks.check import Check, Sense, condition
+from report.assessment.checks.fire_access import of_sections
+from report.assessment.checks.ids import PLAN_ROW
+from report.assessment.design.words import NO_DESIGN, NOT_GIVEN
+from report.project.model import ProjectInput
+from report.project.model.choices import ClearanceSource, DistanceBasis
+from report.project.model.place import Place
+from report.project.model.scene import SIDES, Array
+from report.text.amounts import Amount, capacity, demand
+from report.text.units import Quantity, no_more, pair
+from solver.rules.limit import Consequence
+
+if TYPE_CHECKING:
+    from report.assessment.assessment import Assessment
+    from report.assessment.plan.neighbors import PlanNeighbor
+
+
+def of_neighbors(done: Assessment) -> Iterator[Check]:
+    """Yield what the plan shows near an array and no clearance covers, or contradicts."""
+    wrong = [(near, *short) for near in done.neighbors for short in near.shortcomings()]
+    for near, cell, words in wrong:
+        found, limit = _found_and_required(near, done.project.us_first)
+        yield Check(
+            id=PLAN_ROW,
+            title="Clearance as on the plan",
+            subject=near.names,
+            arrays=(near.array,),
+            found=found,
+            note=NOT_GIVEN if near.is_short else "",
+            limit=limit,
+            sense=Sense.STATED if isinstance(limit, str) else Sense.AT_LEAST,
+            clause="roof plan",
+            is_satisfied=False,
+            consequence=Consequence.NG if near.is_short else Consequence.CONDITION,
+            remedy=f"{words[:1].upper()}{words[1:]} ({cell}).",
+        )
+    if done.neighbors and not wrong:
+        yield condition(
+            id=PLAN_ROW,
+            title="Clearances as on the plan",
+            found=f"{len(done.neighbors)} of {len(done.neighbors)} pairs that are near",
+            limit="all, and as on the plan",
+            clause="roof plan",
+            is_satisfied=True,
+        )
+
+
+def _found_and_required(near: PlanNeighbor, us_first: bool) -> tuple[Amount | str, Amount | str]:
+    if near.is_short:
+        required = demand(near.required_m, Quantity.SIZE, near.mark)
+        has_limit = not math.isnan(near.required_m)
+        return capacity(near.gap_m, Quantity.SIZE), required if has_limit else NO_DESIGN
+    gap = pair(near.gap_m, Quantity.SIZE, us_first, no_more)
+    if near.is_missing:
+        found = f"{NOT_GIVEN}; {gap} on the plan, within twice the design displacement"
+        return found, "a clearance, as on the plan"
+    # Several rows of a pair may give several distances.
+    values = {row.clearance.provided_m for row in near.contradictions}
+    sizes = " and ".join(pair(m, Quantity.SIZE, us_first, no_more) for m in sorted(values))
+    return f"{sizes} entered, {gap} on the plan", "as on the plan"
+
+
+def of_roof(data: ProjectInput) -> Iterator[Check]:
+    """Yield what is required of the roof plan: its outline, array sections, confirmed distances."""
+    has_outline = data.roof.placed is not None
+    yield condition(
+        id="roof_outline",
+        title="Outline of the roof",
+        found="entered" if has_outline else NOT_GIVEN,
+        limit="entered",
+        clause="roof plan",
+        is_satisfied=has_outline,
+        remedy="Enter the outline of the roof on the Building worksheet: without it, roof edges "
+        "near the arrays were not looked for.",
+        places=tuple(Place("roof", 0, side) for side in SIDES),
+    )
+    yield from of_sections(data)
+    for array in data.arrays:
+        yield from _drawing_distances(data, array)
+
+
+def _drawing_distances(data: ProjectInput, array: Array) -> Iterator[Check]:
+    """Yield the distances beside an array that are from the drawing, which no check compares."""
+    drawn = [
+        index
+        for index, row in enumerate(data.clearances)
+        if row.source is ClearanceSource.DRAWING and array.id in (row.array, row.object)
+    ]
+    if drawn:  # their numbers are below the table of clearances: so arrays share a condition
+        by, date = data.project.drawing_confirmed_by, data.project.drawing_confirmed_date
+        is_confirmed = data.basis_of(data.clearances[drawn[0]]) is DistanceBasis.CONFIRMED
+        yield condition(
+            id="drawing_distances",
+            title="Clear distances from the drawing",
+            subject=array.id,
+            arrays=(array.id,),
+            found=f"confirmed by {by}, {date}" if is_confirmed else "not confirmed",
+            limit="measured, or confirmed by name and date",
+            clause="roof plan",
+            is_satisfied=is_confirmed,
+            remedy="Enter measured on the Clearances worksheet, or on the Project worksheet who "
+            "confirmed them and when.",
+            places=tuple(Place("clearances", index, "source") for index in drawn),
+        )

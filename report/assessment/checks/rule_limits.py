@@ -1,0 +1,99 @@
+"""The limits of the rule set on the building and on each array, of both routes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from report.assessment.checks.check import Check, Sense, dagger
+from report.assessment.checks.sentence import words
+from report.assessment.design.routes import Route, RouteLimits, lacking_motions, statistic_basis
+from report.project.model import ProjectInput
+from report.project.model.place import Place
+from report.text.amounts import limit_amounts
+from solver.records.acceptance import Acceptance
+from solver.rules.limit import Consequence, Limit, Measure
+from solver.rules.provisions import RuleSet, building_checks
+
+
+def of_building(data: ProjectInput, rules: RuleSet) -> Iterator[Check]:
+    """Yield the limits on the building."""
+    for limit in building_limits(data, rules):
+        yield replace(of_limit(limit), places=(Place("site", 0, _FIELDS[limit.key]),))
+
+
+def building_limits(data: ProjectInput, rules: RuleSet) -> tuple[Limit, ...]:
+    """Return the limits on the building, of the solver."""
+    categories = list(type(data.site.risk_category))
+    return building_checks(
+        rules,
+        risk_category=categories.index(data.site.risk_category) + 1,
+        stories=data.site.stories,
+    )
+
+
+def of_array(item: RouteLimits, index: int, id: str, *, has_motions: bool) -> Iterator[Check]:
+    """Yield the limits on an array; of the route that is not taken each is a note."""
+
+    def of(limit: Limit) -> Check:
+        field = _FIELDS.get(limit.key, "")
+        place = Place("arrays", index, field) if field else Place("motions")
+        return replace(of_limit(limit, id), places=(place,))
+
+    yield from map(of, item.required)
+    is_analysis = item.route is Route.ANALYSIS
+    for limit in item.prescriptive_checks if is_analysis else item.analysis_checks:
+        # Without motions nobody takes the analysis: how many there are says nothing.
+        if is_analysis or has_motions:
+            yield replace(of(limit), consequence=Consequence.NOTE, remedy="")
+
+
+def against_analysis(
+    data: ProjectInput, rules: RuleSet, item: RouteLimits, acceptance: Acceptance, n_motions: int
+) -> Sequence[str]:
+    """Return what does not permit the analysis of an array, in a few words each."""
+    limits = (*acceptance.missed, *item.analysis_checks)
+    missed = [each for each in limits if not each.ok and each.consequence is Consequence.NG]
+    lacking = lacking_motions(rules, statistic_basis(data), n_motions)
+    return [words(of_limit(each)) for each in missed] or [lacking] * bool(lacking)
+
+
+def of_limit(limit: Limit, subject: str = "") -> Check:
+    """Return a limit of the solver as a check."""
+    found, required = limit_amounts(limit)
+    marks = dagger(limit.provision)
+    return Check(
+        id=limit.key,
+        title=limit.title,
+        subject=subject,
+        arrays=(subject,) if subject else (),
+        found="no value" if math.isnan(limit.found) else found,
+        limit=replace(required, mark=marks),
+        sense=Sense.AT_LEAST if limit.is_at_least else Sense.AT_MOST,
+        note=f"permitted: {limit.provision.note}" if limit.passes_by_exception else limit.worst,
+        clause=limit.provision.clause + marks,
+        is_satisfied=limit.ok,
+        consequence=limit.consequence,
+        is_capacity=limit.measure is not Measure.COUNT,
+        remedy=_REMEDIES.get(limit.key, ""),
+    )
+
+
+# The cell that a limit compares, by the key of the limit.
+_FIELDS = {
+    "low_profile_in": "cg_height_m",
+    "ibc_max_slope_deg": "slope_value",
+    "analysis_max_slope_deg": "slope_value",
+    "prescriptive_max_slope_deg": "slope_value",
+    "prescriptive_min_mu": "mu",
+    "max_risk_category": "risk_category",
+    "max_stories": "stories",
+}
+
+
+_REMEDIES = {
+    "low_profile_in": "Lower the center of gravity of the array, or widen its supports.",
+    "prescriptive_min_mu": "Provide more friction, shown by tests.",
+    "analysis_min_motions": "Complete the motions.",
+}

@@ -1,0 +1,1 @@
+"""What a design value follows from: rule set, routes, arrays, separations, friction."""

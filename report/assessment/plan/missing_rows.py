@@ -1,0 +1,160 @@
+"""The rows of clearances that a plan calls for and a workbook lacks.
+
+Writes nothing (`report.project.write.filled`). Read `missing_rows`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from report.assessment.plan.before_runs import design_before_runs_m, larger_m, pairs_before_runs
+from report.assessment.plan.neighbors import (
+    NOISE_M,
+    REACH_FACTOR,
+    NearbyKind,
+    PlanNeighbor,
+    direction_of,
+)
+from report.project.model import ProjectInput
+from report.project.model.choices import ClearanceSource, Direction
+from report.project.read.parts import DIGITS, GrowingTable, Value
+from report.project.read.positions import CellPosition
+from report.project.read.read import Sheet, without_motions
+from report.text.counts import numbered
+from report.text.units import Quantity, Show, no_less, no_more, pair, round_down
+from solver.model import INCH_M
+
+if TYPE_CHECKING:
+    from report.assessment.design.arrays import ArrayAssessment
+
+
+# Distances are rounded down to a multiple of this [m]: what is written is never more than is there.
+US_STEP_M, SI_STEP_M = 0.1 * INCH_M, 0.001
+
+
+def missing_rows(
+    sheet: Sheet, arrays: Sequence[ArrayAssessment] = ()
+) -> tuple[dict[CellPosition, Value], tuple[str, ...]]:
+    """Return the cells of a row for each pair that a package would name as missing, and lines.
+
+    Rows whose distance is from the drawing are renewed. A line for each row that is new, renewed or
+    differs from the plan, and for each pair that still lacks one; at last their counts. `arrays`
+    are as run, none where nothing is.
+
+    Raises `InputError` for what is wrong elsewhere than in motions and clearances, or if the rows
+    have no place.
+    """
+    data = without_motions(sheet)
+    us_first = data.us_first
+    pairs = pairs_before_runs(data, sheet.addresses, arrays)
+    missing = [near for near in pairs if near.is_missing]
+    new = [near for near in missing if _has_row(near)]
+    table = GrowingTable.of(sheet.book, "clearances")
+    cells, written = _written(table, data, new)
+    newer, renewed = _renewed(table, data, pairs)
+    design_m, basis = design_before_runs_m(data), "the prescriptive displacement"
+    if larger := larger_m(arrays, design_m):
+        farthest = max(larger, key=larger.__getitem__)
+        design_m, basis = larger[farthest], f"the design displacement of {farthest}"
+    elif arrays:
+        basis += ", which no design displacement exceeds"
+    lines = [
+        *written,
+        *renewed,
+        *_differing(pairs, us_first),
+        *(f"not added: {near.names}, {_size(near.gap_m, us_first)}; correct the plan, or give the "
+          "roof edge as an object" for near in missing if not _has_row(near)),
+        f"{numbered(len(new), 'clearance')} added{f', {len(renewed)} renewed' if renewed else ''},"
+        f" {len(data.clearances) - len(renewed)} kept; reach"
+        f" {_size(REACH_FACTOR * design_m, us_first, no_less)}, twice {basis}",
+    ]  # fmt: skip
+    return cells | newer, tuple(lines)
+
+
+def without_clearances(sheet: Sheet) -> Sheet:
+    """Return a workbook without its clearances, on which no displacement depends, to be run."""
+    problems = tuple(item for item in sheet.problems if item[0].section != "clearances")
+    return replace(sheet, inputs={**sheet.inputs, "clearances": ()}, problems=problems)
+
+
+def _has_row(near: PlanNeighbor) -> bool:
+    """Whether a pair can have a row: not with a bare edge, nor where the two overlap."""
+    return near.kind is not NearbyKind.BARE_EDGE and near.gap_m >= -NOISE_M
+
+
+def _size(value_m: float, us_first: bool, show: Show = no_more) -> str:
+    return pair(value_m, Quantity.SIZE, us_first, show)
+
+
+def _written(
+    table: GrowingTable, data: ProjectInput, new: Sequence[PlanNeighbor]
+) -> tuple[dict[CellPosition, Value], list[str]]:
+    """Return the cells of new rows, and a line for each row."""
+    cells: dict[CellPosition, Value] = {}
+    lines: list[str] = []
+    downslope_deg = {array.id: array.downslope_deg for array in data.arrays}
+    for near in new:
+        row, drawn_m = table.added(), _drawn_m(near, data)
+        direction = direction_of(near, downslope_deg[near.array])
+        names: dict[str, Value] = {"array": near.array, "object": near.other}
+        cells |= table.cells(row, names | _from_drawing(table, direction, drawn_m))
+        at = table.position(row, "array").address
+        lines.append(f"{at}: {near.names}, {direction}, {_size(drawn_m, data.us_first)}")
+    return cells, lines
+
+
+def _renewed(
+    table: GrowingTable, data: ProjectInput, pairs: Sequence[PlanNeighbor]
+) -> tuple[dict[CellPosition, Value], list[str]]:
+    """Return the cells of rows from the drawing that differ from the plan, and a line for each."""
+    rows = {table.position(row, "provided_m").address: row for row in table.found.rows}
+    downslope_deg = {array.id: array.downslope_deg for array in data.arrays}
+    cells: dict[CellPosition, Value] = {}
+    lines: list[str] = []
+    for near in pairs:
+        for entered in near.given:
+            was, drawn_m = entered.clearance, _drawn_m(near, data)
+            if was.source is not ClearanceSource.DRAWING:
+                continue
+            turned = near
+            if was.array != near.array:
+                turned = replace(near, array=near.other, near=near.far, far=near.near)
+            direction = was.direction
+            if len(near.given) == 1:  # the directions of several rows of a pair differ
+                direction = direction_of(turned, downslope_deg[turned.array])
+            if abs(was.provided_m - drawn_m) > NOISE_M or direction is not was.direction:
+                cells |= table.cells(rows[entered.cell], _from_drawing(table, direction, drawn_m))
+                before, now = (
+                    _size(value_m, data.us_first) for value_m in (was.provided_m, drawn_m)
+                )
+                lines.append(f"{entered.cell}: {near.names}: {was.direction}, {before}; now"
+                             f" {direction}, {now}")  # fmt: skip
+    return cells, lines
+
+
+def _drawn_m(near: PlanNeighbor, data: ProjectInput) -> float:
+    step_m = US_STEP_M if data.us_first else SI_STEP_M
+    return round_down(max(near.gap_m, 0.0) / step_m, 0) * step_m
+
+
+def _from_drawing(table: GrowingTable, direction: Direction, drawn_m: float) -> dict[str, Value]:
+    return {
+        "direction": direction.value,
+        # Down once more: 0.1 in is no round number of feet.
+        "provided_m": round_down(drawn_m / table.found.columns["provided_m"].si, DIGITS),
+        "source": ClearanceSource.DRAWING.value,
+    }
+
+
+def _differing(pairs: Sequence[PlanNeighbor], us_first: bool) -> Iterator[str]:
+    """Yield the rows as entered or measured whose distance is not that of the plan."""
+    for near in pairs:
+        for row in near.given:
+            if row.clearance.source is ClearanceSource.DRAWING:
+                continue
+            if abs(row.clearance.provided_m - near.gap_m) > US_STEP_M + NOISE_M:
+                values = (row.clearance.provided_m, near.gap_m)
+                entered, drawn = (_size(value, us_first) for value in values)
+                yield f"{row.cell}: {near.names}: {entered} entered, {drawn} in plan"

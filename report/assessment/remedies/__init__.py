@@ -1,0 +1,1 @@
+"""What would satisfy a project that is NG."""

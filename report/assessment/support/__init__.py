@@ -1,0 +1,1 @@
+"""Supporting results that the package prints beside an assessment."""

@@ -1,0 +1,50 @@
+"""The design with the friction coefficients decreased by 5 %, as given, and increased."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from report.assessment.assess import reassess
+from report.assessment.assessment import Assessment
+from report.assessment.checks.check import Check
+from report.assessment.checks.rule_limits import of_limit
+from report.assessment.design.clearances import ClearanceCheck
+from report.assessment.design.other_friction import SHIFT, with_friction
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Accuracy:
+    """The design with the friction coefficients decreased by 5 %, as given, and increased."""
+
+    at_reduced_friction: Assessment
+    entered: Assessment
+    at_increased_friction: Assessment
+
+    @property
+    def newly_short(self) -> tuple[ClearanceCheck, ...]:
+        """Clearances that are satisfied as given but not with less friction."""
+        pairs = zip(self.entered.clearances, self.at_reduced_friction.clearances, strict=True)
+        return tuple(after for before, after in pairs if before.ok and not after.ok)
+
+    @property
+    def newly_limited(self) -> tuple[Check, ...]:
+        """Limits of the routes taken that are satisfied as given but not with less friction."""
+        pairs = zip(self.entered.arrays, self.at_reduced_friction.arrays, strict=True)
+        return tuple(
+            of_limit(check, after.id)
+            for before, after in pairs
+            if all(check.ok for check in before.limits.required)
+            # With less friction another route may be taken, whose limits are other ones.
+            for check in replace(after.limits, route=before.route).required
+            if not check.ok
+        )
+
+
+def accuracy(assessment: Assessment) -> Accuracy:
+    """Run all arrays with changed friction."""
+    return Accuracy(
+        at_reduced_friction=assessment.at_reduced_friction
+        or reassess(assessment, with_friction(assessment.project, 1.0 - SHIFT)),
+        entered=assessment,
+        at_increased_friction=reassess(assessment, with_friction(assessment.project, 1.0 + SHIFT)),
+    )
