@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from report.project.read.read import Sheet
     from report.results.model import Compared
 
-OUTPUTS = ("calc-package.pdf", "plan.dxf", "results.xlsx", "results.json")
+PAGE = "calc-package.html"
+OUTPUTS = ("calc-package.pdf", PAGE, "plan.dxf", "results.xlsx", "results.json")
 
 STEPS = (0.03, 0.2, 0.18, 0.58, 0.01)
 """Usual shares of the time of the steps that `make` reports, as for `projects/example`."""
@@ -49,17 +50,20 @@ def make(
     since: Path | None,
     progress: Callable[[Step], None],
     on_record: Callable[[str], None] | None = None,
+    *,
+    has_page: bool = True,
 ) -> Made:
     """Read a workbook, run its motions, and write the package and the tables.
 
     With `on_record`, the workbook gets what its confirmations cover, and `on_record` a line on
-    that.
+    that. `has_page` says whether it is also written as one file for a browser.
     """
     from report.assessment.assess import assess
     from report.assessment.support.evidence import support
     from report.drawing.items import write_dxf
     from report.drawing.plan import plan_drawing
     from report.package.html import pages
+    from report.page_file.page import page
     from report.provenance.files import attachments, fingerprint, sources
     from report.results.changes import with_reissue
     from report.results.publish import publish
@@ -94,11 +98,14 @@ def make(
 
     progress(Step("laying out the package"))
     sheets: list[int] = []
-    pdf = lay_out(html, attachments(files, results, fingerprint(sheet, shaking)), sheets.append)
+    short = fingerprint(sheet, shaking)
+    pdf = lay_out(html, attachments(files, results, short), sheets.append)
 
     progress(Step("writing the result tables"))
-    made = dict(zip(OUTPUTS, (pdf, plan, tables, results), strict=True))
-    publish(made, folder)
+    shown = page(html, assessment, short) if has_page else b""
+    written = zip(OUTPUTS, (pdf, shown, plan, tables, results), strict=True)
+    made = {name: content for name, content in written if content}
+    publish(made, folder, OUTPUTS)
     return Made(assessment, folder, made, changes, *sheets)
 
 

@@ -25,6 +25,7 @@ from fixtures import packages
 from fixtures.cells import cell
 from fixtures.paths import RECORDS, ROOT
 from fixtures.workbooks import edit
+from report.making import OUTPUTS
 from report.project.model.choices import RuleSetName
 from report.results.publish import STAMP
 from solver.model import Friction
@@ -132,11 +133,11 @@ def test_every_command_of_readme_and_docs_runs_as_it_is_pasted_and_the_study_has
 
 
 @pytest.mark.nightly
-def test_a_report_leaves_four_files_and_their_hashes_and_prints_where(reported):
+def test_a_report_leaves_its_files_and_their_hashes_and_prints_where(reported):
     names = {path.name for path in reported.out.iterdir()}
-    assert names == {"calc-package.pdf", "plan.dxf", "results.json", "results.xlsx", STAMP}
+    assert names == {*OUTPUTS, STAMP}
     *lines, last = reported.stdout.splitlines()
-    for name in ("plan.dxf", "results.xlsx", "results.json"):
+    for name in OUTPUTS[1:]:
         assert f"projects/example/out/{name}" in lines
         assert (reported.out / name).stat().st_size > 1000
     sheets = len(PdfDocument(reported.out / "calc-package.pdf"))

@@ -99,6 +99,7 @@ def _new_project(folder: Path, units: str, *, is_example: bool, is_study: bool) 
 @click.option("--out", type=SOURCE, help="Output folder; default: out/ beside the input.")
 @click.option("--since", type=SOURCE, metavar="RESULTS.JSON",
               help="Of a former revision: the package states what changed.")  # fmt: skip
+@click.option("--no-page", is_flag=True, help="Leave out calc-package.html.")
 @FAIL_ON_NG
 @QUIET
 @AS_JSON
@@ -106,11 +107,14 @@ def report(
     sources: tuple[Path, ...],
     out: Path | None,
     since: Path | None,
+    no_page: bool,
     fail_on_ng: bool,
     quiet: bool,
     as_json: bool,
 ) -> None:
     """Write calc-package.pdf, plan.dxf, results.xlsx and results.json, and print a summary.
+
+    Beside the package, calc-package.html shows it in any browser, without Roofslip.
 
     Beside the date of each confirmation, the workbook gets what it covered, once: where these
     inputs change later, the package has a condition.
@@ -125,10 +129,20 @@ def report(
                 "--out and --since are of one project; leave them out, and each project is written "
                 "to its own out/, or report each on its own"
             )
-        report_several(sources, fail_on_ng=fail_on_ng, quiet=quiet, as_json=as_json)
+        report_several(
+            sources, fail_on_ng=fail_on_ng, quiet=quiet, as_json=as_json, has_page=not no_page
+        )
     (source,) = sources
     lines: list[str] = []
-    made = package(source, out, since, quiet=quiet, as_json=as_json, on_record=lines.append)
+    made = package(
+        source,
+        out,
+        since,
+        quiet=quiet,
+        as_json=as_json,
+        on_record=lines.append,
+        has_page=not no_page,
+    )
     if as_json:
         print_json(_document(made))
     elif not quiet:
@@ -147,6 +161,7 @@ def package(
     quiet: bool = False,
     as_json: bool = False,
     on_record: Callable[[str], None] | None = None,
+    has_page: bool = True,
 ) -> Made:
     """Make a package as `make` does; an input error is printed, and ends with exit code 2."""
     from report.making import STEPS, make
@@ -155,7 +170,7 @@ def package(
         input_errors(source, as_json=as_json, outputs=outputs_of(source, out)),
         Progress(STEPS, quiet=quiet) as progress,
     ):
-        made = make(source, out, since, progress, on_record)
+        made = make(source, out, since, progress, on_record, has_page=has_page)
     warn_of_others(made.folder / OUTPUTS[0])
     return made
 

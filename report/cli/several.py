@@ -57,7 +57,7 @@ class ReportOutcome:
 
 
 def report_several(
-    sources: Sequence[Path], *, fail_on_ng: bool, quiet: bool, as_json: bool
+    sources: Sequence[Path], *, fail_on_ng: bool, quiet: bool, as_json: bool, has_page: bool
 ) -> NoReturn:
     """Write the packages, print one table, and end with the exit code of the worst."""
     books = [workbook_of(source) for source in sources]
@@ -69,7 +69,7 @@ def report_several(
     outcomes = []
     for workbook, source in distinct.items():
         is_shared = homes[workbook.parent] > 1
-        outcomes.append(package(source, is_shared, quiet=quiet, as_json=as_json))
+        outcomes.append(package(source, is_shared, quiet=quiet, as_json=as_json, has_page=has_page))
         gc.collect()  # a package leaves much that refers to itself
     for home, count in homes.items():
         if count > 1:
@@ -102,7 +102,9 @@ def document(outcomes: Sequence[ReportOutcome]) -> Mapping[str, Any]:
     return {"schema_version": SCHEMA_VERSION, "projects": projects}
 
 
-def package(source: Path, is_shared: bool, *, quiet: bool, as_json: bool) -> ReportOutcome:
+def package(
+    source: Path, is_shared: bool, *, quiet: bool, as_json: bool, has_page: bool
+) -> ReportOutcome:
     """Make the package of one project; every error is printed and part of the outcome.
 
     Where its folder is that of others as well, to a folder of its own below out/.
@@ -124,7 +126,7 @@ def package(source: Path, is_shared: bool, *, quiet: bool, as_json: bool) -> Rep
             def say_step(step: Step) -> None:
                 progress(f"{source}: {step}")
 
-            made = make(source, out, None, say_step, lines.append)
+            made = make(source, out, None, say_step, lines.append, has_page=has_page)
         assessment, folder, *_ = made
         warn_of_others(folder / "calc-package.pdf")
         done = replace(

@@ -205,7 +205,8 @@ def _proof(
 
 def made_again(workbook: Path, out: Path, former: list[Path], progress: Progress) -> bytes:
     """Return the package of a workbook."""
-    files = make(workbook, out, former[0] if former else None, progress).files
+    since = former[0] if former else None
+    files = make(workbook, out, since, progress, has_page=False).files
     return files["calc-package.pdf"]
 
 

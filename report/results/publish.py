@@ -31,9 +31,11 @@ _LINE = re.compile(r"([0-9a-f]{64})  (.{1,200})")
 _MOST_BYTES = 100_000_000
 
 
-def publish(files: Mapping[str, bytes], folder: Path) -> None:
+def publish(files: Mapping[str, bytes], folder: Path, names: Sequence[str] = ()) -> None:
     """Write files to a folder as `write_all` does, and `STAMP`; say where it held a mixture.
 
+    Of `names`, all that a set may have, what this one lacks is removed if it is as the set before
+    had it.
     Two runs that write to one folder do so one after the other.
 
     Raises `InputError` if the folder or a file in it cannot be written; then no file has changed.
@@ -42,8 +44,12 @@ def publish(files: Mapping[str, bytes], folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         # Before the files are looked at: another run may be in the middle of its set.
         with locked(folder):
-            warn_if_mixed(folder, files)
+            warn_if_mixed(folder, names or files)
+            former = _listed(folder)
             write_all({**files, STAMP: stamp(files)}, folder)
+            for name in names:
+                if name not in files and _sha256(content(folder / name)) == former.get(name):
+                    (folder / name).unlink()
     except OSError as error:
         raise InputError(
             f"{folder}: cannot be written ({error.strerror}); choose another folder with --out"
@@ -57,8 +63,7 @@ def stamp(files: Mapping[str, bytes]) -> bytes:
 
 def warn_if_mixed(folder: Path, names: Iterable[str]) -> None:
     """Warn of files in a folder that do not agree with its stamp."""
-    lines = content(folder / STAMP).decode(errors="replace").splitlines()
-    listed = {match[2]: match[1] for line in lines if (match := _LINE.fullmatch(line))}
+    listed = _listed(folder)
     # A first run leaves nothing to compare; a link that leads nowhere is there.
     there = [name for name in names if os.path.lexists(folder / name)]
     if mixed := [name for name in there if _sha256(content(folder / name)) != listed.get(name)]:
@@ -67,6 +72,12 @@ def warn_if_mixed(folder: Path, names: Iterable[str]) -> None:
             " changed since",
             stacklevel=2,
         )
+
+
+def _listed(folder: Path) -> Mapping[str, str]:
+    """Return the hashes of the stamp of a folder, by name."""
+    lines = content(folder / STAMP).decode(errors="replace").splitlines()
+    return {match[2]: match[1] for line in lines if (match := _LINE.fullmatch(line))}
 
 
 def content(path: Path) -> bytes:

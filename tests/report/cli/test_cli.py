@@ -22,6 +22,7 @@ from fixtures.paths import ROOT
 from fixtures.workbooks import arrays, cell_address, make, project
 from report.cli.main import NATIVE, main
 from report.cli.terminal import color_choice, colored
+from report.results.publish import STAMP
 from report.text.counts import as_typed
 
 EXAMPLE = ROOT / "projects" / "example"
@@ -108,6 +109,17 @@ def test_input_errors_and_failed_runs_leave_the_older_package(tmp_path, monkeypa
     assert "x3.csv" in told
     assert f"{out / 'calc-package.pdf'} is of an earlier run, " in told
     assert [path.read_bytes() for path in out.iterdir()] == [b"older"]
+
+
+def test_the_file_for_a_browser_is_left_out_and_that_of_a_run_before_goes(tmp_path):
+    book, file = make(tmp_path), tmp_path / "out" / "calc-package.html"
+    with packages.unlaid(), packages.undrawn():
+        assert str(file) in stdout_of("report", book)
+        assert file.read_bytes().startswith(b"<!DOCTYPE html>")
+        assert "calc-package.html" in (tmp_path / "out" / STAMP).read_text()
+        assert str(file) not in stdout_of("report", book, "--no-page")
+    assert not file.exists()
+    assert "calc-package.html" not in (tmp_path / "out" / STAMP).read_text()
 
 
 @pytest.mark.nightly

@@ -127,7 +127,7 @@ def test_workbooks_of_one_folder_are_written_to_folders_of_their_own(tmp_path):
     assert f"{tmp_path / 'out'}: has the results of input.xlsx, not of b.xlsx;" in refused.stderr
     assert "--out" in refused.stderr
     assert (tmp_path / "out" / "results.json").read_bytes() == before
-    first = f"{tmp_path / 'out' / 'calc-package.pdf'} and 3 more are of an earlier run, "
+    first = f"{tmp_path / 'out' / 'calc-package.pdf'} and 4 more are of an earlier run, "
     for told in (refused, done):
         (line,) = (line for line in told.stderr.splitlines() if line.startswith(first))
         assert line.endswith(", and not replaced")

@@ -71,6 +71,20 @@ def test_a_file_that_cannot_be_replaced_changes_nothing_and_is_named(tmp_path):
     assert is_whole(tmp_path)
 
 
+def test_what_a_set_no_longer_has_is_removed_unless_it_was_changed(tmp_path):
+    names = ("a.txt", "b.txt", "c.txt", "other.txt")
+    publish(NEW, tmp_path, names)
+    (tmp_path / "other.txt").write_bytes(b"of the user")
+    with pytest.warns(match=r"says: other\.txt"):
+        publish(OLD, tmp_path, names)
+    assert contents(tmp_path) == {**OLD, "other.txt": b"of the user"}
+    publish(NEW, tmp_path, ("a.txt", "b.txt", "c.txt"))
+    (tmp_path / "c.txt").write_bytes(b"changed")
+    with pytest.warns(match=r"says: c\.txt"):
+        publish(OLD, tmp_path, ("a.txt", "b.txt", "c.txt"))
+    assert contents(tmp_path)["c.txt"] == b"changed"
+
+
 @pytest.mark.parametrize("at", ["a.txt", "b.txt", STAMP])
 def test_ctrl_c_while_files_are_replaced_leaves_one_whole_set(
     tmp_path, before_each_replacement, at

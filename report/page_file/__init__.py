@@ -1,0 +1,1 @@
+"""calc-package.html: the package as one file for a browser. Read `page`."""
