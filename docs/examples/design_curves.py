@@ -1,8 +1,9 @@
 # %% [markdown]
 # # Design curves
 #
-# The mean PRD of seven motions over friction, slope and intensity. Each motion is run with each
-# horizontal component along the slope, in both polarities; the largest of these counts.
+# The mean PRD of seven motions over friction, slope and intensity. The first horizontal component
+# of each motion acts along the slope in both polarities, together with the vertical component; the
+# larger PRD is used.
 
 # %%
 from pathlib import Path
@@ -29,7 +30,7 @@ runs = solver.study(
 print(runs)
 
 # %% [markdown]
-# Every run is a row; the mean over the motions is a curve for each slope.
+# Each run is a row. The mean over the motions gives a curve for each slope.
 
 # %%
 print(runs.to_frame().tail(3))
@@ -44,7 +45,8 @@ axes = curves.plot(marker="o", ylabel="mean PRD [m]", title="Design curves")
 axes.figure.savefig("design-curves.png")
 
 # %% [markdown]
-# A steeper roof needs more friction: at every friction coefficient the mean PRD rises with slope.
+# A steeper roof needs more friction: at each friction coefficient, the mean PRD increases with the
+# slope.
 
 # %%
 assert (np.diff(curves.dropna(), axis=1) >= 0.0).all()

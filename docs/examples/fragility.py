@@ -1,11 +1,11 @@
 # %% [markdown]
-# # A fragility to pelicun
+# # A fragility for pelicun
 #
 # The probability that an array slides farther than a limit, by the peak acceleration of the roof,
 # and the component library that pelicun (FEMA P-58) reads.
 #
-# The motions of the example match one spectrum: their dispersion is less than that of records. For
-# a loss estimate use records, or let `roofslip study` combine the dispersions that you state.
+# The motions of the example match one spectrum, so their dispersion is less than that of records.
+# For a loss estimate, use records, or let `roofslip study` combine the dispersions that you enter.
 
 # %%
 from pathlib import Path

@@ -1,9 +1,9 @@
 # %% [markdown]
 # # Ground to roof
 #
-# A ground motion is carried through an elastic building to its roof: here a uniform shear building
-# of four stories. The slip of an array under the ground motion and under the roof motion differ
-# considerably.
+# A ground motion is transferred to the roof with an elastic building model: here a uniform shear
+# building of four stories. The slip of an array under the ground motion and that under the roof
+# motion differ considerably.
 
 # %%
 from pathlib import Path

@@ -1,8 +1,8 @@
 # %% [markdown]
-# # Least friction for a PRD
+# # Lowest friction for a PRD
 #
-# Which mat does a roof need, so that the design displacement stays below the gaps of the plan? The
-# design value by response history is here 1.1 times the mean PRD of seven motions.
+# Which friction mat does a roof need to keep the design displacement below the clearances on the
+# plan? Here the design displacement is 1.1 times the mean PRD of seven motions.
 
 # %%
 from pathlib import Path

@@ -1,9 +1,10 @@
 # %% [markdown]
 # # Newmark and pySLAMMER on the same record
 #
-# Newmark's block (Géotechnique 15 (1965) 139-160), as SLAMMER and pySLAMMER run it for slopes of
-# soil, slides one way only, and its resistance is constant: the normal force is that at rest. An
-# array on a roof slides both ways, and shaking changes its normal force. What does each cost?
+# Newmark's block (Géotechnique 15 (1965) 139-160), as SLAMMER and pySLAMMER run it for earth
+# slopes, slides one way only, and its resistance is constant: the normal force is that at rest. An
+# array on a roof slides both ways, and shaking changes its normal force. How large is the effect of
+# each?
 
 # %%
 import math

@@ -1,10 +1,10 @@
 # %% [markdown]
-# # A method of your own beside the others
+# # Your own method compared with the others
 #
-# `solver.METHODS` has twelve methods for one axis. One more needs one function: it is given the
-# scene and fills in displacement and velocity at the samples. This one is Moreau's time stepping,
-# which projects the velocity of each step on what friction allows (Moreau, Unilateral contact and
-# dry friction in finite freedom dynamics, CISM 302 (1988) 1-82).
+# `solver.METHODS` has twelve methods for one axis. A new method needs one function, which receives
+# the scene and fills in displacement and velocity at the samples. This one is Moreau's time
+# stepping, which projects the velocity of each step onto the range that friction allows (Moreau,
+# Unilateral contact and dry friction in finite freedom dynamics, CISM 302 (1988) 1-82).
 
 # %%
 from dataclasses import replace

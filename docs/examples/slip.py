@@ -2,7 +2,7 @@
 # # A slip and its plot
 #
 # One array under one roof motion: when it slips, how far, and where it ends. The run is exact for
-# the record as given, linear between its samples.
+# the digitized record, which is linear between its samples.
 
 # %%
 from pathlib import Path

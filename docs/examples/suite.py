@@ -1,8 +1,8 @@
 # %% [markdown]
-# # A suite to AC156
+# # A suite for AC156
 #
-# No roof motions? Motions are made from noise, or from real records as seeds, whose spectra match
-# the required response spectrum at the roof. The same seed gives the same motions.
+# If you have no roof motions, generate them from noise, or from recorded motions as seeds. Their
+# spectra match the required response spectrum at the roof. The same seed gives the same motions.
 
 # %%
 import numpy as np

@@ -2,7 +2,7 @@
 # # Two axes, with a hodograph
 #
 # Both horizontal components and the vertical one act at once. Friction opposes the velocity, so
-# that slip cross-slope leaves less of it to resist the slope: the axes cannot be run apart.
+# cross-slope slip leaves less friction along the slope: the axes cannot be run separately.
 
 # %%
 from math import hypot

@@ -1,8 +1,8 @@
 # %% [markdown]
 # # An input varied in Python
 #
-# A workbook is read once; its friction coefficients are varied, and each variation is assessed as a
-# workbook with these coefficients would be.
+# A workbook is read once. Its friction coefficients are then varied, and each variation is assessed
+# as a workbook with these coefficients would be.
 
 # %%
 from pathlib import Path

@@ -1,8 +1,8 @@
 # %% [markdown]
 # # A workbook assessed in Python
 #
-# The same assessment as `roofslip report`, without the package: every array, every clearance and
-# every requirement as objects.
+# The same assessment as `roofslip report`, without the package: each array, each clearance and
+# each requirement is an object.
 
 # %%
 from pathlib import Path
