@@ -3,10 +3,10 @@
     .venv/bin/python docs/make.py
 
 `commands.md` is the command line's own help and scripts, which the launchers print;
-`workbook-fields*.md` is the schema of the input sheets, `results-json.md` has the first keys of
-results.json, `known-errors.md` the errors of earlier versions, `api.md` a table of the public
-names, and `examples.md` the scripts of `docs/examples` with their own first words. A test compares
-the pages with what this would write.
+`index.md` is the README; `workbook-fields*.md` is the schema of the input sheets,
+`results-json.md` has the first keys of results.json, `known-errors.md` the errors of earlier
+versions, `api.md` a table of the public names, and `examples.md` the scripts of `docs/examples`
+with their own first words. A test compares the pages with what this would write.
 """
 
 from __future__ import annotations
@@ -85,12 +85,18 @@ def pages() -> Mapping[Path, str]:
             "engineer of record decides whether an issued package is affected.",
             _errors(),
         ),
+        "index": _home((HERE.parent / "README.md").read_text(encoding="utf-8")),
         "api": _NAMES.sub(
             lambda found: f"{found[1]}\n{_names()}\n\n{found[2]}",
             (HERE / "api.md").read_text(encoding="utf-8"),
         ),
     }
     return {HERE / f"{name}.md": text for name, text in made.items()}
+
+
+def _home(readme: str) -> str:
+    """Return the README as the first page of the site, which has no files of other folders."""
+    return re.sub(r"\[([^]]+)\]\((?!docs/|http)[^)]+\)", r"\1", readme).replace("](docs/", "](")
 
 
 def _page(title: str, about: str, parts: Iterable[tuple[str, str]]) -> str:
@@ -157,9 +163,11 @@ def _first(found: object) -> str:
 def _examples() -> Iterator[str]:
     yield "# Examples\n"
     yield (
-        "Scripts that run in the checkout: `.venv/bin/python docs/examples/slip.py`. Jupyter (with "
-        "jupytext) and editors that know `# %%` open them as notebooks. Each saves its plots where "
-        "it runs. `fragility.py` needs SciPy, which the first `./roofslip study` installs.\n"
+        "Run a script in this folder with `.venv/bin/python docs/examples/slip.py` (on Windows, "
+        "`.venv\\Scripts\\python docs\\examples\\slip.py`). Jupyter with jupytext, and editors "
+        "that support `# %%`, open the scripts as notebooks. Each saves its plots in the current "
+        "folder. "
+        "`fragility.py` needs SciPy, which the first `./roofslip study` installs.\n"
     )
     for name in EXAMPLES:
         title, *words = _first_cell(HERE / "examples" / f"{name}.py")
@@ -182,7 +190,7 @@ def _fields() -> Parts:
         yield (
             f"{section.sheet}: {section.title}",
             f"{_text(section.note)} ({place})\n\n"
-            f"| field | need | unit | accepted | meaning |\n|---|---|---|---|---|\n{rows}",
+            f"| field | meaning | need | unit | accepted |\n|---|---|---|---|---|\n{rows}",
         )
 
 
@@ -192,10 +200,10 @@ def _field(entry: Entry) -> str:
     accepted = ", ".join(entry.choices) or _range(entry)
     cells = (
         entry.heading,
+        entry.note,
         entry.needed,
         " or ".join(units) if quantity else str(entry.unit),
         accepted,
-        entry.note,
     )
     return f"| {' | '.join(map(_text, cells))} |"
 
@@ -278,7 +286,8 @@ def _type(field: Mapping[str, Any], models: Mapping[str, Any]) -> str:
 
 
 def _text(text: str) -> str:
-    return " ".join(text.split()).replace("|", "\\|").replace("<", "&lt;").replace("_", "\\_")
+    escaped = {"|": "&#124;", "<": "&lt;", "_": "\\_"}
+    return " ".join(text.split()).translate(str.maketrans(escaped))
 
 
 if __name__ == "__main__":

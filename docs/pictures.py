@@ -2,14 +2,17 @@
 
     .venv/bin/python docs/pictures.py
 
-Needs what `./roofslip test` installs, Chromium included. Sheets of the package and charts of the
-manual are cut at their last line; the page is shot as a browser shows it.
+Needs what `./roofslip test` installs, LibreOffice and Chromium included. Sheets of the package and
+charts of the manual are cut at their last line, the worksheet below its filled rows; the page is
+shot as a browser shows it. The package of the example is kept as `docs/example-package.pdf`. With
+`--package`, only the package and its pictures are made.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from collections import Counter
@@ -29,6 +32,7 @@ from solver import Model
 
 ROOT = Path(__file__).resolve().parents[1]
 PICTURES = ROOT / "docs" / "pictures"
+PACKAGE = ROOT / "docs" / "example-package.pdf"
 WIDTH = 800
 sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 os.environ["ROOFSLIP_VERSION"] = "0.4.0"  # the same at every commit
@@ -48,6 +52,8 @@ CHARTS = {
 PROJECTS = ("conditions", "campus", "school", "example")
 ABOVE_PT = 7.0
 """Of the sheet above a heading."""
+WORKSHEET, WORKSHEET_BOX = "Clearances", (0.03, 0.04, 0.72, 0.42)
+"""The worksheet that is shown, and which part of its page: left, top, right and bottom."""
 
 
 def main() -> None:
@@ -55,9 +61,13 @@ def main() -> None:
     with TemporaryDirectory() as folder:
         out = Path(folder)
         _run("report", "projects/example", "--out", str(out / "package"), "--quiet")
+        shutil.copy(out / "package" / "calc-package.pdf", PACKAGE)
+        _sheets(PACKAGE)
+        _workbook(out)
+        if "--package" in sys.argv:
+            return
         _run("verify", "--out", str(out / "manual"))
         _run("study", "projects/study", "--out", str(out / "study"), "--quiet")
-        _sheets(out / "package" / "calc-package.pdf")
         _browser(out / "manual" / "charts")
         _models(out / "study" / "manifest.json")
 
@@ -82,6 +92,21 @@ def _sheets(path: Path) -> None:
         image = page.render(scale=2 * scale).to_pil().reduce(2)
         below = top + part * page.get_height()
         _save(image.crop((0, round(scale * top), image.width, round(scale * below))), name)
+
+
+def _workbook(folder: Path) -> None:
+    """Show a worksheet of the example as LibreOffice prints it."""
+    workbook = ROOT / "projects" / "example" / "input.xlsx"
+    words = ["soffice", "--headless", "--convert-to", "pdf", "--outdir", str(folder), str(workbook)]
+    subprocess.run(words, check=True, capture_output=True)
+    for page in pypdfium2.PdfDocument(folder / "input.pdf"):
+        if f"Roofslip input {WORKSHEET} " in page.get_textpage().get_text_range():  # its foot
+            break
+    left, top, right, bottom = WORKSHEET_BOX
+    scale = WIDTH / (right - left) / page.get_width()
+    image = page.render(scale=2 * scale).to_pil().reduce(2)
+    wide, high = image.size
+    _save(image.crop((left * wide, top * high, right * wide, bottom * high)), "workbook.png")
 
 
 def _browser(charts: Path) -> None:

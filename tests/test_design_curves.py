@@ -175,7 +175,7 @@ def test_the_page_states_the_scatter_of_all_runs_before_that_of_each_half(page, 
     assert "(1 − r)" in page[: places[0]]
     assert f"over all {about['every_run']['runs']:,} such runs" in page
     factor = np.exp(about["every_run"]["deviation"])
-    assert f"a factor of {factor:.2f} for 84 %" in page
+    assert f"a factor of {factor:.2f} for 84%" in page
 
 
 def test_the_example_is_computed_with_the_numbers_that_are_printed(page, about):
@@ -209,8 +209,8 @@ def test_the_shares_over_the_prescriptive_displacement_are_those_of_the_table(pa
         at: " and ".join(f"{share.loc[(period, at[0], 0.5, at[1])]:.0f}" for period in (0.8, 1.5))
         for at in ((2.0, 1.0), (2.0, 1.6), (4.0, 1.0))
     }
-    assert f"μ = 0.5, a slope of 2° and S_DS = 1.0 g: {shown[2.0, 1.0]} %. At" in page
-    assert f"At 1.6 g it is {shown[2.0, 1.6]} %, and at 4° and 1.0 g {shown[4.0, 1.0]} %:" in page
+    assert f"μ = 0.5, a slope of 2° and S_DS = 1.0 g: {shown[2.0, 1.0]}%. At" in page
+    assert f"At 1.6 g it is {shown[2.0, 1.6]}%, and at 4° and 1.0 g {shown[4.0, 1.0]}%:" in page
 
 
 def test_no_value_of_the_tables_or_the_page_is_minus_zero(page):
