@@ -24,7 +24,8 @@ import report
 from report.cli.main import VARIABLE, main
 from report.cli.options import SectionedGroup
 from report.project.workbook import SECTIONS
-from report.project.workbook.entries import Entry, rows_of
+from report.project.workbook.entries import Entry
+from report.project.workbook.sections import rows_of
 from report.provenance.known_errors import known_errors
 from report.results.schema import schema
 from report.text.counts import grouped_by

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from report.assessment.assessment import Assessment
-    from report.project.read.read import Sheet
+    from report.project.read.workbook_data import Sheet
 
 __all__ = ["assess_project", "read_project"]
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from report.assessment.assessment import Assessment
     from report.assessment.revision_changes import Changes
     from report.motions.prepare import Shaking
-    from report.project.read.read import Sheet
+    from report.project.read.workbook_data import Sheet
     from report.results.model import Compared
 
 PAGE = "calc-package.html"
@@ -140,7 +140,7 @@ def _read(source: Path, out: Path | None, since: Path | None) -> tuple[Sheet, Pa
 def _prepared(sheet: Sheet) -> Shaking:
     """Read and process the records; warn of motions that came from other sources."""
     from report.motions.prepare import prepare
-    from report.project.check.findings import lines
+    from report.project.check.finding_lines import lines
     from report.results.motions import other_sources
 
     shaking = prepare(sheet)

@@ -14,8 +14,8 @@ from functools import cached_property
 from operator import attrgetter
 from typing import TypeVar
 
+from report.project.model.array import Array
 from report.project.model.choices import Direction
-from report.project.model.scene import Array
 from report.text.units import nan_is_worst
 from solver.model import (
     DefectError,

@@ -16,7 +16,7 @@ from fixtures.dxf import BOX_FT, Sketch
 from fixtures.folders import KINDS, occupied, state
 from fixtures.marks import by_day
 from fixtures.paths import ROOT
-from report.project.read.parts import GrowingTable
+from report.project.read.growing_table import GrowingTable
 from report.project.read.read import read
 from report.project.write.filled import changing
 from solver.files import LOCK

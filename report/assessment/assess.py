@@ -23,11 +23,11 @@ from report.assessment.motion_acceptance import shaking_acceptance
 from report.assessment.prices import prices
 from report.motions.history import targets
 from report.motions.prepare import Shaking
-from report.project.check.checks import faults
 from report.project.check.covered import outdated
+from report.project.check.faults import faults
 from report.project.model import ProjectInput, linked
 from report.project.model.finding import Finding
-from report.project.read.read import Sheet
+from report.project.read.workbook_data import Sheet
 from report.project.workbook import SECTIONS
 from report.runs import Runs
 from solver.records.acceptance import Acceptance

@@ -26,8 +26,9 @@ from report.assessment.plan.neighbors import NearbyKind, PlanNeighbor, plan_pair
 from report.motions.history import Targets
 from report.motions.prepare import Shaking
 from report.project.model import ProjectInput
-from report.project.model.scene import Array, RoofObject
-from report.project.read.read import Sheet
+from report.project.model.array import Array
+from report.project.model.roof import RoofObject
+from report.project.read.workbook_data import Sheet
 from report.runs import Runs, scene_key
 from report.text.counts import grouped_by
 from report.text.units import nan_is_worst

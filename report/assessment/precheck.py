@@ -23,14 +23,15 @@ from report.assessment.plan.before_runs import design_before_runs_m, pairs_befor
 from report.assessment.plan.neighbors import REACH_FACTOR, NearbyKind
 from report.motions.history import targets
 from report.motions.prepare import Shaking, record_findings
+from report.project.check.acknowledgments import acknowledged
 from report.project.check.covered import outdated
-from report.project.check.findings import acknowledged, limit, listed, note
 from report.project.check.plausible import implausible
+from report.project.check.problem_lines import listed
 from report.project.model import ProjectInput
-from report.project.model.finding import Finding
+from report.project.model.finding import Finding, limit, note
 from report.project.model.place import Place
-from report.project.read.read import Sheet
 from report.project.read.unseen import warnings
+from report.project.read.workbook_data import Sheet
 from report.text.counts import numbered, quoted
 from report.text.units import Quantity, no_less, no_more, pair
 from solver.records.acceptance import POINTS_HZ

@@ -27,7 +27,7 @@ from report.text.counts import command, numbered
 if TYPE_CHECKING:
     from report.motions.prepare import Shaking
     from report.project.model.finding import Finding
-    from report.project.read.read import Sheet
+    from report.project.read.workbook_data import Sheet
 
 
 @click.command()
@@ -67,9 +67,8 @@ def checked(
     # An error in the workbook does not wait for what reads records.
     from report.assessment.precheck import findings, limits_before_runs, missing_clearances
     from report.motions.prepare import prepare
-    from report.project.check.findings import in_order
-    from report.project.write.filled import findings as formula_findings
-    from report.project.write.filled import overwritten
+    from report.project.check.finding_lines import in_order
+    from report.project.write.overwritten import formula_findings, overwritten
     from report.results.motions import other_sources
     from report.typeset.letters import check_letters
 
@@ -98,7 +97,7 @@ def _without_motions(sheet: Sheet, shaking: Shaking) -> Iterator[Finding]:
         return
     from report.assessment.assess import assess
     from report.pages.summary import without_analysis
-    from report.project.check.findings import note
+    from report.project.model.finding import note
     from report.project.model.place import Place
 
     # Without motions nothing is run, so that the assessment is at hand before the report.
@@ -107,7 +106,7 @@ def _without_motions(sheet: Sheet, shaking: Shaking) -> Iterator[Finding]:
 
 def _computed(sheet: Sheet) -> Iterator[Finding]:
     """Yield what blank cells of the site stand for, by which rule."""
-    from report.project.check.findings import note
+    from report.project.model.finding import note
     from report.project.model.place import Place
     from report.project.workbook import SECTION
 
@@ -122,7 +121,7 @@ def _computed(sheet: Sheet) -> Iterator[Finding]:
 
 def _in_future(sheet: Sheet, today: dt.date) -> Iterator[Finding]:
     """Yield that a package is dated after today."""
-    from report.project.check.findings import note
+    from report.project.model.finding import note
     from report.project.model.place import Place
 
     date = sheet.project.project.date
@@ -133,9 +132,9 @@ def _in_future(sheet: Sheet, today: dt.date) -> Iterator[Finding]:
 
 def lines(sheet: Sheet, listed: Iterable[Finding]) -> Iterator[str]:
     """Yield findings as lines: level, cells, what was found, the names of warnings."""
-    from report.project.check import findings
+    from report.project.check import finding_lines
 
-    for finding in findings.lines(listed, sheet.addresses):
+    for finding in finding_lines.lines(listed, sheet.addresses):
         name = f" [{finding.id}]" if finding.id else ""
         answered = f" Acknowledged: {finding.reason}" if finding.reason else ""
         yield f"{finding.level}: {finding.cell}: {finding.text}{name}{answered}"

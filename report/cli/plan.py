@@ -151,7 +151,7 @@ def read(
     workbook is kept. If it has no other errors, the clearances follow as by plan clearances.
     """
     from report.drawing_read.fill import changes, layers_of, plan_as_rows, unread
-    from report.project.check.plan_checks import us_first
+    from report.project.check.plan_shapes import us_first
     from report.project.write.filled import changing, withdrawn
     from report.text.units import LENGTHS
     from solver.model import InputError
@@ -322,8 +322,8 @@ def ballast(
     """
     from report.drawing_read.ballast import loads, read_map
     from report.drawing_read.fill import ballast_changes
-    from report.project.check.findings import listed
-    from report.project.check.plan_checks import shapes_of, us_first
+    from report.project.check.plan_shapes import shapes_of, us_first
+    from report.project.check.problem_lines import listed
     from report.project.read.read import read_book
     from report.project.write.filled import changing
     from report.text.units import LENGTHS, WEIGHTS, Quantity, pair

@@ -64,7 +64,8 @@ def new(folder: Path, units: str, example: bool, study: bool) -> None:
 def _new_project(folder: Path, units: str, *, is_example: bool, is_study: bool) -> Path:
     """Write a workbook and its records folder; never overwrite a workbook or a record."""
     from report.project.model.choices import UnitsFirst
-    from report.project.write.template import example_files, write_template
+    from report.project.write.example import example_files
+    from report.project.write.template import write_template
     from report.study.read import write_study
     from solver.files import add_folder, check_plain, write_all
     from solver.model import InputError

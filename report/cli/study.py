@@ -100,7 +100,7 @@ def make(
 
     Options are those of `report.study.run.run_study`.
     """
-    from report.project.read.linked_files import YEARS
+    from report.project.read.study_years import YEARS
     from report.results.publish import publish
     from report.study.exports import LIBRARY
     from report.study.files import study_files

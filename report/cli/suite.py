@@ -18,7 +18,7 @@ from report.cli.terminal import SOURCE, Progress, input_errors, plain, say_next
 from report.text.counts import called, numbered
 
 if TYPE_CHECKING:
-    from report.project.read.read import Sheet
+    from report.project.read.workbook_data import Sheet
     from report.suite.inputs import SuiteTargets
 
 

@@ -210,7 +210,7 @@ def print_json(document: Any) -> None:
 
 def say_problems(source: Path, problems: Sequence[Problem]) -> None:
     """Print the problems of an input, one per line; those of several cells once."""
-    from report.project.check.findings import grouped, line_of
+    from report.project.check.problem_lines import grouped, line_of
 
     click.echo(f"{plain(source)}: {numbered(len(problems), 'problem')} found.", err=True)
     for equal in grouped(problems):

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING
 
-from report.project.model.scene import Array
+from report.project.model.array import Array
 from report.typeset.letters import width_em
 
 if TYPE_CHECKING:

@@ -19,7 +19,7 @@ from report.drawing.items import Mark, width_in
 from report.drawing.placer import Frame, centered
 from report.drawing.sheet import LINE_IN, PAD_IN, PlanSheet, PlanSize, text_size
 from report.project.model.choices import ObjectKind
-from report.project.model.scene import RoofObject
+from report.project.model.roof import RoofObject
 from report.project.model.shapes import Point, Rectangle, Shape, around
 from report.text.counts import ids_by, ranged
 from report.text.unit_format import UnitFormat

@@ -32,7 +32,7 @@ from report.drawing.labels import along_strip
 from report.drawing.placer import Frame, Placer
 from report.drawing.sheet import LINE_IN, PAD_IN, Gap, Paper, Scale, round_scale, unit_format
 from report.project.model.choices import ObjectKind
-from report.project.model.scene import ROOF
+from report.project.model.roof import ROOF
 from report.project.model.shapes import Point, Polygon, Rectangle, Shape, around, room, sides
 from report.provenance.files import fingerprint
 from report.text.amounts import capacity, compared_pairs, demand

@@ -17,7 +17,7 @@ from report.assessment.support.plan_gaps import PlanGap, plan_gaps
 from report.drawing import items
 from report.drawing.items import TYPE_PT, Item, Layer, Look, Mark, tick_text, width_in
 from report.drawing.placer import Frame, Placer, centered
-from report.project.model.scene import RoofObject
+from report.project.model.roof import RoofObject
 from report.project.model.shapes import Point, Rectangle, Shape, room, sides
 from report.text.counts import name_lines
 from report.text.unit_format import UnitFormat

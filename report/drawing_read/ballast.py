@@ -18,7 +18,8 @@ import numpy as np
 
 from report.drawing_read.roof_drawing import MB
 from report.project.model.shapes import Point, Shape, solid
-from report.project.read.typed_text import number_in, separator, unit_named, with_point
+from report.project.read.number_formats import unit_named
+from report.project.read.typed_text import number_in, separator, with_point
 from report.text.counts import cut
 from report.text.units import LENGTHS
 from solver.files import read_file

@@ -1,6 +1,6 @@
 """Which row of a workbook each outline of a drawing is, and which cells the plan as drawn fills.
 
-Reads no drawing and writes no file (`report.drawing_read.plan_read`, `report.project.read.parts`).
+Reads no drawing (`report.drawing_read.plan_read`) and writes no file.
 """
 
 from __future__ import annotations
@@ -24,24 +24,18 @@ from report.drawing_read.plan_read import (
     unit_asked,
 )
 from report.drawing_read.roof_drawing import RoofDrawing
-from report.project.check.findings import listed
-from report.project.check.plan_checks import far_off, roof_of, shapes_of, us_first
+from report.project.check.far_shapes import far_off
+from report.project.check.plan_shapes import roof_of, shapes_of, us_first
+from report.project.check.problem_lines import listed
 from report.project.model.choices import LayerKind
 from report.project.model.input_rows import InputRow, Inputs
-from report.project.model.scene import DRAWING, DRAWN_MODULES, ROOF, SIDES
-from report.project.model.shapes import (
-    Polygon,
-    Rectangle,
-    Shape,
-    around,
-    gap_m,
-    mean,
-    sides,
-    solid,
-)
+from report.project.model.placed import SIDES
+from report.project.model.roof import DRAWING, DRAWN_MODULES, ROOF
+from report.project.model.shapes import Polygon, Rectangle, Shape, around, gap_m, mean, sides, solid
 from report.project.read.archive import OpenBook
-from report.project.read.locate import cell_as_column, find_cell, is_absent
-from report.project.read.parts import DIGITS, GrowingTable, Value
+from report.project.read.changed_cells import Value
+from report.project.read.growing_table import DIGITS, GrowingTable
+from report.project.read.locate_cell import cell_as_column, find_cell, is_absent
 from report.project.read.positions import CellPosition, found_at
 from report.project.workbook import SECTION
 from report.text.counts import grouped_by

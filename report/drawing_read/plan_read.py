@@ -25,8 +25,8 @@ from report.drawing_read.roof_drawing import (
     read_line,
     turned,
 )
-from report.project.check.findings import listed
-from report.project.check.plan_checks import LEAST_VERTICES
+from report.project.check.plan_shapes import LEAST_VERTICES
+from report.project.check.problem_lines import listed
 from report.project.model.choices import LayerKind
 from report.project.model.shapes import (
     Point,

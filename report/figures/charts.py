@@ -31,7 +31,7 @@ from report.figures.base import (
     style,
     svg_text,
 )
-from report.project.model.scene import Array
+from report.project.model.array import Array
 from report.text.counts import cut, ids_by, ranged
 from report.text.unit_format import UnitFormat
 from report.text.units import Quantity, Unit, number

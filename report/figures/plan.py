@@ -35,7 +35,7 @@ from report.drawing.items import (
 )
 from report.drawing.sheet import Paper
 from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, Broken, canvas, style, svg_text
-from report.project.model.scene import Array
+from report.project.model.array import Array
 from report.project.model.shapes import Point
 from report.text.units import Quantity, number, pair
 

@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 
 from report.motions.files import Component, Reader, find_file, find_heading, read_component
-from report.project.check.motion_checks import LABELS, SHORTEST_S
+from report.project.check.motion_faults import LABELS, SHORTEST_S
 from report.project.model.choices import AccelUnit, Baseline, Scaling
 from report.project.model.finding import Finding
-from report.project.model.motions import MotionInput
+from report.project.model.motion_input import MotionInput
 from report.project.model.place import Place
 from report.project.read.archive import OpenBook
 from report.project.read.unseen import Unseen

@@ -15,10 +15,10 @@ from functools import partial
 import numpy as np
 
 from report.motions.components import Components, processing_of
-from report.project.check.motion_checks import LABELS
+from report.project.check.motion_faults import LABELS
 from report.project.model import ProjectInput
 from report.project.model.choices import Polarity, RecordedAt, Scaling
-from report.project.model.motions import BuildingInput, MotionInput, SpectrumPoint
+from report.project.model.motion_input import BuildingInput, MotionInput, SpectrumPoint
 from report.text.units import G_MPS2
 from solver.building.roof import RoofMotion, shaking_to_roof
 from solver.building.structure import Building, approximate_period_s, building_of_periods

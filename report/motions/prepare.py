@@ -15,13 +15,12 @@ import numpy as np
 from report.motions.components import HORIZONTAL, Components, RecordFile, read_components
 from report.motions.files import bytes_of
 from report.motions.history import PreparedMotion, shake
-from report.project.check.findings import note, warning
-from report.project.check.motion_checks import FIELDS, LABELS
+from report.project.check.motion_faults import FIELDS, LABELS
 from report.project.model import ProjectInput
-from report.project.model.finding import Finding
+from report.project.model.finding import Finding, note, warning
 from report.project.model.input_rows import InputRow
 from report.project.model.place import Place, Where
-from report.project.read.read import Sheet
+from report.project.read.workbook_data import Sheet
 from report.text.units import G_MPS2, Quantity
 from solver.model import Floats, Motion
 

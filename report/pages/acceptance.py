@@ -21,7 +21,7 @@ from report.document.tables import Column, Table, by_place, listed, stamp
 from report.motions.components import RecordFile
 from report.pages.parts import MOTION_ROWS, PackageData
 from report.pages.symbols import friction_standard
-from report.project.model.motions import MotionInput
+from report.project.model.motion_input import MotionInput
 from report.provenance.files import SHORT, holds_records, record_bytes, record_paths, versions
 from report.text.units import number
 from solver.records.acceptance import Acceptance, MotionStrength

@@ -13,7 +13,7 @@ from markupsafe import Markup
 from report.document.columns import words
 from report.document.tables import Column, Table, listed
 from report.pages.parts import BAR, PackageData
-from report.project.read.read import IGNORED, EchoRow
+from report.project.read.workbook_data import IGNORED, EchoRow
 
 # Width of a table of the workbook, in letters: wide enough that a column holds its numbers.
 WIDEST = 112.0

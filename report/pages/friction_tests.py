@@ -20,10 +20,10 @@ from report.assessment.design.words import NOT_GIVEN
 from report.document.columns import ColumnHead, centered, text, words
 from report.document.tables import Table, Wide, by_place, listed, stamp
 from report.pages.parts import PackageData
-from report.project.check.motion_checks import MU_TOLERANCE
+from report.project.check.friction_faults import MU_TOLERANCE
 from report.project.model import ProjectInput
-from report.project.model.scene import Array
-from report.project.model.site import FrictionTests
+from report.project.model.array import Array
+from report.project.model.friction_report import FrictionTests
 from report.text.counts import ids_by, numbered
 from report.text.units import Quantity, no_less, number
 from solver.friction_tests import FittedLaw, Series, Surface, fit_law, governing

@@ -34,8 +34,8 @@ from report.pages.checks import (
 )
 from report.pages.parts import PackageData, statistic
 from report.pages.symbols import friction_standard
-from report.project.model.site import Revision
-from report.project.read.linked_files import StudyYears, YearsOfArray
+from report.project.model.issue import Revision
+from report.project.read.study_years import StudyYears, YearsOfArray
 from report.project.workbook import SECTION
 from report.text.counts import capitalized, ids_by, numbered
 from report.text.formats import VALIDATION

@@ -34,10 +34,11 @@ from report.pages.clearance_tables import (
 from report.pages.marks import UNVERIFIED
 from report.pages.parts import PackageData
 from report.pages.summary import remedy_lines
-from report.project.check.findings import lines
+from report.project.check.finding_lines import lines
+from report.project.model.array import Array
 from report.project.model.choices import ObjectKind
 from report.project.model.finding import Level
-from report.project.model.scene import Array, RoofObject
+from report.project.model.roof import RoofObject
 from report.project.model.shapes import Polygon, Shape
 from report.text.counts import grouped_by
 from report.text.unit_format import UnitFormat

@@ -25,7 +25,7 @@ from report.motions.history import PreparedMotion, first_period_s
 from report.pages.acceptance import acceptance_table, events, lowest_between, strength_table
 from report.pages.parts import MOTION_ROWS, PackageData
 from report.pages.symbols import with_symbols
-from report.project.model.motions import BuildingInput
+from report.project.model.motion_input import BuildingInput
 from report.text.counts import grouped_by, numbered
 from report.text.units import G_MPS2, Unit, number
 from solver.building.roof import RoofMotion

@@ -20,8 +20,8 @@ from report.assessment.revision_changes import NO_FORMER, Changes
 from report.assessment.support.saving import Saving, saving
 from report.document.tables import stamp
 from report.pages.marks import Marked
+from report.project.model.array import Array
 from report.project.model.choices import PackageEdition, RecordedAt
-from report.project.model.scene import Array
 from report.provenance.files import fingerprint
 from report.text.counts import ids_by
 from report.text.units import no_less, no_more

@@ -25,7 +25,7 @@ from report.assessment.support.saving import saving
 from report.document.templates import sentence as of_template
 from report.pages.array_tables import governing_name, ratio_words
 from report.pages.marks import Marked
-from report.project.check.findings import lines
+from report.project.check.finding_lines import lines
 from report.project.model.finding import Level
 from report.text.counts import capitalized, grouped_by
 from report.text.formats import aligned, finite

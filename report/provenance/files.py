@@ -24,7 +24,7 @@ from pydantic import BaseModel, ConfigDict, StringConstraints
 from report.motions.components import RecordFile
 from report.motions.files import BAR, MOST_RECORDS
 from report.motions.prepare import Shaking
-from report.project.read.read import Sheet
+from report.project.read.workbook_data import Sheet
 from report.provenance.release import version
 from report.typeset.finish import Attached
 from solver.model import InputError

@@ -19,7 +19,8 @@ from report.project.model.choices import Direction, YesNo
 from report.project.model.frozen import Frozen
 from report.project.model.place import Place
 from report.project.workbook import SECTIONS
-from report.project.workbook.entries import Entry, SheetSection
+from report.project.workbook.entries import Entry
+from report.project.workbook.sections import SheetSection
 from report.results.model import ArrayResult, ClearanceResult, Compared, ResultModel
 from report.results.results_json import GIVE
 from report.results.rows import compared

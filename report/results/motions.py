@@ -15,15 +15,17 @@ from typing import TYPE_CHECKING
 from pydantic_core import from_json
 
 from report.motions.files import BAR
-from report.project.check.findings import limit, lines
-from report.project.check.motion_checks import GENERATED, LABELS
-from report.project.model.finding import Finding
+from report.project.check.finding_lines import lines
+from report.project.check.motion_faults import GENERATED, LABELS
+from report.project.model.finding import Finding, limit
 from report.project.model.place import Place
 from report.project.read.archive import OpenBook
 from report.project.read.cells import Found
-from report.project.read.parts import GrowingTable, Value
+from report.project.read.changed_cells import Value
+from report.project.read.growing_table import GrowingTable
 from report.project.read.positions import CellPosition
-from report.project.read.read import Sheet, read
+from report.project.read.read import read
+from report.project.read.workbook_data import Sheet
 from report.project.write.filled import BEFORE, WorkbookChange, changing
 from report.results.publish import STAMP, content, stamp
 from solver.files import check_plain

@@ -20,12 +20,12 @@ from report.assessment.support.smaller_events import Cumulative
 from report.assessment.support.uncertainty import Uncertainty
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
-from report.project.check.findings import located
+from report.project.check.finding_lines import located
 from report.project.model.choices import Direction
 from report.project.model.finding import Finding
-from report.project.model.motions import BuildingInput
+from report.project.model.motion_input import BuildingInput
 from report.project.model.place import Place
-from report.project.read.linked_files import Document
+from report.project.read.documents import Document
 from report.provenance.release import version
 from report.results import model
 from report.runs import MotionRun, OrientedRun

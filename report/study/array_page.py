@@ -13,7 +13,7 @@ from typing import Any
 from report.document.columns import text, words
 from report.document.tables import Column, listed
 from report.document.templates import Section, section
-from report.project.read.linked_files import SUPPORTING, Distance, StudyYears, YearsOfArray
+from report.project.read.study_years import SUPPORTING, Distance, StudyYears, YearsOfArray
 from report.study import figures
 from report.study import years as rates
 from report.study.page_parts import axis, design_length

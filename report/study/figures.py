@@ -30,7 +30,7 @@ from report.figures.base import (
     style,
     svg_text,
 )
-from report.project.read.linked_files import ALWAYS
+from report.project.read.study_years import ALWAYS
 from report.study.results import LimitState
 from report.study.years import LIVES, RECURRENCES, ArrayYears
 from report.text.units import Quantity, Unit, digits_down, measured

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from markupsafe import Markup
 
 from report.document.templates import Section, filled, rendered, section
-from report.project.read.linked_files import YEARS
+from report.project.read.study_years import YEARS
 from report.study.array_page import fragility, sheets, years, years_json
 from report.study.curves import allowed, compare, curves, prescribed
 from report.study.exports import export_files

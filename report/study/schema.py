@@ -27,8 +27,8 @@ from report.project.model.choices import (
     Text,
     UnitsFirst,
 )
+from report.project.model.friction_report import FrictionTestRow
 from report.project.model.frozen import Frozen
-from report.project.model.site import FrictionTestRow
 from solver.friction_tests import FrictionRun, Series, Surface, series
 from solver.studies.uncertainty import Spread, spread_of_tests
 

@@ -19,7 +19,7 @@ import numpy as np
 from report.motions.components import Components, RecordFile, read_components
 from report.motions.history import SIGNS
 from report.project.model.finding import Finding
-from report.project.model.motions import MotionInput
+from report.project.model.motion_input import MotionInput
 from report.project.model.place import Place
 from report.project.read.linked_files import path_beside
 from report.project.read.typed_text import separator

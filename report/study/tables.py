@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from report.pages.marks import UNVERIFIED
-from report.project.read.linked_files import SUPPORTING
+from report.project.read.study_years import SUPPORTING
 from report.results.sheets import text_workbook
 from report.study.plan import ArrayPlan
 from report.study.results import ArrayStudyResult, LimitState, StudyResults

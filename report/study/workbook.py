@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import datetime as dt
 
-from report.project.workbook.entries import Entry, block, table
-from report.project.workbook.project import FRICTION_RUNS
+from report.project.workbook.entries import Entry
+from report.project.workbook.sections import block, table
+from report.project.workbook.site_sheets import FRICTION_RUNS
 from report.study.schema import (
     Hazard,
     HazardPoint,

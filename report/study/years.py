@@ -12,7 +12,7 @@ from functools import partial
 
 import numpy as np
 
-from report.project.read.linked_files import ABOVE, ALWAYS, NEVER
+from report.project.read.study_years import ABOVE, ALWAYS, NEVER
 from report.study.array_capacities import curves_of
 from report.study.plan import ArrayPlan, StudyPlan
 from solver.model import Floats

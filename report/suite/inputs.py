@@ -17,11 +17,11 @@ from pathlib import Path
 from typing import Any
 
 from report.motions.sets import VERTICAL
-from report.project.check.motion_checks import GENERATED
+from report.project.check.motion_faults import GENERATED
 from report.project.model.place import Place
 from report.project.model.site import site_parameters
-from report.project.read.read import Sheet
 from report.project.read.typed_text import choice_in
+from report.project.read.workbook_data import Sheet
 from report.suite.target_table import TargetTable
 from solver.formats import MotionFile, read_motion_file
 from solver.model import InputError

@@ -12,7 +12,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from report.libraries import has_font_on_windows
-from report.project.read.read import Sheet
+from report.project.read.workbook_data import Sheet
 from solver.model import InputError, Problem
 
 if TYPE_CHECKING:

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 from report.assessment.design.friction_words import mu_words
 from report.project.model import ProjectInput
+from report.project.model.array import Array
 from report.project.model.choices import Polarity, RuleSetName, UnitsFirst
 from report.project.model.place import Place
-from report.project.model.scene import Array
-from report.project.read.read import Sheet
 from report.project.read.what_if import retyped
+from report.project.read.workbook_data import Sheet
 from report.text.counts import cut, ids_by, ranged
 from report.text.units import Quantity, no_more, number, pair
 from report.web.values import MUS, UNITS_FIRST, Values, typed

@@ -24,11 +24,11 @@ from report.drawing_read.fill import changes, layers_of, plan_as_rows, unread
 from report.drawing_read.plan_read import known_layers
 from report.drawing_read.read_dxf import read_dxf
 from report.drawing_read.roof_drawing import drawn_on, proposed
-from report.project.check.findings import grouped, line_of, listed
+from report.project.check.problem_lines import grouped, line_of, listed
 from report.project.model.choices import LayerKind
 from report.project.read.archive import OpenBook, open_book
-from report.project.read.locate import find_table
-from report.project.read.parts import changed
+from report.project.read.changed_cells import changed
+from report.project.read.locate_table import find_table
 from report.project.read.positions import CellPosition, found_at
 from report.project.read.read import read, read_book
 from report.project.read.what_if import cells

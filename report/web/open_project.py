@@ -19,8 +19,9 @@ from report.motions.components import Components
 from report.motions.prepare import Shaking, read_records, shaking, stiff_links
 from report.project.model.finding import Finding
 from report.project.model.place import Place
-from report.project.read.read import Sheet, read
+from report.project.read.read import read
 from report.project.read.what_if import Typed, retyped
+from report.project.read.workbook_data import Sheet
 from report.runs import Reference, Runs, largest_two, scene_key
 from report.typeset.letters import check_letters
 from report.web.controls import check, controls

@@ -18,11 +18,11 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import Request
 
-from report.project.write import template
+from report.project.write import example
 from report.web.plan import USUAL_PX
 from report.web.worker import Packages, answered, begun
 
-EXAMPLE = template.EXAMPLE / "input.xlsx"
+EXAMPLE = example.EXAMPLE / "input.xlsx"
 
 LONGEST_S = 120.0
 """Longest time of an answer [s]; then its process is ended."""

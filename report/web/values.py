@@ -9,13 +9,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
+from report.project.model.array import Array, slope_rad
 from report.project.model.choices import Scaling, SlopeUnit
-from report.project.model.motions import coefficients
+from report.project.model.links import coefficients
 from report.project.model.place import Place
-from report.project.model.scene import SIDES, Array, slope_rad
+from report.project.model.placed import SIDES
 from report.project.model.shapes import Rectangle, Shape, gap_m
-from report.project.read.read import Sheet
 from report.project.read.what_if import Typed, size_of_unit
+from report.project.read.workbook_data import Sheet
 from solver.model import INCH_M
 from solver.rules.hazard import EDITIONS
 

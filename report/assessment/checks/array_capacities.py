@@ -11,8 +11,8 @@ from report.assessment.checks.ids import STRENGTH_ROW
 from report.assessment.design.rule_set import rule_set_of
 from report.assessment.design.words import NO_DESIGN, NOT_GIVEN
 from report.project.model import ProjectInput
+from report.project.model.array import Array
 from report.project.model.place import Place
-from report.project.model.scene import Array
 from report.text.amounts import capacity, demand, entered
 from report.text.units import Quantity, measured
 from solver.rules.limit import Consequence

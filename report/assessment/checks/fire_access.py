@@ -11,9 +11,10 @@ from report.assessment.design.clearances import slides_m
 from report.assessment.design.words import NO_DESIGN, NOT_GIVEN, STAYS
 from report.assessment.plan.neighbors import direction_of
 from report.project.model import ProjectInput
+from report.project.model.array import Array
 from report.project.model.choices import Direction
 from report.project.model.place import Place
-from report.project.model.scene import SIDES, Array
+from report.project.model.placed import SIDES
 from report.project.model.shapes import around, gap_m
 from report.text.amounts import Amount, capacity, demand, entered
 from report.text.counts import numbered, ranged

@@ -9,8 +9,10 @@ from report.assessment.checks.check import Actor, Check, condition
 from report.assessment.checks.ids import OVERRIDE_ID
 from report.assessment.design.rule_set import OVERRIDDEN, takes_plain_mean
 from report.assessment.design.words import STAYS
-from report.project.model import Override, ProjectInput, provision_name, provision_unit
+from report.project.model import ProjectInput
+from report.project.model.options import Override
 from report.project.model.place import Place
+from report.project.model.provision_names import provision_name, provision_unit
 from report.text.counts import lowered
 from solver.rules.provisions import RULE_SETS
 from solver.rules.rulesets import ALLOWED, Provision

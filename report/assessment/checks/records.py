@@ -11,7 +11,7 @@ import numpy as np
 from report.assessment.checks.check import THIS_PROGRAM, Actor, Check, Sense, condition
 from report.assessment.design.words import NOT_GIVEN, STAYS
 from report.motions.history import PreparedMotion, targets
-from report.project.check.motion_checks import FIELDS
+from report.project.check.motion_faults import FIELDS
 from report.project.model import ProjectInput
 from report.project.model.place import Place
 from report.text.amounts import capacity, demand

@@ -11,9 +11,10 @@ from report.assessment.checks.fire_access import of_sections
 from report.assessment.checks.ids import PLAN_ROW
 from report.assessment.design.words import NO_DESIGN, NOT_GIVEN
 from report.project.model import ProjectInput
+from report.project.model.array import Array
 from report.project.model.choices import ClearanceSource, DistanceBasis
 from report.project.model.place import Place
-from report.project.model.scene import SIDES, Array
+from report.project.model.placed import SIDES
 from report.text.amounts import Amount, capacity, demand
 from report.text.units import Quantity, no_more, pair
 from solver.rules.limit import Consequence

@@ -1,7 +1,7 @@
 """What is required of the seismic parameters: rule set, edition, source, SDC, site class, 11.4.8.
 
 Each that is not satisfied is a condition, not NG; values below their table are errors
-(`report.project.check.checks`). Read `of_site`.
+(`report.project.check.site_faults`). Read `of_site`.
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ from report.assessment.design.routes import (
 )
 from report.assessment.design.rule_set import OVERRIDDEN, mark_of
 from report.project.model import ProjectInput
-from report.project.model.scene import Array
+from report.project.model.array import Array
 from report.runs import MotionRun, OrientedRun
 from report.text.units import nan_is_worst
 from solver.rules import provisions

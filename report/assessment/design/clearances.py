@@ -14,8 +14,9 @@ from report.assessment.design.rule_set import mark_of
 from report.assessment.design.separation import neighbor_across
 from report.assessment.design.verdict import Verdict
 from report.project.model import ProjectInput
+from report.project.model.array import Array
 from report.project.model.choices import DistanceBasis
-from report.project.model.scene import Array, Clearance, RoofObject
+from report.project.model.roof import Clearance, RoofObject
 from report.text.units import nan_is_worst
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor, Provision, RuleSet

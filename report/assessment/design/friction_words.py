@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from report.project.model.scene import Array
+from report.project.model.array import Array
 from report.text.counts import ids_by, ranged
 from report.text.units import number
 from solver.model import Friction

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from functools import partial
 
 from report.assessment.design.arrays import ArrayAssessment
-from report.project.model.motions import Links
-from report.project.model.scene import Array
+from report.project.model.array import Array
+from report.project.model.links import Links
 from report.runs import Runs
 from report.text.units import nan_is_worst
 from solver.model import Motion, Orientation, SlideResult, Status

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from report.project.model import ProjectInput
-from report.project.model.scene import Array
+from report.project.model.array import Array
 
 # Fraction by which the friction coefficients are decreased and increased; a verdict that less
 # friction changes is a condition.

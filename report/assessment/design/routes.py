@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from report.project.model import ProjectInput
+from report.project.model.array import Array
 from report.project.model.choices import Statistic
-from report.project.model.scene import Array
 from solver.rules import provisions
 from solver.rules.limit import Limit
 from solver.rules.provisions import Basis, Prescriptive, RuleSet

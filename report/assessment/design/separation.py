@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from report.project.model import ProjectInput
+from report.project.model.array import Array
 from report.project.model.choices import ObjectKind
-from report.project.model.scene import Array, RoofObject
+from report.project.model.roof import RoofObject
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor, RuleSet
 

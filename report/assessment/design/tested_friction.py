@@ -10,9 +10,9 @@ import re
 from collections.abc import Sequence
 
 from report.assessment.design.words import NOT_GIVEN
-from report.project.check.motion_checks import MU_TOLERANCE
+from report.project.check.friction_faults import MU_TOLERANCE
 from report.project.model import ProjectInput
-from report.project.model.scene import Array
+from report.project.model.array import Array
 from report.text.counts import grouped_by, numbered
 from report.text.units import Quantity, measured, pair
 from solver.friction_tests import Series, Surface, fit_law, governing, series

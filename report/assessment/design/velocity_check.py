@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.tested_friction import MOST_BEYOND, is_complete, tested
-from report.project.check.motion_checks import MU_TOLERANCE
+from report.project.check.friction_faults import MU_TOLERANCE
 from report.project.model import ProjectInput
 from report.text.units import Rounding
 from solver.friction_tests import Series, governing

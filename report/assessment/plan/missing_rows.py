@@ -19,9 +19,11 @@ from report.assessment.plan.neighbors import (
 )
 from report.project.model import ProjectInput
 from report.project.model.choices import ClearanceSource, Direction
-from report.project.read.parts import DIGITS, GrowingTable, Value
+from report.project.read.changed_cells import Value
+from report.project.read.growing_table import DIGITS, GrowingTable
 from report.project.read.positions import CellPosition
-from report.project.read.read import Sheet, without_motions
+from report.project.read.read import without_motions
+from report.project.read.workbook_data import Sheet
 from report.text.counts import numbered
 from report.text.units import Quantity, Show, no_less, no_more, pair, round_down
 from solver.model import INCH_M

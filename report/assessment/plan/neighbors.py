@@ -16,9 +16,10 @@ from report.assessment.design.gaps import ComparedGap
 from report.assessment.design.verdict import Verdict
 from report.assessment.plan.bare_edges import bare_edges
 from report.project.model import ProjectInput
+from report.project.model.array import Array
 from report.project.model.choices import Direction, DistanceBasis
 from report.project.model.place import Place
-from report.project.model.scene import Array, Clearance
+from report.project.model.roof import Clearance
 from report.project.model.shapes import Rectangle, Shape, gap_m
 from solver.model import INCH_M
 

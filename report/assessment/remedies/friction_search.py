@@ -13,7 +13,7 @@ from report.assessment.assessment import Assessment
 from report.assessment.design.arrays import ArrayAssessment, Displacement, assess_array
 from report.assessment.design.clearances import ClearanceCheck, check_clearance
 from report.assessment.design.other_friction import with_mu
-from report.project.model.scene import Clearance
+from report.project.model.roof import Clearance
 from solver.model import Status
 
 # Hundredths between the values of each pass of a search: coarse first, as each value takes runs.

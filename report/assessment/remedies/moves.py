@@ -17,7 +17,8 @@ from report.assessment.design.gaps import ComparedGap
 from report.assessment.plan.bare_edges import compass
 from report.assessment.plan.neighbors import PlanNeighbor
 from report.project.model import ProjectInput
-from report.project.model.scene import SIDES, Clearance
+from report.project.model.placed import SIDES
+from report.project.model.roof import Clearance
 from report.project.model.shapes import Point, Polygon, Rectangle, Shape, gap_m
 from report.text.units import Quantity, no_less, pair, round_up
 

@@ -34,7 +34,7 @@ from report.assessment.remedies.friction_search import (
 )
 from report.assessment.remedies.moves import Change, moves
 from report.project.model import ProjectInput
-from report.project.model.scene import Clearance
+from report.project.model.roof import Clearance
 from report.text.amounts import Amount, amount_texts, capacity, demand
 from report.text.amounts import entered as entered_amount
 from report.text.counts import capitalized, grouped_by, joined, lowered, name_order, ranged

@@ -13,9 +13,9 @@ from report.assessment.design.routes import Route, statistic_basis
 from report.assessment.low_velocity import InputCase
 from report.motions.history import PreparedMotion, first_period_s, through_building
 from report.project.model import ProjectInput
+from report.project.model.array import Array
 from report.project.model.choices import Direction
-from report.project.model.motions import BuildingInput, MotionInput
-from report.project.model.scene import Array
+from report.project.model.motion_input import BuildingInput, MotionInput
 from report.runs import run_motion
 from report.text.units import nan_is_worst, number
 from solver.building.structure import MOST_PERIOD_S

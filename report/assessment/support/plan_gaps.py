@@ -10,7 +10,7 @@ from report.assessment.design.clearances import ClearanceCheck
 from report.assessment.design.verdict import Verdict
 from report.assessment.plan.neighbors import PlanNeighbor
 from report.project.model.choices import ObjectKind
-from report.project.model.scene import RoofObject
+from report.project.model.roof import RoofObject
 from report.project.model.shapes import Point, Shape, closest
 from solver.rules.provisions import Neighbor
 

@@ -12,7 +12,7 @@ import numpy as np
 from report.assessment.assessment import Assessment
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.other_friction import with_mu
-from report.project.model.scene import Array
+from report.project.model.array import Array
 from solver.model import Floats, Scene, SlideResult, Status
 from solver.sliding import one_axis, two_axes
 

@@ -10,11 +10,13 @@ import hashlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 
 from report.project.model import ProjectInput
+from report.project.model.array import WEIGHT_PARTS
 from report.project.model.choices import ClearanceSource
 from report.project.model.frozen import Frozen
 from report.project.model.place import Place
-from report.project.model.scene import SIDES, WEIGHT_PARTS
-from report.project.workbook import SECTION, SECTIONS, layout
+from report.project.model.placed import SIDES
+from report.project.workbook import SECTION, SECTIONS
+from report.project.workbook.earlier_workbooks import ORDERS
 from report.text.counts import grouped_by
 
 _LETTERS = 6  # of a hash
@@ -141,7 +143,7 @@ def _line(key: str, row: Frozen, fields: Sequence[str]) -> str:
     # SI with nine digits, so that a change of units is none; without defaults, so that a field that
     # a later version adds is none either.
     values = row.model_dump(include=set(fields), exclude_defaults=True)
-    order = {name: at for at, name in enumerate(layout.ORDERS.get(key, ()))}
+    order = {name: at for at, name in enumerate(ORDERS.get(key, ()))}
     return "; ".join(
         f"{name} {value:.9g}" if isinstance(value, float) else f"{name} {value}"
         for name, value in sorted(values.items(), key=lambda item: order.get(item[0], len(order)))

@@ -8,14 +8,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from report.project.check.checks import ROUNDING_OF_COEFFICIENTS, gap_tolerance_m
-from report.project.check.findings import note, spoken, unusual, warning
-from report.project.check.plan_checks import far_off
+from report.project.check.clearance_faults import gap_tolerance_m
+from report.project.check.far_shapes import far_off
+from report.project.check.site_faults import ROUNDING_OF_COEFFICIENTS
+from report.project.check.usual_ranges import spoken, unusual
 from report.project.model import ProjectInput
+from report.project.model.array import Array
 from report.project.model.choices import Direction, SlopeUnit
-from report.project.model.finding import Finding, Level
+from report.project.model.finding import Finding, Level, note, warning
 from report.project.model.place import Place
-from report.project.model.scene import Array, Clearance
+from report.project.model.roof import Clearance
 from report.project.model.shapes import Shape, closest, gap_m
 from report.project.model.site import Site
 from report.text.counts import counted, numbered

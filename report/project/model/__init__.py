@@ -6,135 +6,22 @@ They are pydantic's, for `model_copy`, JSON and the types that a value of any so
 
 from __future__ import annotations
 
-import datetime as dt
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import Field, model_validator
 
-from report.project.model.choices import (
-    ClearanceSource,
-    DistanceBasis,
-    EditionName,
-    PackageEdition,
-    PlanPaper,
-    RequiredText,
-    RuleSetName,
-    Statistic,
-    Text,
-    decimals,
-)
+from report.project.model.array import Array
+from report.project.model.choices import ClearanceSource, DistanceBasis, PlanPaper
+from report.project.model.friction_report import FrictionTestRow, FrictionTests
 from report.project.model.frozen import Frozen
-from report.project.model.motions import (
-    BuildingInput,
-    Links,
-    MotionInput,
-    SpectrumPoint,
-    TargetInput,
-)
-from report.project.model.scene import (
-    ROOF,
-    Array,
-    Clearance,
-    DrawingLayer,
-    Roof,
-    RoofObject,
-    Vertex,
-)
+from report.project.model.issue import Project, Revision
+from report.project.model.links import Links
+from report.project.model.motion_input import BuildingInput, MotionInput, SpectrumPoint, TargetInput
+from report.project.model.options import Acknowledgment, Confirmation, Options, Override
+from report.project.model.roof import ROOF, Clearance, DrawingLayer, Roof, RoofObject, Vertex
 from report.project.model.shapes import Point, Shape, ring
-from report.project.model.site import FrictionTestRow, FrictionTests, Project, Revision, Site
-from solver.rules.rulesets import ALLOWED
-
-# Most smaller events whose displacements are added.
-MAX_EVENTS = 20
-
-
-def provision_name(key: str) -> str:
-    """Return the name of a provision in words, as on the sheet Provisions; without its unit."""
-    words = ALLOWED[key].meaning.partition(" [")[0]
-    return words[:1].upper() + words[1:]
-
-
-def provision_unit(key: str) -> str:
-    """Return the unit of a provision, as a cell names it; empty for none."""
-    allowed = ALLOWED.get(provision_key(key))
-    return allowed.meaning.partition(" [")[2].rstrip("]") if allowed else ""
-
-
-_KEYS_BY_NAME = {provision_name(key).casefold(): key for key in ALLOWED}
-
-
-def provision_key(text: str) -> str:
-    """Return the key of a provision given by its name or its key."""
-    name = " ".join(text.partition(" [")[0].split()).casefold()
-    return _KEYS_BY_NAME.get(name, text)
-
-
-def factors(text: str) -> tuple[float, ...]:
-    """Return factors such as `0.50, 0.25`, each above 0 and up to 1; empty if it is not one."""
-    values = decimals(text)
-    fits = 1 <= len(values) <= MAX_EVENTS and min(values) > 0.0 and max(values) <= 1.0
-    return values if fits else ()
-
-
-class Options(Frozen):
-    """Choices that the rule sets leave open."""
-
-    statistic: Statistic = Statistic.RULE_SET
-    peer_reviewed: bool = False
-    peer_reviewer: Text = ""
-    peer_license: Text = ""
-    peer_date: dt.date | None = None
-    peer_covered: Text = ""
-    peer_letter: Text = ""
-    smaller_events: Text = ""
-    study_years: Text = ""
-    package_edition: PackageEdition = PackageEdition.PLAN_CHECK
-    letter: bool = False
-    plan_paper: PlanPaper = PlanPaper.BY_SIZE
-
-    @property
-    def has_review(self) -> bool:
-        """Whether peer review is stated with all that a plan checker asks for."""
-        given = self.peer_reviewer, self.peer_license, self.peer_date, self.peer_letter
-        return self.peer_reviewed and all(given)
-
-    @property
-    def smaller_factors(self) -> tuple[float, ...]:
-        """Factors on the motions for the smaller events; empty if none are asked for."""
-        return factors(self.smaller_events)
-
-
-class Confirmation(Frozen):
-    """Who compared the provisions with the adopted code, and which."""
-
-    by: Text = ""
-    date: dt.date | None = None
-    rule_set: RuleSetName | None = None
-    edition: EditionName | None = None
-    code: Text = ""
-    covered: Text = ""
-
-    @property
-    def of(self) -> tuple[str, str, str]:
-        """What was confirmed: rule set, edition and building code."""
-        return self.rule_set or "", self.edition or "", self.code
-
-
-class Override(Frozen):
-    """A replacement for the number of a provision, with the reason that the package prints."""
-
-    provision: Annotated[RequiredText, AfterValidator(provision_key)]
-    value: float
-    reason: RequiredText
-
-
-class Acknowledgment(Frozen):
-    """A warning that is intended as it is, with the reason that the package prints."""
-
-    warning: RequiredText
-    reason: RequiredText
-
+from report.project.model.site import Site
 
 # Fields that refer to arrays and objects, by section.
 _NAMING = {"clearances": ("array", "object"), "links": ("array",), "outlines": ("name",)}

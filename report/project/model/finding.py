@@ -38,3 +38,18 @@ class Finding:
     def problem(self, where: str) -> Problem:
         """Return the error with its address."""
         return Problem(self.text, self.remedy, where)
+
+
+def warning(name: str, place: Place, text: str) -> Finding:
+    """Return a warning that may be acknowledged."""
+    return Finding(level=Level.WARNING, id=name, place=place, text=text)
+
+
+def limit(text: str, place: Place, *others: Place) -> Finding:
+    """Return a warning that cannot be acknowledged, with the cells to look at."""
+    return Finding(level=Level.WARNING, place=place, others=others, text=text)
+
+
+def note(place: Place, text: str) -> Finding:
+    """Return a note."""
+    return Finding(level=Level.NOTE, place=place, text=text)

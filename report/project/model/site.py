@@ -1,7 +1,4 @@
-"""Project data, the site with the rules that govern there, and the friction tests.
-
-Read `report.project.model` first.
-"""
+"""Where the building stands and which rules govern: seismic parameters, category, codes."""
 
 from __future__ import annotations
 
@@ -14,20 +11,16 @@ from pydantic import Field
 from report.project.model.choices import (
     BuildingCode,
     EditionName,
-    Id,
     NotNegative,
     Positive,
-    RequiredText,
     RiskCategory,
     RuleSetName,
     Sdc,
     SiteClass,
     Text,
-    UnitsFirst,
 )
 from report.project.model.frozen import Frozen
 from report.project.model.input_rows import InputRow
-from solver.friction_tests import MOST_MU, FrictionRun, Surface
 from solver.model import DefectError
 from solver.rules.hazard import (
     EDITIONS,
@@ -43,37 +36,6 @@ from solver.rules.rulesets import RULE_SETS
 from solver.rules.site_coefficients import F_A, site_coefficient
 
 Acceleration = Annotated[float, Field(gt=0, le=10)]
-
-
-class Project(Frozen):
-    """Project data."""
-
-    name: RequiredText
-    number: RequiredText
-    client: Text = ""
-    address: Text = ""
-    prepared_by: RequiredText
-    checked_by: Text = ""
-    firm: Text = ""
-    firm_contact: Text = ""
-    license: Text = ""
-    date: dt.date
-    revision: RequiredText
-    units_first: UnitsFirst = UnitsFirst.US
-    plan_number: Text = ""
-    plan_date: dt.date | None = None
-    drawing_confirmed_by: Text = ""
-    drawing_confirmed_date: dt.date | None = None
-    drawing_covered: Text = ""
-
-
-class Revision(Frozen):
-    """One line of the revision block."""
-
-    revision: RequiredText
-    date: dt.date
-    description: RequiredText
-    by: Text = ""
 
 
 class Site(Frozen):
@@ -252,42 +214,3 @@ def tabulated_f_a(row: InputRow) -> float | None:
         return None
     value = site_coefficient(F_A, site_class, s_s_g)
     return None if math.isnan(value) else value
-
-
-Mu = Annotated[float, Field(ge=0.0, le=MOST_MU)]
-
-
-class FrictionTests(Frozen):
-    """What the report on the friction tests states."""
-
-    laboratory: Text = ""
-    accreditation: Text = ""
-    standard: Text = ""
-    report: Text = ""
-    date: dt.date | None = None
-    tests_covered: Text = ""
-    membrane: Text = ""
-    support: Text = ""
-    contact_pressure_pa: Positive | None = None
-    report_file: Text = ""
-
-
-class FrictionTestRow(Frozen):
-    """One run of a friction test."""
-
-    surface: Surface
-    number: Annotated[int, Field(ge=1, le=1000)]
-    mu: Mu
-    velocity_mps: NotNegative | None = None
-    mu_static: Mu | None = None
-    report: Id | None = None
-
-    def run(self, report: str) -> FrictionRun:
-        """Return the run, of a given report unless the row names another."""
-        return FrictionRun(
-            report=self.report or report,
-            surface=self.surface,
-            velocity_mps=math.nan if self.velocity_mps is None else self.velocity_mps,
-            mu=self.mu,
-            mu_static=math.nan if self.mu_static is None else self.mu_static,
-        )

@@ -1,6 +1,6 @@
 """Converts the content of a cell to the value of a field, or to an error message.
 
-Independent of sheets and files: `report.project.read.locate` finds the cells.
+Independent of sheets and files: `locate_cell` and `locate_table` find the cells.
 """
 
 from __future__ import annotations
@@ -18,7 +18,15 @@ from openpyxl.utils.datetime import WINDOWS_EPOCH
 from openpyxl.utils.escape import unescape
 
 from report.project.model.choices import SlopeUnit, YesNo
-from report.project.read import typed_text
+from report.project.read.number_formats import is_percentage, misleading
+from report.project.read.typed_text import (
+    choice_in,
+    dates_in,
+    in_thousands,
+    inches_in,
+    number_in,
+    rise_in,
+)
 from report.project.workbook.entries import Entry
 from report.text.counts import SHOWN, UNPRINTABLE, cut, trimmed
 from report.text.units import LENGTHS
@@ -200,7 +208,7 @@ def _converted(cell: Found, entry: Entry, wanted: str, unit: str, si: float) -> 
             return 0.0
         is_length = entry.quantity is not None and entry.quantity.accepted is LENGTHS
         # Marks of feet and inches say their own unit, whatever the column has.
-        inches = typed_text.inches_in(text) if is_length else math.nan
+        inches = inches_in(text) if is_length else math.nan
         if math.isfinite(inches):
             return inches * INCH_M / si
         value = number(cell, wanted, unit)
@@ -225,12 +233,12 @@ def number(cell: Found, wanted: str = "give a number", unit: str = "") -> float:
     if not abs(value) <= sys.float_info.max:
         raise CellError(f"is {_quoted(value)}", wanted)
     # 5% in a cell of percent may be meant as 5 or as 0.05.
-    if typed_text.is_percentage(cell.number_format):
+    if is_percentage(cell.number_format):
         raise CellError(
             f"is a percentage ({100 * value:g}%, which Excel holds as {value:g})",
             f"{wanted}, formatted as a number",
         )
-    if how := typed_text.misleading(cell.number_format, unit):
+    if how := misleading(cell.number_format, unit):
         raise CellError(
             f"is {plain(value)}, shown {how} by its number format ({cut(cell.number_format)})",
             f"{wanted}, formatted as a number",
@@ -239,15 +247,15 @@ def number(cell: Found, wanted: str = "give a number", unit: str = "") -> float:
 
 
 def _number_in_text(text: str, wanted: str, unit: str) -> float:
-    if math.isfinite(value := typed_text.number_in(text)):
+    if math.isfinite(value := number_in(text)):
         return value
-    if math.isfinite(rise := typed_text.rise_in(text)):
-        if typed_text.choice_in(unit, SlopeUnit) == SlopeUnit.IN_PER_12:
+    if math.isfinite(rise := rise_in(text)):
+        if choice_in(unit, SlopeUnit) == SlopeUnit.IN_PER_12:
             return rise
         raise CellError(
             f"is '{cut(text)}'", f"{wanted}, or choose the slope unit {SlopeUnit.IN_PER_12}"
         )
-    if whole := typed_text.in_thousands(text):
+    if whole := in_thousands(text):
         raise CellError(f"is '{cut(text)}'", f"write {whole}, without a comma")
     if _WITH_UNIT.fullmatch(text):
         raise CellError(f"is '{cut(text)}'", f"{wanted}, with no unit in the cell")
@@ -264,7 +272,7 @@ def _date(cell: Found, wanted: str) -> date:
         # SheetJS writes dates without their format.
         day = (cell.day_zero + timedelta(days=int(value))).date()
     else:
-        days = typed_text.dates_in(value.strip()) if isinstance(value, str) else []
+        days = dates_in(value.strip()) if isinstance(value, str) else []
         if len(days) != 1:
             either = f"write {' or '.join(map(str, days))}" if days else wanted
             raise CellError(f"is {_quoted(value)}", either)
@@ -279,7 +287,7 @@ def _choice(cell: Found, entry: Entry, wanted: str) -> StrEnum | bool:
     said = plain(cell.value)
     if entry.kind is bool:
         said = {"true": "yes", "false": "no"}.get(said.strip().casefold(), said)
-    if choice := typed_text.choice_in(said, entry.choices):
+    if choice := choice_in(said, entry.choices):
         return choice == YesNo.YES if entry.kind is bool else entry.kind(choice)
     try:
         # What a choice is called otherwise, its own class knows; bool takes anything.

@@ -18,7 +18,8 @@ from openpyxl.worksheet.worksheet import Worksheet
 from report.project.read.archive import OpenBook
 from report.project.read.cells import Found
 from report.project.read.scan import LAST_COLUMN, LAST_ROW
-from report.project.workbook.entries import Entry, SheetSection
+from report.project.workbook.entries import Entry
+from report.project.workbook.sections import SheetSection
 from solver.model import InputError, Problem
 
 MAX_COLUMNS = 200

@@ -5,22 +5,19 @@ Combines opening (`archive`), finding (`locate`), converting (`cells`) and check
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Set
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import partial
 from pathlib import Path
-from typing import Any, Generic, Self, TypeVar
+from typing import Any
 
 from openpyxl.utils import coordinate_to_tuple
-from pydantic import ValidationError
 
-from report.project.check.checks import faults
+from report.project.check.faults import faults
 from report.project.model import ProjectInput
 from report.project.model.finding import Finding
-from report.project.model.frozen import Frozen
 from report.project.model.input_rows import Inputs
 from report.project.model.place import Place, Where
-from report.project.read import locate
 from report.project.read.archive import OpenBook, open_book
 from report.project.read.cells import (
     CellError,
@@ -31,142 +28,38 @@ from report.project.read.cells import (
     stated_unit,
     wish_for_missing,
 )
-from report.project.read.linked_files import Document, read_documents
+from report.project.read.copied_sheets import copies
+from report.project.read.documents import read_documents
+from report.project.read.locate_cell import (
+    added_later,
+    beside,
+    cell_as_column,
+    find_cell,
+    gone_cells,
+    is_absent,
+)
+from report.project.read.locate_table import FieldColumn, TableFound, find_table
 from report.project.read.positions import FRESH, CellPosition, found_at
-from report.project.read.unseen import (
-    Unseen,
-    by_cell,
-    copies,
-    from_outside,
-    not_calculated,
-    unseen,
+from report.project.read.saved_values import from_outside, not_calculated
+from report.project.read.unseen import by_cell, unseen
+from report.project.read.workbook_data import (
+    IGNORED,
+    EchoRow,
+    Sheet,
+    SheetOf,
+    Whole,
+    located_problems,
+    where,
 )
 from report.project.workbook import SECTION, SECTIONS
-from report.project.workbook.entries import Entry, SheetSection
-from report.project.workbook.layout import GoneInput
+from report.project.workbook.earlier_workbooks import GoneInput
+from report.project.workbook.entries import Entry
+from report.project.workbook.sections import SheetSection
 from report.text.counts import cut, lowered, quoted, trimmed
 from solver.model import InputError, Problem
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class EchoRow:
-    """One cell as read, as finished text."""
-
-    sheet: str
-    cell: str
-    label: str
-    typed: str  # for a formula, with its value when the workbook was saved
-    unit: str  # as typed
-    value: str  # as used; in SI if the unit can be chosen
-    unseen: str = ""  # how the workbook keeps the cell from sight, such as `hidden`
-
-    @property
-    def address(self) -> str:
-        """Its address: `Arrays!D7`."""
-        return f"{self.sheet}!{self.cell}"
-
-
 # Sheet of a workbook that `roofslip study` reads.
 _STUDY = "Study"
-
-IGNORED = "not an input, ignored"
-"""How the echo shows a cell under a heading that is not known."""
-
-
-Whole = TypeVar("Whole", bound=Frozen)
-
-
-@dataclass(frozen=True, kw_only=True)
-class SheetOf(Generic[Whole]):
-    """A workbook as data, with every problem found in it."""
-
-    path: Path
-    sha256: str  # of the workbook
-    book: OpenBook  # for columns pasted into it and files beside it
-    whole: type[Whole]  # what it is the input of
-    sections: tuple[SheetSection, ...]  # of that
-    inputs: Inputs
-    echo: tuple[EchoRow, ...]  # every field, sheet by sheet and row by row
-    problems: tuple[tuple[Place, Problem], ...]
-    addresses: Mapping[Place, str]
-    unfound: frozenset[str]  # sections
-    unseen: tuple[Unseen, ...]
-    warnings: tuple[Finding, ...]  # on sheets that are ignored, and values that may be former ones
-    check: Callable[[Inputs, Where], Iterable[Finding]] = faults
-    documents: tuple[Document, ...] = ()  # beside it, that the package attaches
-
-    @cached_property
-    def project(self) -> Whole:
-        """The input; raises `InputError` with every problem and its cell."""
-        self.refuse(())
-        parts: dict[str, Any] = {}
-        for part in self.sections:
-            # Each value was validated when its cell was read, and all together by `check`.
-            rows = tuple(part.model.model_construct(**row) for row in self.inputs[part.key])
-            parts[part.key] = rows if part.is_table else rows[0]
-        return self.whole.model_validate(parts)
-
-    @cached_property
-    def units(self) -> Mapping[str, str]:
-        """Unit of each cell as typed, by address; empty for none."""
-        return {row.address: row.unit for row in self.echo}
-
-    def with_(self, **parts: Frozen | Iterable[Frozen]) -> Self:
-        """Return the same with other inputs, checked as those of a workbook.
-
-        Parameters
-        ----------
-        **parts : Frozen or iterable of Frozen
-            Fields of `project`: a block, or all rows of a table, such as
-            `arrays=[row.model_copy(update={"mu": 0.4}) for row in workbook.project.arrays]`.
-
-        Raises
-        ------
-        InputError
-            For a part or a value that a workbook may not have, and for each problem of this one.
-        """
-        self.refuse(())
-        sections, inputs = {part.key: part for part in self.sections}, dict(self.inputs)
-        if unknown := [key for key in parts if key not in sections]:
-            raise InputError(f"no input {', '.join(unknown)}; give some of {', '.join(sections)}")
-        for key, replaced in parts.items():
-            rows = [replaced] if isinstance(replaced, Frozen) else list(replaced)
-            try:
-                # `model_copy`, with which rows are mostly changed, validates nothing.
-                checked = [sections[key].model.model_validate(dict(row)) for row in rows]
-            except ValidationError as error:
-                wrong = (
-                    f"{key}: {'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors()
-                )
-                raise InputError(list(wrong)) from error
-            names = [entry.name for entry in sections[key].entries]
-            inputs[key] = [{name: getattr(row, name) for name in names} for row in checked]
-        problems = _located(self.check(inputs, self.where), self.addresses, self.unfound)
-        other = replace(self, inputs=inputs, problems=tuple(problems))
-        other.refuse(())
-        return other
-
-    def where(self, place: Place) -> str:
-        """Return the address of a place; that of its table or sheet if it has no cell."""
-        return where(self.addresses, place)
-
-    def refuse(self, faults: Iterable[Finding]) -> None:
-        """Raise InputError with all problems and further faults, in order, each once, if any."""
-        problems = [*self.problems, *_located(faults, self.addresses, self.unfound)]
-        order = {part.key: count for count, part in enumerate(self.sections)}
-        names = {part.key: [entry.name for entry in part.entries] for part in self.sections}
-
-        def rank(problem: tuple[Place, Problem]) -> tuple[int, int, int]:
-            section, row, field = problem[0]
-            fields = names[section]
-            return order[section], row, fields.index(field) if field in fields else -1
-
-        if problems:
-            raise InputError(list(dict.fromkeys(each for _, each in sorted(problems, key=rank))))
-
-
-Sheet = SheetOf[ProjectInput]
-"""The input workbook of a project as data."""
 
 
 def read(path: Path) -> Sheet:
@@ -185,7 +78,7 @@ def read_book(book: OpenBook) -> Sheet:
         raise InputError(f"{_STUDY}: this is the workbook of a study; run {run}")
     sheet = read_as(ProjectInput, SECTIONS, book, faults)
     documents, wrong = read_documents(book, sheet.inputs)
-    problems = (*sheet.problems, *_located(wrong, sheet.addresses, sheet.unfound))
+    problems = (*sheet.problems, *located_problems(wrong, sheet.addresses, sheet.unfound))
     return replace(sheet, documents=documents, problems=problems)
 
 
@@ -243,31 +136,6 @@ def read_as(
     )
 
 
-def where(addresses: Mapping[Place, str], place: Place) -> str:
-    """Return the address of a place; that of its table or sheet if it has no cell."""
-    whole = addresses.get(Place(place.section), place.section)
-    return addresses.get(place, whole)
-
-
-# Tables that name rows of others: without these every name would be unknown.
-_SOURCES = {
-    "clearances": {"arrays", "objects"},
-    "links": {"arrays"},
-    "study_arrays": {"mats"},
-    "friction_runs": {"mats"},
-}
-
-
-def _located(
-    faults: Iterable[Finding], addresses: Mapping[Place, str], unfound: Set[str]
-) -> Iterator[tuple[Place, Problem]]:
-    """Yield faults with their addresses, except those that only follow from a missing table."""
-    for fault in faults:
-        place = fault.place
-        if place.section not in unfound and not _SOURCES.get(place.section, set()) & unfound:
-            yield place, fault.problem(where(addresses, place))
-
-
 @dataclass(slots=True)
 class Gathered:
     """What has been read so far; problems have the place used for sorting."""
@@ -290,12 +158,12 @@ class Gathered:
 
     def take(self, faults: Iterable[Finding]) -> None:
         """Add faults."""
-        self.problems += _located(faults, self.addresses, self.unfound)
+        self.problems += located_problems(faults, self.addresses, self.unfound)
 
 
 def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
     gathered.inputs[section.key] = []
-    is_missing = locate.is_absent(book, section)
+    is_missing = is_absent(book, section)
     if is_missing and section.may_be_absent:
         defaults = {entry.name: entry.default for entry in section.entries}
         gathered.inputs[section.key] += [] if section.is_table else [defaults]
@@ -306,7 +174,7 @@ def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> 
                 f"{section.sheet}: the sheet is missing, or all labels of {section.title}; {FRESH}"
             )
         if section.is_table:
-            _read_table(book, section, locate.find_table(book, section), gathered)
+            _read_table(book, section, find_table(book, section), gathered)
         else:
             _read_block(book, section, gathered)
     except InputError as error:
@@ -315,9 +183,9 @@ def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> 
 
 
 def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
-    absent = locate.added_later(book, section)
+    absent = added_later(book, section)
     row = {entry.name: entry.default for entry in absent}
-    typed = locate.beside(book, section)
+    typed = beside(book, section)
     gathered.inputs[section.key].append(row)
     cells_read: list[_Typed] = []
     for entry in section.entries:
@@ -325,9 +193,9 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
             continue
         place = Place(section.key, 0, entry.name)
         try:
-            position = locate.find_cell(book, section, entry)
+            position = find_cell(book, section, entry)
             gathered.addresses[place] = position.address
-            column = locate.cell_as_column(book, section, entry, position)
+            column = cell_as_column(book, section, entry, position)
         except InputError as error:
             gathered.add(place, error.parts)
             continue
@@ -340,7 +208,7 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
         if not cell.is_blank and column.heading != position:
             gathered.use(place, found_at(book, column.heading))
         cells_read.append(_Typed(entry, place, cell, column))
-    for gone, position in locate.gone_cells(book, section):
+    for gone, position in gone_cells(book, section):
         _refuse_gone(gone, Place(section.key), found_at(book, position), gathered)
     # What a blank cell is computed from must have been read.
     for typed_cell in sorted(cells_read, key=lambda each: each.is_computed):
@@ -356,7 +224,7 @@ def _refuse_gone(gone: GoneInput, place: Place, cell: Found, gathered: Gathered)
 
 
 def _read_table(
-    book: OpenBook, section: SheetSection, table: locate.TableFound, gathered: Gathered
+    book: OpenBook, section: SheetSection, table: TableFound, gathered: Gathered
 ) -> None:
     gathered.addresses[Place(section.key)] = table.heading.address
     gathered.add(Place(section.key), table.problems)
@@ -398,7 +266,7 @@ class _Typed:
     entry: Entry
     place: Place
     cell: Found
-    column: locate.FieldColumn
+    column: FieldColumn
 
     @property
     def is_computed(self) -> bool:

@@ -1,12 +1,11 @@
 """Cells that are read though the workbook does not show them, or shows them struck through.
 
-Also formulas whose saved values may be former ones, and sheets that are copies of another one.
 Knows no field. Read `unseen`, and `warnings` for what is said of it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import groupby, islice
@@ -16,26 +15,27 @@ from openpyxl.styles.colors import COLOR_INDEX, Color
 from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.project.check.findings import listed, warning
-from report.project.model.finding import Finding
+from report.project.model.finding import Finding, warning
 from report.project.model.place import Place
 from report.project.read.archive import OpenBook
 from report.project.read.cells import Found
-from report.project.read.positions import bounds_of, fields_by_label, labels
-from report.project.read.typed_text import shows_nothing
-from report.project.workbook.entries import SheetSection
-from report.text.counts import cut
+from report.project.read.number_formats import shows_nothing
+from report.project.read.positions import bounds_of
 
 # Cells that are read, each with the place that it is read for.
 Used = Iterable[tuple[Place, Found]]
 
+
 # Height [points] and width [characters] below which nothing in a row or column can be read.
 LEAST_HEIGHT, LEAST_WIDTH = 3.0, 0.4
+
 
 # Difference of two colors in red, green and blue, each of 255, below which they look alike.
 _LIKE = 24
 
+
 _MOST_RANGES = 8
+
 
 # Filters of a sheet that are told from other ways to hide a row.
 _MOST_FILTERS = 50
@@ -63,6 +63,8 @@ _SENTENCES: Mapping[Concealment, str] = {
     Concealment.INVISIBLE: "{cells} cannot be seen for the color of the text or the number format,"
     " and {are} read: change it, or clear what is not meant",
 }
+
+
 _STATES = {"hidden": "hidden", "veryHidden": "hidden so that Excel's menu does not list it"}
 
 
@@ -234,6 +236,8 @@ def _of_style(cell: Any) -> Iterator[Concealment]:
 
 
 _WHITE, _BLACK = (255, 255, 255), (0, 0, 0)
+
+
 # The first two colors of a theme: those of background and text.
 _OF_THEME = (_WHITE, _BLACK)
 
@@ -252,76 +256,3 @@ def _rgb(color: Color | None, default: tuple[int, ...]) -> tuple[int, ...]:
     if color.type == "indexed" and color.indexed < len(COLOR_INDEX):
         return tuple(bytes.fromhex(COLOR_INDEX[color.indexed][-6:]))
     return default
-
-
-_MOST_LISTED = 8
-
-
-def from_outside(book: OpenBook, whole: Place) -> Iterator[Finding]:
-    """Yield a warning if a workbook takes values from elsewhere: by DDE, or of other files."""
-    if book.outside:
-        names = (cut(link).encode("ascii", "replace").decode() for link in book.outside)
-        which = listed(names, _MOST_LISTED)
-        text = f"the workbook takes values from elsewhere ({which}), of which the saved ones are"
-        yield warning("outside", whole, f"{text} read: type the values instead")
-
-
-def not_calculated(book: OpenBook, used: Used, whole: Place) -> Iterator[Finding]:
-    """Yield a warning if the values of formulas may not follow from the cells they refer to."""
-    says = book.calculation
-    read = [(place, cell.address) for place, cell in used if cell.formula]
-    if says.get("calcCompleted", "1") in ("0", "false"):
-        manual = " (calculation is manual)" if says.get("calcMode") == "manual" else ""
-        why = f"was saved before its formulas were calculated{manual}"
-    # So does a fresh one, which has such values only in formulas that are read.
-    elif read and says.get("fullCalcOnLoad", "0") in ("1", "true"):
-        why = "asks to be calculated when it is opened"
-    else:
-        return
-    if read or any(scan.formulas for scan in book.scans.values()):
-        place, cell = read[0] if read else (whole, "")
-        which = listed((address for _, address in read), _MOST_LISTED) or "its computed cells"
-        text = f"the workbook {why}, and {which} may show former values: calculate it (F9; in"
-        text += " LibreOffice Ctrl+Shift+F9) and save it"
-        yield replace(warning("calculation", place, text), cell=cell)
-
-
-# Labels in each row of a sheet, in the form that is compared.
-Rows = tuple[frozenset[str], ...]
-
-
-def copies(
-    book: OpenBook, sections: Iterable[SheetSection], addresses: Mapping[Place, str]
-) -> Iterator[Finding]:
-    """Yield a warning for each sheet with all labels of one that is read."""
-    rows = {sheet.title: _rows(book, sheet) for sheet in book.book.worksheets}
-    told: set[str] = set()
-    for section in sections:
-        addresses_of = (
-            address for place, address in addresses.items() if place.section == section.key
-        )
-        read = next(addresses_of, "").rpartition("!")[0]
-        labels = _labels(section, rows[read]) if read in rows else frozenset()
-        for title in rows:
-            if labels and title not in (read, *told) and labels <= _labels(section, rows[title]):
-                told.add(title)
-                text = (
-                    f"sheets '{read}' and '{title}' both have the labels of {section.title};"
-                    f" '{read}' is read, and '{title}' is ignored: delete the one that is not meant"
-                )
-                yield warning(f"copy {title}", Place(section.key), text)
-
-
-def _rows(book: OpenBook, sheet: Worksheet) -> Rows:
-    rows: dict[int, set[str]] = {}
-    for position, label in labels(book, sheet):
-        rows.setdefault(position.row, set()).add(label)
-    return tuple(map(frozenset, rows.values()))
-
-
-def _labels(section: SheetSection, rows: Rows) -> Set[str]:
-    """Return the labels of a section on a sheet: of a table, those in one row."""
-    fields = fields_by_label(section)
-    places = rows if section.is_table else (frozenset().union(*rows),)
-    labels = ({fields[label].name for label in place & fields.keys()} for place in places)
-    return max(labels, key=len, default=set())

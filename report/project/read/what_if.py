@@ -11,11 +11,12 @@ from typing import Any
 
 from openpyxl.utils import coordinate_to_tuple
 
-from report.project.check.checks import faults
+from report.project.check.faults import faults
 from report.project.model.place import Place
 from report.project.read.cells import CellError, Found, blank_value, read_cell
 from report.project.read.positions import CellPosition
-from report.project.read.read import Gathered, Sheet
+from report.project.read.read import Gathered
+from report.project.read.workbook_data import Sheet
 from report.project.workbook import SECTION
 
 # What is typed into a cell: a number in the unit of the cell, a text, or nothing.

@@ -12,7 +12,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from report.project.model.choices import ObjectKind, SlopeUnit
-from report.project.workbook.layout import FORMER_ANSWERS, Tables
+from report.project.workbook.earlier_workbooks import FORMER_ANSWERS
+from report.project.workbook.layout import Tables
 from report.text.units import Quantity, Unit
 from solver.model import INCH_M
 from solver.rules.hazard import NEAR_FAULT_S_1_G, HazardBasis

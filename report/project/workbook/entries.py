@@ -1,4 +1,4 @@
-"""What Excel knows of an input: heading, unit, note, example, and the parts of the workbook.
+"""What Excel knows of an input: heading, unit, note, example.
 
 The type of a value and its allowed range are those of the field of the model.
 """
@@ -7,10 +7,9 @@ from __future__ import annotations
 
 import datetime as dt
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import KW_ONLY, dataclass, replace
 from enum import StrEnum
-from functools import partial
 from typing import Any, get_args
 
 from annotated_types import Ge, Gt, Le, Lt
@@ -138,88 +137,7 @@ class Entry:
         return tuple(self.kind) if issubclass(self.kind, StrEnum) else ()
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SheetSection:
-    """A part of the workbook: a block of single cells, or a table."""
-
-    key: str  # its field of the whole input, and the prefix of its names in the workbook
-    sheet: str
-    title: str
-    model: type[Frozen]  # of the block, or of one row
-    note: str  # one line of instruction
-    entries: tuple[Entry, ...]
-    is_table: bool
-    may_be_absent: bool = False  # as in workbooks of earlier versions
-    needs_rows: bool = False
-
-    @property
-    def is_needed(self) -> bool:
-        """Whether every project fills it: a table with rows, or a block with required cells."""
-        is_required = any(entry.is_required for entry in self.entries)
-        return self.needs_rows if self.is_table else is_required
-
-    def sheet_of(self, field: str) -> str:
-        """Return the sheet of a field."""
-        return self.entry(field).sheet or self.sheet
-
-    @property
-    def table_name(self) -> str:
-        """Name of its Excel table."""
-        return f"{self.key}_table"
-
-    def entry(self, field: str) -> Entry:
-        """Return one of its fields."""
-        return next(entry for entry in self.entries if entry.name == field)
-
-    def cell_name(self, field: str) -> str:
-        """Return the defined name of a single cell."""
-        return f"{self.key}_{field}"
-
-    def unit_name(self, field: str) -> str:
-        """Return the defined name of the cell that holds a single cell's unit."""
-        return f"{self.cell_name(field)}_unit"
-
-
-def section(
-    key: str,
-    sheet: str,
-    title: str,
-    model: type[Frozen],
-    note: str,
-    *entries: Entry,
-    **traits: bool,
-) -> SheetSection:
-    """Return a part of the workbook, its entries with what the model says of their fields."""
-    return SheetSection(
-        key=key,
-        sheet=sheet,
-        title=title,
-        model=model,
-        note=note,
-        entries=tuple(_of_model(entry, model) for entry in entries),
-        **traits,
-    )
-
-
-block, table = partial(section, is_table=False), partial(section, is_table=True)
-
-
-def rows_of(
-    section: SheetSection, sections: Sequence[SheetSection]
-) -> list[tuple[SheetSection, Entry]]:
-    """Return the inputs in the order of a block's rows, with the section that each is of."""
-    rows = []
-    for entry in section.entries:
-        if entry.below:
-            continue
-        rows.append((section, entry))
-        place = (section.key, entry.name)
-        for other in sections:
-            rows += [(other, each) for each in other.entries if each.below == place]
-    return rows
-
-
-def _of_model(entry: Entry, model: type[Frozen]) -> Entry:
+def of_model(entry: Entry, model: type[Frozen]) -> Entry:
     """Return an entry with what its model says of the field."""
     info = model.model_fields[entry.name]
     constraints = list(info.metadata)

@@ -1,12 +1,9 @@
-"""Where the template has put the fields and the answers, and how formulas refer to them.
-
-Also labels and headings of earlier workbooks, which can still be read.
-"""
+"""Where the template has put the fields and the answers, and how formulas refer to them."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from openpyxl import Workbook
@@ -14,10 +11,11 @@ from openpyxl.utils import get_column_letter, quote_sheetname
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.project.workbook.entries import SheetSection
+from report.project.workbook.sections import SheetSection
 
 # Last row that dropdowns and conditional formats reach.
 LAST_ROW = 500
+
 
 # Within brackets an apostrophe goes before these (Excel, structured references).
 _SPECIAL, _ESCAPED = re.compile(r"(['#\[\]])"), r"'\1"
@@ -74,53 +72,3 @@ def name_range(name: str, sheet: Worksheet, area: str) -> None:
 def name_formula(book: Workbook, name: str, formula: str) -> None:
     """Give a formula a defined name."""
     book.defined_names[name] = DefinedName(name, attr_text=formula)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class GoneInput:
-    """An input that earlier workbooks have: it is no more, and refused where it asks for something.
-
-    A blank cell asks for nothing, nor does a default.
-    """
-
-    field: str  # with which its defined name ends
-    label: str
-    defaults: tuple[str, ...]  # lowercase
-    remedy: str
-
-
-# By section.
-GONE: Mapping[str, tuple[GoneInput, ...]] = {
-    "options": (
-        GoneInput(
-            field="directional",
-            label="Displacement by direction",
-            defaults=("no", "false"),
-            remedy="answer No: a clearance takes the design displacement in full, as the rule sets"
-            " state no direction",
-        ),
-    ),
-    "arrays": (
-        GoneInput(
-            field="model",
-            label="Model",
-            defaults=("choose",),
-            remedy="select 'choose': each run has the simplest adequate model. From Python,"
-            " solver.solve runs any",
-        ),
-    ),
-}
-
-# Headings of formulas of earlier workbooks by section, lowercase and without unit.
-FORMER_ANSWERS: Mapping[str, frozenset[str]] = {
-    "arrays": frozenset({"slope in degrees", "weight per area"}),
-    "clearances": frozenset({"d/c, floor", "row of array", "row of other array", "row of object"}),
-    "outlines": frozenset({"twice the area"}),
-}
-
-# Earlier order of the first fields of a block, in which confirmations are hashed.
-ORDERS: Mapping[str, Sequence[str]] = {
-    "site": ("rule_set", "risk_category", "i_e", "s_s_g", "s_1_g", "site_class", "f_a", "f_v",
-             "s_ds_g", "sdc", "stories", "structure_height_m", "roof_height_m", "edition_name",
-             "s_ms_g", "s_m1_g", "s_d1_g"),
-}  # fmt: skip

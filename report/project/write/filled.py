@@ -1,43 +1,39 @@
-"""Fills cells of a workbook, and is the one way in which a command changes one.
-
-Read `changing`; then `overwritten` for blue cells whose formula is gone.
-"""
+"""Fills cells of a workbook, and is the one way in which a command changes one. Read `changing`."""
 
 from __future__ import annotations
 
 import os
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Iterator, Mapping, Set
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import groupby, starmap
+from itertools import starmap
 from pathlib import Path
 
 from openpyxl.formula.translate import Translator
 from openpyxl.utils import coordinate_to_tuple
 
 from report.project.model.choices import ClearanceSource
-from report.project.model.finding import Finding, Level
 from report.project.model.input_rows import InputRow
 from report.project.model.place import Place
 from report.project.read.archive import OpenBook, book_of, located, open_book
-from report.project.read.cells import Found, plain
-from report.project.read.locate import table_area
-from report.project.read.parts import Formula, Value, changed
-from report.project.read.positions import FRESH, CellPosition, area_named, bounds_of, found_at
-from report.project.read.read import Sheet, read_book
-from report.project.read.typed_text import references
+from report.project.read.changed_cells import Formula, Value, changed
+from report.project.read.formula_references import references
+from report.project.read.locate_table import table_area
+from report.project.read.positions import CellPosition, bounds_of
+from report.project.read.read import read_book
 from report.project.read.what_if import cells
+from report.project.read.workbook_data import Sheet
 from report.project.workbook import SECTIONS
 from report.project.write.style import is_answer
-from report.project.write.template import START
-from report.text.counts import cut, grouped_by
+from report.text.counts import grouped_by
 from solver.files import check_plain, locked, write_all
 from solver.model import InputError
 
 # Ends the name under which a workbook is kept as it was before the last command changed it.
 BEFORE = ".before.xlsx"
+
 
 # Files that Excel and LibreOffice put beside a workbook while they have it open.
 _OPEN_ELSEWHERE = ("~${}", ".~lock.{}#")
@@ -203,91 +199,3 @@ def withdrawn(change: WorkbookChange) -> list[str]:
 def _drawn(sheet: Sheet) -> list[InputRow]:
     rows = sheet.inputs["clearances"]
     return [row for row in rows if row.get("source") is ClearanceSource.DRAWING]
-
-
-_PANEL = "live_sdc_used"
-# In a formula that refers to a column which the workbook lacks.
-_BROKEN = "#REF!"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Overwritten:
-    """A cell that has lost its formula."""
-
-    position: CellPosition
-    content: Found  # what it has instead
-    title: str  # what the formula computes
-
-    @property
-    def is_broken(self) -> bool:
-        """Whether the workbook lacks a column that the formula refers to."""
-        return _BROKEN in self.content.formula
-
-
-def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
-    """Return the blue cells that have lost their formula, by sheet, column and row."""
-    lost = [
-        Overwritten(
-            position=position, content=found_at(book, position), title=_title(book, position)
-        )
-        for position in _blue(book)
-        if not (formula := book.formula(position.sheet, position.cell)) or _BROKEN in formula
-    ]
-    titles = book.book.sheetnames
-    lost.sort(key=lambda o: (titles.index(o.position.sheet), o.position.column, o.position.row))
-    return tuple(lost)
-
-
-def _blue(book: OpenBook) -> Iterator[CellPosition]:
-    panel = area_named(book.book, _PANEL)
-    if panel is None:
-        return
-    for title in book.sheets:
-        # Start of earlier workbooks has samples of the color alone.
-        if title == START and panel[0] != START:
-            continue
-        for cell in book.cells(title):
-            if is_answer(cell):
-                yield CellPosition(title, cell.row, cell.column)
-
-
-def findings(lost: Sequence[Overwritten]) -> Iterator[Finding]:
-    """Yield a warning for each run of cells below each other."""
-    keys = {section.sheet: section.key for section in reversed(SECTIONS)}
-
-    def key(numbered: tuple[int, Overwritten]) -> tuple[str, int, int, bool]:
-        count, item = numbered
-        at = item.position
-        return at.sheet, at.column, at.row - count, item.is_broken
-
-    for _, group in groupby(enumerate(lost), key):
-        run = [item for _, item in group]
-        first, last = run[0], run[-1]
-        cell = first.position.address
-        cells = f"{cell}:{last.position.cell}" if len(run) > 1 else cell
-        place = Place(keys.get(first.position.sheet, SECTIONS[0].key))
-        text = _text(first, len(run))
-        yield Finding(level=Level.WARNING, place=place, text=text, cell=cells)
-
-
-def _text(item: Overwritten, count: int) -> str:
-    title = f"{item.title} ({count} cells)" if count > 1 else item.title
-    if item.is_broken:
-        return f"{title} refers to a column that is missing; write its heading again, or {FRESH}"
-    if item.content.is_blank:
-        return f"{title} is blank, and its formula is gone; {FRESH}"
-    return f"{title} is {cut(plain(item.content.value))}, typed over its formula; {FRESH}"
-
-
-def _title(book: OpenBook, position: CellPosition) -> str:
-    """Return what a cell computes: the heading of its column, or else the label of its row."""
-    sheet = book.book[position.sheet]
-    for section in SECTIONS:
-        area = table_area(book, section) if section.is_table else None
-        if area and area.sheet == position.sheet and area.header < position.row <= area.last:
-            return str(sheet.cell(area.header, position.column).value)
-    there, row = book.scans[position.sheet].cells, position.row
-    columns = (column for column in range(1, position.column) if (row, column) in there)
-    labels = (sheet.cell(row, column).value for column in columns)
-    title = next((str(label) for label in labels if isinstance(label, str) and label), "cell")
-    return f"{title.removesuffix(' *')}, computed," if position.sheet == "Site" else title

@@ -15,12 +15,13 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.table import Table, TableColumn, TableFormula, TableStyleInfo
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.project.model import provision_name
 from report.project.model.choices import UnitsFirst
 from report.project.model.frozen import Frozen
+from report.project.model.provision_names import provision_name
 from report.project.workbook.answers import SITE_ANSWERS, SITE_FORMAT, FormulaColumn, table_answers
-from report.project.workbook.entries import Entry, SheetSection, rows_of
+from report.project.workbook.entries import Entry
 from report.project.workbook.layout import TablePlace, Tables, name_cell
+from report.project.workbook.sections import SheetSection, rows_of
 from report.project.write import style
 from report.text.units import Unit
 

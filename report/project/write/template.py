@@ -1,8 +1,6 @@
-"""Writes the input workbook from the schema, blank or filled in.
+"""Writes the input workbook from its sections, blank or filled in.
 
-Owns the order of the sheets and what is on each, and the sheet Start: answers, steps, links, a
-picture, the colors. `grids` writes blocks and tables, `style` owns their appearance, `answers` the
-formulas. The example comes with its records.
+`grids` writes blocks and tables, `style` owns their appearance, `answers` the formulas.
 """
 
 from __future__ import annotations
@@ -12,24 +10,18 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from openpyxl import Workbook
-from openpyxl.drawing.image import Image
-from openpyxl.styles import Font
-from openpyxl.utils import get_column_letter
-from openpyxl.worksheet.hyperlink import Hyperlink
-from openpyxl.worksheet.worksheet import Worksheet
 
 from report.project.model import ProjectInput
 from report.project.model.choices import UnitsFirst
-from report.project.read.read import read
-from report.project.workbook import SECTIONS, answers
-from report.project.workbook.entries import SheetSection
-from report.project.workbook.layout import TablePlace, Tables, name_cell
+from report.project.workbook import SECTIONS
+from report.project.workbook.layout import TablePlace, Tables
+from report.project.workbook.sections import SheetSection
 from report.project.write import style
 from report.project.write.grids import write_answers, write_block, write_table
-from report.project.write.lookups import write_lookups, write_rules
-from report.text.units import LENGTHS, STIFFNESSES, VELOCITIES, WEIGHTS, Quantity
+from report.project.write.lookups import write_lookups
+from report.project.write.provisions_sheet import write_rules
+from report.project.write.start_sheet import RARE, START, write_start
 from solver.files import write_whole
-from solver.rules.provisions import Neighbor
 
 
 def write_template(path: Path, *, units: UnitsFirst, example: ProjectInput | None = None) -> None:
@@ -78,106 +70,6 @@ def saved(book: Workbook, units: UnitsFirst) -> bytes:
     return buffer.getvalue()
 
 
-_ANSWERS_HINT = (
-    "Computed from the other sheets; the numbers of the rule set are on the sheet Provisions."
-)
-_HEADS = ("", "", "Value", "Separation", "", "", "Worst D/C", "", "Note")
-_SEPARATIONS = {
-    Neighbor.LIKE: "Separation, like arrays",
-    Neighbor.FIXED: "Separation, fixed object or unlike array",
-    Neighbor.PARAPET: "Separation, edge with qualifying parapet",
-    Neighbor.EDGE: "Separation, edge without qualifying parapet",
-}
-
-
-def write_panel(sheet: Worksheet, top: int, tables: Tables, *, is_us: bool) -> int:
-    """Write the answers from a row on; return the row below them and one more."""
-    style.put_heading(sheet, top, "Before any analysis", _ANSWERS_HINT)
-    style.put_values(sheet, top + 2, _HEADS, are_heads=True)
-    unit = Quantity.DISPLACEMENT.value[0 if is_us else 1]
-    lengths = f'{answers.decimals_format(unit)}" {unit.symbol}"'
-    row = top + 3
-    note = "As given; where blank, the least category by S_DS, S_D1 and S_1."
-    _write_line(sheet, row, ("Category used", answers.CATEGORY_USED, note), "General")
-    name_cell("live_sdc_used", sheet, row, 3)
-    note = "The formula, or the minimum of the rule set."
-    prescriptive = ("Prescriptive displacement", answers.prescriptive(unit), note)
-    _write_line(sheet, row + 1, prescriptive, lengths)
-    name_cell("live_prescriptive", sheet, row + 1, 3)
-    worst = answers.written(answers.WORST, tables, "clearances", row + 1)
-    style.put_answer(sheet.cell(row + 1, 7), worst, "0.00")
-    note = "Least design displacement by analysis without peer review."
-    _write_line(sheet, row + 2, ("Floor of the value from analysis", answers.FLOOR, note), lengths)
-    for neighbor, label in _SEPARATIONS.items():
-        number = answers.SEPARATION_ROWS[neighbor]
-        at = row + 2 + number
-        factor = "I_e of the building" if neighbor.is_edge else "the largest I_p"
-        note = f"With PV1-2012 times {factor}."
-        _write_line(sheet, at, (label, answers.separation(unit, at), note), lengths)
-        style.put(sheet, at, 4, "", color=style.GRAY).value = number
-    return row + 3 + len(_SEPARATIONS) + 1
-
-
-def _write_line(sheet: Worksheet, row: int, line: tuple[str, str, str], number_format: str) -> None:
-    """Write label, formula and note."""
-    label, formula, note = line
-    style.put(sheet, row, 2, label).border = style.LINE
-    style.put_answer(sheet.cell(row, 3), formula, number_format)
-    style.put(sheet, row, 9, note, color=style.GRAY)
-    sheet.row_dimensions[row].height = 28
-
-
-START = "Start"
-LINKS_COLUMN, COLORS_COLUMN = 7, 8
-_WIDTHS = (5, 42, 14, 14, 16, 22, 14, 20, 42)
-_PICTURE_PX = (730, 296)  # which ends before the links
-_HINT = "From this workbook to the calculation package. This sheet has no input cells."
-
-# Sheets that are rarely needed: of nothing but tables that may be absent.
-RARE = {section.sheet for section in SECTIONS} - {
-    section.sheet for section in SECTIONS if not (section.is_table and section.may_be_absent)
-}
-
-STEPS = (
-    "Fill in the yellow cells, sheet by sheet. Select a cell to see its instructions.",
-    "Put the acceleration records in the folder “records” beside this workbook, or paste them as"
-    " columns into a new sheet.",
-    "Look at the blue cells, which compute: here, on the sheets Site, Arrays and Clearances.",
-    "Save the workbook as .xlsx and close it.",
-    "Run roofslip check FOLDER, which finds what is missing or wrong, as does the page of roofslip"
-    " serve. FOLDER contains this workbook, named input.xlsx.",
-    "Run roofslip report FOLDER. It writes the calculation package to FOLDER/out.",
-)
-_NOTES = (
-    "Without rows on the sheet Motions, no analysis is made: the package takes the prescriptive"
-    " displacement for every array, and says what an analysis could save.",
-    "Units are in brackets in the table headings and elsewhere in the column Unit. You may change"
-    f" them: lengths to {', '.join(LENGTHS)}; weights to {', '.join(WEIGHTS)}; stiffnesses to"
-    f" {', '.join(STIFFNESSES)}; velocities to {', '.join(VELOCITIES)}.",
-    "Tables grow: type in the row below the last one. You may rename sheets, insert rows, and add"
-    " columns to the right of a table. Columns that are rarely needed are folded at the right: the"
-    " + above the headings opens them.",
-    "Sheets that are rarely needed are hidden while they are empty: right-click a tab and choose"
-    " Unhide, in LibreOffice Show Sheet. So is Tables, which has what the formulas look up.",
-    "A roof that is drawn is read by roofslip plan read ROOF.DXF FOLDER; the sheet Layers says what"
-    " is drawn on each layer of the drawing.",
-    "The blue cells compute prescriptive values only; the package alone has the displacement from"
-    " analysis. They are not read as input. If one is typed over, roofslip check lists it. Formulas"
-    " in yellow cells are accepted. Macros are not: .xlsm files are rejected.",
-)
-_SAMPLES = (
-    ("", "000000", style.INPUT_FILL, "Input cell. It loses its color once it is filled."),
-    ("heading, tab", style.WHITE, style.REQUIRED_FILL,
-     "Required column or sheet; also cells with *."),
-    ("heading, tab", style.WHITE, style.OPTIONAL_FILL, "Optional column or sheet."),
-    ("tab", style.INK, style.RARE_FILL, "Sheet that is rarely needed, hidden while empty."),
-    ("tab", style.WHITE, style.HELP_FILL, "Sheet without input cells."),
-    ("heading", style.INK, style.ANSWER_HEAD_FILL,
-     "Of computed cells: formulas, not read as input."),
-    ("example", style.GRAY, style.HINT_FILL, "Allowed range and example; not read as input."),
-)  # fmt: skip
-
-
 def mark_sheets(book: Workbook, example: object) -> None:
     """Color the tab of each sheet by the need for it; hide those rarely needed and empty."""
     for sheet in book.worksheets:
@@ -190,85 +82,3 @@ def mark_sheets(book: Workbook, example: object) -> None:
             if not any(getattr(example, section.key, ()) for section in sections):
                 sheet.sheet_state = "hidden"
         sheet.sheet_properties.tabColor = fill.start_color.rgb
-
-
-def write_start(book: Workbook, tables: Tables, *, is_us: bool) -> None:
-    """Write the sheet."""
-    sheet = book[START]
-    for column, width in enumerate(_WIDTHS, start=1):
-        sheet.column_dimensions[get_column_letter(column)].width = width
-    style.put_title(sheet, "Roofslip input workbook", _HINT)
-    picture = _write_steps(sheet, write_panel(sheet, 4, tables, is_us=is_us))
-    links = _write_links(book, _put_heading(sheet, picture, "Sheets", LINKS_COLUMN))
-    colors = _write_colors(sheet, picture)
-    row = _put_heading(sheet, max(_put_picture(sheet, picture), links, colors), "Notes")
-    for at, note in enumerate(_NOTES, start=row):
-        style.put(sheet, at, 2, note)
-        sheet.merge_cells(start_row=at, end_row=at, start_column=2, end_column=len(_WIDTHS))
-        sheet.row_dimensions[at].height = 28
-
-
-def _write_links(book: Workbook, row: int) -> int:
-    """Write a link to each sheet of inputs; return the row below and one more."""
-    titles = list(dict.fromkeys(section.sheet for section in SECTIONS))
-    for at, title in enumerate(titles, start=row):
-        # By a defined name, which follows a sheet that is renamed.
-        name = f"top_{title.lower().replace(' ', '_')}"
-        name_cell(name, book[title], 1, 1)
-        said = f"{title}, rarely needed" if title in RARE else title
-        cell = style.put(book[START], at, LINKS_COLUMN, said, wrap=False)
-        cell.hyperlink = Hyperlink(ref=cell.coordinate, location=name)
-        cell.font = Font(name="Calibri", size=10, color=style.INK, underline="single")
-    return row + len(titles) + 1
-
-
-def _put_heading(sheet: Worksheet, row: int, title: str, column: int = 1) -> int:
-    style.put(sheet, row, column, title, bold=True, size=13, wrap=False)
-    sheet.row_dimensions[row].height = 24
-    return row + 1
-
-
-def _write_steps(sheet: Worksheet, row: int) -> int:
-    for at, step in enumerate(STEPS, start=row):
-        style.put(sheet, at, 1, str(at - row + 1), bold=True, size=12)
-        style.put(sheet, at, 2, step, size=11, wrap=False)
-        sheet.row_dimensions[at].height = 20
-    return row + len(STEPS) + 1
-
-
-def _put_picture(sheet: Worksheet, row: int) -> int:
-    """Place the picture, and return the row below it."""
-    picture = Image(io.BytesIO(Path(__file__).with_name("start.png").read_bytes()))
-    picture.width, picture.height = _PICTURE_PX
-    sheet.add_image(picture, f"B{row}")
-    # At 96 px an inch, 0.75 pt a pixel; a row is 15 pt tall.
-    return row + int(_PICTURE_PX[1] * 0.75 / 15) + 1
-
-
-def _write_colors(sheet: Worksheet, row: int) -> int:
-    row = _put_heading(sheet, row, "Colors", COLORS_COLUMN)
-    for at, (sample, color, fill, meaning) in enumerate(_SAMPLES, start=row):
-        cell = style.put(sheet, at, COLORS_COLUMN, sample, color=color, bold=color != "000000")
-        cell.fill, cell.border = fill, style.BOX
-        style.put(sheet, at, COLORS_COLUMN + 1, meaning, color=style.GRAY)
-        sheet.row_dimensions[at].height = 20
-    return row + len(_SAMPLES) + 1
-
-
-_REPORT = Path(__file__).resolve().parents[2]
-_HOMES = (_REPORT / "web" / "example", _REPORT.parent / "projects" / "example")
-# Within the package where it is installed, or of the checkout.
-EXAMPLE = next(path for path in _HOMES if path.is_dir())
-
-
-def example_files(units: UnitsFirst) -> dict[str, bytes]:
-    """Return records/ and documents/ as shipped, and input.xlsx in a system of units, by name."""
-    files = {
-        f"{folder}/{path.name}": path.read_bytes()
-        for folder in ("records", "documents")
-        for path in sorted((EXAMPLE / folder).iterdir())
-    }
-    project = read(EXAMPLE).project
-    issue = project.project.model_copy(update={"units_first": units})
-    example = project.model_copy(update={"project": issue})
-    return files | {"input.xlsx": template(units, example)}

@@ -21,7 +21,7 @@ from report.assessment.support.saving import saving
 from report.assessment.support.smaller_events import cumulative
 from report.document.templates import sentence
 from report.pages.marks import Marked
-from report.project.model import Override
+from report.project.model.options import Override
 from report.typeset.pdf import TEMPLATES
 from solver import at_roof, building_of_periods
 from solver.sliding.least_model import DEFAULT

@@ -14,7 +14,7 @@ from report.assessment.precheck import limits_before_runs
 from report.motions.history import targets
 from report.project.model.finding import Level
 from report.project.model.place import Place
-from report.project.model.scene import SIDES
+from report.project.model.placed import SIDES
 
 SEVEN = assessments.motions(7)
 BARE = projects.project(

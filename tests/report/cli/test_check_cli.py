@@ -20,7 +20,7 @@ from report.assessment.checks.sentence import texts
 from report.assessment.precheck import findings
 from report.motions.prepare import prepare
 from report.project.model.place import Place
-from report.project.model.scene import SIDES
+from report.project.model.placed import SIDES
 from report.text.units import LENGTHS, PRESSURES, WEIGHTS
 
 REASON = {"warning": "weight A1", "reason": "Frames alone, ballast by others"}

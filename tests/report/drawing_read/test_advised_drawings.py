@@ -15,7 +15,7 @@ from fixtures.dxf import BOX_FT, ROOF_FT, UNIT_FT, Sketch
 from fixtures.marks import by_day
 from fixtures.project_parts import FT, INCH
 from fixtures.workbooks import blank, edit, put
-from report.project.check.plan_checks import shapes_of
+from report.project.check.plan_shapes import shapes_of
 from report.project.read.read import read
 
 RTU = 'RTU-1, HT 42"'

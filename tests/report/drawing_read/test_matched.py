@@ -18,7 +18,7 @@ from fixtures.workbooks import blank, type_into
 from report.drawing_read.fill import MOST_TOLD, matched
 from report.drawing_read.plan_read import DrawnOutline, RoofPlan
 from report.project.model.choices import ClearanceSource, LayerKind, UnitsFirst
-from report.project.model.scene import SIDES
+from report.project.model.placed import SIDES
 from report.project.model.shapes import Polygon, Rectangle
 from report.project.read.read import read
 from solver.model import InputError

@@ -14,7 +14,7 @@ from report.drawing_read.fill import matched
 from report.drawing_read.plan_read import plan_of
 from report.drawing_read.roof_drawing import Drawn, RoofDrawing
 from report.project.model.choices import UnitsFirst
-from report.project.model.scene import SIDES
+from report.project.model.placed import SIDES
 from report.project.read.read import read
 from solver.model import InputError
 

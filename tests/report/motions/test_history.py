@@ -15,7 +15,7 @@ from report.motions.components import FACTOR, Components, processing_of, spikes
 from report.motions.history import ac156, first_period_s, shake, targets
 from report.motions.prepare import MAX_BESIDE_FAULTS, MAX_TOGETHER, MOST_FAULTS
 from report.project.model.choices import RecordedAt
-from report.project.model.motions import MotionInput
+from report.project.model.motion_input import MotionInput
 from solver.building.roof import shaking_to_roof
 from solver.building.structure import building_of_periods
 from solver.records.measures import measures

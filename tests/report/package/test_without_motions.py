@@ -25,7 +25,7 @@ from report.making import make
 from report.pages.registry import OF_MOTIONS, PAGES, package_data, pages_in
 from report.pages.summary import summary
 from report.project.model.choices import PackageEdition, UnitsFirst
-from report.project.model.scene import Clearance, Roof
+from report.project.model.roof import Clearance, Roof
 from report.project.read.read import read
 from report.project.write.template import write_template
 from report.results.results_json import former_from, results_json

@@ -15,7 +15,7 @@ from fixtures.pages import FRONT, page_of, read
 from report.assessment.revision_changes import NO_FORMER, Change, ChangeKind
 from report.package.html import pages
 from report.pages.registry import package_data, pages_of
-from report.project.read.read import EchoRow
+from report.project.read.workbook_data import EchoRow
 from report.typeset.pdf import TEMPLATES
 
 ARRAY, GAP, FOOT = projects.array, projects.clearance, projects.FOOT

@@ -20,9 +20,10 @@ from report.motions.components import read_components
 from report.motions.history import TargetSpectrum, targets
 from report.pages.registry import package_data
 from report.project.model.choices import RecordedAt
-from report.project.model.motions import MotionInput
+from report.project.model.motion_input import MotionInput
 from report.project.read.archive import open_book
-from report.project.read.linked_files import SUPPORTING, Document, StudyYears, read_documents
+from report.project.read.documents import Document, read_documents
+from report.project.read.study_years import SUPPORTING, StudyYears
 from report.web.views import MOST_LEVELS, levels
 from solver.records.acceptance import Acceptance
 from solver.records.record import Record, write_record

@@ -16,7 +16,7 @@ from report.project.check.covered import CONFIRMATIONS, outdated
 from report.project.model import ProjectInput
 from report.project.read.read import read
 from report.project.workbook import SECTION, SECTIONS
-from report.project.write.filled import overwritten
+from report.project.write.overwritten import overwritten
 from report.study.read import read_study
 from report.study.schema import StudyInput
 

@@ -9,7 +9,7 @@ from fixtures import commands
 from fixtures.workbooks import edit, make, pack, parts, problems, type_into
 from report.project.read.archive import open_book
 from report.project.read.scan import LAST_COLUMN, LAST_ROW
-from report.project.write.filled import overwritten
+from report.project.write.overwritten import overwritten
 from report.project.write.style import put_answer
 
 ENDS = ((LAST_ROW, 1), (1, LAST_COLUMN), (LAST_ROW, LAST_COLUMN))

@@ -17,7 +17,7 @@ from fixtures.workbooks import (
     type_into,
     with_addresses,
 )
-from report.project.read import linked_files
+from report.project.read import documents
 from report.project.read.read import read
 
 
@@ -284,7 +284,7 @@ def test_what_may_not_be_attached_is_an_error_of_its_cell(workbook, name, said):
 
 @pytest.mark.nightly
 def test_all_documents_together_have_a_limit(workbook, monkeypatch):
-    monkeypatch.setattr(linked_files, "MAX_DOCUMENTS", 2 * len(PDF) - 1)
+    monkeypatch.setattr(documents, "MAX_DOCUMENTS", 2 * len(PDF) - 1)
     naming(workbook, "letter.pdf", PDF)
     assert len(read(workbook).documents) == 1
     (workbook.parent / "report.pdf").write_bytes(PDF)

@@ -27,7 +27,9 @@ from report.project.model.choices import UnitsFirst
 from report.project.read.archive import open_book
 from report.project.read.positions import CellPosition
 from report.project.read.read import read
-from report.project.write.filled import filled, findings, overwritten
+from report.project.write.filled import filled
+from report.project.write.overwritten import formula_findings as findings
+from report.project.write.overwritten import overwritten
 
 
 def lost(path):

@@ -14,7 +14,8 @@ from fixtures.cells import cell
 from fixtures.marks import by_day
 from fixtures.workbooks import cell_address, edit, make, pack, parts
 from report.project.read.archive import open_book
-from report.project.read.parts import GrowingTable, changed
+from report.project.read.changed_cells import changed
+from report.project.read.growing_table import GrowingTable
 from report.project.read.positions import CellPosition
 from report.project.read.read import read
 from report.project.write import style

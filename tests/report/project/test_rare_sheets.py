@@ -23,8 +23,8 @@ from fixtures.workbooks import (
     with_addresses,
 )
 from report.project.model.choices import UnitsFirst
-from report.project.model.motions import Links, coefficients
-from report.project.model.scene import ROOF
+from report.project.model.links import Links, coefficients
+from report.project.model.roof import ROOF
 from report.project.model.shapes import Polygon, Rectangle
 from report.project.read.read import read
 from solver.sliding.row import MOST_STEPS, minimum_steps

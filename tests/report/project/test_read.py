@@ -29,8 +29,8 @@ from fixtures.workbooks import (
 )
 from fixtures.workbooks import saved_by_libreoffice as by_libreoffice
 from report.assessment.precheck import findings
-from report.project.model import Options
 from report.project.model.choices import Polarity, SlopeUnit, UnitsFirst
+from report.project.model.options import Options
 from report.project.write.template import write_template
 
 

@@ -20,7 +20,7 @@ from fixtures.workbooks import (
     with_addresses,
 )
 from report.project.model.choices import RuleSetName, UnitsFirst
-from report.project.read import typed_text
+from report.project.read import number_formats
 from report.project.read.cells import plain
 from report.project.read.read import read
 from report.project.read.typed_text import choice_in, dates_in, inches_in, number_in, rise_in
@@ -219,7 +219,9 @@ def test_a_number_has_the_digits_that_a_spreadsheet_keeps():
      ("divided by 1,000,000", "lb", ["0.0,,"])],
 )  # fmt: skip
 def test_a_format_that_shows_another_number_is_told(how, unit, codes):
-    assert {code: typed_text.misleading(code, unit) for code in codes} == dict.fromkeys(codes, how)
+    assert {code: number_formats.misleading(code, unit) for code in codes} == dict.fromkeys(
+        codes, how
+    )
 
 
 @pytest.mark.parametrize(
@@ -231,7 +233,9 @@ def test_a_format_that_shows_another_number_is_told(how, unit, codes):
      ("ft", ["0'"]), ("in/s", ['0" in/sec"']), ("deg", ['0" deg in plan"']), ("%", ['0"%"'])],
 )  # fmt: skip
 def test_a_format_with_its_own_unit_or_with_other_words_is_none(unit, codes):
-    assert {code: typed_text.misleading(code, unit) for code in codes} == dict.fromkeys(codes, "")
+    assert {code: number_formats.misleading(code, unit) for code in codes} == dict.fromkeys(
+        codes, ""
+    )
 
 
 @pytest.mark.parametrize(
@@ -243,7 +247,7 @@ def test_a_format_with_its_own_unit_or_with_other_words_is_none(unit, codes):
     ],
 )  # fmt: skip
 def test_a_format_without_digits_shows_nothing(nothing, cells):
-    assert [typed_text.shows_nothing(*cell) for cell in cells] == [nothing] * len(cells)
+    assert [number_formats.shows_nothing(*cell) for cell in cells] == [nothing] * len(cells)
 
 
 # Cell, number format, and how it shows the number; what to give instead.

@@ -15,7 +15,7 @@ from fixtures.workbooks import type_into
 from report import making
 from report.motions import files as motion_files
 from report.motions.prepare import prepare
-from report.project.read.linked_files import Document
+from report.project.read.documents import Document
 from report.project.read.read import read
 from report.provenance import files
 from report.provenance.files import (

@@ -17,7 +17,7 @@ from fixtures.pages import IDS, page_of
 from report.assessment.design.verdict import Verdict
 from report.assessment.revision_changes import ChangeKind
 from report.pages.registry import package_data, parts
-from report.project.read.linked_files import Document
+from report.project.read.documents import Document
 from report.results.changes import MOST_CHANGES, changes, check_listed, with_reissue
 from report.results.results_json import AGAIN, former_from, read_former, results_json
 from solver.model import InputError

@@ -28,8 +28,8 @@ from fixtures.study_workbooks import (
 from fixtures.workbooks import edit, type_into
 from projects.study.make import study
 from report.project.model.choices import UnitsFirst
-from report.project.read.linked_files import SUPPORTING, StudyYears
 from report.project.read.read import read
+from report.project.read.study_years import SUPPORTING, StudyYears
 from report.study import files
 from report.study.files import study_files, study_html
 from report.study.manifest import manifest_of

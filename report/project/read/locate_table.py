@@ -1,11 +1,11 @@
-"""Finds the inputs of a workbook: single ones by defined name or label, tables by name or headings.
+"""Finds the tables of a workbook, by name or by their headings.
 
-Never uses positions or styles, which users change. `cells` converts the content of the cells.
+Never uses positions or styles, which users change.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from openpyxl.utils import get_column_letter
@@ -16,25 +16,23 @@ from report.project.read.positions import (
     FRESH,
     MAX_COLUMNS,
     CellPosition,
-    area_named,
     bounds_of,
-    check_uncovered,
     fields_by_label,
     found_at,
     heading_parts,
     label_key,
     labels,
-    labels_of,
     merged,
     sheets_titled,
     unit_size,
 )
-from report.project.workbook import layout
 from report.project.workbook.answers import ANSWER_HEADINGS
-from report.project.workbook.entries import Entry, SheetSection
+from report.project.workbook.earlier_workbooks import GONE, GoneInput
+from report.project.workbook.sections import SheetSection
 from solver.model import InputError, Problem
 
 MAX_ROWS = 2000
+
 
 _Place = tuple[Worksheet, int, int, int, range]
 
@@ -57,7 +55,7 @@ class TableFound:
     columns: Mapping[str, FieldColumn]  # by field, of headings that are present and readable
     rows: Sequence[int]  # those that may contain inputs
     others: tuple[CellPosition, ...]  # headings that belong to no field
-    gone: tuple[tuple[layout.GoneInput, CellPosition], ...]  # headings of inputs that are no more
+    gone: tuple[tuple[GoneInput, CellPosition], ...]  # headings of inputs that are no more
     absent: tuple[str, ...]  # optional fields without a column, as in earlier workbooks
     problems: tuple[Problem, ...]  # of headings and merged cells
 
@@ -67,7 +65,7 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
 
     Raises `InputError` if there is neither, or the sheet has data too far away.
     """
-    sheet, left, top, right, below = _table_named(book, section) or _headings(book, section)
+    sheet, left, top, right, below = table_named(book, section) or _headings(book, section)
     _check_reach(book, sheet, top)
     # Headings may go on beyond the table.
     while right < MAX_COLUMNS and sheet.cell(top, right + 1).value is not None:
@@ -100,14 +98,14 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
 
 def _gone_headings(
     book: OpenBook, section: SheetSection, headings: Sequence[CellPosition]
-) -> Iterator[tuple[layout.GoneInput, CellPosition]]:
-    for gone in layout.GONE.get(section.key, ()):
+) -> Iterator[tuple[GoneInput, CellPosition]]:
+    for gone in GONE.get(section.key, ()):
         for position in headings:
             if label_key(found_at(book, position).value) == label_key(gone.label):
                 yield gone, position
 
 
-def _table_named(book: OpenBook, section: SheetSection) -> _Place | None:
+def table_named(book: OpenBook, section: SheetSection) -> _Place | None:
     """Return sheet, left, heading row, right and rows of totals of a section's table."""
     for sheet in book.book.worksheets:
         for table in sheet.tables.values():
@@ -235,7 +233,7 @@ class TableArea:
 
 def table_area(book: OpenBook, section: SheetSection) -> TableArea | None:
     """Return the table of a section, found by its name; None without one."""
-    area = _table_named(book, section)
+    area = table_named(book, section)
     if area is None:
         return None
     sheet, left, top, right, totals = area
@@ -247,97 +245,3 @@ def table_area(book: OpenBook, section: SheetSection) -> TableArea | None:
         totals=totals.start if totals else 0,
         headings={label_key(sheet.cell(top, place.column).value): place for place in places},
     )
-
-
-def find_cell(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition:
-    """Return the cell of a single field by name, or else beside its label, or raise InputError."""
-    position = _position(book, section, entry)
-    if position is None:
-        raise InputError(
-            f"{section.sheet_of(entry.name)}: {entry.spoken} is missing"
-            f" (no name {section.cell_name(entry.name)} and no label '{entry.heading}'); {FRESH}"
-        )
-    return position
-
-
-def beside(book: OpenBook, section: SheetSection) -> Mapping[str, list[CellPosition]]:
-    """Return the cells with content beside the labels of each field on the sheets of a block."""
-    fields = fields_by_label(section)
-    by_field: dict[str, list[CellPosition]] = {}
-    for position, label in _labels(book, section):
-        if label in fields:
-            at = replace(position, column=position.column + 1)
-            if not found_at(book, at).is_blank:
-                by_field.setdefault(fields[label].name, []).append(at)
-    return by_field
-
-
-def cell_as_column(
-    book: OpenBook, section: SheetSection, entry: Entry, position: CellPosition
-) -> FieldColumn:
-    """Return the unit of a single field; raise InputError if it is not accepted, or covered."""
-    if entry.kind not in (int, float):
-        check_uncovered(book, position)
-        return FieldColumn(number=position.column, unit="", si=1.0, heading=position)
-    named = _named(book, section.unit_name(entry.name))
-    at = named or replace(position, column=position.column + 1)
-    check_uncovered(book, position, at)
-    unit, si = unit_size(entry, found_at(book, at).shown.strip(), at.address)
-    return FieldColumn(number=position.column, unit=unit, si=si, heading=at)
-
-
-def added_later(book: OpenBook, section: SheetSection) -> tuple[Entry, ...]:
-    """Return the fields that a block lacks because its workbook is of a version before them."""
-    return tuple(
-        entry for entry in section.entries if entry.is_new and not _position(book, section, entry)
-    )
-
-
-def is_absent(book: OpenBook, section: SheetSection) -> bool:
-    """Whether a workbook has neither names nor labels of a section."""
-    if section.is_table:
-        return not sheets_titled(book, section.sheet) and table_area(book, section) is None
-    return not any(_position(book, section, entry) for entry in section.entries)
-
-
-def _named(book: OpenBook, name: str) -> CellPosition | None:
-    """Return a named range that is a single cell."""
-    area = area_named(book.book, name)
-    if area is None:
-        return None
-    title, (left, top, *end) = area
-    return CellPosition(title, top, left) if [left, top] == end else None
-
-
-def _position(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition | None:
-    return _found(book, section, entry.name, labels_of(entry))
-
-
-def _found(
-    book: OpenBook, section: SheetSection, field: str, wanted: Set[str]
-) -> CellPosition | None:
-    """Return the cell that has the name of a field, or else is beside one of some labels."""
-    named = _named(book, section.cell_name(field))
-    if named:
-        return named
-    places = (position for position, label in _labels(book, section) if label in wanted)
-    at = next(places, None)
-    return replace(at, column=at.column + 1) if at else None
-
-
-def gone_cells(
-    book: OpenBook, section: SheetSection
-) -> Iterator[tuple[layout.GoneInput, CellPosition]]:
-    """Yield the cells that a block of an earlier workbook has for inputs that are no more."""
-    for gone in layout.GONE.get(section.key, ()):
-        position = _found(book, section, gone.field, {label_key(gone.label)})
-        if position:
-            yield gone, position
-
-
-def _labels(book: OpenBook, section: SheetSection) -> Iterator[tuple[CellPosition, str]]:
-    """Yield what may be a label of a block, from its sheets."""
-    titles = [section.sheet_of(entry.name) for entry in section.entries]
-    for title in dict.fromkeys(titles):
-        for sheet in sheets_titled(book, title):
-            yield from labels(book, sheet)

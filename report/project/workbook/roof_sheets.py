@@ -4,26 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from report.project.model.scene import (
-    DRAWING,
-    SIDES,
-    Array,
-    Clearance,
-    DrawingLayer,
-    Roof,
-    RoofObject,
-    Vertex,
-    weight_of_parts,
-)
-from report.project.workbook.entries import Entry, block, table
+from report.project.model.array import Array, weight_of_parts
+from report.project.model.placed import SIDES
+from report.project.model.roof import DRAWING, Clearance, DrawingLayer, Roof, RoofObject, Vertex
+from report.project.workbook.entries import Entry
+from report.project.workbook.sections import block, table
 from report.text.units import Quantity
 
 OR_OUTLINE = "required, or an outline"
+
+
 _SIDE = (
     (20.0, 100.0, 15.0, 75.0),
     "Rectangle in roof plan, from any fixed corner of the roof. Another shape: leave all four blank"
     " and give its outline on the sheet Outlines.",
 )
+
+
 _ROOF = (
     (0.0, 360.0, 0.0, 240.0),
     "Roof edge in the coordinates of the arrays. Give all four sides, or none. Another shape: its"
@@ -45,6 +42,7 @@ ROOF = block("roof", "Building", "Roof outline and north", Roof, "Optional. The 
           note="In plan, counterclockwise from +x: 90 is +y."),
     may_be_absent=True,
 )  # fmt: skip
+
 
 ARRAYS = table("arrays", "Arrays", "Arrays", Array, "One row for each array that moves as a unit."
     " Columns to the right of Downslope direction are optional.",
@@ -108,6 +106,7 @@ ARRAYS = table("arrays", "Arrays", "Arrays", Array, "One row for each array that
     needs_rows=True,
 )  # fmt: skip
 
+
 OBJECTS = table("objects", "Objects", "Objects and roof edges", RoofObject,
     "One row for each object that an array could strike and each edge it could fall from. The plan"
     " rectangle is optional; enter an edge as a strip outside the roof.",
@@ -121,6 +120,7 @@ OBJECTS = table("objects", "Objects", "Objects and roof edges", RoofObject,
           note="Of an object or unlike array; not used for edges."),
     Entry("Place from", "place_from", DRAWING, is_rare=True, note="As of an array."),
 )  # fmt: skip
+
 
 CLEARANCES = table("clearances", "Clearances", "Clearances", Clearance,
     "One row for each clearance to check; the object may be another array.",
@@ -139,6 +139,7 @@ CLEARANCES = table("clearances", "Clearances", "Clearances", Clearance,
           " name and date on the sheet Project."),
 )  # fmt: skip
 
+
 OUTLINES = table("outlines", "Outlines", "Outlines", Vertex, "Optional: arrays, objects and the"
     " roof that are no rectangles. One row for each vertex, in order around the outline; leave the"
     " four sides of the rectangle blank.",
@@ -150,6 +151,7 @@ OUTLINES = table("outlines", "Outlines", "Outlines", Vertex, "Optional: arrays, 
           " you change the row. Blank: as entered."),
     may_be_absent=True,
 )  # fmt: skip
+
 
 LAYERS = table("layers", "Layers", "Layers of the roof drawing", DrawingLayer,
     "Optional, for roofslip plan read: what is drawn on each layer. The layers of plan.dxf are"

@@ -1,6 +1,6 @@
-"""Checks of motions, building, target spectrum and friction that involve more than one cell.
+"""Faults of motions, building and target spectrum.
 
-Each fault names the cell to change. Works on values as read, and reads no record.
+Works on values as read, and reads no record.
 """
 
 from __future__ import annotations
@@ -9,26 +9,25 @@ import math
 from collections.abc import Iterator
 from itertools import pairwise
 
-from report.project.check.findings import column, repeated
 from report.project.model.choices import RecordedAt, Scaling
 from report.project.model.finding import Finding
 from report.project.model.input_rows import InputRow, Inputs
 from report.project.model.place import Place, Where
-from report.project.model.scene import friction_law
-from report.project.model.site import FrictionTestRow, site_parameters
+from report.project.model.site import site_parameters
 from report.text.units import digits_up
 from solver.building.structure import MOST_STORIES
-from solver.friction_tests import Series, governing, series
-from solver.model import Friction
 
 # Fields of a motion that name a record, each with the name of its component.
 LABELS = {"record": "horizontal", "transverse": "transverse", "vertical": "vertical"}
 
+
 # The same by component.
 FIELDS = {label: field for field, label in LABELS.items()}
 
+
 # Begins the source of a motion that was generated.
 GENERATED = "Generated, seed "
+
 
 # Duration [s] below which a motion is refused: no earthquake record is as short.
 SHORTEST_S = 1.0
@@ -178,82 +177,3 @@ def _design_spectrum(inputs: Inputs, ground: list[int], where: Where) -> Iterato
         text = f"long-period transition T_L is {t_l_s:g} s"
         wanted = f"give more than T_S = S_D1/S_DS = {digits_up(t_s, 3)} s"
         yield Finding.error(Place("target", 0, "t_l_s"), text, wanted)
-
-
-# Difference of coefficients that comes from rounding to two decimals.
-MU_TOLERANCE = 0.005
-
-
-def friction_faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
-    """Yield runs given twice at a velocity, and friction coefficients larger than those tested."""
-    yield from _repeated(inputs, where)
-    tested = _tested(inputs)
-    if not tested:
-        return
-    for index, array in enumerate(inputs["arrays"]):
-        law = _law(array)
-        if law is not None:
-            tests = governing(tested, array.get("mu_report") or "")
-            yield from _beyond(index, law, tests, _first(inputs, tests, where))
-
-
-def _report(inputs: Inputs, row: InputRow) -> str:
-    return str(row.get("report") or inputs["friction_tests"][0].get("report") or "")
-
-
-def _repeated(inputs: Inputs, where: Where) -> Iterator[Finding]:
-    files = (
-        (
-            place,
-            (_report(inputs, row).casefold(), row["surface"], row.get("velocity_mps"), number),
-        )
-        for place, number in column(inputs, ("friction_runs",), "number")
-        if "surface" in (row := inputs["friction_runs"][place.row])
-    )
-    for place, (_, surface, _, number), first in repeated(files):
-        text = f"run is {number}, {surface}, already given at {where(first)}"
-        yield Finding.error(place, text, "give another number")
-
-
-def _tested(inputs: Inputs) -> tuple[Series, ...]:
-    """Return the runs as series; none if any run could not be read."""
-    rows, fields = inputs["friction_runs"], FrictionTestRow.model_fields
-    # A run that is missing would change every mean.
-    if any(field not in row for row in rows for field in fields):
-        return ()
-    report = _report(inputs, {})
-    return series(FrictionTestRow.model_construct(**row).run(report) for row in rows)
-
-
-def _law(array: InputRow) -> Friction | None:
-    """Return the friction law of an array, if it could be read and is consistent."""
-    fields = ("mu", "mu_fast", "mu_rate_s_per_m", "mu_static")
-    if not array.keys() >= {*fields, "mu_report"}:
-        return None
-    mu, fast, rate, static = (array[field] for field in fields)
-    # One without the other is an error of its own.
-    return friction_law(mu, fast, rate, static) if (fast is None) == (rate is None) else None
-
-
-def _first(inputs: Inputs, tests: Series, where: Where) -> str:
-    """Return the address of the first kinetic coefficient of a series."""
-    for index, row in enumerate(inputs["friction_runs"]):
-        if (_report(inputs, row), row["surface"]) == (tests.report, tests.surface):
-            return where(Place("friction_runs", index, "mu"))
-    return where(Place("friction_runs"))
-
-
-def _beyond(index: int, law: Friction, tests: Series, at: str) -> Iterator[Finding]:
-    by_velocity = law.mu_fast != law.mu_slow
-    mean, tested = tests.mean_of(law), tests.mean
-    # PV1-2012: the average of the kinetic coefficients, of the worse of wet and dry.
-    if mean > tested + MU_TOLERANCE:
-        says = f"averages {mean:.3g} at the tested velocities" if by_velocity else f"is {mean:g}"
-        text = f"friction coefficient {says}; the tests give {tested:.3g} ({tests.surface}, mean"
-        runs = f" of {len(tests.runs)} from {at})"
-        wanted = "reduce it" if by_velocity else f"give {tested:.3g} or less"
-        yield Finding.error(Place("arrays", index, "mu"), text + runs, wanted)
-    if law.mu_static > law.mu_slow and law.mu_static > tests.static_mean + MU_TOLERANCE:
-        most = f"{tests.static_mean:.3g}"
-        text = f"static friction is {law.mu_static:g}; the tests give {most} ({tests.surface})"
-        yield Finding.error(Place("arrays", index, "mu_static"), text, f"give {most} or less")

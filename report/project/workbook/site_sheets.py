@@ -4,17 +4,11 @@ from __future__ import annotations
 
 import datetime as dt
 
-from report.project.model.site import (
-    FrictionTestRow,
-    FrictionTests,
-    Project,
-    Revision,
-    Site,
-    least_category,
-    least_i_e,
-    tabulated_f_a,
-)
-from report.project.workbook.entries import Entry, block, table
+from report.project.model.friction_report import FrictionTestRow, FrictionTests
+from report.project.model.issue import Project, Revision
+from report.project.model.site import Site, least_category, least_i_e, tabulated_f_a
+from report.project.workbook.entries import Entry
+from report.project.workbook.sections import block, table
 from report.text.units import Quantity
 from solver.rules.site_coefficients import F_A
 
@@ -50,12 +44,14 @@ PROJECT = block("project", "Project", "Project", Project, "Printed on the cover 
           " blank."),
 )  # fmt: skip
 
+
 REVISIONS = table("revisions", "Project", "Revisions", Revision, "One row for each issue.",
     Entry("Revision", "revision", "0", note="Number or letter."),
     Entry("Date", "date", dt.date(2026, 3, 5), note="Date of issue."),
     Entry("Description", "description", "Issued for permit", note="What changed."),
     Entry("By", "by", "RG", note="Name or initials."),
 )  # fmt: skip
+
 
 SITE = block("site", "Site", "Site and building", Site, "Give S_DS, S_MS, or S_S and F_a.",
     Entry("Rule set", "rule_set", "SEAOC PV1-2012",
@@ -138,6 +134,7 @@ SITE = block("site", "Site", "Site and building", Site, "Give S_DS, S_MS, or S_S
           " report. For a new building: so designed, by whom."),
 )  # fmt: skip
 
+
 FRICTION_TESTS = block("friction_tests", "Friction tests", "Friction tests", FrictionTests,
     "Optional: the report on the friction tests. Leave blank what the report does not state.",
     Entry("Laboratory", "laboratory", "Example Laboratories",
@@ -161,6 +158,7 @@ FRICTION_TESTS = block("friction_tests", "Friction tests", "Friction tests", Fri
           " the workbook's folder; the package attaches it. All such files: at most 20 MB."),
     may_be_absent=True,
 )  # fmt: skip
+
 
 FRICTION_RUNS = table("friction_runs", "Friction tests", "Runs of the friction tests",
     FrictionTestRow, "Optional: one row for each run, wet and dry. The package compares the"

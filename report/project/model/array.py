@@ -1,46 +1,27 @@
-"""The roof and what is on it: arrays, the objects and edges around them, and the clearances.
-
-Read `report.project.model` first.
-"""
+"""A ballasted array that moves as one block: slope, friction, weight, place."""
 
 from __future__ import annotations
 
 import math
 from functools import lru_cache
-from operator import attrgetter
-from typing import Annotated, Self
+from typing import Annotated
 
 from pydantic import Field
 
-from report.project.model.choices import (
-    ClearanceSource,
-    Direction,
-    Id,
-    LayerKind,
-    NotNegative,
-    ObjectKind,
-    Positive,
-    RequiredText,
-    SlopeUnit,
-    Text,
-)
-from report.project.model.frozen import Frozen
+from report.project.model.choices import Id, NotNegative, Positive, RequiredText, SlopeUnit, Text
 from report.project.model.input_rows import InputRow
-from report.project.model.shapes import Point, Polygon, Rectangle, Shape
+from report.project.model.placed import Placed
+from report.project.model.shapes import Shape
 from solver.friction_tests import MOST_MU, MOST_RATE_S_PER_M
 from solver.model import DefectError, Friction
 
 ImportanceCell = Annotated[float, Field(ge=1.0, le=1.5)]
+
+
 MuCell = Annotated[float, Field(ge=0.0, le=MOST_MU)]
+
+
 RateCell = Annotated[float, Field(gt=0.0, le=MOST_RATE_S_PER_M)]
-
-
-# Whence a row comes that a command has taken from a drawing.
-DRAWING = "drawing"
-# The same with the number of modules.
-DRAWN_MODULES = f"{DRAWING}, modules too"
-# Name of the roof on the sheet Outlines.
-ROOF = "roof"
 
 
 def slope_rad(value: float, unit: SlopeUnit) -> float:
@@ -48,40 +29,6 @@ def slope_rad(value: float, unit: SlopeUnit) -> float:
     if unit is SlopeUnit.DEGREES:
         return math.radians(value)
     return math.atan(value / (100.0 if unit is SlopeUnit.PERCENT else 12.0))
-
-
-class Placed(Frozen):
-    """What has a place in roof plan: by the four sides of a rectangle, or by an outline."""
-
-    outline_m: Annotated[tuple[Point, ...], Field(exclude=True)] = ()
-    """Vertices of an outline in place of the rectangle: rows of another table."""
-
-    def outlined(self, points: tuple[Point, ...]) -> Self:
-        """Return the same with an outline [m] in place of a rectangle; empty for none."""
-        return self.model_copy(update={"outline_m": points})
-
-    @property
-    def placed(self) -> Shape | None:
-        """Its shape in roof plan, if given."""
-        if self.outline_m:
-            return Polygon(self.outline_m)
-        sides = _sides_of(self)
-        return None if None in sides else Rectangle(*sides)
-
-
-# Fields of a rectangle in roof plan.
-SIDES = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
-_sides_of = attrgetter(*SIDES)
-
-
-class Roof(Placed):
-    """The outline of the roof, if given, and north."""
-
-    x_from_m: float | None = None
-    x_to_m: float | None = None
-    y_from_m: float | None = None
-    y_to_m: float | None = None
-    north_deg: Annotated[float, Field(ge=0.0, le=360.0)] = 90.0
 
 
 @lru_cache
@@ -180,44 +127,3 @@ class Array(Placed):
         if placed is None:
             raise DefectError(f"array {self.id} has no place in plan")
         return placed
-
-
-class RoofObject(Placed):
-    """An object on the roof, or a roof edge."""
-
-    id: Id
-    kind: ObjectKind
-    height_m: NotNegative | None = None
-    x_from_m: float | None = None
-    x_to_m: float | None = None
-    y_from_m: float | None = None
-    y_to_m: float | None = None
-    i_p: ImportanceCell = 1.0
-    place_from: Text = ""  # `DRAWING` where a command has written the row
-
-
-class Vertex(Frozen):
-    """A vertex of the outline of an array, an object or the roof."""
-
-    name: Id
-    x_m: float
-    y_m: float
-    source: Text = ""
-
-
-class DrawingLayer(Frozen):
-    """A layer of a roof drawing, and what is drawn on it."""
-
-    layer: RequiredText
-    kind: LayerKind
-
-
-class Clearance(Frozen):
-    """The clearance from an array to an object or another array."""
-
-    array: Id
-    object: Id
-    direction: Direction
-    provided_m: NotNegative
-    pathway_m: NotNegative | None = None
-    source: ClearanceSource | None = None

@@ -1,0 +1,140 @@
+"""All faults of an input that involve more than one cell; each names the cell to change.
+
+Works on the values that could be read, so that one invalid cell hides no other fault.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from report.project.check.clearance_faults import clearance_faults
+from report.project.check.friction_faults import friction_faults
+from report.project.check.input_columns import column, repeated, suggestion
+from report.project.check.link_faults import link_faults
+from report.project.check.motion_faults import motion_faults
+from report.project.check.plan_faults import plan_faults
+from report.project.check.references import REFERENCES, UNIQUE
+from report.project.check.required_cells import missing
+from report.project.check.site_faults import site_faults
+from report.project.model.array import slope_rad
+from report.project.model.choices import SlopeUnit
+from report.project.model.finding import Finding
+from report.project.model.input_rows import InputRow, Inputs
+from report.project.model.options import factors
+from report.project.model.place import Place, Where
+from report.project.model.provision_names import provision_name
+from report.text.counts import cut, foreign_letters, looks
+from solver.rules.rulesets import ALLOWED, RULE_SETS
+from solver.suggestions import nearest
+
+
+def faults(inputs: Inputs, where: Where) -> list[Finding]:
+    """Return all inconsistencies of inputs, whose blank optional fields have their defaults."""
+    checks = (
+        _tables,
+        missing,
+        _unknown,
+        _ids,
+        site_faults,
+        plan_faults,
+        _arrays,
+        friction_faults,
+        clearance_faults,
+        motion_faults,
+        link_faults,
+        _overrides,
+        _smaller_events,
+    )
+    return [fault for check in checks for fault in check(inputs, where)]
+
+
+def _tables(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    if not inputs["arrays"]:
+        yield Finding.error(Place("arrays"), "no array is given", "fill in at least one row")
+
+
+def _ids(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    # Arrays come first, so that a duplicate is reported at the object.
+    for sections in UNIQUE:
+        for place, value, first in repeated(column(inputs, sections, "id"), looks):
+            text, said = f"ID is '{value}', already used at {where(first)}", foreign_letters(value)
+            yield Finding.error(place, text + (f"; {said}" if said else ""), "give a unique ID")
+
+
+def _arrays(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    for index, row in enumerate(inputs["arrays"]):
+        yield from _slope(index, row)
+        yield from _friction(index, row)
+
+
+def _slope(index: int, row: InputRow) -> Iterator[Finding]:
+    value, unit = row.get("slope_value"), row.get("slope_unit")
+    if value is None or unit is None or math.degrees(slope_rad(value, unit)) < MAX_SLOPE_DEG:
+        return
+    # 45 degrees in each unit.
+    most = {SlopeUnit.DEGREES: "45", SlopeUnit.PERCENT: "100", SlopeUnit.IN_PER_12: "12"}[unit]
+    wanted = f"give 0 to less than {most} {unit}"
+    yield Finding.error(Place("arrays", index, "slope_value"), f"slope is {value:g} {unit}", wanted)
+
+
+def _friction(index: int, row: InputRow) -> Iterator[Finding]:
+    # A cell that could not be read is absent, and has an error of its own.
+    if not row.keys() >= {"mu", "mu_static"}:
+        return
+    mu, static = row["mu"], row["mu_static"]
+    if static is not None and static < mu:
+        text = f"static friction is {static:g}"
+        wanted = f"give the friction coefficient, {mu:g}, or more"
+        yield Finding.error(Place("arrays", index, "mu_static"), text, wanted)
+
+
+def _unknown(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    """Yield names of what is in no table; `plan_checks` has those of outlines."""
+    for (section, field), tables in REFERENCES.items():
+        if section == "outlines":
+            continue
+        ids = dict.fromkeys(value for _, value in column(inputs, tables, "id"))
+        sheets = " or ".join(table.capitalize() for table in tables)
+        for place, value in column(inputs, (section,), field):
+            if value not in ids:
+                text = f"{field} is '{value}', which is not in {sheets}"
+                yield Finding.error(place, text, suggestion(value, ids))
+
+
+def _smaller_events(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    for place, text in column(inputs, ("options",), "smaller_events"):
+        if text and not factors(text):
+            wanted = "give up to 20 factors with decimal points, above 0.0 and up to 1.0"
+            fault = f"smaller events is '{cut(text)}'"
+            yield Finding.error(place, fault, f"{wanted}, such as 0.50, 0.25")
+
+
+def _overrides(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    keys = list(column(inputs, ("overrides",), "provision"))
+    names = {key: provision_name(key) for key in ALLOWED}
+    # Where the rule set could not be read, no provision is missing from it.
+    rules = next((RULE_SETS[name] for _, name in column(inputs, ("site",), "rule_set")), None)
+    for place, key in keys:
+        if key not in names:
+            near = nearest(key, names.values())
+            wanted = (
+                f"did you mean '{near}'?" if near else "choose a name from the list of the cell"
+            )
+            yield Finding.error(place, f"provision is '{cut(key)}'", wanted)
+        elif rules and key not in rules.values:
+            fault = f"provision is '{names[key]}', which {rules.name} does not have"
+            yield Finding.error(place, fault, "delete the row")
+    for place, key, first in repeated(cell for cell in keys if cell[1] in names):
+        fault = f"provision is '{names[key]}', already given at {where(first)}"
+        yield Finding.error(place, fault, "delete one")
+    for place, value in column(inputs, ("overrides",), "value"):
+        key = inputs["overrides"][place.row].get("provision", "")
+        allowed = ALLOWED.get(key)
+        if allowed and not allowed.has(value):
+            fault = f"value is {value:g} for the {ALLOWED[key].meaning}"
+            yield Finding.error(place, fault, f"give {allowed.words}")
+
+
+# Slope of an array from which it is refused.
+MAX_SLOPE_DEG = 45.0

@@ -1,0 +1,42 @@
+"""Columns of values as read: what is given again, and what may have been meant."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator
+from typing import Any
+
+from report.project.model.input_rows import Inputs
+from report.project.model.place import Place
+from report.text.counts import foreign_letters, looks
+from solver.suggestions import nearest
+
+
+def column(inputs: Inputs, sections: Iterable[str], field: str) -> Iterator[tuple[Place, Any]]:
+    """Yield the readable cells of a field in the tables that have it, each with its place."""
+    for section in sections:
+        for index, row in enumerate(inputs[section]):
+            if field in row:
+                yield Place(section, index, field), row[field]
+
+
+def repeated(
+    cells: Iterable[tuple[Place, Any]], key: Callable[[Any], Hashable] = lambda value: value
+) -> Iterator[tuple[Place, Any, Place]]:
+    """Yield place and value of what is given again, and the place at which it was given first."""
+    places: dict[Hashable, Place] = {}
+    for place, value in cells:
+        first = places.setdefault(key(value), place)
+        if first is not place:
+            yield place, value, first
+
+
+def suggestion(value: str, ids: Collection[str]) -> str:
+    """Return in words which id may have been meant, or which there are."""
+    same = next((name for name in ids if looks(name) == looks(value)), "")
+    # Letters of two alphabets may look alike, so that the list would show the same name again.
+    if said := same and (foreign_letters(value) or foreign_letters(same)):
+        return f"it looks like '{same}', but {said}: retype it"
+    if close := nearest(value, ids):
+        return f"did you mean '{close}'?"
+    names = ", ".join(list(ids)[:8])
+    return f"give one of {names}" if names else "add it there first"

@@ -1,0 +1,208 @@
+"""Faults of the roof plan: rectangles, outlines, what is off the roof or overlaps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import islice
+
+from report.project.check.input_columns import suggestion
+from report.project.check.plan_shapes import (
+    LEAST_VERTICES,
+    MOST_OVERLAPS,
+    PLACED,
+    OutlineRows,
+    outlines_of,
+    rows_in,
+    shape_of,
+    us_first,
+)
+from report.project.model.choices import ObjectKind
+from report.project.model.finding import Finding
+from report.project.model.input_rows import InputRow, Inputs
+from report.project.model.place import Place, Where
+from report.project.model.placed import SIDES
+from report.project.model.roof import ROOF
+from report.project.model.shapes import (
+    NEAR_M,
+    Point,
+    Rectangle,
+    Shape,
+    crossing,
+    gap_m,
+    outside,
+    ring,
+)
+from report.text.units import Quantity, pair
+
+# Fields of which the second is larger, where a table has them.
+ORDERED = (("x_from_m", "x_to_m"), ("y_from_m", "y_to_m"))
+
+
+_EDGES = (ObjectKind.EDGE_WITH_PARAPET, ObjectKind.EDGE_WITHOUT_PARAPET)
+
+
+def plan_faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    """Yield what is wrong with the shapes in plan."""
+    yield from _rectangles(inputs, where)
+    yield from _outline_rows(inputs, where)
+    yield from _doubled(inputs, where)
+    yield from _on_the_roof(inputs, where)
+    yield from islice(_overlaps(inputs, where), MOST_OVERLAPS)
+
+
+def _rectangles(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    for place, row in rows_in(inputs, ("roof", *PLACED)):
+        for first, last in ORDERED:
+            low, high = row.get(first), row.get(last)
+            if low is None or high is None or low < high:
+                continue
+            shown, least = (pair(value, Quantity.PLAN, us_first(inputs)) for value in (high, low))
+            at = where(place._replace(field=first))
+            wanted = f"give more than {_label(first)} in {at}, {least}"
+            fault = f"{_label(last)} is {shown}"
+            yield Finding.error(place._replace(field=last), fault, wanted)
+
+
+def _label(side: str) -> str:
+    return side.removesuffix("_m").replace("_", " ")
+
+
+def _outline_rows(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    ids = [row["id"] for _, row in rows_in(inputs) if "id" in row]
+    for outline in outlines_of(inputs).values():
+        if outline.name not in (ROOF, *ids):
+            text = f"outline of '{outline.name}', which is not in Arrays or Objects"
+            yield Finding.error(outline.place, text, suggestion(outline.name, [*ids, ROOF]))
+        if outline.name == ROOF and ROOF in map(str.casefold, ids):
+            text = "outline of 'roof', which is also the ID of an array or object"
+            yield Finding.error(outline.place, text, "give that another ID")
+        yield from _ring_faults(outline, us_first(inputs))
+    yield from _scattered(inputs, where)
+
+
+def _ring_faults(outline: OutlineRows, is_us: bool) -> Iterator[Finding]:
+    if not outline.vertices:
+        return
+    points = ring(outline.vertices)
+    # A vertex that is given again is no other corner.
+    count = len(set(points))
+    if count < LEAST_VERTICES:
+        text = f"{outline.name} has {count} {'vertex' if count == 1 else 'vertices'}"
+        yield Finding.error(outline.place, text, f"give at least {LEAST_VERTICES}, one to a row")
+        return
+    at = crossing(points)
+    if at is not None:
+        text = f"outline of {outline.name} touches or crosses itself near {spot(at, is_us)}"
+        yield Finding.error(outline.place, text, "give its vertices in order, none of them twice")
+
+
+def spot(at: Point, is_us: bool) -> str:
+    """Return a point of the plan in words."""
+    x, y = (pair(value, Quantity.PLAN, is_us) for value in at)
+    return f"x {x}, y {y}"
+
+
+def _scattered(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    """Yield the rows at which an outline goes on after rows of another one."""
+    last: dict[str, int] = {}
+    for index, row in enumerate(inputs["outlines"]):
+        name = row.get("name")
+        if name is None:
+            continue
+        before = last.get(name.casefold(), index - 1)
+        if before != index - 1:
+            at = where(Place("outlines", before, "name"))
+            text = f"outline of '{name}' goes on here after {at}"
+            wanted = "put all of its rows together"
+            yield Finding.error(Place("outlines", index, "name"), text, wanted)
+        last[name.casefold()] = index
+
+
+def _doubled(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    outlines = outlines_of(inputs)
+    for place, row in rows_in(inputs, (*PLACED, "roof")):
+        name = ROOF if place.section == "roof" else row.get("id", "")
+        side = next((side for side in SIDES if row.get(side) is not None), None)
+        if name in outlines and side is not None:
+            at = where(outlines[name].place)
+            text = f"{_label(side)} is given, and {name} has an outline at {at}"
+            wanted = "leave the four sides blank, or delete the outline"
+            yield Finding.error(place._replace(field=side), text, wanted)
+
+
+def _on_the_roof(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    outlines = outlines_of(inputs)
+    for row in inputs["roof"]:
+        roof = shape_of(row, outlines.get(ROOF))
+        if roof is None:
+            continue
+        at = outlines[ROOF].place if ROOF in outlines else Place("roof", 0, "x_from_m")
+        for index, array in enumerate(inputs["arrays"]):
+            own = outlines.get(array.get("id", ""))
+            if isinstance(roof, Rectangle) and own is None:
+                yield from _beyond(roof, index, array, inputs, where)
+                continue
+            shape = shape_of(array, own)
+            beyond = outside(shape, roof) if shape is not None else None
+            if beyond is not None:
+                text = (
+                    f"{array.get('id')} is outside the roof near {spot(beyond, us_first(inputs))}"
+                )
+                place = Place("arrays", index, "x_from_m") if own is None else own.place
+                wanted = f"correct it, or the outline of the roof at {where(at)}"
+                yield Finding.error(place, text, wanted)
+
+
+def _beyond(
+    roof: Rectangle, index: int, array: InputRow, inputs: Inputs, where: Where
+) -> Iterator[Finding]:
+    for side in SIDES:
+        value, edge, is_low = array.get(side), getattr(roof, side), "from" in side
+        if value is None or (value >= edge if is_low else value <= edge):
+            continue
+        shown, limit = (pair(at, Quantity.PLAN, us_first(inputs)) for at in (value, edge))
+        inside, at = "more" if is_low else "less", where(Place("roof", 0, side))
+        text = f"{_label(side)} is {shown}, outside the roof"
+        wanted = f"give {limit} or {inside}, or correct the outline at {at}"
+        yield Finding.error(Place("arrays", index, side), text, wanted)
+
+
+@dataclass(frozen=True, slots=True)
+class _Body:
+    """An array, or an object that no array can overlap, in plan."""
+
+    place: Place
+    name: str
+    is_array: bool
+    shape: Shape
+    bounds: Rectangle
+
+
+def _overlaps(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    """Yield arrays that overlap each other or an object; `checks` has those with a clearance."""
+    cleared = {frozenset((row.get("array"), row.get("object"))) for row in inputs["clearances"]}
+    bodies = sorted(_bodies(inputs), key=lambda body: body.bounds.x_from_m)
+    for count, body in enumerate(bodies):
+        for other in bodies[count + 1 :]:
+            # They are sorted from the left: none of the following reaches back either.
+            if other.bounds.x_from_m >= body.bounds.x_to_m:
+                break
+            first, second = sorted((body, other), key=lambda each: (not each.is_array, each.place))
+            if not first.is_array or frozenset((body.name, other.name)) in cleared:
+                continue
+            # Boxes first: shapes that are no rectangles are measured by a library.
+            if gap_m(body.bounds, other.bounds) < 0.0 and gap_m(body.shape, other.shape) < -NEAR_M:
+                text = f"{first.name} and {second.name} at {where(second.place)} overlap in plan"
+                yield Finding.error(first.place, text, "correct one of them")
+
+
+def _bodies(inputs: Inputs) -> Iterator[_Body]:
+    """Yield the arrays and objects that have a shape, without edges: an array may reach them."""
+    outlines = outlines_of(inputs)
+    for place, row in rows_in(inputs):
+        own = outlines.get(row.get("id", ""))
+        shape = shape_of(row, own) if "id" in row else None
+        if shape is not None and row.get("kind") not in _EDGES:
+            at = place._replace(field="x_from_m") if own is None else own.place
+            yield _Body(at, row["id"], place.section == "arrays", shape, shape.bounds)
