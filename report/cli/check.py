@@ -96,7 +96,7 @@ def _without_motions(sheet: Sheet, shaking: Shaking) -> Iterator[Finding]:
     if shaking.motions:
         return
     from report.assessment.assess import assess
-    from report.pages.summary import without_analysis
+    from report.pages.saving import without_analysis
     from report.project.model.finding import note
     from report.project.model.place import Place
 

@@ -178,7 +178,7 @@ def package(
 
 def show(made: Made) -> None:
     """Print the summary of a package and its files; last the verdict, with the package."""
-    from report.pages.summary import summary
+    from report.pages.terminal import summary
 
     *lines, verdict = summary(made.assessment)
     for line in lines:
@@ -193,14 +193,14 @@ def show(made: Made) -> None:
 
 
 def _document(made: Made) -> Mapping[str, object]:
-    from report.pages import summary
+    from report.pages import terminal
 
     written = {"files": [str(made.folder / name) for name in made.files]}
-    return document(made.assessment.sheet.path) | summary.document(made.assessment) | written
+    return document(made.assessment.sheet.path) | terminal.document(made.assessment) | written
 
 
 def _print_changes(changed: Changes) -> None:
-    from report.pages.front import counted
+    from report.pages.changes import counted
 
     before = {item.title: plain(item.before) for item in changed.items if item.cell}
     # Both changed: one alone may be a correction.

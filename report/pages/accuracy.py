@@ -19,46 +19,113 @@ from report.assessment.support.evidence import Evidence
 from report.assessment.support.margins import Margin
 from report.assessment.support.shifted_friction import Accuracy
 from report.assessment.support.smaller_events import Cumulative
+from report.assessment.support.uncertainty import Uncertainty
 from report.document.columns import length, required, text, words
-from report.document.tables import Column, Table, listed
+from report.document.tables import Column, Table, listed, merged
 from report.pages.parts import PackageData
-from report.text.counts import lowered, ranged
-from report.text.unit_format import NO_VALUE
-from report.text.units import number
+from report.runs import OrientedRun
+from report.text.counts import below_mm, lowered, named, ranged
+from report.text.unit_format import NO_VALUE, UnitFormat
+from report.text.units import NO_BREAK, number
 from solver.model import DefectError, Status
 from solver.rules.provisions import Neighbor
 from solver.sliding.least_model import Model
 
 
-def margins(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
-    """Return margins in friction, other directions, and sums over smaller events."""
-    uncertainty, sums = evidence.uncertainty, evidence.cumulative
+def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
+    """Return the errors, what friction changes, the margins, and what is not part of the design."""
+    accuracy, uncertainty, sums = evidence.accuracy, evidence.uncertainty, evidence.cumulative
     if uncertainty is None:
         raise DefectError("a package without motions has no page on margins")
+    fmt, array = package.fmt, package.assessment.governing
+    run, percent = array.worst.governing, f"{100.0 * SHIFT:.0f} %"
+    factors = package.data.options.smaller_factors
+    # Less friction can leave runs that slide at the end of the record: their peaks are no peaks.
+    n_more = _unfinished(accuracy.at_reduced_friction) - _unfinished(accuracy.entered)
     return {
-        "found": uncertainty,
-        "margin": _smallest(uncertainty.margins),
-        "margins": _margin_table(package, uncertainty.margins),
-        "sums": _sum_table(package, sums) if sums else None,
+        "array": array.id,
+        "motion": array.worst.motion.id,
+        "orientation": run.orientation.name,
+        "prd": fmt.both_up(run.prd_m),
+        "error": _error(run),
+        "percent": percent,
+        "newly_short": [" to ".join(gap.between) for gap in accuracy.newly_short],
+        "is_any_satisfied": any(gap.ok for gap in accuracy.entered.clearances),
+        "n_more_unfinished": n_more,
+        "newly_limited": [sentence(check, fmt.us_first) for check in accuracy.newly_limited],
+        "friction": _friction_table(package, accuracy, percent),
+        **_margins(package, uncertainty.margins),
+        "used": fmt.both_up(uncertainty.used_m),
+        "turned": _turned(uncertainty, fmt),
+        "reversed": _reversed(uncertainty, fmt),
+        "factors": ", ".join(number(factor, 2) for factor in factors),
+        "factor": number(array.analysis.factor, 2) + package.marks.of("analysis_factor"),
+        "sums": merged(_sum_table(package, sums)) if sums else None,
     }
 
 
-def _smallest(margins: Sequence[Margin]) -> Mapping[str, object]:
+def _error(run: OrientedRun) -> str:
+    """Return what is known of the numerical error of a run."""
+    result, model = run.result, run.solution.model
+    if result.status is Status.UPLIFT:
+        return "the block lifts off the roof: the run gives no displacement and no error"
+    if math.isnan(run.prd_m):
+        return f"the run gives no displacement and no error: {result.status.sentence}"
+    if model == Model.NO_SLIP:
+        return "the array does not slip, and the error is rounding"
+    if model >= Model.TWO_AXES:
+        basis = "a bound" if run.scene.friction.is_monotone else "an estimate from two tolerances"
+        return (
+            "motion in two axes is computed to a tolerance, and the error of this PRD is below "
+            f"{below_mm(result.error_m)} ({basis})"
+        )
+    return (
+        "in one axis the solution is exact, event by event, with at most one step per sampling "
+        "interval: its error is rounding"
+    )
+
+
+def _margins(package: PackageData, margins: Sequence[Margin]) -> Mapping[str, object]:
     """Return the smallest margin of a satisfied clearance, and the clearances without one."""
     # Margins of satisfied clearances only: one that is NG has none to lose.
     have = [margin for margin in margins if margin.gap.ok and not math.isnan(margin.minimum_mu)]
     without = {margin.number for margin in margins} - {margin.number for margin in have}
     unknown = {margin.number for margin in margins if not margin.gap.is_permitted}
-    smallest = max(have, key=_share, default=None)
+    short = sorted(without - unknown)
+    is_one = len(short) == 1
     return {
-        "smallest": smallest,
-        "percent_less": 100.0 * (1.0 - _share(smallest)) if smallest else 0.0,
-        "least": _least(smallest) if smallest else "",
-        "is_beyond": all(margin.is_beyond for margin in have),
-        "short": sorted(without - unknown),
-        "unknown": sorted(unknown),
-        "alike": any(margin.gap.neighbor is Neighbor.LIKE for margin in margins),
+        "margins": merged(_margin_table(package, margins), "No.", "Array", once=True),
+        "has_margins": len(margins) > 1,
+        "smallest_margin": _smallest_words(have),
+        "short": short and f"{_clearances(short)} {'is' if is_one else 'are'}",
+        "it": "it" if is_one else "them",
+        "unknown": unknown
+        and f"{_clearances(sorted(unknown))} {'has' if len(unknown) == 1 else 'have'}",
+        "is_alike": any(margin.gap.neighbor is Neighbor.LIKE for margin in margins),
     }
+
+
+def _clearances(numbers: Sequence[int]) -> str:
+    return named([str(number) for number in numbers], "Clearance")
+
+
+def _smallest_words(margins: Sequence[Margin]) -> str:
+    """Return the smallest of the margins in a sentence; nothing without any."""
+    if not margins:
+        return ""
+    if all(margin.is_beyond for margin in margins):
+        return "With half of the given friction all clearances that are satisfied remain satisfied."
+    smallest = max(margins, key=_share)
+    law, percent_less = smallest.array.array.friction, 100.0 * (1.0 - _share(smallest))
+    if percent_less:
+        change = f"be {number(percent_less, 1)}{NO_BREAK}% less: {_least(smallest)}"
+    else:
+        change = f"not be 0.01 less{' at low velocity' if law.is_by_velocity else ''}"
+    return (
+        f"The smallest margin of a satisfied clearance is that of No. {smallest.number}, "
+        f"{' to '.join(smallest.gap.between)}: μ of {smallest.array.id}, {mu_words(law)}, may "
+        f"{change}."
+    )
 
 
 def _share(margin: Margin) -> float:
@@ -95,7 +162,7 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
 def _sum_table(package: PackageData, sums: Sequence[Cumulative]) -> Table:
     """Return mean and largest sum of each array over the design event and smaller ones."""
     # Of every array: it follows from the number of motions, which they share.
-    factor = package.governing.analysis.factor
+    factor = package.assessment.governing.analysis.factor
     times = f"{number(factor, 2)} × "
     columns = (
         (words("Array"), lambda item: item.array.id),
@@ -106,35 +173,45 @@ def _sum_table(package: PackageData, sums: Sequence[Cumulative]) -> Table:
     return listed(sums, columns, package.fmt, kind="compact")
 
 
-_PERCENT = f"{100.0 * SHIFT:.0f} %"
+def _turned(found: Uncertainty, fmt: UnitFormat) -> str:
+    """Return what other angles of the horizontal pair give, as a clause."""
+    if not found.turned:
+        return "the motion has one horizontal component, and its angle is not varied"
+    worst, used_m = found.worst, found.used_m
+    angle, prd_m = f"{number(worst.angle_deg, 1)}°", worst.result.prd_m
+    give = f"{len(found.turned)} more angles of the horizontal pair give"
+    if math.isnan(prd_m):
+        return f"{give} no displacement at {angle}: {worst.result.status.sentence}"
+    if not used_m > 0.0:
+        return f"{give} PRDs up to {fmt.both_up(prd_m)}"
+    smallest_m = min(run.result.prd_m for run in found.turned)
+    return (
+        f"{give} {number(smallest_m / used_m, 2)} to {number(prd_m / used_m, 2)} times that PRD, "
+        f"the largest at {angle}"
+    )
 
 
-def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
-    """Return what the page needs beside the package."""
-    accuracy = evidence.accuracy
-    return {
-        "found": accuracy,
-        "margins": margins(package, evidence),
-        "limited": [sentence(check, package.fmt.us_first) for check in accuracy.newly_limited],
-        "percent": _PERCENT,
-        "no_slip": Model.NO_SLIP,
-        "two_axes": Model.TWO_AXES,
-        "friction": _friction_table(package, accuracy),
-        # Less friction can leave runs that slide at the end of the record: their peaks are no
-        # peaks.
-        "n_more_unfinished": _unfinished(accuracy.at_reduced_friction)
-        - _unfinished(accuracy.entered),
-    }
+def _reversed(found: Uncertainty, fmt: UnitFormat) -> str:
+    """Return what a reversed vertical component gives, as a clause."""
+    if not found.motion.motion.has_vertical:
+        return "there is no vertical component to reverse"
+    if math.isnan(found.reversed_m):
+        return "a reversed vertical component gives no displacement"
+    gives = f"a reversed vertical component gives {fmt.both_up(found.reversed_m)}"
+    used_m = found.used_m
+    return (
+        f"{gives}, {number(found.reversed_m / used_m, 2)} times that PRD" if used_m > 0 else gives
+    )
 
 
-def _friction_table(package: PackageData, accuracy: Accuracy) -> Table:
+def _friction_table(package: PackageData, accuracy: Accuracy, percent: str) -> Table:
     """Return arrays that share their runs, by one of them: friction as given, less and more."""
     assessments = (
         accuracy.at_reduced_friction,
         accuracy.entered,
         accuracy.at_increased_friction,
     )
-    heads = (f"{_PERCENT} less", "As given", f"{_PERCENT} more")
+    heads = (f"{percent} less", "As given", f"{percent} more")
 
     def of(group: Sequence[ArrayAssessment], place: int) -> ArrayAssessment:
         # Without a design displacement as given where no route is permitted.
@@ -148,7 +225,7 @@ def _friction_table(package: PackageData, accuracy: Accuracy) -> Table:
             (
                 required(head),
                 lambda group, k=k: of(group, k).design_m,
-                lambda group, k=k: package.design_mark(of(group, k)),
+                lambda group, k=k: package.marks.design(of(group, k)),
             )
             for k, head in enumerate(heads)
         ),

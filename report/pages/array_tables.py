@@ -41,9 +41,9 @@ def summary_table(package: PackageData) -> Table:
         ]  # fmt: skip
     columns += [
         (required("Prescriptive"), lambda item: item.prescriptive.value_m,
-         package.prescriptive_mark),
+         package.marks.prescriptive),
         *(() if done.has_motions else _seaoc(package)),
-        (required("Design"), lambda item: item.design_m, package.design_mark),
+        (required("Design"), lambda item: item.design_m, package.marks.design),
         (words("Governs", 1.9 if done.has_motions else 1.55), lambda item: item.source),
         (text("D/C", share=0.8), lambda item: ratio_words(done, item)),
         # What gives a verdict is a row of its own below.
@@ -58,7 +58,7 @@ def letter_table(package: PackageData) -> Table:
     columns: list[Column] = [
         (words("Array", 0.7), lambda item: item.id),
         (text("μ", share=0.8), lambda item: mu_words(item.array.friction)),
-        (required("Design displ.", 0.8), lambda item: item.design_m, package.design_mark),
+        (required("Design displ.", 0.8), lambda item: item.design_m, package.marks.design),
         (words("Governed by", 1.3), lambda item: item.source),
     ]
     if done.clearances or done.missing_gaps:
@@ -84,7 +84,7 @@ def comparison_table(package: PackageData) -> Table:
     columns: list[Column] = [
         (words("Array", 1.1), lambda item: item.id),
         (required("Prescriptive"), lambda item: item.prescriptive.value_m,
-         package.prescriptive_mark),
+         package.marks.prescriptive),
         *_seaoc(package),
         (required("Mean"), lambda item: item.analysis.mean_m),
         (required("Analysis"), lambda item: item.analysis.value_m,
@@ -93,10 +93,10 @@ def comparison_table(package: PackageData) -> Table:
     if any(item.floor_m for item in arrays):
         # Peer review removes it.
         columns.append(
-            (required("Floor"), lambda item: item.floor_m or math.nan, package.floor_mark)
+            (required("Floor"), lambda item: item.floor_m or math.nan, package.marks.floor)
         )
     columns += [
-        (required("Design"), lambda item: item.design_m, package.design_mark),
+        (required("Design"), lambda item: item.design_m, package.marks.design),
         (plain("Analysis / prescr.", share=1.15),
          lambda item: item.analysis.value_m / item.prescriptive.value_m),
         (plain("Design / prescr.", share=1.05), lambda item: item.ratio),
@@ -113,10 +113,10 @@ def schedule(package: PackageData) -> Table:
         (plain("Slope", 2, "deg", 0.8), lambda item: math.degrees(item.array.slope_rad)),
         (text("μ", share=package.mu_share), lambda item: mu_words(item.array.friction)),
         (weight("Weight W"), lambda item: item.array.weight_n),
-        (required("Design displ.", 0.9), lambda item: item.permitted_m, package.design_mark),
+        (required("Design displ.", 0.9), lambda item: item.permitted_m, package.marks.design),
         (text("Keep clear", share=1.2), lambda item: _keep_clear(done, item)),
         (weight("Interconnection", show=no_less), lambda item: item.interconnection_n,
-         lambda _: package.mark("interconnection_sds"), _strength_show),
+         lambda _: package.marks.of("interconnection_sds"), _strength_show),
     ]  # fmt: skip
     if done.has_motions:
         columns.append((required("Residual", 0.9), lambda item: item.residual_m))
@@ -139,7 +139,7 @@ def _seaoc(package: PackageData) -> tuple[Column, ...]:
     done = package.assessment
     if done.rules.name.startswith("SEAOC"):
         return ()
-    value_m, mark = prescriptive_of(done.project, SEAOC).value_m, package.mark_of_seaoc
+    value_m, mark = prescriptive_of(done.project, SEAOC).value_m, package.marks.seaoc
     return ((required("PV1"), lambda _: value_m, lambda _: mark),)
 
 

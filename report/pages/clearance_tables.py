@@ -44,9 +44,10 @@ def plan_schedule(package: PackageData, fmt: UnitFormat) -> Table:
         (text("No.", share=0.42), lambda gap: gap.number),
         (words("From", 0.84), lambda gap: gap.check.clearance.array),
         (words("To", 1.14), lambda gap: gap.check.clearance.object),
-        (plain("×", share=0.62), lambda gap: gap.check.factor, lambda gap: package.mark(gap.key)),
+        (plain("×", share=0.62), lambda gap: gap.check.factor,
+         lambda gap: package.marks.of(gap.key)),
         (required("Req’d", 0.88), lambda gap: gap.check.required_m,
-         lambda gap: package.required_mark(gap.check), lambda gap: gap.check.shows[1]),
+         lambda gap: package.marks.required(gap.check), lambda gap: gap.check.shows[1]),
         (provided("Prov’d", 0.82), lambda gap: gap.check.provided_m, lambda _: "",
          lambda gap: gap.check.shows[0]),
         (ColumnHead(head="D/C", text=ratio, share=0.68), lambda gap: gap.check.demand_capacity,
@@ -64,7 +65,7 @@ def field_schedule(package: PackageData) -> Table:
         (words("To", 1.4), lambda gap: gap.check.clearance.object),
         (words("Kind", 3.4), lambda gap: _kind(gap.check)),
         (required("At least", 0.8), lambda gap: gap.check.required_m,
-         lambda gap: package.required_mark(gap.check), lambda gap: gap.check.shows[1]),
+         lambda gap: package.marks.required(gap.check), lambda gap: gap.check.shows[1]),
         (words("Measured, date, by", 1.7), lambda _: ""),
     )  # fmt: skip
     return _listed(package, columns, package.fmt)

@@ -13,11 +13,14 @@ from typing import Any
 
 from markupsafe import Markup, escape
 
+from report.assessment.assessment import Assessment
+from report.assessment.checks.alike import subjects
 from report.assessment.checks.check import dagger
 from report.assessment.design.friction_words import mus_words
 from report.assessment.design.verdict import Verdict
 from report.assessment.plan.neighbors import Cover
 from report.assessment.precheck import findings
+from report.assessment.remedies.remedies import MOST, Remedies
 from report.assessment.support.evidence import Evidence
 from report.assessment.support.plan_gaps import plan_gaps
 from report.document.columns import ColumnHead, length, provided, text, words
@@ -33,14 +36,14 @@ from report.pages.clearance_tables import (
 )
 from report.pages.marks import UNVERIFIED
 from report.pages.parts import PackageData
-from report.pages.summary import remedy_lines
+from report.pages.saving import without_analysis
 from report.project.check.finding_lines import lines
 from report.project.model.array import Array
 from report.project.model.choices import ObjectKind
 from report.project.model.finding import Level
 from report.project.model.roof import RoofObject
 from report.project.model.shapes import Polygon, Shape
-from report.text.counts import grouped_by
+from report.text.counts import capitalized, grouped_by
 from report.text.unit_format import UnitFormat
 from report.text.units import Quantity
 from report.typeset.equations import symbol
@@ -67,6 +70,23 @@ def _warnings(package: PackageData) -> Iterator[Sequence[str]]:
     warnings = [finding for finding in listed if finding.level is Level.WARNING]
     for line in lines(warnings, sheet.addresses):
         yield line.cell, f"{line.text}.", line.reason or "not acknowledged"
+
+
+def remedy_lines(assessment: Assessment, found: Remedies) -> Iterator[str]:
+    """Yield the set of changes that is enough, then what would satisfy each check that is NG."""
+    if len(found.together) > 1:
+        yield found.sentence
+    for checks, own in grouped_by(found.own, lambda remedy: remedy.checks).items():
+        titles = grouped_by(checks, lambda check: check.title)
+        names = (", ".join(filter(None, (title, subjects(of)))) for title, of in titles.items())
+        yield f"{'; '.join(names)}: {' '.join(each.sentence for each in own)}"
+    failed = sum(check.verdict is Verdict.NG for check in assessment.checks)
+    if found.own and failed > MOST:
+        yield f"Searched for the {MOST} with the largest ratio of {failed} that are NG."
+    if found.own and not found.together:
+        yield "No set of these changes is enough."
+    if assessment.has_motions and (lacks := without_analysis(assessment)):
+        yield f"{capitalized(lacks)}"
 
 
 # Letters of names for which there is room in half the width of a sheet.
@@ -106,7 +126,7 @@ def plan(package: PackageData) -> Mapping[str, object]:
         "n_beyond": len(beyond),
         "nearest": min(beyond, key=lambda pair: pair.gap_m, default=None),
         "factors": _factors(package),
-        "clauses": dict.fromkeys(package.clause(gap.key) for gap in gaps),
+        "clauses": dict.fromkeys(package.marks.clause(gap.key) for gap in gaps),
         "parapets": _parapets(package),
         "places": _places(package, fmt),
         # By id, with the number of vertices: the table of places has only the rectangle around.

@@ -11,6 +11,7 @@ from functools import cached_property
 
 from markupsafe import Markup
 
+from report.assessment.assessment import Assessment
 from report.assessment.checks.alike import alike
 from report.assessment.checks.sentence import sentence
 from report.assessment.design.arrays import ArrayAssessment
@@ -19,12 +20,15 @@ from report.assessment.design.verdict import Verdict
 from report.assessment.revision_changes import NO_FORMER, Changes
 from report.assessment.support.saving import Saving, saving
 from report.document.tables import stamp
-from report.pages.marks import Marked
+from report.pages.marks import Marks
+from report.project.model import ProjectInput
 from report.project.model.array import Array
 from report.project.model.choices import PackageEdition, RecordedAt
+from report.project.model.friction_report import FrictionTests
 from report.provenance.files import fingerprint
 from report.text.counts import ids_by
-from report.text.units import no_less, no_more
+from report.text.unit_format import UnitFormat
+from report.text.units import NO_BREAK, Quantity, no_less, no_more
 from solver.rules.provisions import Basis
 from solver.rules.rulesets import ALLOWED
 
@@ -46,12 +50,44 @@ def verdict(ok: bool, words: tuple[str, str] = ("OK", "NG")) -> Markup:
 
 
 @dataclass(frozen=True, kw_only=True)
-class PackageData(Marked):
+class PackageData:
     """Everything that the pages are made from."""
 
+    assessment: Assessment
     edition: PackageEdition
     numbers: Mapping[str, str]
     changes: Changes = NO_FORMER
+
+    @property
+    def data(self) -> ProjectInput:
+        """The input."""
+        return self.assessment.project
+
+    @property
+    def fmt(self) -> UnitFormat:
+        """Format of values."""
+        return UnitFormat(us_first=self.data.us_first, space=NO_BREAK)
+
+    @property
+    def marks(self) -> Marks:
+        """The marks of numbers."""
+        return Marks(self.assessment)
+
+    def both(self, value_si: float, quantity: str = "DISPLACEMENT") -> str:
+        """Return a value in both systems, for templates."""
+        return self.fmt.both(value_si, Quantity[quantity])
+
+    def both_up(self, value_si: float, quantity: str = "DISPLACEMENT") -> str:
+        """Return a value rounded up, for templates."""
+        return self.fmt.both(value_si, Quantity[quantity], no_less)
+
+    def mark(self, key: str) -> str:
+        """Return marks of a provision, for templates."""
+        return self.marks.of(key)
+
+    def clause(self, key: str) -> str:
+        """Return the clause of a provision, for templates."""
+        return self.marks.clause(key)
 
     def part(self, name: str) -> str:
         """Return the reference to a part, as in `part 6`."""
@@ -111,7 +147,7 @@ class PackageData(Marked):
         """Return a length of the rule set in both systems of units, with its marks."""
         show = no_more if ALLOWED[key].is_maximum else no_less
         length = self.fmt.both(self.assessment.rules.length_m(key), show=show)
-        return length + self.mark(key)
+        return length + self.marks.of(key)
 
     def friction_basis(self, array: Array) -> str:
         """Return where the friction of an array comes from."""
@@ -125,3 +161,15 @@ class PackageData(Marked):
     def governing(self) -> ArrayAssessment:
         """The array with the largest design displacement."""
         return self.assessment.governing
+
+
+def all_or(ids: Sequence[str], n_arrays: int) -> str:
+    """Return ids of arrays, or that these are all."""
+    return "all arrays" if 1 < len(ids) == n_arrays else ", ".join(ids)
+
+
+def friction_report(tests: FrictionTests) -> str:
+    """Return the report on the friction tests; nothing where none is given."""
+    report = f"report {tests.report}" if tests.report else ""
+    parts = tests.laboratory, tests.standard, report, tests.date
+    return ", ".join(str(part) for part in parts if part)

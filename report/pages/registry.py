@@ -21,15 +21,18 @@ from report.drawing.on_paper import printed_plan
 from report.pages import (
     acceptance,
     accuracy,
+    basis,
+    changes,
+    comparison,
     echo,
     friction_tests,
-    front,
     inputs,
     limits,
     model,
     motions,
     notes,
     results,
+    summary,
     symbols,
 )
 from report.pages.parts import PackageData
@@ -70,9 +73,9 @@ BELOW_INPUTS = (
     ("inputs-friction", "Friction tests"),
 )
 PAGES = (
-    Page("summary", "Summary", front.summary),
-    Page("comparison", "Comparison with the prescriptive displacement", front.comparison),
-    Page("basis", "Basis and limits of the method", _alone(front.basis)),
+    Page("summary", "Summary", summary.page),
+    Page("comparison", "Comparison with the prescriptive displacement", comparison.page),
+    Page("basis", "Basis and limits of the method", _alone(basis.page)),
     Page("plan", "Roof plan and schedule of clearances", _alone(limits.plan)),
     Page("model", "Model used", _alone(model.page)),
     Page("limits", "Limits and requirements", limits.limits),
@@ -99,7 +102,7 @@ OF_MOTIONS = frozenset(
 LETTER = Part(id="letter", number="", title="Letter of results")  # before the first page
 
 # After the summary, without a number: the other parts have the same in every revision.
-CHANGES = Page("changes", "Changes", _alone(front.page))
+CHANGES = Page("changes", "Changes", _alone(changes.page))
 
 
 def pages_of(
@@ -198,7 +201,7 @@ def draw_assessment(package: PackageData) -> Drawings:
 
 def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
     """Return the drawings of spectra and of runs; none without motions."""
-    from report.figures.charts import comparison
+    from report.figures.charts import comparison as comparison_chart
     from report.figures.spectra import spectra
 
     if not package.assessment.has_motions:
@@ -210,7 +213,7 @@ def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
     others_m = {case.array.id: case.array.design_m for case in shown.cases}
     drawings: dict[str, Sequence[Any]] = {
         "comparison": [
-            comparison(some, us_first, others_m)
+            comparison_chart(some, us_first, others_m)
             for some in _in_parts(package.assessment.alike, CHART_ROWS)
         ],
         "motions-spectra": [spectra(parts) for parts in ((roof, ground) if ground else (roof,))],

@@ -23,6 +23,7 @@ from report.assessment.support.evidence import Evidence
 from report.document.columns import ColumnHead, required, text, words
 from report.document.tables import Column, Table, TableRow, Wide, listed, stamp
 from report.drawing.items import drawn_slope_deg
+from report.pages.marks import prescriptive_key
 from report.pages.parts import PackageData, statistic
 from report.project.model.choices import Direction
 from report.runs import MotionRun
@@ -150,19 +151,19 @@ def _peak(fmt: UnitFormat, orientation: Orientation, motion: MotionRun) -> str:
 def _statistics(package: PackageData, group: _Alike, runs: int) -> Iterator[TableRow]:
     array, fmt = group[0], package.fmt
     analysis, head = array.analysis, required("")
-    factor = f"{statistic(analysis.basis)}, {package.clause('analysis_factor')}"
+    factor = f"{statistic(analysis.basis)}, {package.marks.clause('analysis_factor')}"
     floor_m = array.floor_m or math.nan  # peer review removes it
     # The keys are those of results.json, by which changes are known.
     rows: Sequence[tuple[str, str, float, str, str]] = (
         ("mean_prd_m", "Mean", analysis.mean_m, "", "of the motions"),
         ("largest_prd_m", "Largest", analysis.largest_m, "", "of the motions"),
         ("computed_m", f"Analysis: {factor}", analysis.value_m, array.overridden.analysis, ""),
-        ("floor_m", f"Floor: {_floor_words(package)}", floor_m, package.floor_mark(array), ""),
+        ("floor_m", f"Floor: {_floor_words(package)}", floor_m, package.marks.floor(array), ""),
         (
             "design_m",
             "Design",
             array.design_m,
-            package.design_mark(array),
+            package.marks.design(array),
             f"governed by: {array.source}",
         ),
     )
@@ -182,7 +183,7 @@ def _floor_words(package: PackageData) -> str:
     if package.data.is_peer_reviewed:
         return "none; the analysis is peer reviewed"
     share = number(100.0 * package.assessment.rules["analysis_floor"], 0)
-    return f"{share} % of prescriptive, {package.clause('analysis_floor')}"
+    return f"{share} % of prescriptive, {package.marks.clause('analysis_floor')}"
 
 
 def equations_below(package: PackageData) -> tuple[tuple[str, str], ...]:
@@ -253,11 +254,11 @@ def _design(package: PackageData) -> Mapping[str, object]:
     arrays = package.assessment.arrays
     return {
         "statistic": statistic(array.analysis.basis),
-        "prescriptive_clause": package.clause(package.prescriptive_key(array)),
-        "prescriptive_mark": package.prescriptive_mark(array),
+        "prescriptive_clause": package.marks.clause(prescriptive_key(array)),
+        "prescriptive_mark": package.marks.prescriptive(array),
         "analysis_mark": array.overridden.analysis,
-        "floor_mark": package.floor_mark(array),
-        "design_mark": package.design_mark(array),
+        "floor_mark": package.marks.floor(array),
+        "design_mark": package.marks.design(array),
         "troubles": package.sentences("runs", [array.id]),
         "peaks": " + ".join(peaks),
         "unit": package.fmt.units()[0].symbol,

@@ -1,152 +1,114 @@
-"""What `roofslip report` prints of an assessment: a line for each array, then what needs attention.
-
-Finished lines; computes nothing. Read `summary`.
-
-What would satisfy each clearance and array marked NG, in sentences.
-"""
+"""The summary, what decides: verdict, arrays, the checks that govern, and the open conditions."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
-from functools import partial
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Mapping
 
 from report.assessment.assessment import Assessment
-from report.assessment.causes import causes, unshown_cause
-from report.assessment.checks.alike import alike, subjects
-from report.assessment.checks.sentence import sentence
-from report.assessment.design.routes import NOT_PERMITTED
-from report.assessment.design.rule_set import MEANING
-from report.assessment.design.verdict import Verdict
-from report.assessment.precheck import findings
-from report.assessment.remedies.remedies import MOST, Remedies, remedies
-from report.assessment.support.saving import saving
-from report.document.templates import sentence as of_template
-from report.pages.array_tables import governing_name, ratio_words
-from report.pages.marks import Marked
-from report.project.check.finding_lines import lines
-from report.project.model.finding import Level
-from report.text.counts import capitalized, grouped_by
-from report.text.formats import aligned, finite
-from report.text.units import no_less
-from report.typeset.pdf import TEMPLATES
-from solver.rules.limit import Consequence
-
-if TYPE_CHECKING:
-    from report.assessment.assessment import Assessment
-    from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.checks.alike import alike
+from report.assessment.checks.ids import VELOCITY_ROW
+from report.assessment.remedies.remedies import Remedies
+from report.assessment.support.evidence import Evidence
+from report.document.tables import stamp
+from report.pages.array_tables import summary_table
+from report.pages.checks import (
+    FirstSheet,
+    condition_table,
+    first_sheet,
+    governing_table,
+    verdict_sentence,
+)
+from report.pages.marks import prescriptive_key
+from report.pages.parts import PackageData, statistic
+from report.pages.review import by_analysis, excepted
+from report.text.counts import capitalized, lowered, named, numbered
+from report.text.units import number
 
 
-def remedy_lines(assessment: Assessment, found: Remedies) -> Iterator[str]:
-    """Yield the set of changes that is enough, then what would satisfy each check that is NG."""
-    if len(found.together) > 1:
-        yield found.sentence
-    for checks, own in grouped_by(found.own, lambda remedy: remedy.checks).items():
-        titles = grouped_by(checks, lambda check: check.title)
-        names = (", ".join(filter(None, (title, subjects(of)))) for title, of in titles.items())
-        yield f"{'; '.join(names)}: {' '.join(each.sentence for each in own)}"
-    failed = sum(check.verdict is Verdict.NG for check in assessment.checks)
-    if found.own and failed > MOST:
-        yield f"Searched for the {MOST} with the largest ratio of {failed} that are NG."
-    if found.own and not found.together:
-        yield "No set of these changes is enough."
-    if assessment.has_motions and (lacks := without_analysis(assessment)):
-        yield f"{capitalized(lacks)}"
+def page(
+    package: PackageData, evidence: Evidence, sheet: FirstSheet | None = None
+) -> Mapping[str, object]:
+    """Return the summary.
 
-
-_COLUMNS = ("array", "computed", "prescriptive", "design", "governing clearance to", "D/C", "")
-
-
-def summary(assessment: Assessment) -> Iterator[str]:
-    """Yield the table of the arrays, what needs attention, and the verdict."""
-    # A terminal has no note at its foot that would say what a dagger means.
-    marked = Marked(assessment=assessment, has_daggers=False)
-    rows = [_COLUMNS, *(_row(marked, item) for item in assessment.arrays)]
-    # Without motions nothing is computed: a column of nones would look like a failure.
-    if not assessment.has_motions:
-        rows = [(id, *others) for id, _, *others in rows]
-    yield from aligned(rows)
-    if assessment.is_overridden:
-        yield MEANING
-    for level, text in attention(assessment):
-        yield f"{level}: {text}"
-    gap = assessment.governing_gap()
-    largest = f", largest D/C {gap.ratio_words}" if gap and not math.isnan(gap.required_m) else ""
-    yield f"verdict: {assessment.verdict.value}{largest}"
-
-
-def without_analysis(assessment: Assessment) -> str:
-    """Return what arrays take for lack of motions, and what an analysis could save; or nothing."""
-    found = saving(assessment)
-    if assessment.has_motions and not found.ids:
-        return ""
-    marked = Marked(assessment=assessment, has_daggers=False)
-    return of_template(TEMPLATES, "without_analysis", found, package=marked)
-
-
-def document(assessment: Assessment) -> dict[str, Any]:
-    """Return the same for JSON, with units in the keys and null for no value."""
+    `sheet` are the checks for which the first sheet has room; without it all of them.
+    """
+    done, data, numbers = package.assessment, package.data, package.numbers
+    sheet = sheet or first_sheet(done)
+    notes = alike(check for check in done.checks if check.is_note and not check.is_satisfied)
+    then = "what is NG, then " if sheet.failed else ""
     return {
-        "verdict": assessment.verdict.value,
-        "arrays": [_array(assessment, item) for item in assessment.arrays],
-        "attention": [{"level": level, "text": text} for level, text in attention(assessment)],
+        "verdict": stamp(done.verdict, done.verdict.value),
+        "verdict_sentence": verdict_sentence(done),
+        "s_ds": number(data.site.s_ds, 3),
+        "sdc": data.site.sdc_text,
+        "i_e": number(data.site.i_e, 2),
+        "risk_category": data.site.risk_category.value,
+        "rules": done.rules.name,
+        "confirmed": data.confirmed,
+        "review": list(_review(package)) if data.is_peer_reviewed else [],
+        "excepted": excepted(done),
+        "arrays": summary_table(package),
+        "arrays_caption": _caption(package),
+        "has_seaoc": not done.has_motions and not done.rules.name.startswith("SEAOC"),
+        "governing": governing_table(sheet, done, numbers),
+        "governing_caption": f"Governing of {len(done.checks)} checks: {then}the largest ratio of "
+        "each kind",
+        "n_largest": len(sheet.largest),
+        "following": capitalized(numbered(sheet.n_following, "more check"))
+        if sheet.n_following
+        else "",
+        "remedy": _enough(done, evidence.remedies) if sheet.has_remedies else "",
+        "conditions": condition_table(sheet, done, numbers),
+        "n_conditions": len(sheet.conditions),
+        "more": capitalized(numbered(sheet.n_more, "more condition")) if sheet.n_more else "",
+        "effects": list(_what_if(package, evidence)) if sheet.has_effects else [],
+        "notes": "; ".join(lowered(check.title) for check in notes) if sheet.has_remedies else "",
     }
 
 
-def _array(assessment: Assessment, item: ArrayAssessment) -> dict[str, Any]:
-    gap = assessment.governing_gap(item.id)
-    return {
-        "id": item.id,
-        # JSON has no NaN.
-        "computed_m": finite(item.analysis.value_m),
-        "prescriptive_m": item.prescriptive.value_m,
-        "design_m": finite(item.design_m),
-        "design_is_overridden": bool(item.overridden.design),
-        "governing_clearance": gap.across_from(item.id) if gap else None,
-        "demand_capacity": finite(gap.demand_capacity) if gap else None,
-        "required_is_overridden": bool(gap and gap.mark),
-        "verdict": assessment.array_verdict(item).value,
-        "causes": causes(assessment, item),
-    }
+def _review(package: PackageData) -> Iterator[str]:
+    """Yield what peer review lifts, of which arrays, and what it comes to without it."""
+    done, options = package.assessment, package.data.options
+    reviewer = f"{options.peer_reviewer}, {options.peer_license}, {options.peer_date}"
+    ids = by_analysis(done)
+    if not ids:
+        yield f"Peer review by {reviewer}; no array uses the analysis displacement."
+        return
+    arrays = f" of {named(ids, 'array')}" if len(ids) < len(done.arrays) else ""
+    clause = package.marks.clause("analysis_floor")
+    yield f"Floor{arrays}: none. Analysis peer reviewed by {reviewer} ({clause})."
+    yield done.otherwise.get("peer_review", "")
 
 
-def _row(marked: Marked, item: ArrayAssessment) -> tuple[str, ...]:
-    done, cause = marked.assessment, unshown_cause(marked.assessment, item)
-    prescriptive_m = item.prescriptive.value_m
-    both = partial(marked.fmt.both, show=no_less)
-    refused = f", {NOT_PERMITTED}" if item.has_unpermitted_value else ""
+def _caption(package: PackageData) -> str:
+    """Return the caption of the table of arrays, with the provision of the displacements."""
+    done, values = package.assessment, package.assessment.rules.values
+    if not done.has_motions:
+        clause = values[prescriptive_key(done.governing)].clause
+        return f"Arrays: prescriptive displacement ({clause}) and design displacement"
+    analysis, mark = done.governing.analysis, package.marks.of("analysis_factor")
+    motions = numbered(analysis.n_motions, "motion") + mark
     return (
-        item.id,
-        both(item.analysis.value_m, mark=item.overridden.analysis),
-        both(prescriptive_m, mark=marked.prescriptive_mark(item)),
-        both(item.design_m, mark=marked.design_mark(item)) + refused,
-        governing_name(done, item),
-        ratio_words(done, item),
-        done.array_verdict(item) + (f": {cause}" if cause else ""),
+        f"Arrays: analysis displacement ({statistic(analysis.basis)} of {motions}, "
+        f"{values['analysis_factor'].clause}), prescriptive and design displacement"
     )
 
 
-def attention(assessment: Assessment, *, may_run: bool = True) -> Iterator[tuple[str, str]]:
-    """Yield what is not satisfied, NG first, and what would do, with runs or not; each its level.
+def _enough(done: Assessment, found: Remedies) -> str:
+    """Return what is enough for a project that is NG, in a sentence; or that nothing found is."""
+    if found.own and not found.together:
+        return "No set of the changes that were tried is enough."
+    return found.sentence
 
-    Levels are NG, remedy, condition, note and warning.
-    """
-    us_first, is_best_due = assessment.project.us_first, assessment.at_reduced_friction is not None
-    failed = [check for check in assessment.open if not check.verdict.is_permitted]
-    for check in failed:
-        yield Consequence.NG.value, sentence(check, us_first)
-    # The verdict with a remedy depends on less friction as well.
-    if is_best_due and (found := remedies(assessment, may_run=may_run)).together:
-        yield "remedy", found.sentence
-    for check in assessment.open[len(failed) :]:
-        yield check.consequence.value, sentence(check, us_first)
-    if lacks := without_analysis(assessment):
-        yield Consequence.NOTE.value, lacks
-    for check in alike(assessment.notes):
-        yield Consequence.NOTE.value, sentence(check, us_first)
-    listed = findings(assessment.sheet, assessment.shaking)
-    for line in lines(listed, assessment.sheet.addresses):
-        if line.level is Level.WARNING:
-            answer = f" Acknowledged: {line.reason}" if line.reason else ""
-            yield "warning", f"{line.cell}: {line.text} [{line.id}]{answer}"
+
+def _what_if(package: PackageData, evidence: Evidence) -> Iterator[str]:
+    """Yield what another input comes to; of a condition its own row says it."""
+    done = package.assessment
+    # Of a rule set that the jurisdiction accepts no row says it.
+    says = {check.id for check in done.checks if check.is_open} & {"rule_set", "edition_name"}
+    if "rule_set" in done.otherwise and not says:
+        yield done.otherwise["rule_set"]
+    for case in evidence.cases:
+        is_slow = done.low_velocity.of(case.array.id) is case.array
+        if not (is_slow and VELOCITY_ROW in done.otherwise):
+            yield case.words(package.fmt.us_first)

@@ -197,10 +197,16 @@ def round_down(value: float, decimals: int) -> float:
     return math.floor(value * per_digit + NOISE) / per_digit if math.isfinite(value) else value
 
 
-def pair(value_si: float, quantity: Quantity, us_first: bool = True, show: Show = measured) -> str:
+def pair(
+    value_si: float,
+    quantity: Quantity,
+    us_first: bool = True,
+    show: Show = measured,
+    space: str = " ",
+) -> str:
     """Return a value in both systems, such as `81.6 in (2072 mm)`, the preferred one first."""
     first, second = (
-        f"{show(value_si, unit)} {unit.symbol}"
+        f"{show(value_si, unit)}{space}{unit.symbol}"
         for unit in (quantity.value if us_first else quantity.value[::-1])
     )
     return f"{first} ({second})"

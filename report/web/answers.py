@@ -17,10 +17,10 @@ from report.assessment.design.rule_set import MEANING
 from report.assessment.design.verdict import Verdict
 from report.assessment.plan.neighbors import PlanNeighbor
 from report.drawing.sheet import unit_format
+from report.pages.attention import attention
 from report.pages.checks import verdict_sentence
 from report.pages.clearance_tables import NumberedGap, numbered_gaps
-from report.pages.marks import Marked
-from report.pages.summary import attention
+from report.pages.marks import Marks
 from report.text.unit_format import UnitFormat
 from report.text.units import Show, no_less
 from report.web.plan import USUAL_PX, Cell, ShowVerdict, described, plan, stamp
@@ -39,11 +39,11 @@ def answer(
     assessment: Assessment, *, is_provisional: bool, room_px: int = USUAL_PX
 ) -> dict[str, Any]:
     """Return what the page shows, with room for its plan; provisional values have no verdict."""
-    marked = Marked(assessment=assessment, has_daggers=False)
+    marks = Marks(assessment, has_daggers=False)
     fmt = unit_format(assessment)
     arrays, gaps = assessment.arrays, numbered_gaps(assessment)
     missing = [near for near in assessment.neighbors if near.is_missing]
-    designs = {item.id: _design(marked, item, is_provisional) for item in arrays}
+    designs = {item.id: _design(marks, item, is_provisional) for item in arrays}
 
     # What less friction would change is computed after the rest; only an OK may change by it.
     is_whole = is_provisional or assessment.at_reduced_friction is not None
@@ -78,7 +78,7 @@ def answer(
                     {"text": item.id},
                     _length(fmt, item.analysis.mean_m, no_less),
                     designs[item.id],
-                    _prescriptive(marked, item),
+                    _prescriptive(marks, item),
                     verdict(assessment.array_verdict(item)),
                 ]
                 for item in arrays
@@ -88,34 +88,34 @@ def answer(
             "caption": "Clearances",
             "heads": _GAP_HEADS,
             "rows": [
-                *(_gap(gap, marked, verdict) for gap in gaps),
+                *(_gap(gap, marks, verdict) for gap in gaps),
                 *(_missing(near, fmt, verdict) for near in missing),
             ],
         },
         "bars": {
             "heads": ["Motion", "Bar", "PRD"],
-            "arrays": {item.id: _bars(marked, item, designs[item.id]) for item in arrays},
+            "arrays": {item.id: _bars(marks, item, designs[item.id]) for item in arrays},
         },
-        "tips": _tips(marked, designs, gaps),
-        "plan": plan(marked, designs, (gaps, missing), verdict, room_px),
+        "tips": _tips(marks, designs, gaps),
+        "plan": plan(marks, designs, (gaps, missing), verdict, room_px),
     }
 
 
-def _design(marked: Marked, item: ArrayAssessment, is_provisional: bool) -> Cell:
+def _design(marks: Marks, item: ArrayAssessment, is_provisional: bool) -> Cell:
     """Return the design displacement and what governs; while provisional, not whether it may."""
-    fmt = unit_format(marked.assessment)
+    fmt = unit_format(marks.assessment)
     if math.isnan(item.design_m):
         return {"text": fmt.none}
-    cell = _length(fmt, item.design_m, no_less, marked.design_mark(item))
+    cell = _length(fmt, item.design_m, no_less, marks.design(item))
     if is_provisional:
         return cell | {"title": f"{cell['title']}, {item.governs.value}"}
     text = NOT_PERMITTED if item.has_unpermitted_value else cell["text"]
     return {"text": text, "title": f"{cell['title']}, {item.source}"}
 
 
-def _prescriptive(marked: Marked, item: ArrayAssessment) -> Cell:
-    mark = marked.prescriptive_mark(item)
-    return _length(unit_format(marked.assessment), item.prescriptive.value_m, no_less, mark)
+def _prescriptive(marks: Marks, item: ArrayAssessment) -> Cell:
+    mark = marks.prescriptive(item)
+    return _length(unit_format(marks.assessment), item.prescriptive.value_m, no_less, mark)
 
 
 def _length(fmt: UnitFormat, value_m: float, show: Show, mark: str = "") -> dict[str, str]:
@@ -128,13 +128,13 @@ def _ratio(gap: NumberedGap, fmt: UnitFormat) -> str:
     return fmt.none if math.isnan(gap.check.demand_capacity) else gap.check.ratio_words
 
 
-def _gap(gap: NumberedGap, marked: Marked, verdict: ShowVerdict) -> list[Cell | None]:
-    fmt, (had, needed), row = unit_format(marked.assessment), gap.check.shows, gap.check.clearance
+def _gap(gap: NumberedGap, marks: Marks, verdict: ShowVerdict) -> list[Cell | None]:
+    fmt, (had, needed), row = unit_format(marks.assessment), gap.check.shows, gap.check.clearance
     return [
         {"text": str(gap.number)},
         _between(row.array, row.object, row.direction.value),
         _length(fmt, row.provided_m, had),
-        _length(fmt, gap.check.required_m, needed, marked.required_mark(gap.check)),
+        _length(fmt, gap.check.required_m, needed, marks.required(gap.check)),
         {"text": _ratio(gap, fmt)},
         verdict(gap.check.verdict),
     ]
@@ -156,16 +156,14 @@ def _between(first: str, other: str, note: str) -> Cell:
     return {"text": f"{first} to {other}", "from": first, "to": other, "note": note}
 
 
-def _tips(
-    marked: Marked, designs: Mapping[str, Cell], gaps: Sequence[NumberedGap]
-) -> dict[str, str]:
+def _tips(marks: Marks, designs: Mapping[str, Cell], gaps: Sequence[NumberedGap]) -> dict[str, str]:
     """Return what the plan tells of each array, object and clearance, by name and by number."""
-    assessment, fmt = marked.assessment, unit_format(marked.assessment)
+    assessment, fmt = marks.assessment, unit_format(marks.assessment)
     tips = {id: f"{id}: Δ {design.get('title', fmt.none)}" for id, design in designs.items()}
     tips |= {row.id: f"{row.id}: {row.kind.value}" for row in assessment.project.objects}
     worst: dict[str, NumberedGap] = {}
     for gap in gaps:
-        tips[f"#{gap.number}"] = f"{described(gap, marked)}, D/C {_ratio(gap, fmt)}"
+        tips[f"#{gap.number}"] = f"{described(gap, marks)}, D/C {_ratio(gap, fmt)}"
         for name in gap.check.between:
             known = worst.get(name)
             if known is None or not gap.check.demand_capacity <= known.check.demand_capacity:
@@ -176,11 +174,11 @@ def _tips(
     return tips
 
 
-def _bars(marked: Marked, item: ArrayAssessment, design: Cell) -> Mapping[str, Any]:
+def _bars(marks: Marks, item: ArrayAssessment, design: Cell) -> Mapping[str, Any]:
     """Return the PRD of each motion, and the lengths that are lines across its bars."""
     # A displacement that is not permitted is no line across the bars.
     design_m = math.nan if design["text"] == NOT_PERMITTED else item.design_m
-    fmt, prescriptive = unit_format(marked.assessment), _prescriptive(marked, item)
+    fmt, prescriptive = unit_format(marks.assessment), _prescriptive(marks, item)
     lines = {
         "design": (design_m, design["text"]),
         "prescriptive": (item.prescriptive.value_m, prescriptive["text"]),

@@ -26,7 +26,7 @@ from report.drawing.items import (
 from report.drawing.on_paper import plan_on_paper
 from report.drawing.sheet import Paper, PlanSize, unit_format
 from report.pages.clearance_tables import NumberedGap
-from report.pages.marks import Marked
+from report.pages.marks import Marks
 from report.text.unit_format import UnitFormat
 
 Cell = Mapping[str, str]
@@ -69,7 +69,7 @@ _CLASSES: Mapping[Look, str] = {
 
 
 def plan(
-    marked: Marked,
+    marks: Marks,
     designs: Mapping[str, Cell],
     gaps: tuple[Sequence[NumberedGap], Sequence[PlanNeighbor]],
     verdict: ShowVerdict,
@@ -77,7 +77,7 @@ def plan(
 ) -> Mapping[str, Any]:
     """Return the plan with its design displacements, its clearances and what is without one."""
     words = {name: str(cell["text"]) for name, cell in designs.items()}
-    assessment, (shown, missing) = marked.assessment, gaps
+    assessment, (shown, missing) = marks.assessment, gaps
     fmt = unit_format(assessment)
     # Provisional values have none.
     has_verdicts = verdict(Verdict.OK) is not None
@@ -90,7 +90,7 @@ def plan(
         "title": "Roof plan to scale",
         "described": [
             *(
-                {"text": described(gap, marked), "verdict": verdict(gap.check.verdict)}
+                {"text": described(gap, marks), "verdict": verdict(gap.check.verdict)}
                 for gap in shown
             ),
             *(
@@ -118,12 +118,12 @@ def _without_clearance(near: PlanNeighbor, fmt: UnitFormat) -> str:
     return f"{near.array} to {near.other}: no clearance given, {gap} in plan, required {required}"
 
 
-def described(gap: NumberedGap, marked: Marked) -> str:
+def described(gap: NumberedGap, marks: Marks) -> str:
     """Return a clearance in words."""
     check, (had, needed) = gap.check, gap.check.shows
-    fmt, row = unit_format(marked.assessment), gap.check.clearance
+    fmt, row = unit_format(marks.assessment), gap.check.clearance
     provided = fmt.both(check.provided_m, show=had)
-    required = fmt.both(check.required_m, show=needed, mark=marked.required_mark(check))
+    required = fmt.both(check.required_m, show=needed, mark=marks.required(check))
     name = f"Clearance {gap.number}, {row.array} to {row.object}, {row.direction}"
     return f"{name}: provided {provided}, required {required}"
 

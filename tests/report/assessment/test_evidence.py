@@ -19,10 +19,10 @@ from report.assessment.support.evidence import support
 from report.assessment.support.other_inputs import cases
 from report.assessment.support.saving import saving
 from report.assessment.support.smaller_events import cumulative
-from report.document.templates import sentence
-from report.pages.marks import Marked
-from report.project.model.options import Override
-from report.typeset.pdf import TEMPLATES
+from report.pages.marks import Marks
+from report.pages.saving import saving_words
+from report.project.model import Override
+from report.text.unit_format import UnitFormat
 from solver import at_roof, building_of_periods
 from solver.sliding.least_model import DEFAULT
 
@@ -263,7 +263,7 @@ def with_inputs(*, slopes=(), **sections):
 
 
 def said(given):
-    return sentence(TEMPLATES, "saving", saving(given), package=Marked(assessment=given))
+    return saving_words(saving(given), Marks(given), UnitFormat(given.project.us_first))
 
 
 def test_the_floor_satisfies_clearances_that_it_does_not_exceed():

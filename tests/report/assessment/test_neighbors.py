@@ -22,7 +22,7 @@ from report.drawing.items import Layer
 from report.drawing.plan import plan_drawing
 from report.drawing.sheet import LETTER
 from report.motions.prepare import prepare
-from report.pages.marks import Marked
+from report.pages.marks import Marks
 from report.project.model import ProjectInput
 from report.project.model.shapes import Rectangle, gap_m
 from report.project.read.read import read
@@ -281,7 +281,7 @@ def test_a_short_gap_without_a_row_is_ng_in_the_drawing_the_picture_and_on_the_p
     label = {"NG", "not entered; in plan 12.0 in", "required 40.8 in"}
     assert label <= set(shown)
     designs = {item.id: {"text": ""} for item in unlisted.arrays}
-    items = plan(Marked(assessment=unlisted), designs, ((), ()), stamp)["items"]
+    items = plan(Marks(unlisted), designs, ((), ()), stamp)["items"]
     said = [item.get("text") for item in items]
     assert label <= set(said)
 
@@ -309,7 +309,7 @@ def test_a_required_separation_that_an_override_lowers_is_marked_without_a_row_t
     assert re.search(r"^≥ [\d.]+ in \([\d.]+ mm\)‡", texts(row, us_first=True)[1])
     assert unlisted.is_overridden
     designs = {item.id: {"text": ""} for item in unlisted.arrays}
-    items = plan(Marked(assessment=unlisted), designs, ((), ()), stamp)["items"]
+    items = plan(Marks(unlisted), designs, ((), ()), stamp)["items"]
     said = " ".join(item.get("text", "") for item in items)
     assert re.search(r"required [\d.]+ in‡", said)
     assert re.search(r"required [\d.]+ in‡", roof_plan(unlisted, LETTER))

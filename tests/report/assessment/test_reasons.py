@@ -9,7 +9,7 @@ from fixtures.pages import page_of
 from report.assessment.checks.sentence import sentence
 from report.assessment.design.routes import Route
 from report.assessment.design.verdict import Verdict
-from report.pages.summary import summary
+from report.pages.terminal import summary
 from report.text.counts import lowered
 from report.web.answers import answer
 

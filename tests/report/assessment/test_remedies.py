@@ -14,9 +14,12 @@ from report.assessment.assess import assess, changed, entered
 from report.assessment.causes import came_to
 from report.assessment.design.other_friction import with_mu
 from report.assessment.design.verdict import Verdict
+from report.assessment.remedies import remedies
 from report.assessment.remedies.friction_search import above, below, search
-from report.assessment.remedies.remedies import MOST, Remedies, RemedyKind, remedies
-from report.pages.summary import remedy_lines, summary, without_analysis
+from report.assessment.remedies.remedies import MOST, Remedies, RemedyKind
+from report.pages.limits import remedy_lines
+from report.pages.saving import without_analysis
+from report.pages.terminal import summary
 from report.project.check.covered import outdated
 from report.project.model.shapes import gap_m
 from report.web.answers import answer

@@ -25,7 +25,7 @@ from report.drawing.sheet import LETTER
 from report.figures.base import style
 from report.figures.plan import painted
 from report.pages.checks import APART
-from report.pages.summary import summary
+from report.pages.terminal import summary
 from report.project.read.archive import open_book
 from report.results.results_json import results_json
 from report.results.xlsx import results_xlsx

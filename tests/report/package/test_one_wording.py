@@ -14,7 +14,7 @@ from report.assessment.design.words import NO_DESIGN
 from report.assessment.precheck import limits_before_runs
 from report.assessment.remedies.remedies import Remedies
 from report.assessment.support.spectra import spectra
-from report.pages import summary as terminal
+from report.pages import attention, terminal
 from report.pages.checks import APART
 from report.results.rows import check_results
 from report.results.xlsx import results_xlsx
@@ -52,7 +52,7 @@ def has(text, words):
 @pytest.fixture(params=by_day(COPIES, 3))
 def made(request, monkeypatch):
     """An altered copy, and what is open in it; no friction is searched that would satisfy it."""
-    monkeypatch.setattr(terminal, "remedies", lambda done, **_: Remedies())
+    monkeypatch.setattr(attention, "remedies", lambda done, **_: Remedies())
     done = altered_projects.assessed(request.param)
     return done, done.project.us_first
 

@@ -23,7 +23,7 @@ from report.drawing.items import Layer, write_dxf
 from report.drawing.plan import plan_drawing
 from report.making import make
 from report.pages.registry import OF_MOTIONS, PAGES, package_data, pages_in
-from report.pages.summary import summary
+from report.pages.terminal import summary
 from report.project.model.choices import PackageEdition, UnitsFirst
 from report.project.model.roof import Clearance, Roof
 from report.project.read.read import read

@@ -15,7 +15,7 @@ from report.assessment.assess import assess
 from report.assessment.checks.records import of_records
 from report.assessment.checks.sentence import texts, words
 from report.assessment.design.routes import Route
-from report.pages.summary import document, summary
+from report.pages.terminal import document, summary
 from report.web.open_project import open_project
 
 

@@ -1,0 +1,100 @@
+"""The comparison with the prescriptive displacement: chart, table, why an array has its route.
+
+Array A1: the limits of the prescriptive procedure are satisfied, but the displacement by
+analysis exceeds its value.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from report.assessment.checks.rule_limits import building_limits, of_limit
+from report.assessment.checks.sentence import words
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.design.routes import Route
+from report.assessment.support.evidence import Evidence
+from report.pages.array_tables import comparison_table
+from report.pages.marks import prescriptive_key
+from report.pages.parts import PackageData
+from report.pages.study_years import study_years
+from report.text.counts import capitalized, ids_by, named, numbered
+from report.text.units import number
+
+
+def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
+    """Return what the captions name, the table, the routes, and years where a study has them."""
+    done, marks = package.assessment, package.marks
+    has_floor = any(item.floor_m for item in done.arrays)
+    routes = ids_by(done.arrays, lambda item: _routes(package, item))
+    return {
+        "prescriptive_clause": marks.clause(prescriptive_key(done.governing)),
+        "has_floor": has_floor,
+        "floor_clause": marks.clause("analysis_floor"),
+        "floor_percent": number(100.0 * done.rules["analysis_floor"], 0),
+        "takes_larger": has_floor and any(item.route is Route.ANALYSIS for item in done.arrays),
+        "cases": [
+            (case.array.id, case.changed, package.fmt.both_up(case.array.design_m))
+            for case in evidence.cases
+        ],
+        "arrays": comparison_table(package),
+        "is_seaoc": done.rules.name.startswith("SEAOC"),
+        "routes": [(named(ids, "Array"), words) for words, ids in routes.items()],
+        "studies": list(study_years(package)),
+    }
+
+
+def _routes(package: PackageData, item: ArrayAssessment) -> str:
+    """Return why an array has its procedure, and whether the other would be permitted."""
+    done, given_m, analysis = package.assessment, item.prescriptive.value_m, item.analysis
+    building = building_limits(done.project, done.rules)
+    limits = (*item.limits.prescriptive_checks, *item.limits.checks, *building)
+    failed = [words(of_limit(limit)) for limit in limits if not limit.ok]
+    if failed:
+        other = f"the prescriptive procedure is not permitted: {_reasons(package, failed)}"
+    elif analysis.value_m > given_m:
+        other = (
+            "the limits of the prescriptive procedure are satisfied, but the displacement by "
+            "analysis exceeds its value"
+        )
+    else:
+        other = f"the prescriptive displacement may be used instead ({package.part('limits')})"
+    faults = _reasons(package, done.against_analysis(item))
+    refused = f"the analysis procedure is not permitted: {faults}"
+    parts: list[str] = []
+    if item.route is Route.PRESCRIPTIVE:
+        parts.append("the prescriptive procedure is taken")
+        if analysis.largest_m > given_m:
+            parts.append("the largest PRD exceeds the prescriptive displacement and is used")
+        return _sentences([*parts, refused])
+    if math.isnan(item.design_m):
+        return _sentences(["no value from analysis", other])
+    n_above = sum(run.governing.prd_m > given_m for run in item.motions)
+    above = f"{n_above} of {len(item.motions)} PRDs"
+    if analysis.value_m > given_m:
+        parts.append(
+            f"the displacement by analysis is {number(analysis.value_m / given_m, 2)} times the "
+            f"prescriptive displacement ({above} exceed it) and governs"
+        )
+    elif n_above:
+        parts.append(
+            f"{above} exceed the prescriptive displacement, but the displacement by analysis does "
+            "not"
+        )
+    if package.data.is_peer_reviewed:
+        parts.append("no floor applies because the analysis is peer reviewed")
+    if not item.is_permitted:
+        parts.append(refused)
+    return _sentences([*parts, other])
+
+
+def _reasons(package: PackageData, limits: Sequence[str]) -> str:
+    """Return the first two limits that do not permit a procedure, and where the others are."""
+    count = len(limits) - 2
+    more = [f"{numbered(count, 'more limit')} in {package.part('limits')}"] if count > 0 else []
+    return "; ".join([*limits[:2], *more])
+
+
+def _sentences(parts: Sequence[str]) -> str:
+    """Return parts as sentences, the first after a colon and the last without its full stop."""
+    return ". ".join([parts[0], *map(capitalized, parts[1:])])

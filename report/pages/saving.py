@@ -1,0 +1,76 @@
+"""What an analysis could save where an array takes the prescriptive displacement, in sentences.
+
+    By analysis, the design displacement of all arrays could be as low as 7.4 in (187 mm) instead of
+    14.7 in (374 mm): the floor without peer review is 50 % of the prescriptive displacement.
+
+`report.assessment.evidence` computes it.
+"""
+
+from __future__ import annotations
+
+from report.assessment.assessment import Assessment
+from report.assessment.support.saving import Saving, saving
+from report.pages.marks import Marks
+from report.pages.parts import all_or
+from report.text.counts import counted, named, spelled
+from report.text.unit_format import UnitFormat
+from report.text.units import number
+
+
+def without_analysis(assessment: Assessment) -> str:
+    """Return what arrays take for lack of motions, and what an analysis could save; or nothing."""
+    found = saving(assessment)
+    if assessment.has_motions and not found.ids:
+        return ""
+    why = "no motions are given"
+    if found.lacks:
+        why = f"the motions do not permit an analysis ({'; '.join(found.lacks)})"
+    fmt = UnitFormat(us_first=assessment.project.us_first)
+    saves = saving_words(found, Marks(assessment, has_daggers=False), fmt)
+    given = fmt.both_up(found.prescriptive_m)
+    return f"{why}: the package takes the prescriptive displacement, {given}. {saves}"
+
+
+def saving_words(found: Saving, marks: Marks, fmt: UnitFormat) -> str:
+    """Return what an analysis could save, in a project without motions that permit one."""
+    slope_clause = marks.clause("analysis_max_slope_deg")
+    alone = " without peer review" if found.is_lifted_by_review else ""
+    if not found.ids:
+        return (
+            f"No analysis is permitted instead{alone}: the roof of every array is too steep for it "
+            f"({slope_clause})."
+        )
+    floor, clause = fmt.both_up(found.floor_m), marks.clause("analysis_floor")
+    percent = number(100.0 * marks.assessment.rules["analysis_floor"], 0)
+    share = (
+        f"{percent}{fmt.space}%{marks.of('analysis_floor')} of the prescriptive displacement "
+        f"({clause})"
+    )
+    if found.floor_m < found.prescriptive_m:
+        sentences = [
+            f"By analysis, the design displacement of "
+            f"{all_or(found.ids, len(marks.assessment.arrays))} could be as low as {floor} instead "
+            f"of {fmt.both_up(found.prescriptive_m)}: the floor without peer review is {share}"
+        ]
+    else:
+        sentences = [f"An analysis could save nothing without peer review: the floor is {share}"]
+    if found.n_short:
+        sentences.append(_at_floor(found, floor))
+    if found.others:
+        sentences.append(
+            f"The roof is too steep for an analysis{alone} ({slope_clause}) under "
+            f"{named(found.others, 'array')}"
+        )
+    return ". ".join(sentences) + "."
+
+
+def _at_floor(found: Saving, floor: str) -> str:
+    """Return how many of the clearances that fail would be satisfied at the floor."""
+    if found.n_short == 1:
+        still = "" if found.n_satisfied else "still not "
+        return f"At {floor}, the clearance that fails would {still}be satisfied"
+    if found.n_satisfied == found.n_short:
+        count = "all"
+    else:
+        count = f"{spelled(found.n_satisfied) if found.n_satisfied else 'none'} of the"
+    return f"At {floor}, {count} {counted(found.n_short, 'clearance')} that fail would be satisfied"
