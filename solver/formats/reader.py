@@ -41,7 +41,8 @@ def read_motion_file(
 ) -> MotionFile:
     """Read all channels of a record file.
 
-    The format is identified by content: PEER AT2; COSMOS V1.20; CSMIP volumes 1 and 2; RENADIC;
+    The format is identified by content: PEER AT2; COSMOS V1.20; CSMIP volumes 1 and 2, as which
+    RENADIC, USC and BHRC write;
     USGS SMC; GeoNet V1A and V2A; K-NET and KiK-net, ASCII and CSV; headings of `KEY: value` lines
     (ESM, ITACA, AFAD, ISESD, CSMNC, CWA, JMA, UNAM); a line of count and step (eqsig, RSPMatch);
     miniSEED and SAC, where ObsPy is installed; or text of one column (acceleration) or more (time

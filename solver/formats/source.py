@@ -38,7 +38,6 @@ _TEXTS = (
     (re.compile(r"TIMESERIES \S+_"), "TSPAIR or SLIST of EarthScope", _CONVERT),
     (re.compile(r"(?i)(?:WID[12]|BEGIN GSE2|BEGIN IMS)\b"), "GSE2", _CONVERT),
     (re.compile(r"(?i)(?:\s+-?12345(?:\.0*)?){3}"), "SAC in letters", _CONVERT),
-    (re.compile(r"(?i).*\b(?:BHRC|USC)\b"), "a file of another network", _COLUMNS),
     (re.compile(r"(?i)\s*(?:timeSeries|set|pattern)\s+\S+\s+\S|\s*(?:import\s|function\s[^(]*\()"),
      "a program", _AS_RECORD),
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""CSMIP volumes 1 and 2 (.V1, .RAW, .V2), and RENADIC files, which are volume 1.
+"""CSMIP volumes 1 and 2 (.V1, .RAW, .V2), and RENADIC, USC and BHRC files, which are volume 1.
 
 Handles this format only. A file has one or more channels, each with lines of text, 100 integers and
 50 or 100 real numbers of heading, then values. Volume 1 is uncorrected: pairs of time and
@@ -26,13 +26,16 @@ from solver.formats.numbers import (
     printed,
 )
 from solver.formats.source import Source, Stated
-from solver.formats.times import sampled
+from solver.formats.times import round_step, sampled
 from solver.model import InputError
 from solver.records.record import Record, unit_size
 
 # Source: A.F. Shakal and M.J. Huang, Standard tape format for CSMIP strong-motion data tapes,
 # California Division of Mines and Geology, OSMS 85-03, 1985.
-_VOLUME_1 = re.compile(r"^\s*UNCORRECTED ACCELEROGRAM DATA", re.IGNORECASE)
+# USC numbers its files, and BHRC of Iran begins with the name of the program of volume 1.
+_VOLUME_1 = re.compile(
+    r"^\s*(?:(FILE\s+\d+\s+OF\s+)?UNCORRECTED ACCELEROGRAM DATA|(\* VOL1DS FILE))", re.IGNORECASE
+)
 _VOLUME_2 = re.compile(r"^\s*CORRECTED ACCELEROGRAM\b", re.IGNORECASE)
 _VOLUME_3 = re.compile(r"^\s*RESPONSE AND FOURIER AMPLITUDE SPECTRA", re.IGNORECASE)
 _END = re.compile(r"\s*/&")
@@ -46,8 +49,9 @@ _STEP_2 = 45  # position of the step among the real numbers of volume 2, from 1
 
 _POINTS = re.compile(r"NO\. OF POINTS\s*=\s*(\d+)", re.ASCII | re.IGNORECASE)
 _PAIR_UNIT = re.compile(
-    r"UNITS OF UNCOR\s+\w+\s+(?:ARE\s+SEC\s+AND|IS)\s+([A-Z/0-9]+)", re.IGNORECASE
+    r"UNITS (?:OF UNCOR\s+\w+\s+)?(?:ARE\s+SEC(?:ONDS)?\s+AND|IS)\s+([A-Z/0-9]+)", re.IGNORECASE
 )
+_DURATION = re.compile(r"DURATION\s*=\s*([\d.]+)", re.ASCII | re.IGNORECASE)
 _RATE_LINE = re.compile(
     r"(?<!\d)(\d+)\s+ACCELEROGRAM POINTS AT\s+([\d.]+)\s*PTS/SEC IN UNITS OF\s+([A-Z/0-9]++)"
     r".*FORMAT:\s*\(([^)]*)\)",
@@ -98,7 +102,11 @@ def read(source: Source) -> MotionFile:
     volume = _TWO if _VOLUME_2.match(source.line(0)) else _ONE
     # RENADIC of Chile writes volume 1 of CSMIP, and says so in its text.
     text = " ".join(source.lines[: volume.text]).upper()
-    name = "RENADIC" if volume is _ONE and "RENADIC" in text else "CSMIP"
+    names = ("RENADIC", "USC", "BHRC") if volume is _ONE else ()
+    name = next((name for name in names if name in text), "CSMIP")
+    if name == "USC":  # a blank begins each line of values, and nothing ends them
+        rows = (line[1:] for line in source.lines[_ONE.heading :])
+        source = replace(source, lines=[*source.lines[: _ONE.heading], *rows, "/&"])
     parts = channels.parts_of(source, volume.first)
     form = f"{name} V{1 if volume is _ONE else 2}"
     read = each(lambda part: _channel(source, part, volume), parts)
@@ -111,7 +119,7 @@ def _channel(source: Source, part: range, volume: _Volume) -> Record:
     if place:
         record = _even_values(source, part, volume, *place)
     elif volume is _ONE:
-        record = _pair_values(source, part)
+        record = _values_of_one(source, part)
     else:
         raise InputError(
             f"{source.at(part.start)}: found no line ... POINTS OF ACCEL DATA EQUALLY SPACED AT"
@@ -122,13 +130,15 @@ def _channel(source: Source, part: range, volume: _Volume) -> Record:
     notes = (*record.notes, *channels.peak_notes(source, at, peak_mps2, record.a_mps2))
     if volume is _ONE:
         notes += channels.offset_notes(record.a_mps2)
-    heading = (source.lines[index] for index in part[: volume.text])
-    name = next((line for line in heading if line.strip().upper().startswith("CHAN")), "")
+    # USC writes the length of a line in its columns 73 to 80.
+    heading = [source.lines[index].strip()[:72] for index in part[: volume.text]]
+    names = [line for line in heading if line.upper().startswith(("CHAN", "COMP "))]
+    name = next(iter(names), "")
     return replace(record, name=name, notes=notes)
 
 
-def _pair_values(source: Source, part: range) -> Record:
-    """Pairs of time and acceleration, ten numbers per line."""
+def _values_of_one(source: Source, part: range) -> Record:
+    """Pairs of time and acceleration, ten numbers per line; of BHRC, even accelerations."""
     points = _search(source, part, _POINTS)
     unit = _search(source, part, _PAIR_UNIT)
     if not points or not unit:
@@ -140,7 +150,17 @@ def _pair_values(source: Source, part: range) -> Record:
     first = part.start + _ONE.heading
     lines = range(first, part.stop)
     stop, ended = channels.end_of_values(source, lines, _END.match, *_ENDED)
-    block = Block(first=first, stop=stop, count=2 * int(points[1][1]), promised=points[0])
+    count = int(points[1][1])
+    duration = _DURATION.search(source.lines[points[0]])
+    if duration and source.line(part.start).startswith("*"):
+        even = Block(first=first, stop=stop, count=count, promised=points[0])
+        values = free_values(source, even) * scale
+        length = printed(duration[1], points[0])
+        rounding = length.rounding / count
+        step_s = round_step(length.value / count, rounding)
+        stated = Stated(value=step_s, rounding=rounding, index=points[0])
+        return Record(name="", dt_s=source.step(stated), a_mps2=values, notes=ended)
+    block = Block(first=first, stop=stop, count=2 * count, promised=points[0])
     pairs = fixed_values(source, block, _PAIRS).reshape(-1, 2)
     if len(pairs) < 2:
         raise InputError(f"{source.at(points[0])}: found {len(pairs)} points; give at least 2")

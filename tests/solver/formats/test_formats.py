@@ -78,6 +78,14 @@ HELD = {
         RESAMPLED,
         OFFSET.format("0.0123 g, 1.6 % of the peak"),
     )),
+    "usc.v1": Held("USC V1", 0.001, {"COMP N90E": UNEVEN * G / 10}, {"abs": 1e-12}, (
+        RESAMPLED,
+        OFFSET.format("0.0123 g, 1.6 % of the peak"),
+    )),
+    # Of these heading and values are of volume 1, and the step is the duration by the points.
+    "bhrc.v1": Held("BHRC V1", 0.005, {
+        "COMP L1": WAVE / 1000 * G, "COMP V2": WAVE / 2000 * G, "COMP T3": WAVE / 4000 * G,
+    }, {"abs": 0.51e-6 * G}),
     # Volume 1 whose line of values has a step and no format.
     "csmip-step.raw": Held("CSMIP V1", 0.005, {
         "Chan 1: 360 Deg": WAVE / 1000 * G,
