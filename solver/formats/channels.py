@@ -99,6 +99,7 @@ def _folded(name: str) -> str:
 
 
 MAX_CHANNELS = 1000
+COMPONENTS = 3
 
 # The peak in a header may be rounded or of other processing; a factor of two means another unit.
 _PEAK_WITHIN = 0.01
@@ -129,6 +130,15 @@ def parts_of(source: Source, heading: re.Pattern[str]) -> list[range]:
     starts = [index for index, line in enumerate(source.lines) if heading.match(line)]
     check_number(source, len(starts))
     return list(map(range, starts, [*starts[1:], len(source.lines)]))
+
+
+def check_components(source: Source, parts: Sequence[range]) -> None:
+    """Refuse a file without three components, the last of which may have been cut off whole."""
+    if len(parts) != COMPONENTS:
+        raise InputError(
+            f"{source.at(parts[-1].start)}: found the heading of component {len(parts)}, the last"
+            f" one, where the format has {COMPONENTS} components; give the whole file"
+        )
 
 
 def motion_file(

@@ -82,16 +82,19 @@ def remedy(table: Floats) -> str:
         )
     if counts := counting(table):
         which = ", ".join(str(column + 1) for column in counts)
-        told = f"column {which} counts the lines: delete it"
+        deletion = f"column {which} counts the lines: delete it"
         if len(counts) > 1:
-            told = f"columns {which} count the lines: delete them"
+            deletion = f"columns {which} count the lines: delete them"
         rest = np.delete(table, counts, axis=1)
         then = remedy(rest) if rest.shape[1] > 1 else "give the time step dt"
-        return f"{told}; then {then}"
+        return f"{deletion}; then {then}"
     if same := [i for i in columns[1:] if np.array_equal(table[:, i], table[:, columns[0]])]:
         return f"columns {columns[0] + 1} and {same[0] + 1} are the same: {SIDE_BY_SIDE}"
     which = ", ".join(str(column + 1) for column in columns)
+    # Numbers of lines may count by more than 1, and are whole.
+    is_whole = bool((table[:, columns] == np.rint(table[:, columns])).all())
+    what, end = ("times or line numbers", "; delete line numbers") if is_whole else ("times", "")
     return (
-        f"times or line numbers rise in column {which}: put each time first on a line with its"
-        f" values, below {heading}; delete line numbers"
+        f"{what} rise in column {which}: put each time first on a line with its values, below"
+        f" {heading}{end}"
     )

@@ -18,7 +18,7 @@ from itertools import islice
 from solver.formats import phrases
 from solver.formats.numbers import DECIMAL_COMMA, NUMBER
 from solver.formats.phrases import Heading, Kind, parse
-from solver.formats.source import Source, Stated, likely_text
+from solver.formats.source import COLUMNS, Source, Stated, likely_text
 from solver.model import InputError
 from solver.records.record import shown, unit_size
 
@@ -118,7 +118,8 @@ def laid_out(source: Source) -> Layout:
     start = _first_row(lines)
     first, content = next(rows_of(lines, start), (-1, ""))
     if not content:
-        raise InputError(f"{source.name}: found no numbers; give one or more columns of them")
+        found = likely_text(lines) or "found no numbers; give one or more columns of them"
+        raise InputError(f"{source.name}: {found}")
     separator = _separator(content)
     fields = [field.strip() for field in content.split(separator)]
     _check_first(source, first, fields)
@@ -151,7 +152,12 @@ def _check_first(source: Source, first: int, fields: Sequence[str]) -> None:
             )
     words = [field for field in fields if field.strip(" *")]
     if any(_is_heading(word) or _LETTERS.match(word) for word in words):
-        raise InputError(f"{source.at(first)}: {likely_text(source.lines, first)}")
+        found = likely_text(source.lines) or (
+            f"found {shown(source.lines[first].strip())} where numbers are due, and no heading of a"
+            f" format that is read; {COLUMNS}, times any factor that the text states, and put #"
+            " before every other line of text"
+        )
+        raise InputError(f"{source.at(first)}: {found}")
     if any(map(_CLOCK.fullmatch, fields[:2])):
         raise InputError(
             f"{source.at(first)}: found {shown(fields[0])}, a date or a time of day; give seconds"

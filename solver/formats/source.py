@@ -28,18 +28,19 @@ from solver.suggestions import meant
 _CONVERT = (
     "convert it to times and accelerations, for example with ObsPy: write columns time_s,acc_g"
 )
-_COLUMNS = "write its values as columns below a heading such as time_s,x_g,y_g"
+COLUMNS = "write its values as columns below a heading such as time_s,x_g,y_g"
 _AS_RECORD = "give the record itself, such as the file that its download page offers"
+_AS_READ = f"give the file of values that it reads, or {COLUMNS}"
 
 _TEXTS = (
     (re.compile(r"(?i)\s*<(?:!doctype html|html)"), "a web page", _AS_RECORD),
     (re.compile(r"(?i)\s*<\?xml|\s*<[a-z]+[ >]"), "XML, such as StationXML", _AS_RECORD),
-    (re.compile(r"""\s*(?:\{|\[\s*+(?:[\[{"'\d-]|$))"""), "JSON", _COLUMNS),
+    (re.compile(r"""\s*(?:\{|\[\s*+(?:[\[{"'\d-]|$))"""), "JSON", COLUMNS),
     (re.compile(r"TIMESERIES \S+_"), "TSPAIR or SLIST of EarthScope", _CONVERT),
     (re.compile(r"(?i)(?:WID[12]|BEGIN GSE2|BEGIN IMS)\b"), "GSE2", _CONVERT),
     (re.compile(r"(?i)(?:\s+-?12345(?:\.0*)?){3}"), "SAC in letters", _CONVERT),
     (re.compile(r"(?i)\s*(?:timeSeries|set|pattern)\s+\S+\s+\S|\s*(?:import\s|function\s[^(]*\()"),
-     "a program", _AS_RECORD),
+     "a program", _AS_READ),
 )  # fmt: skip
 _LOOKED_AT = 15
 
@@ -48,10 +49,10 @@ _BYTES = (
     (re.compile(rb"\d{6}[VAST] "), "SEED", _CONVERT),
     (re.compile(rb"PK\x03\x04"), "a zip or a workbook", "unpack it, or save its sheet as CSV"),
     (re.compile(rb"\x1f\x8b"), "a gzip", "unpack it"),
-    (re.compile(rb"%PDF"), "a PDF", _AS_RECORD),
+    (re.compile(rb"%PDF"), "a PDF", "give its numbers as text or CSV"),
     (re.compile(rb"\x89HDF"), "HDF5, such as ASDF", _CONVERT),
-    (re.compile(rb"MATLAB"), "a file of MATLAB", _COLUMNS),
-    (re.compile(rb"\x93NUMPY"), "an array of numpy", _COLUMNS),
+    (re.compile(rb"MATLAB"), "a file of MATLAB", COLUMNS),
+    (re.compile(rb"\x93NUMPY"), "an array of numpy", COLUMNS),
 )
 # Sequence number, then the quality of the data (SEED manual, fixed section of the header).
 _MINISEED = re.compile(rb"\d{6}[DRQM][ \x00]")
@@ -59,17 +60,13 @@ _MINISEED = re.compile(rb"\d{6}[DRQM][ \x00]")
 _SAC_HEADING, _SAC_VERSION_AT, _SAC_VERSIONS = 632, 304, {6, 7}
 
 
-def likely_text(lines: Sequence[str], index: int) -> str:
-    """Return what a text that is no table of numbers probably is, and what to do; at a line."""
+def likely_text(lines: Sequence[str]) -> str:
+    """Return what a text that is no table of numbers probably is, and what to do; "" if unknown."""
     near = [line for line in lines[:_LOOKED_AT] if line.strip()]
     for pattern, name, remedy in _TEXTS:
         if any(map(pattern.match, near)):
             return f"this looks like {name}, which is not read; {remedy}"
-    return (
-        f"found {shown(lines[index].strip())} where numbers are due, and no heading of a format"
-        f" that is read; {_COLUMNS}, times any factor that the text states, and put # before every"
-        " other line of text"
-    )
+    return ""
 
 
 def likely_bytes(data: bytes) -> str:
@@ -279,6 +276,8 @@ def _lines(name: str, data: bytes) -> list[str]:
         raise InputError(f"{name}: found {count:,} lines; give at most {MAX_LINES:,}")
     lines = text.split("\n")
     if max(map(len, lines)) > MAX_LINE:
+        if likely := likely_text([line[:MAX_LINE] for line in lines[:_LOOKED_AT]]):
+            raise InputError(f"{name}: {likely}")
         raise_any(
             f"{name}:{number}: found a line of {len(line)} characters; give at most {MAX_LINE}"
             for number, line in enumerate(lines, start=1)
@@ -300,6 +299,4 @@ def _decode(name: str, data: bytes) -> str:
         data = data.rstrip(_END_OF_TEXT)
         if not _CONTROL.search(data):
             return data.decode("latin-1")
-    raise InputError(
-        f"{name}: not a text file; {likely_bytes(data) or 'give the text of a record'}"
-    )
+    raise InputError(f"{name}: not a text file; {likely_bytes(data) or 'give text or CSV'}")

@@ -20,7 +20,7 @@ from solver.formats.columns import SIDE_BY_SIDE, magnitudes, pairs, remedy, risi
 from solver.formats.headings import Layout, content_of, laid_out
 from solver.formats.numbers import COMPARED, DECIMAL_COMMA, field_problems, is_cut_short, number_in
 from solver.formats.phrases import Kind
-from solver.formats.source import Source
+from solver.formats.source import Source, likely_text
 from solver.formats.times import Even, is_even, sampled
 from solver.model import Floats, InputError, Problem
 from solver.records.record import BEYOND, HOLD, Record, raise_any, shown
@@ -125,7 +125,10 @@ def _read_fast(layout: Layout) -> Floats | None:
 
 def _read_slowly(layout: Layout) -> Floats:
     """Read a table that has an error row by row, to report all its errors."""
-    raise_any(_row_problems(layout))
+    problems = list(_row_problems(layout))
+    if problems and (likely := likely_text(layout.source.lines)):
+        raise InputError(f"{layout.source.name}: {likely}")
+    raise_any(problems)
     rows = (layout.fields(row) for _, row in layout.rows())
     return np.array([[number_in(field) for field in fields] for fields in rows])
 

@@ -108,6 +108,8 @@ def read(source: Source) -> MotionFile:
         rows = (line[1:] for line in source.lines[_ONE.heading :])
         source = replace(source, lines=[*source.lines[: _ONE.heading], *rows, "/&"])
     parts = channels.parts_of(source, volume.first)
+    if name == "BHRC":
+        channels.check_components(source, parts)
     form = f"{name} V{1 if volume is _ONE else 2}"
     read = each(lambda part: _channel(source, part, volume), parts)
     return channels.motion_file(source, form, read, channels.recorder_notes(source, len(parts)))

@@ -32,7 +32,6 @@ _PEAK_UNIT = re.compile(r"ACCELERATION:\s+PEAK\s+\S+\s+([A-Z/0-9]+)", re.IGNOREC
 
 _LENGTH = re.compile(r"\bDURATION\s+([\d.]+)\s*SEC", re.ASCII | re.IGNORECASE)
 
-_COMPONENTS = 3
 _TEXT = 16
 _WHOLE = FieldFormat(per_line=10, width=8)
 _WHOLES, _REALS = 40, 60
@@ -53,12 +52,7 @@ def recognizes(source: Source) -> bool:
 def read(source: Source) -> MotionFile:
     """Read the accelerations of all components of a file."""
     parts = channels.parts_of(source, _FIRST)
-    # A file that is cut at the end of a component looks whole but for this.
-    if len(parts) != _COMPONENTS:
-        raise InputError(
-            f"{source.at(parts[-1].start)}: found the heading of component {len(parts)}, the last"
-            f" one, where the format has {_COMPONENTS} components; give the whole file"
-        )
+    channels.check_components(source, parts)
     is_raw = source.line(0).strip().upper().startswith("UN")
     read = each(lambda part: _component(source, part, is_raw), parts)
     return channels.motion_file(source, "GeoNet V1A" if is_raw else "GeoNet V2A", read)

@@ -128,6 +128,13 @@ KINDS = {
         table(map(str, range(COUNT)), T, V, mark=" "), "column 1 counts the lines: delete it",
         table(T, V, mark=" "), given=IN_G, then=IN_G,
     ),
+    "line numbers before lines of times": Kind(
+        lines(*(f"{k}  {'  '.join(f'{t}  {v}' for t, v in row)}" for k, row in enumerate(
+            zip(*[iter(zip(T, V, strict=True))] * 4, strict=True), 1))),
+        "column 1 counts the lines: delete it; then times rise in column 1, 3, 5, 7: put each time"
+        " first on a line with its values, below a heading such as time_s,x_g,y_g$",
+        table(T, V, head="time_s,x_g"), given=IN_G,
+    ),
     "tables side by side": Kind(
         table(T, V, T, GAL, mark=" "), "tables side by side; give one of them",
         table(T, V, mark=" "), given=IN_G, then=IN_G,
@@ -236,6 +243,21 @@ KINDS = {
     "JSON": Kind(
         json.dumps({"time": [*map(float, T)], "acc": [*map(float, V)]}, indent=0),
         "write its values as columns below a heading such as time_s,x_g,y_g",
+        table(T, V, head="time_s,x_g"),
+    ),
+    "XML on one line": Kind(
+        f"<record dt='0.01' unit='g'>{' '.join(V[:20])}</record>", "give the record itself", PLAIN
+    ),
+    "XML on one long line": Kind(
+        f"<?xml version='1.0'?><record>{' '.join(V)}</record>", "give the record itself", PLAIN
+    ),
+    "a time series of OpenSees": Kind(
+        lines(f"timeSeries Path 1 -dt {DT_S} -factor 9.80665 -values {{", *V, "}"),
+        "give the file of values that it reads", COLUMN, then=BOTH,
+    ),
+    "a time series of OpenSees on one line": Kind(
+        f"timeSeries Path 1 -dt {DT_S} -values {{{' '.join(V)}}}",
+        "or write its values as columns below a heading such as time_s,x_g,y_g",
         table(T, V, head="time_s,x_g"),
     ),
     "a zip": Kind(zipped("record.csv", PLAIN), "unpack it", PLAIN),

@@ -231,14 +231,14 @@ def refusals(path, units="g", dt_s=math.nan):
     [
         (b"MS\x03\x00", "miniSEED 3; convert it to times and accelerations, for example"),
         (b"PK\x03\x04\x14\x00", "a zip or a workbook; unpack it, or save its sheet as CSV"),
-        (b"%PDF-1.7\n\x00\x01", "a PDF; give the record itself"),
+        (b"%PDF-1.7\n\x00\x01", "a PDF; give its numbers as text or CSV"),
     ],
 )
 def test_a_known_kind_of_file_is_named_with_what_to_do(file, content, kind):
     (problem,) = refusals(file(content))
     assert problem.startswith(f"roof.csv: not a text file; {kind}")
     for unknown in (b"\x89PNG\r\n\x1a\n\x00", b"\xff\xfe\x00", b"a\x1a\x00b"):
-        told = ("roof.csv: not a text file; give the text of a record",)
+        told = ("roof.csv: not a text file; give text or CSV",)
         assert refusals(file(unknown)) == told
 
 
