@@ -16,7 +16,6 @@ from fixtures.dxf import BOX_FT, Sketch
 from fixtures.folders import KINDS, occupied, state
 from fixtures.marks import by_day
 from fixtures.paths import ROOT
-from report.project.read.growing_table import GrowingTable
 from report.project.read.read import read
 from report.project.write.filled import changing
 from solver.files import LOCK
@@ -205,8 +204,8 @@ def test_of_two_commands_at_once_none_loses_a_row(folder):
         with changing(folder) as change:
             other.stdout.readline()
             time.sleep(HOLDS_S)  # in which the other one reads, if it does not wait
-            table = GrowingTable.of(change.book, "arrays")
-            change.fill({table.position(table.rows("id", "A1")[0], "mu"): 0.123})
+            change.put("arrays", change.rows("arrays", "id", "A1")[0], {"mu": 0.123})
+            change.fill_in(replace=True)
         other.stdout.read()
         assert other.wait() == 0
     data = read(folder).project

@@ -20,8 +20,7 @@ from report.text.counts import command, numbered
 if TYPE_CHECKING:
     from report.assessment.design.arrays import ArrayAssessment
     from report.drawing_read.ballast import Load
-    from report.drawing_read.plan_read import DrawnOutline
-    from report.drawing_read.roof_drawing import RoofDrawing
+    from report.drawing_read.roof_drawing import DrawnOutline, RoofDrawing
     from report.project.model.choices import LayerKind
     from report.project.model.input_rows import InputRow
     from report.project.write.filled import WorkbookChange
@@ -59,8 +58,8 @@ def choose(
     Raises `InputError` if a layer that is given is not in the drawing; or, after a table of them,
     if layers with closed lines are not known.
     """
+    from report.drawing_read.layer_names import proposed
     from report.drawing_read.plan_read import known_layers
-    from report.drawing_read.roof_drawing import proposed
     from report.project.model.choices import LayerKind
     from report.text.counts import numbered
     from solver.model import InputError, Problem
@@ -91,7 +90,7 @@ def choose(
 def _table(
     drawing: RoofDrawing, outlines: Mapping[str, int], kinds: Mapping[str, LayerKind | None]
 ) -> Iterator[str]:
-    from report.drawing_read.roof_drawing import drawn_on
+    from report.drawing_read.layer_names import drawn_on
     from report.text.formats import aligned
 
     rows = [("layer", "closed lines", "drawn", "proposed")]
@@ -150,7 +149,7 @@ def read(
     blocks. Equal rectangles of the size of modules are joined into arrays. Everything else in the
     workbook is kept. If it has no other errors, the clearances follow as by plan clearances.
     """
-    from report.drawing_read.fill import changes, layers_of, plan_as_rows, unread
+    from report.drawing_read.fill import fill_plan, layers_of, plan_as_rows, unread
     from report.project.check.plan_shapes import us_first
     from report.project.write.filled import changing, withdrawn
     from report.text.units import LENGTHS
@@ -169,11 +168,10 @@ def read(
             layers = choose(drawn, layers_of(inputs), kinds, accept)
             with Progress() as progress:
                 progress("finding the plan in the drawing")
-                told, layers = plan_as_rows(
+                found, layers = plan_as_rows(
                     drawn, unit_m, inputs, layers, gap_m, is_unit_given=units is not None
                 )
-        cells, told_lines = changes(change.book, told, layers, replace=replace)
-        change.fill(cells)
+        plan_lines = fill_plan(change, found, layers, replace=replace)
         try:
             more = _add_clearances(change)
         # The plan is filled in all the same: it is what the next errors are corrected on.
@@ -186,14 +184,11 @@ def read(
     lines = (
         *filter(None, (drawn.repairs,)),
         *turn,
-        *(
-            _line(place, gap_m, is_us)
-            for place in (*told.plan.roof, *told.plan.arrays, *told.plan.objects)
-        ),
-        *unread(told.plan),
+        *(_line(place, gap_m, is_us) for place in (*found.roof, *found.arrays, *found.objects)),
+        *unread(found),
         *(f"layer {name}: {kind.value}" for name, kind in layers.items()),
         f"{change.book.path}: the plan is filled in: {change.areas}",
-        *told_lines,
+        *plan_lines,
         *more,
     )
     for text in lines:
@@ -286,7 +281,7 @@ def _turned(drawn: RoofDrawing, rotate: float) -> tuple[RoofDrawing, list[str]]:
 
 
 def _line(place: DrawnOutline, gap_m: float, is_us: bool) -> str:
-    from report.drawing_read.plan_read import own_axes
+    from report.drawing_read.geometry import own_axes
     from report.text.units import Quantity, pair
 
     *sides, angle = own_axes(place.shape)
@@ -321,7 +316,7 @@ def ballast(
     Coordinates are those of the plan. Prints the center of gravity of each array in plan.
     """
     from report.drawing_read.ballast import loads, read_map
-    from report.drawing_read.fill import ballast_changes
+    from report.drawing_read.fill import fill_ballast
     from report.project.check.plan_shapes import shapes_of, us_first
     from report.project.check.problem_lines import listed
     from report.project.read.read import read_book
@@ -343,8 +338,7 @@ def ballast(
         weights = {name: load.blocks * block_n for name, load in blocks.items()}
         # What is not on the map any more goes only where that is asked for.
         bare = [name for name in arrays if name not in blocks] if replace else []
-        filled = ballast_changes(change.book, {**weights, **dict.fromkeys(bare)}, replace=replace)
-        change.fill(filled)
+        fill_ballast(change, {**weights, **dict.fromkeys(bare)}, replace=replace)
     is_us = us_first(sheet.inputs)
     for name, row in arrays.items():
         text = _balance(row, blocks[name], weights[name], is_us) if name in blocks else "no blocks"

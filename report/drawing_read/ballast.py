@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from report.drawing_read.roof_drawing import MB
+from report.drawing_read.dxf_file import MB
 from report.project.model.shapes import Point, Shape, solid
 from report.project.read.number_formats import unit_named
 from report.project.read.typed_text import number_in, separator, with_point

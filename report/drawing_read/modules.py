@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from report.drawing_read.roof_drawing import Drawn
+from report.drawing_read.roof_drawing import DrawnOutline
 from report.project.model.choices import LayerKind
-from report.project.model.shapes import Polygon, Rectangle, Shape, mean, ring, solid
+from report.project.model.shapes import Polygon, mean, ring, solid
 from report.project.read.locate_table import MAX_ROWS
 from report.text.units import LENGTHS
 from solver.model import INCH_M, InputError
@@ -57,16 +57,10 @@ _OUTWARD = np.array((-1.0, -1.0, 1.0, 1.0))
 
 _KINDS = (LayerKind.ARRAY, LayerKind.UNLIKE_ARRAY)
 
-# A closed line, what it is, and its shape [m].
-Known = tuple[Drawn, LayerKind, Shape]
-
-
-_Placed = tuple[Drawn, LayerKind]
-
 
 def joined(
-    known: Sequence[Known], gap_m: float, turned_deg: float = 0.0
-) -> tuple[list[Known], list[_Placed], list[Drawn]]:
+    outlines: Sequence[DrawnOutline], gap_m: float, turned_deg: float = 0.0
+) -> tuple[list[DrawnOutline], list[DrawnOutline], list[DrawnOutline]]:
     """Return lines without modules, the arrays of modules in reading order, and lines they overlap.
 
     Modules are equal rectangles of one layer, at least `LEAST_ALIKE`, with sides within `SIDES_M`.
@@ -77,14 +71,14 @@ def joined(
     many arrays, or if their coordinates are too coarse to tell.
     """
     layers: dict[tuple[LayerKind, str], list[int]] = defaultdict(list)
-    for index, (line, kind, _) in enumerate(known):
-        if kind in _KINDS and not line.is_ours:
-            layers[kind, line.layer.casefold()].append(index)
-    arrays: list[_Placed] = []
+    for index, line in enumerate(outlines):
+        if line.kind in _KINDS and not line.is_ours:
+            layers[line.kind, line.layer.casefold()].append(index)
+    arrays: list[DrawnOutline] = []
     gone: dict[int, bool] = {}  # whether a line is a module that counts
-    for (kind, _), indices in layers.items():
-        for array, inside in _arrays([known[k] for k in indices], gap_m, turned_deg):
-            arrays.append((array, kind))
+    for indices in layers.values():
+        for array, inside in _arrays([outlines[k] for k in indices], gap_m, turned_deg):
+            arrays.append(array)
             if len(arrays) > MAX_ROWS:
                 raise InputError(
                     f"modules make up more than {MAX_ROWS} arrays; give a larger --gap"
@@ -92,43 +86,49 @@ def joined(
             gone |= {indices[k]: counts for k, counts in inside.items()}
     for kind in _KINDS:
         # Those of layouts that draw the outline of an array around its modules.
-        others = [k for k, (_, of, _) in enumerate(known) if of is kind and k not in gone]
-        across = _overlap([known[k][2] for k in others], [a for a, of in arrays if of is kind])
-        gone |= {k: False for k, overlaps in zip(others, across, strict=True) if overlaps}
-    rest = [item for index, item in enumerate(known) if index not in gone]
-    return rest, _in_reading_order(arrays), [known[k][0] for k in gone if not gone[k]]
+        drawn = [k for k, line in enumerate(outlines) if line.kind is kind and k not in gone]
+        across = _overlap([outlines[k] for k in drawn], [a for a in arrays if a.kind is kind])
+        gone |= {k: False for k, overlaps in zip(drawn, across, strict=True) if overlaps}
+    remaining = [line for index, line in enumerate(outlines) if index not in gone]
+    return remaining, _in_reading_order(arrays), [outlines[k] for k in gone if not gone[k]]
 
 
-def _overlap(shapes: Sequence[Shape], arrays: Sequence[Drawn]) -> Any:
-    """Return which shapes have more in common with arrays than their borders."""
+def _overlap(lines: Sequence[DrawnOutline], arrays: Sequence[DrawnOutline]) -> Any:
+    """Return which lines have more in common with arrays than their borders."""
     import shapely
 
     # Neighbors share a border, which is nothing in common.
-    inner = [solid(Polygon(array.points)).buffer(-ALIKE_M) for array in arrays]
+    inner = [solid(array.shape).buffer(-ALIKE_M) for array in arrays]
     area = shapely.union_all(inner)
     shapely.prepare(area)
-    return shapely.intersects(area, [solid(shape) for shape in shapes])
+    return shapely.intersects(area, [solid(line.shape) for line in lines])
 
 
-def _in_reading_order(arrays: Sequence[_Placed]) -> list[_Placed]:
+def _in_reading_order(arrays: Sequence[DrawnOutline]) -> list[DrawnOutline]:
     """Return arrays by rows from the top, each from the left."""
-    rows: list[list[tuple[Rectangle, _Placed]]] = []
-    placed = [(Polygon(item[0].points).bounds, item) for item in arrays]
-    for box, item in sorted(placed, key=lambda module: -mean(module[0].points)[1]):
-        if not rows or mean(box.points)[1] < rows[-1][0][0].y_from_m:
+    rows: list[list[DrawnOutline]] = []
+    for array in sorted(arrays, key=_middle_y_m, reverse=True):
+        if not rows or _middle_y_m(array) < rows[-1][0].shape.bounds.y_from_m:
             rows.append([])
-        rows[-1].append((box, item))
-    return [item for row in rows for _, item in sorted(row, key=lambda module: module[0].x_from_m)]
+        rows[-1].append(array)
+    ordered: list[DrawnOutline] = []
+    for row in rows:
+        ordered += sorted(row, key=lambda array: array.shape.bounds.x_from_m)
+    return ordered
+
+
+def _middle_y_m(array: DrawnOutline) -> float:
+    return mean(array.shape.bounds.points)[1]
 
 
 def _arrays(
-    lines: Sequence[Known], gap_m: float, turned_deg: float
-) -> Iterator[tuple[Drawn, dict[int, bool]]]:
+    lines: Sequence[DrawnOutline], gap_m: float, turned_deg: float
+) -> Iterator[tuple[DrawnOutline, dict[int, bool]]]:
     """Yield the arrays of a layer, with the lines within each and whether they are its modules."""
     import shapely
 
-    small = [k for k, (*_, shape) in enumerate(lines) if shape.area_m2 <= SIDES_M[1] ** 2]
-    middles = np.array([complex(*mean(lines[k][2].points)) for k in small])
+    small = [k for k, line in enumerate(lines) if line.shape.area_m2 <= SIDES_M[1] ** 2]
+    middles = np.array([complex(*mean(lines[k].shape.points)) for k in small])
     groups = list(_parallel(lines, turned_deg))
     modules = {k for at, *_ in groups for k in at}
     for at, sizes, boxes, turn, step in groups:
@@ -148,15 +148,15 @@ def _arrays(
             outline = again[0] if len(again) == 1 else part
             points = np.array(outline.exterior.coords) @ _COMPLEX * turn
             kinds = Counter(map(tuple, sizes[its].tolist())).most_common()
-            first = lines[at[its[0]]][0]
-            is_block = all(lines[at[n]][0].handle == first.handle for n in its)
+            first = lines[at[its[0]]]
+            is_block = all(lines[at[n]].handle == first.handle for n in its)
             yield (
-                Drawn(
+                DrawnOutline(
                     handle=first.handle,
                     layer=first.layer,
                     name=first.name if is_block else "",  # of each block, it is that of a product
-                    points=ring([(float(z.real), float(z.imag)) for z in points]),
-                    is_ours=False,
+                    kind=first.kind,
+                    shape=Polygon(ring([(float(z.real), float(z.imag)) for z in points])),
                     sizes=tuple((count, long, short) for (long, short), count in kinds),
                     rounded_m=step if turn != 1.0 else 0.0,
                 ),
@@ -165,15 +165,16 @@ def _arrays(
 
 
 def _parallel(
-    lines: Sequence[Known], turned_deg: float
+    lines: Sequence[DrawnOutline], turned_deg: float
 ) -> Iterator[tuple[list[int], Any, Any, complex, float]]:
     """Yield the parallel modules of a layer: lines, sizes, boxes, direction, step of rounding."""
     # Sizes are those of equal ones; boxes, along their sides, are x from, y from, x to and y to.
     four = [
-        k for k, (*_, shape) in enumerate(lines)
-        if len(shape.points) == 4 and shape.area_m2 <= (SIDES_M[1] + ROUNDED_M[0]) ** 2
+        k for k, line in enumerate(lines)
+        if len(line.shape.points) == 4
+        and line.shape.area_m2 <= (SIDES_M[1] + ROUNDED_M[0]) ** 2
     ]  # fmt: skip
-    corners = np.array([lines[k][2].points for k in four]).reshape(-1, 4, 2) @ _COMPLEX
+    corners = np.array([lines[k].shape.points for k in four]).reshape(-1, 4, 2) @ _COMPLEX
     along = corners - np.roll(corners, 1, axis=1)  # its first is the side to the first corner
     a, b = 0.5 * (along[:, 1] - along[:, 3]), 0.5 * (along[:, 2] - along[:, 0])
     step, is_turned = _rounding(corners * cmath.rect(1.0, -math.radians(turned_deg)))
@@ -184,7 +185,7 @@ def _parallel(
     fits = is_right & (short >= SIDES_M[0] - alike) & (long <= SIDES_M[1] + alike)
     if step > COARSEST_M and fits.sum() >= LEAST_ALIKE:
         raise InputError(
-            f"layer {lines[four[0]][0].layer}: coordinates of turned modules are rounded to"
+            f"layer {lines[four[0]].layer}: coordinates of turned modules are rounded to"
             f" {1e3 * step:.4g} mm, which does not tell their arrays; export more decimals"
         )
     sizes = np.full((len(four), 2), np.nan)
@@ -207,7 +208,7 @@ def _parallel(
         own = corners[run] / turn
         ends = [np.sort(part, axis=1).reshape(-1, 2, 2).mean(2) for part in (own.real, own.imag)]
         boxes = np.stack((ends[0][:, 0], ends[1][:, 0], ends[0][:, 1], ends[1][:, 1]), axis=1)
-        once = _once(boxes, lines[four[run[0]]][0].layer)
+        once = _once(boxes, lines[four[run[0]]].layer)
         yield [four[k] for k in run[once]], sizes[run[once]], boxes[once], turn, step
 
 

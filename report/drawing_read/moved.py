@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from report.drawing_read.plan_read import boxed
+from report.drawing_read.geometry import boxed
 from report.project.model.shapes import Polygon, Shape, ring, solid
 from report.text.units import Unit
 

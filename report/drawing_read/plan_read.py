@@ -9,22 +9,16 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from itertools import zip_longest
 
 from report.assessment.plan.bare_edges import EDGE_STRIP_M, bare_sides
 from report.drawing.items import Layer
-from report.drawing_read.modules import GAP_M, MOST_TEXTS, SIDES_M, Known, joined
-from report.drawing_read.roof_drawing import (
-    ABOVE_ROOF,
-    Drawn,
-    RoofDrawing,
-    Unread,
-    Words,
-    first_height,
-    read_line,
-    turned,
-)
+from report.drawing_read.geometry import ROUNDED_M, box_of, boxed, own_axes
+from report.drawing_read.heights import ABOVE_ROOF, first_height, read_line
+from report.drawing_read.modules import GAP_M, MOST_TEXTS, SIDES_M, joined
+from report.drawing_read.roof_drawing import DrawnOutline, RoofDrawing, Unread, Words
+from report.drawing_read.roof_plan import RoofPlan
 from report.project.check.plan_shapes import LEAST_VERTICES
 from report.project.check.problem_lines import listed
 from report.project.model.choices import LayerKind
@@ -35,7 +29,6 @@ from report.project.model.shapes import (
     Shape,
     crossing,
     ring,
-    sides,
     solid,
 )
 from report.text.units import LENGTHS, Quantity, pair
@@ -65,8 +58,6 @@ LAYERS: Mapping[str, LayerKind] = {
 
 MAX_NAME = 40
 LEAST_AREA_M2 = 1e-3
-# Sides within this of an axis [m] are parallel to it; vertices within this of a line are on it.
-ROUNDED_M = 1e-5
 
 # Length of a side [m] beside which rounding is nothing.
 LONG_M = 0.1
@@ -85,46 +76,6 @@ LEAST_ARRAY_M2 = 2.0
 _STEMS = {LayerKind.ARRAY: "A", LayerKind.FIXED: "OBJ-", LayerKind.UNLIKE_ARRAY: "PV-"}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DrawnOutline:
-    """An array, an object, an edge or the roof as drawn."""
-
-    name: str
-    kind: LayerKind
-    shape: Shape
-    handle: str  # of its line, as its layer; empty for an edge that is a side of the roof
-    layer: str
-    height_m: float  # as written inside of it; NaN if it is not
-    unnamed: str  # whence its name is, if it is not in the drawing; empty if it is
-    note: str  # what was assumed; empty for nothing
-    sizes: tuple[tuple[int, float, float], ...] = ()  # of its modules, as of `Drawn`
-
-    @property
-    def modules(self) -> int:
-        """Number of its modules; 0 where the drawing does not have them."""
-        return sum(count for count, *_ in self.sizes)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RoofPlan:
-    """The plan as drawn, and what was not understood."""
-
-    roof: tuple[DrawnOutline, ...]  # one or none
-    arrays: tuple[DrawnOutline, ...]
-    objects: tuple[DrawnOutline, ...]
-    unread: tuple[Unread, ...]
-
-    @property
-    def roof_shape(self) -> Shape | None:
-        """The roof, if it is drawn."""
-        return self.roof[0].shape if self.roof else None
-
-    @property
-    def shapes(self) -> dict[str, Shape]:
-        """The arrays and objects by name."""
-        return {place.name: place.shape for place in (*self.arrays, *self.objects)}
-
-
 def plan_of(
     drawing: RoofDrawing,
     unit_m: float,
@@ -140,32 +91,32 @@ def plan_of(
     kinds = known_layers(layers)
     passed = LayerKind.NOT_READ
     unread = [item for item in drawing.unread if kinds.get(item.layer.casefold()) is not passed]
-    known: list[Known] = []
+    outlines: list[DrawnOutline] = []
 
-    def take(line: Drawn, kind: LayerKind, unit_m: float) -> None:
+    def take(line: DrawnOutline, unit_m: float) -> None:
         shape = _shape(line, unit_m)
         if isinstance(shape, Unread):
             unread.append(shape)
         else:
-            known.append((line, kind, shape))
+            outlines.append(replace(line, shape=shape))
 
     for line in drawing.lines:
         kind = kinds.get(line.layer.casefold())
         if kind is None:
             unread.append(_unread(line, "a closed line on a layer that is not in Layers"))
         elif kind is not passed:
-            take(line, kind, unit_m)
-    known, arrays, others = joined(known, gap_m, drawing.turned_deg)
+            take(replace(line, kind=kind), unit_m)
+    outlines, arrays, overlapped = joined(outlines, gap_m, drawing.turned_deg)
     reason = "a closed line within or around an array of modules"
-    unread += [_unread(line, reason) for line in others]
-    for array, kind in arrays:
-        take(array, kind, 1.0)
-    places = _named(_once(known, unread), drawing.texts, unit_m, unread, us_first)
+    unread += [_unread(line, reason) for line in overlapped]
+    for array in arrays:
+        take(array, 1.0)
+    places = _named(_once(outlines, unread), drawing.texts, unit_m, unread, us_first)
     roofs = sorted((p for p in places if p.kind is LayerKind.ROOF), key=lambda p: -p.shape.area_m2)
     for extra in roofs[1:]:
         unread.append(Unread(handle=extra.handle, layer=extra.layer, reason="a second roof"))
     objects = [p for p in places if p.kind not in (LayerKind.ROOF, LayerKind.ARRAY)]
-    is_ours = any(line.is_ours for line, kind, _ in known if kind is LayerKind.ROOF)
+    is_ours = any(line.is_ours for line in outlines if line.kind is LayerKind.ROOF)
     # A plan of ours has its edges drawn: none is to be guessed.
     if roofs and not is_ours:
         objects += _edges(roofs[0].shape, objects)
@@ -177,20 +128,20 @@ def plan_of(
     )
 
 
-def _once(known: Sequence[Known], unread: list[Unread]) -> list[Known]:
-    """Return places without those that are drawn over an equal one of their kind."""
+def _once(outlines: Sequence[DrawnOutline], unread: list[Unread]) -> list[DrawnOutline]:
+    """Return outlines without those that are drawn over an equal one of their kind."""
     import shapely
 
-    solids = [solid(shape) for *_, shape in known]
+    solids = [solid(outline.shape) for outline in outlines]
     twins: set[int] = set()
     near = shapely.STRtree(solids).query(solids, predicate="intersects").T if solids else ()
     # Both orders of a pair are found: the later drawn is the twin.
     for first, second in near:
-        is_equal = known[first][1] is known[second][1] and first < second
+        is_equal = outlines[first].kind is outlines[second].kind and first < second
         if is_equal and solids[first].hausdorff_distance(solids[second]) <= TWICE_M:
             twins.add(second)
-    unread += [_unread(known[k][0], "drawn twice, counted once") for k in sorted(twins)]
-    return [line for k, line in enumerate(known) if k not in twins]
+    unread += [_unread(outlines[k], "drawn twice, counted once") for k in sorted(twins)]
+    return [outline for k, outline in enumerate(outlines) if k not in twins]
 
 
 def check_size(plan: RoofPlan, stated: str, us_first: bool = True) -> None:
@@ -240,15 +191,15 @@ def known_layers(layers: Mapping[str, LayerKind]) -> dict[str, LayerKind]:
     return {name.casefold(): kind for name, kind in (*LAYERS.items(), *layers.items())}
 
 
-def _unread(line: Drawn, reason: str, detail: str = "") -> Unread:
+def _unread(line: DrawnOutline, reason: str, detail: str = "") -> Unread:
     return Unread(handle=line.handle, layer=line.layer, reason=reason, detail=detail)
 
 
-def _shape(line: Drawn, unit_m: float) -> Shape | Unread:
+def _shape(line: DrawnOutline, unit_m: float) -> Shape | Unread:
     """Return the shape of a line [m], or why it is none."""
     import shapely
 
-    scaled = [(x * unit_m, y * unit_m) for x, y in line.points]
+    scaled = [(x * unit_m, y * unit_m) for x, y in line.shape.points]
     # Most lines are modules, which need no search for vertices in line and for crossings.
     if (module := _clear_box(scaled)) is not None:
         return module
@@ -270,41 +221,29 @@ def _shape(line: Drawn, unit_m: float) -> Shape | Unread:
 def _clear_box(points: Sequence[Point]) -> Rectangle | None:
     """Return a closed line as a rectangle, if it is one of four corners with long sides."""
     shape = Polygon(tuple(points))
-    box = _box(shape)
+    box = box_of(shape)
     if box is None or min(box.x_to_m - box.x_from_m, box.y_to_m - box.y_from_m) < LONG_M:
         return None
     return box if shape.area_m2 > 0.99 * box.area_m2 else None  # else it is folded
 
 
-def boxed(shape: Polygon) -> Shape:
-    """Return a polygon, as a rectangle if it is one that is parallel to the axes."""
-    return _box(shape) or shape
-
-
-def _box(shape: Polygon) -> Rectangle | None:
-    """Return a polygon as a rectangle, if it is one that is parallel to the axes."""
-    is_right = len(shape.points) == 4 and all(
-        min(abs(x1 - x0), abs(y1 - y0)) <= ROUNDED_M for (x0, y0), (x1, y1) in sides(shape.points)
-    )
-    return shape.bounds if is_right else None
-
-
 def _named(
-    known: Sequence[Known],
+    outlines: Sequence[DrawnOutline],
     texts: Sequence[Words],
     unit_m: float,
     unread: list[Unread],
     us_first: bool,
 ) -> list[DrawnOutline]:
-    """Return the places with their names: written by `report`, of their block, inside, or new."""
-    inside = _texts_inside(known, texts, unit_m)
+    """Return outlines with their names: written by `report`, of their block, inside, or new."""
+    inside = _texts_inside(outlines, texts, unit_m)
     taken: dict[str, str] = {}
     counts: Counter[LayerKind] = Counter()
     places = []
-    written = [_name(line, words, unit_m) for (line, *_), words in zip(known, inside, strict=True)]
+    written = [_name(line, words, unit_m) for line, words in zip(outlines, inside, strict=True)]
     repeated = Counter(name.casefold() for name in written)
     names = set(repeated)
-    for (line, kind, shape), words, name in zip(known, inside, written, strict=True):
+    for line, words, name in zip(outlines, inside, written, strict=True):
+        kind = line.kind
         notes: list[str] = []
         if line.rounded_m:
             step = pair(line.rounded_m, Quantity.SIZE, us_first)
@@ -326,11 +265,8 @@ def _named(
             taken[name.casefold()] = line.handle
         if kind not in (LayerKind.ROOF, LayerKind.ARRAY):
             height_m = _height_m(line, words, unit_m, notes, unread, us_first)
-        places.append(
-            DrawnOutline(name=name, kind=kind, shape=shape, handle=line.handle, layer=line.layer,
-                         height_m=height_m, unnamed=unnamed, note="; ".join(notes),
-                         sizes=line.sizes)
-        )  # fmt: skip
+        note = "; ".join(notes)
+        places.append(replace(line, name=name, height_m=height_m, unnamed=unnamed, note=note))
     return places
 
 
@@ -343,12 +279,12 @@ def free_name(kind: LayerKind, counts: Counter[LayerKind], taken: set[str]) -> s
             return name
 
 
-def _by_layer(line: Drawn, words: Sequence[Words]) -> list[Words]:
+def _by_layer(line: DrawnOutline, words: Sequence[Words]) -> list[Words]:
     """Return the texts inside of a line from the top, those of its layer before the others."""
     return sorted(words, key=lambda text: (text.layer != line.layer, -text.at[1]))
 
 
-def _name(line: Drawn, words: Sequence[Words], unit_m: float) -> str:
+def _name(line: DrawnOutline, words: Sequence[Words], unit_m: float) -> str:
     """Return the name of a line: its own, or the first text inside of it, without a height."""
     if (
         line.sizes
@@ -360,7 +296,7 @@ def _name(line: Drawn, words: Sequence[Words], unit_m: float) -> str:
 
 
 def _height_m(
-    line: Drawn,
+    line: DrawnOutline,
     words: Sequence[Words],
     unit_m: float,
     notes: list[str],
@@ -383,16 +319,16 @@ def _height_m(
 
 
 def _texts_inside(
-    known: Sequence[Known], texts: Sequence[Words], unit_m: float
+    outlines: Sequence[DrawnOutline], texts: Sequence[Words], unit_m: float
 ) -> list[list[Words]]:
     """Return the texts of each line: what `report` wrote of it, and what is inside of it."""
     import shapely
 
-    inside: list[list[Words]] = [[] for _ in known]
+    inside: list[list[Words]] = [[] for _ in outlines]
     # A text belongs to the smallest line around it.
-    order = sorted(range(len(known)), key=lambda k: known[k][2].area_m2)
-    tree = shapely.STRtree([solid(known[k][2]) for k in order])
-    own = {line.name: k for k, (line, *_) in enumerate(known) if line.is_ours}
+    order = sorted(range(len(outlines)), key=lambda k: outlines[k].shape.area_m2)
+    tree = shapely.STRtree([solid(outlines[k].shape) for k in order])
+    own = {line.name: k for k, line in enumerate(outlines) if line.is_ours}
     for text in texts:
         if text.of:
             if text.of in own:
@@ -416,8 +352,7 @@ def _edges(roof: Shape, objects: Sequence[DrawnOutline]) -> Iterator[DrawnOutlin
     for edge in bare_sides(Polygon(roof.points), strips, 90.0):
         name = free_name(kind, counts, taken)
         yield DrawnOutline(name=name, kind=kind, shape=_strip(*edge.ends), handle="", layer="",
-                           height_m=math.nan, unnamed=edge.name,
-                           note="taken as without parapet")  # fmt: skip
+                           unnamed=edge.name, note="taken as without parapet")  # fmt: skip
 
 
 def _strip(start: Point, end: Point) -> Shape:
@@ -427,14 +362,3 @@ def _strip(start: Point, end: Point) -> Shape:
     (x0, y0), (x1, y1) = start, end
     shape = Polygon(ring([start, end, (x1 + dx, y1 + dy), (x0 + dx, y0 + dy)]))
     return boxed(shape)
-
-
-def own_axes(shape: Shape) -> tuple[float, float, float]:
-    """Return the sizes [m] of a shape along its own axes, and their angle to x and y [deg]."""
-    # One axis is parallel to its longest side; the first is the one within 45 deg of x.
-    (x0, y0), (x1, y1) = max(sides(shape.points), key=lambda side: math.dist(*side))
-    direction = math.degrees(math.atan2(y1 - y0, x1 - x0))
-    # Within 45 deg: sides of a box are the same by quarter turns.
-    angle = direction - 90.0 * round(direction / 90.0)
-    box = Polygon(turned(shape.points, -angle)).bounds
-    return box.x_to_m - box.x_from_m, box.y_to_m - box.y_from_m, angle

@@ -1,7 +1,7 @@
 """Reads a roof drawing: its closed lines with their layers and names, and what else there is.
 
 Knows no workbook and no kinds (`report.drawing_read.plan_read`).
-`report.drawing_read.roof_drawing` loads it.
+`report.drawing_read.dxf_file` loads it.
 """
 
 from __future__ import annotations
@@ -30,19 +30,9 @@ from report.drawing_read.closed_lines import (
     outlines,
     polygons,
 )
-from report.drawing_read.roof_drawing import (
-    DAMAGED,
-    MAX_ENTITIES,
-    UNITS,
-    Drawn,
-    RoofDrawing,
-    Unread,
-    Words,
-    limit,
-    loaded,
-    other_unit,
-)
-from report.project.model.shapes import Point, ring
+from report.drawing_read.dxf_file import DAMAGED, MAX_ENTITIES, UNITS, limit, loaded, other_unit
+from report.drawing_read.roof_drawing import DrawnOutline, RoofDrawing, Unread, Words
+from report.project.model.shapes import Point, Polygon, ring
 from report.text.counts import UNPRINTABLE, trimmed
 from solver.model import InputError
 
@@ -108,9 +98,9 @@ def _read(document: Document, repairs: str, unit_m: float | None) -> RoofDrawing
     return drawing
 
 
-def _check_degrees(lines: Iterable[Drawn]) -> None:
+def _check_degrees(lines: Iterable[DrawnOutline]) -> None:
     """Refuse a plan that would be smaller than 1 in any unit and lies far from its origin."""
-    points = [*chain.from_iterable(line.points for line in lines)]
+    points = [*chain.from_iterable(line.shape.points for line in lines)]
     if not points:
         return
     (west, east), (south, north) = ((min(v), max(v)) for v in zip(*points, strict=True))
@@ -175,9 +165,13 @@ class _Reader:
     unit_m: float
     hidden: Mapping[str, str]  # layers that are not shown, and why
     # by their blocks and layers
-    opened: dict[tuple[int, str], list[Drawn]] = field(default_factory=lambda: defaultdict(list))
+    opened: dict[tuple[int, str], list[DrawnOutline]] = field(
+        default_factory=lambda: defaultdict(list)
+    )
     # by their blocks and layers, and of each mesh and hatch by itself
-    areas: dict[tuple[int, str, str], tuple[Drawn, str, list[Any]]] = field(default_factory=dict)
+    areas: dict[tuple[int, str, str], tuple[DrawnOutline, str, list[Any]]] = field(
+        default_factory=dict
+    )
     entities: int = 0
     blocks: int = 0
     points: int = 0
@@ -232,8 +226,9 @@ class _Reader:
         self.points += len(points)
         limit(self.points, MAX_CURVE_POINTS, "points of curves")
         own = _own_name(entity)
-        line = Drawn(handle=handle, layer=layer, name=own or block.name, points=tuple(points),
-                     is_ours=bool(own), heights=block.heights)  # fmt: skip
+        line = DrawnOutline(handle=handle, layer=layer, name=own or block.name,
+                            shape=Polygon(tuple(points)), is_ours=bool(own),
+                            heights=block.heights)  # fmt: skip
         if is_closed:
             return self._close(line, entity.dxftype())
         if len(points) > MAX_POINTS:
@@ -260,8 +255,8 @@ class _Reader:
         self.points += sum(len(shapely.get_coordinates(area)) for area in areas)
         limit(self.points, MAX_CURVE_POINTS, "points of curves")
         own = _own_name(entity)
-        line = Drawn(handle=handle, layer=layer, name=own or block.name, points=(),
-                     is_ours=bool(own), heights=block.heights)  # fmt: skip
+        line = DrawnOutline(handle=handle, layer=layer, name=own or block.name, shape=Polygon(()),
+                            is_ours=bool(own), heights=block.heights)  # fmt: skip
         # Faces that are drawn one by one are those of one body where they touch.
         # Names of layers are the same in any case, as in AutoCAD.
         key = (block.number, layer.casefold(), "" if kind == "3DFACE" else str(self.entities))
@@ -275,7 +270,7 @@ class _Reader:
         if not self.areas:
             return
         lines = self.drawing.lines
-        solids = [shapely.union_all(polygons([line.points])) for line in lines]
+        solids = [shapely.union_all(polygons([line.shape.points])) for line in lines]
         layers = [line.layer.casefold() for line in lines]
         tree, gap = shapely.STRtree(solids), JOIN_M / self.unit_m
         for line, kind, outline in self.areas.values():
@@ -287,28 +282,28 @@ class _Reader:
                 near = [(solids[k], layers[k]) for k in tree.query(area, predicate="intersects")]
                 if is_fill(area, line.layer.casefold(), near, gap):
                     self._leave(line.handle, line.layer, f"a {kind} over a closed line")
-                elif reason := self._close(replace(line, points=tuple(points)), kind):
+                elif reason := self._close(replace(line, shape=Polygon(tuple(points))), kind):
                     self._leave(line.handle, line.layer, reason)
             if has_holes or (kind in HATCHES and len(outline) > len(rings)):
                 self._leave(line.handle, line.layer, f"holes of a {kind}, whose outline is read")
         self.areas.clear()
 
-    def _close(self, line: Drawn, kind: str) -> str:
+    def _close(self, line: DrawnOutline, kind: str) -> str:
         """Add a line as closed, or return why it is none."""
-        if len(line.points) < 3:
+        points = line.shape.points
+        if len(points) < 3:
             return f"a {kind} without an area"
-        if len(line.points) > MAX_POINTS:
+        if len(points) > MAX_POINTS:
             return f"a {kind} of more than {MAX_POINTS} points"
-        points = ring(line.points)
-        self.drawing.lines.append(line if points == line.points else replace(line, points=points))
+        self.drawing.lines.append(replace(line, shape=Polygon(ring(points))))
         return ""
 
     def _take_joined(self) -> None:
         """Add the closed lines that the open ones form."""
         for lines in self.opened.values():
-            closed, rest = join([line.points for line in lines], JOIN_M / self.unit_m)
+            closed, rest = join([line.shape.points for line in lines], JOIN_M / self.unit_m)
             for points, parts in closed:
-                line = replace(lines[parts[0]], points=tuple(points))
+                line = replace(lines[parts[0]], shape=Polygon(tuple(points)))
                 if reason := self._close(line, "closed line"):
                     self._leave(line.handle, line.layer, reason)
             for k, reason in rest.items():
@@ -363,7 +358,7 @@ class _Reader:
         area, lines = shapely.Polygon(path).buffer(0.0), self.drawing.lines[first:]
         del self.drawing.lines[first:]
         for line in lines:
-            shape = shapely.LinearRing(line.points)
+            shape = shapely.LinearRing(line.shape.points)
             if area.contains(shape) if is_inverted else not area.intersects(shape):
                 self._leave(line.handle, line.layer, "clipped off")
             else:

@@ -22,7 +22,6 @@ from report.project.model.place import Place
 from report.project.read.archive import OpenBook
 from report.project.read.cells import Found
 from report.project.read.changed_cells import Value
-from report.project.read.growing_table import GrowingTable
 from report.project.read.positions import CellPosition
 from report.project.read.read import read
 from report.project.read.workbook_data import Sheet
@@ -45,27 +44,26 @@ def row_cells(book: OpenBook, rows: Sequence[Row]) -> Mapping[CellPosition, Valu
 
     Raises `InputError` with each cell that has one of their IDs already, or if they have no room.
     """
-    table = GrowingTable.of(book, "motions")
-    cells: dict[CellPosition, Value] = {}
+    change = WorkbookChange(book)
     ids: list[Found] = []
     for row in rows:
-        there = table.rows("id", str(row["id"]))
-        if any(not _is_former(table, number, row) for number in there):
-            ids += [table.cell(number, "id") for number in there]
+        there = change.rows("motions", "id", str(row["id"]))
+        if any(not _is_former(change, number, row) for number in there):
+            ids += [change.cell("motions", number, "id") for number in there]
         elif there:
-            cells |= table.cells(there[0], {"source": row["source"]})
+            change.put("motions", there[0], {"source": row["source"]})
         else:
-            cells |= table.cells(table.added(), row)
+            change.put("motions", change.added_row("motions"), row)
     if ids:
         wanted = "remove the row, or leave the motion out"
         raise InputError([Problem(f"has '{c.shown}' already", wanted, c.address) for c in ids])
-    return cells
+    return change.cells
 
 
-def _is_former(table: GrowingTable, number: int, row: Row) -> bool:
+def _is_former(change: WorkbookChange, number: int, row: Row) -> bool:
     """Whether a row of a table is that of the same motion of a suite that was made before."""
-    sources = table.cell(number, "source").shown, str(row["source"])
-    records = all(table.cell(number, name).shown == row[name] for name in LABELS)
+    sources = change.cell("motions", number, "source").shown, str(row["source"])
+    records = all(change.cell("motions", number, name).shown == row[name] for name in LABELS)
     return records and all(source.startswith(GENERATED) for source in sources)
 
 

@@ -20,10 +20,10 @@ from report.assessment.assessment import Assessment
 from report.assessment.design.verdict import Verdict
 from report.assessment.plan.missing_rows import missing_rows
 from report.assessment.plan.neighbors import NearbyKind
-from report.drawing_read.fill import changes, layers_of, plan_as_rows, unread
+from report.drawing_read.fill import fill_plan, layers_of, plan_as_rows, unread
+from report.drawing_read.layer_names import drawn_on, proposed
 from report.drawing_read.plan_read import known_layers
 from report.drawing_read.read_dxf import read_dxf
-from report.drawing_read.roof_drawing import drawn_on, proposed
 from report.project.check.problem_lines import grouped, line_of, listed
 from report.project.model.choices import LayerKind
 from report.project.read.archive import OpenBook, open_book
@@ -245,10 +245,9 @@ def read_plan(workbook: Path, job: Json) -> Json:
     layers = {layer: LayerKind(kind) for layer, kind in json.loads(job["layers"]).items()}
     inputs = read_book(change.book).inputs
     is_given = job["unit"] != ""
-    told, layers = plan_as_rows(drawn, LENGTHS[unit], inputs, layers, is_unit_given=is_given)
-    cells, lines = changes(change.book, told, layers, replace=True)
-    change.fill(cells)
-    lines = [*filter(None, (drawn.repairs,)), *unread(told.plan), *lines, *withdrawn(change)]
+    plan, layers = plan_as_rows(drawn, LENGTHS[unit], inputs, layers, is_unit_given=is_given)
+    lines = fill_plan(change, plan, layers, replace=True)
+    lines = [*filter(None, (drawn.repairs,)), *unread(plan), *lines, *withdrawn(change)]
     # One is opened, and one stays to be saved when the other has been replaced.
     for path in (workbook, Path(job["to"])):
         path.write_bytes(change.book.data)

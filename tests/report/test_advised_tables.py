@@ -22,6 +22,7 @@ from fixtures.project_parts import FT
 from report.drawing_read.ballast import read_map
 from report.study.shaking import points_of
 from report.suite.target_table import read_target
+from solver.formats.source import open_source
 
 CURVE = ((0.01, 0.2), (0.1, 0.05), (0.3, 0.006), (1.0, 1e-4))
 SPECTRUM = ((0.03, 0.8), (0.1, 1.6), (0.5, 1.6), (1.0, 0.8), (4.0, 0.2))  # period [s], g
@@ -29,7 +30,8 @@ BLOCKS = ((35.0, 155.0, 2), (60.0, 200.0, 3), (210.0, 50.0, 4))  # x, y [ft] and
 
 
 def of_curve(path, *, is_spectral=False):
-    return points_of(path.read_text().splitlines(), is_spectral=is_spectral)
+    lines = open_source(path, units="", dt_s=math.nan).lines
+    return points_of(lines, is_spectral=is_spectral)
 
 
 def of_target(path, sheet=""):
@@ -162,6 +164,7 @@ KINDS = {
         table("period [s],horizontal [g]", SPECTRUM[:-1]), r"\(periods from 0\.03 to 3\.33 s\)",
         PERIODS,
     ),
+    "a curve as a PDF": curve(b"%PDF-1.7\n\0\1", "a PDF; give its numbers as text or CSV", RATES),
     "a spectrum in a zip": target(zipped(PERIODS), "unpack it", PERIODS),
     "a workbook of two sheets": target(
         of_two_sheets(), r"give table\.xlsx!Sheet, one of 'Sheet'", then={"sheet": "!Sheet"},

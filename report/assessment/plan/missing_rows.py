@@ -20,10 +20,10 @@ from report.assessment.plan.neighbors import (
 from report.project.model import ProjectInput
 from report.project.model.choices import ClearanceSource, Direction
 from report.project.read.changed_cells import Value
-from report.project.read.growing_table import DIGITS, GrowingTable
 from report.project.read.positions import CellPosition
 from report.project.read.read import without_motions
 from report.project.read.workbook_data import Sheet
+from report.project.write.filled import DIGITS, WorkbookChange
 from report.text.counts import numbered
 from report.text.units import Quantity, Show, no_less, no_more, pair, round_down
 from solver.model import INCH_M
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 
 # Distances are rounded down to a multiple of this [m]: what is written is never more than is there.
 US_STEP_M, SI_STEP_M = 0.1 * INCH_M, 0.001
+_KEY = "clearances"  # the table that rows are added to
 
 
 def missing_rows(
@@ -53,9 +54,9 @@ def missing_rows(
     pairs = pairs_before_runs(data, sheet.addresses, arrays)
     missing = [near for near in pairs if near.is_missing]
     new = [near for near in missing if _has_row(near)]
-    table = GrowingTable.of(sheet.book, "clearances")
-    cells, written = _written(table, data, new)
-    newer, renewed = _renewed(table, data, pairs)
+    change = WorkbookChange(sheet.book)
+    written = _written(change, data, new)
+    renewed = _renewed(change, data, pairs)
     design_m, basis = design_before_runs_m(data), "the prescriptive displacement"
     if larger := larger_m(arrays, design_m):
         farthest = max(larger, key=larger.__getitem__)
@@ -72,7 +73,7 @@ def missing_rows(
         f" {len(data.clearances) - len(renewed)} kept; reach"
         f" {_size(REACH_FACTOR * design_m, us_first, no_less)}, twice {basis}",
     ]  # fmt: skip
-    return cells | newer, tuple(lines)
+    return change.cells, tuple(lines)
 
 
 def without_clearances(sheet: Sheet) -> Sheet:
@@ -90,30 +91,27 @@ def _size(value_m: float, us_first: bool, show: Show = no_more) -> str:
     return pair(value_m, Quantity.SIZE, us_first, show)
 
 
-def _written(
-    table: GrowingTable, data: ProjectInput, new: Sequence[PlanNeighbor]
-) -> tuple[dict[CellPosition, Value], list[str]]:
-    """Return the cells of new rows, and a line for each row."""
-    cells: dict[CellPosition, Value] = {}
+def _written(change: WorkbookChange, data: ProjectInput, new: Sequence[PlanNeighbor]) -> list[str]:
+    """Put the cells of new rows, and return a line for each row."""
     lines: list[str] = []
     downslope_deg = {array.id: array.downslope_deg for array in data.arrays}
     for near in new:
-        row, drawn_m = table.added(), _drawn_m(near, data)
+        row, drawn_m = change.added_row(_KEY), _drawn_m(near, data)
         direction = direction_of(near, downslope_deg[near.array])
         names: dict[str, Value] = {"array": near.array, "object": near.other}
-        cells |= table.cells(row, names | _from_drawing(table, direction, drawn_m))
-        at = table.position(row, "array").address
+        change.put(_KEY, row, names | _from_drawing(change, direction, drawn_m))
+        at = change.position(_KEY, row, "array").address
         lines.append(f"{at}: {near.names}, {direction}, {_size(drawn_m, data.us_first)}")
-    return cells, lines
+    return lines
 
 
 def _renewed(
-    table: GrowingTable, data: ProjectInput, pairs: Sequence[PlanNeighbor]
-) -> tuple[dict[CellPosition, Value], list[str]]:
-    """Return the cells of rows from the drawing that differ from the plan, and a line for each."""
-    rows = {table.position(row, "provided_m").address: row for row in table.found.rows}
+    change: WorkbookChange, data: ProjectInput, pairs: Sequence[PlanNeighbor]
+) -> list[str]:
+    """Put the cells of rows from the drawing that differ from the plan; return a line for each."""
+    found = change.table(_KEY).rows
+    rows = {change.position(_KEY, row, "provided_m").address: row for row in found}
     downslope_deg = {array.id: array.downslope_deg for array in data.arrays}
-    cells: dict[CellPosition, Value] = {}
     lines: list[str] = []
     for near in pairs:
         for entered in near.given:
@@ -127,13 +125,14 @@ def _renewed(
             if len(near.given) == 1:  # the directions of several rows of a pair differ
                 direction = direction_of(turned, downslope_deg[turned.array])
             if abs(was.provided_m - drawn_m) > NOISE_M or direction is not was.direction:
-                cells |= table.cells(rows[entered.cell], _from_drawing(table, direction, drawn_m))
+                cells = _from_drawing(change, direction, drawn_m)
+                change.put(_KEY, rows[entered.cell], cells)
                 before, now = (
                     _size(value_m, data.us_first) for value_m in (was.provided_m, drawn_m)
                 )
                 lines.append(f"{entered.cell}: {near.names}: {was.direction}, {before}; now"
                              f" {direction}, {now}")  # fmt: skip
-    return cells, lines
+    return lines
 
 
 def _drawn_m(near: PlanNeighbor, data: ProjectInput) -> float:
@@ -141,11 +140,12 @@ def _drawn_m(near: PlanNeighbor, data: ProjectInput) -> float:
     return round_down(max(near.gap_m, 0.0) / step_m, 0) * step_m
 
 
-def _from_drawing(table: GrowingTable, direction: Direction, drawn_m: float) -> dict[str, Value]:
+def _from_drawing(change: WorkbookChange, direction: Direction, drawn_m: float) -> dict[str, Value]:
+    si = change.table(_KEY).columns["provided_m"].si
     return {
         "direction": direction.value,
         # Down once more: 0.1 in is no round number of feet.
-        "provided_m": round_down(drawn_m / table.found.columns["provided_m"].si, DIGITS),
+        "provided_m": round_down(drawn_m / si, DIGITS),
         "source": ClearanceSource.DRAWING.value,
     }
 

@@ -13,19 +13,21 @@ from pathlib import Path
 
 from openpyxl.formula.translate import Translator
 from openpyxl.utils import coordinate_to_tuple
+from openpyxl.utils.escape import unescape
 
 from report.project.model.choices import ClearanceSource
 from report.project.model.input_rows import InputRow
 from report.project.model.place import Place
 from report.project.read.archive import OpenBook, book_of, located, open_book
+from report.project.read.cells import Found
 from report.project.read.changed_cells import Formula, Value, changed
 from report.project.read.formula_references import references
-from report.project.read.locate_table import table_area
-from report.project.read.positions import CellPosition, bounds_of
+from report.project.read.locate_table import MAX_ROWS, TableFound, find_table, table_area
+from report.project.read.positions import FRESH, CellPosition, bounds_of, found_at
 from report.project.read.read import read_book
 from report.project.read.what_if import cells
 from report.project.read.workbook_data import Sheet
-from report.project.workbook import SECTIONS
+from report.project.workbook import SECTION, SECTIONS
 from report.project.write.style import is_answer
 from report.text.counts import grouped_by
 from solver.files import check_plain, locked, write_all
@@ -33,7 +35,8 @@ from solver.model import InputError
 
 # Ends the name under which a workbook is kept as it was before the last command changed it.
 BEFORE = ".before.xlsx"
-
+# Decimals of a number that is written in the unit of its column.
+DIGITS = 6
 
 # Files that Excel and LibreOffice put beside a workbook while they have it open.
 _OPEN_ELSEWHERE = ("~${}", ".~lock.{}#")
@@ -47,6 +50,11 @@ class WorkbookChange:
     files: dict[str, bytes] = field(default_factory=dict)
     before: OpenBook = field(init=False)
     written: set[CellPosition] = field(default_factory=set)
+    # What `fill_in` will fill in, and why it may not: cells that are filled already.
+    cells: dict[CellPosition, Value] = field(default_factory=dict)
+    refusals: list[str] = field(default_factory=list)
+    tables: dict[str, TableFound] = field(default_factory=dict)
+    next_rows: dict[str, int] = field(default_factory=dict)  # free ones of tables with new rows
 
     def __post_init__(self) -> None:
         self.before = self.book
@@ -55,6 +63,85 @@ class WorkbookChange:
         """Change cells; raises as `filled`."""
         self.book = filled(self.book, cells)
         self.written |= cells.keys()
+        self.tables.clear()
+        self.next_rows.clear()
+
+    def fill_in(self, *, replace: bool) -> None:
+        """Change the cells that were put.
+
+        Raises `InputError` for each that was filled already, unless it may be replaced.
+        """
+        if self.refusals and not replace:
+            raise InputError(self.refusals)
+        self.fill(self.cells)
+        self.cells, self.refusals = {}, []
+
+    def refuse(self, key: str, row: int, name: str, title: str) -> None:
+        """Note that a field of a row is filled already."""
+        self.refuse_cell(self.position(key, row, name), title)
+
+    def refuse_cell(self, position: CellPosition, title: str) -> None:
+        """Note that a cell is filled already."""
+        text = f"{title} is filled already; add --replace to overwrite it"
+        self.refusals.append(f"{position.address}: {text}")
+
+    def put(self, key: str, row: int, values: Mapping[str, Value]) -> None:
+        """Note values of a row of a table, by field, for `fill_in`."""
+        self.cells |= {self.position(key, row, name): value for name, value in values.items()}
+
+    def table(self, key: str) -> TableFound:
+        """Return a table by the key of its section."""
+        if key not in self.tables:
+            self.tables[key] = find_table(self.book, SECTION[key])
+        return self.tables[key]
+
+    def position(self, key: str, row: int, name: str) -> CellPosition:
+        """Return where a field of a row of a table is."""
+        table = self.table(key)
+        if name not in table.columns:
+            label = SECTION[key].entry(name).heading
+            raise InputError(f"{table.heading.address}: heading '{label}' is missing; {FRESH}")
+        return CellPosition(table.heading.sheet, row, table.columns[name].number)
+
+    def cell(self, key: str, row: int, name: str) -> Found:
+        """Return a cell of a row of a table as it is in the workbook."""
+        return found_at(self.book, self.position(key, row, name))
+
+    def number(self, key: str, name: str, value_si: float) -> float:
+        """Return a value in the unit of a column."""
+        return round(value_si / self.table(key).columns[name].si, DIGITS)
+
+    def rows(self, key: str, name: str, value: str) -> list[int]:
+        """Return the rows of a table whose field is a text."""
+        return [
+            row
+            for row in self.table(key).rows
+            if unescape(self.cell(key, row, name).shown).strip().casefold() == value.casefold()
+        ]
+
+    def added_row(self, key: str) -> int:
+        """Return the next free row of a table."""
+        table = self.table(key)
+        top = table.heading.row
+        if key not in self.next_rows:
+            filled_rows = [
+                row
+                for row in table.rows
+                if not all(self.cell(key, row, name).is_blank for name in table.columns)
+            ]
+            self.next_rows[key] = max(filled_rows, default=top) + 1
+        row = self.next_rows[key]
+        self.next_rows[key] += 1
+        area = table_area(self.book, SECTION[key])
+        if area and area.last < row <= area.totals:
+            raise InputError(
+                f"{table.heading.sheet}!{area.totals}: the table has a row of totals, and no blank"
+                " row above it; remove the row of totals, or insert rows above it"
+            )
+        if row > top + MAX_ROWS:
+            most = f"the {MAX_ROWS} that a table may have"
+            raise InputError(f"{table.heading.address}: more rows are needed than {most}")
+        return row
 
     def note(self, cells: Mapping[CellPosition, Value]) -> None:
         """Change cells that no formula refers to."""

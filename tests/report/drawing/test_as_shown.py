@@ -153,7 +153,7 @@ def test_a_damaged_drawing_is_read_as_far_as_it_can_be_and_says_so(tmp_path, old
     found = read_dxf(damaged(tmp_path, old, new))
     assert found.repairs.startswith("a damaged drawing, read as far as it can be")
     assert found.repairs.endswith(": compare the plan")
-    assert [len(line.points) for line in found.lines] == [4]
+    assert [len(line.shape.points) for line in found.lines] == [4]
 
 
 @pytest.mark.quick

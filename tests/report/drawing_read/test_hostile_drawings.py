@@ -17,8 +17,8 @@ from fixtures.errors import input_problems
 from fixtures.growth import grows_faster
 from fixtures.marks import by_day, nightly
 from fixtures.workbooks import make
+from report.drawing_read.dxf_file import MAX_ENTITIES, MAX_VALUES
 from report.drawing_read.read_dxf import MAX_LETTERS, read_dxf
-from report.drawing_read.roof_drawing import MAX_ENTITIES, MAX_VALUES
 from report.project.model.choices import LayerKind
 from report.project.read.read import read
 from solver.model import InputError
@@ -158,7 +158,7 @@ def test_bulges_and_flat_arcs_become_no_more_chords_than_they_need(tmp_path):
     points = [(0.0, 0.0, bulge), (1e5, 0.0, 0.0), (1e5, 1e5, 0.0)]
     sketch.space.add_lwpolyline(points, "xyb", close=True, dxfattribs={"layer": "OBJECT"})
     (line,) = read_dxf(sketch.saved(tmp_path)).lines
-    chord = 1e5 / (len(line.points) - 2)
+    chord = 1e5 / (len(line.shape.points) - 2)
     assert 0.5 * 0.003 < chord**2 / (8.0 * 3e9) <= 0.003
 
 

@@ -10,11 +10,12 @@ from fixtures.commands import output_of, stdout_of
 from fixtures.dxf import Sketch
 from fixtures.project_parts import FT
 from fixtures.workbooks import blank, type_into
-from report.drawing_read.fill import matched
 from report.drawing_read.plan_read import plan_of
-from report.drawing_read.roof_drawing import Drawn, RoofDrawing
+from report.drawing_read.roof_drawing import DrawnOutline, RoofDrawing
+from report.drawing_read.row_matching import matched
 from report.project.model.choices import UnitsFirst
 from report.project.model.placed import SIDES
+from report.project.model.shapes import Polygon
 from report.project.read.read import read
 from solver.model import InputError
 
@@ -43,8 +44,8 @@ def drawn(roof, places, move=(0.0, 1.0, (0.0, 0.0), False)):
     """The plan of a roof and its places [m]: layer, name or none, and corners, by a move."""
     every = [("ROOF-OUTLINE", "", roof), *places]
     lines = [
-        Drawn(handle=f"{k:X}", layer=layer, name=name, is_ours=False,
-              points=tuple(at(point, move) for point in points))
+        DrawnOutline(handle=f"{k:X}", layer=layer, name=name,
+                     shape=Polygon(tuple(at(point, move) for point in points)))
         for k, (layer, name, points) in enumerate(every, start=1)
     ]  # fmt: skip
     return plan_of(RoofDrawing("m", lines=lines), 1.0, {})
@@ -78,7 +79,7 @@ def edges(plan):
 def after(first, second, move, unmoved=None):
     """What is told of a plan, and which edges are not those of their name; the lost are named."""
     told = matched(second, draft_of(first))
-    now, was = edges(told.plan), edges(unmoved or first)
+    now, was = edges(told), edges(unmoved or first)
     shared = now.keys() & edges(first).keys()
     astray = [
         name for name in shared if math.dist(now[name], at(was[name], move)) > 0.2 + 0.3 * move[1]
@@ -114,9 +115,9 @@ def test_an_edge_and_a_row_without_a_name_stay_where_they_were(roof, places, mov
     assert told.move.factor == pytest.approx(move[1], abs=1e-5)
     assert told.move.way_deg(0.0) == pytest.approx(move[0], abs=1e-5)
     names = [place.name for place in (*first.arrays, *first.objects)]
-    assert {place.name for place in (*told.plan.arrays, *told.plan.objects)} == {*names}
+    assert {place.name for place in (*told.arrays, *told.objects)} == {*names}
     for name, shape in first.shapes.items():
-        assert math.dist(middle(told.plan.shapes[name]), at(middle(shape), move)) < 9
+        assert math.dist(middle(told.shapes[name]), at(middle(shape), move)) < 9
 
 
 @pytest.mark.quick
@@ -185,7 +186,7 @@ def faces(plan):
 def test_an_edge_keeps_its_side_where_the_roof_is_another_one_around_the_same_arrays(first, second):
     was, now = (drawn(box(*roof), NAMED) for roof in (first, second))
     told = matched(now, draft_of(was))
-    before, after = faces(was), faces(told.plan)
+    before, after = faces(was), faces(told)
     kept = before.keys() & after.keys()
     assert {name: after[name] for name in kept} == {name: before[name] for name in kept}
 

@@ -15,9 +15,11 @@ from fixtures.project_parts import FT, INCH, NO_SIDES
 from report.drawing.items import Layer, write_dxf
 from report.drawing.plan import plan_drawing
 from report.drawing_read.closed_lines import OPEN
-from report.drawing_read.plan_read import LAYERS, own_axes
+from report.drawing_read.geometry import own_axes
+from report.drawing_read.heights import first_height, read_line
+from report.drawing_read.layer_names import proposed
+from report.drawing_read.plan_read import LAYERS
 from report.drawing_read.read_dxf import read_dxf
-from report.drawing_read.roof_drawing import first_height, proposed, read_line
 from report.project.model.choices import LayerKind
 from report.project.model.shapes import Polygon, Rectangle
 
@@ -237,6 +239,9 @@ UNIT_M = 1.0
     ("text", "name", "value_m", "has_unit"),
     [
         ("RTU-1, height 42.0 in (1067 mm)", "RTU-1", 42 * INCH, True),
+        ("RTU-1 HEIGHT (IN): 48", "RTU-1", 48 * INCH, True),
+        ("EL. [FT] = 4.5", "", 4.5 * FT, True),
+        ('HEIGHT (FT): 48"', "", 48 * INCH, True),
         ('RTU-1 HT 42"', "RTU-1", 42 * INCH, True),
         ("HT: 3'-6\"", "", 3.5 * FT, True),
         ("HT 3.5 ft, 900 LBS", "", 3.5 * FT, True),

@@ -15,8 +15,9 @@ from fixtures.dxf import ROOF_FT, Sketch
 from fixtures.filled_cells import typed_cells
 from fixtures.project_parts import FT
 from fixtures.workbooks import blank, type_into
-from report.drawing_read.fill import MOST_TOLD, matched
-from report.drawing_read.plan_read import DrawnOutline, RoofPlan
+from report.drawing_read.roof_drawing import DrawnOutline
+from report.drawing_read.roof_plan import RoofPlan
+from report.drawing_read.row_matching import MOST_TOLD, matched
 from report.project.model.choices import ClearanceSource, LayerKind, UnitsFirst
 from report.project.model.placed import SIDES
 from report.project.model.shapes import Polygon, Rectangle
@@ -204,7 +205,7 @@ def matched_with(rows, places, names=()):
     """The plan of drawn places with the names of the rows of a workbook."""
     inputs = {"arrays": rows_at(rows), "objects": [], "outlines": [], "project": [], "roof": []}
     arrays = tuple(drawn_at(places, names))
-    return matched(RoofPlan(roof=(), arrays=arrays, objects=(), unread=()), inputs).plan.arrays
+    return matched(RoofPlan(roof=(), arrays=arrays, objects=(), unread=()), inputs).arrays
 
 
 UPPER, LOWER, TOP = (20, 60, 80, 40), (20, 10, 80, 40), (20, 110, 80, 40)

@@ -15,10 +15,10 @@ from fixtures.marks import by_day
 from fixtures.workbooks import cell_address, edit, make, pack, parts
 from report.project.read.archive import open_book
 from report.project.read.changed_cells import changed
-from report.project.read.growing_table import GrowingTable
 from report.project.read.positions import CellPosition
 from report.project.read.read import read
 from report.project.write import style
+from report.project.write.filled import WorkbookChange
 from solver.model import InputError
 
 DRAWING = b"<a/>"  # whatever it is, it stays
@@ -200,4 +200,4 @@ def test_a_text_is_read_back_as_it_was_written_whatever_it_looks_like(tmp_path, 
     at_id = place("Arrays/A1/ID")
     assert load_workbook(path)["Arrays"][at_id.cell].data_type == "s"
     assert read(path).inputs["arrays"][0]["id"] == name
-    assert GrowingTable.of(open_book(path), "arrays").rows("id", name) == [at_id.row]
+    assert WorkbookChange(open_book(path)).rows("arrays", "id", name) == [at_id.row]

@@ -1,0 +1,126 @@
+"""The file of a roof drawing: refused if it is no DXF in text or too large, else loaded by ezdxf.
+
+Knows no entity (`report.drawing_read.read_dxf`). Read `loaded` first.
+"""
+
+from __future__ import annotations
+
+import io
+import logging
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from solver.files import read_file
+from solver.model import InputError
+from solver.suggestions import meant
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing as Document
+
+MB = 1_000_000
+MAX_BYTES = 25 * MB
+MAX_ENTITIES = 20_000
+MAX_VALUES = 1_000_000
+MAX_LINE = 10_000
+
+# Units of drawings by $INSUNITS.
+UNITS: Mapping[int, str] = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m"}
+# Units that drawings state and roofs are not drawn in, and in which such a drawing mostly is.
+OTHER_UNITS: Mapping[int, tuple[str, str]] = {
+    3: ("miles", "ft"), 7: ("kilometers", "m"), 8: ("microinches", "in"), 9: ("mils", "in"),
+    10: ("yards", "ft"), 14: ("decimeters", "m"), 15: ("decameters", "m"),
+    16: ("hectometers", "m"), 21: ("US survey feet", "ft"), 22: ("US survey inches", "in"),
+    23: ("US survey yards", "ft"), 24: ("US survey miles", "ft"),
+}  # fmt: skip
+
+DAMAGED = "not a DXF drawing, or damaged; open it in CAD and save it again"
+# What else is given as one, by how it begins, and what would do.
+_OTHER_FILES = (
+    (rb"AC10", "a DWG drawing; save it as DXF (R12 to R2018)"),
+    (rb"AutoCAD Binary DXF", "a binary DXF; save it as DXF in text"),
+    (rb"%PDF", "a PDF; give the DXF that it was plotted from"),
+    (rb"PK\x03\x04", "a zip; unpack it and give the DXF in it"),
+    (
+        rb"\x89PNG|\xff\xd8\xff|II\*\x00|MM\x00\*|GIF8|BM",
+        "a picture; give the drawing as DXF",
+    ),
+    (rb"ISO-10303-21", "an IFC or STEP model; export its roof plan as DXF"),
+    (rb"\xd0\xcf\x11\xe0", "a model of Revit, or an old Office file; export its roof plan as DXF"),
+    (rb"(?:<[?!][^>]*>\s*){0,9}<svg", "an SVG; save it as DXF"),
+    (rb"<", "XML or a web page; export the roof plan as DXF"),
+    (rb"[{\[]", "JSON, such as GeoJSON; export the roof plan as DXF in ft or m"),
+)
+_ENDED = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*EOF\s*\Z")
+_ENTITY = re.compile(rb"^[ \t]*0[ \t]*\r?\n[ \t]*[A-Z3_]", re.MULTILINE)
+
+
+def other_unit(code: int) -> str:
+    """Return what to say of a unit of `OTHER_UNITS`, by $INSUNITS; empty for another."""
+    if code not in OTHER_UNITS:
+        return ""
+    stated, unit = OTHER_UNITS[code]
+    is_same = stated == f"US survey {'feet' if unit == 'ft' else 'inches'}"  # within 2 in a million
+    condition = "" if is_same else ", if that is what it is drawn in, or scale it in CAD"
+    return f"states {stated}; give --units {unit}{condition}"
+
+
+def _read(path: Path) -> bytes:
+    """Return a drawing; refuse what is no DXF in text, and what is too large to load."""
+    if not path.exists():
+        raise InputError(f"no such file; {meant(path) or 'give a DXF drawing'}")
+    data = read_file(path, MAX_BYTES, too_large="save the roof plan alone")
+    begin = data[:1000].removeprefix(b"\xef\xbb\xbf").lstrip()
+    for pattern, told in _OTHER_FILES:
+        if re.match(pattern, begin, re.IGNORECASE):
+            raise InputError(told)
+    # By counting bytes: the library builds all entities before anything can be refused.
+    values = data.count(b"\n") // 2  # each after a line with its code
+    limit(values, MAX_VALUES, "values")
+    limit(sum(1 for _ in _ENTITY.finditer(data)), MAX_ENTITIES, "entities")
+    # Names are read once for each entity that has them; formats allow lines of 2,049 letters.
+    limit(max(map(len, data.splitlines()), default=0), MAX_LINE, "letters in a line")
+    return data
+
+
+def limit(count: int, most: int, what: str) -> None:
+    """Refuse more than a drawing may have."""
+    if count > most:
+        raise InputError(
+            f"{count:,} {what}, more than {most:,}; save the layers of the roof plan alone"
+        )
+
+
+def _strict(data: bytes) -> Document:
+    from ezdxf.filemanagement import dxf_stream_info, read
+
+    info = dxf_stream_info(io.TextIOWrapper(io.BytesIO(data), "utf-8", "ignore"))
+    return read(io.TextIOWrapper(io.BytesIO(data), info.encoding, "surrogateescape"))
+
+
+def loaded(path: Path) -> tuple[Document, str]:
+    """Return a drawing, and what to say of its repair if strict reading refuses it.
+
+    Raises `InputError` if it is no DXF, damaged, or too large.
+    """
+    from ezdxf import recover
+
+    data = _read(path)
+    logging.getLogger("ezdxf").addHandler(logging.NullHandler())
+    try:
+        return _strict(data), ""
+    except Exception as refused:  # a damaged drawing makes the library raise almost anything
+        # What is missing at the end of a drawing that was cut off, no repair would tell.
+        if not _ENDED.search(data):
+            raise InputError(DAMAGED) from refused
+    try:
+        # Slower, and lenient: it is asked only after the strict reader.
+        document, audit = recover.read(io.BytesIO(data))
+    except Exception as error:
+        raise InputError(DAMAGED) from error
+    if audit.has_errors:  # such as a coordinate that it has guessed
+        raise InputError(DAMAGED)
+    count = len(audit.fixes)
+    fixes = f", {count} faults repaired" if count > 1 else ", a fault repaired" if count else ""
+    return document, f"a damaged drawing, read as far as it can be{fixes}: compare the plan"

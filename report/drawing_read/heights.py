@@ -1,0 +1,108 @@
+"""The height of an object in a line of text: `RTU-1 HT. 4'-6"` is RTU-1 with a height of 1.37 m.
+
+Knows no drawing. Read `read_line` first.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+from fractions import Fraction
+from typing import NamedTuple
+
+from report.project.read.typed_text import plain_marks
+from report.text.units import LENGTHS
+
+_NUMBER, _SHARE = r"\d{1,6}(?:\.\d{1,6})?", r"\d{1,2}/[1-9]\d?"
+_TOP = r"(?:TO[CPW]|TOP(?: OF(?: [A-Z]{1,12}){1,2})?|T(?:\.O\.(?:[A-Z]\.)?|/O?) ?(?:[A-Z]{1,12})?)"
+_ABOUT = r"(?:\+/-|[+±~])"
+_UNIT = r"(?P<unit>inches|inch|in|feet|ft|mm|cm|m)\.?"  # in brackets behind a word: HEIGHT (IN): 48
+_KEYWORD = re.compile(
+    rf"(?<!\w)(?:(HT|HGT|HEIGHT(?: ABOVE ROOF)?|(?:{_TOP} ?)?EL(?:EV(?:ATION)?)?|{_TOP})(?: OF)?"
+    rf"(?:\.? ?[(\[]{_UNIT}[)\]])?[.:=@ ]*(?:{_ABOUT} ?)?|([HZ]) ?[=:] ?(?:{_ABOUT} ?)?)(?=\d)"
+    rf"|(?:(?<=[\s(])|^)({_ABOUT}) ?(?=\d)",
+    re.IGNORECASE,
+)
+# What may be a height as well, before or behind a number with a unit: it is said.
+_LIKE_ONE = re.compile(
+    r"(?<![\w./])(?:H|H(?:EIG)?HT|HGT|T[./]O|TO[CPW]|EL|ELEV|Z|ABV|ABOVE|A\.?F\.?F)(?![a-z])",
+    re.IGNORECASE,
+)
+_LENGTH = re.compile(r"\d ?(?:[\"']|(?:ft|feet|inch|inches|in|mm|cm|m)\b)", re.IGNORECASE)
+# Heights above the roof; what other words give may be above a datum.
+ABOVE_ROOF = ("H", "HT", "HGT", "HEIGHT", "HEIGHT ABOVE ROOF")
+_ALSO_A_NAME = ("TOP", "TOC", "TOW", "T/", "+", "+/-", "±", "~")  # before no unit
+_DIGITS = r"\d(?:[\d .'/#^-]|,(?=\d)){0,16}?"
+# As sizes of equipment are written: a number with its unit before a lone H.
+_BEFORE = re.compile(
+    rf"(?<![\w./'\"#^-])(?P<value>(?:{_DIGITS}(?:ft|feet)\.?[ -]{{0,3}})?"
+    rf"{_DIGITS}(?:['\"]|(?:ft|feet|inches|inch|in|mm|cm|m)\.?))"
+    r"[ -]?\(?(?:H|HT|HIGH|TALL|ABOVE|ABV|A\.?(?:F\.?)?R)\b(?![.:= ]*\d)",
+    re.IGNORECASE,
+)
+_OTHER_SIZES = re.compile(r"(?:[\d.'\"/-]{1,12}+ ?+[WLD]?+ ?+[x×] ?+){1,3}+$", re.IGNORECASE)
+_METRIC = re.compile(r"(?<![\w.,'\"/-])(\d{1,6}),(\d{1,2})(?= ?(?:mm|cm|m)\b)", re.IGNORECASE)
+_VALUE = re.compile(
+    rf"(?:(?P<feet>{_NUMBER})(?: (?P<of_foot>{_SHARE}))?[ -]?(?:'|(?:ft|feet)\b\.?)[ -]{{0,3}}"
+    rf"(?:(?P<of_inch>{_SHARE})[ -]?\")?)?"
+    rf"(?:(?P<number>{_NUMBER})(?:[ -](?P<share>{_SHARE}))?"
+    r"(?:[ -]?(?P<unit>\"|(?:inches|inch|in|mm|cm|m)(?![a-z]))\.?)?)?"
+    # Nothing of the number is left: neither `42x60` nor `42-48` nor `42 1/2` is a height of 42.
+    r"(?![\w./'\"#^{\\]|,\d|\s{0,3}[-/]\s{0,3}\d|\s{1,3}\d{1,2}/\d)",
+    re.IGNORECASE,
+)
+_HEIGHT_UNITS = (
+    LENGTHS | dict.fromkeys(('"', "inch", "inches"), LENGTHS["in"]) | {"feet": LENGTHS["ft"]}
+)
+
+
+class Height(NamedTuple):
+    """A height [m] as written, NaN if that is not understood: by which word, with a unit or not."""
+
+    value_m: float
+    word: str
+    has_unit: bool
+
+
+def read_line(text: str, unit_m: float) -> tuple[str, Height | None]:
+    """Return the name and the height in a line, whose height without a unit is in `unit_m` [m]."""
+    text = _METRIC.sub(r"\1.\2", plain_marks(text))
+    word = _KEYWORD.search(text)
+    if word:
+        match, start = _VALUE.match(text, word.end()), word.start()
+        said = (word[1] or word[3] or word[4]).strip()
+    elif before := _BEFORE.search(text):
+        match, start, said = _VALUE.fullmatch(before["value"]), before.start(), "H"
+    else:
+        is_like = _LIKE_ONE.search(text) and _LENGTH.search(text)
+        return text, Height(math.nan, "", False) if is_like else None
+    name = _OTHER_SIZES.sub("", text[:start]).lstrip(" ,;:-").rstrip(" ,;:-(@")
+    name = name if ")" in name else name.lstrip("(")  # `(N) RTU-1` is one
+    unclear = Height(math.nan, said.upper(), False)
+    if not match or not match[0]:
+        return name, unclear
+    before_colon = (word and word["unit"]) or ""
+    unit = match["unit"] or ('"' if match["feet"] else before_colon)
+    if not unit and said.upper() in _ALSO_A_NAME:
+        return text, None if said[0] in "Tt" else unclear
+    if word and not unit and text[match.end() :].lstrip()[:1].isalnum():
+        return name, unclear  # such as `42 yd` or `42 1/0`
+    value, feet = (
+        float(match[number] or 0.0) + float(Fraction(match[share] or 0))
+        for number, share in (("number", "share"), ("feet", "of_foot"))
+    )
+    value += float(Fraction(match["of_inch"] or 0))
+    value_m = value * _HEIGHT_UNITS.get(unit.lower(), unit_m) + feet * _HEIGHT_UNITS["ft"]
+    return name, Height(value_m, said.upper(), bool(unit))
+
+
+def first_height(lines: Iterable[str], unit_m: float) -> tuple[Height | None, str]:
+    """Return the first height in lines that is understood; else the first line that is not."""
+    unclear = ""
+    for line in lines:
+        height = read_line(line, unit_m)[1]
+        if height and math.isfinite(height.value_m):
+            return height, ""
+        unclear = unclear or (line if height else "")
+    return None, unclear

@@ -1,0 +1,215 @@
+"""Which row of a workbook each outline of a drawing is: by its name, else by its place.
+
+Reads no drawing and changes no cell (`report.drawing_read.fill`). Read `matched` first.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from report.drawing_read.moved import SAME_M, Move, whole_move
+from report.drawing_read.plan_read import free_name
+from report.drawing_read.roof_drawing import DrawnOutline
+from report.drawing_read.roof_plan import STILL_M, RoofPlan, placed
+from report.project.check.plan_shapes import roof_of, shapes_of, us_first
+from report.project.check.problem_lines import listed
+from report.project.model.choices import LayerKind
+from report.project.model.input_rows import InputRow, Inputs
+from report.project.model.roof import DRAWING
+from report.project.model.shapes import Shape, around, gap_m, mean, sides, solid
+from report.text.units import Quantity, Unit
+from solver.model import InputError
+
+# Common share of two outlines, of all that either covers, by which they may be the same.
+_LEAST_SHARE = 0.05
+_RENAMED_SHARE = 0.9  # the same, of an outline that the drawing calls by a name of its own
+_PLAIN = 2.0  # a row is told from another by this times its share, or its part of the distance
+_SAME_WAY = 0.9  # cosine between the outward directions of two edges of the same side
+# Most outlines of a kind that cannot be told and are named.
+MOST_TOLD = 20
+_ARRAY, _OBJECT, _EDGE = "array", "object", "edge"
+
+Pairs = Mapping[tuple[int, str], float]  # how well an outline, by its number, is a row
+
+
+def matched(plan: RoofPlan, inputs: Inputs) -> RoofPlan:
+    """Return a plan with the names of the rows of a workbook.
+
+    Raises `InputError` with the candidates, for what cannot be told.
+    """
+    # An outline with the name of a row in the drawing is that row. The others are told by place
+    # among the rows that are left: by what they have in common, then by the nearest center of the
+    # same size. What is left is new.
+    known = [*inputs["arrays"], *inputs["objects"]]
+    rows = {row["id"]: row for row in known if "id" in row}
+    groups = {row["id"]: _group(row.get("kind", "")) for row in inputs["objects"] if "id" in row}
+    was = shapes_of(inputs)
+    unit = Quantity.PLAN.us if us_first(inputs) else Quantity.PLAN.si
+    drawn = (*plan.arrays, *plan.objects)
+    by_name = {(groups.get(name, _ARRAY), name.casefold()): name for name in was}
+    by_row = {
+        number: by_name[key]
+        for number, place in enumerate(drawn)
+        if (key := (_group(place.kind), place.name.casefold())) in by_name and not place.unnamed
+    }
+    # Of a row whose name is not in the drawing only its group is known. Edges follow the roof.
+    keyed = [
+        (name if name in by_row.values() else groups.get(name, _ARRAY), shape)
+        for name, shape in was.items()
+        if groups.get(name) != _EDGE
+    ]
+    now = [(by_row.get(k, _group(place.kind)), place.shape) for k, place in enumerate(drawn)]
+    named = [(was[name], drawn[number].shape) for number, name in by_row.items()]
+    roof = roof_of(inputs)
+    move = whole_move((roof, plan.roof_shape), keyed, now, named)
+    moved = move or Move()
+    before = {name: moved.of(shape) for name, shape in was.items()}
+    # An edge stays on its side of the roof, or of all that is in plan where no roof is.
+    ways_before = {
+        name: _outward(shape, moved.of(roof) if roof else around(before.values()))
+        for name, shape in before.items()
+        if groups.get(name) == _EDGE
+    }
+    ways = {
+        k: _outward(place.shape, plan.roof_shape or around(plan.shapes.values()))
+        for k, place in enumerate(drawn)
+        if _group(place.kind) == _EDGE
+    }
+    unclear: list[str] = []
+    for group in (_ARRAY, _OBJECT, _EDGE):
+        numbers = [k for k, place in enumerate(drawn) if _group(place.kind) == group]
+        names = [name for name in before if groups.get(name, _ARRAY) == group]
+        is_edge = group == _EDGE
+        # By what they cover together first: a center alone may be nearer to a neighbor.
+        for score in (_common, _near if is_edge else _same_sized) if move else ():
+            pairs = {
+                (k, name): value
+                for k in numbers
+                for name in names
+                if k not in by_row and name not in by_row.values()
+                if (value := score(drawn[k], before[name])) > 0.0
+                if not is_edge or (ways_before[name] * ways[k].conjugate()).real > _SAME_WAY
+            }
+            unclear += _tell(pairs, drawn, by_row, unit)
+        left = [name for name in names if name not in by_row.values() and _is_drawn(rows[name])]
+        new = [k for k in numbers if k not in by_row and drawn[k].unnamed and drawn[k].handle]
+        if left and new and not unclear:
+            unclear.append(_either([drawn[k] for k in new], left, unit) + ", or new")
+    if unclear:
+        raise InputError([f"{text}: write its name inside of it as a text" for text in unclear])
+    # Read after all groups: a row may still be found by its size.
+    lost = [name for name in before if name not in by_row.values()]
+    return replace(
+        _renamed(plan, by_row, before, rows),
+        gone=tuple(name for name in lost if _is_drawn(rows[name])),
+        typed=tuple(name for name in lost if not _is_drawn(rows[name])),
+        move=move,
+        before=before,
+        rows=rows,
+        row_shapes=was,
+        unit=unit,
+    )
+
+
+def _outward(edge: Shape, roof: Shape) -> complex:
+    """Return the direction across an edge, as a number of length 1, that leads away from a roof."""
+    import shapely
+
+    start, end = max(sides(edge.points), key=lambda side: math.dist(*side))
+    across = complex(end[1] - start[1], start[0] - end[0]) / math.dist(start, end)
+    middle = complex(*mean(edge.bounds.points))
+    far, near = (
+        solid(roof).distance(shapely.Point(at.real, at.imag))
+        for at in (middle + across, middle - across)
+    )
+    return across if far >= near else -across
+
+
+def _group(kind: str) -> str:
+    return _ARRAY if kind == LayerKind.ARRAY else _EDGE if kind.startswith("edge") else _OBJECT
+
+
+def _is_drawn(row: InputRow) -> bool:
+    return str(row.get("place_from", "")).startswith(DRAWING)
+
+
+def _common(place: DrawnOutline, row: Shape) -> float:
+    """Return the share that an outline has in common with a row; 0 if too small to be it."""
+    if gap_m(place.shape.bounds, row.bounds) >= 0.0:
+        return 0.0
+    area, other = solid(place.shape), solid(row)
+    share: float = area.intersection(other).area / area.union(other).area
+    return share if share >= (_LEAST_SHARE if place.unnamed else _RENAMED_SHARE) else 0.0
+
+
+def _near(place: DrawnOutline, row: Shape) -> float:
+    """Return how near the center of an outline without a name is to that of a row [1/m]."""
+    far_m = math.dist(mean(place.shape.bounds.points), mean(row.bounds.points))
+    return 1.0 / max(far_m, STILL_M) if place.unnamed else 0.0
+
+
+def _same_sized(place: DrawnOutline, row: Shape) -> float:
+    """Return the same of an outline of the same size; 0 for another."""
+    sizes = ((b.x_to_m - b.x_from_m, b.y_to_m - b.y_from_m)
+             for b in (place.shape.bounds, row.bounds))  # fmt: skip
+    is_same = all(abs(a - b) < SAME_M for a, b in zip(*sizes, strict=True))
+    return _near(place, row) if is_same else 0.0
+
+
+def _tell(
+    pairs: Pairs, drawn: Sequence[DrawnOutline], matches: dict[int, str], unit: Unit
+) -> Iterator[str]:
+    """Add the rows that are plain, the best first, and yield what is not, as far as it is told."""
+    told = 0
+    while pairs and told < MOST_TOLD:
+        number, name = best = max(pairs, key=pairs.__getitem__)
+        rivals = [
+            (k, row)
+            for (k, row), value in pairs.items()
+            if (k == number) != (row == name) and value * _PLAIN > pairs[best]
+        ]
+        # A side of the roof that cannot be told is new: its name cannot be drawn.
+        if not rivals or drawn[number].handle:
+            matches[number] = name
+        if rivals and drawn[number].handle:
+            told += 1
+            numbers, names = ({*each} for each in zip(best, *rivals, strict=True))
+            yield _either([drawn[k] for k in sorted(numbers)], sorted(names), unit)
+        pairs = {p: value for p, value in pairs.items() if p[0] != number and p[1] != name}
+
+
+def _either(places: Sequence[DrawnOutline], names: Sequence[str], unit: Unit) -> str:
+    shown = (f"{place.handle or place.kind.value} ({placed(place.shape, unit)})"
+             for place in places)  # fmt: skip
+    return f"{listed(shown)} may be {listed(names).replace(', ', ' or ')}"
+
+
+def _renamed(
+    plan: RoofPlan,
+    matches: Mapping[int, str],
+    before: Mapping[str, Shape],
+    rows: Mapping[str, InputRow],
+) -> RoofPlan:
+    drawn = (*plan.arrays, *plan.objects)
+    taken = {name.casefold() for name in before}
+    taken |= {place.name.casefold() for place in drawn if not place.unnamed}
+    counts: Counter[LayerKind] = Counter()
+    named = []
+    for number, place in enumerate(drawn):
+        if number not in matches:
+            name = free_name(place.kind, counts, taken) if place.unnamed else place.name
+            named.append(replace(place, name=name))
+            continue
+        name = matches[number]
+        is_written = not place.unnamed and place.name.casefold() == name.casefold()
+        other = f"'{place.name}' in the drawing" if not place.unnamed else "by its place"
+        place = replace(place, name=name, unnamed="" if is_written else other)
+        # A side of the roof has no parapet unless the row says so.
+        is_assumed = not place.handle and "kind" in rows[name]
+        kind = LayerKind(rows[name]["kind"].value) if is_assumed else place.kind
+        named.append(replace(place, kind=kind, note="" if is_assumed else place.note))
+    count = len(plan.arrays)
+    return replace(plan, arrays=tuple(named[:count]), objects=tuple(named[count:]))
