@@ -185,7 +185,7 @@ def _fill_arrays(change: WorkbookChange, plan: RoofPlan) -> list[str]:
         if before and not _is_same_size(before, place.shape):
             typed = _typed(change, "arrays", row, {"modules"} if place.modules else set())
             lines.append(f"{place.name} has another size; stays as typed: {typed}")
-        if place.modules:
+        if place.modules and "modules" in change.table("arrays").columns:
             if not change.cell("arrays", row, "modules").is_blank:
                 change.refuse("arrays", row, "modules", f"the number of modules of {place.name}")
             values["modules"] = place.modules
