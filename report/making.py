@@ -102,7 +102,7 @@ def make(
     pdf = lay_out(html, attachments(files, results, short), sheets.append)
 
     progress(Step("writing the result tables"))
-    shown = page(html, assessment, short) if has_page else b""
+    shown = page(html, assessment, short, results) if has_page else b""
     written = zip(OUTPUTS, (pdf, shown, plan, tables, results), strict=True)
     made = {name: content for name, content in written if content}
     publish(made, folder, OUTPUTS)

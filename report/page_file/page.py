@@ -7,7 +7,10 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import re
+import warnings
 from collections.abc import Mapping
+from pathlib import Path
 from typing import NamedTuple
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
@@ -16,6 +19,7 @@ from markupsafe import Markup
 
 from report.assessment.assessment import Assessment
 from report.document.templates import rendered
+from report.page_file.data import data
 from report.typeset.pdf import TEMPLATES
 
 SECTIONS = ("summary", "plan", "comparison", "limits")
@@ -24,6 +28,14 @@ SECTIONS = ("summary", "plan", "comparison", "limits")
 SHADES = (0.5, 0.8, 1.0)
 """Values of D/C between which arrays are shaded alike on the plan."""
 
+# Of a file with what it computes with.
+MOST_BYTES = 2_500_000
+
+_OWN = Path(__file__).parent / "static"
+# The scripts and the style of the page that `serve` shows, of which it plays a run.
+_SHARED = Path(__file__).parents[1] / "web" / "static"
+_IMPORT = re.compile(r'^import (\{[^}]*\}) from "\./([\w-]+\.js)";\n', re.MULTILINE)
+_EXPORTED = re.compile(r"^export (?:async )?(?:function|const|class) (\w+)", re.MULTILINE)
 _FONTS = {"regular": 400, "semibold": 700}
 _SVG, _LINK = "{http://www.w3.org/2000/svg}", "{http://www.w3.org/1999/xlink}href"
 _SVG_DATA = "data:image/svg+xml;base64,"
@@ -38,24 +50,69 @@ class Section(NamedTuple):
     body: Markup
 
 
-def page(package: str, assessment: Assessment, fingerprint: str) -> bytes:
-    """Return the file, from the HTML of the package."""
-    css = _css()
+def page(package: str, assessment: Assessment, fingerprint: str, results: bytes) -> bytes:
+    """Return the file, from the HTML of the package and results.json.
+
+    Where it would be too large it computes nothing, and says so.
+    """
+    given = data(assessment, results) if assessment.has_motions else ""
+    made = _page(package, assessment, fingerprint, given)
+    if len(made) <= MOST_BYTES:
+        return made
+    warnings.warn(
+        f"calc-package.html is without recomputation: with it, it would have {len(made) / 1e6:.1f} "
+        f"MB, more than {MOST_BYTES / 1e6:.1f} MB",
+        stacklevel=2,
+    )
+    return _page(package, assessment, fingerprint, "")
+
+
+def _page(package: str, assessment: Assessment, fingerprint: str, given: str) -> bytes:
+    css, script = _css(), _script("file.js") if given else ""
     # Whatever is in the file: nothing is loaded, and no other style or script is obeyed.
     policy = f"default-src 'none'; style-src {_hash(css)}; font-src data:; base-uri 'none'"
+    if given:
+        policy += f"; script-src {_hash(script)} 'wasm-unsafe-eval'"
+    shades = {item.id: _shade(assessment, item.id) for item in assessment.arrays}
     context = {
         "project": assessment.project.project,
         "rules": assessment.rules.name,
         "verdict": assessment.verdict,
+        "has_motions": assessment.has_motions,
         "fingerprint": fingerprint,
         "policy": f"{policy}; form-action 'none'",
         "css": Markup(css),
-        "sections": _sections(
-            package, {item.id: _shade(assessment, item.id) for item in assessment.arrays}
-        ),
+        "script": Markup(script),
+        "data": Markup(given),
+        "most_mb": MOST_BYTES / 1e6,
+        "sections": _sections(package, shades),
         "shades": SHADES,
     }
     return rendered(TEMPLATES, "page-file.html", context).encode()
+
+
+def _script(name: str) -> str:
+    """Return a module with all that it imports as one script: each is a function of its own."""
+    modules: dict[str, str] = {}
+
+    def add(name: str) -> None:
+        own = _OWN / name
+        text = (own if own.is_file() else _SHARED / name).read_text(encoding="utf-8")
+        for _, other in _IMPORT.findall(text):
+            if other not in modules:
+                add(other)
+        names = ", ".join(_EXPORTED.findall(text))
+        body = _IMPORT.sub(lambda found: _taken(*found.groups()), text)
+        body = re.sub(r"^export ", "", body, flags=re.MULTILINE)
+        modules[name] = f'modules["{name}"] = (() => {{\n{body}return {{ {names} }};\n}})();\n'
+
+    add(name)
+    return f'"use strict";\nconst modules = {{}};\n{"".join(modules.values())}'
+
+
+def _taken(names: str, module: str) -> str:
+    """Return an import as a constant."""
+    return f'const {names.replace(" as ", ": ")} = modules["{module}"];\n'
 
 
 def _css() -> str:
@@ -65,7 +122,8 @@ def _css() -> str:
         f"{weight}; src: url(data:font/woff;base64,{_base64(_part(f'{name}.woff'))}); }}\n"
         for name, weight in _FONTS.items()
     )
-    return "".join(faces) + _part("page-file.css").decode()
+    views = (_SHARED / "views.css").read_text(encoding="utf-8")
+    return "".join(faces) + _part("page-file.css").decode() + views
 
 
 def _part(name: str) -> bytes:

@@ -102,6 +102,23 @@ class RoofResult(ResultModel):
     """Free vibration after the end of the ground record."""
 
 
+class LengthUnitResult(ResultModel):
+    """A unit of length as it is printed."""
+
+    symbol: str
+    size_m: float
+    """Its length."""
+    decimals: int
+    """Decimals that are printed."""
+
+
+class PrintedResult(ResultModel):
+    """How numbers are printed."""
+
+    lengths: tuple[LengthUnitResult, ...]
+    """Of displacements and separations, the preferred unit first."""
+
+
 class MotionResult(ResultModel):
     """A motion as it was run."""
 
@@ -116,6 +133,9 @@ class MotionResult(ResultModel):
     """Time step."""
     npts: int
     """Number of samples."""
+    sha256: str
+    """SHA-256 of its samples as run, without the scale: record, transverse and vertical component
+    one after the other, in m/s² as 8-byte numbers, the lowest byte first."""
     components: Mapping[str, Measures]
     """Measures of each component."""
     building: Mapping[str, RoofResult]
@@ -605,6 +625,8 @@ class Results(ResultModel):
     """Whether the workbook states all that the seismic design category needs."""
     rule_set: str
     """Name of the rule set."""
+    printed: PrintedResult
+    """How numbers are printed."""
     verdict: Verdict
     """Verdict on the project."""
     warnings: tuple[str, ...]

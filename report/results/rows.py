@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
 from collections.abc import Iterable, Iterator, Mapping
+
+import numpy as np
 
 from report.assessment.assessment import Assessment
 from report.assessment.causes import came_to
@@ -31,6 +34,7 @@ from report.results import model
 from report.runs import MotionRun, OrientedRun
 from report.text.amounts import Amount
 from report.text.counts import joined
+from report.text.unit_format import UnitFormat
 from solver.building.roof import RoofMotion
 from solver.model import Motion
 from solver.rules.provisions import AnalysisValue
@@ -52,6 +56,7 @@ def results(assessment: Assessment, evidence: Evidence) -> model.Results:
         s_ds_g=project.site.s_ds,
         sdc_is_confirmed=not project.site.sdc_lacks,
         rule_set=assessment.rules.name,
+        printed=_printed(project.us_first),
         verdict=assessment.verdict,
         warnings=tuple(
             sentence(check, project.us_first) for check in assessment.open if check.id == "runs"
@@ -105,9 +110,24 @@ def _motion(motion: Motion, prepared: PreparedMotion) -> model.MotionResult:
     return model.MotionResult(
         id=motion.id, recorded_at=prepared.recorded_at, processing=prepared.done,
         scaling=prepared.scaling, scale=motion.scale, dt_s=motion.dt_s, npts=len(motion.ax_mps2),
-        components=prepared.measures,
+        sha256=_hash(motion), components=prepared.measures,
         building={name: _roof(roof) for name, roof in prepared.roof.items()},
     )  # fmt: skip
+
+
+def _hash(motion: Motion) -> str:
+    samples = np.concatenate((motion.ax_mps2, motion.ay_mps2, motion.az_mps2))
+    return hashlib.sha256(samples.astype("<f8").tobytes()).hexdigest()
+
+
+def _printed(us_first: bool) -> model.PrintedResult:
+    units = UnitFormat(us_first=us_first).units()
+    return model.PrintedResult(
+        lengths=tuple(
+            model.LengthUnitResult(symbol=unit.symbol, size_m=unit.si, decimals=unit.decimals)
+            for unit in units
+        )
+    )
 
 
 def _roof(roof: RoofMotion) -> model.RoofResult:

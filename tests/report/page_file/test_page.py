@@ -68,7 +68,7 @@ def test_its_policy_allows_its_own_style_alone_and_it_names_no_address(reported)
 
 def test_arrays_are_shaded_by_their_largest_ratio_and_names_are_no_anchors():
     assessment = assessments.usual()
-    found = page(drawn("A1", "RTU-1"), assessment, "0" * 12).decode()
+    found = page(drawn("A1", "RTU-1"), assessment, "0" * 12, b"{}").decode()
     ratio = assessment.governing_gap("A1").demand_capacity
     step = sum(ratio > limit for limit in (0.5, 0.8, 1.0))
     assert f'<g class="shade-{step}"><path' in found

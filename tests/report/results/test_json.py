@@ -99,7 +99,7 @@ PLAIN = {
     "demand", "capacity", "held_ratio", "sliding_ratio", "times", "mus", "ratio",
     "least_mu", "lowest_mu_tried", "given", "resolution", "verified", "n_values",
     "n_unfinished", "n_runs", "damping_ratio", "schema_version", "i_p", "force_factor",
-    "force_divisor", "importance",
+    "force_divisor", "importance", "decimals",
 }  # fmt: skip
 
 
