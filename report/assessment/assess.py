@@ -15,8 +15,8 @@ from typing import Any
 from report.assessment.assessment import Assessment
 from report.assessment.design.arrays import assess_array, marked
 from report.assessment.design.clearances import by_id, check_clearance, marked_gap
+from report.assessment.design.friction import SHIFT, with_friction, with_low_velocity
 from report.assessment.design.linked_blocks import assess_linked
-from report.assessment.design.other_friction import SHIFT, with_friction, with_low_velocity
 from report.assessment.design.rule_set import as_adopted, rule_set_of
 from report.assessment.low_velocity import NOT_BY_VELOCITY, low_velocity
 from report.assessment.motion_acceptance import shaking_acceptance

@@ -9,8 +9,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from report.assessment.checks.alike import alike
-from report.assessment.checks.check import Check, by_ratio
-from report.assessment.checks.ids import MOTIONS_ID
+from report.assessment.checks.check import MOTIONS_ID, Check, by_ratio
 from report.assessment.checks.sentence import words
 from report.assessment.design.verdict import Verdict
 from report.text.counts import grouped_by, numbered

@@ -7,10 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from functools import partial
 
 from report.assessment.checks.array_capacities import slack_check
 from report.assessment.checks.check import Check
+from report.assessment.checks.displacement import MORE_MOTIONS, no_design
 from report.assessment.checks.every import before_runs
 from report.assessment.checks.fire_access import of_pathways
 from report.assessment.checks.rule_limits import against_analysis
@@ -70,8 +72,11 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
         for array in data.arrays
     ]
     statistic = Place("options", 0, "statistic")
-    if basis and lacking and any(limits.route is Route.ANALYSIS for limits in routes):
-        yield limit(f"{lacking}: {Verdict.NG.value}", statistic)
+    pairs = zip(data.arrays, routes, strict=True)
+    analyzed = [array.id for array, limits in pairs if limits.route is Route.ANALYSIS]
+    if basis and lacking and analyzed:
+        none = no_design(rules, analyzed, lacking, MORE_MOTIONS)
+        yield _finding(replace(none, places=(statistic,)), data.us_first)
     for array, limits in zip(data.arrays, routes, strict=True):
         if limits.route is Route.PRESCRIPTIVE and shaking.motions:
             why = against_analysis(data, rules, limits, acceptance, len(shaking.motions))
@@ -79,9 +84,7 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
             yield note(place, f"{array.id} uses the prescriptive displacement: {'; '.join(why)}")
     if not shaking.motions:
         yield from _not_run(data)
-    pairs = zip(data.arrays, routes, strict=True)
-    by_runs = {array.id for array, limits in pairs if limits.route is Route.ANALYSIS}
-    known = before_runs(data, rules, shaking, acceptance, routes, by_runs)
+    known = before_runs(data, rules, shaking, acceptance, routes, analyzed)
     yield from map(partial(_finding, us_first=data.us_first), _unsatisfied(known, data))
 
 

@@ -12,10 +12,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from report.assessment.causes import came_to, governing_words
-from report.assessment.checks.ids import LOWERING, VELOCITY_ROW
+from report.assessment.checks.check import LOWERING, VELOCITY_ROW
 from report.assessment.design.clearances import by_id
-from report.assessment.design.friction_words import mus_words
-from report.assessment.design.other_friction import at_low_velocity, with_low_velocity
+from report.assessment.design.friction import at_low_velocity, mus_words, with_low_velocity
 from report.assessment.design.rule_set import as_adopted, under_code
 from report.assessment.design.verdict import Verdict
 from report.project.model import ProjectInput
@@ -35,11 +34,15 @@ def prices(
     """Return what a project comes to without what checks ask for, by their ids.
 
     Of checks that are open, where a displacement or a verdict is another one then; of a peer
-    review and a letter of acceptance on file, too. `reassess` is given another input, and the
-    motions that it is without.
+    review and a letter of acceptance on file, and of friction by velocity, too. `reassess` is
+    given another input, and the motions that it is without.
     """
     found = dict[str, str]()
-    wanted = {check.id for check in done.checks if check.is_open} | {_REVIEW, _RULE_SET}
+    wanted = {check.id for check in done.checks if check.is_open} | {
+        _REVIEW,
+        _RULE_SET,
+        VELOCITY_ROW,
+    }
     for ids, other, motions, how in _others(done):
         if (motions or other is not done.project) and not wanted.isdisjoint(ids):
             found |= dict.fromkeys(ids, _price(done, reassess(done, other, motions), how))

@@ -19,7 +19,7 @@ from jinja2 import pass_context
 from markupsafe import Markup
 
 from report.assessment.checks.check import dagger
-from report.assessment.design.friction_words import mu_words
+from report.assessment.design.friction import mu_words
 from report.document.tables import headed, merged, part_of, stamp
 from report.text import counts, formats, units
 from report.typeset import equations

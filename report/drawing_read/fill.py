@@ -16,8 +16,7 @@ from report.drawing_read.plan_read import check_size, known_layers, plan_of, uni
 from report.drawing_read.roof_drawing import DrawnOutline, RoofDrawing
 from report.drawing_read.roof_plan import RoofPlan
 from report.drawing_read.row_matching import matched
-from report.project.check.far_shapes import far_off
-from report.project.check.plan_shapes import us_first
+from report.project.check.plan_shapes import far_off, us_first
 from report.project.check.problem_lines import listed
 from report.project.model.choices import LayerKind
 from report.project.model.input_rows import Inputs

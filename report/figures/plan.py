@@ -20,7 +20,7 @@ from matplotlib.patches import Arc, FancyArrowPatch, Polygon
 from matplotlib.patches import Circle as Round
 from matplotlib.text import Text as Words
 
-from report.assessment.design.friction_words import mu_words
+from report.assessment.design.friction import mu_words
 from report.drawing.items import (
     TYPE_PT,
     Arrow,

@@ -11,8 +11,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 
-from report.assessment.checks.check import THIS_PROGRAM
-from report.assessment.checks.ids import MOTIONS_ID
+from report.assessment.checks.check import MOTIONS_ID, THIS_PROGRAM
 from report.assessment.checks.sentence import texts
 from report.assessment.support.departures import LEAST_MEAN
 from report.assessment.support.spectra import Spectra

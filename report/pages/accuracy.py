@@ -13,8 +13,7 @@ from report.assessment.assessment import Assessment
 from report.assessment.checks.sentence import sentence
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.clearances import by_id
-from report.assessment.design.friction_words import mu_words
-from report.assessment.design.other_friction import SHIFT, with_mu
+from report.assessment.design.friction import SHIFT, mu_words, with_mu
 from report.assessment.support.evidence import Evidence
 from report.assessment.support.margins import Margin
 from report.assessment.support.shifted_friction import Accuracy

@@ -11,7 +11,7 @@ from dataclasses import replace
 from report.assessment.assessment import Assessment
 from report.assessment.causes import unshown_cause
 from report.assessment.design.arrays import ArrayAssessment
-from report.assessment.design.friction_words import mu_words
+from report.assessment.design.friction import mu_words
 from report.assessment.design.gaps import ComparedGap
 from report.assessment.design.routes import SEAOC, prescriptive_of
 from report.assessment.design.words import NOT_GIVEN

@@ -9,10 +9,10 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from report.assessment.checks.ids import VELOCITY_ROW
+from report.assessment.checks.check import VELOCITY_ROW
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.clearances import by_id
-from report.assessment.design.friction_words import mu_words
+from report.assessment.design.friction import mu_words
 from report.assessment.design.tested_friction import MOST_BEYOND, tested
 from report.assessment.design.velocity_check import velocity_check
 from report.assessment.design.verdict import Verdict

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from report.assessment.design.friction_words import mu_words
+from report.assessment.design.friction import mu_words
 from report.document.columns import ColumnHead, length, plain, text, weight, words
 from report.document.tables import Table, listed
 from report.motions.history import ac156

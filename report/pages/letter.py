@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 
 from report.assessment.assessment import Assessment
-from report.assessment.checks.ids import LOWERING
+from report.assessment.checks.check import LOWERING
 from report.assessment.design.verdict import Verdict
 from report.document.tables import stamp
 from report.pages.array_tables import letter_table

@@ -16,7 +16,7 @@ from markupsafe import Markup, escape
 from report.assessment.assessment import Assessment
 from report.assessment.checks.alike import subjects
 from report.assessment.checks.check import dagger
-from report.assessment.design.friction_words import mus_words
+from report.assessment.design.friction import mus_words
 from report.assessment.design.verdict import Verdict
 from report.assessment.plan.neighbors import Cover
 from report.assessment.precheck import findings

@@ -14,8 +14,7 @@ from operator import attrgetter, methodcaller
 from markupsafe import Markup
 
 from report.assessment.checks.alike import alike
-from report.assessment.checks.check import Check
-from report.assessment.checks.ids import STRENGTH_ROW
+from report.assessment.checks.check import STRENGTH_ROW, Check
 from report.assessment.checks.sentence import texts
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.verdict import severity

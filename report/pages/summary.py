@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from report.assessment.assessment import Assessment
 from report.assessment.checks.alike import alike
-from report.assessment.checks.ids import VELOCITY_ROW
+from report.assessment.checks.check import VELOCITY_ROW
 from report.assessment.remedies.remedies import Remedies
 from report.assessment.support.evidence import Evidence
 from report.document.tables import stamp
@@ -104,11 +104,12 @@ def _enough(done: Assessment, found: Remedies) -> str:
 def _what_if(package: PackageData, evidence: Evidence) -> Iterator[str]:
     """Yield what another input comes to; of a condition its own row says it."""
     done = package.assessment
-    # Of a rule set that the jurisdiction accepts no row says it.
-    says = {check.id for check in done.checks if check.is_open} & {"rule_set", "edition_name"}
-    if "rule_set" in done.otherwise and not says:
-        yield done.otherwise["rule_set"]
+    # Of a rule set that the jurisdiction accepts no row says it, nor of friction that tests show.
+    told = {check.otherwise for check in done.checks if check.is_open}
+    for id in ("rule_set", VELOCITY_ROW):
+        if done.otherwise.get(id, "") not in (*told, ""):
+            yield done.otherwise[id]
     for case in evidence.cases:
-        is_slow = done.low_velocity.of(case.array.id) is case.array
-        if not (is_slow and VELOCITY_ROW in done.otherwise):
+        # What friction by velocity comes to is said above, of all arrays together.
+        if done.low_velocity.of(case.array.id) is not case.array:
             yield case.words(package.fmt.us_first)

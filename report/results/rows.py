@@ -13,7 +13,7 @@ from report.assessment.causes import came_to
 from report.assessment.checks.sentence import sentence, texts
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.clearances import ClearanceCheck
-from report.assessment.design.friction_words import mu_words
+from report.assessment.design.friction import mu_words
 from report.assessment.design.linked_blocks import LinkedArray, LinkedMotion, LinkedRun
 from report.assessment.plan.neighbors import PlanNeighbor
 from report.assessment.precheck import findings

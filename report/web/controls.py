@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from report.assessment.design.friction_words import mu_words
+from report.assessment.design.friction import mu_words
 from report.project.model import ProjectInput
 from report.project.model.array import Array
 from report.project.model.choices import Polarity, RuleSetName, UnitsFirst

@@ -6,8 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from report.assessment.checks.check import Actor, Check, Sense, condition, dagger
-from report.assessment.checks.ids import STRENGTH_ROW
+from report.assessment.checks.check import STRENGTH_ROW, Actor, Check, Sense, condition, dagger
 from report.assessment.design.rule_set import rule_set_of
 from report.assessment.design.words import NO_DESIGN, NOT_GIVEN
 from report.project.model import ProjectInput

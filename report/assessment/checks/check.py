@@ -11,18 +11,31 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import partial
+from typing import NamedTuple
 
 from report.assessment.design.rule_set import OVERRIDDEN
 from report.assessment.design.verdict import BY_CONSEQUENCE, Verdict, severity, worst
-from report.assessment.design.words import NO_DESIGN
+from report.assessment.design.words import NO_DESIGN, NOT_GIVEN
 from report.project.model.place import Place
 from report.text.amounts import Amount
 from report.text.units import nan_is_worst
 from solver.rules.limit import PROGRAM, Consequence
 from solver.rules.provisions import Provision
 
-THIS_PROGRAM = PROGRAM.clause
+# Id of the limits on the motions.
+MOTIONS_ID = "motions"
+# Id of the requirement on friction beyond the velocities tested.
+VELOCITY_ROW = "friction_velocity"
+# Id of the requirement that clearances are given as the plan has them.
+PLAN_ROW = "neighbors"
+# Id of the requirement on the strength between the parts of an array.
+STRENGTH_ROW = "interconnection"
 
+OVERRIDE_ID = "override"
+# Ids of the rows here.
+LOWERING = (OVERRIDE_ID, "statistic")
+
+THIS_PROGRAM = PROGRAM.clause
 
 # By so much may a ratio be above 1 by rounding.
 _NOISE = 1e-6
@@ -174,3 +187,19 @@ def verdict_of(checks: Iterable[Check], array: str = "") -> Verdict:
     found = worst(check.verdict for check in checks if not array or array in check.arrays)
     is_project = not array and found is Verdict.CONDITION
     return Verdict.CONDITIONS if is_project else max(found, Verdict.OK, key=severity)
+
+
+class StatedParts(NamedTuple):
+    """What a block states of several parts, and the cells of those that it lacks."""
+
+    found: str
+    missing: tuple[Place, ...]
+
+
+def stated(section: str, **parts: tuple[str, object]) -> StatedParts:
+    """Return what a block states of its parts, each a name and a value by its field."""
+    values = [str(value) for _, value in parts.values() if value]
+    missing = {field: name for field, (name, value) in parts.items() if not value}
+    lacks = [f"{', '.join(missing.values())} missing"] if missing else []
+    found = "; ".join([*values, *lacks]) if values else NOT_GIVEN
+    return StatedParts(found, tuple(Place(section, 0, field) for field in missing))

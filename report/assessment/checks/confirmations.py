@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from report.assessment.checks.check import Actor, Check, condition
-from report.assessment.checks.stated import stated
+from report.assessment.checks.check import Actor, Check, condition, stated
 from report.assessment.design.words import NOT_GIVEN
 from report.project.model import ProjectInput
 from report.project.model.place import Place

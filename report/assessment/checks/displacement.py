@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from report.assessment.checks.array_capacities import slack_check
@@ -13,13 +14,16 @@ from report.text.amounts import Amount, capacity, demand
 from report.text.counts import grouped_by, lowered, ranged
 from report.text.units import Quantity, no_less, pair
 from solver.model import Status
-from solver.rules.provisions import review_lifts_slope
+from solver.rules.provisions import RuleSet, review_lifts_slope
 
 if TYPE_CHECKING:
     from report.assessment.assessment import Assessment
     from report.assessment.design.arrays import ArrayAssessment
     from report.assessment.design.linked_blocks import LinkedArray
     from report.runs import OrientedRun
+
+
+MORE_MOTIONS = "Complete or replace the motions."
 
 
 def of_array(done: Assessment, item: ArrayAssessment) -> Iterator[Check]:
@@ -33,24 +37,30 @@ def of_array(done: Assessment, item: ArrayAssessment) -> Iterator[Check]:
 
 
 def _design(done: Assessment, item: ArrayAssessment) -> Check:
-    found: Amount | str = demand(item.design_m, Quantity.DISPLACEMENT, item.overridden.design)
-    note = item.source
+    remedy = _way_out(done, item)
+    if item.lacks_motions:
+        basis, count = statistic_basis(done.project), len(done.shaking.motions)
+        return no_design(done.rules, [item.id], lacking_motions(done.rules, basis, count), remedy)
+    none = no_design(done.rules, [item.id], f"by the {item.route} procedure", remedy)
     if math.isnan(item.design_m):
-        found, note = "none", f"by the {item.route} procedure"
-        if item.lacks_motions:
-            basis = statistic_basis(done.project)
-            note = lacking_motions(done.rules, basis, len(done.shaking.motions))
+        return none
+    design = demand(item.design_m, Quantity.DISPLACEMENT, item.overridden.design)
+    return replace(none, found=design, note=item.source, is_satisfied=item.is_permitted)
+
+
+def no_design(rules: RuleSet, arrays: Sequence[str], why: str, remedy: str) -> Check:
+    """Return that arrays have no design displacement, and why."""
     return Check(
         id="design",
         title="Design displacement",
-        subject=item.id,
-        arrays=(item.id,),
-        found=found,
-        note=note,
+        subject=ranged(arrays),
+        arrays=tuple(arrays),
+        found="none",
+        note=why,
         limit="a value by a procedure that is permitted",
-        clause=done.rules.name,
-        is_satisfied=item.is_permitted and not math.isnan(item.design_m),
-        remedy=_way_out(done, item),
+        clause=rules.name,
+        is_satisfied=False,
+        remedy=remedy,
     )
 
 
@@ -60,7 +70,7 @@ def _way_out(done: Assessment, item: ArrayAssessment) -> str:
         # Runs that do not come to rest, and slopes, have checks of their own.
         is_of_motions = item.lacks_motions or not done.acceptance.qualifies
         is_analyzed = item.route is Route.ANALYSIS
-        return "Complete or replace the motions." if is_analyzed and is_of_motions else ""
+        return MORE_MOTIONS if is_analyzed and is_of_motions else ""
     is_lifted = review_lifts_slope(done.rules, done.project.site.sdc)
     if not (item.limits.may_be_analyzed or is_lifted):
         return ""

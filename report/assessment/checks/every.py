@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -22,8 +22,7 @@ from report.assessment.checks import (
     rule_limits,
     seismic_parameters,
 )
-from report.assessment.checks.check import Check
-from report.assessment.checks.ids import MOTIONS_ID, VELOCITY_ROW
+from report.assessment.checks.check import MOTIONS_ID, VELOCITY_ROW, Check
 from report.assessment.design.routes import Route, RouteLimits, interconnection_n
 from report.project.model import ProjectInput
 from solver.records.acceptance import Acceptance
@@ -37,7 +36,6 @@ if TYPE_CHECKING:
 
 # Of a check on the analysis where nothing follows from it.
 NO_EFFECT = "For information only: the design displacement is prescriptive."
-
 
 # Who takes the prescriptive displacement need not meet them.
 _OF_ANALYSIS = (MOTIONS_ID, "drift", "ground_motions", "peer_review", VELOCITY_ROW)
@@ -61,10 +59,19 @@ def every(done: Assessment) -> tuple[Check, ...]:
         ),
         *less_friction.of_less(done),
     )
-    return tuple(
-        replace(check, otherwise=done.otherwise[check.id]) if check.id in done.otherwise else check
-        for check in found
-    )
+    return tuple(_with_otherwise(found, done.otherwise))
+
+
+def _with_otherwise(checks: Sequence[Check], otherwise: Mapping[str, str]) -> Iterator[Check]:
+    """Yield checks, each outcome with the first that is open of those that it is the outcome of."""
+    # Two overrides have one outcome, and so has one friction law of several arrays.
+    told = dict[str, Check]()
+    for check in sorted(checks, key=lambda check: not check.is_open):
+        if check.id in otherwise:
+            told.setdefault(otherwise[check.id], check)
+    for check in checks:
+        text = otherwise.get(check.id, "")
+        yield replace(check, otherwise=text) if told.get(text) is check else check
 
 
 def before_runs(

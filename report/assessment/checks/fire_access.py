@@ -94,10 +94,7 @@ def _may_narrow(near: PlanNeighbor, lane_m: float) -> bool:
 # Largest plan dimension of an array section [m]: 150 ft, which local codes amend: hence †.
 FIRE_LANE_M = 150 * 0.3048
 
-
 _MOST_M = FIRE_LANE_M * (1.0 + 1e-9)  # 150 ft given in meters is no more than 150 ft
-
-
 _ROUNDING_M = 1e-3  # a pathway of 4 ft is typed as 1.22 m
 
 

@@ -7,9 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from report.assessment.checks.check import Actor, Check, Sense, condition
-from report.assessment.checks.ids import VELOCITY_ROW
-from report.assessment.checks.stated import stated
+from report.assessment.checks.check import VELOCITY_ROW, Actor, Check, Sense, condition, stated
 from report.assessment.design.tested_friction import (
     LEAST_RUNS,
     MOST_BEYOND,

@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from report.assessment.checks.check import Check, condition
-from report.assessment.design.other_friction import SHIFT
+from report.assessment.design.friction import SHIFT
 from report.text.units import number
 from solver.rules.limit import Consequence
 

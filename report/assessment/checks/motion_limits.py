@@ -8,8 +8,7 @@ from dataclasses import replace
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
-from report.assessment.checks.check import Check
-from report.assessment.checks.ids import MOTIONS_ID
+from report.assessment.checks.check import MOTIONS_ID, Check
 from report.assessment.checks.rule_limits import of_limit
 from report.assessment.design.words import STAYS
 from report.motions.history import PreparedMotion
@@ -26,13 +25,10 @@ if TYPE_CHECKING:
 # Final displacement [m] and velocity [m/s] above which it is not accepted: in no code. A fault may
 # move the ground by more, and no ground keeps moving.
 MOST_DRIFT_M, MOST_END_MPS = 0.5, 0.1
-
-
 _DRIFT_TITLES = (
     "Final displacement of each component, unless it is stated to be permanent",
     "Final velocity of each component",
 )
-
 
 # Above it, records that are scaled to a target are of another intensity than it.
 MOST_FACTOR = 2.0

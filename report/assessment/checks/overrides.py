@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-from report.assessment.checks.check import Actor, Check, condition
-from report.assessment.checks.ids import OVERRIDE_ID
+from report.assessment.checks.check import OVERRIDE_ID, Actor, Check, condition
 from report.assessment.design.rule_set import OVERRIDDEN, takes_plain_mean
 from report.assessment.design.words import STAYS
 from report.project.model import ProjectInput

@@ -21,7 +21,6 @@ from solver.records.acceptance import POINTS_HZ, spectrum_mps2
 # Final displacement of a record [m] above which it drifts: the block would follow it as slip.
 DRIFT_M = 0.010
 
-
 # Periods from which on the mean of the ground motions / their target is compared, and the ratio
 # above which a peer reviewer must accept the motions: in no code.
 LONG_PERIOD_S, MOST_LONG_RATIO = 1.0, 2.0

@@ -6,9 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from report.assessment.checks.check import Check, Sense, condition
+from report.assessment.checks.check import PLAN_ROW, Check, Sense, condition
 from report.assessment.checks.fire_access import of_sections
-from report.assessment.checks.ids import PLAN_ROW
 from report.assessment.design.words import NO_DESIGN, NOT_GIVEN
 from report.project.model import ProjectInput
 from report.project.model.array import Array

@@ -91,7 +91,6 @@ _FIELDS = {
     "max_stories": "stories",
 }
 
-
 _REMEDIES = {
     "low_profile_in": "Lower the center of gravity of the array, or widen its supports.",
     "prescriptive_min_mu": "Provide more friction, shown by tests.",

@@ -64,7 +64,7 @@ def words(check: Check, array: str = "") -> str:
     if check.subject not in ("", array):
         name += f" {check.subject}" if check.id in PAIRS else f" of {check.subject}"
     if math.isinf(check.ratio) and isinstance(check.found, str):
-        return f"{name}: {check.found}"
+        return f"{name} ({check.found})"
     if isinstance(check.limit, Amount) and check.limit.quantity is Quantity.COUNT:
         found, limit = _texts(check, us_first=True)
         return f"{name} ({found}, {check.sense.words} {limit})"

@@ -18,7 +18,6 @@ from solver.rules.provisions import Basis, Prescriptive, RuleSet
 # In place of a design displacement by a route that is not permitted, or beside it.
 NOT_PERMITTED = "not permitted"
 
-
 # Of the limit on the number of motions: more motions lift it, and no other one.
 MOTIONS_KEY = "analysis_min_motions"
 

@@ -14,7 +14,6 @@ from solver.rules.rulesets import IBC_SECTION, IBC_SLOPE
 # Mark of a number that an override or a departure changes.
 OVERRIDDEN = "‡"
 
-
 MEANING = f"{OVERRIDDEN}: changed by an override or a departure"
 
 

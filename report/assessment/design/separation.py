@@ -21,10 +21,8 @@ if TYPE_CHECKING:
 # have it, too.
 ALIKE_DEG = 1.0
 
-
 # Tolerance [rad] within which two slopes are the same: they may be typed in different units.
 ALIKE_SLOPE_RAD = 1e-6
-
 
 # Edges with a parapet are missing here: their height decides.
 _KINDS = {

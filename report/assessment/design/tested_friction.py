@@ -20,15 +20,10 @@ from solver.model import Friction
 
 # PV1-2012: the kinetic average of three runs, of the worse of wet and dry.
 LEAST_RUNS = 3
-
-
 # Sliding velocity / largest velocity tested above which no test shows the friction: in no code.
 MOST_BEYOND = 10.0
 
-
 _NOISE = 1e-9  # of a coefficient: a mean of equal values is not above them
-
-
 # What names the standard of friction tests: PV1-2012 asks for ASTM G115.
 STANDARD = re.compile(r"\bASTM[\s-]*G[\s-]*115\b", re.IGNORECASE)
 

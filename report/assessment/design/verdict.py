@@ -38,7 +38,6 @@ ItemVerdict = Annotated[
     Verdict, AfterValidator(lambda read: Verdict.CONDITION if read is Verdict.CONDITIONS else read)
 ]
 
-
 BY_CONSEQUENCE = {
     Consequence.NG: Verdict.NG,
     Consequence.CONDITION: Verdict.CONDITION,

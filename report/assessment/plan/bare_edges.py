@@ -14,10 +14,7 @@ from report.project.model.shapes import Point, Polygon, Rectangle, Shape, gap_m,
 # foot.
 EDGE_STRIP_M = 0.3048
 
-
 _COMPASS = ("east", "northeast", "north", "northwest", "west", "southwest", "south", "southeast")
-
-
 EDGES = (ObjectKind.EDGE_WITH_PARAPET, ObjectKind.EDGE_WITHOUT_PARAPET)
 
 

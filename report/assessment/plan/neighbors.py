@@ -30,14 +30,11 @@ if TYPE_CHECKING:
 # An array's neighbors are within this many design displacements: either of two arrays may move.
 REACH_FACTOR = 2.0
 
-
 # Largest difference [m] between a given clearance and the gap of the plan: an inch, within which
 # `check` (`GAP_TOLERANCES_M`) stays, so that what passes there passes here.
 AGREES_M = INCH_M
 
-
 NOISE_M = 1e-9  # coordinates in feet are no round numbers of meters
-
 
 _WAYS = (Direction.DOWN, Direction.ACROSS, Direction.UP, Direction.ACROSS)  # by quarter turns
 

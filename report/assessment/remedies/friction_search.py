@@ -12,7 +12,7 @@ from dataclasses import replace
 from report.assessment.assessment import Assessment
 from report.assessment.design.arrays import ArrayAssessment, Displacement, assess_array
 from report.assessment.design.clearances import ClearanceCheck, check_clearance
-from report.assessment.design.other_friction import with_mu
+from report.assessment.design.friction import with_mu
 from report.project.model.roof import Clearance
 from solver.model import Status
 

@@ -23,13 +23,8 @@ from report.project.model.shapes import Point, Polygon, Rectangle, Shape, gap_m
 from report.text.units import Quantity, no_less, pair, round_up
 
 _NOISE_M = 1e-8  # a length that is rounded up is no less than what it is rounded from
-
-
 _NORTH_UP_DEG = 90.0  # counterclockwise from +x
-
-
 _MOST_TRIES = 10  # of the length of a move: more only where it goes past the other shape
-
 
 Change = Callable[[ProjectInput], ProjectInput]
 

@@ -16,12 +16,10 @@ from functools import cached_property, partial, reduce
 from report.assessment.assess import changed, entered, refused
 from report.assessment.assessment import Assessment
 from report.assessment.causes import came_to
-from report.assessment.checks.check import Check, by_ratio
-from report.assessment.checks.ids import PLAN_ROW, STRENGTH_ROW
+from report.assessment.checks.check import PLAN_ROW, STRENGTH_ROW, Check, by_ratio
 from report.assessment.design.clearances import ClearanceCheck, by_id
-from report.assessment.design.friction_words import mu_words
+from report.assessment.design.friction import mu_words, with_mu
 from report.assessment.design.gaps import ComparedGap
-from report.assessment.design.other_friction import with_mu
 from report.assessment.design.routes import Route
 from report.assessment.design.verdict import Verdict
 from report.assessment.remedies.friction_search import (
@@ -42,14 +40,10 @@ from report.text.units import Quantity, no_less, pair
 from solver.friction_tests import MOST_MU
 
 _NOISE = 1e-9
-
-
 _MOST_HUNDREDTHS = round(100.0 * MOST_MU)
-
 
 # Checks whose remedies are searched, those with the largest ratio first; and changes of a set.
 MOST = 12
-
 
 # What no change of arrays and clearances satisfies.
 _OF_THE_BUILDING = ("max_risk_category", "max_stories", "ibc_max_slope_deg")

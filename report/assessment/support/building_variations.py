@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from functools import partial
 
 from report.assessment.assessment import Assessment
-from report.assessment.design.clearances import with_displacements
-from report.assessment.design.routes import Route, statistic_basis
-from report.assessment.low_velocity import InputCase
+from report.assessment.design.routes import statistic_basis
 from report.motions.history import PreparedMotion, first_period_s, through_building
 from report.project.model import ProjectInput
 from report.project.model.array import Array
 from report.project.model.choices import Direction
 from report.project.model.motion_input import BuildingInput, MotionInput
 from report.runs import run_motion
-from report.text.units import nan_is_worst, number
 from solver.building.structure import MOST_PERIOD_S
 from solver.rules.provisions import AnalysisValue, analysis_value
 
@@ -62,27 +57,3 @@ def _others(used: BuildingInput) -> Iterator[BuildingInput]:
 def _prd_m(array: Array, data: ProjectInput, of: tuple[MotionInput, PreparedMotion]) -> float:
     row, prepared = of
     return run_motion(array, through_building(data, row, prepared)).peak_m(Direction.ANY)
-
-
-def building_case(assessment: Assessment, variations: Variations) -> InputCase | None:
-    """Return the governing array with the period or damping that lets it slide farthest, if any."""
-    array = assessment.governing
-    # Such a design displacement does not follow from one value of the analysis.
-    if not variations or array.route is not Route.ANALYSIS:
-        return None
-    (used, _), *others = variations
-    building, value = max(others, key=lambda pair: nan_is_worst(pair[1].value_m))
-    design_m = math.nan if math.isnan(value.value_m) else max(value.value_m, array.floor_m)
-    if not nan_is_worst(design_m) > array.design_m:
-        return None
-    is_damping = building.damping_percent != used.damping_percent
-    changed = (
-        f"{number(building.damping_percent, 1)} % damping of the building"
-        if is_damping
-        else f"{number(building.period_s or math.nan, 2)} s as the period of the building"
-    )
-    farther = replace(array, analysis=value, design_m=design_m)
-    slides = {array.id: farther.displacement}
-    given = assessment.gaps_of(array.id)
-    gaps = [with_displacements(assessment, slides, gap) for gap in given]
-    return InputCase(array=farther, changed=changed, gaps=gaps)

@@ -13,7 +13,6 @@ from report.assessment.support.spectra import Spectra
 # Mean of the motions / target above which the motions are said to exceed it: in no code.
 MOST_EXCESS = 1.30
 
-
 # Mean of the motions / target below which the motions fall short: 1.00 to the digits printed.
 LEAST_MEAN = 0.995
 

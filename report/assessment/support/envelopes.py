@@ -15,7 +15,6 @@ from report.runs import OrientedRun
 
 Outline = tuple[Point, ...]
 
-
 # Chords in a quarter of a circle. They are tangents, so that the envelope is never too small.
 ARC_STEPS = 6
 

@@ -8,11 +8,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from report.assessment.assessment import Assessment
-from report.assessment.low_velocity import InputCase
 from report.assessment.remedies.remedies import Remedies, remedies
 from report.assessment.support.building_variations import Variations, building_variations
 from report.assessment.support.filter_effect import Beyond, beyond_corners
-from report.assessment.support.other_inputs import cases
+from report.assessment.support.input_cases import InputCase, cases
 from report.assessment.support.shifted_friction import Accuracy, accuracy
 from report.assessment.support.smaller_events import Cumulative, cumulative
 from report.assessment.support.spectra import Spectra, spectra

@@ -11,14 +11,13 @@ import numpy as np
 
 from report.assessment.assessment import Assessment
 from report.assessment.design.arrays import ArrayAssessment
-from report.assessment.design.other_friction import with_mu
+from report.assessment.design.friction import with_mu
 from report.project.model.array import Array
 from solver.model import Floats, Scene, SlideResult, Status
 from solver.sliding import one_axis, two_axes
 
 # Points of the grid over friction and slope.
 N_MUS, N_SLOPES = 8, 6
-
 
 # Tolerance of the runs on the grid, relative to the PRD: it is drawn, not printed.
 TOLERANCE = 1e-3

@@ -9,7 +9,7 @@ from report.assessment.assessment import Assessment
 from report.assessment.checks.check import Check
 from report.assessment.checks.rule_limits import of_limit
 from report.assessment.design.clearances import ClearanceCheck
-from report.assessment.design.other_friction import SHIFT, with_friction
+from report.assessment.design.friction import SHIFT, with_friction
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

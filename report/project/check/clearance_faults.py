@@ -14,8 +14,6 @@ from report.text.units import Quantity, no_more, pair
 from solver.model import INCH_M
 
 GAP_TOLERANCE = 0.01
-
-
 # Below the inch at which a package states that a clearance contradicts the plan
 # (`report.assessment.plan.neighbors`): what passes here passes there.
 GAP_TOLERANCES_M = (0.5 * INCH_M, 0.99 * INCH_M)

@@ -6,7 +6,7 @@ Works on the values that could be read, so that one invalid cell hides no other 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from report.project.check.clearance_faults import clearance_faults
 from report.project.check.friction_faults import friction_faults
@@ -14,7 +14,6 @@ from report.project.check.input_columns import column, repeated, suggestion
 from report.project.check.link_faults import link_faults
 from report.project.check.motion_faults import motion_faults
 from report.project.check.plan_faults import plan_faults
-from report.project.check.references import REFERENCES, UNIQUE
 from report.project.check.required_cells import missing
 from report.project.check.site_faults import site_faults
 from report.project.model.array import slope_rad
@@ -27,6 +26,18 @@ from report.project.model.provision_names import provision_name
 from report.text.counts import cut, foreign_letters, looks
 from solver.rules.rulesets import ALLOWED, RULE_SETS
 from solver.suggestions import nearest
+
+# Tables whose ids differ from each other, without regard to capitals.
+UNIQUE = (("arrays", "objects"), ("motions",))
+
+
+# Fields that name a row of other tables; an outline may be that of the roof.
+REFERENCES: Mapping[tuple[str, str], tuple[str, ...]] = {
+    ("clearances", "array"): ("arrays",),
+    ("clearances", "object"): ("objects", "arrays"),
+    ("links", "array"): ("arrays",),
+    ("outlines", "name"): ("arrays", "objects"),
+}
 
 
 def faults(inputs: Inputs, where: Where) -> list[Finding]:

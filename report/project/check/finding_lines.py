@@ -41,9 +41,5 @@ def lines(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterat
 
 
 _MOST_CELLS = 4  # of one finding
-
-
 _SHEETS = {section.key: section.sheet for section in SECTIONS}
-
-
 _ORDER = {section.key: count for count, section in enumerate(SECTIONS)}

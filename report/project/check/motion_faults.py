@@ -20,14 +20,11 @@ from solver.building.structure import MOST_STORIES
 # Fields of a motion that name a record, each with the name of its component.
 LABELS = {"record": "horizontal", "transverse": "transverse", "vertical": "vertical"}
 
-
 # The same by component.
 FIELDS = {label: field for field, label in LABELS.items()}
 
-
 # Begins the source of a motion that was generated.
 GENERATED = "Generated, seed "
-
 
 # Duration [s] below which a motion is refused: no earthquake record is as short.
 SHORTEST_S = 1.0

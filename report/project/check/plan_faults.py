@@ -38,7 +38,6 @@ from report.text.units import Quantity, pair
 # Fields of which the second is larger, where a table has them.
 ORDERED = (("x_from_m", "x_to_m"), ("y_from_m", "y_to_m"))
 
-
 _EDGES = (ObjectKind.EDGE_WITH_PARAPET, ObjectKind.EDGE_WITHOUT_PARAPET)
 
 

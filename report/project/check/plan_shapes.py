@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from report.project.model.choices import UnitsFirst
@@ -10,7 +10,8 @@ from report.project.model.input_rows import InputRow, Inputs
 from report.project.model.place import Place, Where
 from report.project.model.placed import SIDES
 from report.project.model.roof import ROOF
-from report.project.model.shapes import Point, Polygon, Rectangle, Shape, crossing, ring
+from report.project.model.shapes import Point, Polygon, Rectangle, Shape, crossing, gap_m, ring
+from report.text.units import Quantity, pair
 
 # 2,000 arrays at one place would be two million pairs.
 LEAST_VERTICES, MOST_OVERLAPS = 3, 1_000
@@ -94,3 +95,26 @@ def outlines_of(inputs: Inputs) -> dict[str, OutlineRows]:
         vertices = tuple((row["x_m"], row["y_m"]) for _, row in rows) if is_whole else ()
         outlines[name] = OutlineRows(name, rows[0][0], vertices)
     return outlines
+
+
+# Distance [m] from which on a shape is far from a roof, if that is not longer; or from an array.
+LEAST_FAR_M, FAR_M = 30.0, 500.0
+
+
+def far_off(
+    shapes: Mapping[str, Shape], roof: Shape | None, is_us: bool
+) -> Iterator[tuple[str, str]]:
+    """Yield what lies far from the roof, or else from the largest shape, with a question."""
+    if not shapes:
+        return
+    largest = max(shapes, key=lambda name: shapes[name].area_m2)
+    center = roof or shapes[largest]
+    box = center.bounds
+    long_m = max(box.x_to_m - box.x_from_m, box.y_to_m - box.y_from_m)
+    far_m = max(long_m, LEAST_FAR_M) if roof else FAR_M
+    for name, shape in shapes.items():
+        away_m = gap_m(shape, center)
+        if away_m > far_m:
+            away = pair(away_m, Quantity.PLAN, is_us)
+            text = f"{name} is {away} from {'the roof' if roof else largest}: is it a leftover?"
+            yield name, f"{text} Delete it, or correct its place"

@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from report.project.check.clearance_faults import gap_tolerance_m
-from report.project.check.far_shapes import far_off
+from report.project.check.plan_shapes import far_off
 from report.project.check.site_faults import ROUNDING_OF_COEFFICIENTS
 from report.project.check.usual_ranges import spoken, unusual
 from report.project.model import ProjectInput

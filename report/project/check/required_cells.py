@@ -29,28 +29,13 @@ def _has_no_outline(row: InputRow, inputs: Inputs) -> bool:
 
 
 _OR_NONE = "give all four sides of the rectangle, or none"
-
-
 _OR_OUTLINE = "give all four sides of the rectangle, or an outline on the sheet Outlines"
-
-
 _LAW = "give high-velocity friction and friction rate, or neither"
-
-
 _CODE = "give building code and year, or neither"
-
-
 _BOTH = "give latitude and longitude, or neither"
-
-
 _CONFIRMED = "give who confirmed the drawing distances and when, or neither"
-
-
 _ALL_FIVE = "give all five cells of the confirmation, or none"
-
-
 _CONFIRMATION = ("by", "date", "rule_set", "edition", "code")
-
 
 # Optional cells that are required where others say so: when, and what would do.
 REQUIRED: Mapping[tuple[str, str], tuple[Condition, str]] = {

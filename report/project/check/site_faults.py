@@ -22,17 +22,11 @@ from solver.rules.site_coefficients import F_A, F_V, CoefficientTable, site_coef
 # Difference allowed between a value and the same from other cells: it is typed as a permit sheet
 # or a hazard tool prints it, rounded to two decimals or more.
 AGREES_G = 0.0051
-
-
 # Difference of a site coefficient from its table that is rounding: to two decimals.
 ROUNDING_OF_COEFFICIENTS = 0.0051
 
-
 _SDC = "seismic design category"
-
-
 _Chain = tuple[tuple[str, str], ...]
-
 
 # Names at the short period and at 1 s: mapped, coefficient, maximum considered, design.
 _CHAINS = (

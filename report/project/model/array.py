@@ -16,11 +16,7 @@ from solver.friction_tests import MOST_MU, MOST_RATE_S_PER_M
 from solver.model import DefectError, Friction
 
 ImportanceCell = Annotated[float, Field(ge=1.0, le=1.5)]
-
-
 MuCell = Annotated[float, Field(ge=0.0, le=MOST_MU)]
-
-
 RateCell = Annotated[float, Field(gt=0.0, le=MOST_RATE_S_PER_M)]
 
 

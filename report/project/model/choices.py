@@ -19,7 +19,6 @@ from solver.rules.rulesets import RULE_SETS
 
 MAX_TEXT = 2000
 
-
 Text = Annotated[str, Field(max_length=MAX_TEXT)]
 RequiredText = Annotated[str, Field(min_length=1, max_length=MAX_TEXT)]
 Id = Annotated[str, Field(min_length=1, max_length=40)]

@@ -62,8 +62,6 @@ class MotionInput(Frozen):
 
 
 Period = Annotated[float, Field(gt=0, le=10)]
-
-
 Percent = Annotated[float, Field(ge=1, le=50)]
 
 

@@ -32,6 +32,4 @@ class Placed(Frozen):
 
 # Fields of a rectangle in roof plan.
 SIDES = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
-
-
 _sides_of = attrgetter(*SIDES)

@@ -22,12 +22,8 @@ from report.project.model.placed import Placed
 
 # Whence a row comes that a command has taken from a drawing.
 DRAWING = "drawing"
-
-
 # The same with the number of modules.
 DRAWN_MODULES = f"{DRAWING}, modules too"
-
-
 # Name of the roof on the sheet Outlines.
 ROOF = "roof"
 

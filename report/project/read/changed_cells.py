@@ -33,22 +33,12 @@ class Formula(str):
 # What is written in a cell: a formula, text, a number, or nothing.
 Value = Formula | str | float | int | None
 
-
 _Place = tuple[int, int]  # row and column
-
-
 _Cells = Mapping[_Place, Value]
-
-
 _Columns = Sequence[tuple[range, Any]]  # with their elements
 
-
 _CALC_CHAIN = "xl/calcChain.xml"
-
-
 _CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
-
-
 _ONES = ("1", "true")
 
 

@@ -21,7 +21,6 @@ from solver.model import InputError
 # Bytes of all documents that a workbook attaches.
 MAX_DOCUMENTS = 20_000_000
 
-
 DOCUMENTS = (
     ("site", "hazard_printout"),
     ("site", "acceptance_letter"),

@@ -33,7 +33,6 @@ from solver.model import InputError, Problem
 
 MAX_ROWS = 2000
 
-
 _Place = tuple[Worksheet, int, int, int, range]
 
 

@@ -13,20 +13,12 @@ _PARTS = re.compile(
     r"|\[[^\]]{0,255}\]|(?P<end>;)|(?P<general>General)|(?P<digits>[0#?.,%@]|E[+-])|(?P<other>.)",
     re.IGNORECASE | re.DOTALL,
 )
-
-
 _LONGEST = 255  # characters that Excel allows in a format code (specifications and limits)
-
 
 # Each comma behind the last digit divides what is shown by 1,000.
 _SCALE = re.compile(r"[0#?](,+)(?![0#?,])")
-
-
 _WORDS = re.compile(r"[^\s()\[\]{},;:=]+")
-
-
 _SINGLE = re.compile(r"([^\d^]+?)\^?([23]?)")
-
 
 _NAMES = {
     "in": ("inch", "inches", '"', "″", "”"),
@@ -51,15 +43,11 @@ _NAMES = {
     "cm/s2": ("gal",),
     **dict.fromkeys(("kN", "MN", "psf", "psi", "ksi", "Pa", "kPa", "MPa", "plf", "Hz", "g"), ()),
 }
-
-
 _UNITS = {
     name if len(name) == 1 else name.casefold(): unit
     for unit, others in _NAMES.items()
     for name in (unit, *others)
 }
-
-
 _ALSO_A_WORD = frozenset(("min", "k"))  # a minimum, thousands
 
 

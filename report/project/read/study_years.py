@@ -9,14 +9,9 @@ from typing import Annotated, Final, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict
 
 SUPPORTING: Final = "Supporting analysis, not a code value"
-
-
 YEARS = "years.json"
-
-
 # When an array is put back where it was installed.
 NEVER, ABOVE, ALWAYS = "never", "above a distance", "after every event"
-
 
 # JSON has no infinity: a distance without bound is null.
 Meters = Annotated[

@@ -12,55 +12,28 @@ from datetime import date, datetime
 from fractions import Fraction
 
 _DIGITS = r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)"
-
-
 _SHARE = r"[0-9]{1,3}/[1-9][0-9]{0,2}"
-
-
 _NUMBER = re.compile(rf"[+-]?{_DIGITS}(?:[eE][+-]?[0-9]+)?")
-
-
 _DECIMAL_COMMA = re.compile(r"([+\u2212-]?[0-9]*),([0-9]+)")
-
-
 _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:,[0-9]{3})+(?:\.[0-9]+)?")
-
-
 _MIXED = re.compile(rf"([0-9]+)[\s-]+({_SHARE})")
-
-
 _FEET = re.compile(
     rf"(?P<sign>[+-]?)(?:(?P<feet>{_DIGITS})\s*')?[\s-]*"
     rf"(?:(?P<inches>{_DIGITS})(?:[\s-]+(?P<share>{_SHARE}))?\s*\"|(?P<only>{_SHARE})\s*\")?"
 )
-
-
 _RISE = re.compile(
     rf"(?:({_DIGITS})|(?:([0-9]+)[\s-]+)?({_SHARE}))(?:\s*(?:\"|in\.?))?"
     r"\s*(?:(?:/|per)\s*(?:ft\.?|foot)|:\s*12\"?|(?<=in)\s*12)"
 )
-
-
 _ONE_IN = re.compile(rf"1\s*:\s*({_DIGITS})")
-
-
 _MARKS = {"\u2018": "'", "\u2019": "'", "\u2032": "'", "\u201d": '"', "\u2033": '"', "''": '"'}
-
-
 _SHARES = {"\u00bc": "1/4", "\u00bd": "1/2", "\u00be": "3/4"}
-
-
 _INCHES_PER_FOOT = 12.0
 
-
 _DATES = ("%b %d %Y", "%B %d %Y", "%d %b %Y", "%d %B %Y", "%Y %m %d")
-
-
 _BESIDE_DATE = re.compile(
     r"(?:mon|tues|wednes|thurs|fri|satur|sun)day\b|(?<=[0-9])(?:st|[nr]d|th)\b"
 )
-
-
 _SLASHED = re.compile(r"([0-9]{1,2})[/.-]([0-9]{1,2})[/.-]([0-9]{4})")
 
 

@@ -25,17 +25,13 @@ from report.project.read.positions import bounds_of
 # Cells that are read, each with the place that it is read for.
 Used = Iterable[tuple[Place, Found]]
 
-
 # Height [points] and width [characters] below which nothing in a row or column can be read.
 LEAST_HEIGHT, LEAST_WIDTH = 3.0, 0.4
-
 
 # Difference of two colors in red, green and blue, each of 255, below which they look alike.
 _LIKE = 24
 
-
 _MOST_RANGES = 8
-
 
 # Filters of a sheet that are told from other ways to hide a row.
 _MOST_FILTERS = 50
@@ -63,8 +59,6 @@ _SENTENCES: Mapping[Concealment, str] = {
     Concealment.INVISIBLE: "{cells} cannot be seen for the color of the text or the number format,"
     " and {are} read: change it, or clear what is not meant",
 }
-
-
 _STATES = {"hidden": "hidden", "veryHidden": "hidden so that Excel's menu does not list it"}
 
 
@@ -236,8 +230,6 @@ def _of_style(cell: Any) -> Iterator[Concealment]:
 
 
 _WHITE, _BLACK = (255, 255, 255), (0, 0, 0)
-
-
 # The first two colors of a theme: those of background and text.
 _OF_THEME = (_WHITE, _BLACK)
 

@@ -44,7 +44,6 @@ class EchoRow:
 IGNORED = "not an input, ignored"
 """How the echo shows a cell under a heading that is not known."""
 
-
 Whole = TypeVar("Whole", bound=Frozen)
 
 

@@ -41,14 +41,12 @@ GONE: Mapping[str, tuple[GoneInput, ...]] = {
     ),
 }
 
-
 # Headings of formulas of earlier workbooks by section, lowercase and without unit.
 FORMER_ANSWERS: Mapping[str, frozenset[str]] = {
     "arrays": frozenset({"slope in degrees", "weight per area"}),
     "clearances": frozenset({"d/c, floor", "row of array", "row of other array", "row of object"}),
     "outlines": frozenset({"twice the area"}),
 }
-
 
 # Earlier order of the first fields of a block, in which confirmations are hashed.
 ORDERS: Mapping[str, Sequence[str]] = {

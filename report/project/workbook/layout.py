@@ -16,7 +16,6 @@ from report.project.workbook.sections import SheetSection
 # Last row that dropdowns and conditional formats reach.
 LAST_ROW = 500
 
-
 # Within brackets an apostrophe goes before these (Excel, structured references).
 _SPECIAL, _ESCAPED = re.compile(r"(['#\[\]])"), r"'\1"
 

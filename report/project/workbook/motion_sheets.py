@@ -76,7 +76,6 @@ MOTIONS = table("motions", "Motions", "Roof motions", MotionInput, "One row for 
           " than 0.5 m away is not accepted for the analysis."),
 )  # fmt: skip
 
-
 BUILDING = block("building", "Building", "Building between ground and roof", BuildingInput,
     "Required only for ground motions: give period T1 or a structure type.",
     Entry("Structure type", "structure", "other", note="Gives the approximate period C_t h^x of"
@@ -98,7 +97,6 @@ BUILDING = block("building", "Building", "Building between ground and roof", Bui
     may_be_absent=True,
 )  # fmt: skip
 
-
 SPECTRUM = table("spectrum", "Spectrum", "Project-specific target spectrum", SpectrumPoint,
     "Optional. Replaces the AC156 spectrum for roof motions, or the design spectrum for ground"
     " motions. 5 % damping, at least two rows.",
@@ -109,7 +107,6 @@ SPECTRUM = table("spectrum", "Spectrum", "Project-specific target spectrum", Spe
           note="In every row, or blank in every row to use AC156."),
     may_be_absent=True,
 )  # fmt: skip
-
 
 LINKS = table("links", "Links", "Rows of linked blocks", Links, "Optional: one row for each array"
     " for which the package checks whether one rigid block is adequate. The blocks have equal"
@@ -124,7 +121,6 @@ LINKS = table("links", "Links", "Rows of linked blocks", Links, "Optional: one r
           note="Damping ratio of one block on one link. Blank: none."),
     may_be_absent=True,
 )  # fmt: skip
-
 
 TARGET = block("target", "Building", "Target spectrum and scaling", TargetInput,
     "The default target is the AC156 spectrum for roof motions and the ASCE 7 design spectrum for"

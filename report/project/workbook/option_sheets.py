@@ -40,7 +40,6 @@ OPTIONS = block("options", "Options", "Options", Options, "The defaults suit mos
           " sheets go with it: Letter or A4."),
 )  # fmt: skip
 
-
 CONFIRMATION = block("confirmation", "Options", "Confirmation of the provisions", Confirmation,
     "Optional. A later change of any of these, or of an override, brings the marks † back.",
     Entry("Confirmed by", "by", "RG, SE",
@@ -58,7 +57,6 @@ CONFIRMATION = block("confirmation", "Options", "Confirmation of the provisions"
     may_be_absent=True,
 )  # fmt: skip
 
-
 OVERRIDES = table("overrides", "Options", "Overrides of provisions", Override,
     "Each is printed in the package with its reason.",
     Entry("Provision", "provision", provision_name("parapet_height_in"), key_of=provision_key,
@@ -68,7 +66,6 @@ OVERRIDES = table("overrides", "Options", "Overrides of provisions", Override,
           note="In the unit stated on the sheet Provisions."),
     Entry("Reason", "reason", "Agreed 2026-02-10", note="Printed in the package."),
 )  # fmt: skip
-
 
 ACKNOWLEDGED = table("acknowledged", "Acknowledged", "Acknowledged warnings", Acknowledgment,
     "Optional: one row for each warning of `roofslip check` that is intended as it is. It is then"

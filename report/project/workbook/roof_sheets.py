@@ -12,15 +12,11 @@ from report.project.workbook.sections import block, table
 from report.text.units import Quantity
 
 OR_OUTLINE = "required, or an outline"
-
-
 _SIDE = (
     (20.0, 100.0, 15.0, 75.0),
     "Rectangle in roof plan, from any fixed corner of the roof. Another shape: leave all four blank"
     " and give its outline on the sheet Outlines.",
 )
-
-
 _ROOF = (
     (0.0, 360.0, 0.0, 240.0),
     "Roof edge in the coordinates of the arrays. Give all four sides, or none. Another shape: its"
@@ -42,7 +38,6 @@ ROOF = block("roof", "Building", "Roof outline and north", Roof, "Optional. The 
           note="In plan, counterclockwise from +x: 90 is +y."),
     may_be_absent=True,
 )  # fmt: skip
-
 
 ARRAYS = table("arrays", "Arrays", "Arrays", Array, "One row for each array that moves as a unit."
     " Columns to the right of Downslope direction are optional.",
@@ -106,7 +101,6 @@ ARRAYS = table("arrays", "Arrays", "Arrays", Array, "One row for each array that
     needs_rows=True,
 )  # fmt: skip
 
-
 OBJECTS = table("objects", "Objects", "Objects and roof edges", RoofObject,
     "One row for each object that an array could strike and each edge it could fall from. The plan"
     " rectangle is optional; enter an edge as a strip outside the roof.",
@@ -120,7 +114,6 @@ OBJECTS = table("objects", "Objects", "Objects and roof edges", RoofObject,
           note="Of an object or unlike array; not used for edges."),
     Entry("Place from", "place_from", DRAWING, is_rare=True, note="As of an array."),
 )  # fmt: skip
-
 
 CLEARANCES = table("clearances", "Clearances", "Clearances", Clearance,
     "One row for each clearance to check; the object may be another array.",
@@ -139,7 +132,6 @@ CLEARANCES = table("clearances", "Clearances", "Clearances", Clearance,
           " name and date on the sheet Project."),
 )  # fmt: skip
 
-
 OUTLINES = table("outlines", "Outlines", "Outlines", Vertex, "Optional: arrays, objects and the"
     " roof that are no rectangles. One row for each vertex, in order around the outline; leave the"
     " four sides of the rectangle blank.",
@@ -151,7 +143,6 @@ OUTLINES = table("outlines", "Outlines", "Outlines", Vertex, "Optional: arrays, 
           " you change the row. Blank: as entered."),
     may_be_absent=True,
 )  # fmt: skip
-
 
 LAYERS = table("layers", "Layers", "Layers of the roof drawing", DrawingLayer,
     "Optional, for roofslip plan read: what is drawn on each layer. The layers of plan.dxf are"

@@ -44,14 +44,12 @@ PROJECT = block("project", "Project", "Project", Project, "Printed on the cover 
           " blank."),
 )  # fmt: skip
 
-
 REVISIONS = table("revisions", "Project", "Revisions", Revision, "One row for each issue.",
     Entry("Revision", "revision", "0", note="Number or letter."),
     Entry("Date", "date", dt.date(2026, 3, 5), note="Date of issue."),
     Entry("Description", "description", "Issued for permit", note="What changed."),
     Entry("By", "by", "RG", note="Name or initials."),
 )  # fmt: skip
-
 
 SITE = block("site", "Site", "Site and building", Site, "Give S_DS, S_MS, or S_S and F_a.",
     Entry("Rule set", "rule_set", "SEAOC PV1-2012",
@@ -134,7 +132,6 @@ SITE = block("site", "Site", "Site and building", Site, "Give S_DS, S_MS, or S_S
           " report. For a new building: so designed, by whom."),
 )  # fmt: skip
 
-
 FRICTION_TESTS = block("friction_tests", "Friction tests", "Friction tests", FrictionTests,
     "Optional: the report on the friction tests. Leave blank what the report does not state.",
     Entry("Laboratory", "laboratory", "Example Laboratories",
@@ -158,7 +155,6 @@ FRICTION_TESTS = block("friction_tests", "Friction tests", "Friction tests", Fri
           " the workbook's folder; the package attaches it. All such files: at most 20 MB."),
     may_be_absent=True,
 )  # fmt: skip
-
 
 FRICTION_RUNS = table("friction_runs", "Friction tests", "Runs of the friction tests",
     FrictionTestRow, "Optional: one row for each run, wet and dry. The package compares the"

@@ -9,11 +9,7 @@ from report.project.read.read import read
 from report.project.write.template import template
 
 _REPORT = Path(__file__).resolve().parents[2]
-
-
 _HOMES = (_REPORT / "web" / "example", _REPORT.parent / "projects" / "example")
-
-
 # Within the package where it is installed, or of the checkout.
 EXAMPLE = next(path for path in _HOMES if path.is_dir())
 

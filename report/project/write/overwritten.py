@@ -18,8 +18,6 @@ from report.project.write.style import is_answer
 from report.text.counts import cut
 
 _PANEL = "live_sdc_used"
-
-
 # In a formula that refers to a column which the workbook lacks.
 _BROKEN = "#REF!"
 

@@ -17,31 +17,16 @@ from solver.rules.provisions import SEPARATION_KEYS
 from solver.rules.rulesets import ALLOWED, RULE_SETS, RuleSet, usual
 
 PROVISIONS = "Provisions"
-
-
 _HEADS = ("Rule", "Unit", "In use", "Override, allowed", "Override, usual")
-
-
 _WIDTHS = (52, 6, 9, 12, 14)
-
-
 _RULE_WIDTHS = (10, 16)
-
-
 _FIRST = len(_HEADS) + 1
-
-
 _FROM, _TO = map(get_column_letter, (_FIRST, _FIRST + 2 * len(RULE_SETS) - 1))
-
-
 _PROVISIONS_HINT = (
     "Value and clause of each rule by rule set. Override a number on the sheet Options, within the"
     " range allowed. This sheet has no input cells."
 )
-
-
 _MARKS = "† not confirmed against a published calculation: verify against the adopted code."
-
 
 # What of a rule set is no number: its name, words, and what a rule set says.
 _FACTS: Sequence[tuple[str, str, Callable[[RuleSet], str]]] = (

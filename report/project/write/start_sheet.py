@@ -21,11 +21,7 @@ from solver.rules.provisions import Neighbor
 _ANSWERS_HINT = (
     "Computed from the other sheets; the numbers of the rule set are on the sheet Provisions."
 )
-
-
 _HEADS = ("", "", "Value", "Separation", "", "", "Worst D/C", "", "Note")
-
-
 _SEPARATIONS = {
     Neighbor.LIKE: "Separation, like arrays",
     Neighbor.FIXED: "Separation, fixed object or unlike array",
@@ -72,25 +68,15 @@ def _write_line(sheet: Worksheet, row: int, line: tuple[str, str, str], number_f
 
 
 START = "Start"
-
-
 LINKS_COLUMN, COLORS_COLUMN = 7, 8
-
-
 _WIDTHS = (5, 42, 14, 14, 16, 22, 14, 20, 42)
-
-
 _PICTURE_PX = (730, 296)  # which ends before the links
-
-
 _HINT = "From this workbook to the calculation package. This sheet has no input cells."
-
 
 # Sheets that are rarely needed: of nothing but tables that may be absent.
 RARE = {section.sheet for section in SECTIONS} - {
     section.sheet for section in SECTIONS if not (section.is_table and section.may_be_absent)
 }
-
 
 STEPS = (
     "Fill in the yellow cells, sheet by sheet. Select a cell to see its instructions.",
@@ -102,8 +88,6 @@ STEPS = (
     " serve. FOLDER contains this workbook, named input.xlsx.",
     "Run roofslip report FOLDER. It writes the calculation package to FOLDER/out.",
 )
-
-
 _NOTES = (
     "Without rows on the sheet Motions, no analysis is made: the package takes the prescriptive"
     " displacement for every array, and says what an analysis could save.",
@@ -121,8 +105,6 @@ _NOTES = (
     " analysis. They are not read as input. If one is typed over, roofslip check lists it. Formulas"
     " in yellow cells are accepted. Macros are not: .xlsm files are rejected.",
 )
-
-
 _SAMPLES = (
     ("", "000000", style.INPUT_FILL, "Input cell. It loses its color once it is filled."),
     ("heading, tab", style.WHITE, style.REQUIRED_FILL,

@@ -14,14 +14,14 @@ from fixtures.workbooks import cell_address, make, problems, read_workbook, type
 from report.assessment.assess import assess, changed
 from report.assessment.design.routes import Route
 from report.assessment.design.verdict import Verdict
-from report.assessment.support.building_variations import building_case, building_variations
+from report.assessment.support.building_variations import building_variations
 from report.assessment.support.evidence import support
-from report.assessment.support.other_inputs import cases
+from report.assessment.support.input_cases import building_case, cases
 from report.assessment.support.saving import saving
 from report.assessment.support.smaller_events import cumulative
 from report.pages.marks import Marks
 from report.pages.saving import saving_words
-from report.project.model import Override
+from report.project.model.options import Override
 from report.text.unit_format import UnitFormat
 from solver import at_roof, building_of_periods
 from solver.sliding.least_model import DEFAULT

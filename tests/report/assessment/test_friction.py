@@ -8,8 +8,7 @@ import pytest
 
 from fixtures import assessments, projects
 from report.assessment.checks.sentence import found_and_limit
-from report.assessment.design.friction_words import mu_words, mus_words
-from report.assessment.design.other_friction import at_low_velocity
+from report.assessment.design.friction import at_low_velocity, mu_words, mus_words
 from report.assessment.design.tested_friction import basis_words
 from report.assessment.design.velocity_check import VelocityCheck
 from report.assessment.design.verdict import Verdict
@@ -281,7 +280,7 @@ def test_the_low_velocity_coefficient_alone_is_as_entered_and_has_no_reruns(by_v
     # The two arrays are as unlike as entered: their coefficients are equal in these runs alone.
     assert again.clearances[1].neighbor is Neighbor.LIKE
     assert slow.clearances[2].neighbor is Neighbor.UNLIKE
-    failed = [gap.clearance for gap in slow.gaps_of("A2") if not gap.ok]
+    failed = [gap.clearance for gap in slow.clearances.values() if not gap.ok]
     outcome = rows(by_velocity)["A2"].otherwise
     assert all(f"{gap.array} to {gap.object}" in outcome for gap in failed)
     assert ("NG: " in outcome) is bool(failed)

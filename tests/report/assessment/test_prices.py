@@ -9,8 +9,8 @@ from fixtures.marks import nightly
 from fixtures.pages import page_of
 from report.assessment.assess import Extent, assess
 from report.assessment.causes import governing_words
-from report.assessment.checks.ids import VELOCITY_ROW
-from report.assessment.design.other_friction import at_low_velocity
+from report.assessment.checks.check import VELOCITY_ROW
+from report.assessment.design.friction import at_low_velocity
 from report.assessment.design.rule_set import as_adopted, under_code
 from report.text.units import Quantity, no_less, pair
 

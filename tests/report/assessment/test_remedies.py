@@ -12,7 +12,7 @@ from fixtures.pages import page_of
 from fixtures.single_runs import prd_m, slid
 from report.assessment.assess import assess, changed, entered
 from report.assessment.causes import came_to
-from report.assessment.design.other_friction import with_mu
+from report.assessment.design.friction import with_mu
 from report.assessment.design.verdict import Verdict
 from report.assessment.remedies import remedies
 from report.assessment.remedies.friction_search import above, below, search

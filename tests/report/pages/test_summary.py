@@ -161,8 +161,8 @@ def test_the_letter_and_the_cause_say_what_is_not_given():
     )
     given = assessments.package(arrays=[projects.array("A1", 0.5)], objects=[], clearances=[])
     rows = {check.id: words(check, "A1") for check in given.assessment.checks}
-    assert rows["electrical_slack"] == "electrical slack: not entered"
-    assert rows["interconnection"] == "interconnection strength: not entered"
+    assert rows["electrical_slack"] == "electrical slack (not entered)"
+    assert rows["interconnection"] == "interconnection strength (not entered)"
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from fixtures.marks import by_day
 from fixtures.paths import ROOT
 from report.assessment.assess import assess, reassess
 from report.assessment.assessment import Assessment
-from report.assessment.design.other_friction import with_friction
+from report.assessment.design.friction import with_friction
 from report.assessment.design.verdict import Verdict
 from report.web.answers import answer
 from report.web.open_project import open_project
