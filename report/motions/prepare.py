@@ -193,6 +193,10 @@ def shaking(sheet: Sheet, by_motion: Sequence[Components]) -> Shaking:
     )
 
 
+# Peak of a motion / that of the others, and the inverse, beyond which their units differ: the peaks
+# of the motions of one site are within a factor of ten.
+OTHER_UNIT = 100.0
+
 # Time step [s] above which a record has no content at 25 Hz and above.
 MOST_STEP_S = 0.02
 
@@ -205,6 +209,7 @@ MOST_UNEQUAL = 0.05
 
 def record_findings(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
     """Yield what is unusual in the records of each motion."""
+    yield from _unlike_peaks(shaking.motions)
     for index, row in enumerate(data.motions):
         files = [file for file in shaking.records if file.motion_id == row.id]
         if files:
@@ -215,6 +220,31 @@ def record_findings(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
             yield from _spikes(index, file)
             place = Place("motions", index, FIELDS[file.component])
             yield from (note(place, f"{file.name}: {text}") for text in file.notes)
+
+
+def _unlike_peaks(motions: Sequence[Motion]) -> Iterator[Finding]:
+    """Yield the motions whose peak as run is far above or below that of every other motion.
+
+    A record in cm/s2 that is read in g is 981 times too large, one in g read in cm/s2 too small.
+    """
+    peaks_g = [
+        float(np.abs(np.concatenate((motion.ax_mps2, motion.ay_mps2))).max()) / G_MPS2
+        for motion in motions
+    ]
+    for index, peak_g in enumerate(peaks_g):
+        ratios = [peak_g / other for other in peaks_g[:index] + peaks_g[index + 1 :] if other > 0.0]
+        if not ratios or peak_g <= 0.0:
+            continue
+        # Of the motion that is nearest: where one motion differs, the others are near each other.
+        ratio = min(ratios, key=lambda value: abs(math.log(value)))
+        if OTHER_UNIT**-1 < ratio < OTHER_UNIT:
+            continue
+        times, unit = (f"{ratio:.0f}", "cm/s2") if ratio > 1.0 else (f"1/{1.0 / ratio:.0f}", "g")
+        text = (
+            f"peak {peak_g:.3g} g as run, {times} times the other motions: is the record in {unit}?"
+            " Correct its units or its scale factor"
+        )
+        yield warning(f"peak {motions[index].id}", Place("motions", index, "units"), text)
 
 
 def _step(index: int, files: Sequence[RecordFile]) -> Iterator[Finding]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Set
 from dataclasses import replace
 
 from report.project.read.archive import OpenBook
-from report.project.read.locate_table import FieldColumn, table_area
+from report.project.read.locate_table import FieldColumn, is_table_absent
 from report.project.read.positions import (
     FRESH,
     CellPosition,
@@ -73,7 +73,7 @@ def added_later(book: OpenBook, section: SheetSection) -> tuple[Entry, ...]:
 def is_absent(book: OpenBook, section: SheetSection) -> bool:
     """Whether a workbook has neither names nor labels of a section."""
     if section.is_table:
-        return not sheets_titled(book, section.sheet) and table_area(book, section) is None
+        return is_table_absent(book, section)
     return not any(_position(book, section, entry) for entry in section.entries)
 
 

@@ -26,6 +26,7 @@ from report.project.read.positions import (
     sheets_titled,
     unit_size,
 )
+from report.project.workbook import SECTIONS
 from report.project.workbook.answers import ANSWER_HEADINGS
 from report.project.workbook.earlier_workbooks import GONE, GoneInput
 from report.project.workbook.sections import SheetSection
@@ -121,20 +122,44 @@ def table_named(book: OpenBook, section: SheetSection) -> _Place | None:
 
 def _headings(book: OpenBook, section: SheetSection) -> _Place:
     """Return the row with the most headings of a section; its own sheet is searched first."""
-    own, fields = sheets_titled(book, section.sheet), fields_by_label(section)
-    for sheet in own or book.book.worksheets:
-        rows: dict[int, list[int]] = {}
-        taken = _rows_of_others(sheet, section)
-        for position, label in labels(book, sheet):
-            if position.row not in taken and label in fields:
-                rows.setdefault(position.row, []).append(position.column)
-        best = max(rows, key=lambda row: len(rows[row]), default=0)
+    own = sheets_titled(book, section.sheet)
+    renamed = _sheet_renamed(book, section)
+    for sheet in own or ([renamed] if renamed else book.book.worksheets):
+        row, columns = _heading_row(book, section, sheet)
         # A row of another table has some headings in common, and not most of them.
-        if best and len(rows[best]) > len(section.entries) / 2:
-            return sheet, min(rows[best]), best, max(rows[best]), range(0)
+        if len(columns) > len(section.entries) / 2:
+            return sheet, min(columns), row, max(columns), range(0)
     what = f"no table {section.table_name} and no row of its headings"
     missing = "" if own else "the sheet is missing: "
     raise InputError(f"{section.sheet}: {missing}{what}; {FRESH}")
+
+
+def _heading_row(book: OpenBook, section: SheetSection, sheet: Worksheet) -> tuple[int, list[int]]:
+    """Return the row of a sheet with the most headings of a section, and their columns."""
+    fields, taken = fields_by_label(section), _rows_of_others(sheet, section)
+    rows: dict[int, list[int]] = {0: []}
+    for position, label in labels(book, sheet):
+        if position.row not in taken and label in fields:
+            rows.setdefault(position.row, []).append(position.column)
+    best = max(rows, key=lambda row: len(rows[row]))
+    return best, rows[best]
+
+
+def _sheet_renamed(book: OpenBook, section: SheetSection) -> Worksheet | None:
+    """Return the sheet with the title of no section that has all headings of one."""
+    titles = {other.sheet.casefold() for other in SECTIONS}
+    for sheet in book.book.worksheets:
+        is_titled = sheet.title.strip().casefold() in titles
+        if not is_titled and len(_heading_row(book, section, sheet)[1]) >= len(section.entries):
+            return sheet
+    return None
+
+
+def is_table_absent(book: OpenBook, section: SheetSection) -> bool:
+    """Whether a workbook has neither the sheet of a table, nor the table, nor its headings."""
+    if sheets_titled(book, section.sheet) or table_area(book, section):
+        return False
+    return _sheet_renamed(book, section) is None
 
 
 def _rows_of_others(sheet: Worksheet, section: SheetSection) -> set[int]:

@@ -248,6 +248,38 @@ def test_a_coarse_or_long_record_or_one_that_is_cut_gives_a_warning(
 
 
 @pytest.mark.parametrize(
+    ("unit", "values", "text"),
+    [
+        ("g", 0.9, ""),
+        ("g", 0.02, ""),
+        (
+            "cm/s2",
+            0.1,
+            "peak 0.000102 g as run, 1/981 times the other motions: is the record in g?",
+        ),
+        ("g", 9.81, "peak 9.81 g as run, 327 times the other motions: is the record in cm/s2?"),
+    ],
+)
+def test_a_motion_in_another_unit_than_the_others_gives_a_warning(tmp_path, unit, values, text):
+    peaks = {"a": 0.03 if values > 5.0 else 0.1, "b": 0.03 if values > 5.0 else 0.1, "x": values}
+    units = {"a": "g", "b": "g", "x": unit}
+    motions = [
+        {"id": name, "record": f"records/{name}.csv", "units": units[name], "dt_s": 0.01}
+        for name in peaks
+    ]
+    # One is no multiple of another, which would be the same motion again.
+    shapes = {"a": 0.2, "b": 0.3, "x": 0.5}
+    records = {
+        name: [f"{peaks[name] * math.sin(shapes[name] * i):.7f}" for i in range(300)]
+        for name in peaks
+    }
+    found = of_records(make(tmp_path, motions=motions), **records)
+    assert found.get("peak x", "").startswith(text)
+    assert ("peak x" in found) is bool(text)
+    assert not {"peak a", "peak b"} & found.keys()
+
+
+@pytest.mark.parametrize(
     ("indices", "which"),
     by_day(
         [((70,), "sample 71, at 0.7 s, is"), ((250, 70), "sample 71 and 1 more, at 0.7 s, reach")],

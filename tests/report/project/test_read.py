@@ -205,6 +205,20 @@ def test_arrangement_does_not_matter(tmp_path, change):
     assert same(read_workbook(edit(make(tmp_path), change)).input, project())
 
 
+@pytest.mark.parametrize("title", ["PV layers", "Notes"])
+def test_a_rare_sheet_that_is_renamed_by_hand_is_read_by_its_headings(tmp_path, title):
+    layers = [{"layer": "PV-1", "kind": "array"}]
+    path = make(tmp_path, layers=layers)
+    wanted = read_workbook(path).inputs["layers"]
+
+    def renamed(book):
+        book["Layers"].tables.clear()
+        rename(book, "Layers", title)
+
+    assert read_workbook(edit(path, renamed)).inputs["layers"] == wanted
+    assert [row["layer"] for row in wanted] == ["PV-1"]
+
+
 SPELLINGS = {
     "heading in capitals": ("Arrays/heading/Friction coefficient", " FRICTION\ncoefficient *"),
     "choices in capitals": ("Arrays/A1/Slope unit", " Degrees "),
