@@ -1,7 +1,8 @@
 """What cross-slope shaking can change, bounded in one pass over the record, jitted.
 
 Follows no motion (`one_axis` and `two_axes` do). Never raises, knows no units but SI; numpy and
-numba only. Letters as in `two_axes`.
+numba only. Letters as in `two_axes`, which
+`tests/solver/kernels/test_cross_slope_kernel.py` compares its bounds with.
 """
 
 import math

@@ -1,6 +1,7 @@
 """Lives of a roof: the events of each follow one another, jitted.
 
-Draws nothing and runs no record: both are given. numpy and numba only.
+Draws nothing and runs no record: both are given. numpy and numba only. `in_numpy` in
+`tests/solver/studies/test_rates.py` is the same without the compiler.
 """
 
 import math

@@ -1,7 +1,8 @@
 """Blocks in a row on a shaken roof, linked by springs and dashpots, jitted: series between events.
 
 Never raises, knows no units but SI; numpy and numba only. Read `slide_row`, then `_first_below`;
-`solver.sliding.row` explains the results.
+`solver.sliding.row` explains the results. `tests/solver/sliding/test_row.py` follows rows in plain
+Python, by SciPy's `solve_ivp`.
 
 Model, per unit mass of block i, along the slope:
     w_i' = G - sigma_i mu_i N + (F_i - F_i-1) / m_i   while sliding;  w_i = 0 at rest

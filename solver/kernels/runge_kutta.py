@@ -3,7 +3,8 @@
 Dormand and Prince's of order 5 (RK45) and of order 8 (DOP853) with SciPy's coefficients, error
 norms and control of the step, restarted at every sample, onset of slip and stop. Never raises,
 knows no units but SI; numpy and numba only. Letters as in `solver.kernels.rivals`; the state y has
-the distances, then their rates, and k the rates of y at the stages of a step.
+the distances, then their rates, and k the rates of y at the stages of a step. In plain Python
+`solver.rivals.by_scipy` is the same, by SciPy itself.
 """
 
 from __future__ import annotations

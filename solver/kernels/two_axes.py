@@ -1,7 +1,8 @@
 """A block that slides in two axes on a shaken roof, jitted: power series from event to event.
 
 Never raises, knows no units but SI; numpy and numba only. Read `slide_plane`, then `_sliding` and
-`_creeping`; `solver.sliding.two_axes` explains the results.
+`_creeping`; `solver.sliding.two_axes` explains the results. `tests/plane_oracle.py` follows the
+same block in plain Python, by SciPy's DOP853.
 
 Model, per unit mass, in roof axes (downslope, cross-slope):
     N = (g + az) cos(theta) + ax sin(theta)                       normal force, Eq. 6 with az

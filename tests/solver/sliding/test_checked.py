@@ -4,6 +4,7 @@ import itertools
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -18,6 +19,7 @@ import solver
 from fixtures.blocks import shaking, trapezoid
 from fixtures.marks import by_day
 from fixtures.paths import ROOT, TESTS
+from solver.formats import read_record
 from solver.model import EventKind, Friction, InputError, Status
 from solver.sliding.checked import slide, slide_history
 from solver.verification import reference
@@ -42,6 +44,18 @@ def assert_agrees(result, exact, floor_m=1e-3):
     assert off_m(result, exact) <= min(1e-12 * max(float(exact.prd), floor_m), result.error_m)
     fastest = float(exact.fastest)
     assert abs(result.peak_speed_mps - fastest) <= 1e-11 * max(fastest, floor_m)
+
+
+@pytest.mark.parametrize(("degrees", "mu"), [(2.0, 0.4), (0.0, 0.2)])
+@pytest.mark.parametrize("name", ["RM1-x", "RM1-y"])
+def test_the_lines_of_the_docs_give_the_slip_of_the_example(name, degrees, mu):
+    (code,) = re.findall(r"```python\n(.*?)```", (ROOT / "docs/method.md").read_text(), re.DOTALL)
+    exec(code, namespace := {})
+    record = read_record(ROOT / f"projects/example/records/{name}.csv")
+    slope = math.radians(degrees)
+    exact = slide(record.a_mps2, record.dt_s, slope_rad=slope, mu=mu)
+    plain_m = namespace["slip_m"](record.a_mps2.tolist(), record.dt_s, slope, mu)
+    assert plain_m == pytest.approx(exact.prd_m, rel=5e-4)
 
 
 # Closed forms
