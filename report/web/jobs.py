@@ -1,11 +1,14 @@
 """What is computed for the page: each job from a workbook and values to data for JSON.
 
-Knows no request. Read `perform`, then `answer_at`; `problems` has input errors as data.
+A process of the page runs `perform`, and this module is imported there alone: the server starts
+without the solver. Knows no request. Read `perform`, then `answer_at`; `problems` has input errors
+as data.
 """
 
 from __future__ import annotations
 
 import json
+import traceback
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import lru_cache
@@ -41,6 +44,7 @@ from report.web.answers import answer
 from report.web.controls import shown
 from report.web.open_project import OpenProject, open_project, reference_of
 from report.web.plan import USUAL_PX, stamp
+from report.web.worker import INTERNAL, is_full
 from solver.model import InputError, Problem
 
 _MOST_COLUMNS, _BESIDE = 40, 2  # of a sheet that are read, and of those the ones around a cell
@@ -122,12 +126,11 @@ Json = Mapping[str, Any]
 
 
 def perform(job: Json) -> Json:
-    """Do a job named by its key `do`, and return its answer, or its problems.
+    """Do a job named by its key `do`, and return its answer, or why there is none.
 
-    Beside a complete answer is its `reference`, which the jobs of sliders that move get.
-
-    Workbooks that are wrong, and values that no workbook can have, are problems; anything else is
-    an internal error and is raised.
+    Beside a complete answer is its `reference`, which the jobs of sliders that move get. Workbooks
+    that are wrong, and values that no workbook can have, are problems; anything else is an internal
+    error and is printed.
     """
     workbook = Path(job["workbook"])
     try:
@@ -139,6 +142,11 @@ def perform(job: Json) -> Json:
         return reply
     except InputError as error:
         return {"problems": problems(workbook, error)}
+    except Exception as error:
+        if isinstance(error, OSError) and is_full(error):
+            return {"errno": error.errno}
+        traceback.print_exc()
+        return {"problems": [], "refused": INTERNAL}
 
 
 def state(workbook: Path, job: Json) -> Json:

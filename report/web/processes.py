@@ -16,9 +16,10 @@ from functools import partial
 from multiprocessing import get_context, parent_process
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
+from pkgutil import resolve_name
 from tempfile import TemporaryDirectory
 from threading import Thread
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeVar, overload
 
 from report.libraries import apart, stay_apart
 
@@ -32,8 +33,9 @@ _TOLD, _RETURNED = "told", "returned"
 class WorkerProcess(Executor):
     """Runs functions in a process of its own, in order.
 
-    Functions are named by their module, and arguments are pickled beside what is done here next:
-    they must not change, nor cache anything. It reads untrusted files: what comes back is JSON and
+    Functions are given themselves, or as a name, `module:function`, where this process has no need
+    of their module. Arguments are pickled beside what is done here next: they must not change, nor
+    cache anything. It reads untrusted files: what comes back is JSON and
     is never unpickled, and an exception ends the process.
 
     Parameters
@@ -70,7 +72,13 @@ class WorkerProcess(Executor):
         there.close()
         self._asking = ThreadPoolExecutor(1)
 
-    def submit(self, fn: Callable[_P, _R], /, *args: _P.args, **kwargs: _P.kwargs) -> Future[_R]:
+    @overload
+    def submit(self, fn: str, /, *args: Any, **kwargs: Any) -> Future[Any]: ...
+    @overload
+    def submit(
+        self, fn: Callable[_P, _R], /, *args: _P.args, **kwargs: _P.kwargs
+    ) -> Future[_R]: ...
+    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Have a function run after those submitted before."""
         return self._asking.submit(self._ask, fn, args, kwargs)
 
@@ -130,7 +138,8 @@ def _serve(pipe: Connection, here: str, folder: str, prepare: Callable[[], objec
     try:
         while True:
             function, arguments, named = pipe.recv()
-            _send(_RETURNED, function(*arguments, **named))
+            call = resolve_name(function) if isinstance(function, str) else function
+            _send(_RETURNED, call(*arguments, **named))
     except (EOFError, ConnectionError):
         return
 

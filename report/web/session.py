@@ -10,7 +10,6 @@ import asyncio
 import os
 import shutil
 from collections.abc import Coroutine, Mapping, Sequence
-from concurrent.futures import Executor
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -20,7 +19,8 @@ from starlette.requests import Request
 
 from report.project.write import example
 from report.web.plan import USUAL_PX
-from report.web.worker import Packages, answered, begun
+from report.web.processes import WorkerProcess
+from report.web.worker import Packages, begun
 
 EXAMPLE = example.EXAMPLE / "input.xlsx"
 
@@ -29,6 +29,9 @@ LONGEST_S = 120.0
 
 IN_BACKGROUND = "verdict"
 """Asked while the page rests: the quick process does it, and a move then takes the other."""
+
+PERFORM = "report.web.jobs:perform"
+"""What a process does with a job; this one does not load it."""
 
 # A job that ends two processes will end a third.
 _TRIES = 2
@@ -92,7 +95,7 @@ class Session:
         self.folder, self.workbook, self.packages = folder, EXAMPLE, Packages()
         self.filled: Path | None = None
         self._openings = 0
-        self._processes: dict[bool, Executor] = {}
+        self._processes: dict[bool, WorkerProcess] = {}
         self._busy: set[bool] = set()
         self._turns = asyncio.Condition()
         self._newest: dict[tuple[object, ...], Asked] = {}
@@ -241,7 +244,7 @@ class Session:
                     self._processes[is_quick] = begun(self.folder)
                 # Not `wait_for`: it drops a cancellation that comes with the answer.
                 async with asyncio.timeout(longest_s):
-                    asking = self._processes[is_quick].submit(answered, job)
+                    asking = self._processes[is_quick].submit(PERFORM, job)
                     return await asyncio.wrap_future(asking)
             except TimeoutError as error:
                 self._end(is_quick)

@@ -1,7 +1,7 @@
-"""What the processes of the page do: jobs about what is open, and packages.
+"""The processes of the page, and the packages and suites of motions that they make.
 
-They read untrusted files: what they return is JSON, and is never unpickled. Read `answered`, then
-`made` and `Packages`.
+They read untrusted files: what they return is JSON, and is never unpickled. Read `made`, then
+`Packages`.
 """
 
 from __future__ import annotations
@@ -48,20 +48,6 @@ def _prepare() -> None:
 def is_full(error: BaseException | None) -> bool:
     """Whether there is no room for what was to be written."""
     return isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)
-
-
-def answered(job: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Return the answer to a job, or why there is none."""
-    try:
-        # In the process that computes alone: the server starts without the solver.
-        from report.web.jobs import perform
-
-        return perform(job)
-    except Exception as error:
-        if isinstance(error, OSError) and is_full(error):
-            return {"errno": error.errno}
-        traceback.print_exc()
-        return {"problems": [], "refused": INTERNAL}
 
 
 def made(workbook: Path, out: Path) -> str:

@@ -20,7 +20,8 @@ from report.motions.stored import store
 from report.project.model.choices import ClearanceSource
 from report.project.read.read import read
 from report.web.access import KEY_HEADER
-from report.web.worker import State, answered
+from report.web.jobs import perform
+from report.web.worker import State
 
 EXAMPLE = ROOT / "projects" / "example"
 CONDITIONS = ROOT / "projects" / "conditions"
@@ -230,14 +231,14 @@ def full(*_, **__):
 async def half_written(_, job, *__):
     """What another process does on a full disk."""
     Path(job["to"]).write_bytes(b"half")
-    return answered(job)
+    return perform(job)
 
 
 FULL = {
     "upload": {"report.web.files.store": full},
     "package": {"os.link": full, "shutil.copyfile": full},
     "workbook": {
-        "report.web.jobs.perform": full, "report.web.session.Session._answer": half_written,
+        "report.web.jobs._open": full, "report.web.session.Session._answer": half_written,
     },
 }  # fmt: skip
 
