@@ -102,7 +102,6 @@ _JOBS = {
     "verdict": (),
     "slide": ("array", "motion"),
     "contour": ("array",),
-    "paths": ("array",),
 }
 """What the page has computed, each with what must be named; a run may be."""
 

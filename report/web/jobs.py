@@ -310,7 +310,6 @@ _JOBS: Mapping[str, Callable[[Path, Json], Json]] = {
     "verdict": verdict,
     "slide": _view(lambda a, job: views.slide(a, job["array"], job["motion"], job["run"])),
     "contour": _view(lambda a, job: views.contour(a, job["array"])),
-    "paths": _view(lambda a, job: views.paths(a, job["array"])),
 }
 
 

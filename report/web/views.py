@@ -22,11 +22,11 @@ from report.drawing.sheet import unit_format
 from report.runs import MotionRun, OrientedRun
 from report.text.counts import cut, ids_by, ranged
 from report.text.unit_format import UnitFormat
-from report.text.units import G_MPS2, Unit, no_less, number
+from report.text.units import Unit, no_less, number
 from report.typeset.pdf import TEMPLATES
 from report.web.answers import finite
 from report.web.run_forces import Slip, run_forces, slips_of, with_jumps
-from solver.model import INCH_M, Floats, InputError, Scene, SlideHistory, Status
+from solver.model import Floats, InputError, Scene, SlideHistory, Status
 from solver.records.measures import velocity_displacement
 from solver.records.record import Record
 from solver.sliding import least_model
@@ -42,14 +42,10 @@ MOST_LEVELS = 9
 _FINE = 6  # parts of a cell of the grid, in each direction, between which contours are straight
 
 _TITLES = {
-    "acceleration": "Roof acceleration",
-    "velocity": "Roof velocity",
-    "relative": "Displacement relative to the roof",
+    "relative": "Displacement",
     "normal": "Normal force",
     "friction": "Friction F / N",
 }
-_ACCELERATION = (Unit("g", G_MPS2, 2),)
-_VELOCITY = (Unit("in/s", INCH_M, 1), Unit("mm/s", 1e-3, 0))  # what fits above a panel
 _NORMAL = (Unit("W", 1.0, 2),)
 _RATIO = (Unit("", 1.0, 2),)
 
@@ -80,7 +76,7 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
         ],
         "slips": [_slip(k, slips, fmt) for k in range(len(slips))],
         "peak": _peak(history),
-        **_panels(chosen, history, roof, slips, fmt),
+        **_panels(chosen, history, slips, fmt),
         "prd_m": finite(history.result.prd_m),
         "t_prd_s": finite(history.result.t_prd_s),
         "texts": {
@@ -150,22 +146,6 @@ def _divided(axis: Floats) -> Floats:
     return np.interp(at, np.arange(axis.size), axis)
 
 
-def paths(assessment: Assessment, array_id: str) -> Json:
-    """Return the path in plan of the governing run of each motion; downslope is down the page."""
-    item, fmt = _array(assessment, array_id), unit_format(assessment)
-    return {
-        "paths": [_path(motion, fmt) for motion in item.motions],
-        "units": _units(fmt.units()),
-        "texts": {
-            "title": f"Paths of array {array_id} in plan, all at one scale",
-            "notes": [
-                "Governing run of each motion, relative to the roof. A cross marks the start, a "
-                "dot the peak relative displacement (PRD)."
-            ],
-        },
-    }
-
-
 def _array(assessment: Assessment, wanted: str) -> ArrayAssessment:
     return _named("array", assessment.arrays, wanted, lambda run: run.id)
 
@@ -205,11 +185,7 @@ def _roof(scene: Scene) -> tuple[Record, ...]:
 
 
 def _panels(
-    run: OrientedRun,
-    history: SlideHistory,
-    roof: Sequence[Record],
-    slips: Sequence[Slip],
-    fmt: UnitFormat,
+    run: OrientedRun, history: SlideHistory, slips: Sequence[Slip], fmt: UnitFormat
 ) -> Json:
     """Return the histories with all of their samples, so that every reading is right."""
     relative = [_history("down", history.u_m)]
@@ -217,14 +193,8 @@ def _panels(
         relative.append(_history("cross", history.across_m))
     normal, demand, used = run_forces(run, history, slips)
     i, with_used = with_jumps(run, used, history.events)
-    velocity = [_history(component.name, velocity_displacement(component)[0]) for component in roof]
     friction = [_history("used", with_used) | {"i": i.tolist()}, _history("demand", demand)]
     panels = {
-        "acceleration": (
-            _ACCELERATION,
-            [_history(component.name, component.a_mps2) for component in roof],
-        ),
-        "velocity": (_VELOCITY[:: 1 if fmt.us_first else -1], velocity),
         "relative": (fmt.units(), relative),
         "normal": (_NORMAL, [_history("N / W", normal)]),
         "friction": (_RATIO, friction),
@@ -232,7 +202,6 @@ def _panels(
     return {
         kind: {
             "title": _TITLES[kind],
-            "title_with_unit": f"{_TITLES[kind]} [{units[0].symbol}]".removesuffix(" []"),
             "units": _units(units),
             "series": series,
         }
@@ -275,8 +244,8 @@ def _slide_texts(
             *status,
             "Down is downslope; cross is cross-slope, positive to the left when facing downslope.",
             f"Model: {run.model}; {run.solution.reason}.",
-            "Roof velocity and displacement are integrated from the acceleration as analyzed, "
-            f"without baseline correction; the roof moves {fmt.both(travel)} at most.",
+            "The roof displacement is integrated from the acceleration as analyzed, without "
+            f"baseline correction; the roof moves {fmt.both(travel)} at most.",
         ],
     }
 
@@ -308,29 +277,6 @@ def _contour_texts(contours: ResponseSurface, here_m: float, fmt: UnitFormat) ->
         "here": f"{array.id}: {'' if math.isnan(here_m) else 'mean PRD '}"
         f"{fmt.both(here_m, show=no_less)}",
         "notes": notes,
-    }
-
-
-def _path(motion: MotionRun, fmt: UnitFormat) -> Json:
-    """Return a path, to the right and up the page, as in the package."""
-    run, history = motion.governing, motion.history()
-    name = f"{motion.motion.id} {_orientation(motion, run)}"
-    prd_m = history.result.prd_m
-    prd = _prd(prd_m, fmt.both)
-    # Cross-slope displacement is positive to the left when facing downslope, which is down here.
-    x = history.across_m if history.across_m.size else np.zeros(len(history.u_m))
-    y = -history.u_m
-    if is_lost := math.isnan(prd_m):
-        x = y = np.array([])
-    top = None if is_lost else int(np.argmax(np.hypot(x, y)))
-    return {
-        "name": name,
-        "prd": prd,
-        "title": f"Path under {name}, {prd}",
-        "dt_s": run.scene.dt_s,
-        "x_m": x.tolist(),
-        "y_m": y.tolist(),
-        "peak": top,
     }
 
 

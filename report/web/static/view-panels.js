@@ -149,14 +149,14 @@ function sample(look) {
 }
 
 /** Return the panel of a kind, such as `velocity`: a title and units, and histories with times and look. */
-export function panelOf(data, kind, title = "title") {
+export function panelOf(data, kind) {
   const series = data[kind].series.map(({ name, i, v }) => ({
     name,
     look: LOOKS[name] ?? "is-first",
     t: Float64Array.from(i ?? v.keys(), (k) => k * data.dt_s),
     v,
   }));
-  return { title: data[kind][title], units: data[kind].units, series };
+  return { title: data[kind].title, units: data[kind].units, series };
 }
 
 /** Return the number of the last of ascending values that is not above one; -1 if all are. */

@@ -63,7 +63,7 @@ function panelsOf(data) {
   const over = [0, data.seconds];
   const [, most] = rangeIn(friction.series[0], over) ?? [0, 1];
   return [
-    { ...relative, title: "Displacement" },
+    relative,
     { ...normal, over },
     { ...friction, least: 0, most: MOST_DEMAND * Math.max(most, 0.1), over },
   ];

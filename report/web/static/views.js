@@ -9,8 +9,6 @@ const part = (id) => document.getElementById(id);
 const DRAWINGS = {
   slide: { asks: "slide", needs: ["array", "motion"] },
   contour: { asks: "contour", needs: ["array"] },
-  paths: { asks: "paths", needs: ["array"] },
-  histories: { asks: "slide", needs: ["array", "motion"] },
 };
 const STALE = "Drawn for the values before the slider moved.";
 

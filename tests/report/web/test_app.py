@@ -132,7 +132,6 @@ def test_the_plan_is_placed_on_the_widest_sheet_that_the_page_has_room_for(clien
             b"", b"[]", b"{", b'{"values": 3}', b'{"n": "1"}', b'{"room": "1"}', b"[" * 90000)),
         ("slide", b"{}", "The request lacks array and motion;"),
         ("contour", b"{}", "The request lacks array;"),
-        ("paths", b"{}", "The request lacks array;"),
     ],
 )  # fmt: skip
 def test_a_request_that_is_not_one_of_the_page_is_refused(client, kind, body, told):
@@ -147,7 +146,6 @@ def test_views_answer_from_the_values_of_the_sliders(client):
     first = client.post("/api/slide", json=about).json()
     second = client.post("/api/slide", json=about | {"values": {"friction": 0.9}}).json()
     assert second["prd_m"] > first["prd_m"]
-    assert len(client.post("/api/paths", json=about).json()["paths"]) == 7
     assert "'A9'" in error_of(client.post("/api/slide", json=about | {"array": "A9"}))
 
 
@@ -273,9 +271,7 @@ def test_every_error_of_a_workbook_is_shown_at_once_with_its_row(client, tmp_pat
     assert len([item for item in state["problems"] if item["sheet"] == "Motions"]) >= 7
 
 
-@pytest.mark.parametrize(
-    "name", by_day(["assess", "slide", "contour", "paths", "workbook", "package"], 2)
-)
+@pytest.mark.parametrize("name", by_day(["assess", "slide", "contour", "workbook", "package"], 2))
 def test_a_page_that_shows_another_project_than_is_open_is_told(client, name):
     shown = sent(client, folder_of(EXAMPLE)).json()["opened"]
     body = {"values": {}, "array": "A1", "motion": "RM1"}

@@ -68,7 +68,7 @@ def test_axe_finds_nothing_wrong_in_any_state_of_the_page(browser, address, sche
         page.click("#causes")
         assert findings() == ""
         page.keyboard.press("Escape")
-        for tab in ("slide", "contour", "paths", "histories"):
+        for tab in ("slide", "contour"):
             page.click(f"#tab-{tab}")
             page.wait_for_selector(f"#{tab} .view:not(.is-stale) svg")
             assert findings() == "", tab
@@ -350,7 +350,7 @@ def test_the_page_works_with_the_keyboard_alone(page):
     )
     tabbed_to("#tab-plan")
     page.keyboard.press("End")
-    assert page.locator("#histories").is_visible()
+    assert page.locator("#contour").is_visible()
     page.keyboard.press("Home")
     assert page.locator("#plan").is_visible()
     tabbed_to('[data-name="A2"]')
@@ -407,12 +407,7 @@ def test_the_views_draw_what_is_chosen_with_the_values_of_the_tables(page):
     page.keyboard.press("Home")
     page.keyboard.press("n")
     assert drawn(page, "slide", ".slip-text", "Slip 1 of").endswith(" mm)")
-    page.click("#tab-histories")
-    assert drawn(page, "histories", ".toolbar select", f"PRD {prd}, governing")
-    page.click("#tab-paths")
-    for row in page.locator("#bars tbody tr").all():
-        motion, value = row.locator("th").inner_text(), row.locator("td.numbers").inner_text()
-        assert drawn(page, "paths", "figcaption", f"PRD {value} (").startswith(motion)
+    assert drawn(page, "slide", ".toolbar select", f"PRD {prd}, governing")
     page.click("#tab-contour")
     mean = numbers(page, "arrays", 2)[1]
     assert drawn(page, "contour", ".contour-reading output", f"mean PRD {mean} (")

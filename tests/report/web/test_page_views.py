@@ -284,102 +284,6 @@ def test_a_run_without_displacement_is_drawn_at_rest(page):
     assert "—" in page.locator(".panel-head").first.inner_text()
     assert page.locator(".track-foot .tick").all_text_contents()[2] == "On the roof"
     assert page.locator(".track .peak").nth(1).get_attribute("visibility") == "hidden"
-    mounted(page, "histories", answer)
-    assert page.locator(".panel").count() == 4
-
-
-def when(page):
-    return float(text(page, ".when").split()[2])
-
-
-def span(page):
-    labels = page.locator(".panel-axis text").all_text_contents()[:-1]
-    return float(labels[0]), float(labels[-1])
-
-
-def is_whole(page):
-    """Whether the whole record is shown."""
-    return page.locator("[aria-label='Zoom out']").is_disabled()
-
-
-def first_value(page):
-    """What is read on the first curve, with its unit."""
-    return page.locator(".panel-head").first.locator(".value").first.inner_text()
-
-
-def number_of(words):
-    return float(words.split()[0].replace("−", "-"))
-
-
-@pytest.mark.nightly
-def test_histories_zoom_and_read_by_keys(page, run):
-    mounted(page, "histories", run)
-    assert span(page) == (0.0, 6.0)
-    assert is_whole(page)
-    press(page, ".stage", "+", "+", "+")
-    low, high = span(page)
-    assert low < run["t_prd_s"] < high + 0.5
-    assert high - low < 8.0 * 0.6**3
-    before = when(page)
-    page.keyboard.press("ArrowRight")
-    assert when(page) == pytest.approx(before + run["dt_s"], abs=1e-3)
-    shown = value_at(run["acceleration"]["series"][0], run["dt_s"], when(page)) / projects.G
-    found = first_value(page)
-    assert found.endswith(" g")
-    assert number_of(found) == pytest.approx(shown, abs=0.02)
-    said = page.evaluate("said.at(-1)")
-    assert said.startswith(f"t = {number(when(page), 3)} s. Roof acceleration [g]: down {found}, ")
-    page.keyboard.press("Shift+ArrowLeft")
-    assert span(page)[0] < low
-    page.keyboard.press("0")
-    assert span(page)[0] == 0.0
-
-
-def test_the_wheel_zooms_what_is_chosen_and_else_scrolls_and_a_drag_enlarges(page, run):
-    mounted(page, "histories", run)
-    box = page.locator(".stage").bounding_box()
-    place = box["x"] + 300, box["y"] + 100
-    page.mouse.move(*place)
-    page.mouse.wheel(0, -300)
-    page.wait_for_timeout(50)
-    assert is_whole(page)
-    page.mouse.click(*place)
-    about = when(page)
-    page.mouse.wheel(0, -300)
-    page.wait_for_function("!document.querySelector('[aria-label=\"Zoom out\"]').disabled")
-    low, high = span(page)
-    assert low - 0.5 < about < high + 0.5
-    page.mouse.dblclick(*place)
-    assert is_whole(page)
-    # Dragging over a span enlarges it.
-    page.mouse.move(box["x"] + 200, box["y"] + 60)
-    first = when(page)
-    page.mouse.down()
-    page.mouse.move(box["x"] + 300, box["y"] + 60, steps=3)
-    last = when(page)
-    assert page.locator(".brush").is_visible()
-    page.mouse.up()
-    assert not page.locator(".brush").is_visible()
-    low, high = span(page)
-    assert first <= low < high <= last
-    assert last - first == pytest.approx(8.0 * 100 / (590 - 46 - 8), abs=0.02)
-
-
-@pytest.mark.nightly
-def test_a_reading_is_that_of_its_sample_in_a_record_of_more_than_the_page_is_wide(page):
-    motions = projects.motions(1, seconds=20.0)
-    data = views.slide(projects.assess_input(DATA, motions), "A1", "M1")
-    mounted(page, "histories", data)
-    press(page, ".stage", "Home")
-    samples = data["acceleration"]["series"][0]["v"]
-    for _ in range(60):
-        page.keyboard.press("ArrowRight")
-        sample = samples[round(when(page) / data["dt_s"])] / projects.G
-        assert number_of(first_value(page)) == pytest.approx(sample, abs=0.0051)
-    press(page, ".stage", *"+" * 20)
-    # The shortest span has 20 samples, and the curve goes through each of them.
-    curve = page.locator(".panel").first.locator(".curve").last.get_attribute("d")
-    assert 20 <= len(re.split("[ML]", curve)) - 1 <= 24
 
 
 def test_a_contour_is_read_by_keys_at_computed_values_and_by_pointer_between_them(page, assessment):
@@ -405,24 +309,6 @@ def test_a_contour_is_read_by_keys_at_computed_values_and_by_pointer_between_the
     assert re.search(between, text(page, reading))
 
 
-def test_paths_are_at_one_scale_and_read_point_by_point(page, assessment):
-    data = views.paths(assessment, "A2")
-    mounted(page, "paths", data)
-    scales = []
-    for path, drawn in zip(data["paths"], page.locator(".path-panel polyline").all(), strict=True):
-        box = drawn.evaluate("(one) => [one.getBBox().width, one.getBBox().height]")
-        scales += [box[0] / np.ptp(path["x_m"]), box[1] / np.ptp(path["y_m"])]
-    assert scales == pytest.approx([scales[0]] * 4, rel=0.02)
-    path, reading = data["paths"][0], ".paths-foot output"
-    press(page, ".path-panel svg >> nth=0", "Home")
-    assert path["name"].split()[0] == "M1"
-    start = f"{path['name']} at 0.00 s: 0.0 in (0 mm) from the start"
-    assert text(page, reading).startswith(start)
-    page.keyboard.press("End")
-    far = math.hypot(path["x_m"][-1], path["y_m"][-1])
-    assert f"at 8.00 s: {pair(far, Quantity.DISPLACEMENT)} from" in text(page, reading)
-
-
 CLIPPED = """() => [...document.querySelectorAll('.view, .panel-head')]
   .filter((one) => one.scrollWidth > one.clientWidth || one.scrollHeight > one.clientHeight + 1)
   .map((one) => one.className)"""
@@ -431,15 +317,14 @@ CLIPPED = """() => [...document.querySelectorAll('.view, .panel-head')]
 @pytest.mark.parametrize("wide", [411, 590, 760])
 @pytest.mark.nightly
 def test_nothing_of_a_view_is_cut_off_and_in_print_a_run_is_named(page, run, assessment, wide):
-    drawn = {name: getattr(views, name)(assessment, "A1") for name in ("contour", "paths")}
-    for view, data in (drawn | {"slide": run, "histories": run}).items():
+    for view, data in {"contour": views.contour(assessment, "A1"), "slide": run}.items():
         mounted(page, view, data, wide=wide)
         page.evaluate("document.fonts.ready")
         assert page.evaluate(CLIPPED) == [], view
         page.emulate_media(media="print")
         for gone in ("select", "button", "[type=range]", "[id$=-keys]"):
             assert page.locator(f".view {gone}:visible").count() == 0, (view, gone)
-        if view in ("slide", "histories"):
+        if view == "slide":
             title = text(page, ".view .print-only")
             assert title.startswith(f"Array A2, motion M1, run {run['run']}")
         page.emulate_media(media="screen")
