@@ -6,33 +6,38 @@ Computes nothing: every number and verdict is that of `report.assessment`. Read 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from report.assessment.assessment import Assessment
-from report.assessment.causes import governing_words
+from report.assessment.causes import failed, governing_words, largest
+from report.assessment.checks.check import Check, by_ratio
+from report.assessment.checks.sentence import sentence, words
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.routes import NOT_PERMITTED
 from report.assessment.design.rule_set import MEANING
 from report.assessment.design.verdict import Verdict
 from report.assessment.plan.neighbors import PlanNeighbor
+from report.assessment.remedies.remedies import remedies
 from report.drawing.sheet import unit_format
 from report.pages.attention import attention
 from report.pages.checks import verdict_sentence
 from report.pages.clearance_tables import NumberedGap, numbered_gaps
 from report.pages.marks import Marks
+from report.text.counts import grouped_by, numbered, ranged
 from report.text.unit_format import UnitFormat
-from report.text.units import Show, no_less
+from report.text.units import Show, no_less, ratio
 from report.web.plan import USUAL_PX, Cell, ShowVerdict, described, plan, stamp
 
-_ARRAY_HEADS = ["Array", "Mean PRD", "Design", "Prescriptive", "Verdict"]
+_ARRAY_HEADS = ["Array", "Mean PRD", "Design Δ", "Prescriptive", "D/C", "Verdict"]
 _GAP_HEADS = ["No.", "From, to", "Provided", "Required", "D/C", "Verdict"]
 
 _PROVISIONAL = (
-    "Provisional: each motion in the two orientations with the largest PRD at rest. All of them "
-    "follow when the slider rests."
+    "Provisional: each motion is run only in the two orientations that had the largest PRD in the "
+    "last full run, so that a displacement may be too small. All orientations are run when you "
+    "release the slider."
 )
-_LESS = "What less friction would change is being computed."
+_LESS = "Computing the effect of reduced friction."
 
 
 def answer(
@@ -42,6 +47,7 @@ def answer(
     marks = Marks(assessment, has_daggers=False)
     fmt = unit_format(assessment)
     arrays, gaps = assessment.arrays, numbered_gaps(assessment)
+    ratios = _ratios(assessment, gaps)
     missing = [near for near in assessment.neighbors if near.is_missing]
     designs = {item.id: _design(marks, item, is_provisional) for item in arrays}
 
@@ -55,34 +61,33 @@ def answer(
     return {
         "model_text": (_PROVISIONAL if is_provisional else _whole(assessment))
         + (f" {MEANING}." if assessment.is_overridden else ""),
-        "verdict": {"text": "OK so far", "look": "provisional"}
+        "verdict": {"text": "OK (provisional)", "look": "provisional"}
         if may_change
         else verdict(assessment.verdict, assessment.verdict.value),
         "line": "" if is_provisional else _LESS if may_change else governing_words(assessment),
+        "worst": _worst(assessment, is_provisional),
+        "next": "" if is_provisional or may_change else _next_step(assessment),
         # What it rests on; the reasons are listed below it.
         "verdict_text": None
         if is_provisional or may_change
         else verdict_sentence(assessment, "here"),
-        "reasons": []
-        if is_provisional
-        else [
-            {"level": level, "text": text} for level, text in attention(assessment, may_run=False)
-        ],
+        "reasons": [] if is_provisional else list(_reasons(assessment)),
         # Of what is not whole, the rest is asked next.
         "pending": "" if is_whole else _LESS,
         "arrays": {
             "caption": "Arrays: displacement",
             "heads": _ARRAY_HEADS,
-            "rows": [
+            "rows": _of_alike(
                 [
                     {"text": item.id},
                     _length(fmt, item.analysis.mean_m, no_less),
                     designs[item.id],
                     _prescriptive(marks, item),
-                    verdict(assessment.array_verdict(item)),
+                    {"text": _ratio(ratios[item.id], fmt)},
+                    None if is_provisional else stamp(assessment.array_verdict(item)),
                 ]
                 for item in arrays
-            ],
+            ),
         },
         "clearances": {
             "caption": "Clearances",
@@ -97,8 +102,77 @@ def answer(
             "arrays": {item.id: _bars(marks, item, designs[item.id]) for item in arrays},
         },
         "tips": _tips(marks, designs, gaps),
-        "plan": plan(marks, designs, (gaps, missing), verdict, room_px),
+        "plan": plan(marks, designs, (gaps, missing), verdict, ratios, room_px),
     }
+
+
+def _ratios(assessment: Assessment, gaps: Sequence[NumberedGap]) -> Mapping[str, float]:
+    """Return the D/C of each clearance, and the largest of those of each array, by their keys."""
+    found = {f"#{gap.number}": gap.check.demand_capacity for gap in gaps}
+    for item in assessment.arrays:
+        gap = assessment.governing_gap(item.id)
+        found[item.id] = gap.demand_capacity if gap else math.nan
+    return found
+
+
+def _of_alike(rows: Iterable[list[Cell | None]]) -> list[list[Any]]:
+    """Return rows, those that differ in their array alone as one with the names of all."""
+    alike = grouped_by(rows, lambda row: str(row[1:]))
+    return [[_names(group), *group[0][1:]] for group in alike.values()]
+
+
+def _names(rows: Sequence[Sequence[Cell | None]]) -> Mapping[str, Any]:
+    ids = [str(row[0]["text"]) for row in rows if row[0]]
+    return {"text": ranged(ids), "ids": ids}
+
+
+def _worst(assessment: Assessment, is_provisional: bool) -> Mapping[str, Any] | None:
+    """Return the check that governs, with its D/C; of provisional values the clearance."""
+    if is_provisional:
+        gap = assessment.governing_gap()
+        between = " to ".join(gap.between) if gap else ""
+        return _of_ratio(f"Clearance {between}", gap.demand_capacity) if gap else None
+    satisfied = largest(assessment)
+    clearances = [check for check in satisfied if check.id == "clearance"]
+    checks = failed(assessment) or clearances or by_ratio(satisfied)
+    if not checks:
+        return None
+    first, more = checks[0], len(failed(assessment)) - 1
+    others = f", and {numbered(more, 'more check')} NG" if more > 0 else ""
+    return _of_ratio(f"{first.title} {first.subject}".rstrip() + others, first.ratio)
+
+
+def _of_ratio(text: str, value: float) -> Mapping[str, Any]:
+    said = "" if math.isnan(value) else ratio(value)
+    return {"text": text, "ratio": finite(value), "ratio_text": said}
+
+
+def _next_step(assessment: Assessment) -> str:
+    """Return what to do next: what is enough, else what closes the first open check."""
+    if assessment.verdict is Verdict.NG and (found := remedies(assessment, may_run=False)).together:
+        return found.sentence
+    closing = (check.to_close for check in assessment.open)
+    return next(filter(None, closing), "")
+
+
+def _reasons(assessment: Assessment) -> Iterator[Mapping[str, Any]]:
+    """Yield what needs attention, each with the checks that it joins."""
+    us_first = assessment.project.us_first
+    joined = {sentence(check, us_first): check for check in assessment.open}
+    for level, text in attention(assessment, may_run=False):
+        parts = _joined_by(assessment, joined[text]) if text in joined else []
+        yield {"level": level, "text": text, "parts": list(map(words, parts))}
+
+
+def _joined_by(assessment: Assessment, joined: Check) -> Sequence[Check]:
+    """Return the checks that are listed as one, the largest ratio first; none of a single one."""
+    found = [
+        check
+        for check in assessment.checks
+        if (check.id, check.verdict) == (joined.id, joined.verdict)
+        and set(check.places) <= set(joined.places)
+    ]
+    return by_ratio(found) if len(found) > 1 else []
 
 
 def _design(marks: Marks, item: ArrayAssessment, is_provisional: bool) -> Cell:
@@ -115,7 +189,8 @@ def _design(marks: Marks, item: ArrayAssessment, is_provisional: bool) -> Cell:
 
 def _prescriptive(marks: Marks, item: ArrayAssessment) -> Cell:
     mark = marks.prescriptive(item)
-    return _length(unit_format(marks.assessment), item.prescriptive.value_m, no_less, mark)
+    cell = _length(unit_format(marks.assessment), item.prescriptive.value_m, no_less, mark)
+    return {**cell, "text": NOT_PERMITTED} if NOT_PERMITTED in mark else cell
 
 
 def _length(fmt: UnitFormat, value_m: float, show: Show, mark: str = "") -> dict[str, str]:
@@ -124,7 +199,11 @@ def _length(fmt: UnitFormat, value_m: float, show: Show, mark: str = "") -> dict
     return {"text": text} if text == both else {"text": text, "title": both}
 
 
-def _ratio(gap: NumberedGap, fmt: UnitFormat) -> str:
+def _ratio(value: float, fmt: UnitFormat) -> str:
+    return fmt.none if math.isnan(value) else ratio(value)
+
+
+def _gap_ratio(gap: NumberedGap, fmt: UnitFormat) -> str:
     return fmt.none if math.isnan(gap.check.demand_capacity) else gap.check.ratio_words
 
 
@@ -135,7 +214,7 @@ def _gap(gap: NumberedGap, marks: Marks, verdict: ShowVerdict) -> list[Cell | No
         _between(row.array, row.object, row.direction.value),
         _length(fmt, row.provided_m, had),
         _length(fmt, gap.check.required_m, needed, marks.required(gap.check)),
-        {"text": _ratio(gap, fmt)},
+        {"text": _gap_ratio(gap, fmt)},
         verdict(gap.check.verdict),
     ]
 
@@ -163,14 +242,14 @@ def _tips(marks: Marks, designs: Mapping[str, Cell], gaps: Sequence[NumberedGap]
     tips |= {row.id: f"{row.id}: {row.kind.value}" for row in assessment.project.objects}
     worst: dict[str, NumberedGap] = {}
     for gap in gaps:
-        tips[f"#{gap.number}"] = f"{described(gap, marks)}, D/C {_ratio(gap, fmt)}"
+        tips[f"#{gap.number}"] = f"{described(gap, marks)}, D/C {_gap_ratio(gap, fmt)}"
         for name in gap.check.between:
             known = worst.get(name)
             if known is None or not gap.check.demand_capacity <= known.check.demand_capacity:
                 worst[name] = gap
     for name, gap in worst.items():
         other = gap.check.across_from(name)
-        tips[name] = f"{tips.get(name, name)}, D/C {_ratio(gap, fmt)} to {other}"
+        tips[name] = f"{tips.get(name, name)}, D/C {_gap_ratio(gap, fmt)} to {other}"
     return tips
 
 

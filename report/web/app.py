@@ -26,8 +26,9 @@ from report.web.access import ENTRY, TOKEN_HEADER, Access, Keys
 from report.web.files import is_alone, package_routes, receive_json, received, workbook
 from report.web.session import (
     EXAMPLE,
+    EXAMPLE_NAME,
+    ClosedError,
     LostError,
-    OtherProjectError,
     RefusedError,
     Session,
     StaleError,
@@ -83,11 +84,11 @@ def made(keys: Keys, folder: Path, hosts: Collection[str]) -> Starlette:
         exception_handlers={
             InputError: _refused,
             RefusedError: _refused,
-            # By these numbers api.js tells a request that is replaced, and another project.
+            # By its number api.js tells a request that is replaced.
             StaleError: _told(409, "A newer request of this page came."),
             LostError: _told(503, "The process that computes has ended. Try it again."),
-            OtherProjectError: _told(
-                412, "Another project was opened in another tab; reload the page to see it."
+            ClosedError: _told(
+                412, "This project is no longer open here. Open its workbook and records again."
             ),
             HTTPException: _failed,
             ClientDisconnect: _told(400, "The request did not arrive whole."),
@@ -121,9 +122,9 @@ async def _index(request: Request) -> Response:
 
 async def _key(request: Request) -> Response:
     key = keys_of(request).exchange(request.headers.get(TOKEN_HEADER, ""))
-    return (
-        JSONResponse({"key": key}) if key else _error("The token of this address is not good.", 403)
-    )
+    if not key:
+        return _error("The token in this address is not valid.", 403)
+    return JSONResponse({"key": key})
 
 
 async def _token(request: Request) -> Response:
@@ -132,24 +133,28 @@ async def _token(request: Request) -> Response:
 
 
 async def _state(request: Request) -> Response:
-    return JSONResponse(await _whole_state(request, session_of(request).workbook))
+    """Return the project of the address where it is open, else what was opened last."""
+    session = session_of(request)
+    opened = session.named(request.query_params.get("project", ""))
+    return JSONResponse(await _whole_state(request, opened, session.workbook(opened)))
 
 
 async def _example(request: Request) -> Response:
-    session_of(request).open(EXAMPLE)
     session_of(request).prepare(EXAMPLE)
-    return JSONResponse(await _whole_state(request, EXAMPLE))
+    state = await _whole_state(request, EXAMPLE_NAME, EXAMPLE)
+    session_of(request).open(EXAMPLE, state["project"]["id"])
+    return JSONResponse(state)
 
 
 async def _clearances(request: Request) -> Response:
     """Open a copy of what is open, with a clearance for each pair of the plan that lacks one."""
-    await receive_json(request)
+    request.state.opened = (await receive_json(request)).opened
     return await _open_new(request, _with_clearances)
 
 
 async def _with_clearances(request: Request, folder: Path) -> Path:
     session = session_of(request)
-    current = session.workbook
+    current = session.workbook(request.state.opened)
     workbook = folder / "project" / current.name
     await run_in_threadpool(copied, current, workbook.parent)
     await session.ask({"do": "add_clearances", "workbook": str(current), "to": str(workbook)})
@@ -171,34 +176,30 @@ async def _with_plan(request: Request, folder: Path) -> Path:
 async def _open_new(
     request: Request, store: Callable[[Request, Path], Awaitable[Path]]
 ) -> Response:
-    """Open a workbook stored in a new folder, unless it has errors or another was opened."""
+    """Open a workbook stored in a new folder, unless it has errors."""
     session = session_of(request)
     folder = session.new_folder()
     try:
         workbook = await store(request, folder)
         session.prepare(workbook)
-        state = await _whole_state(request, workbook)
-        # Of two uploads the one that was begun last stays, whichever is read first.
-        if not session.is_newest(folder):
-            raise InputError("Another project was opened meanwhile; open this one again.")
+        state = await _whole_state(request, folder.name, workbook)
     # Also where the browser has gone: nothing asks for the folder any more.
     except BaseException:
         await run_in_threadpool(shutil.rmtree, folder, ignore_errors=True)
         raise
-    # A workbook with errors is not opened: what was open stays so.
+    # A workbook with errors is not opened.
     if state["problems"]:
         state["is_alone"] = await run_in_threadpool(is_alone, workbook, folder)
         await run_in_threadpool(shutil.rmtree, folder, ignore_errors=True)
     else:
-        session.open(workbook)
-    lines = getattr(request.state, "lines", [])
-    return JSONResponse(state | {"opened": session.opened, "package": None, "lines": lines})
+        session.open(workbook, state["project"]["id"])
+    return JSONResponse(state | {"lines": getattr(request.state, "lines", [])})
 
 
-async def _whole_state(request: Request, workbook: Path) -> dict[str, Any]:
+async def _whole_state(request: Request, opened: str, workbook: Path) -> dict[str, Any]:
     session = session_of(request)
-    package = session.packages.last(session.opened)
-    about = {"opened": session.opened, "package": package.about if package else None}
+    package = session.packages.last(opened)
+    about = {"opened": opened, "package": package.about if package else None}
     state = {**about, **await session.ask({"do": "state", "workbook": str(workbook)})}
     if state["project"]:
         state["project"] |= {"file": workbook.name, "is_example": workbook == EXAMPLE}

@@ -20,7 +20,7 @@ from report.text.counts import cut, ids_by, ranged
 from report.text.units import Quantity, no_more, number, pair
 from report.web.values import MUS, UNITS_FIRST, Values, typed
 from solver.friction_tests import MOST_MU
-from solver.model import InputError, Motion
+from solver.model import INCH_M, InputError, Motion
 
 if TYPE_CHECKING:
     from report.web.open_project import OpenProject
@@ -30,6 +30,7 @@ _LEAST, _MOST = 0.2, 2.0
 # Least, greatest and step in inches, and in millimeters.
 _TRIM = {True: (-24.0, 24.0, 1.0), False: (-600.0, 600.0, 25.0)}
 _TURN_DEG = 5.0
+_ENDS = {"least": "Smallest", "greatest": "Largest"}
 
 
 def controls(opened: OpenProject) -> Mapping[str, Any]:
@@ -60,12 +61,15 @@ def check(opened: OpenProject, values: Values) -> None:
     choices = {item["id"]: item for item in known["choices"]}
     wrong: list[str] = []
     for name, value in values.items():
-        if name in sliders:
-            span = sliders[name]["least"], sliders[name]["greatest"]
+        control, has_target, target = name.partition("@")
+        slider = sliders.get(control)
+        if slider and (not has_target or target in slider["real"]["targets"]):
+            span = slider["least"], slider["greatest"]
             if not _is_number(value) or not span[0] <= float(value) <= span[1]:
+                of = f" of {target}" * bool(has_target)
                 wanted = f"give a number from {span[0]:g} to {span[1]:g}"
-                why = "".join(f" ({text})" for text in sliders[name]["stops"].values())
-                wrong.append(f"{sliders[name]['label']} is {cut(str(value))}; {wanted}{why}")
+                why = "".join(f" ({text})" for text in slider["stops"].values())
+                wrong.append(f"{slider['label']}{of} is {cut(str(value))}; {wanted}{why}")
         elif name not in choices:
             wrong.append(f"{cut(name)}: the workbook has no such slider; leave it out")
         elif value not in (options := [each["value"] for each in choices[name]["options"]]):
@@ -80,30 +84,62 @@ def _is_number(value: object) -> bool:
 
 
 def _sliders(sheet: Sheet) -> Iterator[dict[str, Any]]:
+    arrays, us_first = sheet.project.arrays, sheet.project.us_first
     mus = [row[name] for row in sheet.inputs["arrays"] for name in MUS if row.get(name)]
     # The cell of a coefficient accepts no more than MOST_MU.
     most_mu = math.floor(100.0 * min(_MOST, MOST_MU / max(mus, default=1.0))) / 100.0
+    s_ds = _real("S_DS", "g", 3, {}, of_all=sheet.project.site.s_ds)
     yield _slider("friction", "Friction", "×", (0.5, most_mu, 0.01), 1.0,
-                  "Factor on every coefficient; a law by velocity as a whole.")  # fmt: skip
+                  "Factor on every friction coefficient. Velocity-dependent friction is scaled as "
+                  "a whole.",
+                  _real("μ", "", 3, {array.id: array.mu for array in arrays}))  # fmt: skip
     yield _slider("slope", "Slope", "°", (-_TURN_DEG, _TURN_DEG, 0.1), 0.0,
-                  "Added to the slope of every array; no slope is less than 0.")  # fmt: skip
+                  "Added to the slope of every array; no slope is less than 0.",
+                  _real("Slope", "°", 2, {a.id: math.degrees(a.slope_rad) for a in arrays})
+                  )  # fmt: skip
     yield _slider("intensity", "Intensity", "×", (_LEAST, _MOST, 0.02), 1.0,
-                  "Factor on all motions, and on S_DS where both change together.")  # fmt: skip
+                  "Factor on all motions, and on S_DS where both change together.",
+                  s_ds | {"with_choice": {"together": "yes"}})  # fmt: skip
     yield _slider("s_ds", "S_DS", "×", (_LEAST, _MOST, 0.02), 1.0,
-                  "Factor on S_DS alone.") | {"with_choice": {"together": "no"}}  # fmt: skip
-    is_us = sheet.project.us_first
-    yield _slider("clearance", "Clearance", "in" if is_us else "mm", _TRIM[is_us], 0.0,
-                  "Every side of every rectangular array moves inward by this much; the "
-                  "clearances follow the plan.")  # fmt: skip
+                  "Factor on S_DS alone.", s_ds) | {"with_choice": {"together": "no"}}  # fmt: skip
+    unit, size = ("in", INCH_M) if us_first else ("mm", 1e-3)
+    gaps = {str(n): row.provided_m / size for n, row in enumerate(sheet.project.clearances, 1)}
+    beside = {"all": None, "is_beside": True, "with_choice": {"clearance": 0.0}}
+    yield _slider("clearance", "Clearance", unit, _TRIM[us_first], 0.0,
+                  "Trim arrays: moves every side of every rectangular array inward by this amount. "
+                  "Clearances are updated from the plan.",
+                  _real("Provided", unit, 1 if us_first else 0, gaps) | beside)  # fmt: skip
+
+
+def _real(
+    symbol: str, unit: str, digits: int, targets: Mapping[str, float], of_all: float | None = None
+) -> dict[str, Any]:
+    """Return the quantity that a slider changes, as the workbook has it: of each target, or one."""
+    values = set(targets.values())
+    return {
+        "symbol": symbol,
+        "unit": unit,
+        "digits": digits,
+        "targets": targets,
+        "all": values.pop() if len(values) == 1 else of_all,
+        "is_beside": False,  # whether the value of a target is beside that of all
+        "with_choice": {},
+    }
 
 
 def _slider(
-    name: str, label: str, unit: str, span: tuple[float, float, float], start: float, words: str
+    name: str,
+    label: str,
+    unit: str,
+    span: tuple[float, float, float],
+    start: float,
+    words: str,
+    real: Mapping[str, Any],
 ) -> dict[str, Any]:
     least, greatest, step = span
     return {
         "id": name, "label": label, "unit": unit, "least": least, "greatest": greatest,
-        "step": step, "typed": start, "help": words, "stops": {},
+        "step": step, "typed": start, "help": words, "stops": {}, "real": real,
     }  # fmt: skip
 
 
@@ -118,7 +154,7 @@ def _stopped(opened: OpenProject, slider: dict[str, Any]) -> dict[str, Any]:
         while abs(bad - good) > 1:
             middle = (good + bad) // 2
             good, bad = (good, middle) if _problem_at(opened, slider, middle) else (middle, bad)
-        why = f"No value beyond the {end}: {_problem_at(opened, slider, bad)}"
+        why = f"{_ENDS[end]} permitted value: {_problem_at(opened, slider, bad)}"
         slider = slider | {
             end: _value_at(slider, good),
             "stops": slider["stops"] | {end: why},
@@ -150,12 +186,12 @@ def _choices(opened: OpenProject) -> Sequence[Mapping[str, Any]]:
         Place("motions", i, "polarity") in sheet.addresses for i in range(len(opened.by_motion))
     )
     return [
-        _choice("together", "S_DS with the motions", "yes", {"yes": "Together", "no": "Apart"},
-                "Whether intensity changes S_DS as well, or the motions alone."),
+        _choice("together", "Scale S_DS with the motions", "yes", {"yes": "Yes", "no": "No"},
+                "Whether the intensity slider also scales S_DS."),
         *([_choice("polarity", "Polarity", polarities[0] if len(polarities) == 1 else "",
                    ({} if len(polarities) == 1 else {"": "as in the workbook"})
                    | {p.value: p.value for p in Polarity},
-                   "Runs of each horizontal component.")] if has_cells else []),
+                   "Polarities in which each horizontal component is run.")] if has_cells else []),
         _rule_sets(opened),
         *([_choice("units", "Primary units", sheet.inputs["project"][0]["units_first"],
                    {UnitsFirst.US.value: "in", UnitsFirst.SI.value: "mm"},

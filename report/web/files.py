@@ -19,7 +19,7 @@ from starlette.routing import Route
 
 from report.making import OUTPUTS
 from report.motions.stored import MB, MOST_FILES, MOST_SENT, store
-from report.web.session import Asked, OtherProjectError, RefusedError, session_of
+from report.web.session import Asked, RefusedError, session_of
 from report.web.worker import PROJECT, TYPES, Package, State, copied, motions_made
 from solver.model import InputError
 
@@ -43,8 +43,7 @@ async def receive_json(request: Request) -> Asked:
         asked = Asked.model_validate_json(await request.body())
     except ValidationError as error:
         raise InputError("the request is not one of the page; load the page again") from error
-    if asked.opened not in (None, session_of(request).opened):
-        raise OtherProjectError
+    session_of(request).workbook(asked.opened)  # which says so where it is closed
     return asked
 
 
@@ -108,15 +107,16 @@ def package_routes() -> list[Route]:
 
 async def workbook(request: Request) -> Response:
     """Return the workbook with the values written into its cells."""
-    session, values = session_of(request), (await receive_json(request)).values
-    name = session.workbook.name
+    session, asked = session_of(request), await receive_json(request)
+    current = session.workbook(asked.opened)
     path = session.folder / f"written-{secrets.token_hex(8)}.xlsx"
+    job = {"do": "write", "workbook": str(current), "values": asked.values, "to": str(path)}
     try:
-        await session.ask({"do": "write", "values": values, "to": str(path)})
+        await session.ask(job)
         data = await run_in_threadpool(path.read_bytes)
     finally:
         await run_in_threadpool(path.unlink, missing_ok=True)
-    return _attached(Response(data, media_type=TYPES[".xlsx"]), name)
+    return _attached(Response(data, media_type=TYPES[".xlsx"]), current.name)
 
 
 async def _filled(request: Request) -> Response:
@@ -127,8 +127,9 @@ async def _filled(request: Request) -> Response:
 
 
 async def _begin(request: Request) -> Response:
-    session, values = session_of(request), (await receive_json(request)).values
-    opened, workbook = session.opened, session.workbook
+    session, asked = session_of(request), await receive_json(request)
+    opened, values = asked.opened or session.opened, asked.values
+    workbook = session.workbook(opened)
     path = session.folder / f"package-{secrets.token_hex(8)}" / workbook.name
     try:
         await run_in_threadpool(copied, workbook, path.parent)
@@ -136,11 +137,8 @@ async def _begin(request: Request) -> Response:
         await session.ask(job)
     except (OSError, RefusedError):
         await run_in_threadpool(shutil.rmtree, path.parent, ignore_errors=True)
-        # Where another one was opened, the files are gone for that: it is said below.
-        if session.workbook == workbook:
-            raise
-    if session.workbook != workbook:
-        raise InputError("Another workbook was opened meanwhile; make the package again.")
+        session.workbook(opened)  # where it was closed meanwhile the files are gone for that
+        raise
     return JSONResponse(session.packages.begin(opened, path, values).about)
 
 
@@ -150,7 +148,7 @@ async def _motions(request: Request) -> Response:
     folder = session.folder / f"package-{secrets.token_hex(8)}"
     folder.mkdir()
     workbook = await received(request, folder)
-    session.packages.cancel(motions_made)
+    session.packages.cancel(task=motions_made)
     return JSONResponse(session.packages.begin(session.opened, workbook, {}, motions_made).about)
 
 

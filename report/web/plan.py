@@ -6,6 +6,8 @@ numbers; the package paints the same in `report.figures.plan`.
 
 from __future__ import annotations
 
+import math
+from bisect import bisect_left
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -73,9 +75,13 @@ def plan(
     designs: Mapping[str, Cell],
     gaps: tuple[Sequence[NumberedGap], Sequence[PlanNeighbor]],
     verdict: ShowVerdict,
+    ratios: Mapping[str, float],
     room_px: int = USUAL_PX,
 ) -> Mapping[str, Any]:
-    """Return the plan with its design displacements, its clearances and what is without one."""
+    """Return the plan with its design displacements, its clearances and what is without one.
+
+    `ratios` are the largest D/C of arrays, which shade them.
+    """
     words = {name: str(cell["text"]) for name, cell in designs.items()}
     assessment, (shown, missing) = marks.assessment, gaps
     fmt = unit_format(assessment)
@@ -100,8 +106,20 @@ def plan(
         ],
         "size_px": [round(paper.wide * _PX), round(paper.tall * _PX)],
         "rooms_px": [0 if wide_px == _LEAST_PX else wide_px, more_px],
-        "items": [_element(paper, item) for item in paper.items],
+        "items": [_shaded(_element(paper, item), ratios) for item in paper.items],
     }
+
+
+SHADES = (0.5, 0.75, 0.9, 1.0)
+"""D/C up to which each shade goes; one more is above the last."""
+
+
+def _shaded(element: dict[str, Any], ratios: Mapping[str, float]) -> Mapping[str, Any]:
+    """Return an element of the plan with the shade of its D/C."""
+    ratio = ratios.get(element.get("data-key") or "", math.nan)
+    if element["class"] == "array" and not math.isnan(ratio):
+        element["class"] += f" is-shade-{bisect_left(SHADES, ratio)}"
+    return element
 
 
 def _sheet_px(room_px: int) -> tuple[int, int]:
@@ -128,7 +146,7 @@ def described(gap: NumberedGap, marks: Marks) -> str:
     return f"{name}: provided {provided}, required {required}"
 
 
-def _element(paper: Paper, item: Item) -> Mapping[str, Any]:
+def _element(paper: Paper, item: Item) -> dict[str, Any]:
     """Return an element: its kind, its attributes and its text; its key is that of a tip."""
 
     def at(point: Point) -> tuple[float, float]:

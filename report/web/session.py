@@ -1,4 +1,4 @@
-"""The session of one engineer: what is open, and the two processes that answer about it.
+"""The session of one engineer: projects that are open, and two processes that answer about them.
 
 One process answers sliders that move, the other all else, and moves where it alone is free; one
 that ends or takes too long is replaced. Knows no route and no physics. Read `Session.ask`.
@@ -22,7 +22,10 @@ from report.web.plan import USUAL_PX
 from report.web.processes import WorkerProcess
 from report.web.worker import Packages, begun
 
-EXAMPLE = example.EXAMPLE / "input.xlsx"
+EXAMPLE, EXAMPLE_NAME = example.EXAMPLE / "input.xlsx", "example"
+
+MOST_OPEN = 8
+"""Projects that stay open beside the example; the one opened first is closed for another one."""
 
 LONGEST_S = 120.0
 """Longest time of an answer [s]; then its process is ended."""
@@ -53,7 +56,7 @@ class LostError(Exception):
     """The process that was asked ended, or was ended for the time it took."""
 
 
-class OtherProjectError(Exception):
+class ClosedError(Exception):
     """A page asks about a project that is no longer open."""
 
 
@@ -61,7 +64,7 @@ class Asked(BaseModel):
     """A request of the page about what is open, with the values of its sliders.
 
     Of two requests of a page only that with the larger number counts. A script that does not say
-    what is open asks about whatever it is.
+    which project it means asks about the one that was opened last.
     """
 
     model_config = ConfigDict(strict=True, frozen=True)
@@ -69,7 +72,7 @@ class Asked(BaseModel):
     page: str = Field("", max_length=100)
     n: int = Field(0, ge=-(2**53), le=2**53)
     opened: str | None = None
-    values: dict[str, int | float | str] = Field({}, max_length=40)
+    values: dict[str, int | float | str] = Field({}, max_length=400)
     moving: bool = False
     whole: bool = True
     room: int = Field(USUAL_PX, le=10_000)
@@ -85,15 +88,15 @@ class Session:
     ----------
     folder : Path
         Of uploads and packages; it ends with the server.
-    workbook : Path
-        What is open: the example, or the last upload that could be read.
     filled : Path or None
         The last workbook whose plan was filled in from a drawing.
     """
 
     def __init__(self, folder: Path) -> None:
-        self.folder, self.workbook, self.packages = folder, EXAMPLE, Packages()
+        self.folder, self.packages = folder, Packages()
         self.filled: Path | None = None
+        self._open = {EXAMPLE_NAME: EXAMPLE}  # by name, the one opened last at the end
+        self._names: dict[str, str] = {}  # by what addresses call the project
         self._openings = 0
         self._processes: dict[bool, WorkerProcess] = {}
         self._busy: set[bool] = set()
@@ -104,9 +107,19 @@ class Session:
 
     @property
     def opened(self) -> str:
-        """Name of what is open, which no other upload has."""
-        is_example = self.workbook == EXAMPLE
-        return "example" if is_example else self.workbook.relative_to(self.folder).parts[0]
+        """Name of what was opened last, which no other upload has."""
+        return list(self._open)[-1]
+
+    def workbook(self, opened: str | None = None) -> Path:
+        """Return the workbook of a project by its name, or of that opened last."""
+        if opened is not None and opened not in self._open:
+            raise ClosedError
+        return self._open[opened or self.opened]
+
+    def named(self, project: str) -> str:
+        """Return the name of the project of an address; where it is not open, of the last one."""
+        name = self._names.get(project, "")
+        return name if name in self._open else self.opened
 
     def new_folder(self) -> Path:
         """Return an empty folder for an upload."""
@@ -115,17 +128,17 @@ class Session:
         folder.mkdir()
         return folder
 
-    def is_newest(self, folder: Path) -> bool:
-        """Whether nothing was opened, and no upload begun, after that of a folder."""
-        return folder.name == f"upload-{self._openings}"
-
-    def open(self, workbook: Path) -> None:
-        """Open a workbook in place of another one, and end what is being made."""
-        self.packages.cancel()
-        former = self.folder / self.opened
-        self.workbook = workbook
-        self._openings += 1
-        shutil.rmtree(former, ignore_errors=True)
+    def open(self, workbook: Path, project: str) -> None:
+        """Open a workbook beside the others, by what addresses call it."""
+        is_example = workbook == EXAMPLE
+        name = EXAMPLE_NAME if is_example else workbook.relative_to(self.folder).parts[0]
+        self._open.pop(name, None)
+        self._open[name] = workbook
+        self._names[project] = name
+        for former in [each for each in self._open if each != EXAMPLE_NAME][:-MOST_OPEN]:
+            self.packages.cancel(opened=former)
+            self._references.pop(str(self._open.pop(former)), None)
+            shutil.rmtree(self.folder / former, ignore_errors=True)
 
     def start(self) -> None:
         """Start the processes, each with the example, as the page will ask first."""
@@ -168,12 +181,12 @@ class Session:
             self._end(is_quick)
 
     async def ask(self, job: Mapping[str, Any], asked: Asked | None = None) -> Mapping[str, Any]:
-        """Return the answer to a job, about what is open if it names no workbook.
+        """Return the answer to a job, about what was opened last if it names no workbook.
 
         It is asked by a request of a page, which a newer one replaces, or by none. Without an
         answer it is refused, stale or lost, or the disk is full.
         """
-        job = {"workbook": str(self.workbook), **job}
+        job = {"workbook": str(self.workbook(asked.opened if asked else None)), **job}
         if asked:
             self._note(job["do"], asked)
         is_quick = await self._turn(job["do"], asked)
@@ -184,10 +197,7 @@ class Session:
         finally:
             await self._end_turn(is_quick)
         if "reference" in reply:
-            now, own = job["workbook"], str(self.workbook)
-            # Of what is open and of what was asked: an upload is asked about before it is opened.
-            kept = {own: self._references[own]} if own in self._references else {}
-            self._references = kept | {now: reply["reference"]}
+            self._references[job["workbook"]] = reply["reference"]
         if "answer" in reply:
             answer: Mapping[str, Any] = reply["answer"]
             return answer

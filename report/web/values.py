@@ -21,7 +21,7 @@ from solver.model import INCH_M
 from solver.rules.hazard import EDITIONS
 
 Values = Mapping[str, float | str]
-"""By id; an id that is not there is as typed in the workbook."""
+"""By id, as `friction`, or `friction@A1` for one array alone; one that is not there is as typed."""
 
 MUS = ("mu", "mu_fast", "mu_static")
 SHORT_PERIOD = ("s_s_g", "s_ms_g", "s_ds_g")
@@ -37,21 +37,15 @@ def typed(sheet: Sheet, scales: Mapping[str, float], values: Values) -> dict[Pla
 
     `scales` is the factor on the records of each motion, as the workbook has it.
     """
-    factors = {name: float(values.get(name, 1.0)) for name in ("friction", "intensity", "s_ds")}
+    factors = {name: float(values.get(name, 1.0)) for name in ("intensity", "s_ds")}
     if values.get("together", "yes") == "yes":
         factors["s_ds"] = factors["intensity"]
-    changed: dict[Place, Typed] = {}
-    if factors["friction"] != 1.0:
-        changed |= dict(_friction(sheet, factors["friction"]))
-    if turn_deg := float(values.get("slope", 0.0)):
-        changed |= dict(_slope(sheet, turn_deg))
+    changed: dict[Place, Typed] = dict(_friction(sheet, values)) | dict(_slope(sheet, values))
     if factors["s_ds"] != 1.0:
         changed |= dict(_s_ds(sheet, factors["s_ds"]))
     if factors["intensity"] != 1.0 or factors["s_ds"] != 1.0:
         changed |= dict(_intensity(sheet, scales, factors["intensity"]))
-    trim_unit_m = INCH_M if sheet.project.us_first else 0.001
-    if trim_m := float(values.get("clearance", 0.0)) * trim_unit_m:
-        changed |= dict(_trim(sheet, trim_m))
+    changed |= dict(_trim(sheet, values))
     first = sheet.inputs["project"][0]["units_first"]
     if (units := values.get("units", first)) != first:
         changed[UNITS_FIRST] = units
@@ -66,18 +60,30 @@ def _given(sheet: Sheet, section: str, fields: tuple[str, ...]) -> Iterator[tupl
                 yield Place(section, index, field), row[field]
 
 
-def _friction(sheet: Sheet, factor: float) -> Iterator[tuple[Place, Typed]]:
-    """Multiply every coefficient: a law by velocity as a whole, and those of linked blocks."""
+def _of(values: Values, control: str, target: object, none: float) -> float:
+    """Return the value of a control for an array or a clearance: its own, or that of all."""
+    return float(values.get(f"{control}@{target}", values.get(control, none)))
+
+
+def _friction(sheet: Sheet, values: Values) -> Iterator[tuple[Place, Typed]]:
+    """Multiply the coefficients: a law by velocity as a whole, and those of linked blocks."""
+    rows = sheet.inputs["arrays"]
     for place, mu in _given(sheet, "arrays", MUS):
-        yield place, round(mu * factor, _MU_DIGITS)
+        factor = _of(values, "friction", rows[place.row]["id"], 1.0)
+        if factor != 1.0:
+            yield place, round(mu * factor, _MU_DIGITS)
     for index, row in enumerate(sheet.inputs["links"]):
-        mus = (round(mu * factor, _MU_DIGITS) for mu in coefficients(row["friction"]))
-        yield Place("links", index, "friction"), ", ".join(map(str, mus))
+        factor = _of(values, "friction", row["array"], 1.0)
+        if factor != 1.0:
+            mus = (round(mu * factor, _MU_DIGITS) for mu in coefficients(row["friction"]))
+            yield Place("links", index, "friction"), ", ".join(map(str, mus))
 
 
-def _slope(sheet: Sheet, turn_deg: float) -> Iterator[tuple[Place, Typed]]:
+def _slope(sheet: Sheet, values: Values) -> Iterator[tuple[Place, Typed]]:
     for index, row in enumerate(sheet.inputs["arrays"]):
-        unit = row["slope_unit"]
+        unit, turn_deg = row["slope_unit"], _of(values, "slope", row["id"], 0.0)
+        if not turn_deg:
+            continue
         # As in the cell no slope is less than 0.
         angle = max(slope_rad(row["slope_value"], unit) + math.radians(turn_deg), 0.0)
         per_one = {SlopeUnit.PERCENT: 100.0, SlopeUnit.IN_PER_12: 12.0}
@@ -112,13 +118,20 @@ def _intensity(
             yield Place("motions", index, "scale_value"), _rounded(scale * factor)
 
 
-def _trim(sheet: Sheet, trim_m: float) -> Iterator[tuple[Place, Typed]]:
-    """Move the sides of every rectangular array inward, and let the clearances follow the plan."""
+def _trim(sheet: Sheet, values: Values) -> Iterator[tuple[Place, Typed]]:
+    """Move the sides of every rectangular array inward, and let the clearances follow the plan.
+
+    A clearance by itself is changed beside that: its number is its row.
+    """
     project = sheet.project
+    unit_m = INCH_M if project.us_first else 0.001
+    trim_m = float(values.get("clearance", 0.0)) * unit_m
+    rows = range(1, len(project.clearances) + 1)
+    own_m = {row: float(values.get(f"clearance@{row}", 0.0)) * unit_m for row in rows}
     before: dict[str, Shape] = {row.id: row.placed for row in project.objects if row.placed}
     before |= {array.id: array.shape for array in project.arrays}
     after = dict(before)
-    for index, array in trimmed(sheet):
+    for index, array in trimmed(sheet) if trim_m else ():
         x0, x1, y0, y1 = (getattr(array, side) for side in SIDES)
         places = [Place("arrays", index, side) for side in SIDES]
         moved = (x0 + trim_m, x1 - trim_m, y0 + trim_m, y1 - trim_m)
@@ -132,8 +145,10 @@ def _trim(sheet: Sheet, trim_m: float) -> Iterator[tuple[Place, Typed]]:
         else:
             # What has no place in plan is moved away from by one side.
             more = trim_m * any(after[n] is not before[n] for n in names if n in before)
+        more += own_m[index + 1]
         place = Place("clearances", index, "provided_m")
-        yield place, _in_cell(sheet, place, max(row.provided_m + more, 0.0))
+        if trim_m or more:
+            yield place, _in_cell(sheet, place, max(row.provided_m + more, 0.0))
 
 
 def trimmed(sheet: Sheet) -> list[tuple[int, Array]]:

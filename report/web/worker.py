@@ -218,10 +218,11 @@ class Packages:
     def begin(self, opened: str, workbook: Path, values: Values, task: Task = made) -> Package:
         """Begin the package of a workbook that has a folder of its own, with its records.
 
-        While another one is made, that one is returned.
+        While another one of the project is made, that one is returned.
         """
         for other in self._all.values():
-            if other.task is task and other.state is State.RUNNING:
+            is_same = other.task is task and other.opened == opened
+            if is_same and other.state is State.RUNNING:
                 shutil.rmtree(workbook.parent, ignore_errors=True)
                 return other
         package = Package(opened, workbook, values, task)
@@ -241,10 +242,10 @@ class Packages:
         own = [each for each in self._all.values() if each.task is made and each.opened == opened]
         return own[-1] if own and own[-1].state is not State.CANCELED else None
 
-    def cancel(self, task: Task | None = None) -> None:
-        """End what is being made: all, or packages or suites alone."""
+    def cancel(self, *, task: Task | None = None, opened: str | None = None) -> None:
+        """End what is being made: all, or packages or suites alone, or those of a project."""
         for package in self._all.values():
-            if task in (None, package.task):
+            if task in (None, package.task) and opened in (None, package.opened):
                 package.cancel()
 
     async def stop(self) -> None:

@@ -5,22 +5,16 @@
 export class ApiError extends Error {
   constructor(message, status, problems = []) {
     super(message);
-    // Another address opens this tab; nothing but loading the page again helps; no server answered.
-    const remedy = { lacksKey: status === NO_KEY, needsReload: status === OTHER_PROJECT, isUnreached: status === UNREACHED };
+    // Another address opens this tab; no server answered.
+    const remedy = { lacksKey: status === NO_KEY, isUnreached: status === UNREACHED };
     Object.assign(this, { status, problems }, remedy);
   }
 }
 
 const NO_KEY = 401;
 const NOT_GOOD = 403; // a token
-const OTHER_PROJECT = 412; // is open
 const UNREACHED = 0;
 const KEY = "roofslip-key";
-
-/** Load the page again, without the project and the values of its address: another one is open. */
-export function reload() {
-  location.replace("/");
-}
 
 const PATIENCE_MS = 20_000; // with a server that says how far a package is
 
@@ -37,7 +31,7 @@ export function createApi(announce, room) {
   let n = 0;
   let opened = ""; // what the page shows, as the server names it
 
-  // Ask about what the page shows: the server refuses where another tab has opened something else.
+  // Ask about the project that the page shows, whatever other tabs have opened.
   const about = (body) => json({ opened, ...body });
 
   // The answer of the newest request of its kind; null for an older one, even if it failed.
@@ -61,7 +55,7 @@ export function createApi(announce, room) {
   // Of two projects, the one that was opened last stays, whichever answer comes first.
   async function open(url, options) {
     const state = await latest("open", () => asked(url, options));
-    if (state) opened = state.opened;
+    if (state?.project) opened = state.opened; // one with errors is not opened
     return state;
   }
 
@@ -69,7 +63,7 @@ export function createApi(announce, room) {
     announce,
     enter,
     newToken: () => asked("/api/token", { method: "POST" }),
-    state: () => open("/api/state"),
+    state: (id) => open(`/api/state?project=${id}`),
     example: () => open("/api/example", { method: "POST" }),
     upload: (files) => open("/api/upload", { method: "POST", body: form(files) }),
     readPlan: (files, fields) => open("/api/plan", { method: "POST", body: form(files, fields) }),

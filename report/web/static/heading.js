@@ -4,13 +4,13 @@ import { html, replace } from "./make.js";
 import { showProblems } from "./problems.js";
 
 const ALONE =
-  "The workbook came alone. Drop its folder on this page, or a zip of it, so that its records come with it. A cell below that names a record has no error of its own.";
+  "Only the workbook was uploaded. Drop its folder, or a zip of the folder, so that the records are included. Cells below that name a record are not wrong in themselves.";
 const CORRECT =
   "Correct these cells in the workbook and save it. Then open its folder, or a zip of it: records are found by their path from the workbook.";
 const NEXT = {
-  arrays: "Next: plan. List the arrays on the sheet Arrays, or drop a drawing (DXF) beside the workbook: they are read from it.",
-  motions: "Next: motions. List your own on the sheet Motions, or let the page make them for this site.",
-  clearances: "Next: clearances. Pairs within reach have none; add them at their distances in plan, then confirm these.",
+  arrays: "Next: plan. List the arrays on the Arrays worksheet, or drop a drawing (DXF) beside the workbook: they are read from it.",
+  motions: "Next: motions. List your own on the Motions worksheet, or generate them for this site here.",
+  clearances: "Next: clearances. Some adjacent pairs have no clearance. Add them with the distances on the plan, then confirm the distances.",
 };
 
 const part = (id) => document.getElementById(id);
@@ -24,14 +24,21 @@ export function showSteps({ lacks: [step] }) {
 }
 
 // A workbook with errors is not opened: what was open stays so.
-export function showErrors({ problems, is_alone: isAlone, lacks }, state) {
+export function showErrors({ problems, is_alone: isAlone, lacks }, { project }) {
   const isLost = isAlone && !lacks.includes("motions") && problems.some(({ cell }) => cell); // a workbook, but no records
-  showProblems(part("problems"), problems, isLost ? "The records were not sent" : "Errors in the workbook", isLost ? ALONE : CORRECT);
-  part("back").hidden = !state;
-  if (state) part("back").textContent = `Back to ${state.project.name}`;
-  part("workspace").hidden = true;
-  part("welcome").hidden = true;
+  showProblems(part("problems"), problems, isLost ? "The records were not uploaded" : "Errors in the workbook", isLost ? ALONE : CORRECT);
+  part("back").hidden = !project;
+  part("back").textContent = `Back to ${project?.name}`;
+  for (const id of ["workspace", "outline", "welcome"]) part(id).hidden = true;
   named("This workbook has errors");
+}
+
+/** Show the project that is open in place of errors. */
+export function showProject({ project: { name, file, sha256, is_example: isExample } }) {
+  for (const id of ["problems", "outline"]) part(id).hidden = true;
+  part("workspace").hidden = false;
+  part("welcome").hidden = !isExample;
+  named(name, file, html("span", { class: "screen-only", title: sha256 }, `, SHA-256 ${sha256.slice(0, 12)}`), html("span", { class: "print-only" }, `, SHA-256 ${sha256}`));
 }
 
 /** Name what the page shows, and its file. */

@@ -5,15 +5,14 @@ import { button, html, note, replace } from "./make.js";
 import { save } from "./saving.js";
 
 const POLL_MS = 500;
-const WHAT = "The package and the workbook get the values of the page.";
 const COPIED = "The link is copied. It opens these values once, in another tab, as long as this project is open in roofslip serve.";
 
 /**
- * Make the buttons work: `values` gives those of the sliders, `words` says what values change, `fail`
+ * Make the buttons work: `status` shows the package, `told` what was saved or copied. `values` gives those of the sliders, `words` says what values change, `fail`
  * gets an error and `forget` drops the last one. Returns what to call when values change (`compare`)
  * and when a project is open, with its package where there is one (`open`).
  */
-export function mountTakeaway({ make, workbook, copy, status }, api, { values, words, fail, forget }) {
+export function mountTakeaway({ make, workbook, copy, status, told: saved }, api, { values, words, fail, forget }) {
   const guarded = (action) => () => {
     forget();
     return action().catch(fail);
@@ -60,11 +59,11 @@ export function mountTakeaway({ make, workbook, copy, status }, api, { values, w
   // Nothing is made, and nothing can be saved.
   function offer() {
     shown = null;
-    replace(status, note(WHAT));
+    replace(status);
   }
 
-  workbook.addEventListener("click", guarded(() => saveWorkbook(status, api, values())));
-  copy.addEventListener("click", guarded(() => copyLink(status, api)));
+  workbook.addEventListener("click", guarded(() => saveWorkbook(saved, api, values())));
+  copy.addEventListener("click", guarded(() => copyLink(saved, api)));
   make.addEventListener("click", guarded(() => track(() => api.startPackage(values()))));
   return {
     compare,
@@ -105,7 +104,7 @@ function showPackage(status, api, told, { cancel, keepsFocus, guarded }) {
   } else if (told.state === "done") {
     showFiles(status, api, told, guarded);
     if (keepsFocus && hasLostFocus()) status.querySelector("button").focus();
-    api.announce("The package is made. Its files can be saved.");
+    api.announce("The package is complete; its files can be saved.");
   } else {
     say(status, api, told.words);
   }

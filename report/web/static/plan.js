@@ -1,103 +1,101 @@
-// The roof plan, as the server places it on a sheet that fits; a gap that is NG says so. What the
-// pointer or a key is on is told in one line; the wheel, keys and buttons zoom.
+// The roof plan, as the server places it on a sheet that fits, shaded by D/C; a gap that is NG says so. What
+// the pointer or a key is on is told in one line; Ctrl with the wheel, keys and buttons zoom.
 
 import { within } from "./view-parts.js";
+import { onChange, WHOLE } from "./session.js";
 import { svg, update } from "./make.js";
 
 const MOST = 8;
 const STEP = 1.5;
 
 /**
- * Draw plans into an element; returns `show(plan, tips)`, `pick(key)`, and `room()`, the width that
- * there is for one. `ask` is called where it has changed so much that the server would place another
- * sheet, `picked` gets the key of what was picked, and `said` shows its tip.
+ * Draw the plan of a session into an element; returns `room()`, the width that there is for one, and
+ * `pick(key)`. `said` shows the tip of what is picked or under the pointer, `zooms` are three buttons.
  */
-export function mountPlan(element, { ask, picked, said, zooms }) {
-  let latest = null;
-  let tips = {};
+export function mountPlan(element, session, { said, zooms }) {
+  const { state } = session;
   let room = 0;
-  let key = null; // of what is picked
-  const look = () => latest && room && !isFor(latest, room) && ask();
+  // Where the room has changed so much that the server would place another sheet it is asked, once.
+  let asked = 0;
+  const look = () => {
+    if (!state.answer || !room || isFor(state.answer.plan, room) || asked === room) return;
+    asked = room;
+    session.again();
+  };
   // Read where the browser has laid out the page: asked for beside a change, it would do so once more.
   new ResizeObserver(() => {
     room = element.clientWidth || room; // none while another tab is open
     look();
   }).observe(element);
 
-  const tell = (of) => {
-    said.textContent = tips[of] ?? "";
+  const tips = () => state.answer?.tips ?? {};
+  const tell = (key) => {
+    said.textContent = tips()[key] ?? "";
     said.title = said.textContent;
   };
+  const pick = (key) => session.set({ picked: key, ...(state.project.views.arrays.includes(key) ? { array: key } : {}) });
+  const zoom = (factor, about) => session.set({ view: zoomed(state.view, factor, about) });
+  const isMoved = zoomByPointer(element, session, zoom);
+  const [closer, further, whole] = zooms;
+  closer.addEventListener("click", () => zoom(STEP));
+  further.addEventListener("click", () => zoom(1 / STEP));
+  whole.addEventListener("click", () => session.set({ view: WHOLE }));
 
-  const { view, zoom, isMoved } = mountZoom(element, zooms, (shown) => boxOf(latest, shown));
-
-  function pick(next) {
-    key = next in tips ? next : null;
-    for (const one of element.querySelectorAll("[data-key]")) one.classList.toggle("is-picked", one.dataset.key === key);
-    tell(key);
-  }
-
-  element.addEventListener("pointerover", (event) => tell(keyOf(event) ?? key));
-  element.addEventListener("pointerleave", () => tell(key));
-  element.addEventListener("click", (event) => isMoved() || picked(keyOf(event) ?? null));
+  element.addEventListener("pointerover", (event) => tell(keyOf(event) ?? state.picked));
+  element.addEventListener("pointerleave", () => tell(state.picked));
+  element.addEventListener("click", (event) => isMoved() || pick(keyOf(event) ?? null));
   const step = (way) => {
-    const all = Object.keys(tips);
-    picked(all[(all.indexOf(key) + way + all.length) % all.length]);
+    const all = Object.keys(tips());
+    pick(all[(all.indexOf(state.picked) + way + all.length) % all.length]);
   };
-  const KEYS = { "+": () => zoom(STEP), "-": () => zoom(1 / STEP), 0: () => zoom(1 / MOST), ArrowRight: () => step(1), ArrowLeft: () => step(key ? -1 : 0), Escape: () => picked(null) };
+  const KEYS = { "+": () => zoom(STEP), "-": () => zoom(1 / STEP), 0: () => session.set({ view: WHOLE }), ArrowRight: () => step(1), ArrowLeft: () => step(state.picked ? -1 : 0), Escape: () => pick(null) };
   element.parentElement.addEventListener("keydown", (event) => {
     if (!KEYS[event.key] || event.ctrlKey || event.metaKey) return;
     event.preventDefault();
     KEYS[event.key]();
   });
 
-  return {
-    room: () => room,
-    show(plan, nextTips) {
-      [latest, tips] = [plan, nextTips];
-      update(element, drawing(plan, view));
-      pick(key);
-      look();
-    },
-    pick,
-    /** Take the verdicts out of the description, of values that stay while others are computed. */
-    dropVerdicts() {
-      const described = element.querySelector("desc");
-      if (described) described.textContent = latest.described.map(({ text }) => `${text}.`).join(" ");
-    },
-  };
+  let drawn = null;
+  session.draws(onChange(["answer", "view", "picked"], ({ answer, view, picked }) => {
+    if (!answer) return;
+    if (answer.plan === drawn) element.querySelector("svg").setAttribute("viewBox", boxOf(drawn, view));
+    else update(element, drawing(answer.plan, view));
+    drawn = answer.plan;
+    element.querySelector("desc").textContent = answer.plan.described.map((one) => sentence(one, Boolean(answer.verdict))).join(" ");
+    element.classList.toggle("is-zoomed", view.scale > 1);
+    element.style.setProperty("--zoom", view.scale);
+    for (const one of element.querySelectorAll("[data-key]")) one.classList.toggle("is-picked", one.dataset.key === picked);
+    tell(picked);
+    look();
+  }));
+  return { room: () => room, pick };
+}
+
+// A view zoomed about a place, in parts of what is shown, and moved; the sheet stays in sight.
+function zoomed({ scale, x, y }, factor, [fx, fy] = [0.5, 0.5]) {
+  const next = within(scale * factor, 1, MOST);
+  const size = 1 / scale - 1 / next;
+  return moved({ scale: next, x, y }, fx * size, fy * size);
+}
+
+function moved({ scale, x, y }, dx, dy) {
+  const held = (value) => within(value, 0, 1 - 1 / scale);
+  return { scale, x: held(x + dx), y: held(y + dy) };
 }
 
 function keyOf({ target }) {
   return target.closest("[data-key]")?.dataset.key;
 }
 
-// Have the wheel, buttons and dragging zoom a drawing, whose box `box` gives of a view: its corner and
-// 1 / its size, as parts of the sheet. Tells whether the pointer has moved the sheet.
-function mountZoom(element, zooms, box) {
-  const view = { scale: 1, x: 0, y: 0 };
-  // Zoom about a place, in parts of what is shown, and keep the sheet in sight.
-  function zoom(factor, [fx, fy] = [0.5, 0.5]) {
-    const scale = within(view.scale * factor, 1, MOST);
-    const size = 1 / view.scale - 1 / scale;
-    Object.assign(view, { scale });
-    move(fx * size, fy * size);
-  }
-
-  function move(dx, dy) {
-    for (const [axis, by] of [["x", dx], ["y", dy]]) view[axis] = within(view[axis] + by, 0, 1 - 1 / view.scale);
-    const drawn = element.querySelector("svg");
-    if (!drawn) return;
-    drawn.setAttribute("viewBox", box(view));
-    element.classList.toggle("is-zoomed", view.scale > 1);
-    element.style.setProperty("--zoom", view.scale);
-  }
-
+// Have the wheel zoom with Ctrl, as a pinch on a touchpad does, and dragging move a drawing that is zoomed.
+// Tells whether the pointer has moved it.
+function zoomByPointer(element, { state, set }, zoom) {
   const place = ({ clientX, clientY }) => {
     const at = element.getBoundingClientRect();
     return [(clientX - at.x) / at.width, (clientY - at.y) / at.height];
   };
   element.addEventListener("wheel", (event) => {
+    if (!event.ctrlKey && !event.metaKey) return; // the page scrolls
     event.preventDefault();
     zoom(event.deltaY < 0 ? STEP : 1 / STEP, place(event));
   }, { passive: false });
@@ -106,18 +104,14 @@ function mountZoom(element, zooms, box) {
     held = { at: place(event), isMoved: false };
   });
   element.addEventListener("pointermove", (event) => {
-    if (!held || event.buttons === 0 || view.scale === 1) return;
+    if (!held || event.buttons === 0 || state.view.scale === 1) return;
     const [x, y] = place(event);
     const [dx, dy] = [held.at[0] - x, held.at[1] - y];
     if (!held.isMoved && Math.hypot(dx, dy) < 0.01) return;
-    move(dx / view.scale, dy / view.scale);
+    set({ view: moved(state.view, dx / state.view.scale, dy / state.view.scale) });
     held = { at: [x, y], isMoved: true };
   });
-  const [more, less, whole] = zooms;
-  more.addEventListener("click", () => zoom(STEP));
-  less.addEventListener("click", () => zoom(1 / STEP));
-  whole.addEventListener("click", () => zoom(1 / MOST));
-  return { view, zoom, isMoved: () => held?.isMoved ?? false };
+  return () => held?.isMoved ?? false;
 }
 
 function isFor({ rooms_px: [least, most] }, room) {
@@ -129,14 +123,14 @@ function boxOf({ size_px: [wide, tall] }, { scale, x, y }) {
 }
 
 function drawing(plan, view) {
-  const { title, described, items } = plan;
+  const { title, items } = plan;
   const written = new Set(items.map(({ text }) => text));
   const unnamed = items.filter((item) => item["data-key"] && item.d && !written.has(item["data-key"]));
   return svg(
     "svg",
     { viewBox: boxOf(plan, view), role: "img", "aria-labelledby": "plan-title plan-description" },
     svg("title", { id: "plan-title" }, title),
-    svg("desc", { id: "plan-description" }, described.map(sentence).join(" ")),
+    svg("desc", { id: "plan-description" }),
     svg("defs", {}, hatch("hatch", "M0 0V6"), hatch("cross", "M0 0V6M0 0H6"), tip()),
     items.map(({ kind, text, ...attributes }) => svg(kind, attributes, text)),
     unnamed.map((item) => svg("text", { class: "small-name", ...middle(item.d) }, item["data-key"])),
@@ -153,8 +147,9 @@ function middle(d) {
   return { x: mean(0), y: mean(1) };
 }
 
-function sentence({ text, verdict }) {
-  return `${text}${verdict ? `, ${verdict.text}` : ""}.`;
+// Values that stay while others are computed have no verdict any more.
+function sentence({ text, verdict }, hasVerdict) {
+  return `${text}${verdict && hasVerdict ? `, ${verdict.text}` : ""}.`;
 }
 
 function hatch(id, d) {

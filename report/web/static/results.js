@@ -1,97 +1,79 @@
-// The verdict, the arrays, their bars and the clearances, as the server words them.
+// The arrays, their bars and the clearances, as the server words them, each changed number behind the one of
+// the workbook.
 
-import { button, headings, html, note, replace, svg, update, words } from "./make.js";
+import { button, headings, html, svg, update } from "./make.js";
+import { tag } from "./headline.js";
+import { onChange } from "./session.js";
+import { term } from "./terms.js";
 
 const WIDE = 100; // units of the drawing; it stretches with its cell
 
-/** Return the tag of a verdict, with the look that it has in the package; a dash while there is none. */
-function tag(verdict) {
-  return verdict ? html("strong", { class: `tag is-${verdict.look}` }, verdict.text) : html("span", { class: "note" }, "–");
+/** Draw the tables of a session in elements; `pick` gets the key of a row. */
+export function mountResults({ arrays, bars, clearances }, session, pick) {
+  session.draws(onChange(["answer", "picked", "array"], ({ answer, project, picked, array }) => {
+    if (!answer) return;
+    const before = project.answer ?? answer;
+    const isPicked = (id) => id === array;
+    showTable(arrays, answer.arrays, before.arrays, { name: (cell) => arrayName(cell, isPicked, pick), keys: ([{ ids }]) => ids, isPicked });
+    const isGap = (key) => key === picked;
+    showTable(clearances, answer.clearances, before.clearances, { name: (cell, key) => gapName(cell, key, isGap, pick), keys: ([count]) => (count.text ? [`#${count.text}`] : []), isPicked: isGap, named: 1 });
+    showBars(bars, answer.bars, array);
+  }));
 }
 
-/** Show the verdict of a full answer on one line; its causes, and what else needs attention, fold open. */
-export function showVerdict(element, { verdict, line, verdict_text: text, reasons, model_text: model, pending }) {
-  const count = reasons.filter(({ level }) => level !== "remedy").length;
-  element.ariaBusy = pending ? "true" : null;
-  showLine(element, [tag(verdict), " ", line], `Causes and conditions: ${count}`, [html("p", {}, text), list(reasons), pending && note(pending), note(model)]);
-}
-
-/** Show what a provisional answer is; it has no verdict. */
-export function showProvisional(element, what, model) {
-  showLine(element, [tag({ look: "provisional", text: "Provisional" }), " ", what], "What it is", note(model));
-}
-
-/** Show that there is no verdict, and why, with the reasons of the server where it gave any. */
-export function showNoVerdict(element, why, reasons) {
-  showLine(element, `No verdict: ${[why, ...reasons].join(": ")}.`, "Reasons", list(reasons.map((text) => ({ text }))));
-}
-
-/** Let the button of a verdict fold its causes open; Escape closes them. */
-export function mountCauses(element) {
-  const [more] = parts(element);
-  const open = (isOpen) => more.setAttribute("aria-expanded", String(isOpen));
-  more.addEventListener("click", () => open(more.ariaExpanded !== "true"));
-  element.addEventListener("keydown", ({ key }) => key === "Escape" && open(false));
-}
-
-function showLine(element, said, label, folded) {
-  const [more, listed, line] = parts(element);
-  replace(line, said);
-  line.title = line.textContent.trim();
-  more.textContent = label;
-  replace(listed, folded);
-}
-
-function parts(element) {
-  return [".button", ".reasons", ".verdict-line"].map((one) => element.querySelector(one));
-}
-
-function list(reasons) {
-  if (reasons.length === 0) return null;
-  return html("ul", { "aria-label": "Reasons" }, reasons.map(reasonItem));
-}
-
-function reasonItem({ level, text, parts: grouped }) {
-  const named = level ? [html("strong", { class: `level is-${level.toLowerCase()}` }, level), " "] : null;
-  const said = [named, words(text)];
-  return html("li", {}, grouped ? html("details", {}, html("summary", {}, said), list(grouped.map((one) => ({ text: one })))) : said);
-}
-
-/**
- * Show a table as the server words it: `named` is the column that names its rows. `pick` gets the key
- * of a row that has one, by its cells.
- */
-export function showTable(element, { caption, heads, rows }, { named = 0, picked, pick, key }) {
+// A table: `named` is the column that names its rows, of which `name` makes the cell, and `keys` are what can
+// be picked of a row.
+function showTable(element, { caption, heads, rows }, before, { name, keys, isPicked, named = 0 }) {
   // A new body keeps no focus: the button that had it gets it back.
   const focused = element.contains(document.activeElement) ? document.activeElement.dataset.name : null;
-  const name = (cell, id) => {
-    const said = cell.from ? between(cell) : html("span", { class: "cut" }, cell.text);
-    return html("th", { scope: "row", title: cell.text }, id ? pickButton(said, id, id === picked, pick) : said, cell.note ? html("small", {}, cell.note) : null);
-  };
+  const open = new Set([...element.querySelectorAll("details[open]")].map((one) => one.dataset.first));
+  const former = new Map(before.rows.flatMap((row) => keys(row).map((key) => [key, row])));
   const row = (cells) => {
-    const id = key(cells);
-    return html("tr", { class: id && id === picked ? "is-picked" : null }, cells.map((cell, k) => (k === named ? name(cell, id) : value(cell))));
+    const all = keys(cells);
+    const was = former.get(all[0]);
+    const made = cells.map((cell, k) => (k === named ? name(cell, all[0]) : value(cell, was?.[k])));
+    return html("tr", { class: all.some(isPicked) ? "is-picked" : null }, made);
   };
-  update(element, html("caption", {}, caption), headings(heads), html("tbody", {}, rows.map(row)));
+  update(element, html("caption", {}, caption), headings(heads.map((head) => term(head))), html("tbody", {}, rows.map(row)));
+  for (const one of element.querySelectorAll("details")) one.open = open.has(one.dataset.first);
   if (focused) element.querySelector(`[data-name="${CSS.escape(focused)}"]`)?.focus();
 }
 
+// Alike arrays are one row, which opens.
+function arrayName({ text, ids }, isPicked, pick) {
+  const buttons = ids.map((id) => pickButton(cut(id), id, isPicked(id), pick));
+  const cell = ids.length === 1 ? buttons : html("details", { "data-first": ids[0] }, html("summary", {}, cut(text)), buttons);
+  return html("th", { scope: "row", title: text }, cell);
+}
+
+function cut(text) {
+  return html("span", { class: "cut", title: text }, text);
+}
+
 // The two names of a clearance, each cut where it is too long.
-function between({ from, to }) {
-  return [html("span", { class: "cut" }, from), " to ", html("span", { class: "cut" }, to)];
+function gapName({ text, from, to, note }, key, isPicked, pick) {
+  const between = [cut(from), " to ", cut(to)];
+  return html("th", { scope: "row", title: text }, key ? pickButton(between, key, isPicked(key), pick) : between, note ? html("small", {}, note) : null);
 }
 
 // A verdict has a look; where it is not known yet, its cell is null.
-function value(cell) {
-  return html("td", { title: cell?.title }, cell && !cell.look ? cell.text : tag(cell));
+function value(cell, was) {
+  if (!cell || cell.look) return html("td", {}, tag(cell));
+  // Of the same unit: what has another one is the same in other units.
+  const [[now, unit], [then, former]] = [cell.text, was?.text ?? ""].map((text) => text.split(" "));
+  const isChanged = then && then !== now && unit === former;
+  const before = isChanged ? html("span", { class: "before" }, `${then} → `) : null;
+  return html("td", { title: isChanged ? `${was.title ?? was.text} → ${cell.title ?? cell.text}` : cell.title }, before, cell.text);
 }
 
-function pickButton(said, key, isPicked, pick) {
-  return button(said, () => pick(key), { class: "pick", "data-name": key, "aria-pressed": String(isPicked) });
+function pickButton(told, key, isPicked, pick) {
+  return button(told, () => pick(key), { class: "pick", "data-name": key, "aria-pressed": String(isPicked) });
 }
 
-/** Show the PRD of one array under each motion, as a table with drawn cells at the scale of the answer. */
-export function showBars(element, { heads, arrays }, id) {
+// The PRD of one array under each motion, as a table with drawn cells at the scale of the answer.
+function showBars(element, { heads, arrays }, id) {
+  element.hidden = !(id in arrays) || arrays[id].rows.length === 0;
+  if (element.hidden) return;
   const lengths = Object.values(arrays).flatMap((one) => [...one.lines.map(({ length_m: length }) => length), ...one.rows.map(({ prd_m: prd }) => prd)]);
   const scale = Math.max(...lengths);
   const { caption, lines, rows } = arrays[id];

@@ -1,88 +1,147 @@
-// The values and their answer: provisional while a slider moves, full when it rests.
+// The one state of the page: what is open, the values that are asked for, their answer, and what is
+// picked and zoomed. Every part of the page is drawn from it, by a function that it gives to `draws`.
+// An answer is provisional while a slider moves, and full when it rests.
+
+import { isSame, typedOf } from "./changes.js";
 
 const REST_MS = 80; // without a move, after which a slider rests
 const STEP_MS = 400; // after which a step is answered provisionally, if the full answer is not there
 
+/** The whole sheet of the plan. */
+export const WHOLE = { scale: 1, x: 0, y: 0 };
+
 /**
- * Return the session's runner of assessments.
+ * Return the session of a tab.
  *
- * `assess(moving, values)` promises an answer, or null if it is stale. `show` gets
- * `{phase, answer, values}`, an answer with the values that it is of: "moving" (provisional), "settling"
- * (the full model runs; no answer yet, or the provisional one) or "rest". `fail` gets an error, and
- * whether a slider moves.
+ * `assess(moving, values, whole)` promises an answer, or null if it is stale; `fail` gets an error that
+ * is no refusal of values. In the state `phase` is "opening", "moving" (provisional), "settling" (the
+ * full model runs), "rest" or "failed", and `shows` says what the answer is of: "final", "provisional",
+ * or "former" values, which are not those that are asked for.
  */
-export function createSession(assess, show, fail) {
-  let values = {};
-  let version = 0; // of the values
-  let timer = 0;
+export function createSession(assess, fail) {
+  const state = { project: null, values: {}, answer: null, phase: "opening", shows: "", failure: null, turned: {}, picked: null, array: null, motion: null, view: WHOLE };
+  const parts = [];
+  const set = (changed) => {
+    Object.assign(state, changed);
+    for (const draw of parts) draw(state);
+  };
+  const run = createRuns(state, set, assess, fail);
+
+  return {
+    state,
+    set,
+    /** Have a function draw a part of the page from the state, at every change of it. */
+    draws: (draw) => parts.push(draw),
+    /** Show a project at values upon those of its workbook; what was asked is dropped. */
+    open(project, others) {
+      const [[array], [motion]] = [project.views.arrays, project.views.motions];
+      Object.assign(state, { project, array, motion, picked: null, view: WHOLE, answer: null, failure: null });
+      run.at({ ...typedOf(project), ...others });
+    },
+    /** A slider moves: answer provisionally, and in full once it rests; a step, at first, in full at once. */
+    move: (values, isStep = false) => run.through({ ...state.values, ...values }, isStep),
+    /** The pointer let the slider go. */
+    release: () => run.isMoving() && run.rest(),
+    /** Values were typed or chosen: answer in full at once. */
+    enter: (values) => run.at({ ...state.values, ...values }),
+    /** Return to values upon those of the workbook. */
+    restore: (values) => run.at({ ...typedOf(state.project), ...values }),
+    /** Ask for the full answer, whatever there is. */
+    rest: () => run.rest(),
+    /** Ask for the full answer again where there is one, which stays until then. */
+    again: () => run.again(),
+  };
+}
+
+// Asks for the answers of a session, provisional and full, each once at a time.
+function createRuns(state, set, assess, fail) {
+  let [version, timer] = [0, 0]; // of the values; until the slider rests
   let isMoving = false; // a slider moved since the full model was last asked
   let isFull = true; // nothing is to be computed
 
   async function ask(moving, whole = false) {
     const asked = version;
+    const { values } = state; // replaced, never written to
     const isWanted = () => (moving && isMoving) || (asked === version && !(moving && isFull));
     try {
-      const sent = values; // replaced, never written to
-      const answer = await assess(moving, sent, whole);
+      const answer = await assess(moving, values, whole);
       if (!answer || !isWanted()) return;
       isFull = !moving;
-      show({ phase: moving ? provisional(isMoving) : "rest", answer, values: sent });
+      const phase = moving ? provisional(isMoving) : "rest";
+      set({ phase, answer: { ...answer, values }, shows: moving ? "provisional" : "final", failure: null });
       if (answer.pending) await ask(false, true);
     } catch (error) {
-      if (isWanted()) fail(error, moving);
+      // The values are refused with their problems, or the server did not answer; of provisional ones the
+      // full answer tells, which is asked next.
+      const isRefused = error.problems?.length > 0;
+      if (!isWanted() || (moving && !isRefused)) return;
+      set({ phase: "failed", shows: "former", failure: error });
+      if (!isRefused) fail(error);
     }
   }
+
   const askMoving = createLane(async () => isFull || ask(true));
   const askFull = createLane(async () => isMoving || ask(false));
 
-  function changed(next, moves) {
+  // The answer stays beside other values, without its verdict.
+  function change(values, moves) {
     clearTimeout(timer);
-    values = { ...values, ...next };
     version += 1;
     isMoving = moves;
     isFull = false;
+    const former = state.answer?.verdict ? { answer: { ...state.answer, verdict: null }, shows: "former" } : {};
+    set({ values: present(values), phase: moves ? "moving" : "settling", turned: {}, ...former });
   }
 
   function rest() {
     clearTimeout(timer);
     isMoving = false;
-    show({ phase: "settling" });
+    set({ phase: "settling" });
     askFull();
   }
 
   return {
-    values: () => ({ ...values }),
-    /** Take the values of a project; nothing is asked, and what was asked is dropped. */
-    load(all) {
-      changed(all, false);
-      isFull = true;
-    },
-    /** A slider moves: answer provisionally, and in full once it rests; a step, at first, in full at once. */
-    move(id, value, isStep = false) {
+    isMoving: () => isMoving,
+    rest,
+    again: () => isMoving || askFull(),
+    through(values, isStep) {
       const rests = isStep && isFull;
-      changed({ [id]: value }, !rests);
-      if (rests) {
-        rest();
-        timer = setTimeout(askMoving, STEP_MS);
+      change(values, !rests);
+      if (rests) askFull();
+      else askMoving();
+      timer = rests ? setTimeout(askMoving, STEP_MS) : setTimeout(rest, REST_MS);
+    },
+    // The values of the workbook have their answer; others are asked in full.
+    at(all) {
+      change(all, false);
+      const { project, values } = state;
+      if (!project?.answer || !isSame(values, typedOf(project))) {
+        askFull();
         return;
       }
-      show({ phase: "moving" });
-      askMoving();
-      timer = setTimeout(rest, REST_MS);
+      isFull = true;
+      set({ phase: "rest", shows: "final", failure: null, answer: { ...project.answer, values } });
     },
-    release: () => isMoving && rest(), // the pointer let the slider go
-    /** A choice was made: answer in full at once. */
-    set(next) {
-      changed(next, false);
-      rest();
-    },
-    rest,
-    /** Ask for the full answer again where there is one, which stays until then. */
-    again: () => isMoving || askFull(),
   };
 }
 
 const provisional = (isMoving) => (isMoving ? "moving" : "settling");
+
+// A value of null is none: that of all arrays, or of the workbook, is meant.
+function present(values) {
+  return Object.fromEntries(Object.entries(values).filter(([, value]) => value !== null));
+}
+
+/** Return a function that draws where one of the named parts of the state has changed. */
+export function onChange(names, draw) {
+  let drawn = null;
+  return (state) => {
+    const now = names.map((name) => state[name]);
+    if (drawn && now.every((one, k) => one === drawn[k])) return;
+    drawn = now;
+    draw(state);
+  };
+}
 
 /** Return a function that runs a task once at a time; calls meanwhile become one more run. */
 export function createLane(task) {

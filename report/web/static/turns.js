@@ -1,13 +1,15 @@
 // Where the verdict would change, for each slider by itself: the remedies that a slider can enter. Asked
 // one verdict at a time, and only while the page rests.
 
+import { acts } from "./changes.js";
+
 const REST_MS = 1000;
 const EASES = { friction: 1, clearance: 1 }; // with more of it there is less NG; of the others, with less
 
 /**
  * Return how to `start` a search at values and to `stop` it. `ask` promises the verdict at values, and
- * `show` gets a slider's id and `{value, verdict, before}`: the first value tried with another verdict,
- * and the one before it; null where there is none as far as the slider goes.
+ * `show` gets a slider's id, `{value, verdict, before}`: the first value tried with another verdict,
+ * and the one before it, null where there is none as far as the slider goes; and the values searched at.
  */
 export function createTurns(ask, show) {
   let turn = 0;
@@ -22,10 +24,10 @@ export function createTurns(ask, show) {
     await new Promise((done) => {
       setTimeout(done, REST_MS);
     });
-    for (const slider of sliders.filter(({ with_choice: needed = {} }) => Object.entries(needed).every(([id, value]) => values[id] === value))) {
+    for (const slider of sliders.filter((one) => acts(one, values))) {
       if (!isWanted()) return;
       const turned = await turnOf(slider, values, isNg, ask, isWanted);
-      if (isWanted()) show(slider.id, turned);
+      if (isWanted()) show(slider.id, turned, values);
     }
   }
 

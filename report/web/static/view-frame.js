@@ -1,7 +1,6 @@
 // What all views share: ask, draw, draw again in another size, and say what went wrong.
 
-import { reload } from "./api.js";
-import { button, html, note, replace } from "./make.js";
+import { html, note, replace } from "./make.js";
 
 /**
  * Return a view of a scene, which is what it asks with: `fetch(request)` returns the answer, and
@@ -48,8 +47,7 @@ export function createView(element, scene, fetch, build, announce) {
       shown = key;
     } catch (error) {
       drawing = null;
-      const remedy = error.needsReload ? button("Reload", reload, { title: "Load the page again" }) : null;
-      replace(element, html("p", { role: "alert" }, error.message), remedy);
+      replace(element, html("p", { role: "alert" }, error.message));
     }
     element.classList.toggle("is-stale", isMoving);
     element.removeAttribute("aria-busy");

@@ -10,7 +10,7 @@ const DRAWINGS = {
   slide: { asks: "slide", needs: ["array", "motion"] },
   contour: { asks: "contour", needs: ["array"] },
 };
-const STALE = "Drawn for the values before the slider moved.";
+const STALE = "Drawn for the previous slider values.";
 
 /** Return the tabs' drawings: `open(id)`, `update(scene)` at rest, `moving()` while a slider moves. */
 export function createViews(api) {

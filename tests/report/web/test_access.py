@@ -23,7 +23,7 @@ def test_a_token_is_good_once_and_gives_the_key_that_every_request_shows(visitor
     assert entered(visitor, token).status_code == 403
     used = visitor.get(f"/?token={token}")
     assert used.status_code == 403
-    assert "press Enter in the terminal" in used.text
+    assert "press Enter in its terminal" in used.text
     another = visitor.post("/api/token", headers={KEY_HEADER: key}).json()["token"]
     assert entered(visitor, another).json()["key"] == key
 

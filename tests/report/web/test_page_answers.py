@@ -47,7 +47,7 @@ def test_pairs_of_the_plan_without_a_clearance_are_rows_below_those_of_the_workb
 def test_an_ok_that_less_friction_may_change_is_not_said(assessed, monkeypatch):
     monkeypatch.setattr(Assessment, "verdict", property(lambda _: Verdict.OK))
     found = answer(assessed, is_provisional=False)
-    assert (found["verdict"]["text"], found["verdict_text"]) == ("OK so far", None)
+    assert (found["verdict"]["text"], found["verdict_text"]) == ("OK (provisional)", None)
     assert found["line"] == found["pending"] != ""
 
 
@@ -92,18 +92,70 @@ def test_the_plan_tells_of_arrays_objects_and_clearances(assessed):
     assert keys <= found["tips"].keys()
 
 
+def test_alike_arrays_are_one_row_and_what_is_joined_in_a_cause_is_listed():
+    """The campus with short clearances: 30 arrays of six kinds, and 61 clearances."""
+    given = open_project(ROOT / "projects" / "campus" / "input.xlsx")
+    data = given.sheet.project
+    gaps = tuple(row.model_copy(update={"provided_m": 0.15}) for row in data.clearances)
+    done = assess(given.sheet, given.shaking, project=data.model_copy(update={"clearances": gaps}))
+    found = answer(done, is_provisional=False)
+    names = [row[0]["ids"] for row in found["arrays"]["rows"]]
+    assert sorted(name for ids in names for name in ids) == sorted(
+        array.id for array in data.arrays
+    )
+    assert len(names) < 10
+    (joined,) = (one for one in found["reasons"] if one["text"].startswith("Clearance, "))
+    failed = [check for check in done.checks if check.id == "clearance" and not check.is_satisfied]
+    assert len(joined["parts"]) == len(failed) > 20
+    assert joined["parts"][0].startswith("clearance ")
+    assert all(not one["parts"] or len(one["parts"]) > 1 for one in found["reasons"])
+
+
+def test_the_headline_is_the_check_that_governs_with_its_ratio_and_what_to_do_next(assessed):
+    shown = answer(assessed, is_provisional=False)
+    ratio = assessed.governing_gap().demand_capacity
+    assert shown["worst"]["text"].startswith("Clearance A1 to A2, and ")
+    assert shown["worst"]["ratio"] == pytest.approx(ratio)
+    assert shown["next"].startswith("Move A2 44.6 in (1133 mm) south, ")
+    moving = answer(assessed, is_provisional=True)
+    assert moving["worst"] == shown["worst"] | {"text": "Clearance A1 to A2"}
+    assert moving["next"] == ""
+
+
+def test_an_array_is_shaded_by_its_largest_ratio(assessed):
+    found = answer(assessed, is_provisional=False)
+    shades = {
+        item["data-key"]: int(item["class"].rpartition("-")[2])
+        for item in found["plan"]["items"]
+        if item["class"].startswith("array is-shade-")
+    }
+    ratios = {row[0]["ids"][0]: row[4]["text"] for row in found["arrays"]["rows"]}
+    limits = (0.5, 0.75, 0.9, 1.0)
+    assert ratios["A1"] == "> 100"
+    for name, text in ratios.items():
+        ratio = float(text.removeprefix("> "))
+        assert shades[name] == sum(ratio > limit for limit in limits), name
+
+
 CLEARANCES = """async (cells) => {
-  document.body.innerHTML = '<link rel="stylesheet" href="/static/style.css">' +
-    '<table class="numbers" id="clearances"></table>';
+  document.body.innerHTML = '<link rel="stylesheet" href="/static/style.css"><table></table>' +
+    '<table></table><div class="results"><table class="numbers" id="clearances"></table></div>';
   await new Promise((done) => (document.querySelector('link').onload = done));
-  const table = document.querySelector('table');
-  table.style.width = '352px'; // beside the plan, on a screen of 1280 pixels
-  const { showTable } = await import('/static/results.js');
+  const [arrays, bars, clearances] = document.querySelectorAll('table');
+  clearances.parentElement.style.width = '430px'; // beside the plan, on a screen of 1280 pixels
+  const { mountResults } = await import('/static/results.js');
   const heads = ["No.", "From, to", "Provided", "Required", "D/C", "Verdict"];
-  const how = { named: 1, key: () => null };
-  showTable(table, { caption: "Clearances", heads, rows: [cells] }, how);
+  const empty = { caption: "Arrays", heads: [], rows: [] };
+  const table = { caption: "Clearances", heads, rows: [cells] };
+  const answer = { arrays: empty, clearances: table, bars: { heads: [], arrays: {} } };
+  const before = structuredClone(answer);
+  before.clearances.rows[0][3].text = "81.6 in";
+  before.clearances.rows[0][4].text = "0.85";
+  const state = { answer, project: { answer: before }, picked: null, array: null };
+  mountResults({ arrays, bars, clearances }, { draws: (draw) => draw(state) }, () => {});
   await document.fonts.ready;
-  return table.getBoundingClientRect().width;
+  const changed = [...clearances.querySelectorAll("td")].map((cell) => cell.textContent);
+  return [clearances.parentElement.scrollWidth, changed];
 }"""
 
 
@@ -112,4 +164,6 @@ def test_names_of_a_dozen_letters_leave_the_verdict_of_a_clearance_in_view(scrip
     cells = [{"text": text} for text in ("1", "ARRAY-NW-01 to PV existing 2014", "96.0 in")]
     cells += [{"text": "107.5 in"}, {"text": "0.83"}, stamp(verdict)]
     cells[1] |= {"from": "ARRAY-NW-01", "to": "PV existing 2014", "note": "across"}
-    assert scripts.evaluate(CLEARANCES, cells) <= 352
+    wide, texts = scripts.evaluate(CLEARANCES, cells)
+    assert wide <= 430
+    assert texts == ["1", "96.0 in", "81.6 → 107.5 in", "0.85 → 0.83", verdict.value]

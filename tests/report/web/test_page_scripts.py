@@ -13,20 +13,26 @@ def page(scripts):
     return scripts
 
 
-SLIDERS = [{"id": "friction", "typed": 1.0}, {"id": "slope", "typed": 0.0}]
+NONE = {"targets": {}, "all": 1}
+SLIDERS = [
+    {"id": "friction", "typed": 1.0, "real": {"targets": {"A1": 0.45}, "all": 0.45}},
+    {"id": "slope", "typed": 0.0, "real": NONE},
+]
 CHOICES = [{"id": "polarity", "typed": "both", "options": [{"value": "both"}, {"value": "+"}]}]
-LINK = {"sliders": SLIDERS, "choices": CHOICES}
+PROJECT = {"id": "0f", "sliders": SLIDERS, "choices": CHOICES}
 
 
-def test_a_link_restores_what_was_changed_and_without_a_value_it_changes_nothing(page):
-    values = {"friction": 0.95, "slope": 0.0, "polarity": "+"}
-    body = "return m.toFragment(g.values, [...g.sliders, ...g.choices]);"
-    fragment = called(page, "changes", body, LINK | {"values": values})
-    assert fragment == "friction=0.95&polarity=%2B"
+def test_an_address_names_project_and_values_and_restores_what_was_changed(page):
+    values = {"friction": 0.95, "friction@A1": 0.9, "slope": 0.0, "polarity": "+"}
+    body = "return m.toAddress(g.project, g.values);"
+    address = called(page, "changes", body, {"project": PROJECT, "values": values})
+    assert address == "/p/0f/#friction=0.95&friction@A1=0.9&polarity=%2B"
     none = ["", "#friction=", "#friction=NaN", "#polarity=sideways", "#constructor=1"]
-    body = "return g.fragments.map((one) => m.fromFragment(one, g.sliders, g.choices));"
-    restored = called(page, "changes", body, LINK | {"fragments": [f"#{fragment}", *none]})
-    assert restored == [{"friction": 0.95, "polarity": "+"}, *[{}] * 5]
+    none += ["#friction@A9=0.9", "#slope@A1=1", "#polarity@A1=%2B"]
+    given = {"project": PROJECT, "fragments": [address.partition("/#")[2], *none]}
+    body = "return g.fragments.map((one) => m.fromFragment(one, g.project));"
+    found = {"friction": 0.95, "friction@A1": 0.9, "polarity": "+"}
+    assert called(page, "changes", body, given) == [found, *[{}] * len(none)]
 
 
 SESSION = """
@@ -35,8 +41,12 @@ SESSION = """
       const answered = (more) => done({ of: values.x, moving, ...more });
       asked.push({ moving, values, whole, done: answered, failed });
     });
-    const fail = (error) => failed.push(error);
-    const session = m.createSession(assess, (one) => shown.push(one), fail);
+    const session = m.createSession(assess, (error) => failed.push(error));
+    let last = null;
+    session.draws(({ phase, answer }) => {
+      shown.push({ phase, answer: answer?.verdict === null || answer === last ? null : answer });
+      last = answer;
+    });
     const pause = (wait) => new Promise((done) => setTimeout(done, wait));
     const tick = () => pause(0);
     const answers = () =>
@@ -46,55 +56,55 @@ SESSION = """
 
 STEPS = {
     "while a slider moves one request is open and only the newest values wait": ("""
-        for (const x of [1, 2, 3]) session.move("x", x);
+        for (const x of [1, 2, 3]) session.move({ x });
         const open = asked.length;
         asked[0].done(); await tick();
         return [open, asked.map(({ moving, values }) => [moving, values.x]), answers()];""",
         [1, [[True, 1], [True, 3]], [["moving", 1]]]),
     "the full model answers at rest, and a late provisional answer is dropped": ("""
-        session.move("x", 1);
+        session.move({ x: 1 });
         session.release();
         asked[1].done(); await tick();
         asked[0].done(); await tick();
         return [asked.map(({ moving }) => moving), answers(), shown.at(-1).phase];""",
         [[True, False], [["rest", 1]], "rest"]),
     "a full answer for values that have changed is dropped": ("""
-        session.set({ x: 1 });
-        session.set({ x: 2 });
+        session.enter({ x: 1 });
+        session.enter({ x: 2 });
         asked[0].done(); await tick();
         const early = answers();
         asked[1].done(); await tick();
         return [early, asked.map(({ values }) => values.x), answers()];""",
         [[], [1, 2], [["rest", 2]]]),
     "after an error the next value is asked": ("""
-        session.set({ x: 1 });
+        session.enter({ x: 1 });
         asked[0].failed(new Error("gone")); await tick();
-        session.set({ x: 2 });
+        session.enter({ x: 2 });
         asked[1].done(); await tick();
         return [failed.map(({ message }) => message), answers()];""",
         [["gone"], [["rest", 2]]]),
     "a slider that stays where it is rests": ("""
-        session.move("x", 1);
+        session.move({ x: 1 });
         asked[0].done(); await tick();
         while (shown.at(-1).phase !== "settling") await pause(20);
         return asked.map(({ moving }) => moving);""",
         [True, False]),
     "a slow provisional answer is shown until the full one is there": ("""
-        session.move("x", 1);
+        session.move({ x: 1 });
         await pause(400);
         for (const k of [0, 1]) { asked[k].done(); await tick(); }
         return [asked.map(({ moving }) => moving), answers()];""",
         [[True, False], [["settling", 1], ["rest", 1]]]),
     "after the full answer a slow provisional one is dropped": ("""
-        session.move("x", 1);
+        session.move({ x: 1 });
         await pause(400);
         for (const k of [1, 0]) { asked[k].done(); await tick(); }
         return [asked.map(({ moving }) => moving), answers()];""",
         [[True, False], [["rest", 1]]]),
     "a full answer is asked again where the slider went on": ("""
-        session.move("x", 1);
+        session.move({ x: 1 });
         await pause(100);
-        session.move("x", 2);
+        session.move({ x: 2 });
         session.release();
         asked[1].done(); await tick();
         const early = answers();
@@ -102,25 +112,25 @@ STEPS = {
         return [asked.map(({ moving, values }) => [moving, values.x]), early, answers()];""",
         [[[True, 1], [False, 1], [False, 2]], [], [["rest", 2]]]),
     "what an answer lacks is asked next and shown in its place": ("""
-        session.set({ x: 1 });
+        session.enter({ x: 1 });
         asked[0].done({ pending: "less" }); await tick();
         asked[1].done(); await tick();
         return [asked.map(({ whole }) => whole), answers()];""",
         [[False, True], [["rest", 1], ["rest", 1]]]),
     "a step that is no drag is answered in full at once": ("""
-        session.move("x", 1, true);
+        session.move({ x: 1 }, true);
         asked[0].done(); await tick();
         return [asked.map(({ moving }) => moving), answers()];""",
         [[False], [["rest", 1]]]),
     "after a step the slider may go on": ("""
-        for (const x of [1, 2]) session.move("x", x, true);
+        for (const x of [1, 2]) session.move({ x }, true);
         asked[0].done(); asked[1].done(); await tick();
         session.release();
         asked[2].done(); await tick();
         return [asked.map(({ moving, values }) => [moving, values.x]), answers()];""",
         [[[False, 1], [True, 2], [False, 2]], [["moving", 2], ["rest", 2]]]),
     "a step whose full answer takes long is answered provisionally meanwhile": ("""
-        session.move("x", 1, true);
+        session.move({ x: 1 }, true);
         while (asked.length < 2) await pause(20);
         asked[1].done(); await tick();
         const phase = shown.at(-1).phase;
@@ -194,22 +204,21 @@ def test_a_mark_is_where_the_verdict_changes_and_both_sides_were_asked(
 
 SLIDER = {
     "id": "friction", "label": "Friction", "unit": "×", "least": 0.5, "greatest": 1.01,
-    "step": 0.01, "typed": 1, "help": "", "stops": {"greatest": "No value beyond the greatest."},
+    "step": 0.01, "typed": 1, "help": "", "stops": {"greatest": "Largest permitted value."},
+    "real": {"symbol": "μ", "unit": "", "digits": 3, "targets": {"A1": 0.45, "A2": 0.5},
+             "all": None, "is_beside": False, "with_choice": {}},
 }  # fmt: skip
 MOUNT = """
     document.body.innerHTML = "<div></div>";
     document.body.firstChild.style.width = "250px";
+    const { createSession } = await import("/static/session.js");
+    const session = createSession(async () => null, () => {});
     const values = { friction: g.value, slope: 0 };
-    const tables = { shown: { friction: "0.45 (A1)" }, isCurrent: true, turned: {}, ...g.tables };
-    const move = (id, value) => {
-      values[id] = value;
-      controls.draw(values, tables);
-    };
-    const session = { move, set() {}, release() {} };
-    const state = { sliders: [g.slider], choices: [] };
-    const controls = m.mountSliders(document.body.firstChild, state, session);
-    controls.draw(values, tables);
-    document.querySelector("input").style.width = "250px";
+    const project = { sliders: [g.slider], choices: [] };
+    const answer = { values, shown: { friction: "0.45 (A1)" } };
+    const draw = m.mountSliders(document.body.firstChild, project, session);
+    session.draws(draw);
+    session.set({ project, values, answer, shows: "final", ...g.state });
     const shown = (selector) => document.querySelector(selector).textContent;
 """
 
@@ -217,7 +226,7 @@ MOUNT = """
 @pytest.mark.parametrize(
     ("value", "shown"),
     [
-        (1.01, ["× 1.01", "No value beyond the greatest.", False]),
+        (1.01, ["× 1.01", "Largest permitted value.", False]),
         (1, ["× 1.00", "0.45 (A1)", True]),
         (0.5, ["× 0.50", "0.45 (A1)", False]),
         (1.001, ["× 1.001", "0.45 (A1)", False]),
@@ -225,7 +234,7 @@ MOUNT = """
 )
 def test_a_slider_shows_the_value_that_is_computed_and_why_it_goes_no_further(page, value, shown):
     body = f"""{MOUNT}
-        const isIdle = document.querySelector(".back").classList.contains("is-idle");
+        const isIdle = document.querySelector(".back:not(.turn)").classList.contains("is-idle");
         return [shown(".amount"), shown("output"), isIdle];"""
     assert called(page, "sliders", body, {"slider": SLIDER, "value": value}) == shown
 
@@ -233,32 +242,64 @@ def test_a_slider_shows_the_value_that_is_computed_and_why_it_goes_no_further(pa
 BESIDE = """
     const has = (selector, name) => document.querySelector(selector).classList.contains(name);
     const isMarked = !has(".turn-mark", "is-idle") && !has(".turn", "is-idle");
-    const said = document.querySelector("input").getAttribute("aria-valuetext");
+    const said = document.querySelector("[type=range]").getAttribute("aria-valuetext");
     return [has("output", "is-former"), said, isMarked && shown(".turn")];"""
 TURNED = {"value": 1.0, "before": 0.99, "verdict": "OK", "others": {"friction": 0.8, "slope": 0}}
 
 
 @pytest.mark.parametrize(
-    ("tables", "beside"),
+    ("state", "beside"),
     [
         ({}, [False, "0.45 (A1)", False]),
         ({"turned": {"friction": TURNED}}, [False, "0.45 (A1)", "OK at × 1.00"]),
         # What the tables show is of other values, or of no answer.
-        ({"isCurrent": False}, [True, "× 0.90", False]),
-        ({"isCurrent": False, "shown": {}}, [True, "× 0.90", False]),
+        ({"shows": "former"}, [True, "× 0.90", False]),
+        ({"shows": "former", "turned": {"friction": TURNED}}, [True, "× 0.90", False]),
+        ({"answer": None}, [True, "× 0.90", False]),
         # Found beside another slope.
         ({"turned": {"friction": TURNED | {"others": {"slope": 1}}}}, [False, "0.45 (A1)", False]),
     ],
 )
-def test_text_and_mark_beside_a_slider_are_of_the_values_of_the_tables(page, tables, beside):
-    given = {"slider": SLIDER, "value": 0.9, "tables": tables}
+def test_text_and_mark_beside_a_slider_are_of_the_values_of_the_tables(page, state, beside):
+    given = {"slider": SLIDER, "value": 0.9, "state": state}
     assert called(page, "sliders", MOUNT + BESIDE, given) == beside
+
+
+@pytest.mark.parametrize(
+    ("picked", "typed", "entered"),
+    [
+        # Of all arrays, which differ: each gets the factor that makes the quantity.
+        (None, 0.4, {"friction": 0.9, "slope": 0, "friction@A1": 0.888889, "friction@A2": 0.8}),
+        ("A2", 0.4, {"friction": 0.9, "slope": 0, "friction@A2": 0.8}),
+    ],
+)
+def test_a_quantity_that_is_typed_is_entered_for_all_or_for_what_is_picked(
+    page, picked, typed, entered
+):
+    body = f"""{MOUNT}
+        const field = document.querySelector("[type=number]");
+        const before = [field.value, field.ariaLabel];
+        field.value = g.typed;
+        field.dispatchEvent(new Event("change"));
+        return [before, session.state.values, field.value];"""
+    given = {"slider": SLIDER, "value": 0.9, "state": {"picked": picked}, "typed": typed}
+    (before, of), values, after = called(page, "sliders", body, given)
+    assert (before, of) == (("0.450", "μ of A2") if picked else ("", "μ of all"))
+    assert values == entered
+    assert after == "0.400"
+
+
+def test_what_is_set_for_all_leaves_no_array_its_own(page):
+    body = "return [m.entered(g, '', 0.8), m.entered(g, 'A2', 0.8), m.entered(g, 'RTU-1', 0.8)];"
+    found = called(page, "changes", body, SLIDER)
+    of_all = {"friction": 0.8, "friction@A1": None, "friction@A2": None}
+    assert found == [of_all, {"friction@A2": 0.8}, of_all]
 
 
 @pytest.mark.nightly
 def test_the_values_beside_that_of_the_workbook_can_be_chosen_with_the_mouse(page):
     called(page, "sliders", MOUNT, {"slider": SLIDER, "value": 0.7})
-    box = page.locator("input").bounding_box()
+    box = page.locator("[type=range]").bounding_box()
     y = box["y"] + box["height"] / 2
     page.mouse.move(box["x"] + 100, y)
     page.mouse.down()
@@ -272,8 +313,8 @@ def test_the_values_beside_that_of_the_workbook_can_be_chosen_with_the_mouse(pag
 
 TAKEAWAY = """
     const button = "<button></button>";
-    document.body.innerHTML = `${button}${button}${button}<div></div>`;
-    const [make, workbook, copy, status] = document.body.children;
+    document.body.innerHTML = `${button}${button}${button}<div></div><div></div>`;
+    const [make, workbook, copy, status, told] = document.body.children;
     let values = { friction: 0.9 };
     let state = { id: "t", state: "running", words: "Plans", part: 0.2, values };
     state.files = ["calc-package.pdf", "results.xlsx", "results.json", "plan.dxf"];
@@ -288,7 +329,7 @@ TAKEAWAY = """
     };
     const all = { values: () => values, words: ({ friction }) => `friction ${friction}`,
       fail: (error) => failed.push(error.message), forget() {} };
-    const takeaway = m.mountTakeaway({ make, workbook, copy, status }, api, all);
+    const takeaway = m.mountTakeaway({ make, workbook, copy, status, told }, api, all);
     const pause = () => new Promise((done) => setTimeout(done, 20));
     const until = async (holds) => {
       for (let k = 0; k < 150 && !holds(); k += 1) await pause();
@@ -334,7 +375,7 @@ PACKAGES = {
         seen.push(make.disabled, status.textContent.slice(0, 11));
         takeaway.open({ ...state, state: "done", is_over: true }); await has(".made");
         return [...seen, make.disabled, status.querySelectorAll(".made button").length];""",
-        [True, True, False, "The package", False, 4]),
+        [True, True, False, "", False, 4]),
     "without the server no bar is left and the package can be asked for again": ("""
         make.click(); await has("progress");
         const answer = api.packageState;
@@ -410,16 +451,18 @@ def test_what_was_opened_last_is_shown_and_asked_about_whichever_answer_comes_fi
         });
         const tick = () => new Promise((done) => setTimeout(done, 0));
         const api = m.createApi(() => {}, () => 560), states = [];
-        for (const k of [1, 2]) api.upload([]).then((state) => states.push(state));
+        for (const k of [1, 2]) api.upload([]).then((state) => states.push(state?.opened));
         for (const k of [1, 0]) {
-          answers[k]({ opened: `upload-${k + 1}` });
+          answers[k]({ opened: `upload-${k + 1}`, project: {} });
           await tick();
         }
+        api.upload([]); await tick();
+        answers[2]({ opened: "upload-3", project: null }); await tick(); // it has errors
         api.assess(false, {}); await tick();
         fetch = real;
-        return [states, JSON.parse(asked[2].body).opened];"""
+        return [states, JSON.parse(asked[3].body).opened];"""
     states, opened = called(page, "api", body)
-    assert states == [{"opened": "upload-2"}, None]
+    assert states == ["upload-2", None]
     assert opened == "upload-2"
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from report.web import session as sessions
 from report.web.processes import WorkerProcess
-from report.web.session import Asked, LostError, Session, StaleError
+from report.web.session import EXAMPLE, Asked, ClosedError, LostError, Session, StaleError
 
 
 def nothing():
@@ -106,12 +106,12 @@ def test_what_a_newer_request_replaces_ends_before_its_turn(done):
 @pytest.mark.nightly
 def test_a_move_gets_the_reference_of_the_last_complete_answer_about_what_is_open(done):
     async def script(session):
-        session.workbook = session.folder / "input.xlsx"
+        session.open(session.folder / "a" / "input.xlsx", "a")
         before = await ask(session, "move", moving=True)
         for reference in ("first", "last"):
             await ask(session, "full", page="", gives=reference)
         after = await ask(session, "move", page="q", moving=True)
-        session.workbook = session.folder / "other.xlsx"
+        session.open(session.folder / "b" / "input.xlsx", "b")
         other = await ask(session, "move", page="r", moving=True)
         return [each["reference"] for each in (before, after, other)]
 
@@ -221,14 +221,18 @@ def test_where_no_process_starts_no_job_waits_and_the_next_one_is_answered_once_
 
 
 @pytest.mark.quick
-def test_an_upload_replaces_the_files_of_the_one_before(tmp_path):
+def test_projects_stay_open_beside_each_other_until_there_are_too_many(tmp_path, monkeypatch):
+    monkeypatch.setattr(sessions, "MOST_OPEN", 2)
     session = Session(tmp_path)
-    assert session.opened == "example"
-    before, after = session.new_folder(), session.new_folder()
-    assert [session.is_newest(each) for each in (before, after)] == [False, True]
-    session.open(before / "project" / "input.xlsx")
-    assert session.opened == before.name
-    session.open(after / "input.xlsx")
-    assert session.opened == after.name
-    assert [each.exists() for each in (before, after)] == [False, True]
-    assert not session.is_newest(after)
+    assert session.opened == session.named("a") == "example"
+    folders = [session.new_folder() for _ in range(3)]
+    for name, folder in zip("abc", folders, strict=True):
+        session.open(folder / "project" / "input.xlsx", name)
+        assert session.opened == folder.name
+    assert [folder.exists() for folder in folders] == [False, True, True]
+    assert session.named("b") == folders[1].name
+    assert session.named("a") == folders[2].name  # closed: the one opened last
+    assert session.workbook(folders[1].name) == folders[1] / "project" / "input.xlsx"
+    with pytest.raises(ClosedError):
+        session.workbook(folders[0].name)
+    assert session.workbook("example") == EXAMPLE

@@ -1,6 +1,7 @@
 """Values of the sliders as contents of cells: what is shown is what the written workbook gives."""
 
 import json
+import math
 import shutil
 from dataclasses import asdict
 from functools import cache
@@ -21,6 +22,7 @@ from report.web.answers import answer
 from report.web.controls import shown
 from report.web.open_project import PASSING, open_project, reference_of
 from report.web.values import typed
+from solver.model import InputError
 from solver.sliding import least_model
 
 PROJECTS = ROOT / "projects"
@@ -55,7 +57,7 @@ def test_other_friction_than_was_reviewed_has_the_floor_at_rest_and_while_it_mov
     workbook = str(PROJECTS / "school" / "input.xlsx")
     job = {"do": "assess", "workbook": workbook, "moving": moving, "room": 780}
     designs = [
-        rows(jobs.perform(job | {"values": values})["answer"]["arrays"])[0]["Design"]["title"]
+        rows(jobs.perform(job | {"values": values})["answer"]["arrays"])[0]["Design Δ"]["title"]
         for values in ({}, {"friction": 0.97})
     ]
     assert ["floor" in title for title in designs] == [False, True]
@@ -108,6 +110,7 @@ def rows(table):
         ("example", {"intensity": 1.06, "together": "no", "s_ds": 0.92, "rule_set": "ASCE 7-16"}),
         ("conditions", {"friction": 1.1, "intensity": 0.9, "slope": -0.4}),
         ("school", {"friction": 0.9, "intensity": 1.04, "clearance": 50.0}),
+        ("example", {"friction": 0.95, "friction@A3": 0.9, "slope@A1": 0.5, "clearance@6": -9.0}),
     ],
 )
 @pytest.mark.nightly
@@ -132,13 +135,17 @@ OTHERWISE = {
     "polarity": {"polarity": "reversed"},
     "rule_set": {"rule_set": "SEAOC PV1-2012"},
     "units": {"units": "US"},
+    "friction of one": {"friction@A1": 0.95},
+    "slope of one": {"slope@A2": 0.4},
+    "clearance of one": {"clearance@2": -30.0},
 }
-"""Each control of the school at another value than it is typed at."""
+"""Each control of the school at another value than it is typed at, for all arrays or for one."""
 
 OTHERWISE_US = OTHERWISE | {
     "clearance": {"clearance": 6.0},
     "rule_set": {"rule_set": "ASCE 7-16"},
     "units": {"units": "SI"},
+    "clearance of one": {"clearance@2": -4.0},
 }
 PAIRS = [
     pytest.param(project, {**values[one], **values[other]}, id=f"{project}-{one}-{other}")
@@ -151,8 +158,8 @@ PAIRS = [
 @pytest.mark.parametrize(("project", "values"), PAIRS)
 def test_at_any_two_controls_the_answer_is_that_of_the_saved_workbook(project, values, tmp_path):
     items = offered(project) | offered(project, "choices")
-    assert items.keys() == OTHERWISE.keys()
-    assert any(value != items[name]["typed"] for name, value in values.items())
+    assert items.keys() == {name for name in OTHERWISE if " of " not in name}
+    assert any(value != items[name.partition("@")[0]]["typed"] for name, value in values.items())
     again = written(project, values, tmp_path)
     assert start(project).at(values).sheet.project == again.sheet.project
     job = {"do": "assess", "workbook": str(tmp_path / "input.xlsx"), "values": {}}
@@ -205,6 +212,38 @@ def test_the_written_workbook_is_the_model_that_was_assessed(project, tmp_path):
     again = written(project, values, tmp_path)
     assert again.sheet.project == given.at(values).sheet.project
     assert again.sheet.project != given.sheet.project
+
+
+def test_a_value_of_one_array_or_clearance_changes_its_cells_alone_and_replaces_that_of_all():
+    given = start("example")
+    shown = given.sheet.project
+    values = {"friction": 0.9, "friction@A2": 0.8, "slope@A2": 1.0, "clearance@2": -4.0}
+    changed = given.at(values).sheet.project
+    mus = [row.mu / before.mu for row, before in zip(changed.arrays, shown.arrays, strict=True)]
+    assert mus == pytest.approx([0.9, 0.8, 0.9])
+    slopes = [math.degrees(row.slope_rad) for row in changed.arrays]
+    assert slopes == pytest.approx([0.5, 3.0, 3.0])
+    gaps = zip(changed.clearances, shown.clearances, strict=True)
+    less = [(before.provided_m - row.provided_m) / 0.0254 for row, before in gaps]
+    assert less == pytest.approx([0, 4, 0, 0, 0, 0])
+    # With the sides of all arrays moved as well, both count.
+    both = given.at({"clearance": 2.0, "clearance@2": -1.0}).sheet.project
+    widened = both.clearances[1].provided_m - shown.clearances[1].provided_m
+    assert widened / 0.0254 == pytest.approx(1.0)
+
+
+@pytest.mark.quick
+@pytest.mark.parametrize(
+    ("values", "refused"),
+    [
+        ({"friction@A9": 0.9}, "friction@A9: the workbook has no such slider"),
+        ({"intensity@A1": 0.9}, "intensity@A1: the workbook has no such slider"),
+        ({"friction@A1": 9.0}, "Friction of A1 is 9.0; give a number from 0.5 to"),
+    ],
+)
+def test_a_value_of_what_has_no_such_quantity_is_refused(values, refused):
+    with pytest.raises(InputError, match=refused):
+        start("example").at(values)
 
 
 @pytest.mark.quick
@@ -383,9 +422,9 @@ def test_where_no_route_is_permitted_the_page_has_no_required_separation_and_no_
     found = answer(done, is_provisional=False)
     title = "488 mm (19.2 in), floor, not permitted"
     for array in rows(found["arrays"]):
-        assert array["Design"] == {"text": "not permitted", "title": title}
+        assert array["Design Δ"] == {"text": "not permitted", "title": title}
         assert array["Verdict"] == {"text": "NG", "look": "ng"}
-        line, _ = found["bars"]["arrays"][array["Array"]["text"]]["lines"]
+        line, _ = found["bars"]["arrays"][array["Array"]["ids"][0]]["lines"]
         assert (line["length_m"], line["text"]) == (None, "design not permitted")
     for gap in rows(found["clearances"]):
         assert gap["Required"] == gap["D/C"] == {"text": "no value"}
@@ -396,5 +435,5 @@ def test_where_no_route_is_permitted_the_page_has_no_required_separation_and_no_
     drawn = {item["class"] for item in found["plan"]["items"]}
     assert not {"envelope", "ng-area", "ng-box"} & drawn
     assert found["verdict"]["text"] == "NG"
-    design = rows(answer(done, is_provisional=True)["arrays"])[0]["Design"]
+    design = rows(answer(done, is_provisional=True)["arrays"])[0]["Design Δ"]
     assert design == {"text": "488 mm", "title": "488 mm (19.2 in), floor"}
