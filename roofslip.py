@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from solver.public import *  # noqa: F403
 
 _FOLDER = Path(__file__).resolve().parent
-
 sys.path.insert(0, str(_FOLDER))
 try:
     import report
@@ -23,8 +22,7 @@ finally:
 for _package in (solver, report):
     if _FOLDER not in Path(str(_package.__file__)).resolve().parents:
         raise ImportError(
-            f"{_package.__file__} is loaded and hides a package of Roofslip; import roofslip "
-            f"before it, or rename it"
+            f"{_package.__file__} hides a package of Roofslip: rename it, or import roofslip first"
         )
 
 

@@ -2,7 +2,8 @@
 
     .venv/bin/python docs/make.py
 
-`commands.md` is the command line's own help and scripts, which the launchers print;
+`commands.md` is the command line's own help and scripts, and `help` has them one by one, as the
+launchers print them where nothing is installed;
 `index.md` is the README; `workbook-fields*.md` is the schema of the input sheets,
 `results-json.md` has the first keys of results.json, `known-errors.md` the errors of earlier
 versions, `api.md` a table of the public names, and `examples.md` the scripts of `docs/examples`
@@ -92,7 +93,16 @@ def pages() -> Mapping[Path, str]:
             (HERE / "api.md").read_text(encoding="utf-8"),
         ),
     }
-    return {HERE / f"{name}.md": text for name, text in made.items()}
+    made = {f"{name}.md": text for name, text in made.items()}
+    helped = {f"help/{name}.txt": text for name, text in _helped()}
+    return {HERE / name: text for name, text in (made | helped).items()}
+
+
+def _helped() -> Parts:
+    """Yield what the launchers print with nothing installed, each with the name of its file."""
+    for heading, text in (*_commands(), *_completions()):
+        name = heading.replace("Completion in", "completion").replace(" ", "-")
+        yield name, text.removeprefix("```text\n").removesuffix("```")
 
 
 def _home(readme: str) -> str:
@@ -293,4 +303,5 @@ def _text(text: str) -> str:
 
 if __name__ == "__main__":
     for path, text in pages().items():
+        path.parent.mkdir(exist_ok=True)
         path.write_text(text, encoding="utf-8")

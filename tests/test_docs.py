@@ -209,7 +209,7 @@ def test_the_readme_has_each_command_for_windows_and_the_size_of_the_first_downl
     assert len(here) == 4
     assert [command.replace("/", "\\") for command in here] == windows
     launcher = (ROOT / "roofslip").read_text()
-    packages_mb = int(re.search(r"report \| web\) echo (\d+)", launcher)[1])
+    packages_mb = int(re.search(r"a first set-up downloads (\d+) MB", launcher)[1])
     uv_mb = int(re.search(r"installing uv into .uv \(downloads (\d+) MB\)", launcher)[1])
     assert f"downloads up to {packages_mb + uv_mb} MB" in README
 
@@ -274,7 +274,9 @@ def test_every_page_is_found_not_long_and_as_the_program_would_make_it():
     home = DOCS[ROOT / "docs" / "index.md"]
     assert set(re.findall(r"\]\(([\w-]+\.md)", home)) == set(NAV) - {"index.md"}
     for path, text in make_docs.pages().items():
-        assert DOCS[path] == text, f"python docs/make.py writes {path.name} anew"
+        assert path.read_text() == text, f"python docs/make.py writes {path.name} anew"
+    helps = {path for path in make_docs.pages() if path.suffix == ".txt"}
+    assert set((ROOT / "docs" / "help").iterdir()) == helps
 
 
 @pytest.mark.quick

@@ -68,7 +68,7 @@ def completion(shell: str) -> None:
 def test(**_: object) -> None:
     """Run the tests of a checkout, after its linters: all of PATH, else what every day runs.
 
-    What pytest takes may follow. The first call installs what tests need, 1.6 GB.
+    What pytest takes may follow. The first call installs what tests need, 1.1 GB.
     """
     raise click.UsageError("tests are run by the launcher of a checkout: ./roofslip test")
 
