@@ -83,7 +83,7 @@ if "%need%"=="test" set "group=test"
 popd
 echo roofslip: compiling the solver (once) 1>&2
 set "NUMBA_OPT=2"
-"%python%" -P -m solver.sliding.checked constant law || exit /b 1
+"%python%" -P -m solver.sliding.warm constant law || exit /b 1
 set "NUMBA_OPT="
 "%python%" -c "%read%; open(sys.argv[1], 'wb').write(read)" %files%
 if "%need%"=="test" copy /y "%here%\.venv\set-up-test" "%here%\.venv\set-up-commands" >nul

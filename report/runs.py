@@ -1,7 +1,7 @@
 """One array under one motion: each component along the slope in each polarity; governing run.
 
-Integrates nothing itself (`solver.sliding.least_model` does) and knows no code rule. Read `Runs`,
-then `report.assessment.assess`.
+Integrates nothing itself (`solver.sliding.model_selection` does) and knows no code rule. Read
+`Runs`, then `report.assessment.assess`.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ from solver.model import (
     SlideResult,
     Status,
 )
-from solver.sliding import least_model
-from solver.sliding.least_model import DEFAULT, Model, Settings, Solution
+from solver.sliding import model_selection
+from solver.sliding.model_selection import DEFAULT, Model, Settings, Solution
 from solver.sliding.uplift import Uplift, uplift
 
 THREADS = 2
@@ -109,7 +109,7 @@ class MotionRun:
 
     def history(self) -> SlideHistory:
         """Rerun the governing run for its values at the samples, for plotting only."""
-        return least_model.history(self.governing.scene, self.governing.solution)
+        return model_selection.history(self.governing.scene, self.governing.solution)
 
 
 class Runs:
@@ -221,5 +221,5 @@ def run_oriented(
 ) -> OrientedRun:
     """Run one array under one motion at one orientation, to a tolerance relative to the PRD."""
     scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
-    solution = least_model.solve(scene, Settings(tolerance=tolerance))
+    solution = model_selection.solve(scene, Settings(tolerance=tolerance))
     return OrientedRun(orientation=orientation, scene=scene, solution=solution)

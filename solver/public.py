@@ -22,8 +22,8 @@ from solver.records.spectrum import ResponseSpectrum, design_spectrum, factor_to
 from solver.rivals.methods import METHODS
 from solver.rules.hazard import EDITIONS, RequiredSpectrum, ac156_horizontal, ac156_vertical
 from solver.sliding.checked import history, motion, scene, slide, slide_history, solve
-from solver.sliding.least_model import Model, Settings, Solution
 from solver.sliding.method import Method, Outcome
+from solver.sliding.model_selection import Model, Settings, Solution
 from solver.studies.study import StudyRuns, study
 from solver.studies.sweep import Sweep, sweep, sweep_all
 from solver.synthesis.suite import SuiteMotion, make_suite

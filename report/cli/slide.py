@@ -1,6 +1,7 @@
 """The command `roofslip slide`: one block under one motion, with the simplest adequate model.
 
-Parses and prints; `solver.formats` reads, `solver.sliding.least_model` selects and runs the model.
+Parses and prints; `solver.formats` reads, `solver.sliding.model_selection` selects and runs the
+model.
 """
 
 from __future__ import annotations
@@ -152,7 +153,7 @@ def _scene(records: list[Record | None], slope_deg: float, mu: float, scale: flo
 
 def _solved(scene: Scene) -> dict[str, Any]:
     """Return the results by name, with the model used."""
-    from solver.sliding.least_model import solve
+    from solver.sliding.model_selection import solve
 
     solution = solve(scene)
     return asdict(solution.result) | {

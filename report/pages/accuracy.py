@@ -28,7 +28,7 @@ from report.text.unit_format import NO_VALUE, UnitFormat
 from report.text.units import NO_BREAK, number
 from solver.model import DefectError, Status
 from solver.rules.provisions import Neighbor
-from solver.sliding.least_model import Model
+from solver.sliding.model_selection import Model
 
 
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:

@@ -1,6 +1,6 @@
 """The model used for each array, the reason it is adequate, and what it neglects.
 
-Selects nothing: `solver.sliding.least_model` does. Read `report.pages.parts` first.
+Selects nothing: `solver.sliding.model_selection` does. Read `report.pages.parts` first.
 
 Comparison of arrays with a row of linked blocks: results, and where one block may not do.
 """
@@ -30,7 +30,7 @@ from report.text.counts import below_mm, grouped_by
 from report.text.unit_format import NO_VALUE
 from report.text.units import Quantity, nan_is_worst, number, ratio, ratio_up
 from solver.model import INCH_M
-from solver.sliding.least_model import DEFAULT, Model, Solution
+from solver.sliding.model_selection import DEFAULT, Model, Solution
 
 
 def part(package: PackageData) -> Mapping[str, object]:

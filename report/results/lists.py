@@ -40,7 +40,7 @@ from report.text.units import G_MPS2, Rounding
 from solver.model import INCH_M, Motion
 from solver.records.measures import Measures
 from solver.rules.provisions import Basis
-from solver.sliding.least_model import DEFAULT, Model
+from solver.sliding.model_selection import DEFAULT, Model
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

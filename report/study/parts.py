@@ -27,7 +27,7 @@ from report.study.manifest import ARROW, NAME, extra, machine
 from solver.files import check_plain, write_all
 from solver.kernels.compiler import THREADS
 from solver.model import Floats, InputError
-from solver.sliding.least_model import Model
+from solver.sliding.model_selection import Model
 from solver.studies.runs import LENGTHS, STATUSES, Campaign, Rows, Runner, run_part
 
 Flags = np.ndarray[Any, np.dtype[np.bool_]]

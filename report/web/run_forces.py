@@ -16,8 +16,8 @@ from report.runs import OrientedRun
 from solver.forces import Forces, forces
 from solver.model import Event, EventKind, Floats, Scene, SlideHistory
 from solver.records.record import NO_RECORD
-from solver.sliding import least_model
-from solver.sliding.least_model import Model
+from solver.sliding import model_selection
+from solver.sliding.model_selection import Model
 
 Slip = tuple[Event, Event]
 """Begin and end of a slip."""
@@ -84,7 +84,7 @@ def _demand_at(of: Forces, at: Floats) -> Floats:
 def _modeled(run: OrientedRun) -> Scene:
     """Return the scene of a run without the components that its model neglects."""
     model = run.solution.model
-    scene = least_model.as_run(run.scene, model)
+    scene = model_selection.as_run(run.scene, model)
     if model in (Model.ONE_AXIS, Model.ONE_AXIS_VERTICAL):
         return replace(scene, ay_mps2=NO_RECORD)
     return scene

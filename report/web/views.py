@@ -29,7 +29,7 @@ from report.web.run_forces import Slip, run_forces, slips_of, with_jumps
 from solver.model import Floats, InputError, Scene, SlideHistory, Status
 from solver.records.measures import velocity_displacement
 from solver.records.record import Record
-from solver.sliding import least_model
+from solver.sliding import model_selection
 
 Json = dict[str, Any]
 _T = TypeVar("_T")
@@ -57,7 +57,7 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
     chosen = motion.governing
     if run is not None:
         chosen = _named("run", motion.runs, run, lambda one: one.orientation.name)
-    history = least_model.history(chosen.scene, chosen.solution)
+    history = model_selection.history(chosen.scene, chosen.solution)
     slips = slips_of(history)
     roof = _roof(chosen.scene)
     return {

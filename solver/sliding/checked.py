@@ -2,18 +2,14 @@
 
 Checks nothing itself (`solver.sliding.arguments`), computes no physics (`solver.kernels.one_axis`,
 and `solver.sliding.two_axes` for two axes), knows no code rules (`solver.rules.provisions`) and
-chooses no model (`solver.sliding.least_model`). Read `slide` first, then `scene`.
+chooses no model (`solver.sliding.model_selection`). Read `slide` first, then `scene`.
 """
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable, Mapping
-
 import numpy as np
 from numpy.typing import ArrayLike
 
-from solver.forces import friction_demand
 from solver.model import (
     STANDARD_GRAVITY_MPS2,
     Friction,
@@ -22,14 +18,12 @@ from solver.model import (
     Scene,
     SlideHistory,
     SlideResult,
-    coulomb,
 )
 from solver.records.record import Record
-from solver.records.spectrum import response_spectrum
-from solver.sliding import least_model, one_axis, two_axes
+from solver.sliding import model_selection, one_axis, two_axes
 from solver.sliding.arguments import Given, GivenShaking, method_of, scene_of, shown
-from solver.sliding.least_model import DEFAULT, Settings, Solution
 from solver.sliding.method import Method
+from solver.sliding.model_selection import DEFAULT, Settings, Solution
 from solver.sliding.quick import quick_slide
 
 
@@ -306,7 +300,7 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
     SlideResult: PRD 4.9 mm at 0.17 s, +1.6 mm at the end, 2 stops, ok
     Required friction coefficient 0.408; no more complete model applies
     """
-    return least_model.solve(_rechecked(scene), settings)
+    return model_selection.solve(_rechecked(scene), settings)
 
 
 def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> SlideHistory:
@@ -336,7 +330,7 @@ def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> S
     >>> history(pulse, solve(pulse))
     SlideHistory: 6 samples, 4 events; PRD 4.9 mm at 0.17 s, +1.6 mm at the end, 2 stops, ok
     """
-    return least_model.history(_rechecked(scene), solution, settings)
+    return model_selection.history(_rechecked(scene), solution, settings)
 
 
 def _rechecked(scene: Scene) -> Scene:
@@ -350,47 +344,3 @@ def _rechecked(scene: Scene) -> Scene:
 def _is_followed_in_plane(scene: Scene) -> bool:
     """Whether the two-axes solver runs a scene: only it models velocity-dependent friction."""
     return bool(scene.ay_mps2.size) or not scene.friction.is_constant
-
-
-# What set-up runs, so that the first report does not wait for the kernels to be compiled.
-_DT_S = 0.02
-_SHAKING = 6.0 * np.sin(np.arange(40) * 0.9)
-_VARYING = Friction(mu_slow=0.3, mu_fast=0.4, mu_static=0.35, rate_s_per_m=20.0)
-
-
-def _shaken(friction: Friction) -> Scene:
-    """Return a block under a motion of three components."""
-    return scene(
-        _SHAKING,
-        _DT_S,
-        slope_rad=0.03,
-        mu=friction,
-        ay_mps2=_SHAKING[::-1],
-        az_mps2=0.1 * _SHAKING,
-    )
-
-
-def constant_friction() -> None:
-    """Two axes, and one, with constant friction."""
-    shaken = _shaken(coulomb(0.3))
-    history(shaken, solve(shaken))
-    friction_demand(shaken)  # which tipping is computed from
-    slide(_SHAKING, _DT_S, slope_rad=0.03, mu=0.3, az_mps2=0.1 * _SHAKING)
-
-
-def friction_law() -> None:
-    """Two axes with a friction law, without what the other part compiles; response spectra."""
-    two_axes.follow(_shaken(_VARYING))
-    response_spectrum(_SHAKING, _DT_S, [0.5, 1.0])
-
-
-# About equal in time, so that two processes finish together.
-PARTS: Mapping[str, Callable[[], None]] = {
-    "constant": constant_friction,
-    "law": friction_law,
-}
-
-
-if __name__ == "__main__":
-    for part in sys.argv[1:]:
-        PARTS[part]()

@@ -1,7 +1,7 @@
 """Runs a part of a study, each row as `solver.solve` solves it with `SETTINGS`, to the bit.
 
 Motions of one horizontal component are run many cases at a time, with what the choice of the model
-needs from a record computed once; others by `solver.sliding.least_model`. Read `run_part`.
+needs from a record computed once; others by `solver.sliding.model_selection`. Read `run_part`.
 
 The runs of a study: every case under every motion at every heading, split into equal parts.
 """
@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 from solver.forces import friction_demand
 from solver.kernels import one_axis as kernel
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Motion, Orientation, Scene, Status, coulomb
-from solver.sliding import least_model
-from solver.sliding.least_model import Model, Settings, Solution
+from solver.sliding import model_selection
+from solver.sliding.model_selection import Model, Settings, Solution
 from solver.sliding.one_axis import RecordBounds, bounds_of
 from solver.studies.sweep import order_alike
 
@@ -191,7 +191,7 @@ class Track:
 
     def solve(self, slope_mu_scale: Floats) -> Solution:
         """Solve it at a slope [rad], friction coefficient and scale."""
-        return least_model.solve(scene_of(self.scene, slope_mu_scale), SETTINGS, self.bounds)
+        return model_selection.solve(scene_of(self.scene, slope_mu_scale), SETTINGS, self.bounds)
 
     def fill(self, cases: Cases, chosen: NDArray[np.intp], rows: Rows, column: int) -> None:
         """Run the chosen cases and fill their rows of a column."""
@@ -218,7 +218,7 @@ def scene_of(scene: Scene, slope_mu_scale: Floats) -> Scene:
 
 
 def _solve_along(track: Track, scenes: Floats) -> tuple[Rows, NDArray[np.intp]]:
-    """Solve scenes in one axis as `least_model.solve`; return those that it must solve itself.
+    """Solve scenes in one axis as `model_selection.solve`; return those that it must solve itself.
 
     These are uplift that only the kernel or only the forces at the samples find, by rounding error.
     """
@@ -303,7 +303,7 @@ def _demands(track: Track, scenes: Floats) -> Floats:
     with np.errstate(divide="ignore"):
         demand = (np.abs(STANDARD_GRAVITY_MPS2 * sn - a * cs) / normal).max(axis=0)
     demand[(normal <= 0.0).any(axis=0)] = math.inf
-    # Where rounding error might decide, all samples are evaluated, as `least_model.solve` does.
+    # Where rounding error might decide, all samples are evaluated, as `model_selection.solve` does.
     near = np.abs(demand - scenes[:, 1]) <= _NEAR * scenes[:, 1]
     near |= (np.abs(normal) <= _NEAR * STANDARD_GRAVITY_MPS2).any(axis=0)
     for index in np.flatnonzero(near):

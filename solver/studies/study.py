@@ -20,7 +20,7 @@ from solver.kernels.compiler import THREADS
 from solver.model import Floats, InputError, Motion, Status
 from solver.records.record import Record
 from solver.sliding.checked import motion
-from solver.sliding.least_model import Model
+from solver.sliding.model_selection import Model
 from solver.studies.capacity import Curve, capacities
 from solver.studies.curves import Statistics, first_allowed, statistics
 from solver.studies.runs import LENGTHS, STATUSES, Campaign, Runner, grid, run_part

@@ -17,8 +17,8 @@ from solver.kernels import runge_kutta
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Motion, Scene, Status, coulomb
 from solver.records.record import read_only
 from solver.rivals import by_scipy
-from solver.sliding import least_model, one_axis, two_axes
-from solver.sliding.least_model import Model, Settings
+from solver.sliding import model_selection, one_axis, two_axes
+from solver.sliding.model_selection import Model, Settings
 from solver.sliding.row import BlockRow, slide_row
 from solver.verification.checks import slip_checks
 from solver.verification.evidence import Verified
@@ -228,7 +228,7 @@ def _left_out(triple: Motion, *, quick: bool) -> Verified:
         for case in MODEL_CASES[:2] if quick else MODEL_CASES:
             full = scene_of(triple, case, coulomb(case.mu))
             scene = faded(full, share)
-            choice = least_model.solve(scene)
+            choice = model_selection.solve(scene)
             change = abs(two_axes.run(scene, TIGHT).prd_m - choice.result.prd_m)
             said = 0.0 if choice.model is Model.TWO_AXES else choice.next_effect_m
             over += not change <= said + choice.result.error_m
@@ -272,7 +272,7 @@ def _choices(triple: Motion) -> Iterator[Verified]:
         ("Velocity-dependent friction", replace(full, friction=law), Model.SPEED_FRICTION),
     ):
         name = f"{what}: {triple.id}, {case.slope_deg:g}°, PPA = {case.ppa_g:g} g"
-        chosen = float(least_model.solve(scene, Settings()).model)
+        chosen = float(model_selection.solve(scene, Settings()).model)
         yield Verified("TA-12", source, "Model chosen", "1", name, float(model), chosen, 0.0)
 
 

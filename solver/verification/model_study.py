@@ -146,7 +146,7 @@ def _axes(quick: bool) -> tuple[tuple[float, ...], ...]:
 def _changes(
     scenes: Sequence[Scene], plane_m: Floats, headings: tuple[int, int]
 ) -> Iterator[ModelChange]:
-    """Compare the models; the simpler ones use the low-velocity friction, as `least_model` does."""
+    """Compare the models; the simpler ones use the low-velocity friction."""
     alone_m = _axis_prds([replace(scene, az_mps2=NO_RECORD) for scene in scenes])
     vertical_m = _axis_prds(scenes)
     at_rest = partial(held, ratio=1.0 / SLOW_SHARE)

@@ -28,7 +28,7 @@ from solver.formats import read_record
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Scene, SlideResult, Status
 from solver.records.record import NO_RECORD, read_only
-from solver.sliding import least_model, one_axis, two_axes
+from solver.sliding import model_selection, one_axis, two_axes
 from solver.verification import model_study
 from solver.verification.evidence import WORST
 from solver.verification.study import own_triples, recorded_triples
@@ -114,7 +114,7 @@ def cost(scenes: Iterable[Scene]) -> float:
 
     Each comes first in every other scene: what comes first finds nothing of it in the caches.
     """
-    ways, took = (least_model.solve, two_axes.run), [0.0, 0.0]
+    ways, took = (model_selection.solve, two_axes.run), [0.0, 0.0]
     for index, scene in enumerate(scenes):
         for k in (0, 1) if index % 2 else (1, 0):
             started = time.process_time()
@@ -131,16 +131,22 @@ def choose() -> None:
     largest = 0.0
     for index in range(SCENES):
         scene = numbered(index)
-        solution = least_model.solve(scene)
-        if solution.model is least_model.Model.NO_SLIP or solution.result.status is Status.UPLIFT:
+        solution = model_selection.solve(scene)
+        if (
+            solution.model is model_selection.Model.NO_SLIP
+            or solution.result.status is Status.UPLIFT
+        ):
             continue
-        needed = solution.model is least_model.Model.TWO_AXES
+        needed = solution.model is model_selection.Model.TWO_AXES
         for group in (every, two if needed else one):
             group.append(index)
         if (np.diff(scene.ay_mps2) >= 0.0).all():
             push.append(index)
         true, lesser = two_axes.run(scene, 1e-8), one_axis.run(scene)
-        off, bound = difference(solution.result, true), least_model.DEFAULT.bound_m(lesser.prd_m)
+        off, bound = (
+            difference(solution.result, true),
+            model_selection.DEFAULT.bound_m(lesser.prd_m),
+        )
         largest = max(largest, off / bound)
         count["wrong"] += off > bound + true.error_m + solution.result.error_m
         count["need"] += difference(lesser, true) > bound
@@ -180,7 +186,7 @@ def worst(scene: Scene, step_deg: int) -> float:
     for angle in np.radians(np.arange(0, 360, step_deg)):
         x, y = np.cos(angle) * ax - np.sin(angle) * ay, np.sin(angle) * ax + np.cos(angle) * ay
         turned = replace(scene, ax_mps2=read_only(x), ay_mps2=read_only(y))
-        found.append(least_model.solve(turned).result.prd_m)
+        found.append(model_selection.solve(turned).result.prd_m)
     return float(np.max(found))
 
 

@@ -24,7 +24,7 @@ from solver.kernels import one_axis, rivals
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Friction, Scene, coulomb
 from solver.records.record import NO_RECORD, Record
-from solver.sliding import least_model, two_axes
+from solver.sliding import model_selection, two_axes
 from solver.sliding import one_axis as one_axis_run
 from solver.sliding.checked import slide
 from solver.sliding.row import slide_row
@@ -202,7 +202,7 @@ MODELS: dict[str, Model] = {
     "the same to 1e-10": (partial(two_axes.run, tolerance=1e-10), coulomb, True, True),
     "friction that depends on velocity": (two_axes.run, by_speed, True, True),
     "row of five linked blocks": (row, coulomb, False, True),
-    "selection of the model and run": (least_model.solve, coulomb, True, True),
+    "selection of the model and run": (model_selection.solve, coulomb, True, True),
 }
 
 

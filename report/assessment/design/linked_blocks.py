@@ -18,7 +18,7 @@ from report.text.units import nan_is_worst
 from solver.model import Motion, Orientation, SlideResult, Status
 from solver.rules import provisions
 from solver.rules.provisions import AnalysisValue, RuleSet
-from solver.sliding import least_model, one_axis
+from solver.sliding import model_selection, one_axis
 from solver.sliding.row import BlockRow, RowResult, slide_row
 
 
@@ -93,7 +93,7 @@ class LinkedArray:
         rigid, linked = self.rigid.value_m, self.linked.value_m
         # Less than the tolerance that matters to the choice of model is no sliding of the blocks.
         if rigid == 0.0 and not math.isnan(linked):
-            return math.inf if linked > least_model.DEFAULT.bound_m(rigid) else 1.0
+            return math.inf if linked > model_selection.DEFAULT.bound_m(rigid) else 1.0
         return linked / rigid if rigid != 0.0 else math.nan
 
     @property
@@ -115,7 +115,7 @@ class LinkedArray:
     def most_m(self) -> float:
         """Design displacement with the model tolerance [m], which the estimate may reach."""
         design_m = self.design.design_m
-        return design_m + least_model.DEFAULT.bound_m(design_m)
+        return design_m + model_selection.DEFAULT.bound_m(design_m)
 
     @property
     def is_within(self) -> bool:

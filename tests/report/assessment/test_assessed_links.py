@@ -11,7 +11,7 @@ from fixtures import assessments, project_parts, projects
 from report.assessment.design.linked_blocks import assess_linked
 from solver.model import Status
 from solver.sliding.checked import scene, slide
-from solver.sliding.least_model import DEFAULT
+from solver.sliding.model_selection import DEFAULT
 from solver.sliding.row import BlockRow, slide_row
 
 G, LB, INCH = 9.80665, 4.4482216152605, 0.0254

@@ -24,7 +24,7 @@ from report.pages.saving import saving_words
 from report.project.model.options import Override
 from report.text.unit_format import UnitFormat
 from solver import at_roof, building_of_periods
-from solver.sliding.least_model import DEFAULT
+from solver.sliding.model_selection import DEFAULT
 
 T1_S, T2_S, FACTOR = 0.5, 0.16, 1.4
 BUILDING = {"period_s": T1_S, "period_2_s": T2_S, "damping_percent": 3.0}

@@ -20,8 +20,8 @@ from report.project.model.choices import Direction
 from report.runs import motion_run
 from solver.model import InputError, Status
 from solver.rules.provisions import Basis
-from solver.sliding import least_model
-from solver.sliding.least_model import Model
+from solver.sliding import model_selection
+from solver.sliding.model_selection import Model
 
 PEER = project_parts.REVIEW
 STEEP = [projects.array("A1", 4.0)]
@@ -174,8 +174,8 @@ def test_runs_that_never_stop_are_one_sentence_with_their_count_and_us_speed():
 
 def test_arrays_of_one_slope_friction_and_model_share_their_runs(monkeypatch):
     solved = []
-    solve = least_model.solve
-    monkeypatch.setattr(least_model, "solve", lambda *call: solved.append(call) or solve(*call))
+    solve = model_selection.solve
+    monkeypatch.setattr(model_selection, "solve", lambda *call: solved.append(call) or solve(*call))
 
     def found(*rows):
         solved.clear()

@@ -17,7 +17,7 @@ from fixtures.marks import nightly
 from fixtures.paths import ROOT
 from report.page_file.page import _script
 from solver.model import Friction, HorizontalComponent, Motion, Orientation
-from solver.sliding import least_model
+from solver.sliding import model_selection
 
 _SPEC = importlib.util.spec_from_file_location("page_parts", ROOT / "docs" / "page_parts.py")
 page_parts = importlib.util.module_from_spec(_SPEC)
@@ -93,7 +93,7 @@ def compared(n_scenes, seed):
         scene = motion.scene(
             Orientation(component=along, polarity=sign), slope_rad=slope, friction=friction
         )
-        native = least_model.solve(replace(scene, scale=scale))
+        native = model_selection.solve(replace(scene, scale=scale))
         natives.append(native)
         run = {"motion": at, "along": along, "polarity": sign, "slope_rad": slope, "scale": scale}
         scenes.append(run | {"friction": asdict(friction)})
@@ -124,5 +124,5 @@ def test_random_scenes_have_the_model_and_the_displacements_of_the_solver(n_scen
         changes = np.abs(np.subtract(lengths, expected))
         assert changes.max() <= 1e-12 + result.error_m + error_m
         n_equal += not changes.any()
-    assert set(models) == set(least_model.Model)
+    assert set(models) == set(model_selection.Model)
     assert n_equal >= 0.99 * len(natives)

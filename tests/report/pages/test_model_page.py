@@ -10,7 +10,7 @@ from fixtures import assessments, project_parts, projects
 from fixtures.pages import page_of
 from report.assessment.design.verdict import Verdict
 from report.assessment.plan.neighbors import Cover
-from solver.sliding.least_model import Model
+from solver.sliding.model_selection import Model
 
 
 def scene(shaking=None, **changes):

@@ -31,7 +31,7 @@ from report.study.parts import (
 )
 from report.study.run import connected, run_on_cluster
 from solver.model import InputError
-from solver.sliding.least_model import Model
+from solver.sliding.model_selection import Model
 from solver.studies.runs import LENGTHS, STATUSES, Runner, run_part
 
 NAMES = ["roof"]

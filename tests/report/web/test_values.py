@@ -23,7 +23,7 @@ from report.web.controls import shown
 from report.web.open_project import PASSING, open_project, reference_of
 from report.web.values import typed
 from solver.model import InputError
-from solver.sliding import least_model
+from solver.sliding import model_selection
 
 PROJECTS = ROOT / "projects"
 
@@ -314,7 +314,7 @@ def test_sliders_end_where_the_workbook_could_have_no_value_beyond():
 
 def test_a_clearance_that_moves_runs_nothing_again(monkeypatch):
     before = at_rest("example", friction=0.91)
-    monkeypatch.setattr(least_model, "solve", lambda *_: pytest.fail("a run"))
+    monkeypatch.setattr(model_selection, "solve", lambda *_: pytest.fail("a run"))
     narrower = at_rest("example", friction=0.91, clearance=-5.0)
     gaps = zip(*(rows(one["clearances"]) for one in (before, narrower)), strict=True)
     provided = [[float(gap["Provided"]["text"].split()[0]) for gap in pair] for pair in gaps]

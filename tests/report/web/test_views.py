@@ -12,7 +12,7 @@ from report.assessment.support import response_surface
 from report.web import views
 from report.web.run_forces import during, run_forces, slips_of
 from solver.model import InputError
-from solver.sliding import least_model
+from solver.sliding import model_selection
 
 LONG = projects.motions(2, seconds=20.0)  # 4,000 samples
 X_MPS2, DT_S = LONG[0].ax_mps2, LONG[0].dt_s
@@ -51,8 +51,8 @@ def solved(assessment, array, motion, run):
     moved = next(one for one in assessment.shaking.motions if one.id == motion)
     orientation = next(one for one in moved.orientations if one.name == run)
     scene = moved.scene(orientation, slope_rad=item.slope_rad, friction=item.friction)
-    solution = least_model.solve(scene)
-    return scene, least_model.history(scene, solution)
+    solution = model_selection.solve(scene)
+    return scene, model_selection.history(scene, solution)
 
 
 def values(series):

@@ -405,7 +405,7 @@ CODE = """
 import json
 from solver.kernels import one_axis, oscillator, rivals, row, two_axes
 from numba.core.dispatcher import Dispatcher
-from solver.sliding.checked import PARTS
+from solver.sliding.warm import PARTS
 
 def compiled():
     return {

@@ -17,8 +17,8 @@ from fixtures.child_process import campaign, run_pair
 from fixtures.paths import DATA
 from solver.model import Friction, Status, coulomb
 from solver.records.record import read_only
-from solver.sliding import checked, least_model, two_axes
-from solver.sliding.least_model import Model
+from solver.sliding import checked, model_selection, two_axes
+from solver.sliding.model_selection import Model
 from solver.sliding.two_axes import follow
 from solver.verification import random_pairs
 from solver.verification.random_pairs import KINDS, finer, pair, rounding
@@ -182,7 +182,7 @@ def test_dips_of_the_speed_are_seen_and_a_lost_axis_modelled():
     # The one of 900,000 pairs that was over its bound: w = 1e-13 m/s, its first term upwards.
     assert pair("mu = tan(slope)", 56946).run().ratio < 1.0
     for number in every("second_axis_left_out"):
-        solution = least_model.solve(scene("second_axis_left_out", number))
+        solution = model_selection.solve(scene("second_axis_left_out", number))
         expected = SCENES["second_axis_left_out"][number]["prd_two_axes_m"]
         assert solution.model is Model.TWO_AXES
         assert solution.result.prd_m == pytest.approx(expected, rel=1e-4)
@@ -199,7 +199,7 @@ def test_too_many_steps_are_no_number(monkeypatch):
     history = two_axes.run_history(slow)
     assert np.isnan(history.u_m).all()
     assert history.events == ()
-    assert math.isnan(least_model.solve(slow).result.prd_m)
+    assert math.isnan(model_selection.solve(slow).result.prd_m)
 
 
 COUNT = 560

@@ -14,7 +14,7 @@ from solver.forces import friction_demand
 from solver.model import Friction, InputError, Status, coulomb
 from solver.sliding import one_axis, two_axes
 from solver.sliding.checked import motion, slide
-from solver.sliding.least_model import Model, Settings, history, solve
+from solver.sliding.model_selection import Model, Settings, history, solve
 from solver.studies.sweep import STATUSES, order_alike, sweep
 
 pytestmark = pytest.mark.quick
