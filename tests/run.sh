@@ -40,7 +40,7 @@ PATH=$venv/bin:$PATH
 ruff check --quiet .
 ruff format --check --quiet .
 git ls-files -z 2>/dev/null | xargs -0 -r codespell
-oxlint --deny-warnings --config tests/oxlint.json report/web/static
+oxlint --deny-warnings --config tests/oxlint.json report/web/static report/page_file/static
 mypy
 lint-imports
 if command -v hadolint >/dev/null; then hadolint Dockerfile; fi # of the night's set

@@ -117,6 +117,12 @@ class PrintedResult(ResultModel):
 
     lengths: tuple[LengthUnitResult, ...]
     """Of displacements and separations, the preferred unit first."""
+    ratio_decimals: int
+    """Decimals of a ratio."""
+    rounded_up: tuple[str, ...]
+    """Keys of what is required, and of demands, which are rounded up."""
+    rounded_down: tuple[str, ...]
+    """Keys of what is provided, which are rounded down; all other keys to the nearest."""
 
 
 class MotionResult(ResultModel):
@@ -364,6 +370,10 @@ class ArrayResult(Displacements, _ArrayHead):
     """Tipping, for the run nearest to it."""
     uplift: UpliftResult
     """Uplift, for the run with the least normal force."""
+    analysis_factor: float
+    """Factor on the mean or largest PRD in the displacement by analysis."""
+    takes_largest: bool
+    """Whether it is on the largest PRD, not on the mean."""
     route: Route
     """Route by which the design displacement was obtained."""
     runs: tuple[RunResult, ...]
@@ -389,6 +399,8 @@ class ClearanceResult(ResultModel):
     """Importance factor in the required separation."""
     factor: float
     """Separation factor of the rule set, with the importance factor."""
+    minimum_m: float
+    """Required separation at least, whatever the displacement; 0 for none."""
     required_m: Number
     """Required separation."""
     required_is_overridden: bool

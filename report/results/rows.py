@@ -126,7 +126,10 @@ def _printed(us_first: bool) -> model.PrintedResult:
         lengths=tuple(
             model.LengthUnitResult(symbol=unit.symbol, size_m=unit.si, decimals=unit.decimals)
             for unit in units
-        )
+        ),
+        ratio_decimals=2,
+        rounded_up=("mean_prd_m", "design_m", "required_m", "demand_capacity"),
+        rounded_down=("provided_m",),
     )
 
 
@@ -209,6 +212,7 @@ def _array(assessment: Assessment, item: ArrayAssessment) -> model.ArrayResult:
             duration_s=uplift.duration_s,
             times=uplift.times,
         ),
+        analysis_factor=item.analysis.factor, takes_largest=item.analysis.basis.takes_largest,
         route=item.route,
         runs=tuple(_run(motion, run) for motion in item.motions for run in motion.runs),
     )  # fmt: skip
@@ -241,8 +245,9 @@ def _clearance(gap: ClearanceCheck) -> model.ClearanceResult:
     return model.ClearanceResult(
         array=gap.clearance.array, object=gap.clearance.object, direction=gap.clearance.direction,
         neighbor=gap.neighbor, governing_array=gap.governing_array, design_m=gap.design_m,
-        importance=gap.importance, factor=gap.factor, required_m=gap.required_m,
-        required_is_overridden=bool(gap.mark), provided_m=gap.provided_m, basis=gap.basis,
+        importance=gap.importance, factor=gap.factor, minimum_m=gap.minimum_m,
+        required_m=gap.required_m, required_is_overridden=bool(gap.mark),
+        provided_m=gap.provided_m, basis=gap.basis,
         demand_capacity=gap.demand_capacity, verdict=gap.verdict,
     )  # fmt: skip
 

@@ -2,6 +2,7 @@
 // package, and by the kernels.
 
 import { createKernels, LENGTHS } from "./kernels.js";
+import { withFriction } from "./values.js";
 
 export class ApiError extends Error {}
 
@@ -11,6 +12,7 @@ export function reload() {
 }
 
 const SHARE_MS = 30; // of computing, between which the page answers
+const MOST_KEPT = 5000; // runs
 const KINDS = { relative: "Displacement relative to the roof", normal: "Normal force", friction: "Friction F / N" };
 const G = 9.80665;
 // Differences that other processors and browsers explain, as in report/proof.
@@ -38,6 +40,7 @@ export function createApi(announce, data) {
             begun = performance.now();
           }
           if (!isWanted()) return null;
+          if (keptRuns.size > MOST_KEPT) keptRuns.clear();
           keptRuns.set(key, kernels.run(scene));
         }
         made.push({ array, run, done: keptRuns.get(key) });
@@ -128,9 +131,7 @@ async function hashOf(parts) {
 // A run of the results at some values: factors on friction and on motions.
 function sceneOf(results, array, run, { friction = 1, intensity = 1 }) {
   const motion = results.motions.findIndex(({ id }) => id === run.motion);
-  const given = array.friction;
-  const by = (mu) => (friction === 1 ? mu : mu * friction);
-  const law = { ...given, mu_slow: by(given.mu_slow), mu_fast: by(given.mu_fast), mu_static: by(given.mu_static) };
+  const law = withFriction(array.friction, friction);
   return { motion, along: run.along, polarity: run.polarity, slope_rad: array.slope_rad, friction: law, scale: run.scale * intensity };
 }
 
@@ -144,7 +145,7 @@ function slide({ results, array, of, chosen, governing, history, outline }) {
   const slips = slipsOf(history, last);
   const normal = ax.map((a, k) => (G + az[k]) * cs + a * sn);
   const demand = ax.map((a, k) => Math.hypot((G + az[k]) * sn - a * cs, ay[k]) / normal[k]);
-  const { mu_slow: slow, mu_fast: fast, rate_s_per_m: rate } = array.friction;
+  const { mu_slow: slow, mu_fast: fast, rate_s_per_m: rate } = history.law;
   const sliding = (speed) => fast - (fast - slow) * Math.exp(-rate * speed);
   const isDuring = during(slips);
   const used = demand.map((resting, k) => (isDuring(k * dt) ? sliding(Math.hypot(vDown[k] / cs, vAcross[k])) : resting));

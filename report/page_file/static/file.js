@@ -3,6 +3,7 @@
 import { createApi, compared } from "./api.js";
 import { html, replace } from "./make.js";
 import { build } from "./slide.js";
+import { mountValues } from "./values.js";
 import { createView } from "./view-frame.js";
 
 const data = JSON.parse(document.querySelector("#data").textContent);
@@ -42,9 +43,14 @@ async function watch(api) {
   const update = () => shown.update(scene());
   const array = select("Array", results.arrays.map(({ id }) => id), update);
   const motion = select("Motion", results.motions.map(({ id }) => id), update);
-  const scene = () => ({ array: array.chosen(), motion: motion.chosen() });
+  let values = {};
+  const scene = () => ({ array: array.chosen(), motion: motion.chosen(), values });
   replace(document.querySelector("#picked"), array.field, motion.field);
   const shown = createView(view, scene(), (request) => api.computed("slide", request), build, announce);
+  document.querySelector("#other-values").hidden = !mountValues(document.querySelector("#sliders"), api, results, (moved) => {
+    values = { ...moved };
+    update();
+  });
 }
 
 async function begin() {

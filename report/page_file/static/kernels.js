@@ -118,7 +118,7 @@ export function createKernels(wasm, motions) {
         const rows = [0, 1, 2, 3].map((k) => Float64Array.from(view(places + 8 * k * n, n), (s) => (k % 2 ? s : s * cs)));
         const noted = Array.from({ length: first.events }, (_, k) => [...view(events + 32 * k, 4)]);
         const shaken = [as.x, as.y, as.z].map(({ at }) => Array.from(view(at, n), (a) => a * scene.scale));
-        return { ...done, dt_s: made.dt, rows, noted, shaken, sn, cs };
+        return { ...done, dt_s: made.dt, rows, noted, shaken, sn, cs, law: made.friction };
       });
     },
   };

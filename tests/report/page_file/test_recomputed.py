@@ -18,12 +18,24 @@ from fixtures.marks import nightly
 from report.assessment.assess import assess
 from report.motions.prepare import prepare
 from report.project.read.read import read
+from report.web.open_project import open_project
 from report.web.views import slide
 
 DATA = re.compile(r'(<script type="application/json" id="data">)(.*?)(</script>)', re.DOTALL)
 LINE = "84 of 84 runs recomputed here: equal"
-SLIDE = """([array, motion]) => modules["api.js"].createApi(() => {},
-  JSON.parse(document.querySelector("#data").textContent)).computed("slide", { array, motion })"""
+API = """modules["api.js"].createApi(() => {},
+  JSON.parse(document.querySelector("#data").textContent))"""
+SLIDE = f"""([array, motion]) => {API}.computed("slide", {{ array, motion }})"""
+FOLLOWS = f"""async (values) => {{
+  const api = {API};
+  const {{ movable, followsFrom }} = modules["values.js"];
+  const made = await api.runs(values);
+  const {{ arrays, gaps }} = followsFrom(movable(await api.state()), made, values);
+  return {{
+    arrays: arrays.map((one) => [one.array.id, one.mean_prd_m, one.design_m]),
+    gaps: gaps.map((one) => [one.gap.number, one.required_m, one.demand_capacity]),
+  }};
+}}"""
 
 
 def reported(factory, name):
@@ -70,6 +82,8 @@ def test_all_runs_are_computed_again_and_equal(tmp_path_factory, browser, name, 
         page.get_by_role("button", name="Play").click()
         page.get_by_role("button", name="Pause").wait_for()
         page.locator(".clock").filter(has_not_text="0.00 s of").wait_for()
+        # The others have no floor, by a peer review, or are by the prescriptive procedure.
+        assert page.locator("#other-values").is_visible() == (name == "example")
         found = page.locator("#hashes tr").all_text_contents()
     assert found
     assert all(row.endswith("as in the results") and "not" not in row for row in found)
@@ -143,6 +157,46 @@ def test_a_run_that_is_played_is_that_of_serve(browser, example):
             assert [slip["from_s"] for slip in found["slips"]] == pytest.approx(
                 [slip["from_s"] for slip in expected["slips"]]
             )
+
+
+@pytest.mark.nightly
+def test_other_values_are_those_of_a_project_with_them(browser, example):
+    opened_project = open_project(example.project / "input.xlsx")
+    with quiet_page(browser) as page:
+        opened(page, example.out / "calc-package.html")
+        for friction, intensity in ((1.0, 1.0), (0.8, 1.0), (1.0, 1.06), (0.7, 1.05)):
+            typed = {"friction": friction, "intensity": intensity, "together": "no"}
+            done = opened_project.at(typed).assessed()
+            found = page.evaluate(FOLLOWS, {"friction": friction, "intensity": intensity})
+            assert found["arrays"]
+            for id, mean_m, design_m in found["arrays"]:
+                item = next(item for item in done.arrays if item.id == id)
+                expected = item.analysis.mean_m, item.design_m
+                # The workbook rounds the factor on a record to digits.
+                assert (mean_m, design_m) == pytest.approx(expected, rel=1e-5)
+            for number, required_m, ratio in found["gaps"]:
+                gap = done.clearances[number - 1]
+                expected = gap.required_m, gap.demand_capacity
+                assert (required_m, ratio) == pytest.approx(expected, rel=1e-5)
+
+
+def test_sliders_show_values_before_and_after_without_a_verdict(browser, example):
+    results = json.loads((example.out / "results.json").read_text())
+    with quiet_page(browser) as page:
+        opened(page, example.out / "calc-package.html")
+        page.get_by_text("At the values of the package.").wait_for()
+        rows = page.locator("#sliders table").nth(1).locator("tbody tr")
+        before = rows.all_inner_texts()
+        assert before[1].split("\t") == ["2", "A1 to RTU-1", "48.0 in", "40.8 in", "0.85"]
+        assert len(before) == len(results["clearances"])
+        page.get_by_role("slider", name="Every separation provided").fill("-8")
+        page.get_by_text("Computed here, without a verdict").wait_for()
+        text = page.locator("#sliders").inner_text()
+        assert "48.0 in → 40.0 in\t40.8 in\t0.85 → 1.02" in text
+        assert not re.search(r"\bOK\b|\bNG\b", text)
+        page.get_by_role("button", name="As in the package").click()
+        page.get_by_text("At the values of the package.").wait_for()
+        assert rows.all_inner_texts() == before
 
 
 class Firefox:

@@ -100,6 +100,7 @@ PLAIN = {
     "least_mu", "lowest_mu_tried", "given", "resolution", "verified", "n_values",
     "n_unfinished", "n_runs", "damping_ratio", "schema_version", "i_p", "force_factor",
     "force_divisor", "importance", "decimals",
+    "ratio_decimals", "analysis_factor",
 }  # fmt: skip
 
 
