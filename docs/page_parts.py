@@ -4,7 +4,8 @@
 
 Needs LLD (`sudo apt-get install lld-14`). numba compiles the kernels for no processor in
 particular, llvmlite takes that to WebAssembly, and LLD links it. The same kernels, versions and
-fonts give the same bytes. `kernels.sha256` has the hashes of the file and of its kernels.
+fonts give the same bytes. `kernels.sha256` has the hashes of the file, and of what its kernels say
+without comments.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tokenize
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -60,11 +62,28 @@ def linker() -> str | None:
     return shutil.which("wasm-ld") or shutil.which("wasm-ld-14")
 
 
+def statements(path: Path) -> bytes:
+    """Return a module without its comments, docstrings and blank lines."""
+    kept, is_begin = [], True
+    with path.open("rb") as file:
+        for kind, text, *_ in tokenize.tokenize(file.readline):
+            if kind in (tokenize.COMMENT, tokenize.NL) or (kind == tokenize.STRING and is_begin):
+                continue
+            kept.append(text)
+            is_begin = kind in (
+                tokenize.NEWLINE,
+                tokenize.INDENT,
+                tokenize.DEDENT,
+                tokenize.ENCODING,
+            )
+    return "\n".join(kept).encode()
+
+
 def hashes(wasm: bytes) -> str:
-    """Return the content of `kernels.sha256`, as `sha256sum -c` reads it."""
-    files = {str((PARTS / "kernels.wasm").relative_to(ROOT)): wasm}
+    """Return the content of `kernels.sha256`."""
+    files = {"kernels.wasm": wasm}
     for name in SOURCES:
-        files[f"solver/kernels/{name}"] = (ROOT / "solver" / "kernels" / name).read_bytes()
+        files[f"solver/kernels/{name}"] = statements(ROOT / "solver" / "kernels" / name)
     return "".join(f"{hashlib.sha256(data).hexdigest()}  {name}\n" for name, data in files.items())
 
 
