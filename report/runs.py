@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from operator import attrgetter
@@ -140,9 +141,13 @@ class Runs:
         other._done |= self._done
         return other
 
-    def begin(
-        self, arrays: Iterable[Array], motions: Iterable[Motion], only: Names | None = None
-    ) -> None:
+    def knowing(self, known: Reference) -> Runs:
+        """Return the same runs, but of some arrays those in some orientations alone."""
+        other = copy(self)
+        other._known = known
+        return other
+
+    def begin(self, arrays: Iterable[Array], motions: Iterable[Motion]) -> None:
         """Begin the runs of arrays under motions, without waiting for them."""
         motions = list(motions)
         for array in arrays:
@@ -150,7 +155,7 @@ class Runs:
             for motion in motions:
                 if self._motions.setdefault(motion.id, motion) is not motion:
                     raise DefectError(f"{motion.id} is another motion than in the runs before")
-                names = self._names(array, motion, only)
+                names = self._names(array, motion)
                 if (scene, motion.id, names) not in self._batches:
                     some = [each for each in motion.orientations if each.name in names]
                     self._batches[scene, motion.id, names] = [
@@ -158,14 +163,12 @@ class Runs:
                         for each in some or motion.orientations
                     ]
 
-    def of(
-        self, array: Array, motions: Sequence[Motion], only: Names | None = None
-    ) -> tuple[MotionRun, ...]:
-        """Return the runs of an array, or those in some orientations only, once they are done."""
-        self.begin([array], motions, only)
+    def of(self, array: Array, motions: Sequence[Motion]) -> tuple[MotionRun, ...]:
+        """Return the runs of an array, once they are done."""
+        self.begin([array], motions)
         scene, found = scene_key(array), list[MotionRun]()
         for motion in motions:
-            batch = (scene, motion.id, self._names(array, motion, only))
+            batch = (scene, motion.id, self._names(array, motion))
             if batch not in self._done:
                 runs = [run.result() for run in self._batches[batch]]
                 self._done[batch] = motion_run(motion, runs)
@@ -176,10 +179,9 @@ class Runs:
         """Return what becomes of each item, two at a time."""
         return list(self._pool.map(do, items))
 
-    def _names(self, array: Array, motion: Motion, only: Names | None) -> tuple[str, ...]:
+    def _names(self, array: Array, motion: Motion) -> tuple[str, ...]:
         """Return the names of the orientations that are run alone; none for all."""
-        by_motion = self._known.get(array.id, {}) if only is None else only
-        return tuple(by_motion.get(motion.id, ()))
+        return tuple(self._known.get(array.id, {}).get(motion.id, ()))
 
     def _run(
         self, scene: Hashable, array: Array, motion: Motion, orientation: Orientation

@@ -25,7 +25,7 @@ from report.motions.history import targets
 from report.motions.prepare import Shaking
 from report.project.check.covered import outdated
 from report.project.check.faults import faults
-from report.project.model import ProjectInput, linked
+from report.project.model import ProjectInput
 from report.project.model.finding import Finding
 from report.project.read.workbook_data import Sheet
 from report.project.workbook import SECTIONS
@@ -143,8 +143,3 @@ def _faults(data: ProjectInput) -> list[Finding]:
         rows = getattr(data, part.key)
         inputs[part.key] = [dict(row) for row in (rows if part.is_table else (rows,))]
     return faults(inputs, lambda place: place.section)
-
-
-def changed(data: ProjectInput, **sections: Any) -> ProjectInput:
-    """Return an input with other sections."""
-    return linked(data.model_copy(update=sections))

@@ -47,8 +47,8 @@ def test_arrays_of_one_slope_and_friction_share_runs_that_are_those_of_each_moti
 
 
 def test_of_all_orientations_those_are_run_that_were_not_before(begun):
-    runs, only = Runs(), {motion.id: [motion.orientations[0].name] for motion in MOTIONS}
-    some = runs.of(array(), MOTIONS, only)
+    runs, first = Runs(), {motion.id: [motion.orientations[0].name] for motion in MOTIONS}
+    some = runs.knowing({array().id: first}).of(array(), MOTIONS)
     assert [len(run.runs) for run in some] == [1, 1]
     assert len(begun) == 2
     every = runs.of(array(), MOTIONS)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from report.project.model import ProjectInput
 from report.project.model.array import Array
@@ -39,8 +39,8 @@ SHIFT = 0.05
 
 def with_friction(data: ProjectInput, factor: float) -> ProjectInput:
     """Return the input with every friction coefficient of its arrays multiplied by a factor."""
-    changed = [array_with_friction(array, factor) for array in data.arrays]
-    return data.model_copy(update={"arrays": type(data.arrays)(changed)})
+    arrays = tuple(array_with_friction(array, factor) for array in data.arrays)
+    return data.model_copy(update={"arrays": arrays})
 
 
 def array_with_friction(array: Array, factor: float) -> Array:
@@ -57,7 +57,7 @@ def with_low_velocity(data: ProjectInput) -> ProjectInput:
     if not any(array.friction.is_by_velocity for array in data.arrays):
         return data
     arrays = [at_low_velocity(a) if a.friction.is_by_velocity else a for a in data.arrays]
-    return data.model_copy(update={"arrays": type(data.arrays)(arrays)})
+    return data.model_copy(update={"arrays": tuple(arrays)})
 
 
 def at_low_velocity(array: Array) -> Array:
@@ -72,3 +72,9 @@ def with_mu(array: Array, mu: float) -> Array:
         return array_with_friction(array, mu / array.mu).model_copy(update={"mu": mu})
     # A law that starts from zero has no factor: the coefficient is then one at every velocity.
     return at_low_velocity(array).model_copy(update={"mu": mu})
+
+
+def with_mus(data: ProjectInput, mus: Mapping[str, float]) -> ProjectInput:
+    """Return the input with other low-velocity coefficients of some arrays, by id."""
+    arrays = (with_mu(row, mus[row.id]) if row.id in mus else row for row in data.arrays)
+    return data.changed(arrays=tuple(arrays))

@@ -1,4 +1,4 @@
-"""One array rerun with other friction, through the checks of a project.
+"""The friction that an array needs, or may lose: each value is a changed project, assessed.
 
 Read `Trials`, then `search`.
 """
@@ -9,8 +9,9 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
+from report.assessment.assess import reassess
 from report.assessment.assessment import Assessment
-from report.assessment.design.arrays import ArrayAssessment, Displacement, assess_array
+from report.assessment.design.arrays import ArrayAssessment, Displacement
 from report.assessment.design.clearances import ClearanceCheck, check_clearance
 from report.assessment.design.friction import with_mu
 from report.project.model.roof import Clearance
@@ -52,7 +53,10 @@ class Trials:
     def __init__(self, assessment: Assessment, array: ArrayAssessment) -> None:
         self.assessment = assessment
         self.array = array
-        self._governing = {run.motion.id: [run.governing.orientation.name] for run in array.motions}
+        governing = {run.motion.id: [run.governing.orientation.name] for run in array.motions}
+        self._of_governing = replace(
+            assessment, runs=assessment.runs.knowing({array.id: governing})
+        )
         # Several clearances of an array ask for the same ones.
         self._done: dict[tuple[int, bool], ArrayAssessment] = {}
 
@@ -86,15 +90,11 @@ class Trials:
         """Return the array with all runs, or with the governing orientation of each motion only."""
         which = (mu, every)
         if which not in self._done:
-            done, array = self.assessment, with_mu(self.array.array, mu / 100)
-            only = None if every else self._governing
-            self._done[which] = assess_array(
-                done.project,
-                done.rules,
-                array,
-                done.runs.of(array, done.shaking.motions, only),
-                motions_qualify=done.acceptance.qualifies,
-            )
+            done = self.assessment if every else self._of_governing
+            # Of the array alone: what is near it is compared in `check_alone`.
+            array = with_mu(self.array.array, mu / 100)
+            trial = reassess(done, done.project.changed(arrays=(array,), clearances=()))
+            (self._done[which],) = trial.arrays
         return self._done[which]
 
 

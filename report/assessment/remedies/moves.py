@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from operator import itemgetter
 
-from report.assessment.assess import changed
 from report.assessment.assessment import Assessment
 from report.assessment.design.clearances import ClearanceCheck
 from report.assessment.design.gaps import ComparedGap
@@ -109,7 +108,7 @@ def _widened(data: ProjectInput, *, number: int, by_m: float) -> ProjectInput:
     rows = list(data.clearances)
     provided_m = rows[number].provided_m + by_m
     rows[number] = rows[number].model_copy(update={"provided_m": provided_m})
-    return changed(data, clearances=tuple(rows))
+    return data.changed(clearances=tuple(rows))
 
 
 def _moved(data: ProjectInput, *, name: str, by: Point) -> ProjectInput:
@@ -125,8 +124,7 @@ def _moved(data: ProjectInput, *, name: str, by: Point) -> ProjectInput:
         return row.model_copy(update={"provided_m": row.provided_m + change_m})
 
     sides = {side: getattr(new, side) for side in SIDES} if isinstance(new, Rectangle) else {}
-    return changed(
-        data,
+    return data.changed(
         arrays=tuple(
             row.model_copy(update=sides) if row.id == name else row for row in data.arrays
         ),

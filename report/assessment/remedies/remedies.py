@@ -13,12 +13,12 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property, partial, reduce
 
-from report.assessment.assess import changed, entered, refused
+from report.assessment.assess import entered, refused
 from report.assessment.assessment import Assessment
 from report.assessment.causes import came_to
 from report.assessment.checks.check import PLAN_ROW, STRENGTH_ROW, Check, by_ratio
 from report.assessment.design.clearances import ClearanceCheck, by_id
-from report.assessment.design.friction import mu_words, with_mu
+from report.assessment.design.friction import mu_words, with_mu, with_mus
 from report.assessment.design.gaps import ComparedGap
 from report.assessment.design.routes import Route
 from report.assessment.design.verdict import Verdict
@@ -220,7 +220,7 @@ def _reviewed(data: ProjectInput) -> ProjectInput:
         "peer_covered": "",
         **dict.fromkeys(("peer_reviewer", "peer_license", "peer_letter"), "to be given"),
     }
-    return changed(data, options=data.options.model_copy(update=review))
+    return data.changed(options=data.options.model_copy(update=review))
 
 
 def _review(state: _State, check: Check) -> Iterator[Remedy]:
@@ -275,13 +275,8 @@ def _friction(state: _State, check: Check, mus: Mapping[str, float]) -> Remedy:
         for name, mu in mus.items()
     ]
     words = f"Provide a friction coefficient of at least {joined(parts)}"
-    change = partial(_with_mus, mus=mus)
+    change = partial(with_mus, mus=mus)
     return Remedy(kind=RemedyKind.FRICTION, checks=(check,), words=words, change=change)
-
-
-def _with_mus(data: ProjectInput, *, mus: Mapping[str, float]) -> ProjectInput:
-    arrays = (with_mu(row, mus[row.id]) if row.id in mus else row for row in data.arrays)
-    return changed(data, arrays=tuple(arrays))
 
 
 def _least_mu(trials: Trials, row: Clearance | None) -> float:
@@ -299,7 +294,7 @@ def _most_mu(trials: Trials) -> int:
     mus = range(above(array.mu), _MOST_HUNDREDTHS + 1)
 
     def is_refused(mu: int) -> bool:
-        return bool(refused(data, _with_mus(data, mus={array.id: mu / 100})))
+        return bool(refused(data, with_mus(data, {array.id: mu / 100})))
 
     # Where one is refused a larger one is, too: it is above the tests as well.
     return mus.start - 1 + bisect_left(mus, True, key=is_refused)
@@ -365,7 +360,7 @@ def _with_values(data: ProjectInput, *, field: str, values: Mapping[str, float])
         row.model_copy(update={field: values[row.id]}) if row.id in values else row
         for row in data.arrays
     )
-    return changed(data, arrays=tuple(arrays))
+    return data.changed(arrays=tuple(arrays))
 
 
 # By the id of a check, in the order in which they are tried: those with runs last.

@@ -96,6 +96,10 @@ class ProjectInput(Frozen):
         shapes: dict[str, Shape] = {item.id: item.placed for item in self.objects if item.placed}
         return shapes | {array.id: array.shape for array in self.arrays}
 
+    def changed(self, **sections: Any) -> ProjectInput:
+        """Return the input with other sections, whose names and outlines are placed again."""
+        return linked(self.model_copy(update=sections))
+
     def basis_of(self, row: Clearance) -> DistanceBasis:
         """Return the basis of the distance of a clearance."""
         if row.source is ClearanceSource.DRAWING:

@@ -11,7 +11,7 @@ from fixtures.marks import by_day
 from fixtures.pages import page_of
 from fixtures.single_runs import prd_m
 from fixtures.workbooks import cell_address, make, problems, read_workbook, type_into
-from report.assessment.assess import assess, changed
+from report.assessment.assess import assess
 from report.assessment.design.routes import Route
 from report.assessment.design.verdict import Verdict
 from report.assessment.support.building_variations import building_variations
@@ -258,7 +258,7 @@ def with_inputs(*, slopes=(), **sections):
     arrays = list(given.project.arrays)
     for k, slope in enumerate(slopes):
         arrays[k] = arrays[k].model_copy(update={"slope_value": slope})
-    project = changed(given.project, arrays=tuple(arrays), **sections)
+    project = given.project.changed(arrays=tuple(arrays), **sections)
     return assess(given.sheet, given.shaking, project=project)
 
 

@@ -10,13 +10,12 @@ from fixtures import altered_projects, assessments, project_parts, projects
 from fixtures.marks import nightly
 from fixtures.pages import page_of
 from fixtures.single_runs import prd_m, slid
-from report.assessment.assess import assess, changed, entered
+from report.assessment.assess import assess, entered
 from report.assessment.causes import came_to
 from report.assessment.design.friction import with_mu
 from report.assessment.design.verdict import Verdict
-from report.assessment.remedies import remedies
 from report.assessment.remedies.friction_search import above, below, search
-from report.assessment.remedies.remedies import MOST, Remedies, RemedyKind
+from report.assessment.remedies.remedies import MOST, Remedies, RemedyKind, remedies
 from report.pages.limits import remedy_lines
 from report.pages.saving import without_analysis
 from report.pages.terminal import summary
@@ -315,7 +314,7 @@ def test_an_array_is_moved_where_the_plan_has_room_and_everything_is_checked_aga
     )
     between = gap_m(moved.shape, given.project.objects[0].placed)
     row = given.project.clearances[0].model_copy(update={"provided_m": between})
-    done = entered(given, changed(given.project, arrays=(moved,), clearances=(row,)))
+    done = entered(given, given.project.changed(arrays=(moved,), clearances=(row,)))
     assert came_to(done) == words
 
 
@@ -373,7 +372,7 @@ def test_friction_is_assessed_as_entered_and_not_beyond_its_tests():
              for surface in ("wet", "dry") for k in (1, 2, 3)]  # fmt: skip
     assert not of_kind(beside(mu=0.3, friction_runs=tests, **options), RemedyKind.FRICTION)
     arrays = tuple(with_mu(row, least) for row in free.project.arrays)
-    by_hand = projects.assess_input(changed(free.project, arrays=arrays), assessments.motions())
+    by_hand = projects.assess_input(free.project.changed(arrays=arrays), assessments.motions())
     (found,) = of_kind(free, RemedyKind.FRICTION)
     assert came_to(found.done) == came_to(by_hand)
     assert found.done.verdict is not Verdict.NG
