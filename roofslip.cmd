@@ -16,21 +16,23 @@ rem The program as it can be typed in the current folder.
 set "ROOFSLIP_COMMAND=%here%\roofslip"
 if /i "%CD%"=="%here%" set "ROOFSLIP_COMMAND=.\roofslip"
 
+rem Ready is what was installed from these files.
 set "need=commands"
 if "%~1"=="test" set "need=test"
-rem Ready is what was installed from these files.
+if exist "%here%\.venv\set-up-test" set "need=test"
 set "read=import sys; read = b''.join(open(name, 'rb').read() for name in sys.argv[2:])"
 set files="%here%\.venv\set-up-%need%" "%here%\requirements.lock" "%here%\pyproject.toml"
-"%python%" -c "%read%; sys.exit(open(sys.argv[1], 'rb').read() != read)" %files% 2>nul && goto run
+"%python%" -c "%read%; sys.exit(open(sys.argv[1], 'rb').read() != read)" %files% 2>nul
+if not errorlevel 1 goto run
 set "code="
 call :answer %*
 if defined code exit /b %code%
-call :set_up && goto run
-rem Of a double click, the window would close with what it says.
+call :set_up
+if not errorlevel 1 goto run
+rem A double click gives no arguments: it opens the page in the browser, and here the window would close.
 if "%~1"=="" pause
 exit /b 1
 
-rem A double click gives no arguments, and opens the page in the browser.
 :run
 if "%~1"=="test" goto test
 if "%~1"=="" "%python%" -P -m report.cli serve
@@ -45,12 +47,12 @@ if "%~2"=="" "%python%" -m pytest --numprocesses 2 --dist worksteal -m "not nigh
 if not "%~2"=="" "%python%" -m pytest %2 %3 %4 %5 %6 %7 %8 %9
 exit /b %errorlevel%
 
-rem Prints from files what needs nothing installed, and sets code: the version, help, and the help of a
-rem command without what it needs.
+rem Sets code where it prints what needs nothing installed: version, help, that of a command without its file.
 :answer
 set "help="
 set "words="
-if "%~1"=="--version" for /f "usebackq tokens=1,3" %%a in ("%here%\pyproject.toml") do if "%%a"=="version" echo roofslip, version %%~b& set "code=0"
+if "%~1"=="--version" set "help=0"
+if "%~1"=="--version" set "words= version"
 :next_word
 set "word=%~1"
 if not defined word goto words
@@ -71,31 +73,34 @@ rem Where uv and pip install is said here alone.
 for %%v in (UV_SYSTEM_PYTHON UV_BREAK_SYSTEM_PACKAGES UV_PYTHON UV_TARGET UV_PREFIX UV_PROJECT UV_WORKING_DIR PIP_TARGET PIP_PREFIX PIP_ROOT PIP_PYTHON) do set "%%v="
 set "PIP_USER=0"
 set "PIP_REQUIRE_VIRTUALENV=0"
-call :find_uv || goto ask
+call :find_uv
+if errorlevel 1 goto ask
 echo roofslip: setting up .venv from requirements.lock (once, for %need%; downloads 300 to 400 MB) 1>&2
 rem There: uv takes a path with a space for two.
 pushd "%here%"
 if not exist "%python%" "%uv%" venv --quiet --allow-existing --relocatable --python 3.11 .venv
-set "group=build"
-if "%need%"=="test" set "group=test"
-"%uv%" pip install --python .venv --require-hashes --all-extras -r pyproject.toml --group %group% -c requirements.lock || goto ask
-"%uv%" pip install --python .venv --quiet --no-deps --no-build-isolation -e . || goto ask
+"%uv%" pip install --python .venv --require-hashes --all-extras -r pyproject.toml --group %need:commands=build% -c requirements.lock
+if errorlevel 1 goto ask
+"%uv%" pip install --python .venv --quiet --no-deps --no-build-isolation -e .
+if errorlevel 1 goto ask
 popd
 echo roofslip: compiling the solver (once) 1>&2
 set "NUMBA_OPT=2"
-"%python%" -P -m solver.sliding.warm constant law || exit /b 1
+"%python%" -P -m solver.sliding.warm constant law
+if errorlevel 1 exit /b 1
 set "NUMBA_OPT="
 "%python%" -c "%read%; open(sys.argv[1], 'wb').write(read)" %files%
-if "%need%"=="test" copy /y "%here%\.venv\set-up-test" "%here%\.venv\set-up-commands" >nul
 exit /b 0
 
 rem uv from the PATH, else one version from its makers, else the same by pip; both have their SHA-256 checked.
 :find_uv
 set "uv=uv"
-uv --version >nul 2>nul && exit /b 0
+uv --version >nul 2>nul
+if not errorlevel 1 exit /b 0
 set "version=0.11.19"
 set "folder=%LOCALAPPDATA%\roofslip\uv-%version%"
-call :is_uv && exit /b 0
+call :is_uv
+if exist "%uv%" exit /b 0
 echo roofslip: installing uv into %folder% 1>&2
 if not exist "%folder%" mkdir "%folder%"
 set "address=https://github.com/astral-sh/uv/releases/download/%version%/uv-x86_64-pc-windows-msvc.zip"
@@ -104,7 +109,8 @@ set "load=$ErrorActionPreference = 'Stop'; $ProgressPreference = 'SilentlyContin
 set "load=%load%; [Net.ServicePointManager]::SecurityProtocol = 'Tls12'; Invoke-WebRequest -UseBasicParsing $env:address -OutFile $zip"
 set "load=%load%; if ((Get-FileHash $zip).Hash -ne $env:sha256) { throw 'its SHA-256 is another' }; Expand-Archive -Force $zip $env:folder"
 powershell -NoProfile -ExecutionPolicy Bypass -Command "%load%; Remove-Item $zip"
-call :is_uv && exit /b 0
+call :is_uv
+if exist "%uv%" exit /b 0
 >"%folder%\uv.txt" echo uv==%version% --hash=sha256:480fc34a8d0967af6a90b3f99a6e5687cd5c6e29528de96bec04d6e305a59363
 py -m pip install --quiet --require-hashes --no-deps --only-binary :all: --target "%folder%" -r "%folder%\uv.txt"
 :is_uv

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import inspect
 import re
+import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -100,6 +101,8 @@ def pages() -> Mapping[Path, str]:
 
 def _helped() -> Parts:
     """Yield what the launchers print with nothing installed, each with the name of its file."""
+    project = tomllib.loads((HERE.parent / "pyproject.toml").read_text(encoding="utf-8"))
+    yield "version", f"roofslip, version {project['tool']['roofslip']['version']}\n"
     for heading, text in (*_commands(), *_completions()):
         name = heading.replace("Completion in", "completion").replace(" ", "-")
         yield name, text.removeprefix("```text\n").removesuffix("```")
