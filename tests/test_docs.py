@@ -6,7 +6,6 @@ Set-up by the launcher: tests/test_packaging.py. The study has fewer slopes and 
 import json
 import os
 import re
-import shlex
 import shutil
 import subprocess
 import sys
@@ -15,6 +14,7 @@ from dataclasses import replace
 from functools import cache
 from importlib.util import module_from_spec, spec_from_file_location
 from itertools import chain
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,9 +22,7 @@ from pypdfium2 import PdfDocument
 
 import solver.public
 from fixtures import packages
-from fixtures.cells import cell
 from fixtures.paths import ROOT
-from fixtures.workbooks import edit
 from report.making import OUTPUTS
 from report.project.model.choices import RuleSetName
 from report.results.publish import STAMP
@@ -45,21 +43,12 @@ def blocks(language):
     return re.findall(rf"```{language}\n(.*?)```", "\n".join(TEXTS), re.DOTALL)
 
 
-LINES = "".join(blocks("sh")).splitlines()
-COMMANDS = [line for line in LINES if line and not line.startswith("#")]
-
-
 _SPEC = spec_from_file_location("make_docs", ROOT / "docs" / "make.py")
 make_docs = module_from_spec(_SPEC)
 _SPEC.loader.exec_module(make_docs)
 
-ELSEWHERE = (
-    "./roofslip serve",  # until Ctrl+C: run by tests/report/web/test_page.py
-    "./roofslip serve --once --port 0",  # run by tests/report/cli/test_serve.py
-    "./roofslip verify --quick",  # run by tests/report/cli/test_verify.py
-    "./roofslip report projects/example",  # among those that are reported together
-    "./roofslip report projects/trial",  # as projects/warehouse, which is another copy
-)
+UNENDING = "./roofslip serve\n"
+"""Until Ctrl+C: run by tests/report/web/test_page.py."""
 
 
 @pytest.fixture(scope="module")
@@ -83,52 +72,81 @@ def results_alone(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def pasted(tmp_path_factory):
-    """A folder with fresh projects after every command, and what each printed."""
-    top = tmp_path_factory.mktemp("copy")
-    listed = ["git", "ls-files", "-z", "projects"]
+def checkout(tmp_path_factory):
+    """What is tracked here, without anything installed."""
+    top = tmp_path_factory.mktemp("checkout")
+    listed = ["git", "ls-files", "-z"]
     names = subprocess.run(listed, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     for name in names.rstrip("\0").split("\0"):
         (top / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, top / name)
-    # The program is that of the checkout, whose solver is compiled.
-    program = f"PYTHONPATH={shlex.quote(str(ROOT))} exec {shlex.quote(sys.executable)}"
-    (top / "roofslip").write_text(f'#!/bin/sh\n{program} -m report.cli "$@"\n')
-    (top / "roofslip").chmod(0o755)
-    printed = {}
-    for command in COMMANDS:
-        if command in ELSEWHERE:
-            continue
-        done = subprocess.run(
-            ["sh", "-c", command], cwd=top, capture_output=True, text=True, check=False
-        )
-        assert done.returncode == 0, command + "\n" + done.stdout + done.stderr
-        printed[command] = done.stdout
-        if "--dry-run" in command:
-            edit(top / "projects" / "study" / "input.xlsx", few_cases)
-    return top, printed
+    return top
 
 
-def few_cases(book):
-    slopes, intensities = (cell(book, f"Study/{label}") for label in ("Slopes", "Intensities"))
-    assert (slopes.value, intensities.value) == ("0 to 7 by 1", "0.1 to 2 by 0.1")
-    slopes.value, intensities.value = "0, 2, 4", "0.2 to 2 by 0.2"
+def run_as_pasted(words, folder):
+    """Run a command where no uv is in the PATH, and return what it prints."""
+    path = [part for part in os.environ["PATH"].split(":") if not (Path(part) / "uv").exists()]
+    outside = {name: value for name, value in os.environ.items() if name != "VIRTUAL_ENV"}
+    done = subprocess.run(
+        words, cwd=folder, env=outside | {"PATH": ":".join(path)},
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    if "connect to the network" in done.stderr:
+        pytest.skip("nothing can be downloaded here")
+    assert done.returncode == 0, f"{words}\n{done.stdout}{done.stderr}"
+    return done.stdout
 
 
 @pytest.mark.nightly
-def test_every_command_of_readme_and_docs_runs_as_it_is_pasted_and_the_study_has_its_curves(pasted):
-    top, printed = pasted
-    assert {command.split()[1] for command in printed} >= {"report", "new", "check", "plan"}
-    assert printed.keys() | set(ELSEWHERE) == set(COMMANDS)
-    assert len(COMMANDS) >= 30
-    for name in ("example", "warehouse"):
-        assert (top / "projects" / name / "out" / "calc-package.pdf").is_file()
-    top, printed = pasted
+def test_every_block_of_readme_and_docs_runs_as_it_is_pasted_with_what_readme_installs(checkout):
+    printed = "".join(
+        run_as_pasted(["sh", "-ec", block.replace(UNENDING, "")], checkout)
+        for block in blocks("sh")
+    )
+    for name in ("example", "warehouse", "trial", "permit"):
+        assert (checkout / "projects" / name / "out" / "calc-package.pdf").is_file()
     # Three mats on eight slopes at twenty intensities, and the cases of the array.
-    assert printed["./roofslip study projects/study --dry-run"].startswith("557 cases, ")
-    out = top / "projects" / "study" / "out" / "study"
-    assert len((out / "curves.csv").read_text().splitlines()) == 1 + 3 * 3 * 10
+    assert "557 cases, " in printed
+    out = checkout / "projects" / "study" / "out" / "study"
+    assert len((out / "curves.csv").read_text().splitlines()) == 1 + 3 * 8 * 20
     assert (out / "study.pdf").stat().st_size > 10_000
+    for block in blocks("python"):
+        (checkout / "block.py").write_text(block)
+        run_as_pasted([checkout / ".venv" / "bin" / "python", "block.py"], checkout)
+
+
+@pytest.mark.quick
+def test_commands_of_other_blocks_are_those_that_need_files_of_the_reader():
+    shown = re.findall(
+        r"^(?:\./|\.venv|\.uv|uv |pip |git ).*", "".join(blocks("text")), re.MULTILINE
+    )
+    wheel = '.uv/bin/uv tool install --constraints requirements.lock "dist/roofslip-'
+    assert {line for line in shown if not line.startswith(wheel)} == {
+        ".uv/bin/uv build --wheel",
+        ".uv/bin/uv pip install jupyterlab jupytext",
+        ".venv/bin/jupyter lab docs/examples",
+        "./roofslip plan read layout.dxf projects/yours --units ft --gap 18 in",
+        "./roofslip plan ballast blocks.csv projects/yours --units ft --block-weight 32 lb",
+        "./roofslip sign projects/warehouse/out/calc-package.pdf --p12 yours.p12",
+        "git clone --depth 1 https://github.com/maddyblue/slammer",
+        "./roofslip study projects/study --dry-run",
+        ".venv/bin/python -m projects.curves.make slammer/records",
+    }
+    named = " ".join(re.findall(r"`(uv [^`]+)`", "".join(TEXTS)))
+    assert named == "", "uv is in the PATH of few: write .uv/bin/uv"
+
+
+def test_sections_of_the_package_are_named_by_number_and_title(results_alone):
+    html = (results_alone.out / "calc-package.pdf").read_text()
+    package = packages.words(html)
+    for path, text in DOCS.items():
+        prose = " ".join(re.sub(r"```.*?```", "", text, flags=re.DOTALL).split())
+        for number, title in re.findall(
+            r"\bSections? (\d+|[A-Z])(?![\w.])(?: \(([^)]+)\))?", prose
+        ):
+            assert title, f"{path.name}: Section {number} without its title"
+            assert f" {number} {title} " in package, f"{path.name}: Section {number} ({title})"
+        assert not re.search(r"\b[Pp]arts? \d", prose), path.name
 
 
 @pytest.mark.nightly
