@@ -27,7 +27,7 @@ from solver.verification import checks, workprecision
 from solver.verification.study import CASES, compared_runs, own_triples
 from solver.verification.workprecision import OURS, SCIPY, SINGLE, TIME, times_longer, work_points
 
-PICTURE = ROOT / "docs" / "pictures" / "work-precision.png"
+PICTURES = ROOT / "docs" / "pictures"
 FLOOR_PERCENT = 1e-13
 """Error at which the exact method is drawn, see `solver_accuracy`."""
 AS_ACCURATE = ("compiled-rk45", "compiled-dop853", "events-rk45", "events-dop853")
@@ -100,7 +100,29 @@ def one_axis(plane: pd.DataFrame) -> None:
     if not SMOKE:
         drawn = overview(found, plane, FLOOR_PERCENT, png_bytes)
         picture = Image.open(io.BytesIO(drawn)).convert("RGB")
-        picture.quantize(64).save(PICTURE, optimize=True)
+        for name, panel in panels(picture).items():
+            panel.quantize(64).save(PICTURES / f"work-precision-{name}.png", optimize=True)
+
+
+def panels(picture: Image.Image) -> dict[str, Image.Image]:
+    """Cut the chart into its two plots and its legend, which are readable on a narrow screen."""
+    wide, high = picture.size
+    scale = wide / 1400.0  # the pixels below are those of a chart of this width
+
+    def cut(left: int, top: int, right: int, bottom: int) -> Image.Image:
+        return picture.crop(tuple(round(scale * edge) for edge in (left, top, right, bottom)))
+
+    below = round(high / scale)
+    # The labels of the error are on the left of the first plot alone.
+    labels, second = cut(0, 0, 118, 610), cut(772, 0, 1400, 610)
+    one_axis = Image.new("RGB", (labels.width + second.width, second.height), "white")
+    one_axis.paste(labels, (0, 0))
+    one_axis.paste(second, (labels.width, 0))
+    columns = [cut(left, 660, left + 455, below) for left in (0, 460, 930)]
+    legend = Image.new("RGB", (columns[0].width, sum(one.height for one in columns)), "white")
+    for row, column in enumerate(columns):
+        legend.paste(column, (0, row * column.height))
+    return {"two-axes": cut(0, 0, 745, 610), "one-axis": one_axis, "legend": legend}
 
 
 def against_fifty_digits() -> None:
