@@ -79,7 +79,7 @@ def test_the_project_of_the_permit_prints_its_figures(tmp_path_factory):
     text = packages.words((made.out / "calc-package.pdf").read_text())
     for words in (
         "1.313 g", "0.471 g", "1.829", "1.576 g", "1.050 g", "SDC D", "0.288 s", "0.547 s",
-        "computed, from 0.315 to 1.681", "25.4 in (645 mm)",
+        "computed (lower limit 0.315, upper limit 1.681)", "25.4 in (645 mm)",
     ):  # fmt: skip
         assert words in text, words
 

@@ -103,7 +103,7 @@ def test_every_block_of_readme_and_docs_runs_as_it_is_pasted_with_what_readme_in
         run_as_pasted(["sh", "-ec", block.replace(UNENDING, "")], checkout)
         for block in blocks("sh")
     )
-    for name in ("example", "warehouse", "trial", "permit"):
+    for name in ("example", "warehouse", "trial"):
         assert (checkout / "projects" / name / "out" / "calc-package.pdf").is_file()
     # Three mats on eight slopes at twenty intensities, and the cases of the array.
     assert "557 cases, " in printed

@@ -60,9 +60,9 @@ def literals(path):
     tree = ast.parse(path.read_text(encoding="utf-8"))
     expressions = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
     for node in ast.walk(tree):
-        if isinstance(node, ast.Constant) and isinstance(node.value, str):
-            if id(node) not in expressions and " " in node.value:
-                yield node.value
+        is_text = isinstance(node, ast.Constant) and isinstance(node.value, str)
+        if is_text and id(node) not in expressions and " " in node.value:
+            yield node.value
 
 
 def texts_of_modules():

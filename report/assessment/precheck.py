@@ -114,7 +114,7 @@ def _not_run(data: ProjectInput) -> Iterator[Finding]:
     )  # fmt: skip
     for place, what, is_asked in asked:
         if is_asked:
-            yield note(place, f"{what} needs motions: nothing follows from it here")
+            yield note(place, f"{what} needs motions and is skipped")
 
 
 def missing_clearances(sheet: Sheet) -> Iterator[Finding]:

@@ -68,7 +68,7 @@ def _others(
     slow = [array for array in data.arrays if array.friction.is_by_velocity]
     if slow and done.has_motions:
         mus = mus_words([at_low_velocity(array) for array in slow])
-        how = f"with the low-velocity friction coefficient alone ({mus})"
+        how = f"with the low-velocity friction coefficient at all velocities ({mus})"
         yield (VELOCITY_ROW,), with_low_velocity(data), (), how
     drifting = {c.subject for c in done.checks if c.id == "drift" and c.is_open}
     if drifting:

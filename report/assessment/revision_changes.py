@@ -14,7 +14,7 @@ class ChangeKind(StrEnum):
     INPUT = "input"
     RECORD = "record"
     DOCUMENT = "document"
-    ANALYSIS = "displacement by analysis"
+    ANALYSIS = "analysis displacement"
     DESIGN = "design displacement"
     CLEARANCE = "clearance"
     REQUIREMENT = "requirement"

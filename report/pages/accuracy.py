@@ -67,11 +67,11 @@ def _error(run: OrientedRun) -> str:
     """Return what is known of the numerical error of a run."""
     result, model = run.result, run.solution.model
     if result.status is Status.UPLIFT:
-        return "the block lifts off the roof: the run gives no displacement and no error"
+        return "the block lifts off the roof; no displacement and no error are reported"
     if math.isnan(run.prd_m):
-        return f"the run gives no displacement and no error: {result.status.sentence}"
+        return f"no displacement and no error are reported: {result.status.sentence}"
     if model == Model.NO_SLIP:
-        return "the array does not slip, and the error is rounding"
+        return "the array does not slip; the error is rounding error"
     if model >= Model.TWO_AXES:
         basis = "a bound" if run.scene.friction.is_monotone else "an estimate from two tolerances"
         return (
@@ -80,7 +80,7 @@ def _error(run: OrientedRun) -> str:
         )
     return (
         "in one axis the solution is exact, event by event, with at most one step per sampling "
-        "interval: its error is rounding"
+        "interval; the error is rounding error"
     )
 
 
@@ -113,17 +113,21 @@ def _smallest_words(margins: Sequence[Margin]) -> str:
     if not margins:
         return ""
     if all(margin.is_beyond for margin in margins):
-        return "With half of the given friction all clearances that are satisfied remain satisfied."
+        return "With half of the entered friction, all satisfied clearances remain satisfied."
     smallest = max(margins, key=_share)
     law, percent_less = smallest.array.array.friction, 100.0 * (1.0 - _share(smallest))
+    of = f"μ of {smallest.array.id}"
     if percent_less:
-        change = f"be {number(percent_less, 1)}{NO_BREAK}% less: {_least(smallest)}"
+        remains = (
+            f"It remains satisfied with {of} reduced by {number(percent_less, 1)}{NO_BREAK}%, from "
+            f"{mu_words(law)} to {_least(smallest)}."
+        )
     else:
-        change = f"not be 0.01 less{' at low velocity' if law.is_by_velocity else ''}"
+        at = " at low velocity" if law.is_by_velocity else ""
+        remains = f"It is no longer satisfied with {of}, {mu_words(law)}, reduced by 0.01{at}."
     return (
-        f"The smallest margin of a satisfied clearance is that of No. {smallest.number}, "
-        f"{' to '.join(smallest.gap.between)}: μ of {smallest.array.id}, {mu_words(law)}, may "
-        f"{change}."
+        f"The smallest friction margin is at clearance No. {smallest.number}, "
+        f"{' to '.join(smallest.gap.between)}. {remains}"
     )
 
 
@@ -146,11 +150,11 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
     columns = (
         (words("No.", 0.8), lambda margin: str(margin.number)),
         (words("Array", 0.8), lambda margin: margin.array.id),
-        (text("μ", "given", package.mu_share),
+        (text("μ", "entered", package.mu_share),
          lambda margin: mu_words(margin.array.array.friction)),
-        (text("μ", "least", package.mu_share), least),
+        (text("μ", "lowest", package.mu_share), least),
         (text("Change", "%", 0.9), lambda margin: number(100.0 * (_share(margin) - 1.0), 1)),
-        (required("Required there", 0.9),
+        (required("Required at this μ", 0.9),
          lambda margin: "—" if math.isnan(margin.minimum_mu) else margin.required_m),
         (length("Provided", 0.9), lambda margin: margin.gap.clearance.provided_m),
         (words("Limited by", 1.6), lambda margin: lowered(margin.limited_by)),
@@ -175,18 +179,18 @@ def _sum_table(package: PackageData, sums: Sequence[Cumulative]) -> Table:
 def _turned(found: Uncertainty, fmt: UnitFormat) -> str:
     """Return what other angles of the horizontal pair give, as a clause."""
     if not found.turned:
-        return "the motion has one horizontal component, and its angle is not varied"
+        return "the motion has one horizontal component, so its angle is not varied"
     worst, used_m = found.worst, found.used_m
     angle, prd_m = f"{number(worst.angle_deg, 1)}°", worst.result.prd_m
-    give = f"{len(found.turned)} more angles of the horizontal pair give"
+    give = f"rotating the horizontal pair to {len(found.turned)} more angles gives"
     if math.isnan(prd_m):
         return f"{give} no displacement at {angle}: {worst.result.status.sentence}"
     if not used_m > 0.0:
         return f"{give} PRDs up to {fmt.both_up(prd_m)}"
     smallest_m = min(run.result.prd_m for run in found.turned)
     return (
-        f"{give} {number(smallest_m / used_m, 2)} to {number(prd_m / used_m, 2)} times that PRD, "
-        f"the largest at {angle}"
+        f"{give} {number(smallest_m / used_m, 2)} to {number(prd_m / used_m, 2)} times this PRD "
+        f"(largest at {angle})"
     )
 
 
@@ -195,11 +199,11 @@ def _reversed(found: Uncertainty, fmt: UnitFormat) -> str:
     if not found.motion.motion.has_vertical:
         return "there is no vertical component to reverse"
     if math.isnan(found.reversed_m):
-        return "a reversed vertical component gives no displacement"
-    gives = f"a reversed vertical component gives {fmt.both_up(found.reversed_m)}"
+        return "reversing the vertical component gives no displacement"
+    gives = f"reversing the vertical component gives {fmt.both_up(found.reversed_m)}"
     used_m = found.used_m
     return (
-        f"{gives}, {number(found.reversed_m / used_m, 2)} times that PRD" if used_m > 0 else gives
+        f"{gives}, {number(found.reversed_m / used_m, 2)} times this PRD" if used_m > 0 else gives
     )
 
 
@@ -210,7 +214,7 @@ def _friction_table(package: PackageData, accuracy: Accuracy, percent: str) -> T
         accuracy.entered,
         accuracy.at_increased_friction,
     )
-    heads = (f"{percent} less", "As given", f"{percent} more")
+    heads = (f"{percent} less", "As entered", f"{percent} more")
 
     def of(group: Sequence[ArrayAssessment], place: int) -> ArrayAssessment:
         # Without a design displacement as given where no route is permitted.

@@ -64,7 +64,7 @@ def letter_table(package: PackageData) -> Table:
     if done.clearances or done.missing_gaps:
         gaps = {item.id: _gap_cells(done.governing_gap(item.id)) for item in done.arrays}
         columns += [
-            (words("Governing clearance to", 1.3), lambda item: governing_name(done, item)),
+            (words("Governing clearance", 1.3), lambda item: governing_name(done, item)),
             (required("Required", 0.8), lambda item: gaps[item.id][1],
              lambda item: gaps[item.id][2], lambda item: gaps[item.id][3][1]),
             (provided("Provided", 0.8), lambda item: gaps[item.id][0],
@@ -75,7 +75,7 @@ def letter_table(package: PackageData) -> Table:
         (text("Keep clear", share=1.0), lambda item: _keep_clear(done, item)),
         (centered("Verdict", 1.3), done.array_verdict, lambda item: _cause(done, item)),
     ]
-    return merged(_table(package, columns), "Array", "Governing clearance to")
+    return merged(_table(package, columns), "Array", "Governing clearance")
 
 
 def comparison_table(package: PackageData) -> Table:
@@ -153,7 +153,7 @@ def governing_name(done: Assessment, item: ArrayAssessment) -> str:
     """Return what is across the governing gap of an array, and where no clearance is given that."""
     gap = done.governing_gap(item.id)
     if gap is None:
-        return "none given"
+        return "none entered"
     name = gap.across_from(item.id)
     return f"{name} ({NOT_GIVEN})" if isinstance(gap, PlanNeighbor) else name
 

@@ -30,7 +30,7 @@ def counted(changes: Changes) -> str:
     """Return the number of changes by kind, as a clause."""
     total = len(changes.items)
     if not total:
-        return "no change in inputs, records, results or verdicts"
+        return "no changes in inputs, records, results or verdicts"
     counts = ((kind, changes.count(kind)) for kind in ChangeKind)
     parts = [f"{kind.value} {count}" for kind, count in counts if count]
     return f"{total} change{'s' if total > 1 else ''} ({', '.join(parts)})"

@@ -135,7 +135,7 @@ def verdict_sentence(done: Assessment, conditions: str = "below") -> str:
         text = f"All {total} checks are satisfied, or exceeded where the rule set permits it."
     else:
         text = f"All {total} checks are satisfied."
-    return text if done.clearances else f"{text} No clearance is entered, and none is checked."
+    return text if done.clearances else f"{text} No clearance is entered, so none is checked."
 
 
 def governing_table(sheet: FirstSheet, done: Assessment, numbers: Mapping[str, str]) -> Table:
@@ -191,16 +191,16 @@ APART = ("clearance", MOTIONS_ID)
 """Kinds with a table of their own."""
 _GOVERNING_HEADS = headed(
     ("Check", 2.25), ("Of", 1.2), ("Found", 1.45), ("Required", 1.45), ("Ratio", 0.5, "right"),
-    ("Section of the code", 1.6), ("Verdict", 0.75, "center"), ("Sheet", 0.45, "right"),
+    ("Code section", 1.6), ("Verdict", 0.75, "center"), ("Sheet", 0.45, "right"),
     kind="compact",
 )  # fmt: skip
 _CONDITION_HEADS = headed(
-    ("Condition", 2.4), ("Found", 2.6), ("Required (section of the code)", 3.1),
+    ("Condition", 2.4), ("Found", 2.6), ("Required (code section)", 3.1),
     ("Who acts", 0.95), ("Sheet", 0.45, "right"), kind="compact",
 )  # fmt: skip
 _ALL_HEADS = headed(
     ("Of", 0.9), ("Check", 2.6), ("Found", 2.5), ("Required", 2.35), ("Ratio", 0.5, "right"),
-    ("Section of the code", 1.65), ("Verdict", 0.85, "center"), kind="compact",
+    ("Code section", 1.65), ("Verdict", 0.85, "center"), kind="compact",
 )  # fmt: skip
 
 

@@ -1,7 +1,7 @@
 """The comparison with the prescriptive displacement: chart, table, why an array has its route.
 
-Array A1: the limits of the prescriptive procedure are satisfied, but the displacement by
-analysis exceeds its value.
+Array A1: the limits of the prescriptive procedure are satisfied, but the analysis
+displacement exceeds the prescriptive displacement.
 """
 
 from __future__ import annotations
@@ -54,8 +54,8 @@ def _routes(package: PackageData, item: ArrayAssessment) -> str:
         other = f"the prescriptive procedure is not permitted: {_reasons(package, failed)}"
     elif analysis.value_m > given_m:
         other = (
-            "the limits of the prescriptive procedure are satisfied, but the displacement by "
-            "analysis exceeds its value"
+            "the limits of the prescriptive procedure are satisfied, but the analysis "
+            "displacement exceeds the prescriptive displacement"
         )
     else:
         other = f"the prescriptive displacement may be used instead ({package.part('limits')})"
@@ -63,23 +63,22 @@ def _routes(package: PackageData, item: ArrayAssessment) -> str:
     refused = f"the analysis procedure is not permitted: {faults}"
     parts: list[str] = []
     if item.route is Route.PRESCRIPTIVE:
-        parts.append("the prescriptive procedure is taken")
+        parts.append("the prescriptive procedure is used")
         if analysis.largest_m > given_m:
             parts.append("the largest PRD exceeds the prescriptive displacement and is used")
         return _sentences([*parts, refused])
     if math.isnan(item.design_m):
-        return _sentences(["no value from analysis", other])
+        return _sentences(["no analysis displacement", other])
     n_above = sum(run.governing.prd_m > given_m for run in item.motions)
     above = f"{n_above} of {len(item.motions)} PRDs"
     if analysis.value_m > given_m:
         parts.append(
-            f"the displacement by analysis is {number(analysis.value_m / given_m, 2)} times the "
+            f"the analysis displacement is {number(analysis.value_m / given_m, 2)} times the "
             f"prescriptive displacement ({above} exceed it) and governs"
         )
     elif n_above:
         parts.append(
-            f"{above} exceed the prescriptive displacement, but the displacement by analysis does "
-            "not"
+            f"{above} exceed the prescriptive displacement, but the analysis displacement does not"
         )
     if package.data.is_peer_reviewed:
         parts.append("no floor applies because the analysis is peer reviewed")

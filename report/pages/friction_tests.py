@@ -138,11 +138,13 @@ def _run_rows(data: ProjectInput, series: Series) -> Iterator[tuple[object, ...]
 def _velocities(package: PackageData) -> Table:
     columns = by_place(
         words("Array", 0.6),
-        text("μ", "as run", package.mu_share),
-        ColumnHead(head="Largest velocity", quantity=Quantity.VELOCITY, share=0.8, show=no_less),
+        text("μ", "as analyzed", package.mu_share),
+        ColumnHead(
+            head="Peak sliding velocity", quantity=Quantity.VELOCITY, share=0.8, show=no_less
+        ),
         ColumnHead(head="Tested to", quantity=Quantity.VELOCITY, share=0.8),
-        text("μ beyond", "largest", 0.9),
-        text("μ tested", "smallest", 0.9),
+        text("Max. μ above tested range", "largest", 0.9),
+        text("Min. mean μ tested", "smallest", 0.9),
         centered("Verdict", 1.8),
     )
     assessment = package.assessment

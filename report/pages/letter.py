@@ -34,7 +34,7 @@ def page(package: PackageData) -> Mapping[str, object]:
         "has_clearances": bool(done.clearances or done.missing_gaps),
         "clearances": _clearances(done),
         "open_checks": _open_checks(done, summary),
-        "overrides": f"{capitalized(counted(n_overrides, 'number'))} of the rule set "
+        "overrides": f"{capitalized(counted(n_overrides, 'value'))} of the rule set "
         f"{'is' if n_overrides == 1 else 'are'} overridden for this project "
         f"({package.part('provisions')})."
         if n_overrides
@@ -63,7 +63,7 @@ def _scope(package: PackageData) -> str:
     were = "was" if len(ids) == 1 else "were"
     arrays = f"{capitalized(counted(len(ids), 'ballasted array'))} ({ranged(ids)}) {were}"
     if not done.has_motions:
-        return f"{arrays} given the prescriptive displacement of"
+        return f"{arrays} assigned the prescriptive displacement of"
     n_runs = sum(len(motion.runs) for item in done.arrays for motion in item.motions)
     motions = counted(len(done.shaking.motions), "motion")
     return (

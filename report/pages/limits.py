@@ -84,7 +84,7 @@ def remedy_lines(assessment: Assessment, found: Remedies) -> Iterator[str]:
     if found.own and failed > MOST:
         yield f"Searched for the {MOST} with the largest ratio of {failed} that are NG."
     if found.own and not found.together:
-        yield "No set of these changes is enough."
+        yield "No combination of these changes is enough."
     if assessment.has_motions and (lacks := without_analysis(assessment)):
         yield f"{capitalized(lacks)}"
 
@@ -166,7 +166,7 @@ def _parapets(package: PackageData) -> Table:
         (words("Beside"), lambda row: row[0].array),
         (length("Top above the roof"), lambda row: row[1]),
         (length("Center of gravity"), lambda row: row[2]),
-        (provided("Top above it"), lambda row: row[1] - row[2]),
+        (provided("Top above c.g."), lambda row: row[1] - row[2]),
         (words("Result", 1.3), lambda row: row[3]),
     )
     rows = [

@@ -117,8 +117,8 @@ def _stability_table(package: PackageData) -> Table:
         (text("Demand", "V/N"), lambda item: _limited(item.tipping.demand)),
         (plain("Transmitted", unit="V/N", share=1.1), lambda item: item.tipping.transmitted),
         (plain("Capacity", unit="b/(2c)", share=1.1), lambda item: item.tipping.capacity),
-        (text("Ratio, at rest", share=1.2), lambda item: ratio(item.tipping.at_rest_ratio)),
-        (text("Ratio, sliding", share=1.2), lambda item: ratio(item.tipping.sliding_ratio)),
+        (text("D/C at rest", share=1.2), lambda item: ratio(item.tipping.at_rest_ratio)),
+        (text("D/C sliding", share=1.2), lambda item: ratio(item.tipping.sliding_ratio)),
         (centered("Verdict"), lambda item: verdict(item.tipping.is_ok and not item.uplift.lifts)),
     )  # fmt: skip
     return listed(package.assessment.arrays, columns, package.fmt, kind="compact")
@@ -214,10 +214,10 @@ def _neglected(array: ArrayAssessment) -> Iterator[_Neglected]:
     if all(solution.model is Model.NO_SLIP for solution in solutions):
         yield array.id, "None: no slip", "—", "—", "exact"
     elif array.array.friction.is_constant:
-        basis = "the workbook gives one coefficient"
+        basis = "one coefficient entered"
         yield array.id, _NEGLECTED[Model.SPEED_FRICTION], *_NOT_KNOWN, basis
     else:
-        yield array.id, "None of the given inputs", "—", "—", "the most complete model is used"
+        yield array.id, "None", "—", "—", "the most complete model is used"
 
 
 def _effect(array: ArrayAssessment, model: Model, group: Sequence[Solution]) -> _Neglected:

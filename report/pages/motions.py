@@ -144,7 +144,7 @@ def _variations(
         (length("Mean PRD"), lambda row: row[1].mean_m),
         (plain("Mean PRD", 2, "/ used"), lambda row: row[1].mean_m / (value.mean_m or math.nan)),
         (length("Largest PRD"), lambda row: row[1].largest_m),
-        (required("Value from analysis"), lambda row: row[1].value_m),
+        (required("Analysis displacement"), lambda row: row[1].value_m),
     )
     return listed(variations, columns, package.fmt, kind="compact", whole_rows=len(variations))
 
@@ -176,7 +176,7 @@ def _motion_table(package: PackageData, *, has_sources: bool) -> tuple[Table, Ma
     rows = list(zip(shaking.motions, shaking.prepared, strict=True))
     files = grouped_by(shaking.records, lambda file: file.motion_id)
     source: Column = (words("Source", 3.5), lambda row: with_symbols(row[0].source))
-    place: Column = (words("Given at", 1.25), lambda row: row[1].recorded_at.value)
+    place: Column = (words("Recorded at", 1.25), lambda row: row[1].recorded_at.value)
     maybe_alike: Sequence[Column] = (
         (text("Step", "s", 1.1), lambda row: f"{row[0].dt_s:.3g}"),
         (
@@ -268,8 +268,8 @@ def _highpass_table(package: PackageData, beyond: Sequence[Beyond]) -> Table:
         (words("Motion", 1.2), lambda run: run.motion_id),
         (text("Corner", "Hz"), lambda run: f"{run.corner_hz:g}"),
         (text("Period", "s"), lambda run: f"{1.0 / run.corner_hz:.3g}"),
-        (length("With the high-pass, as run", 1.3), lambda run: run.filtered_m),
-        (length("Without it", 1.3), lambda run: run.unfiltered_m),
+        (length("With the high-pass filter, as analyzed", 1.3), lambda run: run.filtered_m),
+        (length("Without the filter", 1.3), lambda run: run.unfiltered_m),
         (text("Removed", "%", 1.2), lambda run: number(100.0 * run.share, 0)),
     )
     return listed(beyond, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)

@@ -90,9 +90,9 @@ class PackageData:
         return self.marks.clause(key)
 
     def part(self, name: str) -> str:
-        """Return the reference to a part, as in `part 6`."""
+        """Return the reference to a part, as in `Section 6`."""
         number = self.numbers[name]
-        return f"part {number}" if number.isdigit() else f"appendix {number}"
+        return f"Section {number}" if number.isdigit() else f"Appendix {number}"
 
     @property
     def n_runs(self) -> int:

@@ -1,7 +1,7 @@
 """What an analysis could save where an array takes the prescriptive displacement, in sentences.
 
-    By analysis, the design displacement of all arrays could be as low as 7.4 in (187 mm) instead of
-    14.7 in (374 mm): the floor without peer review is 50 % of the prescriptive displacement.
+    With an analysis, the design displacement of all arrays could be as low as 7.4 in (187 mm)
+    instead of 14.7 in (374 mm): without peer review, the floor is 50 % of the prescriptive one.
 
 `report.assessment.evidence` computes it.
 """
@@ -22,13 +22,13 @@ def without_analysis(assessment: Assessment) -> str:
     found = saving(assessment)
     if assessment.has_motions and not found.ids:
         return ""
-    why = "no motions are given"
+    why = "no motions are listed"
     if found.lacks:
         why = f"the motions do not permit an analysis ({'; '.join(found.lacks)})"
     fmt = UnitFormat(us_first=assessment.project.us_first)
     saves = saving_words(found, Marks(assessment, has_daggers=False), fmt)
     given = fmt.both_up(found.prescriptive_m)
-    return f"{why}: the package takes the prescriptive displacement, {given}. {saves}"
+    return f"{why}, so the package uses the prescriptive displacement, {given}. {saves}"
 
 
 def saving_words(found: Saving, marks: Marks, fmt: UnitFormat) -> str:
@@ -37,8 +37,8 @@ def saving_words(found: Saving, marks: Marks, fmt: UnitFormat) -> str:
     alone = " without peer review" if found.is_lifted_by_review else ""
     if not found.ids:
         return (
-            f"No analysis is permitted instead{alone}: the roof of every array is too steep for it "
-            f"({slope_clause})."
+            f"An analysis is not permitted{alone}, because the roof slope under all arrays exceeds "
+            f"its limit ({slope_clause})."
         )
     floor, clause = fmt.both_up(found.floor_m), marks.clause("analysis_floor")
     percent = number(100.0 * marks.assessment.rules["analysis_floor"], 0)
@@ -48,17 +48,17 @@ def saving_words(found: Saving, marks: Marks, fmt: UnitFormat) -> str:
     )
     if found.floor_m < found.prescriptive_m:
         sentences = [
-            f"By analysis, the design displacement of "
+            f"With an analysis, the design displacement of "
             f"{all_or(found.ids, len(marks.assessment.arrays))} could be as low as {floor} instead "
-            f"of {fmt.both_up(found.prescriptive_m)}: the floor without peer review is {share}"
+            f"of {fmt.both_up(found.prescriptive_m)}: without peer review, the floor is {share}"
         ]
     else:
-        sentences = [f"An analysis could save nothing without peer review: the floor is {share}"]
+        sentences = [f"Without peer review, an analysis would not reduce it: the floor is {share}"]
     if found.n_short:
         sentences.append(_at_floor(found, floor))
     if found.others:
         sentences.append(
-            f"The roof is too steep for an analysis{alone} ({slope_clause}) under "
+            f"The roof slope exceeds the limit for an analysis{alone} ({slope_clause}) under "
             f"{named(found.others, 'array')}"
         )
     return ". ".join(sentences) + "."

@@ -35,7 +35,7 @@ def page(
     done, data, numbers = package.assessment, package.data, package.numbers
     sheet = sheet or first_sheet(done)
     notes = alike(check for check in done.checks if check.is_note and not check.is_satisfied)
-    then = "what is NG, then " if sheet.failed else ""
+    then = "NG items, then " if sheet.failed else ""
     return {
         "verdict": stamp(done.verdict, done.verdict.value),
         "verdict_sentence": verdict_sentence(done),
@@ -52,7 +52,7 @@ def page(
         "has_seaoc": not done.has_motions and not done.rules.name.startswith("SEAOC"),
         "governing": governing_table(sheet, done, numbers),
         "governing_caption": f"Governing of {len(done.checks)} checks: {then}the largest ratio of "
-        "each kind",
+        "each type",
         "n_largest": len(sheet.largest),
         "following": capitalized(numbered(sheet.n_following, "more check"))
         if sheet.n_following
@@ -97,7 +97,7 @@ def _caption(package: PackageData) -> str:
 def _enough(done: Assessment, found: Remedies) -> str:
     """Return what is enough for a project that is NG, in a sentence; or that nothing found is."""
     if found.own and not found.together:
-        return "No set of the changes that were tried is enough."
+        return "None of the combinations of changes that were tried is enough."
     return found.sentence
 
 

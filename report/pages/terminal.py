@@ -2,8 +2,8 @@
 
 A line for each array, then what needs attention, then the verdict:
 
-    array  computed          prescriptive      design            governing clearance to  D/C
-    A1     17.0 in (432 mm)  14.9 in (378 mm)  17.0 in (432 mm)  A2                      0.71  OK
+    array  analysis          prescriptive      design            governing clearance  D/C
+    A1     17.0 in (432 mm)  14.9 in (378 mm)  17.0 in (432 mm)  A2                   0.71  OK
     verdict: OK, largest D/C 0.71
 
 Computes nothing. Read `summary`.
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from report.assessment.design.arrays import ArrayAssessment
 
 
-_COLUMNS = ("array", "computed", "prescriptive", "design", "governing clearance to", "D/C", "")
+_COLUMNS = ("array", "analysis", "prescriptive", "design", "governing clearance", "D/C", "")
 
 
 def summary(assessment: Assessment) -> Iterator[str]:

@@ -48,13 +48,13 @@ def _dates(data: ProjectInput) -> Iterator[Check]:
     )
     dated = (
         ("peer review", options.peer_date if options.peer_reviewed and data.motions else None,
-         Place("options", 0, "peer_date"), f"{again}: until then the package does not rest on it."),
+         Place("options", 0, "peer_date"), f"{again}; until then the package does not rely on it."),
         ("friction report", tests.date, Place("friction_tests", 0, "date"),
          f"{compare} Test report covered."),
         ("seismic parameters", data.site.hazard_date, Place("site", 0, "hazard_date"),
          f"{compare} Hazard covered."),
         ("confirmation of the provisions", data.confirmation.date,
-         Place("confirmation", 0, "date"), f"{again}: until then the marks † stay."),
+         Place("confirmation", 0, "date"), f"{again}; until then the marks † remain."),
         ("confirmation of the drawing", data.project.drawing_confirmed_date,
          Place("project", 0, "drawing_confirmed_date"), f"{again}."),
     )  # fmt: skip
@@ -88,7 +88,7 @@ def _confirmation(data: ProjectInput) -> Iterator[Check]:
             clause="plan check",
             # Also where no report was made between, so that nothing was put on record.
             is_satisfied=confirmation.of == adopted,
-            remedy="Have the provisions of these inputs confirmed: until then the marks † stay.",
+            remedy="Have the provisions of these inputs confirmed; until then the marks † remain.",
             places=(Place("confirmation", 0, "date"),),
         )
 

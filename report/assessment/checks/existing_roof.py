@@ -63,7 +63,7 @@ def of_existing_roof(data: ProjectInput) -> Iterator[Check]:
             id="existing_roof",
             title="Existing building with the weight added",
             found=evaluated or f"not checked: {', '.join(lacking.values())} {NOT_GIVEN}",
-            limit="its loads, for the rules of 5 % and 10 %, or an evaluation",
+            limit="its loads, for the 5% and 10% rules, or an evaluation",
             clause=f"{code} 503.3, 503.4{year}†",
             is_satisfied=bool(evaluated),
             remedy=f"Enter its loads on the Site worksheet, or {lowered(_REMEDY)}",

@@ -146,9 +146,13 @@ def _compared(check: VelocityCheck, us_first: bool) -> Mapping[str, object]:
             return {"found": "does not slide", "limit": "tests at the sliding velocities"}
         return {"found": found, "limit": most, "sense": Sense.AT_MOST, "note": "as tested"}
     slides, to = compared_pairs(found, most, Quantity.VELOCITY, us_first, is_at_least=False)
-    slides = "a run gives no velocity" if math.isnan(fastest_mps) else f"slides at {slides}"
+    slides = (
+        "no velocity from one of the runs"
+        if math.isnan(fastest_mps)
+        else f"peak sliding velocity {slides}"
+    )
     if check.tests is None:
-        said = f"{slides}; no runs of friction tests"
+        said = f"{slides}; no friction test runs entered"
         return {"found": said, "limit": "tests at the sliding velocities"}
     to = f"velocities tested {NOT_GIVEN}" if math.isnan(tested_mps) else f"tested to {to}"
     mu, least = f"μ above the tested range {check.beyond_words}", check.minimum_words

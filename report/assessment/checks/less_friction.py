@@ -47,7 +47,7 @@ def _routes(
                 subject=array.id,
                 found=f"not permitted with μ = {number(reduced.array.minimum_mu, 3)}",
                 limit="permitted",
-                remedy=f"The procedure is permitted as entered, and not with {friction}.",
+                remedy=f"The procedure is permitted as entered but not with {friction}.",
             )
 
 

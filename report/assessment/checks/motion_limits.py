@@ -60,7 +60,7 @@ def _remedy(*, is_ng: bool, has_analysis: bool) -> str:
         show = "Show that the duration of strong motion is sufficient, or replace the motions."
         return f"{show} {STAYS}"
     why = (
-        "until then the value from analysis is not permitted"
+        "until then the analysis displacement is not permitted"
         if has_analysis
         else "the prescriptive displacement is compared with the runs under them"
     )
@@ -75,15 +75,16 @@ def _ways(acceptance: Acceptance, shaking: Shaking) -> str:
         each = "; ".join(f"{ranged(ids)} {factor}" for factor, ids in factors.items())
         ways = (
             f" With {digits_up(more, 3)} times their factors they reach it: set Scaling to factor"
-            f" on the sheet Motions, and the factors {each}."
+            f" on the Motions worksheet, and the factors {each}."
         )
     are_records = not any(motion.is_generated for motion in acceptance.motions)
     if are_records and all(file.is_file for file in shaking.records):
         files = grouped_by(shaking.records, attrgetter("motion_id")).values()
         seeds = " ".join(quoted(",".join(file.name for file in each)) for each in files)
         ways += (
-            " Or clear their rows on the sheet Motions and make motions of them that reach it, in"
-            f" the folder of the workbook: roofslip motion suite matched --into . --records {seeds}"
+            " Or clear their rows on the Motions worksheet and generate motions from them that"
+            " reach it, in the folder of the workbook: roofslip motion suite matched --into ."
+            f" --records {seeds}"
         )
     return ways
 

@@ -46,8 +46,8 @@ def of_neighbors(done: Assessment) -> Iterator[Check]:
         yield condition(
             id=PLAN_ROW,
             title="Clearances as on the plan",
-            found=f"{len(done.neighbors)} of {len(done.neighbors)} pairs that are near",
-            limit="all, and as on the plan",
+            found=f"{len(done.neighbors)} of {len(done.neighbors)} adjacent pairs",
+            limit="all, in agreement with the plan",
             clause="roof plan",
             is_satisfied=True,
         )
@@ -78,8 +78,8 @@ def of_roof(data: ProjectInput) -> Iterator[Check]:
         limit="entered",
         clause="roof plan",
         is_satisfied=has_outline,
-        remedy="Enter the outline of the roof on the Building worksheet: without it, roof edges "
-        "near the arrays were not looked for.",
+        remedy="Enter the outline of the roof on the Building worksheet; without it, roof edges "
+        "near the arrays are not identified.",
         places=tuple(Place("roof", 0, side) for side in SIDES),
     )
     yield from of_sections(data)

@@ -52,8 +52,8 @@ def _code(data: ProjectInput) -> Iterator[Check]:
             found=f"not known to this program for the {code}{letter}",
             limit="known, or written acceptance by the jurisdiction",
             is_satisfied=bool(letter),
-            remedy="Confirm which it is, and that the rule set and the seismic parameters are by "
-            f"it, and {_ATTACH} (known for {', '.join(REFERENCED)}).",
+            remedy="Confirm which edition it is and that the rule set and the seismic parameters "
+            f"follow it, and {_ATTACH} (known for {', '.join(REFERENCED)}).",
             places=(Place("site", 0, "building_code_year"),),
         )
     for field, title, used, instead in (

@@ -18,10 +18,10 @@ def coefficient(mu: float) -> str:
 
 
 def mu_words(law: Friction) -> str:
-    """Return friction as it was run, from low to high velocity: `0.40 to 0.50, by velocity`."""
+    """Return friction as it was run, from low to high velocity."""
     sliding = coefficient(law.mu_slow)
     if law.is_by_velocity:
-        sliding += f" to {coefficient(law.mu_fast)}, by velocity"
+        sliding += f" to {coefficient(law.mu_fast)}, velocity-dependent"
     rest = "" if law.mu_static == law.mu_slow else f", {coefficient(law.mu_static)} at rest"
     return f"{sliding}{rest}"
 

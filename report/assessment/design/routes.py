@@ -112,7 +112,7 @@ def lacking_motions(rules: RuleSet, basis: Basis | None, count: int) -> str:
     least = provisions.minimum_motions(rules, asked)
     if count >= least:
         return ""
-    return f"{count} motions are given, and the statistic '{asked}' needs {least:.0f} or more"
+    return f"the statistic '{asked}' requires at least {least:.0f} motions; {count} are listed"
 
 
 def interconnection_n(data: ProjectInput, rules: RuleSet, array: Array) -> float:

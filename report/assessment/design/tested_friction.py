@@ -48,7 +48,7 @@ def basis_words(data: ProjectInput, array: Array) -> str:
     """Return where the friction of an array comes from: the fit of test runs, or entered."""
     all_series = tested(data)
     if not all_series:
-        return "entered; no runs of friction tests are given"
+        return "entered; no friction test runs are entered"
     # The smaller mean governs, wet or dry (PV1-2012).
     tests = governing(all_series, array.mu_report)
     where = _where(tests, data.us_first)

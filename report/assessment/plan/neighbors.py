@@ -50,12 +50,12 @@ class NearbyKind(StrEnum):
 class Cover(StrEnum):
     """How the clearances of the workbook cover a pair of the plan."""
 
-    AS_IN_PLAN = "provided as in plan"
-    DIFFERS = "provided differs from plan"
-    BEYOND = "as in plan; beyond twice displ."
+    AS_IN_PLAN = "agrees with the plan"
+    DIFFERS = "differs from the plan"
+    BEYOND = "agrees with plan; more than 2Δ apart"
     DRAWN = "from plan; not confirmed"
     CONFIRMED = "from plan; confirmed"
-    SUFFICIENT = "not entered; no less than required"
+    SUFFICIENT = "not entered; at least as required"
     SHORT = "not entered; NG"
 
 
@@ -176,7 +176,7 @@ class PlanNeighbor(ComparedGap):
             provided_m = row.clearance.provided_m
             breaks = self.gap_m < self.required_m <= provided_m  # sufficient only as given
             shapes = "rectangles" if are_boxes else "outlines"
-            outcome = "; as measured, it would be NG" if breaks else ""
+            outcome = "; with the distance on the plan, it would be NG" if breaks else ""
             shortcomings.append((row.cell, f"correct the clearance or the {shapes}{outcome}"))
         return tuple(shortcomings)
 

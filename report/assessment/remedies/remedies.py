@@ -218,7 +218,7 @@ def _reviewed(data: ProjectInput) -> ProjectInput:
         "peer_reviewed": True,
         "peer_date": data.project.date,
         "peer_covered": "",
-        **dict.fromkeys(("peer_reviewer", "peer_license", "peer_letter"), "to be given"),
+        **dict.fromkeys(("peer_reviewer", "peer_license", "peer_letter"), "to be entered"),
     }
     return data.changed(options=data.options.model_copy(update=review))
 
@@ -271,7 +271,7 @@ def _friction(state: _State, check: Check, mus: Mapping[str, float]) -> Remedy:
     arrays = {array.id: array for array in state.data.arrays}
     parts = [
         f"{mu_words(with_mu(arrays[name], mu).friction)} for {name}"
-        f" (given {mu_words(arrays[name].friction)})"
+        f" (entered: {mu_words(arrays[name].friction)})"
         for name, mu in mus.items()
     ]
     words = f"Provide a friction coefficient of at least {joined(parts)}"
@@ -344,7 +344,7 @@ def _values(state: _State, check: Check) -> Iterator[Remedy]:
         amounts = entered_amount(given, needed.quantity), needed
         texts[each.subject] = amount_texts(*amounts, state.data.us_first, is_at_least=is_least)
     alike = grouped_by(texts, texts.__getitem__)
-    parts = [f"{wanted} for {ranged(of)} (given {had})" for (had, wanted), of in alike.items()]
+    parts = [f"{wanted} for {ranged(of)} (entered: {had})" for (had, wanted), of in alike.items()]
     words = "Provide {} of at least" if is_least else "Lower the {} to at most"
     if not any(map(math.isnan, values.values())):
         yield Remedy(

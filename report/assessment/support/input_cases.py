@@ -34,7 +34,7 @@ class InputCase:
 
     def words(self, us_first: bool) -> str:
         """Return it as a sentence."""
-        return f"{self.array.id} with {self.changed}: {', '.join(self._outcome(us_first))}."
+        return f"With {self.changed}, {self.array.id}: {', '.join(self._outcome(us_first))}."
 
     def _outcome(self, us_first: bool) -> Iterator[str]:
         design_m = self.array.design_m
@@ -67,9 +67,9 @@ def building_case(assessment: Assessment, variations: Variations) -> InputCase |
         return None
     is_damping = building.damping_percent != used.damping_percent
     changed = (
-        f"{number(building.damping_percent, 1)} % damping of the building"
+        f"{number(building.damping_percent, 1)} % building damping"
         if is_damping
-        else f"{number(building.period_s or math.nan, 2)} s as the period of the building"
+        else f"a building period of {number(building.period_s or math.nan, 2)} s"
     )
     farther = replace(array, analysis=value, design_m=design_m)
     slides = {array.id: farther.displacement}
@@ -95,5 +95,5 @@ def _by_velocity(assessment: Assessment) -> Iterator[InputCase]:
     slow = assessment.low_velocity
     for item in slow.arrays:
         gaps = [gap for gap in slow.clearances.values() if gap.involves(item.id)]
-        changed = f"μ = {coefficient(item.array.mu)} at every velocity"
+        changed = f"μ = {coefficient(item.array.mu)} at all velocities"
         yield InputCase(array=item, changed=changed, gaps=gaps)

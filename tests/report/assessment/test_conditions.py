@@ -76,7 +76,10 @@ def test_a_typed_name_alone_removes_no_floor_and_turns_no_clearance_ok():
     assert said.found == "J; license, date, letter missing"
     assert "until then the floor of the analysis procedure applies" in said.remedy
     text = page_of(named, "basis")
-    assert "The peer review stated does not count (part 1): the floor of part 2 applies." in text
+    assert (
+        "The peer review entered does not count (Section 1); the floor in Section 2 applies."
+        in text
+    )
     assert "removed by peer review" not in page_of(named, "summary")
 
 
@@ -344,7 +347,7 @@ def test_a_gap_of_the_plan_without_a_clearance_is_ng_where_it_is_too_small(
         assert texts(found)[1].startswith("≥ ")
     if provided:
         assert "24.0 in (609 mm) on the plan" in found.found
-        assert "as measured, it would be NG" in found.remedy
+        assert "with the distance on the plan, it would be NG" in found.remedy
 
 
 def test_an_edge_beyond_twice_the_displacement_that_is_nearer_than_required_is_ng():
@@ -385,7 +388,7 @@ def test_a_route_that_five_percent_less_friction_closes_is_a_note(mu, is_closed)
         assert found.verdict is Verdict.NOTE
         assert found.found == "not permitted with μ = 0.389"
         assert (
-            found.remedy == "The procedure is permitted as entered, and not with 5 % less friction."
+            found.remedy == "The procedure is permitted as entered but not with 5 % less friction."
         )
 
 
@@ -441,5 +444,5 @@ def test_ground_motions_far_above_the_design_spectrum_are_a_condition(ratio, is_
 
 def test_without_an_outline_of_the_roof_nothing_says_that_edges_were_looked_for():
     assert row(assessed(), "roof_outline").verdict is Verdict.CONDITION
-    assert "were not looked for" in row(assessed(), "roof_outline").remedy
+    assert "are not identified" in row(assessed(), "roof_outline").remedy
     assert row(assessed(roof=project_parts.sides(0, 220, 0, 170)), "roof_outline").is_satisfied

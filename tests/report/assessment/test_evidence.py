@@ -195,7 +195,7 @@ def test_the_low_velocity_coefficient_is_a_case_only_where_it_changes_something(
     assert case.array.design_m == pytest.approx(alone_m)
     assert [gap.verdict for gap in case.short] == [Verdict.NG]
     words = case.words(us_first=True)
-    assert words.startswith("A1 with μ = 0.20 at every velocity: design displacement ")
+    assert words.startswith("With μ = 0.20 at all velocities, A1: design displacement ")
     assert ", NG: clearance A1 to RTU-1 (D/C " in words
     done = by_velocity(1.01 * alone_m)
     assert done.arrays[0].prescriptive.value_m > alone_m
@@ -238,7 +238,7 @@ def test_the_building_case_is_the_farthest_or_one_without_a_value_where_it_matte
     if building.damping_percent == 5.0:
         assert case.changed == f"{building.period_s:.2f} s as the period of the building"
     else:
-        assert case.changed == f"{building.damping_percent:.1f} % damping of the building"
+        assert case.changed == f"{building.damping_percent:.1f} % building damping"
     used, (building, value), *others = evidence.building
     lifting = building, replace(value, value_m=math.nan)
     for order in ((lifting, *others), (*others, lifting)):
@@ -283,15 +283,20 @@ def test_the_floor_satisfies_clearances_that_it_does_not_exceed():
 def test_steep_roofs_and_a_whole_floor_leave_nothing_to_save():
     given = with_inputs(slopes=[8.0])
     assert (saving(given).ids, saving(given).others) == (["A2", "A3"], ["A1"])
-    assert said(given).endswith("The roof is too steep for an analysis (PV1-2012†) under array A1.")
+    assert said(given).endswith(
+        "The roof slope exceeds the limit for an analysis (PV1-2012†) under array A1."
+    )
     text = said(with_inputs(slopes=[8.0, 8.0, 8.0]))
     assert text == (
-        "No analysis is permitted instead: the roof of every array is too steep for it (PV1-2012†)."
+        "An analysis is not permitted, because the roof slope under all arrays exceeds its limit "
+        "(PV1-2012†)."
     )
     site = assessments.without_motions().project.site
     low = type(site)(**site.model_dump() | {"rule_set": "ASCE 7-16", "sdc": "C"})
     text = said(with_inputs(slopes=[4.0, 4.0, 4.0], site=low))
-    assert text.startswith("No analysis is permitted instead without peer review: ")
+    assert text.startswith("An analysis is not permitted without peer review, because ")
     override = Override(provision="analysis_floor", value=1.0, reason="Agreed on 2026-02-10")
     text = said(with_inputs(overrides=(override,)))
-    assert text.startswith("An analysis could save nothing without peer review: the floor is 100 %")
+    assert text.startswith(
+        "Without peer review, an analysis would not reduce it: the floor is 100 %"
+    )

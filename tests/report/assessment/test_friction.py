@@ -29,8 +29,8 @@ def law(slow, fast, rate, static=None):
     ("friction", "words"),
     [
         (coulomb(0.475), "0.475"),
-        (law(0.5, 0.425, 20.0), "0.50 to 0.425, by velocity"),
-        (law(0.4, 0.5, 20.0, 0.45), "0.40 to 0.50, by velocity, 0.45 at rest"),
+        (law(0.5, 0.425, 20.0), "0.50 to 0.425, velocity-dependent"),
+        (law(0.4, 0.5, 20.0, 0.45), "0.40 to 0.50, velocity-dependent, 0.45 at rest"),
         (law(0.4, 0.4, 0.0, 0.45), "0.40, 0.45 at rest"),
     ],
 )
@@ -43,8 +43,8 @@ def test_friction_is_said_as_it_was_run(friction, words):
 def test_arrays_of_one_friction_and_the_low_velocity_coefficient_are_said():
     alike = [projects.array("A1", 0.5), projects.array("A2", 2.0)]
     data = projects.project(arrays=[*alike, projects.array("A3", 3.0, **LAW)])
-    assert mus_words(data.arrays) == "A1, A2: 0.45; A3: 0.40 to 0.50, by velocity"
-    assert mus_words(data.arrays[2:]) == "A3: 0.40 to 0.50, by velocity"
+    assert mus_words(data.arrays) == "A1, A2: 0.45; A3: 0.40 to 0.50, velocity-dependent"
+    assert mus_words(data.arrays[2:]) == "A3: 0.40 to 0.50, velocity-dependent"
     given = projects.project(arrays=[projects.array("A1", 3.0, mu_static=0.48, **LAW)]).arrays[0]
     assert at_low_velocity(given).friction == coulomb(0.40)
     assert at_low_velocity(given).slope_rad == given.slope_rad
@@ -100,7 +100,7 @@ def test_the_fit_alone_is_as_tested_and_one_coefficient_is_entered(given, law, s
          "entered, at or below the tests at 1.00 in/s (25.4 mm/s)"),
         (wet_runs((0.5,), (None,)), constant(0.45),
          "entered, at or below the tests (velocities not entered)"),
-        ([], {}, "entered; no runs of friction tests are given"),
+        ([], {}, "entered; no friction test runs are entered"),
     ],
     ids=["too few velocities for a fit", "one velocity", "no velocity", "no runs"],
 )  # fmt: skip
@@ -205,7 +205,7 @@ def test_tests_without_velocities_or_none_are_conditions():
     assert "; velocities tested not entered; μ above the tested range 0.440" in row.found
     row = rows(one())["A1"]
     assert row.verdict is Verdict.CONDITION
-    assert row.found.endswith("; no runs of friction tests")
+    assert row.found.endswith("; no friction test runs entered")
     weak = [replace(motion, scale=1e-3 * motion.scale) for motion in MOTIONS]
     row = rows(one(slope=0.5, shaking=weak))["A1"]
     assert (row.is_satisfied, row.found) == (True, "does not slide")
@@ -260,7 +260,7 @@ def test_friction_beyond_is_the_largest_of_any_velocity_that_may_be():
         assert check(coulomb(mu), 1.0, (0.1, 0.46)).is_satisfied is satisfied
     up = tuple(replace(motion, az_mps2=2.0 * motion.ax_mps2) for motion in MOTIONS)
     row = rows(one(slope=0.5, tests=runs(0.40), shaking=up))["A1"]
-    assert "a run gives no velocity; tested to" in said(row)[0]
+    assert "no velocity from one of the runs; tested to" in said(row)[0]
     assert not row.is_satisfied
 
 

@@ -104,13 +104,13 @@ def test_a_statistic_that_needs_more_motions_is_the_reason_or_ng_at_its_cell():
     data = projects.project(options={"statistic": "mean"})
     notes = [f.text for f in findings(data, SEVEN) if f.level is Level.NOTE]
     found = [text for text in notes if "uses the prescriptive displacement" in text]
-    reason = "7 motions are given, and the statistic 'mean' needs 11 or more"
+    reason = "the statistic 'mean' requires at least 11 motions; 7 are listed"
     assert found
     assert all(reason in text for text in found)
     found = findings(projects.steep(options={"statistic": "mean"}), SEVEN)
     texts = [f.text for f in found if f.place == Place("options", 0, "statistic")]
     (lacking,) = (text for text in texts if text.startswith("NG. Design displacement"))
-    assert f"none ({reason}). Required: a value by a procedure" in lacking
+    assert f"none ({reason}). Required: a displacement by a permitted procedure" in lacking
     prescribed = findings(projects.project(options={"statistic": "mean"}), SEVEN)
     assert not any(f.text.startswith("NG. Design") for f in prescribed)
 
@@ -163,7 +163,7 @@ CASES = {
     "Outline of the roof": ({}, "Outline of the roof", [("roof", 0, side) for side in SIDES]),
     "mean of few motions": (
         {"options": {"statistic": "mean"}},
-        "uses the prescriptive displacement: 7 motions are given, and the statistic 'mean'",
+        "uses the prescriptive displacement: the statistic 'mean' requires at least 11 motions",
         [("options", 0, "statistic")]),
     "drawn distances": (
         {"clearances": [row | {"source": source} for row, source in zip(
@@ -228,7 +228,7 @@ def test_a_factor_is_advised_where_one_reaches_the_target_and_then_it_does():
     just = max(row.limit / row.found for row in rows if row.is_ratio_to_target)
     assert spectral(scaled(1.001 * just)) == []
     text = next(text for text in spectral(scaled(0.7 * just)) if "times their factors" in text)
-    assert "set Scaling to factor on the sheet Motions, and the factors M1 to M7 " in text
+    assert "set Scaling to factor on the Motions worksheet, and the factors M1 to M7 " in text
     factor = float(text.partition(" M1 to M7 ")[2].split()[0].rstrip("."))
     assert just <= factor < 1.2 * just
     assert spectral(scaled(factor)) == []

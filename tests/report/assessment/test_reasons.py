@@ -90,7 +90,7 @@ def test_what_is_not_ng_has_no_reason_and_what_slides_on_no_longer_record():
 def test_a_prescriptive_value_that_is_not_permitted_says_so_wherever_it_stands():
     arrays = [ARRAY("A1", 4.0), ARRAY("A2", 0.5, x=220)]
     made = assessments.package(**WIDE | {"arrays": arrays})
-    for page, table in (("summary", "Arrays"), ("comparison", "Displacement by analysis")):
+    for page, table in (("summary", "Arrays"), ("comparison", "Analysis displacement")):
         one, other = page_of(made, page).table(table).column("Prescriptive [in]")
         assert one.endswith("§")
         assert "§" not in other
@@ -107,7 +107,7 @@ def test_the_prescriptive_value_is_not_offered_where_the_analysis_exceeds_it():
     assert item.analysis.value_m > item.prescriptive.value_m
     words = page_of(made, "comparison")
     assert "may be used instead" not in words
-    assert "the displacement by analysis exceeds its value" in words
+    assert "analysis displacement exceeds the prescriptive displacement" in words
 
 
 @pytest.mark.parametrize(

@@ -78,7 +78,7 @@ def test_every_remedy_that_is_printed_gives_the_verdict_that_was_printed(name):
 def test_what_fails_has_its_own_remedies_and_nothing_else_has():
     (found,) = remedies(altered_projects.assessed("small roof capacity")).own
     assert found.words == (
-        "Provide roof capacity of at least 5.5 psf (0.27 kPa) for A2 (given 2.0 psf (0.10 kPa))"
+        "Provide roof capacity of at least 5.5 psf (0.27 kPa) for A2 (entered: 2.0 psf (0.10 kPa))"
     )
     # Nobody changes the use of a building or its stories for an array.
     for name in ("risk category IV", "20 stories", "too steep"):
@@ -106,7 +106,7 @@ def test_of_several_causes_the_smallest_set_is_printed_as_one_remedy():
     done = altered_projects.assessed("two causes and a slope")
     found = remedies(done)
     assert (found.together, found.done) == ((), None)
-    assert [*remedy_lines(done, found)][-1] == "No set of these changes is enough."
+    assert [*remedy_lines(done, found)][-1] == "No combination of these changes is enough."
 
 
 def test_a_displacement_by_peer_review_is_that_of_each_array_by_its_name():
@@ -122,13 +122,13 @@ def test_a_displacement_by_peer_review_is_that_of_each_array_by_its_name():
 def test_where_the_motions_do_not_permit_an_analysis_motions_that_do_are_named():
     for name, lack in (
         ("two motions", "number of motions (2, at least 3†)"),
-        ("overrides", "7 motions are given, and the statistic 'mean' needs 11 or more"),
+        ("overrides", "the statistic 'mean' requires at least 11 motions; 7 are listed"),
         ("motions without vertical", "vertical together (2, at least 3†)"),
     ):
         done = altered_projects.assessed(name)
         words = without_analysis(done)
         assert words.startswith("the motions do not permit an analysis (")
-        assert f"{lack}): the package takes the prescriptive displacement, 81.6 in" in words
+        assert f"{lack}), so the package uses the prescriptive displacement, 81.6 in" in words
         assert "At 40.8 in (1036 mm), " in words
         assert f"note: {words}" in summary(done)
         assert words[1:] in page_of(assessments.package_data(done), "limits")

@@ -124,8 +124,8 @@ def test_motions_are_named_where_they_are_below_their_target_alone():
     (text,) = said(relative("Ground, horizontal", [1.1, 1.0, 0.7, 0.4, 0.1], is_ground=True))
     assert text == (
         "Ground, horizontal: the mean of the motions falls to 0.40 times the target (AC156) at 0.2 "
-        "Hz; it is below the target from 0.2 to 0.5 Hz. Weaker shaking gives "
-        "smaller displacements: scale or replace the motions, or justify the difference."
+        "Hz; it is below the target from 0.2 to 0.5 Hz. Weaker shaking results "
+        "in smaller displacements. Scale or replace the motions, or justify the difference."
     )
 
 
@@ -138,9 +138,9 @@ def test_the_component_farthest_above_the_target_speaks_for_those_of_one_target(
     )
     short, excess = texts
     assert short.startswith("Transverse: the mean of the motions falls to 0.90 times the target")
-    assert "at 0.2 Hz; it is below the target there alone." in short
+    assert "at 0.2 Hz; it is below the target there only." in short
     assert excess == (
         "Transverse (horizontal likewise): the mean of the motions reaches 1.61 times the target "
         "(AC156) at 1 Hz; it exceeds 1.30 times the target from 1 to 2 Hz. "
-        "The displacements are those of the stronger motions, without reduction."
+        "Displacements are not reduced for this excess."
     )

@@ -81,7 +81,7 @@ def test_verdicts_of_arrays_clearances_and_neighbors_are_one_word(made):
     kinds = [f"{row['neighbor']}, {row['direction']}" for row in gaps]
     shown = [kind.removesuffix(", any") for kind in kinds]
     assert [row["Verdict"] for row in table] == [row["verdict"] for row in gaps]
-    measured = page_of(package, "notes").table("Schedule of gaps").rows
+    measured = page_of(package, "notes").table("Clearance schedule").rows
     assert [bare(row["Kind"]) for row in measured] == shown
     cells = rows_of(book["Clearances"], 4)
     assert [row["Verdict"] for row in cells] == [row["verdict"] for row in gaps]
@@ -168,7 +168,7 @@ def test_lowered_values_are_marked_where_they_govern_on_the_plan_and_in_results_
     assert {item.governs for item in done.arrays} == {"floor"}
     assert {item.overridden.design for item in done.arrays} == {"‡"}
     assert done.verdict is not Verdict.OK
-    row = page_of(done, "comparison").table("Displacement by analysis").row("A1")
+    row = page_of(done, "comparison").table("Analysis displacement").row("A1")
     assert all(row[f"{name} [in]"].endswith("‡") for name in ("Prescriptive", "Floor", "Design"))
     with style():
         figure = painted(plan_on_paper(done, LETTER).paper)

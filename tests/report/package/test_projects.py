@@ -124,11 +124,13 @@ def test_the_example_is_plainly_ok_and_its_first_sheet_says_what_other_inputs_co
     assert not re.search("condition|warning|note|NG", done.stdout)
     inputs, first = page("example", "inputs"), page("example", "summary")
     assert "entered, at or below the tests from 0.10 in/s (2.5 mm/s) to 8.00 in/s" in inputs
-    assert inputs.line("Array A3 with μ = 0.40 at every velocity, all motions rerun")
+    assert inputs.line(
+        "With μ = 0.40 at all velocities (all motions rerun), the design displacement of A3"
+    )
     assert re.search(r"All \d+ checks are satisfied\.\n", first)
     assert "Under ASCE 7-16 13.6.12, with the same motions and SDS: NG, fire pathway" in first
     assert "clearance A1 to RTU-1 (D/C 1.36)" in first
-    assert "A3 with μ = 0.40 at every velocity: design displacement 80.0 in" in first
+    assert "velocities (A3: 0.40): NG, electrical slack of A3 (D/C 1.34)" in first
 
 
 def test_the_friction_tests_of_the_example_are_complete_and_reach_a_tenth_of_its_velocities():

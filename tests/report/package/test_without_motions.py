@@ -110,12 +110,12 @@ def test_check_says_what_is_made_and_the_screen_what_an_analysis_could_save(tmp_
     path = type_into(without_motions(tmp_path), {"Options/Smaller events": "0.50"})
     sheet, _, found = checked(path)
     notes = [line for line in lines(sheet, found) if line.startswith("note: ")]
-    assert any("Motions!" in note and "takes the prescriptive displacement" in note
+    assert any("Motions!" in note and "uses the prescriptive displacement" in note
                for note in notes)  # fmt: skip
-    assert any("smaller events needs motions" in note for note in notes)
+    assert any("smaller events needs motions and is skipped" in note for note in notes)
     said = list(summary(assessments.without_motions()))
     assert said[0].split()[:3] == ["array", "prescriptive", "design"]
-    (note,) = [line for line in said if line.startswith("note: no motions are given")]
+    (note,) = [line for line in said if line.startswith("note: no motions are listed")]
     assert "81.6 in (2072 mm)" in note
     assert "40.8 in (1036 mm)" in note
     assert re.fullmatch(r"verdict: NG, largest D/C \d\.\d\d", said[-1])
@@ -222,5 +222,5 @@ def test_the_gap_is_that_of_the_outline_and_the_package_says_so(reported):
     assert gaps["A1", "A2"] == pytest.approx(8 * FT, abs=1e-6)
     assert not any(row["contradictions"] for row in document["neighbors"])
     html = (reported / "out" / "calc-package.pdf").read_text(encoding="utf-8")
-    said = "By an outline, of which the rectangle around it is given: A1 (6 vertices)."
+    said = "Outline (bounding rectangle listed): A1 (6 vertices)."
     assert said in packages.words(html)

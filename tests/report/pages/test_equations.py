@@ -32,7 +32,7 @@ def test_an_array_without_a_displacement_is_said_once_in_words():
     text = equations("slides without end")
     assert "× none" not in text
     assert "none = none" not in text
-    assert text.count("Array A1: no displacement is permitted (part 6)") == 1
+    assert text.count("Array A1: no displacement is permitted (Section 6)") == 1
     assert "which has no design displacement" in text
     assert "A1 NG" in text
     steep = equations("too steep")

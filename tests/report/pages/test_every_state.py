@@ -47,7 +47,7 @@ STATES = {
         of((*MOTIONS, LIFTING)),
         "governed by: none",
         "An array without a permitted design displacement is NG",
-        "Changes that would satisfy what is NG",
+        "Changes that would satisfy NG items",
         "no limit the normal force falls below zero, which no model covers none",
         "A1, A2 −0.40 0.996 no limit",  # minimum normal force, time of uplift, demand
     ),
@@ -63,7 +63,7 @@ STATES = {
     ),
     "one array": (
         of(**ONE),
-        "No clearance is entered, and none is checked.",
+        "No clearance is entered, so none is checked.",
         "One ballasted array (A1) was analyzed",
     ),
     "one motion": (of(MOTIONS[:1]), "number of motions (1, at least 3†)"),
@@ -74,7 +74,7 @@ STATES = {
     ),
     "prescriptive": (
         of(assessments.along(MOTIONS)),
-        "Arrays A1, A2: the prescriptive procedure is taken",
+        "Arrays A1, A2: the prescriptive procedure is used",
     ),
     "peer review": (
         of(options=assessments.REVIEW),
@@ -105,7 +105,7 @@ def test_every_page_is_whole(state):
 
     body = ElementTree.fromstring(html).find("body")
     listed = {one.get("data-no") for one in body.iterfind(".//section[@class='contents']//a")}
-    references = re.findall(r"\b(?:part (\d+(?:\.\d+)?)|appendix ([A-Z]))\b", words)
+    references = re.findall(r"\b(?:Section (\d+(?:\.\d+)?)|Appendix ([A-Z]))\b", words)
     assert len(references) > 10
     assert {number or letter for number, letter in references} <= listed
 
@@ -129,7 +129,7 @@ def test_every_template_of_the_package_is_rendered_in_some_state():
         reached.add(name)
         parsed = Environment().parse((TEMPLATES / name).read_text(encoding="utf-8"))
         left |= {*meta.find_referenced_templates(parsed)} - {None} - reached
-    of_other_documents = {"section.html", "study.html", "verification.html"}
+    of_other_documents = {"page-file.html", "section.html", "study.html", "verification.html"}
     assert reached == {path.name for path in TEMPLATES.glob("*.html")} - of_other_documents
 
 
@@ -243,7 +243,7 @@ PAGES = ("comparison", "cover", "limits", "method", "motions", "provisions", "su
 
 def values(page):
     """The numbers of the rule set as printed, in both halves of their table."""
-    halves = [table for table in page.tables if table.title.startswith("Numbers of SEAOC")]
+    halves = [table for table in page.tables if table.title.startswith("Values from SEAOC")]
     assert len(halves) == 2
     return [value for half in halves for value in half.column("Value")]
 
@@ -270,10 +270,12 @@ def test_confirmed_provisions_have_no_mark_and_are_said_by_whom(shown):
     by = "SEAOC PV1-2012, confirmed by RG, SE, 2026-03-01"
     verify = "SEAOC PV1-2012, to be verified against the adopted code"
     assert f"Rule set: {by if is_confirmed else verify}." in shown["summary"]
-    said = "the numbers and clauses of SEAOC PV1-2012, ASCE 7-16, 2022 CBC were compared with"
+    said = (
+        "the values and section numbers of SEAOC PV1-2012, ASCE 7-16, 2022 CBC were compared with"
+    )
     assert (f"Confirmed by RG, SE, 2026-03-01: {said}" in shown["provisions"]) is is_confirmed
-    assert ("Clause numbers are as commonly cited" in shown["provisions"]) is not is_confirmed
-    verify, by = "† verify against the adopted code", "Confirmed by RG, SE but for †"
+    assert ("Section numbers are as commonly cited" in shown["provisions"]) is not is_confirmed
+    verify, by = "† Verify against the adopted code.", "Confirmed by RG, SE except for †"
     assert (by in shown["cover"], verify in shown["cover"]) == (is_confirmed, not is_confirmed)
 
 

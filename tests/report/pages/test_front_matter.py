@@ -47,13 +47,13 @@ def test_the_records_say_that_large_files_are_left_out():
     done = assessments.package().assessment
     large = tuple(replace(file, size=9_000_000) for file in done.shaking.records)
     given = replace(done, shaking=replace(done.shaking, records=large))
-    line = page_of(given, "records").line("In this file")
-    assert "; not the nine record files, 81.0 MB in all; results.json. Issued with it" in line
+    line = page_of(given, "records").line("Embedded in this PDF")
+    assert "; not the nine record files, 81.0 MB in total; results.json. Issued separately" in line
     assert "verify-package FILE --records FOLDER" in line
     assert line.endswith(f"{assessments.package().fingerprint}.")
-    line = page_of(done, "records").line("In this file")
-    assert "; nine record files; results.json. Issued with it" in line
-    assert "verify-package FILE computes" in line
+    line = page_of(done, "records").line("Embedded in this PDF")
+    assert "; nine record files; results.json. Issued separately" in line
+    assert "verify-package FILE, which regenerates" in line
 
 
 @pytest.mark.nightly
@@ -80,11 +80,11 @@ def test_the_letter_is_one_page(n_arrays):
 @pytest.mark.parametrize(
     ("n_conditions", "n_severe", "text"),
     [
-        (9, 0, "Nine requirements are open; the summary (part 1) lists them as conditions."),
-        (1, 0, "One requirement is open; the summary (part 1) lists it as a condition."),
-        (0, 1, "One requirement is open; the summary (part 1) lists it as NG."),
-        (0, 2, "Two requirements are open; the summary (part 1) lists them as NG."),
-        (9, 1, "10 requirements are open; the summary (part 1) lists one as NG and nine "
+        (9, 0, "Nine requirements are open; the summary (Section 1) lists them as conditions."),
+        (1, 0, "One requirement is open; the summary (Section 1) lists it as a condition."),
+        (0, 1, "One requirement is open; the summary (Section 1) lists it as NG."),
+        (0, 2, "Two requirements are open; the summary (Section 1) lists them as NG."),
+        (9, 1, "10 requirements are open; the summary (Section 1) lists one as NG and nine "
          "conditions."),
     ],
 )  # fmt: skip
@@ -105,7 +105,7 @@ def test_what_is_said_of_several_arrays_counts_once_wherever_conditions_are_coun
     alike = with_open(done, rows)
     assert len([check for check in alike.checks if check.is_open]) > 1
     assert "One requirement is open" in page_of(alike, "letter")
-    assert "One condition of part 1 is to be met first." in page_of(alike, "notes")
+    assert "One open condition in Section 1 shall be closed first." in page_of(alike, "notes")
 
 
 def test_every_document_is_listed_exactly_where_it_is_cited(html):
@@ -134,7 +134,7 @@ def test_the_slope_limit_of_the_code_is_cited_by_the_code_that_is_named(code, cl
     assert f"{clause}: {name}" in page_of(made, "records")
     assert f"; {clause}; AC156" in page_of(made, "cover").facts["Codes"]
     rows = page_of(made, "limits").table("All checks").rows
-    assert f"{clause}†" in [row["Section of the code"] for row in rows]
+    assert f"{clause}†" in [row["Code section"] for row in rows]
     assert "due to Seismic Motion, manuscript that names no authors" in page_of(made, "records")
 
 
@@ -215,7 +215,7 @@ def test_the_schedule_of_gaps_is_rounded_up():
     near = projects.roof_object("RTU-9", "fixed object", 101, 106, 35, 42)
     rows = [*GAPS, projects.clearance("A1", "RTU-9", FOOT)]
     made = package(objects=[near], clearances=rows, options=project_parts.REVIEW)
-    table = page_of(made, "notes").table("Schedule of gaps")
+    table = page_of(made, "notes").table("Clearance schedule")
     least = [math.ceil(gap.required_m * 1e3) for gap in made.assessment.clearances]
     assert [(row["To"], row["At least [mm]"], row["Measured, date, by"]) for row in table.rows] == [
         ("A2", str(least[0]), ""), ("RTU-9", str(least[1]), ""),
@@ -228,4 +228,4 @@ def test_only_a_parapet_that_qualifies_is_relied_on(height_m):
     edge = projects.roof_object("N", "edge with parapet", 0, 400, 200, 202, height=height_m)
     page = notes(objects=[edge], clearances=[projects.clearance("A1", "N", 60.0)])
     assert ("Parapets that the clearances rely on" in page) is (height_m == 1.2)
-    assert ("Height of the parapets above the roof is measured: N." in page) is (height_m == 1.2)
+    assert ("Height of the parapets above the roof measured: N." in page) is (height_m == 1.2)

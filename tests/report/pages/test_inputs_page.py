@@ -95,13 +95,13 @@ def test_a_law_is_fitted_to_four_velocities_and_none_to_one_coefficient():
     friction = projects.project(arrays=arrays).arrays[0].friction
     wet = [run("wet", k, friction.at(v), velocity_mps=v) for k, v in enumerate(VELOCITIES, 1)]
     shown = page_of(assessments.package(arrays=arrays, friction_runs=wet, clearances=[]), "inputs")
-    assert "no dry runs are given" in shown
+    assert "no dry runs are entered" in shown
     assert shown.line("Wet, 4 velocities").startswith(
         "Wet, 4 velocities: fit μ = 0.380 at low and 0.460 at high velocity, rate 20.0 s/m;"
-        " rms residual 0.0000, of one coefficient 0.0"
+        " rms residual 0.0000 (0.0"
     )
     assert shown.line("Array A1: mean of μ(v) at the tested velocities")
-    assert "Light: laws fitted" in shown
+    assert "Light lines: fitted" in shown
     data = projects.project(arrays=arrays, friction_runs=wet)
     (found,) = series_of(data)
     fit = fit_law([run.velocity_mps for run in found.runs], [run.mu for run in found.runs])
@@ -111,7 +111,7 @@ def test_a_law_is_fitted_to_four_velocities_and_none_to_one_coefficient():
     assert "dry runs" not in texts
     same = [run("dry", k, 0.6, velocity_mps=v) for k, v in enumerate(VELOCITIES, 1)]
     assert page(friction_runs=same).line(
-        "Dry, 4 velocities: the runs do not determine a velocity-dependent law."
+        "Dry, 4 velocities: the runs do not determine a velocity-dependent coefficient."
     )
 
 
@@ -200,7 +200,7 @@ def worked_out(source):
     return eval(numbers.replace("×", "*").replace(" g", ""))
 
 
-CATEGORY = "Seismic design category of these"
+CATEGORY = "Seismic design category from these values"
 FULL = {
     "s_s_g": 1.271,
     "f_a": 1.2,
@@ -230,10 +230,13 @@ def test_the_values_are_those_of_a_permit_sheet_or_category_e_near_a_fault(full)
         "1.525 g", "1.017 g", "0.839 g", "0.560 g", "0.256 s", "0.550 s",
     ]  # fmt: skip
     assert found[CATEGORY] == found["SDC"] == "D"
-    assert rows(full)[CATEGORY]["Source"] == "largest of D (0.2 s), D (1 s), S1 below 0.75 g"
+    assert (
+        rows(full)[CATEGORY]["Source"]
+        == "most severe of D (short period), D (1 s), S1 below 0.75 g"
+    )
     assert "not entered" not in found.values()
     found = rows(package(s_ds_g=1.5, s_1_g=0.8, sdc="E"))
-    assert found[CATEGORY]["Source"] == "largest of D (0.2 s), not entered (1 s), S1 E"
+    assert found[CATEGORY]["Source"] == "most severe of D (short period), not entered (1 s), S1 E"
     assert found[CATEGORY]["Value"] == found["SDC"]["Value"] == "E"
     confirmed = values(package(s_ds_g=1.5, s_1_g=0.8, s_d1_g=0.9, sdc="E"))
     assert confirmed[CATEGORY] == confirmed["SDC"] == "E"
@@ -270,12 +273,12 @@ def test_the_force_and_its_factors_are_those_of_a_permit_sheet():
     """Permit sheet of provisions.md: h 35 ft, S_DS 1.0504, a_p 1, R_p 1.5."""
     height = {"structure_height_m": 35 * FT, "roof_height_m": 35 * FT}
     made = package(s_ds_g=1.0504, force_factor=1.0, force_divisor=1.5, **height)
-    assert forces(made) == [("0.840", "computed, from 0.315 to 1.681")]
+    assert forces(made) == [("0.840", "computed (lower limit 0.315, upper limit 1.681)")]
     assert values(made)["Ta"] == "0.288 s"
     arrays = [projects.array("A1", 1.0, i_p=1.5), projects.array("A2", 1.0, x=120)]
     made = package({"arrays": arrays}, s_ds_g=1.0, force_factor=1.0, force_divisor=1.5)
     assert values(made)["Ip"] == "1.00 to 1.50"
-    assert "to 2.400" in forces(made)[0][1]  # 1.6 x S_DS x the larger I_p
+    assert "limit 2.400" in forces(made)[0][1]  # 1.6 x S_DS x the larger I_p
 
 
 @pytest.mark.quick

@@ -53,8 +53,8 @@ def test_a_model_that_is_run_or_not_requested_is_said_so():
     one = tuple(replace(motion, signs=(1,)) for motion in assessments.motions())
     package = scene(one)
     said = page_of(package, "model")
-    assert "in the polarities that the workbook requests: two runs for each motion" in said
-    assert "in either polarity: four runs for each motion" in page_of(scene(), "model")
+    assert "with the polarities that the workbook requests: two runs per motion" in said
+    assert "with both polarities: four runs per motion" in page_of(scene(), "model")
 
 
 @pytest.mark.quick
@@ -96,8 +96,8 @@ def test_a_stable_array_has_its_tipping_ratios():
 @pytest.mark.parametrize(
     ("n_vertical", "uplift_s", "text"),
     [
-        (0, "not checked", "No motion has a vertical component: uplift is not checked"),
-        (2, "none", "2 of 3 motions have a vertical component: uplift is not checked for the"),
+        (0, "not checked", "No motion has a vertical component; uplift is not checked"),
+        (2, "none", "2 of 3 motions have a vertical component; uplift is not checked for the"),
         (3, "none", ""),
     ],
 )
@@ -152,7 +152,7 @@ def test_a_row_is_ng_by_one_block_and_stiffer_links_may_help(both):
     assert [design[-1] for design in held(both)[2]] == ["NG", "OK"]
     row = page_of(both, "summary").table("Governing").rows[0]
     assert (row["Of"], row["Verdict"]) == ("A1", "NG")
-    assert "(part 5 compares A1, A2 with a row" in page_of(both, "basis")
+    assert "(Section 5 compares A1, A2 with a row" in page_of(both, "basis")
     # Its row slides farther here than it does: it is given the result of the other one.
     far, near = both.assessment.linked
     near = replace(near, rigid=far.rigid, linked=far.linked)
@@ -189,7 +189,7 @@ NEAR = projects.roof_object("RTU-9", "fixed object", 101, 106, 35, 42)
 FAR = projects.roof_object("RTU-8", "fixed object", 190, 200, 35, 42)
 NOWHERE = {"id": "OLD", "kind": "fixed object"}
 ARRAYS = [projects.array("A1", 0.5), projects.array("A2", 0.5, x=220)]
-CAPTION = "Neighbors in plan"
+CAPTION = "Adjacent items"
 PARTS = ["Array", "Neighbor", "Kind", "In plan [in]", "Twice displ. [in]", "Clearance", "Remark"]
 
 
@@ -205,11 +205,11 @@ def test_distances_are_printed_with_their_rows_and_rounded_up():
     made = page(objects=[NEAR, FAR], clearances=rows)
     table = made.table(CAPTION)
     assert [[row[part] for part in PARTS] for row in table.rows] == [
-        ["A1", "RTU-9", "fixed object", "12.0", "81.6", "No. 1", "provided differs from plan"]
+        ["A1", "RTU-9", "fixed object", "12.0", "81.6", "No. 1", "differs from the plan"]
     ]
-    assert made.line("Clearances provided as in the plan: No. 2.").endswith(
-        " The other three pairs of the plan are farther apart than twice the design displacement, "
-        "and no less than is required; the nearest are A2 and RTU-8, 240.0 in (6096 mm)."
+    assert made.line("Clearances that agree with the plan: No. 2.").endswith(
+        " The other three pairs on the plan are more than twice the design displacement apart and "
+        "satisfy the required separation; the closest are A2 and RTU-8, 240.0 in (6096 mm)."
     )
     arrays, options = [projects.array("A1", 0.5, mu=0.3)], project_parts.REVIEW
     made = assessments.package(arrays=arrays, objects=[NEAR], clearances=[], options=options)
@@ -229,24 +229,25 @@ def test_clearances_that_are_as_in_the_plan_are_named_and_not_listed(other):
     made = page(objects=[NEAR], clearances=[projects.clearance("A1", *other)])
     is_lacking = other[0] == "A2"  # the near unit has no clearance
     assert (CAPTION in made) is is_lacking
-    assert made.line(f"Clearances provided as in the plan: {'No. 1' if is_lacking else 'all'}.")
+    assert made.line(f"Clearances that agree with the plan: {'No. 1' if is_lacking else 'all'}.")
 
 
 @pytest.mark.quick
 def test_what_is_not_in_plan_or_near_is_named():
     lost = NOWHERE | {"id": "LOST"}
     made = page(objects=[NOWHERE, lost], clearances=[projects.clearance("A1", "OLD", 9.0)])
-    line = made.line("To the scale stated")
+    line = made.line("To scale when printed")
     assert (
-        "Neither drawn nor measured, because a place in plan is not entered: clearance 1." in line
+        "Neither drawn nor measured, because a location in plan is not entered: clearance 1."
+        in line
     )
-    assert made.line("Neither a place").endswith("LOST.")
+    assert made.line("Not checked, because neither").endswith("LOST.")
     assert CAPTION not in made
-    assert page().line("The other pair of the plan is farther apart") == (
-        "The other pair of the plan is farther apart than twice the design displacement, and no "
-        "less than is required: A1 and A2, 1440.0 in (36576 mm)."
+    assert page().line("The other pair on the plan") == (
+        "The other pair on the plan is more than twice the design displacement apart and satisfies "
+        "the required separation: A1 and A2, 1440.0 in (36576 mm)."
     )
-    assert "of the plan" not in page(arrays=ARRAYS[:1])
+    assert "on the plan" not in page(arrays=ARRAYS[:1])
 
 
 @pytest.mark.quick
@@ -259,8 +260,8 @@ def test_edges_are_those_of_the_outline_where_it_is_given(is_given):
 @pytest.mark.quick
 def test_distances_that_are_not_known_or_not_of_the_plan_are_told():
     made = page_of(assessments.unpermitted(), "plan")
-    (line,) = (line for line in made.splitlines() if "The other seven pairs of the plan" in line)
-    assert "farther apart than twice the design displacement; the nearest are A1 and" in line
+    (line,) = (line for line in made.splitlines() if "The other seven pairs on the plan" in line)
+    assert "more than twice the design displacement apart; the closest are A1 and" in line
     rows = [projects.clearance("A1", "RTU-9", 2 * FOOT) | {"source": "drawing"}]
     (near,) = (near for near in drawn(clearances=rows).assessment.neighbors)
     assert near.cover is Cover.DIFFERS
@@ -283,16 +284,16 @@ def test_drawing_distances_are_conditions_until_confirmed():
     assert (row.subject, row.found, row.is_satisfied) == ("A1", "not confirmed", False)
     assert row.verdict is Verdict.CONDITION
     made = page_of(package, "plan")
-    words = " Distances provided: drawing, not confirmed No. 1; measured No. 2."
+    words = " Clearances provided: drawing, not confirmed No. 1; measured No. 2."
     assert made.line("Factor").endswith(words)
-    line = page_of(package, "notes").line("Gaps to be measured first")
-    assert line.endswith("because their distance is from the drawing and not confirmed: No. 1.")
+    line = page_of(package, "notes").line("Clearances to be measured first")
+    assert line.endswith("because their distances are from the drawing and not confirmed: No. 1.")
     confirmed = {"drawing_confirmed_by": "MT", "drawing_confirmed_date": project_parts.HEAD["date"]}
     package = drawn(project=project_parts.HEAD | confirmed)
     (row,) = (row for row in package.assessment.checks if row.id == "drawing_distances")
     assert row.is_satisfied
     assert row.found == "confirmed by MT, 2026-03-05"
     made = page_of(package, "plan")
-    words = " Distances provided: drawing, confirmed No. 1; measured No. 2."
+    words = " Clearances provided: drawing, confirmed No. 1; measured No. 2."
     assert made.line("Factor").endswith(words)
-    assert "Gaps to be measured first" not in page_of(package, "notes")
+    assert "Clearances to be measured first" not in page_of(package, "notes")

@@ -99,7 +99,7 @@ def test_a_spectrum_that_falls_between_the_points_of_the_limits_is_said():
         return limits(given, spectra=(part, *above)).notes[0]
 
     assert said(part).endswith(
-        "the smallest ratio of those shown below is 0.91 (M2, horizontal, at "
+        "the smallest ratio shown below is 0.91 (M2, horizontal, at "
         f"{1.0 / part.periods_s[0]:.3g} Hz)."
     )
     higher = said(replace(part, sa_g=part.sa_g + 0.1))
@@ -142,7 +142,7 @@ def test_a_source_that_motions_share_is_said_once(sources, notes):
     pairs = zip(assessment.shaking.motions, sources, strict=True)
     motions = tuple(replace(motion, source=source) for motion, source in pairs)
     given = replace(assessment, shaking=replace(assessment.shaking, motions=motions))
-    table = page_of(given, "motions").table("Roof motions as run")
+    table = page_of(given, "motions").table("Roof motions as analyzed")
     assert list(table.notes[1:]) == notes  # below what all motions have alike
     assert ("Source" in table.headings) is (not notes)
     assert "Source" not in table.headings or table.column("Source") == list(sources)
@@ -159,11 +159,10 @@ def test_the_smallest_margin_is_said_with_what_ends_the_search():
     (roomy,) = made(clearances=[projects.clearance("A2", "A3", 9.0)])[0].assessment.clearances
     _, found, page = made(clearances=[projects.clearance("A2", "A3", 1.3 * roomy.required_m)])
     least = max(found.margins, key=lambda one: one.minimum_mu / one.array.array.mu)
-    text = page.line("The smallest margin")
-    assert f"{least.array.array.mu:.2f}, may be " in text
-    assert f" % less: {least.minimum_mu:.2f}." in text
-    shown = {row["Array"]: row for row in page.table("Least friction").rows}
-    assert shown[least.array.id]["μ [least]"] == f"{least.minimum_mu:.2f}"
+    text = page.line("The smallest friction margin")
+    assert f"from {least.array.array.mu:.2f} to {least.minimum_mu:.2f}." in text
+    shown = {row["Array"]: row for row in page.table("Lowest friction").rows}
+    assert shown[least.array.id]["μ [lowest]"] == f"{least.minimum_mu:.2f}"
     package, found, _ = made()
     margins = tuple(
         replace(margin, minimum_mu=0.4, required_m=0.1004, limited_by=limited_by)
@@ -172,8 +171,8 @@ def test_the_smallest_margin_is_said_with_what_ends_the_search():
         )
     )
     page = page_of(package, "accuracy", uncertainty=replace(found, margins=margins))
-    rows = page.table("Least friction").rows
-    assert {row["Required there [mm]"] for row in rows} == {"101"}
+    rows = page.table("Lowest friction").rows
+    assert {row["Required at this μ [mm]"] for row in rows} == {"101"}
     assert [row["Limited by"] for row in rows] == ["clearance", "friction", "search"]
 
 
@@ -181,11 +180,11 @@ def test_the_smallest_margin_is_said_with_what_ends_the_search():
 def test_ratios_need_slip_and_levels_are_round():
     still = tuple(replace(motion, scale=1e-3) for motion in assessments.motions(3, 4.0))
     _, _, page = made(still, arrays=[projects.array("B1", 0.5, mu=1.0)], objects=[], clearances=[])
-    assert "lists no clearances: there is no margin" in page
+    assert "lists no clearances, so no margin" in page
     assert not re.search(r"\b(nan|inf|None)\b", page)
     line = page.line("PRD used for array B1")
-    assert "more angles of the horizontal pair give PRDs up to 0.0 in (0 mm);" in line
-    assert "times that PRD" not in line
+    assert "more angles gives PRDs up to 0.0 in (0 mm);" in line
+    assert "times this PRD" not in line
     assert levels([3.0, 120.0]) == [5, 7, 10, 15, 20, 30, 50, 70, 100]
     for low, high in ((0.1, 3000.0), (1e-4, 1e3), (9.0, 11.0), (5.0, 5.0)):
         found = levels([low, high])
@@ -232,7 +231,7 @@ def with_study(years):
 def test_the_comparison_has_the_years_of_its_own_arrays():
     package = with_study(YEARS)
     text = page_of(package, "comparison")
-    row = text.table("Beside the design displacement").rows[0]
+    row = text.table("For comparison with the design displacement").rows[0]
     assert row["Array"] == "A1"
     assert row["PRD of 700 years"] == "none"
     assert row["Largest distance, mean"] == "4.0 in (100 mm)"
@@ -242,14 +241,14 @@ def test_the_comparison_has_the_years_of_its_own_arrays():
     design = page_of(assessments.package(), "comparison").tables
     assert page_of(package, "comparison").tables[: len(design)] == design
     text = page_of(with_study(YEARS | {"arrays": [ARRAY | {"array": "Z"}]}), "comparison")
-    assert "None of its arrays has the name of an array of this package" in text
+    assert "None of its arrays has the name of an array in this package" in text
 
 
 def test_a_former_mean_without_the_lives_that_have_no_distance_is_none():
     never = DISTANCE | {"without_value": 0.001}
     text = page_of(with_study(YEARS | {"arrays": [ARRAY | {"largest": {"never": never}}]}),
                    "comparison")  # fmt: skip
-    row = text.table("Beside the design displacement").rows[0]
+    row = text.table("For comparison with the design displacement").rows[0]
     assert (row["Largest distance, mean"], row["95 %"]) == ("none", "15.8 in (400 mm)")
 
 
@@ -258,7 +257,7 @@ def test_another_friction_than_that_of_the_package_is_said(mu, is_said):
     (array, *_) = assessments.package().assessment.arrays
     one = ARRAY | {"mu": mu or array.array.mu, "slope_deg": array.array.slope_value}
     text = page_of(with_study(YEARS | {"arrays": [one]}), "comparison")
-    assert ("differ from those of this package" in text) is is_said
+    assert ("differs from that of this package" in text) is is_said
 
 
 def test_the_file_is_attached_or_refused_at_its_cell(tmp_path):

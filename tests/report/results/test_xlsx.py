@@ -144,7 +144,7 @@ def test_values_runs_and_clearances_are_live_and_listed(usual):
     assert "Transverse, M7 [g]" in head
     first, *_ = rows_of(usual[1]["Neighbors"])
     assert [first[name] for name in ("Array", "Neighbor", "Kind", "Clearance", "Remark")] == [
-        "A1", "A3", "array", "No. 1", "as in plan; beyond twice displ.",
+        "A1", "A3", "array", "No. 1", "agrees with plan; more than 2Δ apart",
     ]  # fmt: skip
     assert first["Distance in plan [in]"] == pytest.approx(180.0)
     rows = rows_of(usual[1]["Motions"])
