@@ -29,7 +29,8 @@ from report.text.unit_format import UnitFormat
 from report.text.units import Show, no_less, ratio
 from report.web.plan import USUAL_PX, Cell, ShowVerdict, described, plan, stamp
 
-_ARRAY_HEADS = ["Array", "Mean PRD", "Design Δ", "Prescriptive", "D/C", "Verdict"]
+_MEAN = "Mean PRD"
+_ARRAY_HEADS = ["Array", _MEAN, "Design Δ", "Prescriptive", "D/C", "Verdict"]
 _GAP_HEADS = ["No.", "From, to", "Provided", "Required", "D/C", "Verdict"]
 
 _PROVISIONAL = (
@@ -76,11 +77,11 @@ def answer(
         "pending": "" if is_whole else _LESS,
         "arrays": {
             "caption": "Arrays: displacement",
-            "heads": _ARRAY_HEADS,
+            "heads": [head for head in _ARRAY_HEADS if assessment.has_motions or head != _MEAN],
             "rows": _of_alike(
                 [
                     {"text": item.id},
-                    _length(fmt, item.analysis.mean_m, no_less),
+                    *([_length(fmt, item.analysis.mean_m, no_less)] * assessment.has_motions),
                     designs[item.id],
                     _prescriptive(marks, item),
                     {"text": _ratio(ratios[item.id], fmt)},
@@ -281,6 +282,8 @@ def _bars(marks: Marks, item: ArrayAssessment, design: Cell) -> Mapping[str, Any
 
 def _whole(assessment: Assessment) -> str:
     """Return which models the values are of."""
+    if not assessment.has_motions:
+        return "Prescriptive procedure, as in the package: no motions are entered."
     models = {run.solution.model for a in assessment.arrays for m in a.motions for run in m.runs}
     names = ", ".join(f"{model.title} ({int(model)})" for model in sorted(models))
     return f"Full model, as in the package. Models of the runs: {names}."

@@ -23,7 +23,7 @@ from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
 from report.web.access import ENTRY, TOKEN_HEADER, Access, Keys
-from report.web.files import is_alone, package_routes, receive_json, received, workbook
+from report.web.files import blank, is_alone, package_routes, receive_json, received, workbook
 from report.web.session import (
     EXAMPLE,
     EXAMPLE_NAME,
@@ -72,10 +72,14 @@ def made(keys: Keys, folder: Path, hosts: Collection[str]) -> Starlette:
             Route("/api/state", _state),
             Route("/api/example", _example, methods=["POST"]),
             Route("/api/upload", partial(_open_new, store=received), methods=["POST"]),
-            Route("/api/plan", partial(_open_new, store=_with_plan), methods=["POST"]),
+            *(
+                Route(path, partial(_open_new, store=partial(_filled, do=do)), methods=["POST"])
+                for path, do in (("/api/plan", "read_plan"), ("/api/cells", "fill_in"))
+            ),
             Route("/api/clearances", _clearances, methods=["POST"]),
             *(Route(f"/api/{name}", _job, methods=["POST"]) for name in _JOBS),
             Route("/api/workbook", workbook, methods=["POST"]),
+            Route("/api/blank", blank),
             *package_routes(),
             Mount("/static/fonts", StaticFiles(directory=FONTS)),
             Mount("/static", StaticFiles(directory=STATIC)),
@@ -161,13 +165,13 @@ async def _with_clearances(request: Request, folder: Path) -> Path:
     return workbook
 
 
-async def _with_plan(request: Request, folder: Path) -> Path:
-    """Store a workbook whose plan is filled in from the drawing that is sent with it."""
+async def _filled(request: Request, folder: Path, do: str) -> Path:
+    """Store a workbook that a job fills in: its plan from a drawing beside it, or typed cells."""
     session, workbook = session_of(request), await received(request, folder)
     filled = session.folder / f"filled-{folder.name}" / workbook.name
     filled.parent.mkdir()
-    fields = {name: request.state.fields.get(name, "") for name in ("layers", "unit")}
-    job = {"do": "read_plan", "workbook": str(workbook), "to": str(filled), **fields}
+    fields = {name: request.state.fields.get(name, "") for name in ("layers", "unit", "cells")}
+    job = {"do": do, "workbook": str(workbook), "to": str(filled), **fields}
     request.state.lines = (await session.ask(job))["lines"]
     session.filled = filled
     return workbook

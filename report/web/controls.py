@@ -97,11 +97,14 @@ def _sliders(sheet: Sheet) -> Iterator[dict[str, Any]]:
                   "Added to the slope of every array; no slope is less than 0.",
                   _real("Slope", "°", 2, {a.id: math.degrees(a.slope_rad) for a in arrays})
                   )  # fmt: skip
-    yield _slider("intensity", "Intensity", "×", (_LEAST, _MOST, 0.02), 1.0,
-                  "Factor on all motions, and on S_DS where both change together.",
-                  s_ds | {"with_choice": {"together": "yes"}})  # fmt: skip
+    has_motions = bool(sheet.project.motions)
+    if has_motions:
+        yield _slider("intensity", "Intensity", "×", (_LEAST, _MOST, 0.02), 1.0,
+                      "Factor on all motions, and on S_DS where both change together.",
+                      s_ds | {"with_choice": {"together": "yes"}})  # fmt: skip
+    apart = {"together": "no"} if has_motions else {}
     yield _slider("s_ds", "S_DS", "×", (_LEAST, _MOST, 0.02), 1.0,
-                  "Factor on S_DS alone.", s_ds) | {"with_choice": {"together": "no"}}  # fmt: skip
+                  "Factor on S_DS alone.", s_ds) | {"with_choice": apart}  # fmt: skip
     unit, size = ("in", INCH_M) if us_first else ("mm", 1e-3)
     gaps = {str(n): row.provided_m / size for n, row in enumerate(sheet.project.clearances, 1)}
     beside = {"all": None, "is_beside": True, "with_choice": {"clearance": 0.0}}
@@ -182,12 +185,12 @@ def _choices(opened: OpenProject) -> Sequence[Mapping[str, Any]]:
     sheet = opened.sheet
     # Motions may differ: then the workbook has no single choice, and a blank one stands for it.
     polarities = list(dict.fromkeys(row["polarity"] for row in sheet.inputs["motions"]))
-    has_cells = all(
+    has_cells = bool(polarities) and all(
         Place("motions", i, "polarity") in sheet.addresses for i in range(len(opened.by_motion))
     )
     return [
-        _choice("together", "Scale S_DS with the motions", "yes", {"yes": "Yes", "no": "No"},
-                "Whether the intensity slider also scales S_DS."),
+        *([_choice("together", "Scale S_DS with the motions", "yes", {"yes": "Yes", "no": "No"},
+                   "Whether the intensity slider also scales S_DS.")] if polarities else []),
         *([_choice("polarity", "Polarity", polarities[0] if len(polarities) == 1 else "",
                    ({} if len(polarities) == 1 else {"": "as in the workbook"})
                    | {p.value: p.value for p in Polarity},
@@ -237,6 +240,8 @@ def _grouped(arrays: Sequence[Array], text_of: Callable[[Array], str]) -> str:
 
 def _factors(motions: Sequence[Motion]) -> str:
     """Return the factors on the records of the motions."""
+    if not motions:
+        return ""
     factors = [motion.scale for motion in motions]
     least, most = (number(value, 3) for value in (min(factors), max(factors)))
     return f"× {least}" if least == most else f"× {least} to {most}"

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import secrets
 import shutil
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from pydantic import ValidationError
 from starlette.concurrency import run_in_threadpool
@@ -107,16 +109,28 @@ def package_routes() -> list[Route]:
 
 async def workbook(request: Request) -> Response:
     """Return the workbook with the values written into its cells."""
-    session, asked = session_of(request), await receive_json(request)
-    current = session.workbook(asked.opened)
+    asked = await receive_json(request)
+    current = session_of(request).workbook(asked.opened)
+    job = {"do": "write", "workbook": str(current), "values": asked.values}
+    return await _written(request, job, current.name)
+
+
+async def blank(request: Request) -> Response:
+    """Return a workbook without inputs, in a system of units."""
+    units = "SI" if request.query_params.get("units") == "SI" else "US"
+    return await _written(request, {"do": "blank", "units": units}, "input.xlsx")
+
+
+async def _written(request: Request, job: Mapping[str, Any], name: str) -> Response:
+    """Return a workbook that a job writes."""
+    session = session_of(request)
     path = session.folder / f"written-{secrets.token_hex(8)}.xlsx"
-    job = {"do": "write", "workbook": str(current), "values": asked.values, "to": str(path)}
     try:
-        await session.ask(job)
+        await session.ask({**job, "to": str(path)})
         data = await run_in_threadpool(path.read_bytes)
     finally:
         await run_in_threadpool(path.unlink, missing_ok=True)
-    return _attached(Response(data, media_type=TYPES[".xlsx"]), current.name)
+    return _attached(Response(data, media_type=TYPES[".xlsx"]), name)
 
 
 async def _filled(request: Request) -> Response:

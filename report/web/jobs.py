@@ -1,22 +1,18 @@
 """What is computed for the page: each job from a workbook and values to data for JSON.
 
 A process of the page runs `perform`, and this module is imported there alone: the server starts
-without the solver. Knows no request. Read `perform`, then `answer_at`; `problems` has input errors
-as data.
+without the solver. Knows no request. Read `perform`, then `answer_at`.
 """
 
 from __future__ import annotations
 
 import json
 import traceback
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
-
-from openpyxl.utils import coordinate_to_tuple
-from openpyxl.worksheet.worksheet import Worksheet
 
 from report.assessment.assess import Extent
 from report.assessment.assessment import Assessment
@@ -27,97 +23,22 @@ from report.drawing_read.fill import fill_plan, layers_of, plan_as_rows, unread
 from report.drawing_read.layer_names import drawn_on, proposed
 from report.drawing_read.plan_read import known_layers
 from report.drawing_read.read_dxf import read_dxf
-from report.project.check.problem_lines import grouped, line_of, listed
-from report.project.model.choices import LayerKind
-from report.project.read.archive import OpenBook, open_book
+from report.project.model.choices import LayerKind, UnitsFirst
+from report.project.read.archive import open_book
 from report.project.read.changed_cells import changed
-from report.project.read.locate_table import find_table
-from report.project.read.positions import CellPosition, found_at
 from report.project.read.read import read, read_book
 from report.project.read.what_if import cells
-from report.project.workbook import SECTIONS
 from report.project.write.filled import WorkbookChange, withdrawn
-from report.text.counts import cut
+from report.project.write.template import template
 from report.text.units import LENGTHS
 from report.web import views
 from report.web.answers import answer
 from report.web.controls import shown
+from report.web.fields import problems, tables, typed_cells
 from report.web.open_project import OpenProject, open_project, reference_of
 from report.web.plan import USUAL_PX, stamp
 from report.web.worker import INTERNAL, is_full
-from solver.model import InputError, Problem
-
-_MOST_COLUMNS, _BESIDE = 40, 2  # of a sheet that are read, and of those the ones around a cell
-
-
-def problems(path: Path, error: InputError) -> list[Mapping[str, Any]]:
-    """Return the problems of a workbook, each with the row of its first cell."""
-    try:
-        book = open_book(path)
-    except InputError:
-        book = None
-    return [_shown(path, book, equal) for equal in grouped(error.parts)]
-
-
-def _shown(path: Path, book: OpenBook | None, equal: Sequence[Problem]) -> Mapping[str, Any]:
-    first = equal[0]
-    sheet, _, at = first.where.rpartition("!")
-    cell = at if sheet else ""
-    return {
-        "file": path.name,
-        "text": line_of(equal),
-        "found": first.found if sheet or not at else f"{at}: {first.found}",
-        "remedy": first.remedy,
-        "sheet": sheet,
-        "cell": cell,
-        "cells": listed(each.where.removeprefix(f"{sheet}!") for each in equal) if sheet else "",
-        "row": _row(book, sheet, cell) if book and cell else None,
-    }
-
-
-def _row(book: OpenBook, title: str, cell: str) -> Mapping[str, Any] | None:
-    """Return the row of a cell as texts with the headings above them; none of headings alone."""
-    if title not in book.book.sheetnames:
-        return None
-    row, column = coordinate_to_tuple(cell)
-    header, columns = _headed(book, book.book[title], row, column)
-    if row == header:
-        return None
-    shown = [
-        number
-        for number in columns
-        if header or not found_at(book, CellPosition(title, row, number)).is_blank
-    ]
-    if column not in shown:
-        shown = sorted([*shown, column])
-    at = shown.index(column)
-    # The first column names the row.
-    shown = [one for k, one in enumerate(shown) if k == 0 or abs(k - at) <= _BESIDE]
-    return {
-        "number": row,
-        "heads": [_text(book, title, header, number) if header else "" for number in shown],
-        "cells": [_text(book, title, row, number) for number in shown],
-        "at": shown.index(column),
-    }
-
-
-def _headed(book: OpenBook, sheet: Worksheet, row: int, column: int) -> tuple[int, Sequence[int]]:
-    """Return the row of the headings above a cell or in it, 0 for none, and the columns to show."""
-    for section in (s for s in SECTIONS if s.is_table and s.sheet == sheet.title):
-        try:
-            table = find_table(book, section)
-        except InputError:
-            continue
-        numbers = sorted(c.number for c in table.columns.values())
-        if row in {table.heading.row, *table.rows} and numbers:
-            return table.heading.row, numbers[:_MOST_COLUMNS]
-    last = min(sheet.max_column, _MOST_COLUMNS)
-    return 0, range(1, max(last, column if column <= _MOST_COLUMNS else 1) + 1)
-
-
-def _text(book: OpenBook, title: str, row: int, column: int) -> str:
-    return cut(found_at(book, CellPosition(title, row, column)).shown)
-
+from solver.model import InputError
 
 KEPT_PROJECTS = 3
 """Projects that a process keeps, with their assessments."""
@@ -154,8 +75,9 @@ def state(workbook: Path, job: Json) -> Json:
     try:
         opened = _open(workbook)
     except InputError as error:
-        reply = {"project": None, "problems": problems(workbook, error), "answer": None}
-        return {**reply, "lacks": _lacks(workbook), "drawing": _drawing(workbook)}
+        found = {"problems": problems(workbook, error), "tables": tables(workbook)}
+        lacks = {"lacks": _lacks(workbook), "drawing": _drawing(workbook)}
+        return {"project": None, "answer": None, **found, **lacks}
     near = [pair for pair in opened.assessed().pairs if pair.kind is not NearbyKind.BARE_EDGE]
     answered = answer_at(workbook, {"values": {}, "moving": False, "room": USUAL_PX})
     return {
@@ -164,7 +86,10 @@ def state(workbook: Path, job: Json) -> Json:
             "sha256": opened.sheet.sha256,
             "id": opened.id,
         },
-        "lacks": ["clearances"] if any(pair.is_missing for pair in near) else [],
+        "lacks": [
+            *(["motions"] if not opened.shaking.motions else []),
+            *(["clearances"] if any(pair.is_missing for pair in near) else []),
+        ],
         "problems": [],
         "drawing": _drawing(workbook),
         "warnings": [line["text"] for line in answered["reasons"] if line["level"] == "warning"],
@@ -178,13 +103,11 @@ def state(workbook: Path, job: Json) -> Json:
 
 
 def _lacks(workbook: Path) -> list[str]:
-    """Return which sheets a workbook has without a row; none where it cannot be read."""
-    try:
+    """Return whether a workbook with errors has no array; nothing where it cannot be read."""
+    with suppress(InputError):
         sheet = read(workbook)
-    except InputError:
-        return []
-    steps = ("arrays", "motions")
-    return [name for name in steps if name not in sheet.unfound and not sheet.inputs[name]]
+        return [] if "arrays" in sheet.unfound or sheet.inputs["arrays"] else ["arrays"]
+    return []
 
 
 def answer_at(workbook: Path, job: Json) -> Json:
@@ -262,6 +185,22 @@ def read_plan(workbook: Path, job: Json) -> Json:
     return {"lines": lines}
 
 
+def fill_in(workbook: Path, job: Json) -> Json:
+    """Fill in cells of a workbook as typed on the page; keep a copy at another path."""
+    change = WorkbookChange(open_book(workbook))
+    change.fill(typed_cells(json.loads(job["cells"])))
+    withdrawn(change)
+    for path in (workbook, Path(job["to"])):
+        path.write_bytes(change.book.data)
+    return {"lines": []}
+
+
+def blank(_: Path, job: Json) -> Json:
+    """Write a workbook without inputs to a path."""
+    Path(job["to"]).write_bytes(template(UnitsFirst(job["units"])))
+    return {}
+
+
 def write(workbook: Path, job: Json) -> Json:
     """Write the workbook that is assessed at values to another path."""
     given = _open(workbook).at(job["values"])
@@ -307,6 +246,8 @@ _JOBS: Mapping[str, Callable[[Path, Json], Json]] = {
     "write": write,
     "add_clearances": add_clearances,
     "read_plan": read_plan,
+    "fill_in": fill_in,
+    "blank": blank,
     "verdict": verdict,
     "slide": _view(lambda a, job: views.slide(a, job["array"], job["motion"], job["run"])),
     "contour": _view(lambda a, job: views.contour(a, job["array"])),

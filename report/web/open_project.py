@@ -17,7 +17,6 @@ from report.assessment.assess import Extent, assess
 from report.assessment.assessment import Assessment
 from report.motions.components import Components
 from report.motions.prepare import Shaking, read_records, shaking, stiff_links
-from report.project.model.finding import Finding
 from report.project.model.place import Place
 from report.project.read.read import read
 from report.project.read.what_if import Typed, retyped
@@ -34,11 +33,6 @@ PASSING = 1e-4
 
 KEPT_VALUES = 8
 """Values at which a project is kept, with its assessments."""
-
-_NOTHING_TO_RUN = (
-    "no motion is given",
-    "fill in at least one row; roofslip report makes a package of the prescriptive displacement",
-)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -141,8 +135,6 @@ def open_project(path: Path) -> OpenProject:
     """Read a workbook and its records, or raise an input error with every problem."""
     sheet = read(path)
     check_letters(sheet)
-    if not sheet.inputs["motions"]:
-        sheet.refuse([Finding.error(Place("motions"), *_NOTHING_TO_RUN)])
     by_motion = read_records(sheet)
     sheet.book.files.clear()  # for a package, which another process makes
     sheet.book.records.clear()

@@ -38,7 +38,7 @@ def typed(sheet: Sheet, scales: Mapping[str, float], values: Values) -> dict[Pla
     `scales` is the factor on the records of each motion, as the workbook has it.
     """
     factors = {name: float(values.get(name, 1.0)) for name in ("intensity", "s_ds")}
-    if values.get("together", "yes") == "yes":
+    if sheet.project.motions and values.get("together", "yes") == "yes":
         factors["s_ds"] = factors["intensity"]
     changed: dict[Place, Typed] = dict(_friction(sheet, values)) | dict(_slope(sheet, values))
     if factors["s_ds"] != 1.0:

@@ -9,13 +9,13 @@ import { mountDrawing, mountMotions } from "./offers.js";
 import { mountTakeaway } from "./package.js";
 import { mountPlan } from "./plan.js";
 import { mountResults } from "./results.js";
-import { saveDrawing } from "./saving.js";
+import { save, saveDrawing } from "./saving.js";
 import { createSession, onChange } from "./session.js";
 import { mountSliders } from "./sliders.js";
 import { mountTabs } from "./tabs.js";
 import { mountTerms } from "./terms.js";
 import { createTurns } from "./turns.js";
-import { mountUpload } from "./upload.js";
+import { besideWorkbook, mountUpload } from "./upload.js";
 import { createViews } from "./views.js";
 
 const part = (id) => document.getElementById(id);
@@ -30,6 +30,8 @@ const { state } = session;
 let dropped = null; // the files of the last upload
 let awaited = null; // the address of a project that is not open
 let drawControls = null; // of the project that is open
+let typed = {}; // into the fields of a workbook with errors, by cell
+let faulty = []; // what these cells had, such as the paths of records
 
 const plan = mountPlan(part("plan-drawing"), session, { said: part("plan-said"), zooms: ["zoom-in", "zoom-out", "zoom-fit"].map(part) });
 const views = createViews(api);
@@ -68,6 +70,9 @@ session.draws(onChange(["picked"], ({ picked }) => {
 session.draws(onChange(["phase", "answer"], findTurns));
 
 part("back").addEventListener("click", () => showProject(state));
+part("new").addEventListener("click", () => startNew().catch(fail));
+part("check").addEventListener("click", () => fillIn().catch(fail));
+part("save-filled").addEventListener("click", () => fillIn().then(saveFilled).catch(fail));
 part("example").addEventListener("click", () => opening(api.example, { words: "Opening the example …" }));
 part("add-clearances").addEventListener("click", () => opening(api.addClearances, { valuesOf: () => state.values }));
 for (const key of ["array", "motion"]) part(key).addEventListener("change", ({ target }) => session.set({ [key]: target.value }));
@@ -104,7 +109,8 @@ function fromAddress(begin = async () => {}) {
   });
 }
 
-function take(files) {
+function take(given) {
+  const files = besideWorkbook(given, dropped, faulty);
   dropped = files;
   // What is offered is for the workbook before.
   motions.offer(null);
@@ -116,6 +122,30 @@ function take(files) {
 function putBack({ name, blob }) {
   const [workbook] = dropped.filter(({ path }) => path.split("/").at(-1) === name).toSorted((a, b) => a.path.split("/").length - b.path.split("/").length);
   dropped = dropped.map((one) => (one === workbook ? { ...one, file: blob } : one));
+}
+
+// A workbook without inputs, in the units of the country.
+async function startNew() {
+  const { name, blob } = await api.blank(navigator.language === "en-US" ? "US" : "SI");
+  take([{ file: new File([blob], name), path: name }]);
+}
+
+// Check the workbook with what is typed in it.
+async function fillIn() {
+  let next = null;
+  await opening(
+    async () => {
+      next = await api.fillIn(dropped, typed);
+      return next;
+    },
+    { words: "Checking the workbook …" },
+  );
+  if (next) putBack(await api.filledWorkbook());
+}
+
+function saveFilled() {
+  const workbook = dropped.find(({ path }) => path.endsWith(".xlsx"));
+  save(workbook.file, workbook.path.split("/").at(-1));
 }
 
 function showBusy(text) {
@@ -153,7 +183,8 @@ function open(next, valuesOf) {
   offerDrawing(dropped, dropped && next.drawing);
   showSteps(next);
   if (next.problems.length > 0) {
-    showErrors(next, state);
+    typed = showErrors(next, state);
+    faulty = next.problems.flatMap(({ row }) => (row ? [row.cells[row.at]] : []));
     return;
   }
   const project = { ...next, ...next.project };
@@ -172,6 +203,7 @@ function showControls({ project }) {
   for (const [key, ids] of Object.entries({ array: project.views.arrays, motion: project.views.motions })) {
     replace(part(key), ids.map((id) => html("option", { value: id }, id)));
   }
+  for (const id of ["tab-slide", "tab-contour"]) part(id).hidden = project.views.motions.length === 0;
   drawControls = mountSliders(part("controls"), project, session);
 }
 

@@ -4,33 +4,37 @@ import { html, replace } from "./make.js";
 import { showProblems } from "./problems.js";
 
 const ALONE =
-  "Only the workbook was uploaded. Drop its folder, or a zip of the folder, so that the records are included. Cells below that name a record are not wrong in themselves.";
+  "Only the workbook was uploaded. Drop its records on this page, or its folder. Cells below that name a record are not wrong in themselves.";
 const CORRECT =
-  "Correct these cells in the workbook and save it. Then open its folder, or a zip of it: records are found by their path from the workbook.";
+  "Correct these cells here or in the workbook; what is typed here is filled into a copy that you can save. Records may follow: drop them on this page.";
 const NEXT = {
   arrays: "Next: plan. List the arrays on the Arrays worksheet, or drop a drawing (DXF) beside the workbook: they are read from it.",
-  motions: "Next: motions. List your own on the Motions worksheet, or generate them for this site here.",
+  motions: "No motions are entered: the displacements are prescriptive, and their package can be made. For the analysis procedure, list motions on the Motions worksheet, or generate them for this site here.",
   clearances: "Next: clearances. Some adjacent pairs have no clearance. Add them with the distances on the plan, then confirm the distances.",
 };
 
 const part = (id) => document.getElementById(id);
 
 // What a workbook lacks before it has a verdict, in the order in which the page can give it.
-export function showSteps({ lacks: [step] }) {
+export function showSteps({ lacks }) {
+  const [step] = lacks;
   part("steps").hidden = !step;
   part("next-step").textContent = NEXT[step] ?? "";
-  part("add-clearances").hidden = step !== "clearances";
+  part("add-clearances").hidden = !lacks.includes("clearances");
   for (const name of Object.keys(NEXT)) part(`step-${name}`).ariaCurrent = name === step ? "step" : null;
 }
 
-// A workbook with errors is not opened: what was open stays so.
-export function showErrors({ problems, is_alone: isAlone, lacks }, { project }) {
-  const isLost = isAlone && !lacks.includes("motions") && problems.some(({ cell }) => cell); // a workbook, but no records
-  showProblems(part("problems"), problems, isLost ? "The records were not uploaded" : "Errors in the workbook", isLost ? ALONE : CORRECT);
+// A workbook with errors is not opened: what was open stays so. Returns what is typed into its fields.
+export function showErrors({ problems, tables, is_alone: isAlone, lacks }, { project }) {
+  const isLost = isAlone && problems.some(({ sheet }) => sheet === "Motions"); // a workbook, but no records
+  const isNew = lacks.includes("arrays");
+  const title = isLost ? "The records were not uploaded" : isNew ? "What the workbook needs first" : "Errors in the workbook";
+  const typed = showProblems(part("problems"), { problems, tables }, title, isLost ? ALONE : CORRECT);
   part("back").hidden = !project;
   part("back").textContent = `Back to ${project?.name}`;
   for (const id of ["workspace", "outline", "welcome"]) part(id).hidden = true;
-  named("This workbook has errors");
+  named(isNew ? "A new project" : "This workbook has errors");
+  return typed;
 }
 
 /** Show the project that is open in place of errors. */

@@ -59,16 +59,19 @@ function select(options, chosen, label, none = "") {
 /** Offer motions in an element; `open` opens what a promise gives, `fail` gets an error. */
 export function mountMotions(element, api, { open, fail }) {
   let turn = 0; // of what is shown; another project takes the next
+  let making = ""; // id of the suite that is being made
 
   async function make(files) {
     turn += 1;
     const mine = turn;
     const begun = await api.startMotions(files);
+    making = begun.id;
     const cancel = () => api.cancelPackage(begun.id).catch(fail);
     const show = (told) => told.is_over || showProgress(element, api, told, cancel);
     const isWanted = () => mine === turn;
     const made = await follow(api, begun, { isWanted, show }).catch((error) => ({ words: error.message }));
     if (!isWanted()) return;
+    making = "";
     if (made.state === "done") await goOn(begun.id);
     else {
       offer(files);
@@ -88,6 +91,8 @@ export function mountMotions(element, api, { open, fail }) {
   /** Offer motions for the files of a project; none where there is nothing to offer. */
   function offer(files) {
     turn += 1;
+    if (making) api.cancelPackage(making).catch(fail);
+    making = "";
     element.hidden = !files;
     if (!files) return;
     const label = "No motions? Make seven for this site";

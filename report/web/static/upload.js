@@ -48,6 +48,24 @@ export function mountUpload({ zone, files, folder }, { begin, take, fail }) {
   });
 }
 
+/**
+ * Return files that follow a workbook together with it and what came with it: each where the workbook has a
+ * path with its name, of those `wanted`. Files with a workbook of their own stay as they are.
+ */
+export function besideWorkbook(files, former, wanted) {
+  const workbook = former?.find(({ path }) => path.endsWith(".xlsx"));
+  if (!workbook || files.some(({ path }) => /\.(xlsx|zip)$/i.test(path))) return files;
+  const folder = workbook.path.slice(0, workbook.path.lastIndexOf("/") + 1);
+  const placed = ({ file, path }) => ({ file, path: folder + (wanted.find((one) => nameOf(one) === nameOf(path)) ?? path) });
+  const added = files.map(placed);
+  const names = new Set(added.map(({ path }) => path));
+  return [...former.filter(({ path }) => !names.has(path)), ...added];
+}
+
+function nameOf(path) {
+  return path.split("/").at(-1);
+}
+
 /** Return the files without hidden ones. */
 export function visible(files) {
   return files.filter(({ path }) => !HIDDEN.test(path));

@@ -60,7 +60,7 @@ def test_errors_are_listed_by_cell_beside_a_picture_of_the_row(page, tmp_path):
     page.wait_for_selector("#problems tbody tr")
     where = page.locator("#problems tbody th").first.inner_text()
     assert where.startswith(cells.address(book, name))
-    assert page.locator("#problems .is-faulty").first.inner_text().startswith("low")
+    assert page.locator("#problems .is-faulty input").first.input_value() == "low"
     assert page.locator("#workspace").is_hidden()
     assert page.evaluate("document.activeElement.textContent") == "Errors in the workbook"
     page.click("text=Back to Distribution Warehouse")
@@ -73,9 +73,7 @@ def test_errors_are_listed_by_cell_beside_a_picture_of_the_row(page, tmp_path):
     page.set_input_files("#files", EXAMPLE / "input.xlsx")
     page.wait_for_selector("#problems tbody tr")
     assert page.inner_text("#problems h2") == "The records were not uploaded"
-    assert page.inner_text("#problems p").startswith(
-        "Only the workbook was uploaded. Drop its folder"
-    )
+    assert page.inner_text("#problems p").startswith("Only the workbook was uploaded.")
 
 
 @pytest.mark.nightly
@@ -181,7 +179,7 @@ def test_the_plan_is_read_from_a_drawing_beside_the_workbook(page, tmp_path):
     kinds.last.select_option("roof")
     page.click("text=Fill in the plan")
     page.wait_for_selector("text=The plan is filled in from")
-    assert page.inner_text("#steps [aria-current]") == "Motions"
+    assert page.locator("#steps").is_hidden()  # the plan is there; cells of other sheets are not
     name, content = saved(page, lambda: page.click("text=Save filled workbook"))
     assert name == "input.xlsx"
     (tmp_path / name).write_bytes(content)

@@ -9,9 +9,10 @@ import pytest
 
 import report.suite.files
 from fixtures import records
-from fixtures.browser import called, cases, opened, quiet_page, served
-from fixtures.marks import by_day
+from fixtures.browser import at_rest, called, cases, opened, quiet_page, served
 from fixtures.workbooks import cell_address, make, type_into
+from report.assessment.assess import assess
+from report.motions.prepare import prepare
 from report.project.read.read import read
 from report.web import worker
 from report.web.jobs import perform
@@ -31,12 +32,35 @@ def without_motions(folder, **cells):
     return path
 
 
-@pytest.mark.parametrize("cells", by_day([{}, {"S_DS": None, "S_MS": None, "S_S": None}], 1))
-def test_a_workbook_without_motions_is_offered_some(tmp_path, cells):
-    answer = perform({"do": "state", "workbook": str(without_motions(tmp_path, **cells))})["answer"]
-    assert answer["lacks"] == ["motions"]
-    (none,) = (each for each in answer["problems"] if "no motion is given" in each["text"])
-    assert none["row"] is None  # headings alone
+def test_a_workbook_without_motions_opens_as_prescriptive_and_is_offered_some(tmp_path):
+    path = without_motions(tmp_path)
+    state = perform({"do": "state", "workbook": str(path)})["answer"]
+    assert (state["lacks"], state["problems"]) == (["motions"], [])
+    assert {item["id"] for item in state["sliders"]} == {"friction", "slope", "s_ds", "clearance"}
+    assert {item["id"] for item in state["choices"]} == {"rule_set", "units"}
+    shown = state["answer"]
+    assert shown["arrays"]["heads"] == ["Array", "Design Δ", "Prescriptive", "D/C", "Verdict"]
+    assert shown["model_text"].startswith("Prescriptive procedure")
+    whole = assess(*prepared(path))
+    assert shown["verdict"]["text"] == whole.verdict.value
+    # While a slider moves and at rest it is the same, and S_DS moves it.
+    job = {"do": "assess", "workbook": str(path), "values": {"s_ds": 1.2}, "room": 740}
+    moving, resting = (
+        perform(job | {"moving": is_moving})["answer"]["arrays"]["rows"]
+        for is_moving in (True, False)
+    )
+    assert moving[0][1]["text"] == resting[0][1]["text"] != shown["arrays"]["rows"][0][1]["text"]
+
+
+def prepared(path):
+    sheet = read(path)
+    return sheet, prepare(sheet)
+
+
+def test_one_without_motions_and_with_errors_is_offered_none(tmp_path):
+    path = without_motions(tmp_path, S_DS=None, S_MS=None, S_S=None)
+    state = perform({"do": "state", "workbook": str(path)})["answer"]
+    assert (state["project"], state["lacks"]) == (None, [])
 
 
 def test_a_workbook_with_motions_or_none_at_all_is_not(tmp_path):
@@ -97,15 +121,6 @@ def test_a_suite_is_begun_for_what_is_sent_and_is_no_package_of_what_is_open(cli
     assert client.post("/api/motions", files=[("files", ("../x.xlsx", b""))]).status_code == 422
 
 
-@pytest.mark.quick
-@pytest.mark.nightly
-def test_a_suite_that_is_being_made_ends_where_another_project_is_opened(client, tmp_path):
-    files = [("files", ("p/input.xlsx", without_motions(tmp_path).read_bytes()))]
-    made = client.post("/api/motions", files=files).json()["id"]
-    client.post("/api/example")
-    assert client.get(f"/api/package/{made}").json()["state"] == "canceled"
-
-
 OFFER = """
     document.body.innerHTML = "<div hidden></div>";
     const [element] = document.body.children;
@@ -143,6 +158,11 @@ OFFERS = {
         return [isHidden, sent, opened, save.textContent, failed];""",
         [[True, False, True], [["a"]], [[{"file": "#t/project.zip", "path": "project.zip"}]],
          "Save workbook and records (zip)", []]),
+    "motions that are made are canceled where another project is opened": ("""
+        motions.offer(null);
+        for (let k = 0; k < 150 && state.state === "running"; k += 1) await pause();
+        return [state.state, element.hidden, opened];""",
+        ["canceled", True, []]),
     "motions that are canceled are offered again": ("""
         element.querySelector("button").click();
         for (let k = 0; k < 150 && element.querySelector("progress"); k += 1) await pause();
@@ -171,7 +191,13 @@ def test_the_page_makes_motions_and_goes_on_with_them(browser, tmp_path):
         assert page.locator("#no-motions").is_hidden()
         assert page.locator("#steps").is_hidden()
         page.set_input_files("#files", [str(path)])
+        page.wait_for_selector("#no-motions:visible")
         assert page.inner_text("#steps [aria-current]") == "Motions"
+        # Until then it is a project with a verdict of its own.
+        page.wait_for_selector("h1:has-text('Alameda Warehouse')")
+        at_rest(page)
+        assert page.inner_text("#verdict .tag") in ("OK", "NG", "OK with conditions")
+        assert page.locator("#tab-slide").is_hidden()
         held = []
         page.route("**/api/upload", lambda route: held.append(route))
         page.set_input_files("#files", [str(path)])

@@ -1,0 +1,156 @@
+"""The errors of a workbook with their rows, and its tables: fields that the page fills in.
+
+Read `problems`, then `tables`; `typed_cells` is what was typed into both.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from openpyxl.utils import coordinate_to_tuple
+from openpyxl.worksheet.worksheet import Worksheet
+
+from report.project.check.problem_lines import grouped, line_of, listed
+from report.project.model.placed import SIDES
+from report.project.read.archive import OpenBook, open_book
+from report.project.read.locate_table import find_table
+from report.project.read.positions import CellPosition, found_at
+from report.project.workbook import SECTIONS
+from report.project.workbook.sections import SheetSection
+from report.text.counts import cut
+from solver.model import InputError, Problem
+
+_MOST_COLUMNS, _BESIDE = 40, 2  # of a sheet that are read, and of those the ones around a cell
+
+
+def problems(path: Path, error: InputError) -> list[Mapping[str, Any]]:
+    """Return the problems of a workbook, each with the row of its first cell."""
+    try:
+        book = open_book(path)
+    except InputError:
+        book = None
+    return [_shown(path, book, equal) for equal in grouped(error.parts)]
+
+
+def _shown(path: Path, book: OpenBook | None, equal: Sequence[Problem]) -> Mapping[str, Any]:
+    first = equal[0]
+    sheet, _, at = first.where.rpartition("!")
+    cell = at if sheet else ""
+    return {
+        "file": path.name,
+        "text": line_of(equal),
+        "found": first.found if sheet or not at else f"{at}: {first.found}",
+        "remedy": first.remedy,
+        "sheet": sheet,
+        "cell": cell,
+        "cells": listed(each.where.removeprefix(f"{sheet}!") for each in equal) if sheet else "",
+        "row": _row(book, sheet, cell) if book and cell else None,
+    }
+
+
+def _row(book: OpenBook, title: str, cell: str) -> Mapping[str, Any] | None:
+    """Return the row of a cell as texts with the headings above them; none of headings alone."""
+    if title not in book.book.sheetnames:
+        return None
+    row, column = coordinate_to_tuple(cell)
+    header, columns = _headed(book, book.book[title], row, column)
+    if row == header:
+        return None
+    shown = [
+        number
+        for number in columns
+        if header or not found_at(book, CellPosition(title, row, number)).is_blank
+    ]
+    if column not in shown:
+        shown = sorted([*shown, column])
+    at = shown.index(column)
+    # The first column names the row.
+    shown = [one for k, one in enumerate(shown) if k == 0 or abs(k - at) <= _BESIDE]
+    return {
+        "number": row,
+        "heads": [_text(book, title, header, number) if header else "" for number in shown],
+        "cells": [_text(book, title, row, number) for number in shown],
+        "at": shown.index(column),
+    }
+
+
+def _headed(book: OpenBook, sheet: Worksheet, row: int, column: int) -> tuple[int, Sequence[int]]:
+    """Return the row of the headings above a cell or in it, 0 for none, and the columns to show."""
+    for section in (s for s in SECTIONS if s.is_table and s.sheet == sheet.title):
+        try:
+            table = find_table(book, section)
+        except InputError:
+            continue
+        numbers = sorted(c.number for c in table.columns.values())
+        if row in {table.heading.row, *table.rows} and numbers:
+            return table.heading.row, numbers[:_MOST_COLUMNS]
+    last = min(sheet.max_column, _MOST_COLUMNS)
+    return 0, range(1, max(last, column if column <= _MOST_COLUMNS else 1) + 1)
+
+
+def _text(book: OpenBook, title: str, row: int, column: int) -> str:
+    return cut(found_at(book, CellPosition(title, row, column)).shown)
+
+
+_TABLES = ("arrays", "objects", "clearances")
+_BLANK_ROWS = 2  # that a table has below those that are filled in
+_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.IGNORECASE)
+
+
+def tables(path: Path) -> list[Mapping[str, Any]]:
+    """Return the tables of the roof, with the rows that they have and two blank ones."""
+    with suppress(InputError):
+        book = open_book(path)
+        return [_table(book, section) for section in SECTIONS if section.key in _TABLES]
+    return []  # what cannot be read has its own error
+
+
+def _table(book: OpenBook, section: SheetSection) -> Mapping[str, Any]:
+    found = find_table(book, section)
+    title, shown = (
+        found.heading.sheet,
+        {
+            found.columns[entry.name].number: entry
+            for entry in section.entries
+            if entry.name in found.columns and (entry.is_expected or entry.name in SIDES)
+        },
+    )
+    texts = {row: [_text(book, title, row, number) for number in shown] for row in found.rows}
+    filled = [row for row, cells in texts.items() if any(cells)]
+    after = max([found.heading.row, *filled]) + 1
+    return {
+        "sheet": title,
+        "heads": [
+            {
+                "text": _text(book, title, found.heading.row, number),
+                "need": entry.needed,
+                "help": entry.note,
+                "choices": list(entry.choices),
+            }
+            for number, entry in shown.items()
+        ],
+        "rows": [
+            [
+                {"cell": CellPosition(title, row, number).cell, "text": text}
+                for number, text in zip(shown, texts.get(row, [""] * len(shown)), strict=True)
+            ]
+            for row in [*filled, *range(after, after + _BLANK_ROWS)]
+        ],
+    }
+
+
+def typed_cells(typed: Mapping[str, str]) -> Mapping[CellPosition, float | str | None]:
+    """Return what was typed by cell, such as `Site!B26`, as Excel would have it."""
+    return dict(_typed_cell(*each) for each in typed.items())
+
+
+def _typed_cell(address: str, text: str) -> tuple[CellPosition, float | str | None]:
+    title, _, cell = address.rpartition("!")
+    position = CellPosition(title, *coordinate_to_tuple(cell))
+    if not text.strip():
+        return position, None
+    return position, float(text) if _NUMBER.fullmatch(text.strip()) else text.strip()
