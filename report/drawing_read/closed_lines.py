@@ -9,7 +9,7 @@ import cmath
 import math
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import islice
+from itertools import chain, islice, product
 from typing import Any
 
 import numpy as np
@@ -64,7 +64,7 @@ def is_parallel(entity: Any) -> bool:
 
 
 def _are_numbers(rows: Iterable[Sequence[float]]) -> bool:
-    return all(abs(value) <= MAX_COORDINATE for row in rows for value in row)
+    return all(abs(value) <= MAX_COORDINATE for value in chain.from_iterable(rows))
 
 
 def _vertices(entity: Any, kind: str) -> list[tuple[float, float, float]]:
@@ -174,7 +174,7 @@ def join(lines: Sequence[Line], tolerance: float) -> tuple[list[Closed], Mapping
             drawn.setdefault((*sorted((start, end)), *middle), k)
         elif len(points) > 2:
             loops.append([(k, False)])
-    meeting = Counter(end for k in drawn.values() for end in ends[k])
+    meeting = Counter(chain.from_iterable(ends[k] for k in drawn.values()))
     # Where no more than two meet a chain has no choice, and all takes linear time.
     edges = [
         edgeminer.make_edge(*ends[k], payload=k)
@@ -183,18 +183,19 @@ def join(lines: Sequence[Line], tolerance: float) -> tuple[list[Closed], Mapping
     ]
     gap = 0.5 * tolerance
     deposit = edgeminer.Deposit(edges, gap_tol=gap) if edges else None
-    for chain in edgeminer.find_all_simple_chains(deposit) if deposit else ():
-        if len(chain) > 1 and edgeminer.is_loop(chain, gap_tol=gap):
-            loop = [(edge.payload, edge.is_reverse) for edge in chain]
+    for edges_of_chain in edgeminer.find_all_simple_chains(deposit) if deposit else ():
+        if len(edges_of_chain) > 1 and edgeminer.is_loop(edges_of_chain, gap_tol=gap):
+            loop = [(edge.payload, edge.is_reverse) for edge in edges_of_chain]
             first = loop.index(min(loop))
             loops.append([*loop[first:], *loop[:first]])
     # Lines that are drawn twice count once.
-    left = set(range(len(lines))) - {k for loop in loops for k, _ in loop}
-    left -= ends.keys() - set(drawn.values())
-    return [_closed(lines, loop) for loop in sorted(loops)], {
-        k: BRANCHED if any(meeting[end] > 2 for end in ends.get(k, ())) else OPEN
-        for k in sorted(left)
-    }
+    unused = set(range(len(lines))) - {k for k, _ in chain.from_iterable(loops)}
+    unused -= ends.keys() - set(drawn.values())
+    reasons = {}
+    for k in sorted(unused):
+        is_branched = any(meeting[end] > 2 for end in ends.get(k, ()))
+        reasons[k] = BRANCHED if is_branched else OPEN
+    return [_closed(lines, loop) for loop in sorted(loops)], reasons
 
 
 def _snapped(at: Point, cells: dict[Point, list[Point]], tolerance: float) -> Point:
@@ -202,18 +203,21 @@ def _snapped(at: Point, cells: dict[Point, list[Point]], tolerance: float) -> Po
     # Two that stand for others are farther apart: so ends that meet one meet each other, and a
     # chain cannot lead around without end.
     column, row = (math.floor(value / tolerance) for value in at)
-    for i, j in ((i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)):
-        for other in cells.get((column + i, row + j), ()):
-            if math.dist(at, other) <= tolerance:
-                return other
+    for i, j in product((-1, 0, 1), repeat=2):
+        for end in cells.get((column + i, row + j), ()):
+            if math.dist(at, end) <= tolerance:
+                return end
     cells[column, row].append(at)
     return at
 
 
 def _closed(lines: Sequence[Line], loop: Sequence[tuple[int, bool]]) -> Closed:
     """Return a chain as a closed line; of the two ends at a corner, the one that begins a line."""
-    parts = [lines[k][::-1] if is_reversed else lines[k] for k, is_reversed in loop]
-    return [point for part in parts for point in part[:-1]], [k for k, _ in loop]
+    points: list[Point] = []
+    for k, is_reversed in loop:
+        line = lines[k][::-1] if is_reversed else lines[k]
+        points += line[:-1]
+    return points, [k for k, _ in loop]
 
 
 MAX_BOUNDARIES = 500
@@ -292,7 +296,7 @@ def faces(entity: Any) -> list[Any] | str:
         rings = list(shown.mesh.faces_as_vertices())
     if sum(map(len, rings)) > 4 * MAX_POINTS:
         return f"a {kind} of more than {4 * MAX_POINTS} points"
-    if any(not abs(value) <= MAX_COORDINATE for ring in rings for p in ring for value in p):
+    if not _are_numbers(chain.from_iterable(rings)):
         return f"a {kind} with a value that is no number up to {MAX_COORDINATE:g}"
     return polygons([(float(p[0]), float(p[1])) for p in ring] for ring in rings)
 

@@ -130,7 +130,9 @@ def _arrays(
     small = [k for k, line in enumerate(lines) if line.shape.area_m2 <= SIDES_M[1] ** 2]
     middles = np.array([complex(*mean(lines[k].shape.points)) for k in small])
     groups = list(_parallel(lines, turned_deg))
-    modules = {k for at, *_ in groups for k in at}
+    modules: set[int] = set()
+    for at, *_ in groups:
+        modules.update(at)
     for at, sizes, boxes, turn, step in groups:
         row = {k: n for n, k in enumerate(at)}
         within_m = ALIKE_M + _PLACE_STEPS * step

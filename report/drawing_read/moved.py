@@ -9,6 +9,7 @@ import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain, starmap
 
 import numpy as np
 
@@ -89,8 +90,9 @@ def whole_move(
         tried = [move for move in of_roof if move.factor == 1.0]
     else:
         # Where the roof is another, rows of the same name tell.
-        every = (*of_roof, *(move for pair in named for move in _fits(*pair)))
-        tried = [Move(), *(move for move in every if not move.is_mirrored)]
+        of_rows = chain.from_iterable(starmap(_fits, named))
+        fits = (*of_roof, *of_rows)
+        tried = [Move(), *(move for move in fits if not move.is_mirrored)]
     counts = {move: _agreeing(move, rows, drawn) for move in tried[:_MOST_TRIED]}
 
     def likely(move: Move) -> tuple[int, bool]:

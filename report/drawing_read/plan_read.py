@@ -10,7 +10,6 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import zip_longest
 
 from report.assessment.plan.bare_edges import EDGE_STRIP_M, bare_sides
 from report.drawing.items import Layer
@@ -50,10 +49,11 @@ _FORMER = (
 )  # fmt: skip
 # What is drawn on the layers of the plan that `report` writes.
 LAYERS: Mapping[str, LayerKind] = {
-    name: _READ.get(layer, LayerKind.NOT_READ)
-    for layer, former in zip_longest(Layer, _FORMER)
-    for name in (layer.title, former)
-    if name
+    **{layer.title: _READ.get(layer, LayerKind.NOT_READ) for layer in Layer if layer.title},
+    **{
+        former: _READ.get(layer, LayerKind.NOT_READ)
+        for layer, former in zip(Layer, _FORMER, strict=False)
+    },
 }
 
 MAX_NAME = 40
@@ -304,7 +304,9 @@ def _height_m(
     us_first: bool,
 ) -> float:
     """Return the height [m] that is written at an object, NaN for none, and note how it is read."""
-    lines = [each for text in _by_layer(line, words) for each in (text.text, *text.others)]
+    lines: list[str] = []
+    for text in _by_layer(line, words):
+        lines += (text.text, *text.others)
     height, unclear = first_height((*line.heights, *lines), unit_m)
     if unclear:
         unread.append(_unread(line, "a height that is not understood", f"'{unclear[:MAX_NAME]}'"))

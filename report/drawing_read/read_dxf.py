@@ -390,7 +390,8 @@ def _lines(entity: Any) -> list[str]:
         texts = plain_mtext(_STACKED.sub(_fraction, entity.text), split=True)
     else:
         texts = [entity.plain_text() if entity.dxftype() == "TEXT" else entity.dxf.text]
-    return [words for text in texts if (words := " ".join(_printable(text).split()))]
+    lines = (" ".join(_printable(text).split()) for text in texts)
+    return [line for line in lines if line]
 
 
 def _fraction(code: re.Match[str]) -> str:

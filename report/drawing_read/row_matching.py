@@ -9,6 +9,7 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import product
 
 from report.drawing_read.moved import SAME_M, Move, whole_move
 from report.drawing_read.plan_read import free_name
@@ -50,11 +51,11 @@ def matched(plan: RoofPlan, inputs: Inputs) -> RoofPlan:
     unit = Quantity.PLAN.us if us_first(inputs) else Quantity.PLAN.si
     drawn = (*plan.arrays, *plan.objects)
     by_name = {(groups.get(name, _ARRAY), name.casefold()): name for name in was}
-    by_row = {
-        number: by_name[key]
-        for number, place in enumerate(drawn)
-        if (key := (_group(place.kind), place.name.casefold())) in by_name and not place.unnamed
-    }
+    by_row: dict[int, str] = {}
+    for number, place in enumerate(drawn):
+        key = (_group(place.kind), place.name.casefold())
+        if key in by_name and not place.unnamed:
+            by_row[number] = by_name[key]
     # Of a row whose name is not in the drawing only its group is known. Edges follow the roof.
     keyed = [
         (name if name in by_row.values() else groups.get(name, _ARRAY), shape)
@@ -85,14 +86,16 @@ def matched(plan: RoofPlan, inputs: Inputs) -> RoofPlan:
         is_edge = group == _EDGE
         # By what they cover together first: a center alone may be nearer to a neighbor.
         for score in (_common, _near if is_edge else _same_sized) if move else ():
-            pairs = {
-                (k, name): value
-                for k in numbers
-                for name in names
-                if k not in by_row and name not in by_row.values()
-                if (value := score(drawn[k], before[name])) > 0.0
-                if not is_edge or (ways_before[name] * ways[k].conjugate()).real > _SAME_WAY
-            }
+            pairs: dict[tuple[int, str], float] = {}
+            for k, name in product(numbers, names):
+                if k in by_row or name in by_row.values():
+                    continue
+                value = score(drawn[k], before[name])
+                is_same_way = (
+                    not is_edge or (ways_before[name] * ways[k].conjugate()).real > _SAME_WAY
+                )
+                if value > 0.0 and is_same_way:
+                    pairs[k, name] = value
             unclear += _tell(pairs, drawn, by_row, unit)
         left = [name for name in names if name not in by_row.values() and _is_drawn(rows[name])]
         new = [k for k in numbers if k not in by_row and drawn[k].unnamed and drawn[k].handle]

@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable, Set
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -36,10 +37,11 @@ MAX_TOLD = 5
 def heading_on(book: OpenBook, title: str, header: str) -> CellPosition:
     """Return the cell of a heading on a sheet; raises `InputError` if it is not there, or twice."""
     extent, sheet = book.extent(title), book.book[title]
+    rows = range(1, min(HEADING_ROWS, extent.last_row) + 1)
+    columns = range(1, min(MAX_COLUMNS, extent.last_column) + 1)
     spots = [
         CellPosition(title, row, column)
-        for row in range(1, min(HEADING_ROWS, extent.last_row) + 1)
-        for column in range(1, min(MAX_COLUMNS, extent.last_column) + 1)
+        for row, column in product(rows, columns)
         if str(sheet.cell(row, column).value or "").strip().casefold() == header.casefold()
     ]
     if not spots:

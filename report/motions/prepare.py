@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
@@ -26,6 +27,8 @@ from solver.model import Floats, Motion
 
 # Largest difference of two samples / peak where records are the same: above that of rounding.
 ALIKE = 1e-3
+
+_Key = tuple[int, int]  # number of samples, and index of the largest one
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,27 +55,35 @@ def repeated(
     `by_motion` is by row, without the motions that could not be read; `where` returns the address
     of a place.
     """
-    seen: dict[tuple[int, int], list[_Horizontal]] = {}
+    seen: dict[_Key, list[_Horizontal]] = {}
     for index, components in by_motion.items():
         records = list(_horizontal_records(index, rows[index], components))
-        pairs = (
-            (new, old) for key, new in records for old in seen.get(key, ()) if new.repeats(old)
-        )
-        new, old = next(pairs, (None, None))
-        if new is not None and old is not None:
+        if repetition := _repetition(records, seen):
+            record, earlier = repetition
             text = (
-                f"{LABELS[new.place.field]} record repeats the {LABELS[old.place.field]} record at "
-                f"{where(old.place)} (equal samples, apart from scale and sign): {new.row['id']} "
-                f"is {old.row['id']} again"
+                f"{LABELS[record.place.field]} record repeats the {LABELS[earlier.place.field]}"
+                f" record at {where(earlier.place)} (equal samples, apart from scale and sign):"
+                f" {record.row['id']} is {earlier.row['id']} again"
             )
-            yield Finding.error(new.place, text, "give each motion once")
-        for key, item in records:
-            seen.setdefault(key, []).append(item)
+            yield Finding.error(record.place, text, "give each motion once")
+        for key, record in records:
+            seen.setdefault(key, []).append(record)
+
+
+def _repetition(
+    records: Sequence[tuple[_Key, _Horizontal]], seen: Mapping[_Key, Sequence[_Horizontal]]
+) -> tuple[_Horizontal, _Horizontal] | None:
+    """Return the first record that is one of the earlier ones again, with that one."""
+    for key, record in records:
+        for earlier in seen.get(key, ()):
+            if record.repeats(earlier):
+                return record, earlier
+    return None
 
 
 def _horizontal_records(
     index: int, row: InputRow, components: Components
-) -> Iterator[tuple[tuple[int, int], _Horizontal]]:
+) -> Iterator[tuple[_Key, _Horizontal]]:
     """Yield the horizontal records of a motion that are not all zeros, each with a key."""
     # Records that are the same have the same key: few others are then to be compared.
     for field in HORIZONTAL:
@@ -189,7 +200,7 @@ def shaking(sheet: Sheet, by_motion: Sequence[Components]) -> Shaking:
     return Shaking(
         motions=motions,
         prepared=tuple(prepared for _, prepared in shaken),
-        records=tuple(file for components in by_motion for file in components.files),
+        records=tuple(chain.from_iterable(components.files for components in by_motion)),
     )
 
 

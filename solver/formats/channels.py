@@ -325,11 +325,8 @@ def recorder_notes(source: Source, samples: int) -> tuple[str, ...]:
 
     It is no error: a file may hold one channel of a recorder.
     """
-    stated = [
-        (int(match[1]), index)
-        for index, line in enumerate(source.lines)
-        if (match := _OF_RECORDER.search(line))
-    ]
+    matches = enumerate(map(_OF_RECORDER.search, source.lines))
+    stated = [(int(match[1]), index) for index, match in matches if match]
     most, index = max(stated, default=(0, 0))
     if most <= samples:
         return ()

@@ -13,7 +13,7 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice
+from itertools import chain, islice
 
 from solver.formats import phrases
 from solver.formats.numbers import DECIMAL_COMMA, NUMBER
@@ -89,7 +89,9 @@ class Layout:
     def scale(self, column: int) -> float:
         """Value [m/s2] of a column's unit: from its heading, the text above, or the caller."""
         if not self.headings or not self.headings[column].unit:
-            stated = [(unit, i) for i, line in self.remarks for unit in phrases.units_in(line)]
+            stated: list[tuple[str, int]] = []
+            for index, line in self.remarks:
+                stated += [(unit, index) for unit in phrases.units_in(line)]
             return self.source.stated_scale(stated)
         heading, units = self.headings[column], self.source.units
         size = unit_size(heading.unit)
@@ -214,8 +216,8 @@ def plain_lines(lines: Sequence[str]) -> list[str]:
         separator, plain[first] = match[1], ""
     near = list(islice((line for line in plain if _is_row(line)), _SEEN))
     if any('"' in line for line in near):
-        marks = (match[1] for line in near for match in _QUOTED.finditer(line) if match[1])
-        mark = separator or next(marks, ",")
+        marks = chain.from_iterable(map(_QUOTED.findall, near))  # behind each quoted field
+        mark = separator or next(filter(None, marks), ",")
         plain = [_unquoted(line, mark) if _is_row(line) else line for line in plain]
     elif separator == "|":
         plain = [line.replace("|", ";") if _is_row(line) else line for line in plain]
@@ -266,9 +268,10 @@ def _without_units_row(lines: list[str]) -> list[str]:
     if not is_units or len(names) != len(units) or any(map(NUMBER.fullmatch, units)):
         return lines
     pairs = zip(names, units, strict=True)
-    said = [
-        f"{name.strip()} [{plain}]" if (plain := u.strip(" []()")) else name for name, u in pairs
-    ]
+    said = []
+    for name, unit in pairs:
+        plain = unit.strip(" []()")
+        said.append(f"{name.strip()} [{plain}]" if plain else name)
     return [*lines[: rows[0]], (mark or " ").join(said), *lines[rows[0] + 1 : rows[1]], "",
             *lines[rows[1] + 1 :]]  # fmt: skip
 
@@ -291,7 +294,7 @@ def _without_decimal_commas(lines: list[str]) -> list[str]:
     near = [lines[i] for i in _rows(lines)]
     mark = ";" if any(";" in line for line in near) else "\t"
     body = [line for line in near if mark in line and line.lstrip()[:1] in "+-.0123456789"]
-    fields = [field.strip() for line in body for field in line.split(mark)]
+    fields = [field.strip() for field in mark.join(body).split(mark)]
     commas = [field for field in fields if "," in field]
     if (
         not commas

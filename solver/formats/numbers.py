@@ -12,6 +12,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import chain
 from typing import TypeVar
 
 import numpy as np
@@ -94,7 +95,7 @@ def fixed_values(source: Source, block: Block, layout: FieldFormat) -> Floats:
         numbers.pop()
     # Looked for only where something is wrong: a sound file is read at once.
     problems = partial(_fixed_problems, source, block, numbers, layout)
-    values = _values(numbers, lambda row: _cut(row, layout), problems())
+    values = _values(numbers, partial(_cut, layout=layout), problems())
     if len(values) != block.count or any(layout.fields(r) != layout.per_line for r in numbers[:-1]):
         raise_any(problems())
     _check_no_more(source, block, last)
@@ -108,7 +109,7 @@ def fixed_rows(source: Source, block: Block, layout: FieldFormat) -> Floats:
     Ignores `block.count`.
     """
     rows = [line.rstrip() for line in source.lines[block.first : block.stop]]
-    return _row_by_row(source, block, rows, lambda row: _cut(row, layout))
+    return _row_by_row(source, block, rows, partial(_cut, layout=layout))
 
 
 def free_values(source: Source, block: Block) -> Floats:
@@ -170,11 +171,10 @@ def _digits(field: str) -> tuple[int, int]:
 
 def header_values(source: Source, first: int, count: int, layout: FieldFormat) -> list[Stated]:
     """Values of a header; NaN if a field is blank, missing or not a number: many are unused."""
-    values = [
-        printed(field.translate(_FORTRAN), first + row)
-        for row in range(layout.lines(count))
-        for field in _cut(source.line(first + row)[: layout.whole].ljust(layout.whole), layout)
-    ]
+    values: list[Stated] = []
+    for index in range(first, first + layout.lines(count)):
+        fields = _cut(source.line(index)[: layout.whole].ljust(layout.whole), layout)
+        values += [printed(field.translate(_FORTRAN), index) for field in fields]
     return values[:count]
 
 
@@ -202,7 +202,7 @@ def dated_table(source: Source, rows: Sequence[tuple[int, list[str]]], width: in
         for index, fields in rows
         if len(fields) != width
     )
-    raise_any(problem for i, fields in rows for problem in field_problems(source, i, fields[1:]))
+    raise_any(row_problems(source, ((index, fields[1:]) for index, fields in rows)))
     return np.array([[number_in(field) for field in fields[1:]] for _, fields in rows])
 
 
@@ -270,12 +270,8 @@ def _fixed_problems(
 def _row_by_row(
     source: Source, block: Block, rows: Sequence[str], split: Callable[[str], list[str]]
 ) -> Floats:
-    problems = (
-        problem
-        for number, row in enumerate(rows)
-        for problem in field_problems(source, block.first + number, split(row))
-    )
-    return _values(rows, split, problems)
+    fields = ((index, split(row)) for index, row in enumerate(rows, block.first))
+    return _values(rows, split, row_problems(source, fields))
 
 
 def _values(
@@ -283,7 +279,7 @@ def _values(
 ) -> Floats:
     """Values of the fields of rows; the problems are looked for where one may be no number."""
     try:
-        fields = (field for row in rows for field in split(row.translate(_FORTRAN)))
+        fields = chain.from_iterable(split(row.translate(_FORTRAN)) for row in rows)
         values = np.fromiter(map(float, fields), np.float64)
     except ValueError:
         values = np.array([math.nan])
@@ -301,6 +297,12 @@ def field_problems(source: Source, index: int, fields: Iterable[str]) -> Iterato
     """Errors of the fields of the line at an index that are no numbers."""
     problems = (_problem(field.strip()) for field in fields)
     return (f"{source.at(index)}: {problem}" for problem in problems if problem)
+
+
+def row_problems(source: Source, rows: Iterable[tuple[int, Sequence[str]]]) -> Iterator[str]:
+    """Errors of the fields of rows, each with the index of its line."""
+    for index, fields in rows:
+        yield from field_problems(source, index, fields)
 
 
 def _cut_lines(

@@ -10,7 +10,7 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from itertools import islice
+from itertools import chain, islice
 
 import numpy as np
 
@@ -18,7 +18,14 @@ from solver.formats import phrases
 from solver.formats.channels import MotionFile, motion_file
 from solver.formats.columns import SIDE_BY_SIDE, magnitudes, pairs, remedy, rising
 from solver.formats.headings import Layout, content_of, laid_out
-from solver.formats.numbers import COMPARED, DECIMAL_COMMA, field_problems, is_cut_short, number_in
+from solver.formats.numbers import (
+    COMPARED,
+    DECIMAL_COMMA,
+    field_problems,
+    is_cut_short,
+    number_in,
+    row_problems,
+)
 from solver.formats.phrases import Kind
 from solver.formats.source import Source, likely_text
 from solver.formats.times import Even, is_even, sampled
@@ -84,8 +91,8 @@ def read(source: Source) -> MotionFile:
             " samples are missing"
         )
     file = motion_file(source, "text", channels, notes)
-    holds = [hold for _, line in layout.remarks if (hold := _HOLD.search(line))]
-    return replace(file, hold_s=float(holds[0][1])) if holds else file
+    hold = next(filter(None, (_HOLD.search(line) for _, line in layout.remarks)), None)
+    return replace(file, hold_s=float(hold[1])) if hold else file
 
 
 def _table(layout: Layout) -> Floats:
@@ -183,8 +190,8 @@ def _across(layout: Layout, due: int) -> Floats:
         for index, fields in rows
         if len(fields) > due or (len(fields) < due and index != rows[-1][0])
     )
-    raise_any(problem for i, fields in rows for problem in field_problems(source, i, fields))
-    values = np.array([number_in(field) for _, fields in rows for field in fields])
+    raise_any(row_problems(source, rows))
+    values = np.array([*map(number_in, chain.from_iterable(fields for _, fields in rows))])
     if (paired := pairs(values, due)) is not None:
         return paired
     table = values[: values.size // due * due].reshape(-1, due)

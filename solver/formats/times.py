@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from itertools import product
 
 import numpy as np
 
@@ -138,8 +139,10 @@ def _resampled(source: Source, t_s: Floats, columns: Floats, line_of: Callable[[
     usual, length = float(f"{np.median(steps):.9g}"), float(t_s[-1] - t_s[0])
     best = None
     power = math.floor(math.log10(usual))
-    candidates = (float(f"{m}e{k}") for k in range(power, power - 4, -1) for m in (5, 2, 1))
-    for step in (step for step in candidates if usual / _FINEST <= step <= usual):
+    for k, m in product(range(power, power - 4, -1), (5, 2, 1)):
+        step = float(f"{m}e{k}")
+        if not usual / _FINEST <= step <= usual:
+            continue
         # A short typical step over a long time would ask for more samples than memory holds.
         if len(columns) * length / step > MAX_SAMPLES:
             break

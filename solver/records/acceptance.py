@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import combinations
+from itertools import combinations, product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -103,15 +103,12 @@ def spectrum_ratios(
     """Return the spectra of all components as run over their targets: of x and y, and of z."""
     targets = zip(COMPONENTS, (horizontal, horizontal, vertical), strict=True)
     goals = {name: np.asarray(target(POINTS_HZ)) for name, target in targets}
-    return tuple(
-        SpectrumRatio(
-            motion=motion.id,
-            component=name,
-            ratio=np.abs(motion.scaled(spectrum / UNITS["g"])) / goals[name],
-        )
-        for motion, spectra in zip(motions, spectra_of(motions), strict=True)
-        for name, spectrum in zip(motion.components, spectra, strict=True)
-    )
+    ratios: list[SpectrumRatio] = []
+    for motion, spectra in zip(motions, spectra_of(motions), strict=True):
+        for name, spectrum in zip(motion.components, spectra, strict=True):
+            ratio = np.abs(motion.scaled(spectrum / UNITS["g"])) / goals[name]
+            ratios.append(SpectrumRatio(motion=motion.id, component=name, ratio=ratio))
+    return tuple(ratios)
 
 
 def one_by_one(motions: Sequence[Motion]) -> Sequence[Sequence[Floats]]:
@@ -143,11 +140,13 @@ def spectrum_rows(ratios: Sequence[SpectrumRatio]) -> Iterator[Limit]:
         yield _least(title, rows, _IS_AC156)
         title = f"Neighboring 1/6-octave points below 1.00 of the target, {band}"
         sets = _sets(_IS_AC156)
-        yield _most(title, MOST_IN_A_ROW, [each.longest_dip(s) for each in rows for s in sets])
+        dips = [row.longest_dip(points) for row, points in product(rows, sets)]
+        yield _most(title, MOST_IN_A_ROW, dips)
     for points, band in ((_IS_SLOW, "1.3 to 8.3 Hz"), (_IS_FAST, "8.3 to 33.3 Hz")):
         if rows := _compared(ratios, points):
             title = f"1/6-octave points below 1.00 of the target, {band}{_extent(rows, points)}"
-            yield _most(title, MOST_DIPS, [each.dips(s) for each in rows for s in _sets(points)])
+            dips = [row.dips(which) for row, which in product(rows, _sets(points))]
+            yield _most(title, MOST_DIPS, dips)
     if rows := _compared(ratios, _IS_SLIDING):
         band = f"0.1 to 1.3 Hz{_extent(rows, _IS_SLIDING)}"
         title = f"Spectrum / target at {N_SLIDING} points, {band}, each component"
@@ -330,12 +329,11 @@ def _strong_rows(strengths: Sequence[MotionStrength]) -> Iterator[Limit]:
     if holds:
         title = "Strong motion of generated motions: hold of the envelope"
         yield _strong_row(title, holds, Consequence.NG)
-    durations = [
-        (measured.d5_95_s, f"{motion.id} {name}")
-        for motion in strengths
-        if not motion.is_generated
-        for name, measured in motion.strengths.items()
-    ]
+    durations: list[tuple[float, str]] = []
+    for motion in strengths:
+        if not motion.is_generated:
+            measured = motion.strengths.items()
+            durations += [(each.d5_95_s, f"{motion.id} {name}") for name, each in measured]
     if durations:
         title = "Strong motion of records: D5-95 of each component"
         yield _strong_row(title, durations, Consequence.CONDITION)
@@ -357,12 +355,11 @@ def _strong_row(
 
 
 def _correlation_row(strengths: Sequence[MotionStrength]) -> Iterator[Limit]:
-    pairs = [
-        (abs(value), f"{motion.id} {pair}")
-        for motion in strengths
-        if motion.is_generated
-        for pair, value in motion.correlations.items()
-    ]
+    pairs: list[tuple[float, str]] = []
+    for motion in strengths:
+        if motion.is_generated:
+            correlations = motion.correlations.items()
+            pairs += [(abs(value), f"{motion.id} {pair}") for pair, value in correlations]
     if pairs:
         value, worst = max(pairs)
         yield Limit(

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from functools import cached_property, partial
+from itertools import product
 
 from solver.forces import components, friction_demand
 from solver.kernels import cross_slope as kernel
@@ -269,9 +270,8 @@ def _left_out(chosen: SlideResult, *fuller: SlideResult) -> float:
     # paths. So are residuals, which cumulative displacement adds up.
     effects = [
         abs(getattr(result, name) - getattr(chosen, name)) + result.error_m
-        for result in fuller
+        for result, name in product(fuller, _LENGTHS)
         if result is not chosen
-        for name in _LENGTHS
     ]
     return math.inf if any(map(math.isnan, effects)) else max(effects, default=0.0)
 

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from itertools import product
+from itertools import chain, product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -265,7 +265,7 @@ def _swept(
         )
         for each in given
     ]
-    raise_any([fault for scene in largest for fault in overflow(scene)])
+    raise_any(chain.from_iterable(map(overflow, largest)))
     count = len(given) * math.prod(axis.size for axis in axes)
     in_plane = any(each.ay.size for each in given)
     # To start the threads takes as long as some 200 runs in one axis.

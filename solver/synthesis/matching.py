@@ -194,7 +194,8 @@ def _quiet(from_start: Floats, lowest_cycles: float) -> Floats:
     waves = range(1, math.floor(0.7 * lowest_cycles) + 1)
     turns = [2.0 * math.pi * k * from_start for k in waves]
     shapes = [np.ones_like(from_start), 2.0 * from_start - 1.0]
-    shapes += [shape for turn in turns for shape in (np.cos(turn), np.sin(turn))]
+    for turn in turns:
+        shapes += (np.cos(turn), np.sin(turn))
     return np.array(shapes) / math.sqrt(len(from_start))
 
 

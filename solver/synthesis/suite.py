@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import chain, combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -363,7 +363,7 @@ def _check_records(records: Sequence[Sequence[Record]], dt_s: float, duration_s:
         for k, group in enumerate(records, start=1)
         if not 1 <= len(group) <= 3
     ]
-    for record in (record for group in records for record in group):
+    for record in chain.from_iterable(records):
         found_s = record.dt_s * (len(record.a_mps2) - 1)
         if found_s < _SHORTEST_SHARE * duration_s:
             least = f"{_SHORTEST_SHARE * duration_s:g} s"

@@ -109,9 +109,9 @@ def _descend(
     """Step to the best of the neighbors on each axis; halve the steps where none is better."""
     reach = np.array([_PERIOD_STEP / 2.0, 0.4, 0.4])
     while reach[0] > _LAST_STEP:
-        around: list[_Point] = [
-            tuple(best + sign * move) for move in np.diag(reach) for sign in (1.0, -1.0)
-        ]
+        around: list[_Point] = []
+        for move in np.diag(reach):
+            around += (tuple(best + move), tuple(best - move))
         nearby, point = best_of(misfit, around)
         if nearby < minimum:
             minimum, best = nearby, point

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Sequence
+from itertools import chain, product
 
 from solver.model import Motion
 from solver.records.record import Record
@@ -57,7 +58,7 @@ def verify(
     progress("Generating the project's records")
     records = own_records(quick)
     progress("Checks: closed forms, 50-digit arithmetic, physical checks of the paper")
-    roof = [block for record in records for block in checks.roof_blocks(record)]
+    roof = list(chain.from_iterable(map(checks.roof_blocks, records)))
     rows = list(_rows(records[0], roof))
     rivals = checks.rival_errors({checks.RANDOM: [*checks.random_blocks()], checks.ROOF: roof})
     rows += checks.claims(rivals)
@@ -81,8 +82,7 @@ def verify(
     progress("The paper's comparison with a link model (Figs. 6 to 9)")
     links = tuple(
         paper_studies.link_comparison(record, slope_deg)
-        for record in records
-        for slope_deg in paper_studies.LINK_MUS
+        for record, slope_deg in product(records, paper_studies.LINK_MUS)
     )
     progress("The paper's design curves (Figs. 10 to 12)")
     curves = tuple(paper_studies.design_curves(record) for record in records)

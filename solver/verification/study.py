@@ -13,6 +13,7 @@ import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
+from itertools import product
 from pathlib import Path
 from typing import NamedTuple, TypeVar
 
@@ -235,9 +236,7 @@ def scenes_of(
     """Return every case of every motion, with all components and one friction coefficient."""
     return [
         scene_of(triple, case, coulomb(case.mu), orientation)
-        for triple in triples
-        for orientation in orientations
-        for case in cases
+        for triple, orientation, case in product(triples, orientations, cases)
     ]
 
 

@@ -61,20 +61,20 @@ def work_points(runs: Iterable[tuple[Record, Case]], *, quick: bool) -> pd.DataF
         without one. Errors are against the exact method, see `percent_off`; a failed run has no
         time and no errors, which are NaN.
     """
-    return pd.DataFrame(
-        {
-            "method": method.name,
-            "setting": value,
-            "parameters": " ".join(f"{k}={v:g}" for k, v in parameters.items()),
-            "record": record.name,
-            "case": str(case),
-            **_measured(record, case, method, parameters, exact),
-        }
-        for record, case in runs
-        for exact in [run(record, case)]
-        for method in runnable_methods()
-        for value, parameters in settings(method, record, quick=quick)
-    )
+    rows = []
+    for record, case in runs:
+        exact = run(record, case)
+        for method in runnable_methods():
+            for value, parameters in settings(method, record, quick=quick):
+                row = {
+                    "method": method.name,
+                    "setting": value,
+                    "parameters": " ".join(f"{k}={v:g}" for k, v in parameters.items()),
+                    "record": record.name,
+                    "case": str(case),
+                }
+                rows.append(row | _measured(record, case, method, parameters, exact))
+    return pd.DataFrame(rows)
 
 
 def settings(

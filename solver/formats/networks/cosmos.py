@@ -12,6 +12,7 @@ import re
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 from solver.formats import channels
 from solver.formats.channels import MotionFile
@@ -89,7 +90,7 @@ def read(source: Source) -> MotionFile:
     series = _parts(source)
     raise_any(_heading_problems(source, series))
     parts = [part for part in series if "ACCEL" in part.line[2].upper()]
-    read = each(lambda part: _channel(source, part), parts)
+    read = each(partial(_channel, source), parts)
     notes = channels.recorder_notes(source, len({part.first for part in series}))
     return channels.motion_file(source, "COSMOS V1.20", read, notes)
 
@@ -97,7 +98,8 @@ def read(source: Source) -> MotionFile:
 def _parts(source: Source) -> list[_Part]:
     """All series: several may follow one heading, or each may have its own."""
     headings = [i for i, line in enumerate(source.lines) if _FIRST.match(line)]
-    lines = [(i, match) for i, line in enumerate(source.lines) if (match := _DATA.match(line))]
+    matches = enumerate(map(_DATA.match, source.lines))
+    lines = [(index, match) for index, match in matches if match]
     channels.check_number(source, len(lines))
     # A series ends at the next heading, at the next line of data, or at the end of the file.
     borders = sorted([*headings, *(i for i, _ in lines), len(source.lines)])
@@ -122,12 +124,11 @@ def _heading_problems(source: Source, series: Sequence[_Part]) -> Iterator[str]:
                 " values; give the whole file"
             )
     for part in {part.first: part for part in reversed(series)}.values():
-        starts = [
-            (index, int(match[group]), what)
-            for index in range(part.first, part.at)
-            for pattern, group, what in _BLOCKS
-            if (match := pattern.search(source.lines[index]))
-        ]
+        starts: list[tuple[int, int, str]] = []
+        for index in range(part.first, part.at):
+            for pattern, group, what in _BLOCKS:
+                if match := pattern.search(source.lines[index]):
+                    starts.append((index, int(match[group]), what))
         # `_reals` refuses a heading without them.
         if all(what != _REAL_NUMBERS for _, _, what in starts):
             continue

@@ -12,6 +12,9 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
 
 from solver.formats import channels
 from solver.formats.channels import MotionFile
@@ -111,7 +114,7 @@ def read(source: Source) -> MotionFile:
     if name == "BHRC":
         channels.check_components(source, parts)
     form = f"{name} V{1 if volume is _ONE else 2}"
-    read = each(lambda part: _channel(source, part, volume), parts)
+    read = each(partial(_channel, source, volume=volume), parts)
     return channels.motion_file(source, form, read, channels.recorder_notes(source, len(parts)))
 
 
@@ -166,9 +169,9 @@ def _values_of_one(source: Source, part: range) -> Record:
     pairs = fixed_values(source, block, _PAIRS).reshape(-1, 2)
     if len(pairs) < 2:
         raise InputError(f"{source.at(points[0])}: found {len(pairs)} points; give at least 2")
-    per_line = _PAIRS.per_line // 2
     times, columns = pairs[:, 0], pairs[:, 1:].T
-    dt_s, columns, notes = sampled(source, times, columns, lambda i: first + i // per_line)
+    line_of = (first + np.arange(len(times)) // (_PAIRS.per_line // 2)).tolist().__getitem__
+    dt_s, columns, notes = sampled(source, times, columns, line_of)
     length = _real(source, part, _ONE, _ONE.length)
     channels.check_length(source, length, float(times[-1]), dt_s)
     return Record(name="", dt_s=dt_s, a_mps2=columns[0] * scale, notes=(*notes, *ended))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import partial
 
 from solver.formats import channels
 from solver.formats.channels import MotionFile
@@ -54,7 +55,7 @@ def read(source: Source) -> MotionFile:
     parts = channels.parts_of(source, _FIRST)
     channels.check_components(source, parts)
     is_raw = source.line(0).strip().upper().startswith("UN")
-    read = each(lambda part: _component(source, part, is_raw), parts)
+    read = each(partial(_component, source, is_raw=is_raw), parts)
     return channels.motion_file(source, "GeoNet V1A" if is_raw else "GeoNet V2A", read)
 
 

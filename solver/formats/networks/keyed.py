@@ -11,6 +11,7 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
@@ -94,7 +95,7 @@ def recognizes(source: Source) -> bool:
     heading = _heading(source)
     if heading.first == len(source.lines) or math.isnan(heading.step.value):
         return False
-    lines = [source.lines[i] for entries in heading.entries.values() for *_, i in entries]
+    lines = [source.lines[i] for *_, i in chain.from_iterable(heading.entries.values())]
     # A table below comments alone is text, unless they name its columns.
     is_text = all(line.startswith("#") for line in lines) and len(_words(heading)) < 2
     return len(lines) >= _FEWEST and not heading.entries.keys().isdisjoint(_NEEDED) and not is_text
@@ -117,7 +118,7 @@ def read(source: Source) -> MotionFile:
     later = (i for i in range(first, len(source.lines)) if source.lines[i].startswith("->"))
     columns = _columns(source, heading, next(later, len(source.lines)), len(names))
     if len(names) > 1 and phrases.parse(names[0]).kind is phrases.Kind.TIME:
-        even_s, columns, _ = sampled(source, columns[0], columns[1:], lambda row: first + row)
+        even_s, columns, _ = sampled(source, columns[0], columns[1:], first.__add__)
         even = Stated(value=even_s, rounding=1e-4 * even_s, index=first)
         check_steps(source, heading.step, even)
         names = names[1:]

@@ -61,8 +61,9 @@ def _csv(source: Source, at: int) -> MotionFile:
     if len(rows) < 2:
         raise InputError(f"{source.at(at)}: found {len(rows)} rows below it; give the whole file")
     table = dated_table(source, rows, len(heads))
+    lines = [index for index, _ in rows]
     check_last(source, rows[-1][0], [fields[-1].strip() for _, fields in rows[-COMPARED:]])
-    dt_s, columns, notes = sampled(source, table[:, 0], table[:, 1:].T, lambda i: rows[i][0])
+    dt_s, columns, notes = sampled(source, table[:, 0], table[:, 1:].T, lines.__getitem__)
     channels = [
         _component(source, at, head, dt_s, values)
         for head, values in zip(heads[2:], columns, strict=True)

@@ -7,7 +7,6 @@ otherwise pairs of time and acceleration. Read `read` first.
 
 from __future__ import annotations
 
-import itertools
 import math
 import re
 from collections.abc import Sequence
@@ -96,7 +95,9 @@ def _block(source: Source, whole: Sequence[Stated]) -> tuple[Block, tuple[str, .
                 f"{source.at(index)}: found a line without | among the {comments.value:.0f} lines"
                 " of comment; give the whole file"
             )
-    more = len(list(itertools.takewhile(lambda line: line.startswith("|"), source.lines[first:])))
+    more = 0
+    while source.line(first + more).startswith("|"):
+        more += 1
     note = f"states {comments.value:.0f} lines of comment, found {comments.value + more:.0f}"
     stop, promised = len(source.lines), count.index
     block = Block(first=first + more, stop=stop, count=int(count.value), promised=promised)
