@@ -61,9 +61,9 @@ def read_file(path: Path, most: int, name: str = "", *, too_large: str = "") -> 
                     # One more tells a file that grows, or that states no size.
                     content = file.read(most + 1)
     except (OSError, ValueError) as error:  # ValueError: of a null character
-        what = f"cannot be read ({getattr(error, 'strerror', error)})"
+        problem = f"cannot be read ({getattr(error, 'strerror', error)})"
         raise InputError(
-            f"{begin}{what}; close it in other programs, or check its rights"
+            f"{begin}{problem}; close it in other programs, or check its rights"
         ) from error
     if not stat.S_ISREG(status.st_mode):
         kind = "a folder" if stat.S_ISDIR(status.st_mode) else "a pipe or a device"
@@ -182,16 +182,16 @@ def check_plain(
             return
         wants_folder = is_folder or place != path
         if stat.S_ISLNK(status.st_mode):
-            what = f"is a link to {os.readlink(place)}"
+            place_kind = f"is a link to {os.readlink(place)}"
         elif in_place and stat.S_ISREG(status.st_mode) and status.st_nlink > 1:
-            what = "is also the file of another name (a hard link)"
+            place_kind = "is also the file of another name (a hard link)"
         elif (stat.S_ISDIR if wants_folder else stat.S_ISREG)(status.st_mode):
             continue
         elif stat.S_ISDIR(status.st_mode) or stat.S_ISREG(status.st_mode):
-            what = "is a file, not a folder" if wants_folder else "is a folder, not a file"
+            place_kind = "is a file, not a folder" if wants_folder else "is a folder, not a file"
         else:
-            what = "is a pipe or a device"
-        raise InputError(f"{place}: {what}, and is not written to; move it away")
+            place_kind = "is a pipe or a device"
+        raise InputError(f"{place}: {place_kind}, and is not written to; move it away")
 
 
 def check_length(path: Path) -> None:

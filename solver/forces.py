@@ -46,7 +46,8 @@ def friction_demand(scene: Scene) -> float:
 def components(scene: Scene) -> tuple[Floats, Floats, Floats]:
     """Return the record along, across and up [m/s2]; zeros for what it does not have."""
     across, up = (
-        each if each.size else _still(scene.ax_mps2.size) for each in (scene.ay_mps2, scene.az_mps2)
+        record if record.size else _still(scene.ax_mps2.size)
+        for record in (scene.ay_mps2, scene.az_mps2)
     )
     return scene.ax_mps2, across, up
 

@@ -22,18 +22,21 @@ def nearest(value: str, names: Iterable[str], taken: Collection[str] = ()) -> st
     Else the one that is spelled nearly so; of very many or long names, those that begin alike are
     compared. Of several as near it is the one that is not taken; empty for none, and for several.
     """
-    wanted, plain = _plain(value), {name: _plain(name) for name in names}
-    close = [name for name, each in plain.items() if each == wanted]
+    key, plain = _plain(value), {name: _plain(name) for name in names}
+    close = [name for name, plain_name in plain.items() if plain_name == key]
     if not close:
-        alike = sorted(plain, key=lambda name: plain[name][:2] != wanted[:2])
-        costs = accumulate(len(wanted) * len(name) for name in alike)
+        alike = sorted(plain, key=lambda name: plain[name][:2] != key[:2])
+        costs = accumulate(len(key) * len(name) for name in alike)
         near = [name for name, cost in zip(alike, costs, strict=True) if cost <= _MOST_COMPARED]
-        matches = difflib.get_close_matches(wanted, {plain[name] for name in near}, n=_MOST_LISTED)
-        ratios = {each: difflib.SequenceMatcher(None, each, wanted).ratio() for each in matches}
+        matches = difflib.get_close_matches(key, {plain[name] for name in near}, n=_MOST_LISTED)
+        ratios = {
+            plain_name: difflib.SequenceMatcher(None, plain_name, key).ratio()
+            for plain_name in matches
+        }
         best = max(ratios.values(), default=0.0)
         close = [name for name in near if ratios.get(plain[name]) == best]
-    left = [name for name in close if name not in taken] or close
-    return left[0] if len(left) == 1 else ""
+    candidates = [name for name in close if name not in taken] or close
+    return candidates[0] if len(candidates) == 1 else ""
 
 
 def _plain(name: str) -> str:
@@ -46,10 +49,14 @@ def meant(path: Path) -> str:
     Of its parts the first that is not there is compared with what is in its folder.
     """
     try:
-        lost = [each for each in (path, *path.parents) if not each.exists()][-1]
-        there = [each.name for each in islice(lost.parent.iterdir(), _MOST_LISTED)]
-        near = nearest(lost.name, [name for name in there if not name.startswith(_LOCKS)])
+        lost = [entry for entry in (path, *path.parents) if not entry.exists()][-1]
+        names = [entry.name for entry in islice(lost.parent.iterdir(), _MOST_LISTED)]
+        near = nearest(lost.name, [name for name in names if not name.startswith(_LOCKS)])
     except (OSError, IndexError):
         return ""
-    whole = lost.parent / near / path.relative_to(lost)
-    return f"did you mean '{whole if whole.exists() else lost.parent / near}'?" if near else ""
+    path_meant = lost.parent / near / path.relative_to(lost)
+    return (
+        f"did you mean '{path_meant if path_meant.exists() else lost.parent / near}'?"
+        if near
+        else ""
+    )

@@ -82,8 +82,8 @@ def read_map(path: Path, unit_m: float) -> Any:
             if not math.isfinite(value):
                 wrong.append(f"line {line}: {name} is '{cut(text)}'; give a number")
             elif name == "blocks" and not (value.is_integer() and 0.0 <= value <= MAX_BLOCKS):
-                wanted = f"give a whole number from 0 to {MAX_BLOCKS:,}"
-                wrong.append(f"line {line}: blocks is {value:g}; {wanted}")
+                remedy = f"give a whole number from 0 to {MAX_BLOCKS:,}"
+                wrong.append(f"line {line}: blocks is {value:g}; {remedy}")
         rows_read.append((line, x * unit_m, y * unit_m, blocks))
     if wrong:
         raise InputError(wrong)

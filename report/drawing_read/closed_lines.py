@@ -72,12 +72,12 @@ def _vertices(entity: Any, kind: str) -> list[tuple[float, float, float]]:
     if kind in ("LINE", "SPLINE", "ELLIPSE"):
         dxf = entity.dxf
         if kind == "LINE":
-            at = (dxf.start, dxf.end)
+            points = (dxf.start, dxf.end)
         elif kind == "ELLIPSE":
-            at = (dxf.center, dxf.major_axis)
+            points = (dxf.center, dxf.major_axis)
         else:
-            at = entity.control_points if len(entity.control_points) else entity.fit_points
-        return [(float(p[0]), float(p[1]), 0.0) for p in at]
+            points = entity.control_points if len(entity.control_points) else entity.fit_points
+        return [(float(p[0]), float(p[1]), 0.0) for p in points]
     if _is_circle(entity, kind):
         (x, y, _), radius = entity.dxf.center, entity.dxf.radius
         vertices = [(x - radius, y, 1.0), (x + radius, y, 1.0)]
@@ -91,8 +91,8 @@ def _vertices(entity: Any, kind: str) -> list[tuple[float, float, float]]:
     elif kind == "LWPOLYLINE":
         vertices = [(x, y, bulge) for x, y, _, _, bulge in entity]
     else:
-        shown = [v for v in entity.vertices if not v.dxf.flags & _SPLINE_FRAME]
-        vertices = [(v.dxf.location.x, v.dxf.location.y, v.dxf.bulge) for v in shown]
+        corners = [v for v in entity.vertices if not v.dxf.flags & _SPLINE_FRAME]
+        vertices = [(v.dxf.location.x, v.dxf.location.y, v.dxf.bulge) for v in corners]
         if entity.is_3d_polyline:
             return vertices
     # The plane of the curve may look down: then x and the turn of arcs are mirrored.
@@ -143,8 +143,8 @@ def _chords(
             turn, middle = 4.0 * math.atan(bulge), complex(*center)
             count = arc_segment_count(radius, abs(turn), sagitta)
             for k in range(1, count):
-                at = middle + (complex(x0, y0) - middle) * cmath.rect(1.0, turn * k / count)
-                yield at.real, at.imag
+                point = middle + (complex(x0, y0) - middle) * cmath.rect(1.0, turn * k / count)
+                yield point.real, point.imag
     if vertices and not is_closed:
         yield vertices[-1][:2]
 
@@ -198,17 +198,17 @@ def join(lines: Sequence[Line], tolerance: float) -> tuple[list[Closed], Mapping
     return [_closed(lines, loop) for loop in sorted(loops)], reasons
 
 
-def _snapped(at: Point, cells: dict[Point, list[Point]], tolerance: float) -> Point:
+def _snapped(point: Point, cells: dict[Point, list[Point]], tolerance: float) -> Point:
     """Return the end that stands for another within the tolerance."""
     # Two that stand for others are farther apart: so ends that meet one meet each other, and a
     # chain cannot lead around without end.
-    column, row = (math.floor(value / tolerance) for value in at)
+    column, row = (math.floor(value / tolerance) for value in point)
     for i, j in product((-1, 0, 1), repeat=2):
         for end in cells.get((column + i, row + j), ()):
-            if math.dist(at, end) <= tolerance:
+            if math.dist(point, end) <= tolerance:
                 return end
-    cells[column, row].append(at)
-    return at
+    cells[column, row].append(point)
+    return point
 
 
 def _closed(lines: Sequence[Line], loop: Sequence[tuple[int, bool]]) -> Closed:
@@ -257,8 +257,8 @@ def boundaries(hatch: Any, sagitta: float, tolerance: float) -> list[Any] | str:
                 return f"a {kind} whose boundary is not read: {outline}"
             points, is_closed = outline
             (rings if is_closed else opened).append(points)
-        closed, rest = join(opened, tolerance)
-        if rest:
+        closed, unclosed = join(opened, tolerance)
+        if unclosed:
             return f"a {kind} whose boundary is not closed"
         rings += [points for points, _ in closed]
     return polygons([(way * x, y) for x, y in points] for points in rings)
@@ -292,8 +292,8 @@ def faces(entity: Any) -> list[Any] | str:
     if kind == "3DFACE":
         rings = [entity.wcs_vertices()]
     else:
-        shown: Any = make_primitive(entity)
-        rings = list(shown.mesh.faces_as_vertices())
+        primitive: Any = make_primitive(entity)
+        rings = list(primitive.mesh.faces_as_vertices())
     if sum(map(len, rings)) > 4 * MAX_POINTS:
         return f"a {kind} of more than {4 * MAX_POINTS} points"
     if not _are_numbers(chain.from_iterable(rings)):
@@ -326,10 +326,10 @@ def outlines(areas: Sequence[Any], tolerance: float) -> tuple[list[list[Point]],
 def is_fill(area: Any, layer: str, lines: Sequence[tuple[Any, str]], tolerance: float) -> bool:
     """Whether an area fills closed lines, given with their layers, rather than is an outline."""
     # It is equal to one of any layer, or has an area in common with one of its own.
-    for other, name in lines:
-        is_near = np.allclose(other.bounds, area.bounds, rtol=0.0, atol=tolerance)
-        if is_near and other.hausdorff_distance(area) <= tolerance:
+    for line, name in lines:
+        is_near = np.allclose(line.bounds, area.bounds, rtol=0.0, atol=tolerance)
+        if is_near and line.hausdorff_distance(area) <= tolerance:
             return True
-        if name == layer and other.intersection(area).area > _LEAST_SHARE * area.area:
+        if name == layer and line.intersection(area).area > _LEAST_SHARE * area.area:
             return True
     return False

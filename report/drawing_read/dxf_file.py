@@ -72,9 +72,9 @@ def _read(path: Path) -> bytes:
         raise InputError(f"no such file; {meant(path) or 'give a DXF drawing'}")
     data = read_file(path, MAX_BYTES, too_large="save the roof plan alone")
     begin = data[:1000].removeprefix(b"\xef\xbb\xbf").lstrip()
-    for pattern, told in _OTHER_FILES:
+    for pattern, advice in _OTHER_FILES:
         if re.match(pattern, begin, re.IGNORECASE):
-            raise InputError(told)
+            raise InputError(advice)
     # By counting bytes: the library builds all entities before anything can be refused.
     values = data.count(b"\n") // 2  # each after a line with its code
     limit(values, MAX_VALUES, "values")
@@ -84,11 +84,11 @@ def _read(path: Path) -> bytes:
     return data
 
 
-def limit(count: int, most: int, what: str) -> None:
+def limit(count: int, allowed: int, noun: str) -> None:
     """Refuse more than a drawing may have."""
-    if count > most:
+    if count > allowed:
         raise InputError(
-            f"{count:,} {what}, more than {most:,}; save the layers of the roof plan alone"
+            f"{count:,} {noun}, more than {allowed:,}; save the layers of the roof plan alone"
         )
 
 

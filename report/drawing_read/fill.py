@@ -203,10 +203,10 @@ def _fill_objects(change: WorkbookChange, plan: RoofPlan, replace: bool) -> list
             if math.isfinite(place.height_m):
                 values["height_m"] = change.number("objects", "height_m", place.height_m)
             for name in () if is_new else ("kind", "height_m"):
-                found = change.cell("objects", row, name)
-                if name in values and found.value not in (None, values[name]):
-                    what = f"{place.name}: {_entered(change, 'objects', row, name)}"
-                    lines.append(f"{what} is {values[name]} now, as drawn")
+                cell = change.cell("objects", row, name)
+                if name in values and cell.value not in (None, values[name]):
+                    change_of = f"{place.name}: {_entered(change, 'objects', row, name)}"
+                    lines.append(f"{change_of} is {values[name]} now, as drawn")
         change.put("objects", row, values)
     return lines
 
@@ -269,9 +269,9 @@ def _entered(change: WorkbookChange, key: str, row: int, name: str) -> str:
     return f"{label} {change.cell(key, row, name).shown} {unit}".strip()
 
 
-def _is_same_size(before: Shape, now: Shape) -> bool:
-    sizes = zip(sorted(own_axes(before)[:2]), sorted(own_axes(now)[:2]), strict=True)
-    is_same_area = math.isclose(before.area_m2, now.area_m2, rel_tol=0.01)
+def _is_same_size(before: Shape, after: Shape) -> bool:
+    sizes = zip(sorted(own_axes(before)[:2]), sorted(own_axes(after)[:2]), strict=True)
+    is_same_area = math.isclose(before.area_m2, after.area_m2, rel_tol=0.01)
     return is_same_area and all(abs(a - b) < SAME_M for a, b in sizes)
 
 

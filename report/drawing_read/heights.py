@@ -71,21 +71,21 @@ def read_line(text: str, unit_m: float) -> tuple[str, Height | None]:
     word = _KEYWORD.search(text)
     if word:
         match, start = _VALUE.match(text, word.end()), word.start()
-        said = (word[1] or word[3] or word[4]).strip()
+        keyword = (word[1] or word[3] or word[4]).strip()
     elif before := _BEFORE.search(text):
-        match, start, said = _VALUE.fullmatch(before["value"]), before.start(), "H"
+        match, start, keyword = _VALUE.fullmatch(before["value"]), before.start(), "H"
     else:
         is_like = _LIKE_ONE.search(text) and _LENGTH.search(text)
         return text, Height(math.nan, "", False) if is_like else None
     name = _OTHER_SIZES.sub("", text[:start]).lstrip(" ,;:-").rstrip(" ,;:-(@")
     name = name if ")" in name else name.lstrip("(")  # `(N) RTU-1` is one
-    unclear = Height(math.nan, said.upper(), False)
+    unclear = Height(math.nan, keyword.upper(), False)
     if not match or not match[0]:
         return name, unclear
     before_colon = (word and word["unit"]) or ""
     unit = match["unit"] or ('"' if match["feet"] else before_colon)
-    if not unit and said.upper() in _ALSO_A_NAME:
-        return text, None if said[0] in "Tt" else unclear
+    if not unit and keyword.upper() in _ALSO_A_NAME:
+        return text, None if keyword[0] in "Tt" else unclear
     if word and not unit and text[match.end() :].lstrip()[:1].isalnum():
         return name, unclear  # such as `42 yd` or `42 1/0`
     value, feet = (
@@ -94,7 +94,7 @@ def read_line(text: str, unit_m: float) -> tuple[str, Height | None]:
     )
     value += float(Fraction(match["of_inch"] or 0))
     value_m = value * _HEIGHT_UNITS.get(unit.lower(), unit_m) + feet * _HEIGHT_UNITS["ft"]
-    return name, Height(value_m, said.upper(), bool(unit))
+    return name, Height(value_m, keyword.upper(), bool(unit))
 
 
 def first_height(lines: Iterable[str], unit_m: float) -> tuple[Height | None, str]:

@@ -138,9 +138,9 @@ def _arrays(
         within_m = ALIKE_M + _PLACE_STEPS * step
         widest = gap_m + max(ROUNDED_GAP_M, within_m)
         parts = _closed(boxes, widest)
-        own = middles / turn
+        turned_middles = middles / turn
         inside: list[dict[int, bool]] = [{} for _ in parts]
-        tree = shapely.STRtree(shapely.points(own.real, own.imag))
+        tree = shapely.STRtree(shapely.points(turned_middles.real, turned_middles.imag))
         for part, n in tree.query(parts, predicate="contains").T:
             if small[n] in row or small[n] not in modules:
                 inside[part][small[n]] = small[n] in row
@@ -207,8 +207,11 @@ def _parallel(
         off = (angles[run] - angles[run[0]] + 45.0) % 90.0 - 45.0
         angle = math.radians((angles[run[0]] + float(off.mean()) + 45.0) % 90.0 - 45.0)
         turn = complex(math.cos(angle), math.sin(angle)) if abs(angle) > _NO_TURN_RAD else 1.0
-        own = corners[run] / turn
-        ends = [np.sort(part, axis=1).reshape(-1, 2, 2).mean(2) for part in (own.real, own.imag)]
+        turned_corners = corners[run] / turn
+        ends = [
+            np.sort(part, axis=1).reshape(-1, 2, 2).mean(2)
+            for part in (turned_corners.real, turned_corners.imag)
+        ]
         boxes = np.stack((ends[0][:, 0], ends[1][:, 0], ends[0][:, 1], ends[1][:, 1]), axis=1)
         once = _once(boxes, lines[four[run[0]]].layer)
         yield [four[k] for k in run[once]], sizes[run[once]], boxes[once], turn, step
@@ -227,16 +230,16 @@ def _rounding(corners: Any) -> tuple[float, bool]:
     return 0.0, is_turned
 
 
-def _equal(long: Any, short: Any, at: Any, width: float) -> Iterator[NDArray[np.intp]]:
+def _equal(long: Any, short: Any, indices: Any, width: float) -> Iterator[NDArray[np.intp]]:
     """Yield the indices `at` of equal sizes."""
-    for run in _runs(long, at, width):
+    for run in _runs(long, indices, width):
         yield from _runs(short, run, width)
 
 
-def _runs(values: Any, at: Any, width: float) -> list[NDArray[np.intp]]:
+def _runs(values: Any, indices: Any, width: float) -> list[NDArray[np.intp]]:
     """Return the indices `at` by runs of ascending values, none wider than a width."""
     # Stable: equal values keep the order of the drawing.
-    order = at[np.argsort(values[at], kind="stable")]
+    order = indices[np.argsort(values[indices], kind="stable")]
     starts: list[int] = []
     for place, value in enumerate(values[order]):
         if not starts or value - values[order[starts[-1]]] > width:
@@ -249,9 +252,9 @@ def _once(boxes: Any, layer: str) -> Any:
     import shapely
 
     middles = 0.5 * (boxes[:, :2] + boxes[:, 2:])
-    most = max(Counter(map(tuple, np.floor(middles).tolist())).values())
-    if most > _MOST_PER_M2:  # their pairs would be without number
-        text = f"layer {layer}: {most} rectangles of the size of modules on one square meter"
+    densest = max(Counter(map(tuple, np.floor(middles).tolist())).values())
+    if densest > _MOST_PER_M2:  # their pairs would be without number
+        text = f"layer {layer}: {densest} rectangles of the size of modules on one square meter"
         raise InputError(f"{text}, more than {_MOST_PER_M2}; save one line for each module")
     tree = shapely.STRtree(shapely.box(*boxes.T))
     inner, outer = tree.query(shapely.points(middles), predicate="intersects")

@@ -106,12 +106,12 @@ def whole_move(
         return best if is_told else None if was and now and rows else Move()
     if best.is_straight:
         return best
-    others = [move for move in counts if move != best]
-    is_told = all(counts[move] < count for move in others)
+    slower = [move for move in counts if move != best]
+    is_told = all(counts[move] < count for move in slower)
     # A layout that is mirrored is more likely than a sheet, where the roof has other fits.
     if best.is_mirrored:
-        is_told &= all(move.is_mirrored for move in others)
-    return best if is_told and (count > 1 or not any(m.is_straight for m in others)) else None
+        is_told &= all(move.is_mirrored for move in slower)
+    return best if is_told and (count > 1 or not any(m.is_straight for m in slower)) else None
 
 
 def _agreeing(move: Move, rows: Sequence[Keyed], drawn: Sequence[Keyed]) -> int:

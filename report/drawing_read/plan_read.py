@@ -169,10 +169,10 @@ def check_size(plan: RoofPlan, stated: str, us_first: bool = True) -> None:
 
 def unit_asked(would_do: Sequence[str], stated: str) -> str:
     """Return a question of the unit of a drawing: those that would do, or that which it states."""
-    others = f"{' or '.join(would_do)}, or " if would_do else ""
+    alternatives = f"{' or '.join(would_do)}, or " if would_do else ""
     return (
-        f"give the unit of the drawing (--units, or Unit on the page): {others}{stated} if it is"
-        " so, as it states"
+        f"give the unit of the drawing (--units, or Unit on the page): {alternatives}{stated} if it"
+        " is so, as it states"
     )
 
 
@@ -207,9 +207,9 @@ def _shape(line: DrawnOutline, unit_m: float) -> Shape | Unread:
     points = ring([(x, y) for x, y in straight.coords])
     if len(points) < LEAST_VERTICES:
         return _unread(line, "a closed line without an area")
-    at = crossing(points)
-    if at is not None:
-        x, y = (value / unit_m for value in at)
+    crossed = crossing(points)
+    if crossed is not None:
+        x, y = (value / unit_m for value in crossed)
         reason = "a closed line that touches or crosses itself"
         return _unread(line, reason, f"near {x:.6g}, {y:.6g}")
     shape = Polygon(points)
@@ -330,14 +330,14 @@ def _texts_inside(
     # A text belongs to the smallest line around it.
     order = sorted(range(len(outlines)), key=lambda k: outlines[k].shape.area_m2)
     tree = shapely.STRtree([solid(outlines[k].shape) for k in order])
-    own = {line.name: k for k, line in enumerate(outlines) if line.is_ours}
+    ours = {line.name: k for k, line in enumerate(outlines) if line.is_ours}
     for text in texts:
         if text.of:
-            if text.of in own:
-                inside[own[text.of]].append(text)
+            if text.of in ours:
+                inside[ours[text.of]].append(text)
             continue
-        at = shapely.Point(text.at[0] * unit_m, text.at[1] * unit_m)
-        pairs = tree.query(at, predicate="intersects")
+        place = shapely.Point(text.at[0] * unit_m, text.at[1] * unit_m)
+        pairs = tree.query(place, predicate="intersects")
         if len(pairs):
             inside[order[min(pairs)]].append(text)
     return inside

@@ -225,9 +225,9 @@ class _Reader:
         points, is_closed = outline
         self.points += len(points)
         limit(self.points, MAX_CURVE_POINTS, "points of curves")
-        own = _own_name(entity)
-        line = DrawnOutline(handle=handle, layer=layer, name=own or block.name,
-                            shape=Polygon(tuple(points)), is_ours=bool(own),
+        own_name = _own_name(entity)
+        line = DrawnOutline(handle=handle, layer=layer, name=own_name or block.name,
+                            shape=Polygon(tuple(points)), is_ours=bool(own_name),
                             heights=block.heights)  # fmt: skip
         if is_closed:
             return self._close(line, entity.dxftype())
@@ -254,9 +254,10 @@ class _Reader:
             return f"a {kind} without an area"
         self.points += sum(len(shapely.get_coordinates(area)) for area in areas)
         limit(self.points, MAX_CURVE_POINTS, "points of curves")
-        own = _own_name(entity)
-        line = DrawnOutline(handle=handle, layer=layer, name=own or block.name, shape=Polygon(()),
-                            is_ours=bool(own), heights=block.heights)  # fmt: skip
+        own_name = _own_name(entity)
+        line = DrawnOutline(handle=handle, layer=layer, name=own_name or block.name,
+                            shape=Polygon(()), is_ours=bool(own_name),
+                            heights=block.heights)  # fmt: skip
         # Faces that are drawn one by one are those of one body where they touch.
         # Names of layers are the same in any case, as in AutoCAD.
         key = (block.number, layer.casefold(), "" if kind == "3DFACE" else str(self.entities))
@@ -301,12 +302,12 @@ class _Reader:
     def _take_joined(self) -> None:
         """Add the closed lines that the open ones form."""
         for lines in self.opened.values():
-            closed, rest = join([line.shape.points for line in lines], JOIN_M / self.unit_m)
+            closed, unclosed = join([line.shape.points for line in lines], JOIN_M / self.unit_m)
             for points, parts in closed:
                 line = replace(lines[parts[0]], shape=Polygon(tuple(points)))
                 if reason := self._close(line, "closed line"):
                     self._leave(line.handle, line.layer, reason)
-            for k, reason in rest.items():
+            for k, reason in unclosed.items():
                 self._leave(lines[k].handle, lines[k].layer, reason)
         self.opened.clear()
         self._take_areas()
@@ -320,15 +321,15 @@ class _Reader:
     def _take_insert(self, insert: Any, layer: str, handle: str, outer: _Block) -> str:
         """Add what a block shows, or return why; what it does not say, the one around it says."""
         depth = outer.depth + 1
-        block_of, shown = insert.block(), f"'{_printable(insert.dxf.name)}'"
+        block_of, quoted_name = insert.block(), f"'{_printable(insert.dxf.name)}'"
         if block_of is None:
-            return f"a block that the drawing does not have: {shown}"
+            return f"a block that the drawing does not have: {quoted_name}"
         if block_of.block.is_xref or block_of.block.is_xref_overlay:
-            return f"an external reference, to be bound in CAD: {shown}"
+            return f"an external reference, to be bound in CAD: {quoted_name}"
         if insert.dxf.get("zscale", 1.0) == 0.0:
             insert.dxf.zscale = 1.0  # a plan has no use of it
         if depth > MAX_DEPTH:
-            raise InputError(f"block {shown}: nested more than {MAX_DEPTH} deep; explode it")
+            raise InputError(f"block {quoted_name}: nested more than {MAX_DEPTH} deep; explode it")
         name, heights = _attributes(insert)
         times = (max(int(insert.dxf.get(key, 1)), 1) for key in ("row_count", "column_count"))
         count, clip = math.prod(times), _clip(insert)
@@ -347,7 +348,8 @@ class _Reader:
             if clip and count == 1:
                 self._clip_off(before, clip)
         if clip:
-            return f"a block that is clipped, and read whole where the clip crosses a line: {shown}"
+            crossed = "read whole where the clip crosses a line"
+            return f"a block that is clipped, and {crossed}: {quoted_name}"
         return ""
 
     def _clip_off(self, first: int, clip: _Clip) -> None:

@@ -54,24 +54,24 @@ class RoofPlan:
             check = "" if self.move.is_straight else "; check the direction of north"
             text = f"the plan as a whole is {self.move.words(self.unit)} since the workbook{check}"
             yield f"{text}; what was typed and is not drawn is moved with it"
-        now = self.shapes
+        drawn = self.shapes
         moves = []
         # At first, when nothing was in plan, there is no table.
-        for name in {**self.before, **now} if self.before else ():
-            was, shape = self.before.get(name), now.get(name)
+        for name in {**self.before, **drawn} if self.before else ():
+            was, shape = self.before.get(name), drawn.get(name)
             if was and shape and solid(was).hausdorff_distance(solid(shape)) < STILL_M:
                 continue
             stays = "stays as typed" if name in self.typed else "stays without --replace"
             gone = f"not in the drawing; {'taken out' if replace and name in self.gone else stays}"
-            from_, to = (placed(place, self.unit) if place else "" for place in (was, shape))
-            moves.append((name, from_ or "new", to or gone))
+            from_, new_place = (placed(place, self.unit) if place else "" for place in (was, shape))
+            moves.append((name, from_ or "new", new_place or gone))
         yield from aligned([("name", "from", "to"), *moves]) if moves else ()
         for place in self.arrays:
             row = self.rows.get(place.name, {})
             if not place.modules and (count := row.get("modules")):
                 is_drawn = row.get("place_from") == DRAWN_MODULES
-                what = "taken out, as they are not drawn" if is_drawn else "stay as typed"
-                yield f"{place.name}: {count} modules {what}"
+                fate = "taken out, as they are not drawn" if is_drawn else "stay as typed"
+                yield f"{place.name}: {count} modules {fate}"
 
 
 def placed(shape: Shape, unit: Unit) -> str:

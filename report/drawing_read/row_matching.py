@@ -62,10 +62,12 @@ def matched(plan: RoofPlan, inputs: Inputs) -> RoofPlan:
         for name, shape in was.items()
         if groups.get(name) != _EDGE
     ]
-    now = [(by_row.get(k, _group(place.kind)), place.shape) for k, place in enumerate(drawn)]
+    drawn_keyed = [
+        (by_row.get(k, _group(place.kind)), place.shape) for k, place in enumerate(drawn)
+    ]
     named = [(was[name], drawn[number].shape) for number, name in by_row.items()]
     roof = roof_of(inputs)
-    move = whole_move((roof, plan.roof_shape), keyed, now, named)
+    move = whole_move((roof, plan.roof_shape), keyed, drawn_keyed, named)
     moved = move or Move()
     before = {name: moved.of(shape) for name, shape in was.items()}
     # An edge stays on its side of the roof, or of all that is in plan where no roof is.
@@ -97,10 +99,14 @@ def matched(plan: RoofPlan, inputs: Inputs) -> RoofPlan:
                 if value > 0.0 and is_same_way:
                     pairs[k, name] = value
             unclear += _tell(pairs, drawn, by_row, unit)
-        left = [name for name in names if name not in by_row.values() and _is_drawn(rows[name])]
-        new = [k for k in numbers if k not in by_row and drawn[k].unnamed and drawn[k].handle]
-        if left and new and not unclear:
-            unclear.append(_either([drawn[k] for k in new], left, unit) + ", or new")
+        unmatched_rows = [
+            name for name in names if name not in by_row.values() and _is_drawn(rows[name])
+        ]
+        unmatched = [k for k in numbers if k not in by_row and drawn[k].unnamed and drawn[k].handle]
+        if unmatched_rows and unmatched and not unclear:
+            unclear.append(
+                _either([drawn[k] for k in unmatched], unmatched_rows, unit) + ", or new"
+            )
     if unclear:
         raise InputError([f"{text}: write its name inside of it as a text" for text in unclear])
     # Read after all groups: a row may still be found by its size.
@@ -143,8 +149,8 @@ def _common(place: DrawnOutline, row: Shape) -> float:
     """Return the share that an outline has in common with a row; 0 if too small to be it."""
     if gap_m(place.shape.bounds, row.bounds) >= 0.0:
         return 0.0
-    area, other = solid(place.shape), solid(row)
-    share: float = area.intersection(other).area / area.union(other).area
+    area, row_area = solid(place.shape), solid(row)
+    share: float = area.intersection(row_area).area / area.union(row_area).area
     return share if share >= (_LEAST_SHARE if place.unnamed else _RENAMED_SHARE) else 0.0
 
 
@@ -166,8 +172,8 @@ def _tell(
     pairs: Pairs, drawn: Sequence[DrawnOutline], matches: dict[int, str], unit: Unit
 ) -> Iterator[str]:
     """Add the rows that are plain, the best first, and yield what is not, as far as it is told."""
-    told = 0
-    while pairs and told < MOST_TOLD:
+    count = 0
+    while pairs and count < MOST_TOLD:
         number, name = best = max(pairs, key=pairs.__getitem__)
         rivals = [
             (k, row)
@@ -178,16 +184,16 @@ def _tell(
         if not rivals or drawn[number].handle:
             matches[number] = name
         if rivals and drawn[number].handle:
-            told += 1
+            count += 1
             numbers, names = ({*each} for each in zip(best, *rivals, strict=True))
             yield _either([drawn[k] for k in sorted(numbers)], sorted(names), unit)
         pairs = {p: value for p, value in pairs.items() if p[0] != number and p[1] != name}
 
 
 def _either(places: Sequence[DrawnOutline], names: Sequence[str], unit: Unit) -> str:
-    shown = (f"{place.handle or place.kind.value} ({placed(place.shape, unit)})"
+    outlines = (f"{place.handle or place.kind.value} ({placed(place.shape, unit)})"
              for place in places)  # fmt: skip
-    return f"{listed(shown)} may be {listed(names).replace(', ', ' or ')}"
+    return f"{listed(outlines)} may be {listed(names).replace(', ', ' or ')}"
 
 
 def _renamed(
@@ -208,8 +214,8 @@ def _renamed(
             continue
         name = matches[number]
         is_written = not place.unnamed and place.name.casefold() == name.casefold()
-        other = f"'{place.name}' in the drawing" if not place.unnamed else "by its place"
-        place = replace(place, name=name, unnamed="" if is_written else other)
+        origin = f"'{place.name}' in the drawing" if not place.unnamed else "by its place"
+        place = replace(place, name=name, unnamed="" if is_written else origin)
         # A side of the roof has no parapet unless the row says so.
         is_assumed = not place.handle and "kind" in rows[name]
         kind = LayerKind(rows[name]["kind"].value) if is_assumed else place.kind

@@ -40,10 +40,10 @@ def spikes(a: Floats) -> tuple[tuple[int, ...], float]:
     # At most `MOST` samples, and at most one in `LEAST_SAMPLES_FOR_EACH`, each of which is more
     # than `FACTOR` times any sample that is none.
     size = np.abs(a)
-    most = min(MOST, len(a) // LEAST_SAMPLES_FOR_EACH)
+    count_allowed = min(MOST, len(a) // LEAST_SAMPLES_FOR_EACH)
     # Stable: of equal samples the first is named, on every machine.
-    largest = np.argsort(-size, kind="stable")[: most + 1]
-    for count in range(1, most + 1):
+    largest = np.argsort(-size, kind="stable")[: count_allowed + 1]
+    for count in range(1, count_allowed + 1):
         if size[largest[count - 1]] > FACTOR * size[largest[count]]:
             return tuple(sorted(map(int, largest[:count]))), float(size[largest[count]])
     return (), float(size.max(initial=0.0))
@@ -179,8 +179,8 @@ def _unscalable(
         if field in records and not records[field].a_mps2.any():
             goal = "a PPA" if scaling is Scaling.PPA else "a target spectrum"
             text = f"{LABELS[field]} record is all zeros and cannot be scaled to {goal}"
-            wanted = "change the record or scaling"
-            yield Finding.error(Place("motions", index, field), text, wanted)
+            remedy = "change the record or scaling"
+            yield Finding.error(Place("motions", index, field), text, remedy)
 
 
 def _no_motion(index: int, records: Mapping[str, Record]) -> Iterator[Finding]:
@@ -197,8 +197,8 @@ def _no_motion(index: int, records: Mapping[str, Record]) -> Iterator[Finding]:
         if has_gravity(record.a_mps2):
             mean_g = float(record.a_mps2.mean()) / G_MPS2
             text = f"{LABELS[field]} record has a mean of {mean_g:.3g} g: gravity is in it"
-            wanted = "give it without, or remove the mean by the column Baseline"
-            yield Finding.error(Place("motions", index, field), text, wanted)
+            remedy = "give it without, or remove the mean by the column Baseline"
+            yield Finding.error(Place("motions", index, field), text, remedy)
     if not any(records[field].a_mps2.any() for field in HORIZONTAL if field in records):
         which = "and transverse records are" if "transverse" in records else "record is"
         yield Finding.error(place, f"horizontal {which} all zeros", "give a record of the shaking")
@@ -227,9 +227,9 @@ def _processed(
         bare = process_together(raw, replace(processing, highpass_hz=0.0))
     except InputError as error:
         return _faults(index, "record", error, row.model_dump())
-    kept = dict(zip(components, done, strict=True))
-    faults = list(_unscalable(index, {"scaling": row.scaling}, kept)) or list(
-        _no_motion(index, kept)
+    processed = dict(zip(components, done, strict=True))
+    faults = list(_unscalable(index, {"scaling": row.scaling}, processed)) or list(
+        _no_motion(index, processed)
     )
     if faults:
         return faults
@@ -239,7 +239,7 @@ def _processed(
             _file(row, field, component, len(records[field].a_mps2) - count)
             for field, component in components.items()
         ),
-        records=kept,
+        records=processed,
         unfiltered=dict(zip(components, bare, strict=True)) if has_highpass else {},
         whole={field: component.record for field, component in components.items()},
     )

@@ -72,10 +72,10 @@ def read_column(
     _check_units(book, heading, units)
     below = _filled(cells_below(book, heading))
     values = _numbers(below, units)
-    said = _said(book, heading)
-    if said.is_magnitude and min(values, default=-1.0) >= 0.0:
+    parsed = _said(book, heading)
+    if parsed.is_magnitude and min(values, default=-1.0) >= 0.0:
         raise InputError(
-            f"{heading.address} is '{said.text}', the magnitude of a vector; give a component"
+            f"{heading.address} is '{parsed.text}', the magnitude of a vector; give a component"
         )
     times = _check_times(book, heading, len(values), dt_s)
     # 1 gal = 1 cm/s2; the solver's table has one name for each unit.
@@ -90,16 +90,18 @@ def _said(book: OpenBook, position: CellPosition) -> Heading:
 
 
 def _check_units(book: OpenBook, heading: CellPosition, units: str) -> None:
-    said = _said(book, heading)
-    if said.kind in (Kind.TIME, Kind.OTHER) or is_spectral(said):
+    parsed = _said(book, heading)
+    if parsed.kind in (Kind.TIME, Kind.OTHER) or is_spectral(parsed):
         raise InputError(
-            f"{heading.address} is '{said.text}', which is no acceleration by time; give the"
+            f"{heading.address} is '{parsed.text}', which is no acceleration by time; give the"
             " column of one"
         )
-    if said.kind is Kind.ACCELERATION and not math.isclose(unit_size(said.unit), unit_size(units)):
+    if parsed.kind is Kind.ACCELERATION and not math.isclose(
+        unit_size(parsed.unit), unit_size(units)
+    ):
         raise InputError(
-            f"{heading.address} is '{said.text}', but the record units are {units}; correct one of"
-            " them"
+            f"{heading.address} is '{parsed.text}', but the record units are {units}; correct one"
+            " of them"
         )
 
 
@@ -117,20 +119,25 @@ class _Times(Source):
 
 def _check_times(book: OpenBook, heading: CellPosition, count: int, dt_s: float) -> list[Found]:
     """Raise where a column of times contradicts the time step, or lacks samples; return it."""
-    at = _heading_of_times(book, heading)
-    if at is None or count < 2:
+    time_heading = _heading_of_times(book, heading)
+    if time_heading is None or count < 2:
         return []
-    unit_s = _said(book, at).seconds
+    unit_s = _said(book, time_heading).seconds
     if math.isnan(unit_s):
-        raise InputError(f"{at.address} is '{_said(book, at).text}'; give times in s, ms or min")
-    cells = cells_below(book, at)[:count]
-    t_s = unit_s * np.array(_numbers(cells, _said(book, at).unit or "s"))
-    source = _Times(name=at.address, lines=[], units="", dt_s=math.nan, heading=at)
+        raise InputError(
+            f"{time_heading.address} is '{_said(book, time_heading).text}'; give times in s, ms or"
+            " min"
+        )
+    cells = cells_below(book, time_heading)[:count]
+    t_s = unit_s * np.array(_numbers(cells, _said(book, time_heading).unit or "s"))
+    source = _Times(
+        name=time_heading.address, lines=[], units="", dt_s=math.nan, heading=time_heading
+    )
     # Samples, of which there is no need.
     none = np.zeros((1, count))
     with suppress(InputError):
         sampled(replace(source, dt_s=dt_s), t_s, none, int, unit_s)
-        return [found_at(book, at), *cells]
+        return [found_at(book, time_heading), *cells]
     of_times_s, _, notes = sampled(source, t_s, none, int, unit_s)
     if notes:
         steps = np.diff(t_s)
@@ -142,7 +149,7 @@ def _check_times(book: OpenBook, heading: CellPosition, count: int, dt_s: float)
             " as a file, which is resampled"
         )
     raise InputError(
-        f"{at.address} has times at a step of {of_times_s:.6g} s, but the time step is"
+        f"{time_heading.address} has times at a step of {of_times_s:.6g} s, but the time step is"
         f" {dt_s:.6g} s; correct one of them"
     )
 
@@ -226,8 +233,8 @@ def read_component(
     content = motion_file.content
     sha256 = hashlib.sha256(content).hexdigest()
     # The same file under two motions counts once.
-    others = sum(len(other) for key, other in book.records.items() if key != sha256)
-    if others + len(content) <= MOST_RECORDS:
+    kept_bytes = sum(len(data) for key, data in book.records.items() if key != sha256)
+    if kept_bytes + len(content) <= MOST_RECORDS:
         book.records[sha256] = content
     return Component(
         record=motion_file.channel(channel),

@@ -79,14 +79,14 @@ NO_TARGET = TargetSpectrum(name="", at=_nowhere, from_s=0.0, to_s=math.inf)
 def targets(data: ProjectInput) -> Targets:
     """Return the targets of a project: its own table if given, or else those of its rule set."""
     roof, vertical = ac156(data)
-    own = data.spectrum
-    across = _own(own, [row.horizontal_g for row in own]) if own else None
-    upward = [row.vertical_g for row in own if row.vertical_g is not None]
+    points = data.spectrum
+    across = _own(points, [row.horizontal_g for row in points]) if points else None
+    upward = [row.vertical_g for row in points if row.vertical_g is not None]
     has_ground = any(row.recorded_at is RecordedAt.GROUND for row in data.motions)
     return Targets(
         # If there are ground motions, the project-specific spectrum applies at the ground.
         roof=across if across and not has_ground else _ac156(roof),
-        vertical=_own(own, upward) if upward else _ac156(vertical),
+        vertical=_own(points, upward) if upward else _ac156(vertical),
         ground=across or _design(data),
     )
 
@@ -123,8 +123,8 @@ def _design(data: ProjectInput) -> TargetSpectrum:
     site, t_l_s = data.site, data.target.t_l_s
     if site.s_d1 is None or t_l_s is None:
         return NO_TARGET
-    at = design_spectrum(s_ds_g=site.s_ds, s_d1_g=site.s_d1, t_l_s=t_l_s)
-    return TargetSpectrum(name="ASCE 7 design spectrum", at=at, from_s=0.0, to_s=math.inf)
+    spectrum = design_spectrum(s_ds_g=site.s_ds, s_d1_g=site.s_d1, t_l_s=t_l_s)
+    return TargetSpectrum(name="ASCE 7 design spectrum", at=spectrum, from_s=0.0, to_s=math.inf)
 
 
 SIGNS = {Polarity.BOTH: (1, -1), Polarity.AS_RECORDED: (1,), Polarity.REVERSED: (-1,)}

@@ -59,8 +59,8 @@ def table(channels: Sequence[Mapping[str, Any]]) -> Iterator[str]:
 
 
 def _row(channel: Mapping[str, Any]) -> tuple[str, ...]:
-    shown = without_noise(channel)
-    values = ((shown[key] * size, ".0f" if key == "npts" else ".4g") for _, key, size in _MEASURES)
+    plain = without_noise(channel)
+    values = ((plain[key] * size, ".0f" if key == "npts" else ".4g") for _, key, size in _MEASURES)
     return (channel["name"], *(f"{value:{form}}" for value, form in values))
 
 

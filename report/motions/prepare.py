@@ -89,10 +89,10 @@ def _horizontal_records(
     for field in HORIZONTAL:
         if field in components.whole:
             a = components.whole[field].a_mps2
-            at = int(np.abs(a).argmax())
-            if a[at] != 0.0:
+            peak_index = int(np.abs(a).argmax())
+            if a[peak_index] != 0.0:
                 place = Place("motions", index, field)
-                yield (len(a), at), _Horizontal(place, row, a / a[at])
+                yield (len(a), peak_index), _Horizontal(place, row, a / a[peak_index])
 
 
 def _times(row: InputRow) -> tuple[float, float]:
@@ -114,13 +114,13 @@ def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Findi
         damping_per_s = 2.0 * links.damping_ratio
         soft = BlockRow(mus=links.mus, stiffness_per_s2=1.0, damping_per_s=damping_per_s)
         per_s2 = (MOST_STEPS / minimum_steps(soft, seconds)) ** 2
-        most = per_s2 * weights[links.array] / (len(links.mus) * G_MPS2)
-        if links.stiffness_n_per_m > most:
+        largest = per_s2 * weights[links.array] / (len(links.mus) * G_MPS2)
+        if links.stiffness_n_per_m > largest:
             yield Finding.error(
                 Place("links", index, "stiffness_n_per_m"),
                 f"link stiffness is {_said(links.stiffness_n_per_m)}, too stiff to "
                 f"integrate in {MOST_STEPS:.0e} steps",
-                f"give {_said(0.9 * most)} or less (a stiffer row moves as one rigid "
+                f"give {_said(0.9 * largest)} or less (a stiffer row moves as one rigid "
                 "block with the mean coefficient)",
             )
 
@@ -243,7 +243,9 @@ def _unlike_peaks(motions: Sequence[Motion]) -> Iterator[Finding]:
         for motion in motions
     ]
     for index, peak_g in enumerate(peaks_g):
-        ratios = [peak_g / other for other in peaks_g[:index] + peaks_g[index + 1 :] if other > 0.0]
+        ratios = [
+            peak_g / other_g for other_g in peaks_g[:index] + peaks_g[index + 1 :] if other_g > 0.0
+        ]
         if not ratios or peak_g <= 0.0:
             continue
         # Of the motion that is nearest: where one motion differs, the others are near each other.
@@ -293,10 +295,10 @@ def _unequal(index: int, files: Sequence[RecordFile]) -> Iterator[Finding]:
 def _spikes(index: int, file: RecordFile) -> Iterator[Finding]:
     if not file.spikes:
         return
-    first, more = file.spikes[0], len(file.spikes) - 1
-    which = f"sample {first + 1:,}" + (f" and {more} more" if more else "")
+    first, further = file.spikes[0], len(file.spikes) - 1
+    which = f"sample {first + 1:,}" + (f" and {further} more" if further else "")
     text = (
-        f"{file.name}: {which}, at {first * file.dt_s:.6g} s, {'reach' if more else 'is'}"
+        f"{file.name}: {which}, at {first * file.dt_s:.6g} s, {'reach' if further else 'is'}"
         f" {file.peak_g:.4g} g, and no other is more than {file.others_g:.4g} g; correct the file,"
         " or give another record"
     )

@@ -132,18 +132,18 @@ def sets_of(
         try:
             if path.stat().st_size > MAX_BYTES:
                 raise InputError(f"has more than {MAX_BYTES / 1e6:.0f} MB")
-            for each in _channels(file, read_motion_file(path, units=units, dt_s=dt_s)):
+            for channel in _channels(file, read_motion_file(path, units=units, dt_s=dt_s)):
                 suffix = path.suffix.casefold()
                 # The suffix of K-NET is a component.
                 kind = "" if _by_word(suffix[1:]) else suffix
-                key = (str(PurePosixPath(file).parent), *each.motion, each.format, kind)
-                groups.setdefault(key, []).append(each)
+                key = (str(PurePosixPath(file).parent), *channel.motion, channel.format, kind)
+                groups.setdefault(key, []).append(channel)
         except InputError as error:
             left.append((file, error.problems[0].removeprefix(f"{path.name}: ")))
     clear: list[_Clear] = []
     for (parent, stem, rest, *_), group in groups.items():
         # x before y by azimuth, the vertical last: the order of the sheet.
-        group.sort(key=lambda each: (not each.is_horizontal, each.degrees))
+        group.sort(key=lambda channel: (not channel.is_horizontal, channel.degrees))
         if why := next(_unclear(group, without_vertical), ""):
             left.append((_listed(group), why))
         else:
@@ -167,14 +167,20 @@ def table(sets: Sets) -> Iterator[str]:
     """Yield the lines of a table: which channel is x, y and z of each set."""
     rows = [("motion", "", "record", "taken for", "dt [s]", "samples", "format")]
     for name, group in sets.items():
-        for axis, each in zip("xyz", group, strict=False):
-            what = each.name, each.taken_for, f"{each.dt_s:.4g}", str(each.npts), each.format
-            rows.append((name if axis == "x" else "", axis, *what))
+        for axis, channel in zip("xyz", group, strict=False):
+            cells = (
+                channel.name,
+                channel.taken_for,
+                f"{channel.dt_s:.4g}",
+                str(channel.npts),
+                channel.format,
+            )
+            rows.append((name if axis == "x" else "", axis, *cells))
     return aligned(rows, "<<<<>><")
 
 
 def _listed(group: Sequence[Candidate]) -> str:
-    return ", ".join(f"{each.name} ({each.taken_for})" for each in group)
+    return ", ".join(f"{channel.name} ({channel.taken_for})" for channel in group)
 
 
 def _corrected(clear: Sequence[_Clear], left: list[Left]) -> Iterator[_Clear]:
@@ -196,7 +202,7 @@ def _short(name: str) -> str:
 
 def _unclear(group: Sequence[Candidate], without_vertical: bool) -> Iterator[str]:
     """Yield why a group in the order of x, y, z is not the set of a motion."""
-    level = [each for each in group if each.is_horizontal]
+    level = [channel for channel in group if channel.is_horizontal]
     if (len(level), len(group)) not in ((2, 3), (2, 2 if without_vertical else 3)):
         counts = f"{len(level)} horizontal and {len(group) - len(level)} vertical of one motion"
         alone = "; --without-vertical takes the two" if len(level) == len(group) == 2 else ""
@@ -209,13 +215,13 @@ def _unclear(group: Sequence[Candidate], without_vertical: bool) -> Iterator[str
         )
     elif level[0].family != level[1].family or (level[1].degrees - level[0].degrees) % 180 != 90:
         yield "the horizontal components are not perpendicular by their names"
-    steps, lengths = [each.dt_s for each in group], [each.npts for each in group]
+    steps, lengths = [channel.dt_s for channel in group], [channel.npts for channel in group]
     # Steps of headings differ by the rounding of a division alone.
     if max(steps) - min(steps) > 1e-9 * max(steps):
         yield f"time steps differ: {min(steps):g} to {max(steps):g} s"
     if min(lengths) < (1.0 - LENGTHS_WITHIN) * max(lengths):
         yield f"lengths differ: {min(lengths)} to {max(lengths)} samples"
-    starts = [each.start for each in group if each.start is not None]
+    starts = [channel.start for channel in group if channel.start is not None]
     if starts and max(starts) - min(starts) > STARTS_WITHIN:
         yield f"start times differ: {min(starts)} to {max(starts)}"
 
@@ -225,17 +231,19 @@ def _channels(file: str, motion_file: MotionFile) -> Sequence[Candidate]:
     channels = []
     is_alone = len(motion_file.channels) == 1
     for record in motion_file.channels:
-        said = "" if record.name == motion_file.name else record.name
+        channel_name = "" if record.name == motion_file.name else record.name
         stem, of_name = PurePosixPath(file).stem, None
         if is_alone:
             stem, of_name = _by_name(stem)
-        of_heading = _by_heading(said)
+        of_heading = _by_heading(channel_name)
         component = of_heading or of_name
         if component is None:
-            raise InputError(f"neither its heading ({said or 'none'}) nor its name has a component")
-        family, degrees, rest = component
+            raise InputError(
+                f"neither its heading ({channel_name or 'none'}) nor its name has a component"
+            )
+        family, degrees, remaining = component
         if of_heading and of_name and _differ(of_heading, of_name):
-            raise InputError(f"its heading ({said}) and its name have different components")
+            raise InputError(f"its heading ({channel_name}) and its name have different components")
         if not of_name:
             stem = _without(stem, family, degrees)
         channels.append(
@@ -248,7 +256,7 @@ def _channels(file: str, motion_file: MotionFile) -> Sequence[Candidate]:
                 start=motion_file.start,
                 family=family,
                 degrees=degrees,
-                motion=(stem, rest),
+                motion=(stem, remaining),
             )
         )
     return channels
@@ -264,8 +272,8 @@ def _without(stem: str, family: str, degrees: int) -> str:
         if word and len(word[0]) < len(stem):
             direction = _by_word(word[0].casefold())
             if direction and direction[:2] == (family, degrees):
-                rest = stem[: word.start()] + stem[word.end() :].lstrip(_MARKS)
-                return rest.rstrip(_MARKS)
+                remaining = stem[: word.start()] + stem[word.end() :].lstrip(_MARKS)
+                return remaining.rstrip(_MARKS)
     return stem
 
 

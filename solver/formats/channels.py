@@ -64,21 +64,21 @@ class MotionFile:
         InputError
             If there is no such channel; the message lists the names.
         """
-        wanted = _folded(name)
-        if not wanted and len(self.channels) == 1:
+        key = _folded(name)
+        if not key and len(self.channels) == 1:
             return self.channels[0]
         by_name = {_folded(record.name): record for record in self.channels}
         by_number = {str(i): record for i, record in enumerate(self.channels, start=1)}
         # A name counts before a number: a channel may be called 2.
-        chosen = (by_number | by_name).get(wanted)
+        chosen = (by_number | by_name).get(key)
         if chosen is None:
-            what = f"found no channel {shown(name)}" if wanted else "found several channels"
+            problem = f"found no channel {shown(name)}" if key else "found several channels"
             names = "; ".join(f"{i} {record.name}" for i, record in [*by_number.items()][:_LISTED])
-            more = len(by_number) - _LISTED
-            names += f"; ... and {more} more" if more > 0 else ""
-            near = nearest(name, (record.name for record in self.channels)) if wanted else ""
+            unlisted = len(by_number) - _LISTED
+            names += f"; ... and {unlisted} more" if unlisted > 0 else ""
+            near = nearest(name, (record.name for record in self.channels)) if key else ""
             asked = f"did you mean '{near}'? Give" if near else "give"
-            raise InputError(f"{self.name}: {what}; {asked} one by name or number: {names}")
+            raise InputError(f"{self.name}: {problem}; {asked} one by name or number: {names}")
         return chosen
 
 
@@ -172,9 +172,11 @@ def motion_file(
         # A constant is no shaking with gravity in it.
         shakes = has_gravity(a_mps2) and np.ptp(a_mps2) > 0.0
         gravity = ("the mean is about 1 g: gravity is in it",) if shakes else ()
-        told = (*gravity, *channel.notes)
-        records.append(Record(name=name, dt_s=float(channel.dt_s), a_mps2=a_mps2, notes=told))
-        all_notes += told if alone else [f"{name}: {note}" for note in told]
+        channel_notes = (*gravity, *channel.notes)
+        records.append(
+            Record(name=name, dt_s=float(channel.dt_s), a_mps2=a_mps2, notes=channel_notes)
+        )
+        all_notes += channel_notes if alone else [f"{name}: {note}" for note in channel_notes]
     all_notes += _unit_notes(records)
     mean = np.array([record.a_mps2.mean() for record in records])
     if (
@@ -267,7 +269,7 @@ def centered_peak_notes(
     centered = a_mps2 - a_mps2.mean() if len(a_mps2) else a_mps2
     alike = min(
         (a_mps2, centered),
-        key=lambda each: abs(float(np.abs(each).max(initial=0.0)) - abs(stated_mps2)),
+        key=lambda values: abs(float(np.abs(values).max(initial=0.0)) - abs(stated_mps2)),
     )
     return peak_notes(source, index, stated_mps2, alike)
 
@@ -327,12 +329,12 @@ def recorder_notes(source: Source, samples: int) -> tuple[str, ...]:
     """
     matches = enumerate(map(_OF_RECORDER.search, source.lines))
     stated = [(int(match[1]), index) for index, match in matches if match]
-    most, index = max(stated, default=(0, 0))
-    if most <= samples:
+    stated_count, index = max(stated, default=(0, 0))
+    if stated_count <= samples:
         return ()
     return (
-        f"line {index + 1} states {most} channels of the recorder, the file has {samples}: the "
-        "others are in other files, or the file is truncated",
+        f"line {index + 1} states {stated_count} channels of the recorder, the file has {samples}:"
+        " the others are in other files, or the file is truncated",
     )
 
 

@@ -38,10 +38,10 @@ def magnitudes(table: Floats, columns: Sequence[int], named: Sequence[int]) -> l
 
     By their numbers, the root of the sum of squares, or as their headings name them.
     """
-    found: list[int] = []
+    lengths: list[int] = []
     for i in columns:
         values = table[:, i]
-        before = [k for k in columns if k != i and k not in found]
+        before = [k for k in columns if k != i and k not in lengths]
         # Loggers write the length behind two or three components, or behind all of them.
         vectors = [before[:count] for count in (2, 3, len(before)) if 1 < count <= len(before)]
         roots = (np.linalg.norm(table[:, vector], axis=1) for vector in vectors)
@@ -51,8 +51,8 @@ def magnitudes(table: Floats, columns: Sequence[int], named: Sequence[int]) -> l
             and values.any()
             and (i in named or any(np.abs(values - root).max() <= within for root in roots))
         ):
-            found.append(i)
-    return found
+            lengths.append(i)
+    return lengths
 
 
 def counting(table: Floats) -> list[int]:
@@ -85,16 +85,16 @@ def remedy(table: Floats) -> str:
         deletion = f"column {which} counts the lines: delete it"
         if len(counts) > 1:
             deletion = f"columns {which} count the lines: delete them"
-        rest = np.delete(table, counts, axis=1)
-        then = remedy(rest) if rest.shape[1] > 1 else "give the time step dt"
+        remaining = np.delete(table, counts, axis=1)
+        then = remedy(remaining) if remaining.shape[1] > 1 else "give the time step dt"
         return f"{deletion}; then {then}"
     if same := [i for i in columns[1:] if np.array_equal(table[:, i], table[:, columns[0]])]:
         return f"columns {columns[0] + 1} and {same[0] + 1} are the same: {SIDE_BY_SIDE}"
     which = ", ".join(str(column + 1) for column in columns)
     # Numbers of lines may count by more than 1, and are whole.
     is_whole = bool((table[:, columns] == np.rint(table[:, columns])).all())
-    what, end = ("times or line numbers", "; delete line numbers") if is_whole else ("times", "")
+    noun, end = ("times or line numbers", "; delete line numbers") if is_whole else ("times", "")
     return (
-        f"{what} rise in column {which}: put each time first on a line with its values, below"
+        f"{noun} rise in column {which}: put each time first on a line with its values, below"
         f" {heading}{end}"
     )

@@ -96,14 +96,14 @@ class Layout:
         heading, units = self.headings[column], self.source.units
         size = unit_size(heading.unit)
         for index, line in self.remarks:
-            others = {unit_size(unit): unit for unit in phrases.stated_units(line)}
-            if not others or size in others:
+            sizes = {unit_size(unit): unit for unit in phrases.stated_units(line)}
+            if not sizes or size in sizes:
                 continue
             # A comment may tell of another file; what the caller says is meant for this one.
-            if units and unit_size(units) in {size, *others}:
+            if units and unit_size(units) in {size, *sizes}:
                 return unit_size(units)
             raise InputError(
-                f"{self.source.at(index)}: the comment states {' and '.join(others.values())}, the"
+                f"{self.source.at(index)}: the comment states {' and '.join(sizes.values())}, the"
                 f" heading {shown(heading.text)} states {heading.unit}: which is it? Correct one"
                 " of them, or give the units"
             )
@@ -120,8 +120,8 @@ def laid_out(source: Source) -> Layout:
     start = _first_row(lines)
     first, content = next(rows_of(lines, start), (-1, ""))
     if not content:
-        found = likely_text(lines) or "found no numbers; give one or more columns of them"
-        raise InputError(f"{source.name}: {found}")
+        problem = likely_text(lines) or "found no numbers; give one or more columns of them"
+        raise InputError(f"{source.name}: {problem}")
     separator = _separator(content)
     fields = [field.strip() for field in content.split(separator)]
     _check_first(source, first, fields)
@@ -154,12 +154,12 @@ def _check_first(source: Source, first: int, fields: Sequence[str]) -> None:
             )
     words = [field for field in fields if field.strip(" *")]
     if any(_is_heading(word) or _LETTERS.match(word) for word in words):
-        found = likely_text(source.lines) or (
+        problem = likely_text(source.lines) or (
             f"found {shown(source.lines[first].strip())} where numbers are due, and no heading of a"
             f" format that is read; {COLUMNS}, times any factor that the text states, and put #"
             " before every other line of text"
         )
-        raise InputError(f"{source.at(first)}: {found}")
+        raise InputError(f"{source.at(first)}: {problem}")
     if any(map(_CLOCK.fullmatch, fields[:2])):
         raise InputError(
             f"{source.at(first)}: found {shown(fields[0])}, a date or a time of day; give seconds"
@@ -263,31 +263,31 @@ def _without_units_row(lines: list[str]) -> list[str]:
     names, units = top.split(mark), below.split(mark)
     kinds = [parse(f"a [{unit.strip(' []()')}]") for unit in units if unit.strip()]
     is_units = kinds and all(
-        each.kind in (Kind.ACCELERATION, Kind.TIME) or each.unit for each in kinds
+        heading.kind in (Kind.ACCELERATION, Kind.TIME) or heading.unit for heading in kinds
     )
     if not is_units or len(names) != len(units) or any(map(NUMBER.fullmatch, units)):
         return lines
     pairs = zip(names, units, strict=True)
-    said = []
+    headings = []
     for name, unit in pairs:
         plain = unit.strip(" []()")
-        said.append(f"{name.strip()} [{plain}]" if plain else name)
-    return [*lines[: rows[0]], (mark or " ").join(said), *lines[rows[0] + 1 : rows[1]], "",
+        headings.append(f"{name.strip()} [{plain}]" if plain else name)
+    return [*lines[: rows[0]], (mark or " ").join(headings), *lines[rows[0] + 1 : rows[1]], "",
             *lines[rows[1] + 1 :]]  # fmt: skip
 
 
 def _with_count_and_step_told(lines: list[str]) -> list[str]:
     """Make a remark of a first row that counts the times and values below it, as of DEEPSOIL."""
     start = _first_row(lines)
-    (at, content), (_, second) = [*islice(rows_of(lines, start), 2), (0, ""), (0, "")][:2]
+    (index, content), (_, second) = [*islice(rows_of(lines, start), 2), (0, ""), (0, "")][:2]
     match = _COUNT_AND_STEP.fullmatch(content)
     fields = second.split(_separator(second))
-    if not match or len(fields) != 2 or int(match[1]) != len([*rows_of(lines, at + 1)]):
+    if not match or len(fields) != 2 or int(match[1]) != len([*rows_of(lines, index + 1)]):
         return lines
     # Times do not fall from their count.
     is_time = NUMBER.fullmatch(fields[0]) and float(fields[0]) < float(match[1])
     remark = f"# npts {match[1]}, dt = {match[2]} s"
-    return [*lines[:at], remark, *lines[at + 1 :]] if is_time else lines
+    return [*lines[:index], remark, *lines[index + 1 :]] if is_time else lines
 
 
 def _without_decimal_commas(lines: list[str]) -> list[str]:

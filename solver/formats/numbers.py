@@ -257,12 +257,12 @@ def _fixed_problems(
 ) -> Iterator[str]:
     count = 0
     for number, row in enumerate(rows):
-        fields, at = _cut(row, layout), block.first + number
+        fields, index = _cut(row, layout), block.first + number
         due, count = layout.per_line, number * layout.per_line + len(fields)
         if len(fields) != due and number < len(rows) - 1:
             values = "1 value" if len(fields) == 1 else f"{len(fields)} values"
-            yield f"{source.at(at)}: found {values}; give {due}"
-        yield from field_problems(source, at, fields)
+            yield f"{source.at(index)}: found {values}; give {due}"
+        yield from field_problems(source, index, fields)
     if count != block.count:
         yield _wrong_count(source, block, count)
 

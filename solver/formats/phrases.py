@@ -157,11 +157,11 @@ def is_spectral(heading: Heading) -> bool:
 
 def of_a_spectrum(headings: list[Heading]) -> list[str]:
     """Return the headings by which a table is a spectrum: no time, or ordinates alone."""
-    first, *others = headings
-    spectral = [each.text for each in others if is_spectral(each)]
+    first, *ordinates = headings
+    spectral = [heading.text for heading in ordinates if is_spectral(heading)]
     if _ABSCISSAS.match(first.text):
         return [first.text, *spectral]
-    return spectral if spectral and len(spectral) == len(others) else []
+    return spectral if spectral and len(spectral) == len(ordinates) else []
 
 
 def remark(line: str, separator: str | None, width: int) -> list[Heading]:
@@ -197,8 +197,10 @@ def _is_unit(text: str, *, bracketed: bool) -> bool:
     if bracketed and (plain in SECONDS or (len(plain) > 2 and _is_time_unit(plain))):
         return True
     # After an underscore, `in` and `deg` may as well be words.
-    other = is_other_unit(text) and (bracketed or "/" in text or text.lower() in ("mm", "cm", "m"))
-    return other or is_raw(text) or not math.isnan(unit_size(text))
+    is_of_another = is_other_unit(text) and (
+        bracketed or "/" in text or text.lower() in ("mm", "cm", "m")
+    )
+    return is_of_another or is_raw(text) or not math.isnan(unit_size(text))
 
 
 def _is_time(name: str) -> bool:
@@ -238,8 +240,8 @@ def other_quantity(line: str) -> str:
     """What a line of text says that the numbers below it are, if no acceleration; "" for none."""
     quantity = _QUANTITY.match(line)
     # A length alone may be a word, or the unit of the site's coordinates.
-    others = (unit for unit in _UNITS_OF.findall(line) if "/" in unit and is_other_unit(unit))
-    return quantity[1].lower() if quantity else next(others, "")
+    units = (unit for unit in _UNITS_OF.findall(line) if "/" in unit and is_other_unit(unit))
+    return quantity[1].lower() if quantity else next(units, "")
 
 
 def is_of_another(line: str) -> bool:

@@ -152,8 +152,8 @@ class Source:
                 " of raw counts; give the file alone"
             )
         if self.units and not math.isclose(unit_size(self.units), size):
-            found = f"{self.at(index)}: the file is in {stated} but units are {self.units}"
-            raise InputError(Problem(found, "give the units of the file, or none", about="units"))
+            problem = f"{self.at(index)}: the file is in {stated} but units are {self.units}"
+            raise InputError(Problem(problem, "give the units of the file, or none", about="units"))
         return size
 
     @property
@@ -164,17 +164,18 @@ class Source:
         except ValueError:
             return math.nan
 
-    def counts_scale(self, what: str) -> float:
+    def counts_scale(self, problem: str) -> float:
         """Value [m/s2] of a raw count, if the caller gives their number."""
         if math.isnan(self.counts_per_mps2):
             raise InputError(
-                f"{what}: raw counts are no acceleration without the response of the instrument;"
+                f"{problem}: raw counts are no acceleration without the response of the instrument;"
                 " give it (motion convert --response), as StationXML for miniSEED and SAC, or as"
                 " counts per m/s2"
             )
         if not SENSITIVITY.has(self.counts_per_mps2):
             raise InputError(
-                f"{what}: the response is {self.response} counts per m/s2; give {SENSITIVITY.words}"
+                f"{problem}: the response is {self.response} counts per m/s2; give"
+                f" {SENSITIVITY.words}"
             )
         return 1.0 / self.counts_per_mps2
 
@@ -188,9 +189,9 @@ class Source:
         if self.response and not self.units:
             return self.counts_scale(f"{self.name}: found no unit")
         if not self.units:
-            wanted = f"give units, one of {', '.join(UNIT_CHOICES)}, or a heading such as acc_g"
-            found = f"{self.name}: found no unit of acceleration"
-            raise InputError(Problem(found, wanted, about="units"))
+            remedy = f"give units, one of {', '.join(UNIT_CHOICES)}, or a heading such as acc_g"
+            problem = f"{self.name}: found no unit of acceleration"
+            raise InputError(Problem(problem, remedy, about="units"))
         return unit_size(self.units)
 
     def step(self, stated: Stated) -> float:
@@ -198,8 +199,8 @@ class Source:
         value = stated.value
         if math.isnan(value):
             if math.isnan(self.dt_s):
-                found = f"{self.at(stated.index)}: found no time step"
-                raise InputError(Problem(found, "give the time step dt", about="dt_s"))
+                problem = f"{self.at(stated.index)}: found no time step"
+                raise InputError(Problem(problem, "give the time step dt", about="dt_s"))
             return self.dt_s
         if not (is_finite_number(value) and value > 0.0):
             raise InputError(
@@ -208,12 +209,12 @@ class Source:
         if math.isnan(self.dt_s):
             return value
         if abs(value - self.dt_s) > stated.rounding + 1e-4 * value:
-            found = (
+            problem = (
                 f"{self.at(stated.index)}: the time step of the file is {value:.6g} s but the one"
                 f" given is {self.dt_s:.6g} s"
             )
-            wanted = "give the time step of the file, or none"
-            raise InputError(Problem(found, wanted, about="dt_s"))
+            remedy = "give the time step of the file, or none"
+            raise InputError(Problem(problem, remedy, about="dt_s"))
         return self.dt_s
 
 

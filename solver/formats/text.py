@@ -58,19 +58,19 @@ def read(source: Source) -> MotionFile:
         )
     _check_remarks(layout, table)
     timed = _has_times(layout, table)
-    left = _left_out(layout, table, range(int(timed), table.shape[1]))
-    taken = [i for i in range(int(timed), table.shape[1]) if i not in left]
+    ignored = _left_out(layout, table, range(int(timed), table.shape[1]))
+    taken = [i for i in range(int(timed), table.shape[1]) if i not in ignored]
     if not taken:
-        beside = (f"{shown(layout.headings[i].text)}, {why}" for i, why in left.items())
+        ignored_names = (f"{shown(layout.headings[i].text)}, {why}" for i, why in ignored.items())
         raise InputError(
-            f"{source.name}: found no component of acceleration beside {'; '.join(beside)}: give"
-            " one a heading such as acc_g"
+            f"{source.name}: found no component of acceleration beside {'; '.join(ignored_names)}:"
+            " give one a heading such as acc_g"
         )
     columns = table[:, taken].T
     if timed:
-        dt_s, columns, told = _timed(layout, table, columns)
+        dt_s, columns, time_notes = _timed(layout, table, columns)
     else:
-        dt_s, told = _untimed_step(layout, table.shape[1]), ()
+        dt_s, time_notes = _untimed_step(layout, table.shape[1]), ()
     several = len(taken) > 1
     channels = [
         Record(
@@ -80,10 +80,10 @@ def read(source: Source) -> MotionFile:
         )
         for i, values in zip(taken, columns, strict=True)
     ]
-    notes = list(told)
+    notes = list(time_notes)
     if in_line := _pairs_in_line(layout, table):
         notes.append(f"each line has {in_line} pairs of time and value")
-    for i, why in left.items():
+    for i, why in ignored.items():
         notes.append(f"column {shown(layout.headings[i].text)} is ignored: it is {why}")
     if not source.is_ended:
         notes.append(
@@ -157,23 +157,23 @@ def _shaped(layout: Layout) -> Floats | None:
     Raises `InputError` for other values across the lines, and for a first row unlike all.
     """
     source, start, width = layout.source, layout.start, layout.width
-    (first, _), *others = [(i, len(layout.fields(row))) for i, row in layout.rows()]
+    (first, _), *widths_below = [(i, len(layout.fields(row))) for i, row in layout.rows()]
     heading = content_of(source.lines[start - 1]) if start else ""
     is_headed = bool(heading) and len(phrases.words(heading, layout.separator)) == width
-    if len(others) < 2:
+    if len(widths_below) < 2:
         return None
-    *middle, (last, left) = others
+    *middle, (last, last_width) = widths_below
     widths = {numbers for _, numbers in middle}
-    if not is_headed and widths == {width} and left < width:
+    if not is_headed and widths == {width} and last_width < width:
         values = _across(layout, width)
         if values.shape[1] == 2:
             return values
-        table = values[:-left].reshape(-1, width)
+        table = values[:-last_width].reshape(-1, width)
         raise InputError(
-            f"{source.at(last)}: found {left} values after lines of {width}: values across the"
-            f" lines, not in columns; {remedy(table)}"
+            f"{source.at(last)}: found {last_width} values after lines of {width}: values across"
+            f" the lines, not in columns; {remedy(table)}"
         )
-    if len(widths) == 1 and widths != {width} and left <= min(widths):
+    if len(widths) == 1 and widths != {width} and last_width <= min(widths):
         raise InputError(
             f"{source.at(first)}: found {width} numbers above rows of {min(widths)}; if they are no"
             " samples, put # before them, and give the time step"
@@ -260,11 +260,11 @@ def _check_remarks(layout: Layout, table: Floats) -> None:
 def _left_out(layout: Layout, table: Floats, columns: Sequence[int]) -> dict[int, str]:
     """Return the columns that are no component of an acceleration, and why."""
     headings = layout.headings
-    others = [i for i in columns if headings and headings[i].kind is Kind.OTHER]
-    components = [i for i in columns if i not in others]
+    not_accelerations = [i for i in columns if headings and headings[i].kind is Kind.OTHER]
+    components = [i for i in columns if i not in not_accelerations]
     named = [i for i in components if headings and headings[i].is_magnitude]
     lengths = magnitudes(table, components, named)
-    return dict.fromkeys(others, "not an acceleration") | dict.fromkeys(
+    return dict.fromkeys(not_accelerations, "not an acceleration") | dict.fromkeys(
         lengths, "the magnitude of a vector, not a component"
     )
 
@@ -294,9 +294,9 @@ def _untimed_step(layout: Layout, columns: int) -> float:
     """Step [s] of a text without times: from a remark, or the caller."""
     source, stated = layout.source, layout.step()
     if math.isnan(stated.value) and math.isnan(source.dt_s):
-        what = "one column," if columns == 1 else "columns"
-        found = f"{source.name}: found {what} without times"
-        raise InputError(Problem(found, "give the time step dt", about="dt_s"))
+        noun = "one column," if columns == 1 else "columns"
+        problem = f"{source.name}: found {noun} without times"
+        raise InputError(Problem(problem, "give the time step dt", about="dt_s"))
     return source.dt_s if math.isnan(stated.value) else source.step(stated)
 
 
@@ -328,10 +328,10 @@ def _unit_of_times(layout: Layout, table: Floats) -> float:
     heading = layout.headings[0] if layout.headings else None
     step = float(np.median(np.diff(table[:, 0])))
     if not (heading and heading.unit) and step >= _LONGEST_STEP and len(table) > _FEW:
-        what = shown(heading.text) if heading else "a first column"
+        noun = shown(heading.text) if heading else "a first column"
         or_none = "" if heading else ", or delete the column if it counts the samples"
         raise InputError(
-            f"{layout.source.at(max(layout.heading_index, 0))}: found {what} with steps of"
+            f"{layout.source.at(max(layout.heading_index, 0))}: found {noun} with steps of"
             f" {step:g}; give the unit of the times, such as time_s or time_ms{or_none}"
         )
     return unit_s

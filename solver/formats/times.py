@@ -63,8 +63,10 @@ def sampled(
         stated = Stated(value=round_step(step, blur), rounding=blur, index=line_of(0))
         return source.step(stated), columns, ()
     if not math.isnan(source.dt_s):
-        found = f"{source.name}: found uneven times but the time step given is {source.dt_s:.6g} s"
-        raise InputError(Problem(found, "give none, and the record is resampled", about="dt_s"))
+        problem = (
+            f"{source.name}: found uneven times but the time step given is {source.dt_s:.6g} s"
+        )
+        raise InputError(Problem(problem, "give none, and the record is resampled", about="dt_s"))
     return _resampled(source, t_s, columns, line_of)
 
 
@@ -86,12 +88,14 @@ def _rounded(source: Source, t_s: Floats, columns: Floats, unit_s: float) -> Eve
     blur = 1.001 * resolution / n
     note = f"the times are rounded to {resolution:g} s"
     if abs(source.dt_s - step) <= blur:
-        told = f"{note}: the time step is the one given, and a missing sample would not show"
-        return source.dt_s, columns, (told,)
+        rounding_note = (
+            f"{note}: the time step is the one given, and a missing sample would not show"
+        )
+        return source.dt_s, columns, (rounding_note,)
     usual = (1.0 / rate for rate in _RATES_HZ if abs(1.0 / rate - step) <= blur)
-    found = f"{source.name}: {note}, {n} steps over {t_s[-1] - t_s[0]:.6g} s"
-    wanted = f"give the time step dt, such as {next(usual, step):.9g}"
-    raise InputError(Problem(found, wanted, about="dt_s"))
+    problem = f"{source.name}: {note}, {n} steps over {t_s[-1] - t_s[0]:.6g} s"
+    remedy = f"give the time step dt, such as {next(usual, step):.9g}"
+    raise InputError(Problem(problem, remedy, about="dt_s"))
 
 
 def _check_rising(source: Source, t_s: Floats, line_of: Callable[[int], int]) -> None:
@@ -129,8 +133,8 @@ def _resolution(t_s: Floats, unit_s: float) -> float:
 
 def round_step(step: float, blur: float) -> float:
     """Step [s] without the rounding of printed times: that of a whole rate in Hz if within it."""
-    whole = 1.0 / max(round(1.0 / step), 1)
-    return whole if abs(whole - step) <= blur + 1e-9 * step else float(f"{step:.9g}")
+    whole_rate_s = 1.0 / max(round(1.0 / step), 1)
+    return whole_rate_s if abs(whole_rate_s - step) <= blur + 1e-9 * step else float(f"{step:.9g}")
 
 
 def _resampled(source: Source, t_s: Floats, columns: Floats, line_of: Callable[[int], int]) -> Even:
@@ -171,8 +175,8 @@ def _loss(t_s: Floats, columns: Floats, even: Floats, step: float) -> float:
     # the new samples. The largest difference is therefore at an old sample.
     times = t_s[0] + step * np.arange(even.shape[1])
     moved = [
-        np.abs(np.interp(t_s, times, new) - old).max()
-        for new, old in zip(even, columns, strict=True)
+        np.abs(np.interp(t_s, times, even_values) - values).max()
+        for even_values, values in zip(even, columns, strict=True)
     ]
     peaks = np.abs(columns).max(axis=1)
     return max(move / peak if peak > 0.0 else 0.0 for move, peak in zip(moved, peaks, strict=True))
@@ -186,5 +190,5 @@ def _gaps(source: Source, t_s: Floats, usual: float, line_of: Callable[[int], in
         " interpolated linearly"
         for i in gaps[:_MAX_GAPS].tolist()
     ]
-    more = len(gaps) - _MAX_GAPS
-    return [*notes, f"... and {more} more gaps"] if more > 0 else notes
+    unlisted = len(gaps) - _MAX_GAPS
+    return [*notes, f"... and {unlisted} more gaps"] if unlisted > 0 else notes

@@ -75,8 +75,8 @@ class SpectrumRatio:
     def minimum(self, points: NDArray[np.bool_]) -> tuple[float, str]:
         """Return the smallest ratio among some points, and where it is."""
         freq_hz, ratio = self.among(points)
-        at = int(ratio.argmin())
-        return float(ratio[at]), self._at(freq_hz[at])
+        lowest = int(ratio.argmin())
+        return float(ratio[lowest]), self._at(freq_hz[lowest])
 
     def dips(self, points: NDArray[np.bool_]) -> tuple[int, str]:
         """Return the number of points below 1.00 among some, and where the lowest is."""
@@ -164,12 +164,12 @@ def _compared(
     ratios: Sequence[SpectrumRatio], points: NDArray[np.bool_]
 ) -> Sequence[SpectrumRatio]:
     """Return the components that have a target at any of the points."""
-    return [each for each in ratios if each.among(points)[0].size]
+    return [ratio for ratio in ratios if ratio.among(points)[0].size]
 
 
 def _extent(ratios: Sequence[SpectrumRatio], points: NDArray[np.bool_]) -> str:
     """Say if the target is not given at all of the points."""
-    is_whole = all(np.isfinite(each.ratio[points]).all() for each in ratios)
+    is_whole = all(np.isfinite(ratio.ratio[points]).all() for ratio in ratios)
     return "" if is_whole else " as far as the target is given"
 
 
@@ -181,10 +181,10 @@ def _least(
     *,
     provision: Provision = MOTIONS,
 ) -> Limit:
-    least, worst = min(each.minimum(points) for each in ratios)
+    lowest, worst = min(ratio.minimum(points) for ratio in ratios)
     return Limit(
         title=title,
-        found=least,
+        found=lowest,
         limit=limit,
         is_at_least=True,
         worst=worst,
@@ -209,7 +209,7 @@ def _most(title: str, limit: int, counts: Sequence[tuple[int, str]]) -> Limit:
 def _means(ratios: Sequence[SpectrumRatio]) -> Sequence[SpectrumRatio]:
     """Return the mean over the motions for each component that occurs."""
     by_name = {
-        name: [each.ratio for each in ratios if each.component == name] for name in COMPONENTS
+        name: [ratio.ratio for ratio in ratios if ratio.component == name] for name in COMPONENTS
     }
     return [
         SpectrumRatio(motion="mean of", component=name, ratio=np.mean(means, axis=0))
@@ -333,7 +333,7 @@ def _strong_rows(strengths: Sequence[MotionStrength]) -> Iterator[Limit]:
     for motion in strengths:
         if not motion.is_generated:
             measured = motion.strengths.items()
-            durations += [(each.d5_95_s, f"{motion.id} {name}") for name, each in measured]
+            durations += [(measure.d5_95_s, f"{motion.id} {name}") for name, measure in measured]
     if durations:
         title = "Strong motion of records: D5-95 of each component"
         yield _strong_row(title, durations, Consequence.CONDITION)

@@ -40,18 +40,18 @@ def spectra(a_mps2: Floats, dt_s: float, periods_s: Floats) -> Floats:
     """
     omega = 2.0 * math.pi / periods_s
     steps = steps_per_interval(dt_s, omega)
-    found = np.empty((len(a_mps2), omega.size))
+    ordinates = np.empty((len(a_mps2), omega.size))
     inputs, left = _inputs(a_mps2)
     largest = np.abs(a_mps2).max(1)
-    for each in np.unique(steps).tolist():
-        (some,) = np.nonzero(steps == each)
-        radians = omega[some] * dt_s / each
-        responses = _responses(radians, each)
+    for step_count in np.unique(steps).tolist():
+        (some,) = np.nonzero(steps == step_count)
+        radians = omega[some] * dt_s / step_count
+        responses = _responses(radians, step_count)
         states = _states(responses[:, -1], inputs[2:])
         for column, p, response, state in zip(some, radians, responses, states, strict=True):
             inputs[:2] = state
-            found[:, column] = _peaks(response, p, inputs, left * each, largest)
-    return found
+            ordinates[:, column] = _peaks(response, p, inputs, left * step_count, largest)
+    return ordinates
 
 
 def _inputs(a: Floats) -> tuple[Floats, int]:

@@ -131,10 +131,10 @@ def _greatest(samples: Floats, between: Floats) -> float:
 
 def _velocity_peaks(a: Floats, dt: float, v: Floats) -> Floats:
     """Velocities where the acceleration crosses zero inside an interval."""
-    at = np.flatnonzero(a[:-1] * a[1:] < 0.0)
-    before, after = a[at], a[at + 1]
+    crossings = np.flatnonzero(a[:-1] * a[1:] < 0.0)
+    before, after = a[crossings], a[crossings + 1]
     # v0 + a0 x / 2 at x = dt a0 / (a0 - a1), where the acceleration is zero.
-    return v[at] + 0.5 * dt * before * before / (before - after)
+    return v[crossings] + 0.5 * dt * before * before / (before - after)
 
 
 def _displacement_peaks(a: Floats, dt: float, v: Floats, d: Floats) -> Floats:

@@ -189,8 +189,8 @@ def _decimals(values: Floats, minimum: int, within: float) -> int:
     """Decimals, `minimum` or more, that keep rounding `within` that fraction of the peak value."""
     peak = np.abs(values).max()
     # With more than about 300 decimals the power of ten underflows.
-    kept = (k for k in range(minimum, 300) if _off(values, k) <= within * peak)
-    return minimum if math.isinf(within) or peak == 0.0 else next(kept, 300)
+    enough = (k for k in range(minimum, 300) if _off(values, k) <= within * peak)
+    return minimum if math.isinf(within) or peak == 0.0 else next(enough, 300)
 
 
 def _off(values: Floats, decimals: int) -> float:
@@ -202,9 +202,9 @@ def check_gaps(name: str, a_mps2: Floats) -> None:
     size = np.abs(a_mps2)
     at = int(size.argmax())
     # A code repeats: all samples of its size are set aside.
-    others = size[np.abs(size - size[at]) > 1e-9 * size[at]]
-    most = float(others.max(initial=0.0))
-    if size[at] <= _ALONE * most:
+    smaller = size[np.abs(size - size[at]) > 1e-9 * size[at]]
+    usual = float(smaller.max(initial=0.0))
+    if size[at] <= _ALONE * usual:
         return
     values = [f"{a_mps2[at] / unit:.7g}" for unit in UNITS.values()]
     codes = [value for value in values if _CODES.fullmatch(value)]
@@ -213,7 +213,8 @@ def check_gaps(name: str, a_mps2: Floats) -> None:
     if codes:
         raise InputError(
             f"{name}: sample {at + 1:,} is {min(codes, key=len)} where no other exceeds"
-            f" {most / UNITS['g']:.3g} g: it is a code for missing data; give a record without gaps"
+            f" {usual / UNITS['g']:.3g} g: it is a code for missing data; give a record without"
+            " gaps"
         )
 
 
@@ -267,13 +268,13 @@ def shown(value: object) -> str:
 
 def raise_any(problems: Iterable[str]) -> None:
     """Raise the first problems with a count of the others, if there are any."""
-    left = iter(problems)
-    listed = list(itertools.islice(left, MAX_PROBLEMS))
+    remaining = iter(problems)
+    listed = list(itertools.islice(remaining, MAX_PROBLEMS))
     if listed:
         # The others are counted but not stored, and only to a limit: a file may have millions.
-        more = sum(1 for _ in itertools.islice(left, MAX_COUNTED + 1))
-        words = f"{more} more" if more <= MAX_COUNTED else f"more than {MAX_COUNTED} more"
-        raise InputError([*listed, f"... and {words}"] if more else listed)
+        unlisted = sum(1 for _ in itertools.islice(remaining, MAX_COUNTED + 1))
+        words = f"{unlisted} more" if unlisted <= MAX_COUNTED else f"more than {MAX_COUNTED} more"
+        raise InputError([*listed, f"... and {words}"] if unlisted else listed)
 
 
 def _check_arguments(name: str, units: str, dt_s: float) -> None:

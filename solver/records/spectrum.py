@@ -135,11 +135,11 @@ def response_spectrum(
     rigid = ~np.isfinite(omega)
     spectrum = np.full(omega.shape, np.abs(a).max())
     steps = steps_per_interval(dt_s, np.where(rigid, 0.0, omega))
-    for each in np.unique(steps[~rigid]).tolist():
-        some = ~rigid & (steps == each)
+    for step_count in np.unique(steps[~rigid]).tolist():
+        some = ~rigid & (steps == step_count)
         peak, at = np.empty(some.sum()), np.empty(some.sum(), dtype=np.int64)
-        fine = read_only(refined(a, each))
-        oscillator.peaks(fine, dt_s / each, omega[some], float(damping), peak, at)
+        fine = read_only(refined(a, step_count))
+        oscillator.peaks(fine, dt_s / step_count, omega[some], float(damping), peak, at)
         spectrum[some] = np.abs(peak)
     return spectrum
 
@@ -155,8 +155,8 @@ def refined(a: Floats, steps: int) -> Floats:
     """Return a record with `steps` steps in each interval, by linear interpolation."""
     if steps == 1:
         return a
-    at = np.arange((a.size - 1) * steps + 1)
-    return np.interp(at, np.arange(a.size) * steps, a)
+    places = np.arange((a.size - 1) * steps + 1)
+    return np.interp(places, np.arange(a.size) * steps, a)
 
 
 def _check_spectrum(a: Floats, dt_s: float, periods: Floats, damping: float) -> None:

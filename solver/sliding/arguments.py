@@ -93,7 +93,8 @@ def scene_of(
             f"az_mps2 has a mean of {az.mean():.3g} m/s2: gravity is in it; subtract the mean"
         )
     if units is None and not any(
-        isinstance(each, Record | Motion) or is_series(each) for each in components.values()
+        isinstance(component, Record | Motion) or is_series(component)
+        for component in components.values()
     ):
         _warn_if_in_g(run)
     return run
@@ -103,7 +104,7 @@ def unit_size(values: Mapping[str, Given | None], units: str | None, problems: l
     """Return the size of the unit of arrays [m/s2]; records and motions have their own."""
     if units is None:
         return _size_of_series(values, problems)
-    if any(isinstance(each, Record | Motion) for each in values.values()):
+    if any(isinstance(value, Record | Motion) for value in values.values()):
         problems.append("units are given beside a record or a motion, which is in m/s2; omit them")
     if units not in UNITS:
         problems.append(f"units is {shown(units)}; give one of {', '.join(UNITS)}")
@@ -114,9 +115,9 @@ def _size_of_series(values: Mapping[str, Given | None], problems: list[str]) -> 
     """Return the size of the unit that the names of Series state; 1 without any Series."""
     # pandas keeps no unit of a Series: its name says it, as in `acceleration_g`.
     sizes = {
-        name: records_unit(parse(str(each.name)).unit)  # type: ignore[union-attr]
-        for name, each in values.items()
-        if is_series(each)
+        name: records_unit(parse(str(value.name)).unit)  # type: ignore[union-attr]
+        for name, value in values.items()
+        if is_series(value)
     }
     if any(map(math.isnan, sizes.values())):
         unknown = next(name for name, size in sizes.items() if math.isnan(size))
@@ -154,11 +155,11 @@ def _warn_if_in_g(run: Scene) -> None:
         float(np.abs(a).max()) for a in (run.ax_mps2, run.ay_mps2) if a.size
     )
     # A block slips where |G| > mu N: by about g (mu cos(theta) - sin(theta)) on a slope.
-    least = run.friction.mu_static * math.cos(run.slope_rad) - abs(math.sin(run.slope_rad))
-    if 0.0 < peak < _WEAK * least * run.g_mps2:
+    yield_ratio = run.friction.mu_static * math.cos(run.slope_rad) - abs(math.sin(run.slope_rad))
+    if 0.0 < peak < _WEAK * yield_ratio * run.g_mps2:
         warnings.warn(
-            f"the accelerations reach {peak:.3g} m/s2, and {least * run.g_mps2:.3g} m/s2 slips:"
-            " give units='g' if they are in g, or units='m/s2'",
+            f"the accelerations reach {peak:.3g} m/s2, and {yield_ratio * run.g_mps2:.3g} m/s2"
+            " slips: give units='g' if they are in g, or units='m/s2'",
             stacklevel=4,
         )
 
@@ -183,10 +184,10 @@ def unpacked(
 
     By the names of the arguments, that along the slope first, which alone may be a motion.
     """
-    along, *others = values.values()
-    steps = {each.dt_s for each in values.values() if isinstance(each, Record | Motion)}
-    for name, each in values.items():
-        if is_series(each) and (step := _step_of_series(name, each, problems)):
+    along, *transverse = values.values()
+    steps = {value.dt_s for value in values.values() if isinstance(value, Record | Motion)}
+    for name, value in values.items():
+        if is_series(value) and (step := _step_of_series(name, value, problems)):
             steps.add(step)
     if steps and dt_s is not None:
         problems.append(
@@ -194,14 +195,14 @@ def unpacked(
             " omit it"
         )
     if len(steps) > 1:
-        shown = " and ".join(f"{step:g} s" for step in sorted(steps))
-        problems.append(f"the components have steps of {shown}; give components of one step")
+        steps_text = " and ".join(f"{step:g} s" for step in sorted(steps))
+        problems.append(f"the components have steps of {steps_text}; give components of one step")
     dt_s = max(steps, default=dt_s)
-    if any(isinstance(each, Motion) for each in others):
+    if any(isinstance(value, Motion) for value in transverse):
         problems.append("a motion is given as one component; give it first and alone")
     if not isinstance(along, Motion):
-        return {name: _samples(each) for name, each in values.items()}, dt_s, 1.0
-    if any(each is not None for each in others):
+        return {name: _samples(value) for name, value in values.items()}, dt_s, 1.0
+    if any(value is not None for value in transverse):
         problems.append("a motion is given with further components; give it alone")
     components = {name: getattr(along, name) for name in ("ax_mps2", "ay_mps2", "az_mps2")}
     return {n: a if a.size else None for n, a in components.items()}, dt_s, along.scale
@@ -254,16 +255,16 @@ def checked_number(
 
 def checked_friction(name: str, mu: float | Friction, problems: list[str]) -> Friction:
     """Return the friction law for a coefficient or a law, adding a problem for every error."""
-    wanted = "a friction coefficient of 0 or more"
+    accepted = "a friction coefficient of 0 or more"
     if not isinstance(mu, Friction):
-        return coulomb(checked_number(name, mu, wanted, is_zero_or_more, problems))
+        return coulomb(checked_number(name, mu, accepted, is_zero_or_more, problems))
     checked = Friction(
-        mu_slow=checked_number("mu_slow", mu.mu_slow, wanted, is_zero_or_more, problems),
-        mu_fast=checked_number("mu_fast", mu.mu_fast, wanted, is_zero_or_more, problems),
+        mu_slow=checked_number("mu_slow", mu.mu_slow, accepted, is_zero_or_more, problems),
+        mu_fast=checked_number("mu_fast", mu.mu_fast, accepted, is_zero_or_more, problems),
         rate_s_per_m=checked_number(
             "rate_s_per_m", mu.rate_s_per_m, "a number of s/m, 0 or more", is_zero_or_more, problems
         ),
-        mu_static=checked_number("mu_static", mu.mu_static, wanted, is_zero_or_more, problems),
+        mu_static=checked_number("mu_static", mu.mu_static, accepted, is_zero_or_more, problems),
     )
     if checked.mu_static < checked.mu_slow:
         problems.append(
@@ -312,7 +313,7 @@ def checked_records(
     ]
     values = list(checked.values())
     # In m/s2 the array of the caller is run as it is, without a copy.
-    return values if size == 1.0 else [read_only(each * size) for each in values]
+    return values if size == 1.0 else [read_only(component * size) for component in values]
 
 
 def _plane_faults(method: str | Method, parameters: Parameters) -> list[str]:
@@ -324,12 +325,12 @@ def _plane_faults(method: str | Method, parameters: Parameters) -> list[str]:
             "omit ay_mps2 and give one coefficient, or omit the method"
         )
     low, high = two_axes.TOLERANCES
-    wanted = f"a number from {low:g} to {high:g}"
+    accepted = f"a number from {low:g} to {high:g}"
     for name, value in parameters.items():
         if name != "tolerance":
             problems.append(f"two axes have no parameter {name!r}; the only one is tolerance")
         else:
-            checked_number(name, value, wanted, lambda v: low <= v <= high, problems)
+            checked_number(name, value, accepted, lambda v: low <= v <= high, problems)
     return problems
 
 
@@ -349,20 +350,20 @@ def _faults(method: Method, parameters: Parameters, with_vertical: bool) -> list
 
 def checked_record(name: str, values: ArrayLike | None, problems: list[str]) -> Floats:
     """Return a read-only float64 view: numba would compile a second version for writable arrays."""
-    wanted = f"{name} is not a row of real numbers; give a sequence of accelerations"
+    remedy = f"{name} is not a row of real numbers; give a sequence of accelerations"
     try:
         samples = np.asanyarray(values)
     except (TypeError, ValueError, OverflowError):
-        problems.append(wanted)
+        problems.append(remedy)
         return NO_RECORD
     # A conversion would take text, booleans and dates, and drop the imaginary part.
     if samples.dtype.kind not in "fiu" or (
         np.ma.isMaskedArray(samples) and np.ma.is_masked(samples)
     ):
-        what = (
+        problem = (
             "has masked samples" if samples.dtype.kind in "fiu" else f"is of type {samples.dtype}"
         )
-        problems.append(f"{name} {what}; give a sequence of accelerations, all real numbers")
+        problems.append(f"{name} {problem}; give a sequence of accelerations, all real numbers")
         return NO_RECORD
     record = np.ascontiguousarray(samples, dtype=np.float64)
     if record.ndim != 1 or record.size < 2:

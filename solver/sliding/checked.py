@@ -255,9 +255,9 @@ def motion(
         signs = x.signs if isinstance(x, Motion) else (1, -1)
     if not signs or not {*signs} <= {1, -1}:
         raise InputError(f"signs is {shown(signs)}; give +1, -1 or both")
-    own = x.name if isinstance(x, Record) else "motion"
+    own_name = x.name if isinstance(x, Record) else "motion"
     return Motion(
-        id=id or (x.id if isinstance(x, Motion) else own),
+        id=id or (x.id if isinstance(x, Motion) else own_name),
         source=source or (x.source if isinstance(x, Motion) else ""),
         dt_s=checked.dt_s,
         ax_mps2=checked.ax_mps2,

@@ -232,8 +232,8 @@ def _second_axis_at_most(scene: Scene, settings: Settings, first: int) -> float:
 def _is_far_across(both: SlideResult, settings: Settings) -> bool:
     """Whether a run in two axes goes farther across than may be neglected beside any other PRD."""
     # Where one axis would do, its PRD less that share of it is at most the PRD in two.
-    left = 1.0 - settings.matters_share
-    return left > 0.0 and both.across_m > settings.bound_m(both.prd_m / left)
+    share = 1.0 - settings.matters_share
+    return share > 0.0 and both.across_m > settings.bound_m(both.prd_m / share)
 
 
 def _run_along(scene: Scene, bounds: RecordBounds | None) -> SlideResult:

@@ -185,8 +185,8 @@ def minimum_steps(row: BlockRow, seconds: float) -> float:
     if len(row.mus) == 1:
         return 0.0
     # The kernel steps at most 1 / rate.
-    least = min(row.weights) * len(row.mus)
-    rate = 2.0 * math.sqrt(row.stiffness_per_s2 / least) + 4.0 * row.damping_per_s / least
+    lightest = min(row.weights) * len(row.mus)
+    rate = 2.0 * math.sqrt(row.stiffness_per_s2 / lightest) + 4.0 * row.damping_per_s / lightest
     return rate * seconds
 
 

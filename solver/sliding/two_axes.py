@@ -179,8 +179,8 @@ def _rounding_m(scene: Scene, outcome: TwoAxesOutcome) -> float:
     """Return what rounding error of the accelerations and of the positions adds up to [m]."""
     friction, seconds = scene.friction, scene.dt_s * (scene.ax_mps2.size - 1)
     along, across, up = (float(np.abs(a).max()) for a in components(scene))
-    most = max(friction.mu_slow, friction.mu_fast, friction.mu_static)
-    terms = abs(scene.scale) * (along + across) + (1.0 + most) * (
+    largest_mu = max(friction.mu_slow, friction.mu_fast, friction.mu_static)
+    terms = abs(scene.scale) * (along + across) + (1.0 + largest_mu) * (
         scene.g_mps2 + abs(scene.scale) * up
     )
     # Of positions: |x| + |y| and what a step adds, by one rounding a step.
@@ -207,12 +207,12 @@ def _bounded(scene: Scene, tolerance: float, bounds: RecordBounds) -> TwoAxesOut
     for _ in range(_ATTEMPTS):
         outcome = _run(scene, bounds, share, _NO_EVENTS, _NO_HISTORY)
         steps += outcome.n_steps
-        wanted = tolerance * max(outcome.prd_m, kernel.SMALL)
-        settled = not scene.friction.is_monotone or outcome.error_m <= wanted
+        allowed_m = tolerance * max(outcome.prd_m, kernel.SMALL)
+        settled = not scene.friction.is_monotone or outcome.error_m <= allowed_m
         if settled or outcome.status is not Status.OK or share <= kernel.LEAST_TOLERANCE:
             break
         # The bound falls about as the tolerance of a step; 0.3 so that the next attempt suffices.
-        share *= max(0.3 * wanted / outcome.error_m, 1e-3)
+        share *= max(0.3 * allowed_m / outcome.error_m, 1e-3)
     return replace(outcome, n_steps=steps)
 
 

@@ -50,17 +50,17 @@ def _below(normal: Floats) -> Floats:
     first, last = normal[:-1], normal[1:]
     # Similar triangles: |below| / (|below| + |above|) where the signs differ, else 0 or 1.
     deep = np.maximum(-first, 0.0) + np.maximum(-last, 0.0)
-    whole = np.abs(first) + np.abs(last)
-    return deep / np.where(whole > 0.0, whole, 1.0)
+    total = np.abs(first) + np.abs(last)
+    return deep / np.where(total > 0.0, total, 1.0)
 
 
 def _starts(normal: Floats) -> Floats:
     """Return when N falls below zero, in samples, including at the beginning of the record."""
     first, last = normal[:-1], normal[1:]
-    (at,) = np.nonzero((first >= 0.0) & (last < 0.0))
+    (starts,) = np.nonzero((first >= 0.0) & (last < 0.0))
     begins = [0.0] if normal[0] < 0.0 else []
     # N is linear in the interval: it is zero at first / (first - last) of it.
-    return np.array([*begins, *(at + first[at] / (first[at] - last[at]))])
+    return np.array([*begins, *(starts + first[starts] / (first[starts] - last[starts]))])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

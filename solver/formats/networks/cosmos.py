@@ -126,17 +126,17 @@ def _heading_problems(source: Source, series: Sequence[_Part]) -> Iterator[str]:
     for part in {part.first: part for part in reversed(series)}.values():
         starts: list[tuple[int, int, str]] = []
         for index in range(part.first, part.at):
-            for pattern, group, what in _BLOCKS:
+            for pattern, group, block in _BLOCKS:
                 if match := pattern.search(source.lines[index]):
-                    starts.append((index, int(match[group]), what))
+                    starts.append((index, int(match[group]), block))
         # `_reals` refuses a heading without them.
-        if all(what != _REAL_NUMBERS for _, _, what in starts):
+        if all(block != _REAL_NUMBERS for _, _, block in starts):
             continue
         ends = [*(index for index, _, _ in starts[1:]), part.at]
-        for (index, stated, what), end in zip(starts, ends, strict=True):
-            if (lines := end - index - 1 + (what == _TEXT)) != stated:
+        for (index, stated, block), end in zip(starts, ends, strict=True):
+            if (lines := end - index - 1 + (block == _TEXT)) != stated:
                 yield (
-                    f"{source.at(index)}: states {stated} lines of {what}, found {lines}; give the"
+                    f"{source.at(index)}: states {stated} lines of {block}, found {lines}; give the"
                     " whole file"
                 )
 

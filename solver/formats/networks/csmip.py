@@ -147,9 +147,9 @@ def _values_of_one(source: Source, part: range) -> Record:
     points = _search(source, part, _POINTS)
     unit = _search(source, part, _PAIR_UNIT)
     if not points or not unit:
-        wanted = "NO. OF POINTS" if not points else "UNITS OF UNCOR ACCEL"
+        missing = "NO. OF POINTS" if not points else "UNITS OF UNCOR ACCEL"
         raise InputError(
-            f"{source.at(part.start)}: found no line {wanted} = ...; give the whole file"
+            f"{source.at(part.start)}: found no line {missing} = ...; give the whole file"
         )
     scale = source.scale(unit[1][1], unit[0])
     first = part.start + _ONE.heading
@@ -194,8 +194,8 @@ def _even_values(
     lines = range(at + 1, part.stop)
     stop, ended = channels.end_of_values(source, lines, _END.match, *_ENDED)
     # Velocities and displacements follow the accelerations of volume 2.
-    others = (i for i in range(at + 1, stop) if _SERIES.match(source.lines[i]))
-    block = Block(first=at + 1, stop=next(others, stop), count=int(line[1]), promised=at)
+    later = (i for i in range(at + 1, stop) if _SERIES.match(source.lines[i]))
+    block = Block(first=at + 1, stop=next(later, stop), count=int(line[1]), promised=at)
     numbers = fixed_values(source, block, layout) if layout else free_values(source, block)
     values = numbers * source.scale(line[3], at)
     length = _real(source, part, volume, volume.length)

@@ -60,9 +60,9 @@ def read(source: Source) -> MotionFile:
 
 
 def _component(source: Source, part: range, is_raw: bool) -> Record:
-    whole = header_values(source, part.start + _TEXT, _WHOLES, _WHOLE)
+    integers = header_values(source, part.start + _TEXT, _WHOLES, _WHOLE)
     real = header_values(source, part.start + _TEXT + _WHOLE.lines(_WHOLES), _REALS, _WHOLE)
-    count = whole[_ACCELERATIONS - 1]
+    count = integers[_ACCELERATIONS - 1]
     if not 0.0 <= count.value < 1e8:
         raise InputError(
             f"{source.at(count.index)}: found no number of accelerations; give the whole file"
@@ -72,16 +72,16 @@ def _component(source: Source, part: range, is_raw: bool) -> Record:
     first = part.start + _HEADING
     end = first + _WHOLE.lines(int(count.value))
     # V1A has no velocities: all lines to the next heading are accelerations.
-    is_alone = not whole[_VELOCITIES - 1].value > 0.0
+    is_alone = not integers[_VELOCITIES - 1].value > 0.0
     stop = part.stop if is_alone else min(end, part.stop)
     block = Block(first=first, stop=stop, count=int(count.value), promised=count.index)
     values = fixed_values(source, block, _WHOLE) * scale
-    at = part.start + _LENGTH_LINE - 1
-    if match := _LENGTH.search(source.line(at)):
-        channels.check_length(source, printed(match[1], at), len(values) * dt_s, dt_s)
+    length_index = part.start + _LENGTH_LINE - 1
+    if match := _LENGTH.search(source.line(length_index)):
+        channels.check_length(source, printed(match[1], length_index), len(values) * dt_s, dt_s)
     peak = real[(_PEAK_1 if is_raw else _PEAK_2) - 1]
     notes = (
-        *_rest(source, part, whole),
+        *_rest(source, part, integers),
         *channels.peak_notes(source, peak.index, peak.value * scale, values),
     )
     return Record(
@@ -94,12 +94,12 @@ def _component(source: Source, part: range, is_raw: bool) -> Record:
 
 def _step(source: Source, part: range, exact: Stated) -> Stated:
     """Step in the real numbers of the heading, compared with the one in the text."""
-    at = part.start + _UNIT_LINE - 1
-    line = source.line(at)
+    line_index = part.start + _UNIT_LINE - 1
+    line = source.line(line_index)
     match = _STEP_LINE.search(line) if _INTERVAL.search(line) else None
     if not match:
         return exact
-    stated = printed(match[1], at)
+    stated = printed(match[1], line_index)
     if not exact.value > 0.0:
         return stated
     channels.check_steps(source, stated, exact)
@@ -109,26 +109,29 @@ def _step(source: Source, part: range, exact: Stated) -> Stated:
 
 def _scale(source: Source, part: range) -> float:
     """Value [m/s2] of one unit: from `Raw readings in units of 1.00 mm/s/s`, or of the peak."""
-    at = part.start + _UNIT_LINE - 1
-    if unit := _UNIT.search(source.line(at)):
-        readings = printed(unit[1], at).value
+    line_index = part.start + _UNIT_LINE - 1
+    if unit := _UNIT.search(source.line(line_index)):
+        readings = printed(unit[1], line_index).value
         if not readings > 0.0:
-            raise InputError(f"{source.at(at)}: found units of {unit[1]}; give a number above 0")
-        return source.scale(unit[2], at) * readings
-    at = part.start + _PEAK_LINE - 1
-    unit = _PEAK_UNIT.match(source.line(at).strip())
+            raise InputError(
+                f"{source.at(line_index)}: found units of {unit[1]}; give a number above 0"
+            )
+        return source.scale(unit[2], line_index) * readings
+    line_index = part.start + _PEAK_LINE - 1
+    unit = _PEAK_UNIT.match(source.line(line_index).strip())
     if not unit:
         raise InputError(
-            f"{source.at(at)}: found no line Acceleration: peak ... mm/s/s; give the whole file"
+            f"{source.at(line_index)}: found no line Acceleration: peak ... mm/s/s; give the whole"
+            " file"
         )
-    return source.scale(unit[1], at)
+    return source.scale(unit[1], line_index)
 
 
-def _rest(source: Source, part: range, whole: Sequence[Stated]) -> tuple[str, ...]:
+def _rest(source: Source, part: range, integers: Sequence[Stated]) -> tuple[str, ...]:
     """Note that a file is truncated after its accelerations."""
-    counts = [whole[place - 1].value for place in (_VELOCITIES, _DISPLACEMENTS)]
+    counts = [integers[place - 1].value for place in (_VELOCITIES, _DISPLACEMENTS)]
     counts = [count for count in counts if 0.0 < count < 1e8]
-    lines = sum(_WHOLE.lines(int(count)) for count in [whole[_ACCELERATIONS - 1].value, *counts])
+    lines = sum(_WHOLE.lines(int(count)) for count in [integers[_ACCELERATIONS - 1].value, *counts])
     end = part.start + _HEADING + lines
     if end <= part.stop:
         channels.check_only_blank(source, end, part.stop, "the values of a component")

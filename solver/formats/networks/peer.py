@@ -81,9 +81,9 @@ def _counted(line: str) -> re.Match[str] | None:
 def _count_line(lines: Sequence[str]) -> int:
     """Index of the line of the count as NPTS: the last, as an older heading may stand above."""
     near = list(enumerate(lines[:_LONGEST_HEADING]))
-    whole = [i for i, line in near if _counted(line) and not line.lstrip().startswith("#")]
+    complete = [i for i, line in near if _counted(line) and not line.lstrip().startswith("#")]
     named = [i for i, line in near[:_HEADING_LINES] if _COUNT_LINE.match(line)]
-    return max(whole or named[:1], default=-1)
+    return max(complete or named[:1], default=-1)
 
 
 def _bare_line(lines: Sequence[str]) -> int:

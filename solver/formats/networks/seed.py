@@ -111,8 +111,8 @@ def _scale(source: Source, obspy: Any, trace: Any, values: Floats) -> tuple[floa
     inventory = _inventory(source, obspy)
     per_mps2, at_hz = _sensitivity(source, inventory, trace)
     note = f"raw counts / {per_mps2:.6g} per m/s2, the sensitivity at {at_hz:g} Hz"
-    sign, told = _orientation(inventory, trace)
-    notes = (*notes, f"{note}; the response at other frequencies is not removed", *told)
+    sign, orientation = _orientation(inventory, trace)
+    notes = (*notes, f"{note}; the response at other frequencies is not removed", *orientation)
     return sign / per_mps2, notes
 
 
@@ -124,8 +124,8 @@ def _orientation(inventory: Any, trace: Any) -> tuple[float, tuple[str, ...]]:
         # FDSN StationXML: the dip is down from the horizontal.
         note = f"its dip is {dip:g} deg, positive downward: the sign is turned"
         return (-1.0, (note,)) if dip > 0.0 else (1.0, ())
-    told = f"its azimuth is {azimuth} deg, its dip {dip} deg"
-    return 1.0, () if azimuth is None and dip is None else (told,)
+    note_text = f"its azimuth is {azimuth} deg, its dip {dip} deg"
+    return 1.0, () if azimuth is None and dip is None else (note_text,)
 
 
 def _inventory(source: Source, obspy: Any) -> Any:
@@ -145,9 +145,13 @@ def _sensitivity(source: Source, inventory: Any, trace: Any) -> tuple[float, flo
     """Counts per m/s2 of the instrument of a trace, and the frequency [Hz] where it has them."""
     path = Path(source.response)
     try:
-        whole = inventory.get_response(trace.id, trace.stats.starttime).instrument_sensitivity
-        value, at_hz, units = float(whole.value), float(whole.frequency), whole.input_units or ""
-        is_digital = "count" in str(whole.output_units).lower()
+        sensitivity = inventory.get_response(trace.id, trace.stats.starttime).instrument_sensitivity
+        value, at_hz, units = (
+            float(sensitivity.value),
+            float(sensitivity.frequency),
+            sensitivity.input_units or "",
+        )
+        is_digital = "count" in str(sensitivity.output_units).lower()
     except Exception as error:  # it raises a plain Exception where there is no such channel
         raise InputError(
             f"{path.name}: has no sensitivity of {trace.id} at {trace.stats.starttime}; give the"
@@ -157,7 +161,7 @@ def _sensitivity(source: Source, inventory: Any, trace: Any) -> tuple[float, flo
     size = unit_size(units)
     if math.isnan(size) or not is_digital or not SENSITIVITY.has(value / size):
         raise InputError(
-            f"{path.name}: the sensitivity of {trace.id} is {value:g} {whole.output_units} per"
-            f" {shown(units)}; give that of an accelerometer, {SENSITIVITY.words}"
+            f"{path.name}: the sensitivity of {trace.id} is {value:g} {sensitivity.output_units}"
+            f" per {shown(units)}; give that of an accelerometer, {SENSITIVITY.words}"
         )
     return value / size, at_hz

@@ -55,19 +55,19 @@ def read(source: Source) -> MotionFile:
     kind = match[1].upper() if match else ""
     if "ACCEL" not in kind:
         raise InputError(f"{source.at(0)}: found {kind.lower()}; give a file of acceleration")
-    whole = header_values(source, _TEXT, _WHOLES, _WHOLE)
+    integers = header_values(source, _TEXT, _WHOLES, _WHOLE)
     real = header_values(source, _TEXT + _WHOLE.lines(_WHOLES), _REALS, _REAL)
     # The format has no other unit.
     scale = source.scale("cm/s2", 0)
-    block, more = _block(source, whole)
+    block, comment_notes = _block(source, integers)
     rate = real[_RATE - 1]
     if _known(rate) > 0.0:
         dt_s = source.step(Stated(value=1.0 / rate.value, index=rate.index))
         record = Record(name="", dt_s=dt_s, a_mps2=fixed_values(source, block, _VALUES) * scale)
     else:
         record = _uneven(source, block, scale)
-    notes = [*more, *record.notes]
-    if whole[_FLAG - 1].value == 1.0:
+    notes = [*comment_notes, *record.notes]
+    if integers[_FLAG - 1].value == 1.0:
         notes.append("the heading flags a problem with this record: read its comments")
     # The heading has peaks in the unit of the values.
     peak = max(abs(_known(real[_LARGEST - 1])), abs(_known(real[_SMALLEST - 1]))) * scale
@@ -79,9 +79,9 @@ def read(source: Source) -> MotionFile:
     return motion_file(source, "USGS SMC", [replace(record, name=name, notes=tuple(notes))])
 
 
-def _block(source: Source, whole: Sequence[Stated]) -> tuple[Block, tuple[str, ...]]:
+def _block(source: Source, integers: Sequence[Stated]) -> tuple[Block, tuple[str, ...]]:
     """Lines of the values, after the comments, with a note where these are more than stated."""
-    comments, count = whole[_COMMENTS - 1], whole[_COUNT - 1]
+    comments, count = integers[_COMMENTS - 1], integers[_COUNT - 1]
     for number, meaning in ((comments, "lines of comment"), (count, "values")):
         if not 0.0 <= number.value < 1e8:
             raise InputError(
@@ -95,13 +95,13 @@ def _block(source: Source, whole: Sequence[Stated]) -> tuple[Block, tuple[str, .
                 f"{source.at(index)}: found a line without | among the {comments.value:.0f} lines"
                 " of comment; give the whole file"
             )
-    more = 0
-    while source.line(first + more).startswith("|"):
-        more += 1
-    note = f"states {comments.value:.0f} lines of comment, found {comments.value + more:.0f}"
+    further = 0
+    while source.line(first + further).startswith("|"):
+        further += 1
+    note = f"states {comments.value:.0f} lines of comment, found {comments.value + further:.0f}"
     stop, promised = len(source.lines), count.index
-    block = Block(first=first + more, stop=stop, count=int(count.value), promised=promised)
-    return block, (note,) if more else ()
+    block = Block(first=first + further, stop=stop, count=int(count.value), promised=promised)
+    return block, (note,) if further else ()
 
 
 def _uneven(source: Source, block: Block, scale: float) -> Record:
@@ -138,8 +138,8 @@ def _uneven(source: Source, block: Block, scale: float) -> Record:
         repeated = len(pairs) - len(times)
         notes += (f"times that stand twice: {repeated}; the mean of their values is taken",)
         pairs, rows = np.column_stack((times, means)), [rows[i] for i in first]
-    dt_s, columns, told = sampled(source, pairs[:, 0], pairs[:, 1:].T, rows.__getitem__)
-    return Record(name="", dt_s=dt_s, a_mps2=columns[0] * scale, notes=(*notes, *told))
+    dt_s, columns, resampling = sampled(source, pairs[:, 0], pairs[:, 1:].T, rows.__getitem__)
+    return Record(name="", dt_s=dt_s, a_mps2=columns[0] * scale, notes=(*notes, *resampling))
 
 
 def _known(number: Stated) -> float:
