@@ -58,8 +58,8 @@ def font(name: str) -> bytes:
 
 
 def linker() -> str | None:
-    """Return LLD for WebAssembly, if it is installed."""
-    return shutil.which("wasm-ld") or shutil.which("wasm-ld-14")
+    """Return LLD for WebAssembly, if it is installed: other versions give other bytes."""
+    return shutil.which("wasm-ld-14")
 
 
 def statements(path: Path) -> bytes:

@@ -4,8 +4,8 @@
 
 Needs what `./roofslip test` installs, LibreOffice and Chromium included. Sheets of the package and
 charts of the manual are cut at their last line, the worksheet below its filled rows; the page is
-shot as a browser shows it. The package of the example is kept as `docs/example-package.pdf`. With
-`--package`, only the package and its pictures are made.
+shot as a browser shows it. The package of the example is kept as `docs/example-package.pdf` and
+`.html`. With `--package`, only the package and its pictures are made.
 """
 
 from __future__ import annotations
@@ -61,7 +61,8 @@ def main() -> None:
     with TemporaryDirectory() as folder:
         out = Path(folder)
         _run("report", "projects/example", "--out", str(out / "package"), "--quiet")
-        shutil.copy(out / "package" / "calc-package.pdf", PACKAGE)
+        for kept in (PACKAGE, PACKAGE.with_suffix(".html")):
+            shutil.copy(out / "package" / f"calc-package{kept.suffix}", kept)
         _sheets(PACKAGE)
         _workbook(out)
         if "--package" in sys.argv:

@@ -29,9 +29,12 @@ if [ "${2-}" = --nightly ]; then
     missing=''
     [ -x /usr/lib/wine/wine64 ] || missing='wine wine64'
     command -v mvn >/dev/null 2>&1 || missing="$missing maven"
+    # They build the kernels of calc-package.html again, and open it in another browser.
+    command -v wasm-ld-14 >/dev/null 2>&1 || missing="$missing lld-14"
+    command -v firefox-esr >/dev/null 2>&1 || missing="$missing firefox-esr"
     # shellcheck disable=SC2086
     [ -z "$missing" ] || apt_install $missing \
-        || say "tests on Windows' Python are skipped. Run: sudo apt-get install $missing"
+        || say "tests on Windows' Python, in Firefox and of LLD are skipped. Run: sudo apt-get install $missing"
 fi
 shift
 unset ROOFSLIP_COMMAND # the tests expect the usual name

@@ -3,6 +3,7 @@
 Set-up by the launcher: tests/test_packaging.py. The study has fewer slopes and intensities.
 """
 
+import base64
 import json
 import os
 import re
@@ -10,6 +11,7 @@ import shutil
 import subprocess
 import sys
 import tomllib
+import zlib
 from dataclasses import replace
 from functools import cache
 from importlib.util import module_from_spec, spec_from_file_location
@@ -260,6 +262,12 @@ def test_the_finished_package_is_that_of_the_example():
     }
     workbook = (ROOT / "projects" / "example" / "input.xlsx").read_bytes()
     assert attached["input.xlsx"] == workbook, "run docs/pictures.py --package"
+    shown = path.with_suffix(".html").read_text()
+    assert len(shown) < 700_000
+    (hash,) = re.findall(r"as at the foot of its sheets: (\w{12})", shown)
+    assert hash in document[0].get_textpage().get_text_range()
+    results = re.search(r'"results":"([^"]*)"', shown)[1]
+    assert zlib.decompress(base64.b64decode(results)) == attached["results.json"]
 
 
 @pytest.mark.quick

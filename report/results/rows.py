@@ -128,7 +128,7 @@ def _printed(us_first: bool) -> model.PrintedResult:
             for unit in units
         ),
         ratio_decimals=2,
-        rounded_up=("mean_prd_m", "design_m", "required_m", "demand_capacity"),
+        rounded_up=("prd_m", "mean_prd_m", "design_m", "required_m", "demand_capacity"),
         rounded_down=("provided_m",),
     )
 

@@ -2,7 +2,7 @@
 // package, and by the kernels.
 
 import { createKernels, LENGTHS } from "./kernels.js";
-import { withFriction } from "./values.js";
+import { printedAs, unitsOf, withFriction } from "./values.js";
 
 export class ApiError extends Error {}
 
@@ -137,10 +137,8 @@ function sceneOf(results, array, run, { friction = 1, intensity = 1 }) {
 
 function slide({ results, array, of, chosen, governing, history, outline }) {
   const { dt_s: dt, rows: [down, across, vDown, vAcross], shaken: [ax, ay, az], sn, cs } = history;
-  const lengths = results.printed.lengths.map(({ size_m: si, ...unit }) => ({ ...unit, si }));
-  const [first] = lengths;
-  const inUnit = (m, { si, symbol, decimals }) => `${(m / si).toFixed(decimals)} ${symbol}`;
-  const both = (m) => (Number.isNaN(m) ? "no PRD" : `${inUnit(m, first)} (${inUnit(m, lengths[1])})`);
+  const lengths = unitsOf(results);
+  const prd = (m) => (Number.isNaN(m) ? "no PRD" : `PRD ${lengths.map((unit, k) => (k ? "(" : "") + printedAs("prd_m", m, unit, results.printed)).join(" ")})`);
   const last = dt * (ax.length - 1);
   const slips = slipsOf(history, last);
   const normal = ax.map((a, k) => (G + az[k]) * cs + a * sn);
@@ -152,7 +150,7 @@ function slide({ results, array, of, chosen, governing, history, outline }) {
   const panel = (kind, units, series) => ({ title: KINDS[kind], title_with_unit: KINDS[kind], units, series });
   const plain = (symbol) => [{ symbol, si: 1, decimals: 2 }];
   const at = Math.round(history.t_prd_s / dt);
-  const label = ({ run, done }) => `${nameOf(run)}, PRD ${both(done.prd_m)}${run === governing.run ? ", governing" : ""}`;
+  const label = ({ run, done }) => `${nameOf(run)}, ${prd(done.prd_m)}${run === governing.run ? ", governing" : ""}`;
   return {
     run: nameOf(chosen.run),
     runs: of.map((one) => ({ name: nameOf(one.run), label: label(one) })),
@@ -169,7 +167,7 @@ function slide({ results, array, of, chosen, governing, history, outline }) {
     t_prd_s: history.t_prd_s,
     texts: {
       title: `Array ${array.id}, motion ${chosen.run.motion}, run ${nameOf(chosen.run)}`,
-      prd: `PRD ${both(history.prd_m)} at ${history.t_prd_s.toFixed(2)} s`,
+      prd: `${prd(history.prd_m)}${Number.isNaN(history.prd_m) ? "" : ` at ${history.t_prd_s.toFixed(2)} s`}`,
       no_slip: "The array does not slip in this run.",
       notes: ["Computed here. Down is downslope; cross is cross-slope, positive to the left when facing downslope."],
     },

@@ -50,37 +50,43 @@ export function withFriction(friction, factor) {
   return { ...friction, mu_slow: by(friction.mu_slow), mu_fast: by(friction.mu_fast), mu_static: by(friction.mu_static) };
 }
 
+/** Return a value in a unit as the results print that of their key: up where it is required, down where provided. */
+export function printedAs(key, value, { si, symbol, decimals }, { rounded_up: up, rounded_down: down }) {
+  if (Number.isNaN(value)) return "none";
+  const size = 10 ** decimals;
+  const steps = (value / si) * size;
+  if (up.includes(key)) return `${number(Math.ceil(steps - SLACK) / size, decimals)} ${symbol}`.trimEnd();
+  return `${number(down.includes(key) ? Math.floor(steps + SLACK) / size : value / si, decimals)} ${symbol}`.trimEnd();
+}
+
+/** Return the units of lengths, the preferred one first. */
+export function unitsOf({ printed: { lengths } }) {
+  return lengths.map(({ size_m: si, ...rest }) => ({ ...rest, si }));
+}
+
 /** Mount sliders and tables in an element; `moved` is called with the values of the sliders. */
 export function mountValues(element, api, results, moved) {
   const free = movable(results);
   if (free.arrays.length === 0) return false;
   const { printed } = results;
-  const [unit] = printed.lengths.map(({ size_m: si, ...rest }) => ({ ...rest, si }));
+  const [unit] = unitsOf(results);
   const values = { friction: 1, intensity: 1, clearance_m: 0 };
   let asked = 0;
 
-  // What is required is rounded up, what is provided down, as the results say of each key.
-  const rounded = (key, value, decimals) => {
-    const size = 10 ** decimals;
-    if (printed.rounded_up.includes(key)) return Math.ceil(value * size - SLACK) / size;
-    return printed.rounded_down.includes(key) ? Math.floor(value * size + SLACK) / size : value;
-  };
-  const length = (key, value) => (Number.isNaN(value) ? "none" : measured(rounded(key, value / unit.si, unit.decimals) * unit.si, unit));
-  const ratio = (key, value) => (Number.isNaN(value) ? "none" : number(rounded(key, value, printed.ratio_decimals), printed.ratio_decimals));
-  const cell = (key, before, now, say = length) => {
-    const [first, second] = [say(key, before), say(key, now)];
+  const ratio = { si: 1, symbol: "", decimals: printed.ratio_decimals };
+  const cells = (keys, before, now) => keys.map((key) => {
+    const [first, second] = [before, now].map((of) => printedAs(key, of[key] ?? Number.NaN, key === "demand_capacity" ? ratio : unit, printed));
     return html("td", {}, first === second ? first : [`${first} → `, html("strong", {}, second)]);
-  };
-  const cells = (keys, before, now) => keys.map((key) => cell(key, before[key] ?? Number.NaN, now[key], key === "demand_capacity" ? ratio : length));
+  });
 
   const state = html("p", { class: "note", "aria-live": "polite" });
   const tables = [html("table"), html("table")];
   const show = ({ arrays, gaps }) => {
     const row = (...parts) => html("tr", {}, parts);
-    const ofArray = ({ array, ...now }) => row(html("th", { class: "left" }, array.id), cells(["mean_prd_m", "design_m"], array, now));
-    const ofGap = ({ gap, ...now }) => row(html("td", {}, gap.number), html("th", { class: "left" }, `${gap.array} to ${gap.object}`), cells(["provided_m", "required_m", "demand_capacity"], gap, now));
+    const ofArray = ({ array, ...now }) => row(html("th", {}, array.id), cells(["mean_prd_m", "design_m"], array, now));
+    const ofGap = ({ gap, ...now }) => row(html("th", {}, `${gap.number}: ${gap.array} to ${gap.object}`), cells(["provided_m", "required_m", "demand_capacity"], gap, now));
     update(tables[0], headings(["Array", "Mean PRD", "Design displacement"]), html("tbody", {}, arrays.map(ofArray)));
-    update(tables[1], headings(["No.", "Clearance", "Provided", "Required", "D/C"]), html("tbody", {}, gaps.map(ofGap)));
+    update(tables[1], headings(["Clearance", "Provided", "Required", "D/C"]), html("tbody", {}, gaps.map(ofGap)));
   };
 
   async function compute() {

@@ -147,6 +147,8 @@ def test_a_run_that_is_played_is_that_of_serve(browser, example):
             )
             for key in ("run", "dt_s", "seconds"):
                 assert found[key] == expected[key]
+            assert found["texts"]["prd"] == expected["texts"]["prd"]
+            assert found["runs"] == expected["runs"]
             for key in ("relative", "normal", "friction"):
                 for mine, theirs in zip(found[key]["series"], expected[key]["series"], strict=True):
                     # The page has the jumps of friction as well, between samples.
@@ -187,7 +189,7 @@ def test_sliders_show_values_before_and_after_without_a_verdict(browser, example
         page.get_by_text("At the values of the package.").wait_for()
         rows = page.locator("#sliders table").nth(1).locator("tbody tr")
         before = rows.all_inner_texts()
-        assert before[1].split("\t") == ["2", "A1 to RTU-1", "48.0 in", "40.8 in", "0.85"]
+        assert before[1].split("\t") == ["2: A1 to RTU-1", "48.0 in", "40.8 in", "0.85"]
         assert len(before) == len(results["clearances"])
         page.get_by_role("slider", name="Every separation provided").fill("-8")
         page.get_by_text("Computed here, without a verdict").wait_for()
