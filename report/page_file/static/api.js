@@ -111,13 +111,13 @@ function unpacked(packed, per, listed) {
   const whole = per ? null : new Float64Array(packed.buffer, 0, total);
   let [at, sum] = [0, 0];
   const record = (n) => {
-    const samples = whole ? whole.slice(at, at + n) : new Float64Array(n);
-    for (let k = at; k < at + n && !whole; k += 1) {
-      sum += packed[k] | (packed[k + total] << 8) | (packed[k + 2 * total] << 16) | (packed[k + 3 * total] << 24);
-      samples[k - at] = (sum / per) * G;
-    }
     at += n;
-    return samples;
+    if (whole) return whole.slice(at - n, at);
+    return Float64Array.from({ length: n }, (_, place) => {
+      const k = at - n + place;
+      sum += packed[k] | (packed[k + total] << 8) | (packed[k + 2 * total] << 16) | (packed[k + 3 * total] << 24);
+      return (sum / per) * G;
+    });
   };
   return listed.map(({ dt_s: dt, sizes }) => ({ dt_s: dt, parts: sizes.map(record) }));
 }
@@ -135,6 +135,14 @@ function sceneOf(results, array, run, { friction = 1, intensity = 1 }) {
   return { motion, along: run.along, polarity: run.polarity, slope_rad: array.slope_rad, friction: law, scale: run.scale * intensity };
 }
 
+function panel(kind, units, series) {
+  return { title: KINDS[kind], title_with_unit: KINDS[kind], units, series };
+}
+
+function plain(symbol) {
+  return [{ symbol, si: 1, decimals: 2 }];
+}
+
 function slide({ results, array, of, chosen, governing, history, outline }) {
   const { dt_s: dt, rows: [down, across, vDown, vAcross], shaken: [ax, ay, az], sn, cs } = history;
   const lengths = unitsOf(results);
@@ -147,8 +155,6 @@ function slide({ results, array, of, chosen, governing, history, outline }) {
   const sliding = (speed) => fast - (fast - slow) * Math.exp(-rate * speed);
   const isDuring = during(slips);
   const used = demand.map((resting, k) => (isDuring(k * dt) ? sliding(Math.hypot(vDown[k] / cs, vAcross[k])) : resting));
-  const panel = (kind, units, series) => ({ title: KINDS[kind], title_with_unit: KINDS[kind], units, series });
-  const plain = (symbol) => [{ symbol, si: 1, decimals: 2 }];
   const at = Math.round(history.t_prd_s / dt);
   const label = ({ run, done }) => `${nameOf(run)}, ${prd(done.prd_m)}${run === governing.run ? ", governing" : ""}`;
   return {

@@ -27,8 +27,12 @@ async function recompute(api) {
   const isGood = found.within === found.runs && wrong.length === 0;
   line.classList.toggle("is-wrong", !isGood);
   line.textContent = sentence(found) + (wrong.length > 0 ? ` Motions that the results do not name so: ${wrong.map(({ id }) => id).join(", ")}.` : "");
-  const row = ({ id, sha256, isSame }) => html("tr", {}, html("td", { class: "left" }, id), html("td", { class: "left hash" }, sha256), html("td", { class: "left" }, isSame ? "as in the results" : "not as in the results"));
-  replace(document.querySelector("#hashes"), html("table", {}, html("tbody", {}, hashes.map(row))));
+  replace(document.querySelector("#hashes"), html("table", {}, html("tbody", {}, hashes.map(hashRow))));
+}
+
+function hashRow({ id, sha256, isSame }) {
+  const said = isSame ? "as in the results" : "not as in the results";
+  return html("tr", {}, html("td", { class: "left" }, id), html("td", { class: "left hash" }, sha256), html("td", { class: "left" }, said));
 }
 
 function select(label, names, chosen) {

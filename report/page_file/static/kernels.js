@@ -20,17 +20,41 @@ export const LENGTHS = ["prd_m", "down_m", "up_m", "across_m", "residual_m", "re
 
 /** Return the kernels with records to run: of each motion `{ dt_s, parts }`, along, across and up, which may lack. */
 export function createKernels(wasm, motions) {
-  const { take, view, run, keeping } = createMemory(wasm);
-  const out = take(9);
-  const [top, end] = [take(7), take(4)];
-  const records = motions.map(({ dt_s: dt, parts }) => {
-    const n = parts[0].length;
-    const still = new Float64Array(n);
-    const [x, y, z] = [0, 1, 2].map((k) => record(parts[k]?.length ? parts[k] : still));
-    const has = [1, 2].map((k) => Boolean(parts[k]?.length));
-    return { n, dt, own: [x, y], back: [x, y].map(({ at }) => record(view(at, n).map((a) => -a))), z, still: record(still), has };
-  });
+  const memory = createMemory(wasm);
+  const runs = createRuns(memory);
+  const records = recordsOf(memory, motions);
 
+  // What a kernel takes of a scene: the records along, across and up, and what is the same for all.
+  function sceneOf({ motion, along, polarity, slope_rad: slope, friction, scale }) {
+    const { own, back, z, still, dt, n, has } = records[motion];
+    const k = along === "transverse" ? 1 : 0;
+    return { x: (polarity > 0 ? own : back)[k], y: own[1 - k], z, still, dt, samples: n, has, sn: Math.sin(slope), cs: Math.cos(slope), friction, scale };
+  }
+
+  return {
+    /** Return the displacements of a scene, by the simplest adequate model. */
+    run: (scene) => chosen(runs, sceneOf(scene)),
+    /** Return a run with its displacement and velocity at the samples, its events and the records that it is of. */
+    history(scene) {
+      const made = sceneOf(scene);
+      const done = chosen(runs, made);
+      const { still, cs, sn, samples: n } = made;
+      const as = { ...made, ...(done.model < 3 ? { y: still } : {}), ...(done.model === 1 ? { z: still } : {}) };
+      const { take, view } = memory;
+      return memory.keeping(() => {
+        const first = followed(runs, as);
+        const [events, places] = [take(4 * first.events), take(4 * n)];
+        runs.plane(as, first.step, [events, first.events, places, n]);
+        const rows = [0, 1, 2, 3].map((k) => Float64Array.from(view(places + 8 * k * n, n), (s) => (k % 2 ? s : s * cs)));
+        const noted = Array.from({ length: first.events }, (_, k) => [...view(events + 32 * k, 4)]);
+        const shaken = [as.x, as.y, as.z].map(({ at }) => Array.from(view(at, n), (a) => a * scene.scale));
+        return { ...done, dt_s: made.dt, rows, noted, shaken, sn, cs, law: made.friction };
+      });
+    },
+  };
+}
+
+function recordsOf({ take, view, run, keeping }, motions) {
   function record(samples) {
     const n = samples.length;
     const fine = Math.ceil(n / BLOCK);
@@ -41,87 +65,74 @@ export function createKernels(wasm, motions) {
     keeping(() => run("bounds", at, BigInt(n), bounds, BigInt(m)));
     return { at, bounds, n: BigInt(n), m: BigInt(m) };
   }
+  return motions.map(({ dt_s: dt, parts }) => {
+    const n = parts[0].length;
+    const still = new Float64Array(n);
+    const [x, y, z] = [0, 1, 2].map((k) => record(parts[k]?.length ? parts[k] : still));
+    const has = [1, 2].map((k) => Boolean(parts[k]?.length));
+    return { n, dt, own: [x, y], back: [x, y].map(({ at }) => record(view(at, n).map((a) => -a))), z, still: record(still), has };
+  });
+}
 
-  // What a kernel takes of a scene: the records along, across and up, and what is the same for all.
-  function sceneOf({ motion, along, polarity, slope_rad: slope, friction, scale }) {
-    const { own, back, z, still, dt, n, has } = records[motion];
-    const k = along === "transverse" ? 1 : 0;
-    return { x: (polarity > 0 ? own : back)[k], y: own[1 - k], z, still, dt, samples: n, has, sn: Math.sin(slope), cs: Math.cos(slope), friction, scale };
-  }
-
-  function axis({ x, z, dt, sn, cs, friction, scale }, hasVertical) {
-    const rest = [x.n, x.m, dt, sn, cs, friction.mu_slow, G, scale, out];
-    if (hasVertical) run("along", x.at, z.at, x.bounds, z.bounds, ...rest);
-    else run("level", x.at, x.bounds, ...rest);
-    const [most, least, last, w, t, stops, , normal, error] = view(out, 9);
-    return { prd_m: cs * Math.max(most, -least), down_m: cs * most, up_m: cs * Math.abs(least), across_m: 0, residual_m: cs * last, residual_across_m: 0, rests: w === 0, t_prd_s: t, stops, normal, error_m: error };
-  }
-
-  function plane({ x, y, z, dt, samples, sn, cs, friction: f, scale }, step, history = [0, 0, 0, 0]) {
-    const degree = Math.min(ORDER, 4 + Math.ceil(-0.5 * Math.log(step)));
-    const [events, count, places, n] = history;
-    const head = [x.at, y.at, z.at, x.bounds, y.bounds, z.bounds, x.n, x.m, dt, sn, cs];
-    const tail = [G, scale, step, BigInt(degree), BigInt(200_000 + 20 * samples), events, BigInt(count), places, BigInt(n), top, end, out];
-    if (isConstant(f)) keeping(() => run("plane", ...head, f.mu_slow, ...tail));
-    else keeping(() => run("law", ...head, f.mu_fast, f.mu_fast - f.mu_slow, f.rate_s_per_m, f.mu_static, ...tail));
-    const [status, error, stops, noted, steps] = view(out, 5);
-    const [prd, t, most, least, left, right, fastest] = view(top, 7);
-    const [sx, sy, vx, vy] = view(end, 4);
-    return { status, error_m: error, stops, events: noted, steps, prd_m: prd, t_prd_s: t, down_m: cs * most, up_m: cs * Math.abs(least), across_m: Math.max(left, Math.abs(right)), residual_m: cs * sx, residual_across_m: sy, rests: vx === 0 && vy === 0, fastest, step };
-  }
-
-  // To the tolerance; where friction falls with speed no bound holds, and a finer run tells by how much.
-  function followed(scene) {
-    const { friction: f } = scene;
-    const isMonotone = f.mu_fast >= f.mu_slow && f.mu_static === f.mu_slow;
-    let done = null;
-    let share = SHARE * TOLERANCE;
-    for (let k = 0; k < ATTEMPTS; k += 1) {
-      done = plane(scene, share);
-      const wanted = TOLERANCE * Math.max(done.prd_m, SMALL);
-      if (!isMonotone || done.error_m <= wanted || done.status !== 0 || share <= LEAST) break;
-      share *= Math.max((0.3 * wanted) / done.error_m, 1e-3);
-    }
-    if (isMonotone || done.status !== 0) return done;
-    const finer = plane(scene, FINER * done.step);
-    return { ...finer, error_m: SAFE * leftOut(done, { ...finer, error_m: 0 }) };
-  }
-
-  function chosen(scene) {
-    const { has: [hasAcross, hasVertical] } = scene;
-    const vertical = axis(scene, hasVertical);
-    if (vertical.normal < 0) return { model: hasVertical ? 2 : 1, ...lost() };
-    run("first_slip", scene.x.at, scene.y.at, scene.z.at, scene.x.n, scene.sn, scene.cs, scene.friction.mu_static, G, scene.scale, out);
-    if (view(out, 1)[0] === scene.samples) return { model: 0, ...axis({ ...scene, friction: { ...scene.friction, mu_slow: scene.friction.mu_static } }, hasVertical) };
-    if (!isConstant(scene.friction)) return { model: 4, ...orLost(followed(scene)) };
-    const both = hasAcross ? orLost(followed(scene)) : vertical;
-    const level = hasVertical ? axis(scene, false) : vertical;
-    const bound = Math.max(MATTERS[0], MATTERS[1] * vertical.prd_m);
-    if (leftOut(level, ...new Set([vertical, both])) <= bound) return { model: 1, ...level };
-    if (leftOut(vertical, both) <= bound) return { model: 2, ...vertical };
-    return { model: 3, ...both };
-  }
-
+// What the kernels make of a scene: in one axis, in two, and whether it never slips.
+function createRuns({ take, view, run, keeping }) {
+  const out = take(9);
+  const [top, end] = [take(7), take(4)];
   return {
-    /** Return the displacements of a scene, by the simplest adequate model. */
-    run: (scene) => chosen(sceneOf(scene)),
-    /** Return a run with its displacement and velocity at the samples, its events and the records that it is of. */
-    history(scene) {
-      const made = sceneOf(scene);
-      const done = chosen(made);
-      const { still, cs, sn, samples: n } = made;
-      const as = { ...made, ...(done.model < 3 ? { y: still } : {}), ...(done.model === 1 ? { z: still } : {}) };
-      return keeping(() => {
-        const first = followed(as);
-        const [events, places] = [take(4 * first.events), take(4 * n)];
-        plane(as, first.step, [events, first.events, places, n]);
-        const rows = [0, 1, 2, 3].map((k) => Float64Array.from(view(places + 8 * k * n, n), (s) => (k % 2 ? s : s * cs)));
-        const noted = Array.from({ length: first.events }, (_, k) => [...view(events + 32 * k, 4)]);
-        const shaken = [as.x, as.y, as.z].map(({ at }) => Array.from(view(at, n), (a) => a * scene.scale));
-        return { ...done, dt_s: made.dt, rows, noted, shaken, sn, cs, law: made.friction };
-      });
+    isStill({ x, y, z, samples, sn, cs, friction, scale }) {
+      run("first_slip", x.at, y.at, z.at, x.n, sn, cs, friction.mu_static, G, scale, out);
+      return view(out, 1)[0] === samples;
+    },
+    axis({ x, z, dt, sn, cs, friction, scale }, hasVertical) {
+      const rest = [x.n, x.m, dt, sn, cs, friction.mu_slow, G, scale, out];
+      if (hasVertical) run("along", x.at, z.at, x.bounds, z.bounds, ...rest);
+      else run("level", x.at, x.bounds, ...rest);
+      const [most, least, last, w, t, stops, , normal, error] = view(out, 9);
+      return { prd_m: cs * Math.max(most, -least), down_m: cs * most, up_m: cs * Math.abs(least), across_m: 0, residual_m: cs * last, residual_across_m: 0, rests: w === 0, t_prd_s: t, stops, normal, error_m: error };
+    },
+    plane({ x, y, z, dt, samples, sn, cs, friction: f, scale }, step, [events, count, places, n] = [0, 0, 0, 0]) {
+      const degree = Math.min(ORDER, 4 + Math.ceil(-0.5 * Math.log(step)));
+      const head = [x.at, y.at, z.at, x.bounds, y.bounds, z.bounds, x.n, x.m, dt, sn, cs];
+      const tail = [G, scale, step, BigInt(degree), BigInt(200_000 + 20 * samples), events, BigInt(count), places, BigInt(n), top, end, out];
+      if (isConstant(f)) keeping(() => run("plane", ...head, f.mu_slow, ...tail));
+      else keeping(() => run("law", ...head, f.mu_fast, f.mu_fast - f.mu_slow, f.rate_s_per_m, f.mu_static, ...tail));
+      const [status, error, stops, noted] = view(out, 4);
+      const [prd, t, most, least, left, right] = view(top, 6);
+      const [sx, sy, vx, vy] = view(end, 4);
+      return { status, error_m: error, stops, events: noted, prd_m: prd, t_prd_s: t, down_m: cs * most, up_m: cs * Math.abs(least), across_m: Math.max(left, Math.abs(right)), residual_m: cs * sx, residual_across_m: sy, rests: vx === 0 && vy === 0, step };
     },
   };
+}
+
+// To the tolerance; where friction falls with speed no bound holds, and a finer run tells by how much.
+function followed({ plane }, scene) {
+  const { friction: f } = scene;
+  const isMonotone = f.mu_fast >= f.mu_slow && f.mu_static === f.mu_slow;
+  let done = null;
+  let share = SHARE * TOLERANCE;
+  for (let k = 0; k < ATTEMPTS; k += 1) {
+    done = plane(scene, share);
+    const wanted = TOLERANCE * Math.max(done.prd_m, SMALL);
+    if (!isMonotone || done.error_m <= wanted || done.status !== 0 || share <= LEAST) break;
+    share *= Math.max((0.3 * wanted) / done.error_m, 1e-3);
+  }
+  if (isMonotone || done.status !== 0) return done;
+  const finer = plane(scene, FINER * done.step);
+  return { ...finer, error_m: SAFE * leftOut(done, { ...finer, error_m: 0 }) };
+}
+
+function chosen(runs, scene) {
+  const { has: [hasAcross, hasVertical], friction } = scene;
+  const vertical = runs.axis(scene, hasVertical);
+  if (vertical.normal < 0) return { model: hasVertical ? 2 : 1, ...lost() };
+  if (runs.isStill(scene)) return { model: 0, ...runs.axis({ ...scene, friction: { ...friction, mu_slow: friction.mu_static } }, hasVertical) };
+  if (!isConstant(friction)) return { model: 4, ...orLost(followed(runs, scene)) };
+  const both = hasAcross ? orLost(followed(runs, scene)) : vertical;
+  const level = hasVertical ? runs.axis(scene, false) : vertical;
+  const bound = Math.max(MATTERS[0], MATTERS[1] * vertical.prd_m);
+  if (leftOut(level, ...new Set([vertical, both])) <= bound) return { model: 1, ...level };
+  if (leftOut(vertical, both) <= bound) return { model: 2, ...vertical };
+  return { model: 3, ...both };
 }
 
 function isConstant(friction) {
@@ -168,7 +179,7 @@ function createMemory(wasm) {
   }
   const { exports } = new WebAssembly.Instance(module, { env });
   const { memory } = exports;
-  used = exports.__heap_base.value;
+  used = exports["__heap_base"].value;
   return {
     take(numbers) {
       const at = aligned();

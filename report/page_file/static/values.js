@@ -16,8 +16,10 @@ const NOTES = "Computed here, without a verdict: limits and conditions need a pa
  * floor, is of the values of the package.
  */
 export function movable({ arrays, clearances }) {
-  const hasFloor = (array) => array.route === "analysis" && array.design_permitted && array.design_m !== null && array.floor_m > 0;
-  const free = arrays.filter((array) => hasFloor(array) && array.friction.mu_fast >= array.friction.mu_slow && array.friction.mu_static === array.friction.mu_slow);
+  const free = arrays.filter(({ route, design_permitted: isPermitted, design_m: design, floor_m: floor, friction }) => {
+    const isMonotone = friction.mu_fast >= friction.mu_slow && friction.mu_static === friction.mu_slow;
+    return route === "analysis" && isPermitted && design !== null && floor > 0 && isMonotone;
+  });
   const beside = (gap) => arrays.filter(({ id }) => id === gap.array || id === gap.object);
   const between = clearances.map((gap, k) => ({ ...gap, number: k + 1, beside: beside(gap).map(({ id }) => id) }));
   return { arrays: free, clearances: between.filter((gap) => beside(gap).every((array) => free.includes(array))) };
@@ -82,11 +84,10 @@ export function mountValues(element, api, results, moved) {
   const state = html("p", { class: "note", "aria-live": "polite" });
   const tables = [html("table"), html("table")];
   const show = ({ arrays, gaps }) => {
-    const row = (...parts) => html("tr", {}, parts);
-    const ofArray = ({ array, ...now }) => row(html("th", {}, array.id), cells(["mean_prd_m", "design_m"], array, now));
-    const ofGap = ({ gap, ...now }) => row(html("th", {}, `${gap.number}: ${gap.array} to ${gap.object}`), cells(["provided_m", "required_m", "demand_capacity"], gap, now));
-    update(tables[0], headings(["Array", "Mean PRD", "Design displacement"]), html("tbody", {}, arrays.map(ofArray)));
-    update(tables[1], headings(["Clearance", "Provided", "Required", "D/C"]), html("tbody", {}, gaps.map(ofGap)));
+    const ofArrays = arrays.map(({ array, ...now }) => rowOf(array.id, cells(["mean_prd_m", "design_m"], array, now)));
+    const ofGaps = gaps.map(({ gap, ...now }) => rowOf(`${gap.number}: ${gap.array} to ${gap.object}`, cells(["provided_m", "required_m", "demand_capacity"], gap, now)));
+    update(tables[0], headings(["Array", "Mean PRD", "Design displacement"]), html("tbody", {}, ofArrays));
+    update(tables[1], headings(["Clearance", "Provided", "Required", "D/C"]), html("tbody", {}, ofGaps));
   };
 
   async function compute() {
@@ -129,6 +130,10 @@ export function mountValues(element, api, results, moved) {
   if (free.arrays.length < results.arrays.length) element.append(note("Left out, with the clearances beside them: arrays by the prescriptive procedure, without a floor, or with friction that falls with velocity."));
   compute();
   return true;
+}
+
+function rowOf(name, cells) {
+  return html("tr", {}, html("th", { scope: "row" }, name), cells);
 }
 
 // A round length near a step: whole inches, or 25 mm.
