@@ -24,7 +24,8 @@ from report.assessment.motion_acceptance import shaking_acceptance
 from report.assessment.plan.before_runs import design_before_runs_m, pairs_before_runs
 from report.assessment.plan.neighbors import REACH_FACTOR, NearbyKind
 from report.motions.history import targets
-from report.motions.prepare import Shaking, record_findings
+from report.motions.prepare import Shaking
+from report.motions.record_findings import record_findings
 from report.project.check.acknowledgments import acknowledged
 from report.project.check.covered import outdated
 from report.project.check.plausible import implausible

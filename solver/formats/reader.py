@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Protocol
 
 from solver.formats import text
-from solver.formats.channels import MotionFile
+from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, open_source
 from solver.records.record import Record
 

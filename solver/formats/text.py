@@ -15,7 +15,7 @@ from itertools import chain, islice
 import numpy as np
 
 from solver.formats import phrases
-from solver.formats.channels import MotionFile, motion_file
+from solver.formats.channels import motion_file
 from solver.formats.columns import SIDE_BY_SIDE, magnitudes, pairs, remedy, rising
 from solver.formats.headings import Layout, content_of, laid_out
 from solver.formats.numbers import (
@@ -27,6 +27,7 @@ from solver.formats.numbers import (
     row_problems,
 )
 from solver.formats.phrases import Kind
+from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, likely_text
 from solver.formats.times import Even, is_even, sampled
 from solver.model import Floats, InputError, Problem

@@ -15,8 +15,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from solver.formats import channels
-from solver.formats.channels import MotionFile
 from solver.formats.numbers import Block, each, fixed_values, header_values, layout_of, printed
+from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
 from solver.model import InputError
 from solver.records.record import Record, raise_any, shown, unit_size

@@ -17,7 +17,6 @@ from functools import partial
 import numpy as np
 
 from solver.formats import channels
-from solver.formats.channels import MotionFile
 from solver.formats.numbers import (
     Block,
     FieldFormat,
@@ -28,6 +27,7 @@ from solver.formats.numbers import (
     layout_of,
     printed,
 )
+from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
 from solver.formats.times import round_step, sampled
 from solver.model import InputError

@@ -17,7 +17,6 @@ import numpy as np
 
 from solver.formats import phrases
 from solver.formats.channels import (
-    MotionFile,
     centered_peak_notes,
     check_length,
     check_steps,
@@ -26,6 +25,7 @@ from solver.formats.channels import (
     time_in,
 )
 from solver.formats.numbers import Block, free_values, is_row, printed
+from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
 from solver.model import Floats, InputError

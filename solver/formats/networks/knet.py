@@ -11,13 +11,13 @@ from __future__ import annotations
 import re
 
 from solver.formats.channels import (
-    MotionFile,
     centered_peak_notes,
     motion_file,
     offset_notes,
     time_in,
 )
 from solver.formats.numbers import COMPARED, Block, check_last, dated_table, free_values, printed
+from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
 from solver.model import Floats, InputError

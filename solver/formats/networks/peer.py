@@ -14,8 +14,9 @@ import re
 from collections.abc import Sequence
 
 from solver.formats import phrases
-from solver.formats.channels import MotionFile, motion_file
+from solver.formats.channels import motion_file
 from solver.formats.numbers import Block, free_values, is_row, printed
+from solver.formats.record_file import MotionFile
 from solver.formats.source import Source
 from solver.model import InputError
 from solver.records.record import Record, shown

@@ -18,7 +18,8 @@ import numpy as np
 
 from solver.bounds import SENSITIVITY
 from solver.files import read_file
-from solver.formats.channels import MotionFile, motion_file, offset_notes
+from solver.formats.channels import motion_file, offset_notes
+from solver.formats.record_file import MotionFile
 from solver.formats.source import MAX_BYTES, Source, Stated, waveform_format
 from solver.formats.times import round_step
 from solver.model import Floats, InputError
