@@ -23,8 +23,9 @@ import click
 from click.shell_completion import get_completion_class
 
 import report
-from report.cli.main import VARIABLE, main
-from report.cli.options import SectionedGroup
+from report.cli.commands.installation import VARIABLE
+from report.cli.lazy_group import LazyGroup
+from report.cli.main import main
 from report.project.workbook import SECTIONS
 from report.project.workbook.entries import Entry
 from report.project.workbook.sections import rows_of
@@ -142,7 +143,7 @@ def _errors() -> Parts:
 
 def _named(command: click.Command, words: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Any]]:
     yield words, command
-    if isinstance(command, SectionedGroup):
+    if isinstance(command, LazyGroup):
         for name, below in sorted(command.every().items()):
             yield from _named(below, (*words, name))
 

@@ -53,10 +53,11 @@ def test_a_package_is_written_without_the_extras(tmp_path):
     assert (tmp_path / "out" / "calc-package.pdf").exists()
 
 
-def test_a_command_of_an_extra_is_not_there_without_it():
-    code, errors = without_extras("study", "--help")
+def test_a_command_of_an_extra_has_its_help_without_it_and_does_not_run():
+    assert without_extras("study", "--help") == (0, "")
+    code, errors = without_extras("study", "projects/study")
     assert code != 0
-    assert "report.cli.study is an extra" in errors
+    assert "report.study is an extra" in errors
 
 
 def test_the_core_is_counted_as_the_docs_print_it():

@@ -25,9 +25,8 @@ from pypdfium2 import PdfDocument
 import solver.public
 from fixtures import packages
 from fixtures.paths import ROOT
-from report.making import OUTPUTS
 from report.project.model.choices import RuleSetName
-from report.results.publish import STAMP
+from report.results.publish import OUTPUTS, STAMP
 from solver.model import Friction
 from solver.rules.rulesets import RULE_SETS
 from solver.sliding.checked import scene, slide

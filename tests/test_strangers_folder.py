@@ -132,7 +132,7 @@ def test_a_report_is_not_written_through_what_is_in_its_place(folder, place, kin
     (folder / place).parent.mkdir(exist_ok=True)
     occupied(folder / place, kind, folder.parent / "library")
     before = state(folder.parent)
-    monkeypatch.setattr("report.typeset.pdf.lay_out", lambda *_: b"%PDF")
+    monkeypatch.setattr("report.making.lay_out", lambda *_: b"%PDF")
     told = commands.errors_of("report", folder)
     assert f"{folder / place}: is a" in told
     assert state(folder.parent) == before

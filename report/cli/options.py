@@ -1,20 +1,19 @@
 """Values of options: numbers in their unit, and files and folders that must be there.
 
-An error names the option as it was given, the value with its unit, and what is accepted. A group's
-help lists its commands by section.
+An error names the option as it was given, the value with its unit, and what is accepted. Options of
+several commands are here as well.
 """
 
 from __future__ import annotations
 
-import inspect
 import math
-from collections.abc import Mapping
-from importlib import import_module
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import click
 
+from report.cli.exit_codes import NOT_OK
 from solver.suggestions import meant
 
 
@@ -77,65 +76,23 @@ class Existing(click.Path):
         return super().convert(value, param, ctx)
 
 
-class SectionedGroup(click.Group):
-    """A group whose commands stand under titles; those added without one, under "Commands"."""
+SOURCE = click.Path(path_type=Path)
 
-    def __init__(self, *arguments: Any, **options: Any) -> None:
-        super().__init__(*arguments, **options)
-        self._titles: dict[str, str] = {}
-        self._extras: dict[str, str] = {}  # module and attribute of commands not loaded, by name
+# Of acceleration, of a file: `solver.records.record.UNIT_CHOICES`, which is slow to import.
+UNITS = click.Choice(("g", "m/s2", "cm/s2", "mm/s2", "gal"))
 
-    def add_section(self, title: str, *commands: click.Command | str) -> None:
-        """Add commands under a title; those of an extra by their place, as `add_extra` has it."""
-        for command in commands:
-            if isinstance(command, str):
-                name = self.add_extra(command)
-            else:
-                self.add_command(command)
-                name = str(command.name)
-            self._titles[name] = title
-
-    def add_extra(self, place: str) -> str:
-        """Add a command that is loaded when it is asked for; return its name.
-
-        The place is that of its function: `report.cli.verify:verify_package`.
-        """
-        name = place.partition(":")[2].replace("_", "-")
-        self._extras[name] = place
-        return name
-
-    def get_command(self, ctx: click.Context | None, cmd_name: str) -> click.Command | None:
-        """Return a command by its name; one of an extra is loaded."""
-        if place := self._extras.pop(cmd_name, ""):
-            module, _, attribute = place.partition(":")
-            self.add_command(getattr(import_module(module), attribute))
-        return self.commands.get(cmd_name)
-
-    def every(self) -> Mapping[str, click.Command]:
-        """Return all commands by name, in the order in which they are listed."""
-        for name in list(self._extras):
-            self.get_command(None, name)
-        untitled = sorted(self.commands.keys() - self._titles.keys())
-        return {name: self.commands[name] for name in (*self._titles, *untitled)}
-
-    def list_commands(self, ctx: click.Context) -> list[str]:
-        """Return the names in the order of their sections."""
-        return list(self.every())
-
-    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write each section."""
-        sections: dict[str, list[tuple[str, str]]] = {}
-        commands = self.every()
-        # The same in every section.
-        width = max(map(len, commands))
-        for name, command in commands.items():
-            rows = sections.setdefault(self._titles.get(name, "Commands"), [])
-            rows.append((name.ljust(width), _first_sentence(command)))
-        for title, rows in sections.items():
-            with formatter.section(title):
-                formatter.write_dl(rows)
+QUIET = click.option("--quiet", is_flag=True, help="Print errors only.")
+AS_JSON = click.option(
+    "--json", "as_json", is_flag=True, help="Print JSON, with the units in the keys."
+)
+FAIL_ON_NG = click.option(
+    "--fail-on-ng", is_flag=True, help=f"Exit with code {NOT_OK} where the verdict is not OK."
+)
 
 
-def _first_sentence(command: click.Command) -> str:
-    first, _, _ = inspect.cleandoc(command.help or "").partition("\n\n")
-    return " ".join(first.split())
+def reading(command: Callable[..., None]) -> Callable[..., None]:
+    """Add the options for reading a record."""
+    step = click.option("--dt", "dt_s", type=TIME_STEP, default=math.nan,
+                        help="Time step, if the file has none.")  # fmt: skip
+    units = click.option("--units", type=UNITS, help="Units, if the file does not state them.")
+    return step(units(command))

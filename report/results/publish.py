@@ -19,6 +19,10 @@ from pydantic_core import from_json
 from solver.files import add_folder, check_plain, locked, read_file, within, write_all
 from solver.model import InputError
 
+PAGE = "calc-package.html"
+OUTPUTS = ("calc-package.pdf", PAGE, "plan.dxf", "results.xlsx", "results.json")
+"""The files of a package; the page may be left out."""
+
 STAMP = "roofslip.sha256"
 """File with the SHA-256 of every file of a set, as `sha256sum -c` reads it, written last.
 

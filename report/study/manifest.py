@@ -1,24 +1,15 @@
 """What a study runs and with what: the manifest beside its parts, by which a later run goes on.
 
-Writes nothing. Read `manifest_of`, then `check_former`.
-
-The key by which a user's own study parts are known; it is kept in no study. Read `user_key`.
-
-The packages that only a study needs, imported where they are used. Read `extra`.
+Writes nothing. Read `manifest_of`, then `check_earlier`.
 """
 
 from __future__ import annotations
 
 import hashlib
-import importlib
 import json
-import os
 import platform
-import secrets
 import sys
-import tempfile
 from collections.abc import Mapping
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -56,22 +47,22 @@ def program() -> dict[str, str]:
     }
 
 
-def unlike(there: Mapping[str, str], here: Mapping[str, str]) -> str:
-    """Return in words the versions that differ from those here; empty for none."""
-    return "; ".join(
-        f"{name} {there.get(name, 'unknown')[:12]}, here {said[:12]}"
-        for name, said in here.items()
-        if there.get(name) != said
-    )
+def version_differences(manifest_versions: Mapping[str, str], versions: Mapping[str, str]) -> str:
+    """Return in words the versions of a manifest that differ from those here; empty for none."""
+    differences = []
+    for name, version_here in versions.items():
+        version_there = manifest_versions.get(name, "unknown")
+        if version_there != version_here:
+            differences.append(f"{name} {version_there[:12]}, here {version_here[:12]}")
+    return "; ".join(differences)
 
 
 def _source_sha256() -> str:
     root = Path(str(solver.__file__)).parent
     digest = hashlib.sha256()
     for path in sorted(root.rglob("*.py")):
-        digest.update(
-            path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes() + b"\0"
-        )
+        name = path.relative_to(root).as_posix().encode()
+        digest.update(name + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()
 
 
@@ -134,7 +125,7 @@ def _cases_sha256(campaign: Campaign) -> str:
     return digest.hexdigest()
 
 
-def check_former(folder: Path, manifest: Mapping[str, Any]) -> int:
+def check_earlier(folder: Path, manifest: Mapping[str, Any]) -> int:
     """Return how many parts the study that wrote to a folder has; 0 for none.
 
     Raises `InputError` if another version of the program wrote them, with what to do, or the
@@ -145,98 +136,19 @@ def check_former(folder: Path, manifest: Mapping[str, Any]) -> int:
     if not path.exists():
         return 0
     try:
-        former = from_json(path.read_bytes())
-        schema, wrote = former["schema_version"], dict(former["program"])
-        parts = len(former.get("parts", ()))
+        earlier = from_json(path.read_bytes())
+        schema, versions = earlier["schema_version"], dict(earlier["program"])
+        parts = len(earlier.get("parts", ()))
     except (ValueError, KeyError, TypeError) as error:
         raise InputError(f"{path}: damaged, not the manifest of a study; {away}") from error
     if schema != SCHEMA_VERSION:
         raise InputError(
             f"{path}: has schema_version {schema}, this version has {SCHEMA_VERSION}; {away}"
         )
-    if off := unlike(wrote, manifest["program"]):
+    differences = version_differences(versions, manifest["program"])
+    if differences:
         raise InputError(
-            f"{path}: was written by another version ({off}): its rows may differ; "
+            f"{path}: was written by another version ({differences}): its rows may differ; "
             f"finish it with that version, or {away}"
         )
     return parts
-
-
-KEY_BYTES = 32
-
-
-def user_key() -> bytes:
-    """Return the key of this user on this machine; it is made at its first use.
-
-    Raises `InputError` if it cannot be kept or read, with what to do.
-    """
-    try:
-        path = state_folder() / "roofslip" / "study.key"
-        if not path.exists():
-            _make(path)
-        key = path.read_bytes()
-    # RuntimeError: the user has no home folder.
-    except (OSError, RuntimeError) as error:
-        where = getattr(error, "filename", None) or "your state folder"
-        raise InputError(
-            f"{where}: the key that signs the parts of your studies cannot be kept there "
-            f"({getattr(error, 'strerror', None) or error}); make the folder writable, or set "
-            "XDG_STATE_HOME to a folder of yours that is"
-        ) from error
-    if len(key) != KEY_BYTES:
-        raise InputError(
-            f"{path}: damaged, {len(key)} bytes, not the {KEY_BYTES} of a key; delete it: parts "
-            "that were signed with it are computed again"
-        )
-    return key
-
-
-def state_folder() -> Path:
-    """Return where programs keep what is this user's; an absolute XDG_STATE_HOME comes first."""
-    folder = os.environ.get("XDG_STATE_HOME", "")
-    if Path(folder).is_absolute():
-        return Path(folder)
-    if sys.platform == "win32":
-        return Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData/Local")
-    if sys.platform == "darwin":
-        return Path.home() / "Library/Application Support"
-    return Path.home() / ".local/state"
-
-
-def _make(path: Path) -> None:
-    """Make a key, readable by its user alone."""
-    path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-    number, part = tempfile.mkstemp(dir=path.parent)
-    try:
-        with open(number, "wb") as file:
-            file.write(secrets.token_bytes(KEY_BYTES))
-            file.flush()
-            os.fsync(file.fileno())
-        # A link appears whole or not at all; that of a quicker process stays.
-        with suppress(FileExistsError):
-            os.link(part, path)
-    finally:
-        os.unlink(part)
-
-
-def extra(name: str) -> Any:
-    """Return a package, by the name of the module of it that is needed.
-
-    Raises `InputError` if it is not installed, with what to type.
-    """
-    package = name.partition(".")[0]
-    try:
-        importlib.import_module(name)
-    except ImportError as error:
-        raise InputError(
-            f"a study needs the package {package}, which is not installed; type: "
-            "./roofslip study (the launcher installs the extra), or: "
-            "pip install 'roofslip[study]'"
-        ) from error
-    return sys.modules[package]
-
-
-ARROW = "pyarrow.parquet"
-DASK = "distributed"
-# By every study; the modules that import them need not be loaded to say so.
-NEEDED = ("scipy", ARROW)

@@ -23,7 +23,8 @@ from typing import Any
 import numpy as np
 from pydantic import TypeAdapter
 
-from report.study.manifest import ARROW, NAME, extra, machine
+from report.study.manifest import NAME, machine
+from report.study.optional_packages import ARROW, optional_package
 from solver.files import check_plain, write_all
 from solver.kernels.compiler import THREADS
 from solver.model import Floats, InputError
@@ -85,7 +86,8 @@ def mixed(numbers: Sequence[int]) -> list[int]:
 
 def made_part(runner: Runner, number: int, identity: str, names: Sequence[str]) -> bytes:
     """Run a part and return it as Parquet, not yet signed, in any process."""
-    pa, started = extra(ARROW), time.thread_time()
+    pa = optional_package(ARROW)
+    started = time.thread_time()
     part = runner.campaign.parts[number]
     rows = run_part(runner, part)
     table = _table(runner.campaign, part, rows, names)
@@ -113,7 +115,7 @@ def made_part(runner: Runner, number: int, identity: str, names: Sequence[str]) 
 
 def _table(campaign: Campaign, part: slice, rows: Rows, names: Sequence[str]) -> Any:
     """Return rows as a table, one row for each run."""
-    pa = extra(ARROW)
+    pa = optional_package(ARROW)
     cases, columns = campaign.cases[part], campaign.columns
     count, each = len(cases), len(columns)
 
@@ -158,7 +160,7 @@ def peaks(content: bytes, campaign: Campaign) -> tuple[Floats, Flags]:
     The largest PRD of the orientations [m], NaN if one of them has no final value; and whether the
     friction demand exceeds the coefficient at any of them.
     """
-    pa = extra(ARROW)
+    pa = optional_package(ARROW)
     columns = ["prd_m", "status", "model"]
     table = pa.parquet.read_table(pa.BufferReader(content), columns=columns, use_threads=False)
     rows = table.to_pandas(use_threads=False)
@@ -195,7 +197,7 @@ def _opened(content: bytes, key: bytes) -> Done:
     tag, wanted = slice(end - 64, end), signed(content, key)
     if content[: tag.start] != wanted[: tag.start]:
         raise ValueError("the SHA-256 is not that of the content")
-    pa = extra(ARROW)
+    pa = optional_package(ARROW)
     metadata = pa.parquet.read_metadata(pa.BufferReader(content))
     return Done(
         about=_AS_JSON.validate_json(metadata.metadata[_ABOUT]),

@@ -1,53 +1,34 @@
-"""A study from its workbook to its results, for the command and for scripts. Read `run_study`.
-
-The parts of a study on an existing Dask cluster; each comes back and is kept here.
-"""
+"""A study from its workbook to its results, for the command and for scripts. Read `run_study`."""
 
 from __future__ import annotations
 
 import json
 import time
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from report.study.array_capacities import maximum_runs
-from report.study.manifest import (
-    ARROW,
-    DASK,
-    NAME,
-    OWN_KEY,
-    TRUST_PARTS,
-    check_former,
-    extra,
-    manifest_of,
-    program,
-    unlike,
-    user_key,
-)
+from report.study.cluster import connected, run_on_cluster
+from report.study.manifest import NAME, OWN_KEY, TRUST_PARTS, check_earlier, manifest_of
+from report.study.optional_packages import ARROW, optional_package
 from report.study.parts import (
     BYTES_A_ROW,
     Done,
-    OnDone,
     begin,
     check_places,
     done_parts,
     finished,
-    keep,
-    made_part,
-    mixed,
     run_missing,
 )
 from report.study.plan import StudyPlan, plan_study
 from report.study.read import read_study
 from report.study.results import StudyResults, results_of
 from report.study.shaking import study_motions
+from report.study.user_key import user_key
 from report.text.counts import numbered
 from solver.files import write_all
-from solver.model import InputError
-from solver.studies.runs import Campaign, Runner
 
 # Folder of the parts, in the folder of the outputs.
 RUNS = "runs"
@@ -103,12 +84,12 @@ def run_study(
     Raises `InputError` if a package is missing, the folder has the parts of another version, the
     user's key cannot be kept, or the cluster cannot be used.
     """
-    extra(ARROW)
+    optional_package(ARROW)
     out = Path(out)
     folder, campaign = out / RUNS, plan.campaign
     check_places(out, folder)
     manifest = manifest_of(campaign, plan.about) | {"workbook": {"name": plan.workbook}}
-    former, key = check_former(folder, manifest), user_key()
+    earlier_parts, key = check_earlier(folder, manifest), user_key()
     identity, names = str(manifest["runs_identity"]), plan.motions.buildings
     done = done_parts(folder, campaign, identity, key)
     if not trust_parts:
@@ -125,10 +106,10 @@ def run_study(
         # The manifest is written once the cluster has answered: a wrong address leaves a former
         # one.
         with connected(scheduler, manifest) as client:
-            begin(folder, manifest, former)
+            begin(folder, manifest, earlier_parts)
             run_on_cluster(client, folder, campaign, identity, names, missing, key, on_done)
     else:
-        begin(folder, manifest, former)
+        begin(folder, manifest, earlier_parts)
         run_missing(folder, campaign, identity, names, missing, key, on_done)
     full = finished(folder, manifest, list(done.values()))
     full["taken_over"] = taken_over
@@ -183,71 +164,3 @@ def _meter(
         progress(f"{ran:,} of {rows:,} runs, {rate:,.0f} a second, {left:.0f} s left")
 
     return tell
-
-
-TIMEOUT_S = 10.0
-RETRIES = 2
-
-
-@contextmanager
-def connected(address: str, manifest: Mapping[str, Any]) -> Iterator[Any]:
-    """Yield a client of a cluster whose workers agree with this program.
-
-    Raises `InputError` if no scheduler answers, it has no worker, or a worker has other versions.
-    """
-    distributed = extra(DASK)
-    try:
-        client = distributed.Client(address, timeout=TIMEOUT_S, set_as_default=False)
-    except (OSError, ValueError, TypeError, RuntimeError) as error:
-        raise InputError(
-            f"--scheduler {address}: no Dask scheduler answers within {TIMEOUT_S:g} s "
-            f"({type(error).__name__}); start one with: dask scheduler, and workers with: dask "
-            f"worker {address}"
-        ) from error
-    try:
-        _check_workers(client, address, manifest["program"])
-        yield client
-    finally:
-        client.close()
-
-
-def _check_workers(client: Any, address: str, here: Mapping[str, str]) -> None:
-    there = client.run(program, on_error="return")
-    if not there:
-        raise InputError(
-            f"--scheduler {address}: has no worker; start some with: dask worker {address}"
-        )
-    problems = []
-    for worker, versions in sorted(there.items()):
-        if not isinstance(versions, dict):
-            problems.append(f"worker {worker}: cannot import this program ({versions})")
-        elif off := unlike(versions, here):
-            problems.append(f"worker {worker}: has {off}")
-    if problems:
-        raise InputError([*problems, "install the same versions on every worker, then try again"])
-
-
-def run_on_cluster(
-    client: Any,
-    folder: Path,
-    campaign: Campaign,
-    identity: str,
-    names: Sequence[str],
-    missing: Sequence[int],
-    key: bytes,
-    on_done: OnDone,
-) -> None:
-    """Run parts on a cluster; sign and keep each here as it comes back."""
-    # The records are the result of a task, as the parts are: with a worker that dies both are lost,
-    # and both are computed again by another one.
-    with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", "Sending large graph", UserWarning)
-        runner = client.submit(Runner, campaign, pure=False)
-        parts = [
-            client.submit(made_part, runner, number, identity, names, pure=False, retries=RETRIES)
-            for number in mixed(missing)
-        ]
-    for part in extra(DASK).as_completed(parts, loop=client.loop):
-        on_done(keep(folder, part.result(), key))
-        # Kept here: the cluster may forget it.
-        part.release()

@@ -19,8 +19,8 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 
-from report.making import OUTPUTS
 from report.motions.stored import MB, MOST_FILES, MOST_SENT, store
+from report.results.publish import OUTPUTS
 from report.web.session import Asked, RefusedError, session_of
 from report.web.worker import PROJECT, TYPES, Package, State, copied, motions_made
 from solver.model import InputError

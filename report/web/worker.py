@@ -21,7 +21,8 @@ from pathlib import Path
 from typing import Any
 from zipfile import ZIP_DEFLATED, ZipFile
 
-from report.making import OUTPUTS, STEPS, Step
+from report.results.publish import OUTPUTS
+from report.steps import STEPS, Step
 from report.text.counts import capitalized
 from report.web.processes import WorkerProcess, tell
 from report.web.values import Values

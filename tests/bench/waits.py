@@ -13,7 +13,7 @@ from pathlib import Path
 from measure import ROOT, SMOKE, command, figure, finished
 
 from fixtures.dxf import Sketch
-from report.making import OUTPUTS
+from report.results.publish import OUTPUTS
 
 REPEATS = 1 if SMOKE else 3
 PROJECTS = ROOT / "projects"

@@ -14,13 +14,13 @@ import pytest
 from click.testing import CliRunner
 from openpyxl import load_workbook
 
-import report.package.html
 from fixtures import packages, project_parts
 from fixtures.commands import errors_of, run, stdout_of
 from fixtures.marks import by_day
 from fixtures.paths import ROOT
 from fixtures.workbooks import arrays, cell_address, make, project
-from report.cli.main import NATIVE, main
+from report.cli.installation_check import NATIVE
+from report.cli.main import main
 from report.cli.terminal import color_choice, colored
 from report.results.publish import STAMP
 from report.text.counts import as_typed
@@ -96,7 +96,7 @@ def test_input_errors_and_failed_runs_leave_the_older_package(tmp_path, monkeypa
     told = errors_of("report", tmp_path / "no-such-project", "--since", former)
     assert "issued.json: is no results.json or is damaged" in told
     assert not (tmp_path / "out").exists()
-    monkeypatch.setattr(report.package.html, "pages", lambda *_: 1 / 0)
+    monkeypatch.setattr("report.making.pages", lambda *_: 1 / 0)
     done = run("report", make(tmp_path))
     assert done.exit_code == 1
     assert isinstance(done.exception, ZeroDivisionError)
@@ -246,7 +246,7 @@ def test_the_command_is_called_as_the_reader_typed_it(tmp_path, monkeypatch, typ
 @pytest.mark.nightly
 def test_doctor_looks_for_a_package_by_its_name_without_bounds_and_for_no_extra(monkeypatch):
     wanted = ["numpy>=1.0,<99", "nobody; extra == 'web'"]
-    monkeypatch.setattr("importlib.metadata.requires", lambda _: wanted)
+    monkeypatch.setattr("report.cli.installation_check.requires", lambda _: wanted)
     told = stdout_of("doctor")
     assert re.search(r"^numpy +\d", told, re.MULTILINE)
     assert "nobody" not in told
@@ -272,7 +272,7 @@ def test_missing_packages_and_libraries_are_named(monkeypatch):
     assert re.search(r"no-such-library +missing", done.stdout)
     assert "Everything" not in done.stdout
     needed = ["numpy", "no-such-package", "other-package; extra == 'sign'"]
-    monkeypatch.setattr("importlib.metadata.requires", lambda _: needed)
+    monkeypatch.setattr("report.cli.installation_check.requires", lambda _: needed)
     done = run("doctor")
     assert done.exit_code == 1
     assert "no-such-package: install it" in done.stderr

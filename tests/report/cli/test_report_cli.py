@@ -20,9 +20,10 @@ from fixtures.packages import unlaid
 from fixtures.paths import ROOT
 from fixtures.project_parts import SITE
 from fixtures.workbooks import cell_address, edit, make, type_into
-from report.cli import several
-from report.cli.several import ReportOutcome
-from report.cli.terminal import Progress, show_warnings
+from report.cli import several_packages
+from report.cli.progress import Progress
+from report.cli.several_packages import ReportOutcome
+from report.cli.streams import show_warnings
 from report.making import make as make_package
 from report.motions.prepare import prepare
 from report.project.check.covered import outdated, to_record
@@ -76,7 +77,7 @@ def test_an_option_of_one_project_is_refused_for_several(option, tmp_path):
     ],
 )
 def test_the_exit_code_is_that_of_the_worst(outcomes, fail_on_ng, code):
-    assert several.exit_code(outcomes, fail_on_ng=fail_on_ng) == code
+    assert several_packages.exit_code(outcomes, fail_on_ng=fail_on_ng) == code
 
 
 def test_json_has_a_schema_version_and_an_entry_for_each_project():
@@ -84,14 +85,14 @@ def test_json_has_a_schema_version_and_an_entry_for_each_project():
     outcomes = [
         outcome(
             verdict="NG",
-            demand_capacity=several.largest((0.5, 1.25)),
+            demand_capacity=several_packages.largest((0.5, 1.25)),
             package="a/out/calc-package.pdf",
             seconds=2.5,
         ),
-        outcome(verdict="NG", demand_capacity=several.largest((0.5, math.nan, 2.0))),
+        outcome(verdict="NG", demand_capacity=several_packages.largest((0.5, math.nan, 2.0))),
         outcome(errors=(wrong,)),
     ]
-    document = json.loads(json.dumps(several.document(outcomes)))
+    document = json.loads(json.dumps(several_packages.document(outcomes)))
     first, second, third = document["projects"]
     assert document["schema_version"] == 1
     assert first == {
@@ -103,7 +104,7 @@ def test_json_has_a_schema_version_and_an_entry_for_each_project():
 
 
 def test_an_internal_error_in_one_project_is_printed_with_its_traceback(monkeypatch):
-    monkeypatch.setattr("report.making.make", lambda *_, **__: 1 / 0)
+    monkeypatch.setattr("report.cli.several_packages.make", lambda *_, **__: 1 / 0)
     done = run("report", "a", "b", "--json")
     assert done.exit_code == 1
     projects = json.loads(done.stdout)["projects"]
@@ -272,7 +273,7 @@ def test_a_bar_grows_with_each_step_and_is_cleared_or_never_there(terminal, caps
 def shown_at(seconds, monkeypatch, capsys, progress):
     """The lines that a terminal shows of steps that begin at these times."""
     now = iter(seconds)
-    monkeypatch.setattr("report.cli.terminal.time.monotonic", lambda: next(now))
+    monkeypatch.setattr("report.cli.progress.time.monotonic", lambda: next(now))
     made = progress()
     for number in range(len(seconds) - 1):
         made(f"step {number}")
@@ -311,7 +312,7 @@ def test_the_line_is_written_again_while_a_step_lasts(terminal, capsys):
 
 def test_elsewhere_plain_lines_start_after_a_second_and_a_warning_is_one(monkeypatch, capsys):
     now = iter((0.0, 0.9, 1.5))
-    monkeypatch.setattr("report.cli.terminal.time.monotonic", lambda: next(now))
+    monkeypatch.setattr("report.cli.progress.time.monotonic", lambda: next(now))
     progress = Progress(2)
     progress("reading")
     progress("running")

@@ -19,7 +19,7 @@ import pytest
 
 from fixtures.commands import errors_of, hearing, stdout_of
 from fixtures.paths import ROOT
-from report.cli.serve import names_of
+from report.cli.page_server import names_of
 from report.web.access import ENTRY, KEY_HEADER, TOKEN_HEADER
 
 pytestmark = pytest.mark.quick

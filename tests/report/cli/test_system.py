@@ -13,7 +13,7 @@ import pytest
 from fixtures.commands import errors_of, hearing, no_override, stdout_of
 from fixtures.paths import ROOT
 from fixtures.workbooks import cell_address, edit, make, type_into
-from report.cli.several import package
+from report.cli.several_packages import package
 from report.cli.terminal import plain
 
 RECORD = ROOT / "projects" / "example" / "records" / "RM1-x.csv"

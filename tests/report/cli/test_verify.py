@@ -13,7 +13,7 @@ import pandas as pd
 import pytest
 from pypdf import PdfReader
 
-import solver.verification.run
+import report.cli.solver_verification
 from fixtures import verify_run
 from fixtures.commands import errors_of, run
 from fixtures.verify_run import only
@@ -97,7 +97,7 @@ def words(quick):
 def verifying(verify):
     """Have the command verify otherwise, and lay nothing out; layout is tested above."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(solver.verification.run, "verify", verify)
+        patch.setattr(report.cli.solver_verification, "verify", verify)
         patch.setattr(render, "lay_out", str.encode)
         yield patch
 
@@ -245,7 +245,7 @@ def test_a_verification_of_two_checks_is_laid_out_and_the_one_that_failed_ends_w
         Verified(id="PH-1", computed=1.5, **of),
     )
     found = only(checks=rows, left_out=rows[:1] * 7)
-    monkeypatch.setattr(solver.verification.run, "verify", lambda *_, **__: found)
+    monkeypatch.setattr(report.cli.solver_verification, "verify", lambda *_, **__: found)
     monkeypatch.setattr(render, "sections", lambda v: (render.summary(v), render.checks(v)))
     done, out = run("verify", "--quick", "--out", tmp_path / "v"), tmp_path / "v"
     first, second, *_ = done.stdout.splitlines()

@@ -20,9 +20,9 @@ from fixtures.marks import by_day
 from fixtures.packages import unlaid
 from fixtures.paths import ROOT, TESTS
 from fixtures.workbooks import make, type_into
-from report.cli.report import report_again, settled, stamps
-from report.cli.terminal import INTERRUPTED
-from report.making import OUTPUTS
+from report.cli.exit_codes import INTERRUPTED
+from report.cli.file_watcher import file_stamps, report_again, settled
+from report.results.publish import OUTPUTS
 
 pytestmark = pytest.mark.quick
 
@@ -52,9 +52,9 @@ def test_a_save_is_a_file_that_is_new_changed_or_gone(tmp_path, change):
     record.parent.mkdir()
     for each in (path, record):
         each.write_bytes(b"before")
-    before = stamps(tmp_path)
+    before = file_stamps(tmp_path)
     change(path)
-    assert stamps(tmp_path) != before
+    assert file_stamps(tmp_path) != before
 
 
 @pytest.mark.parametrize(
@@ -64,10 +64,10 @@ def test_a_save_is_a_file_that_is_new_changed_or_gone(tmp_path, change):
 )  # fmt: skip
 def test_locks_temporary_files_and_outputs_are_no_save(tmp_path, name):
     (tmp_path / "input.xlsx").write_bytes(b"before")
-    before = stamps(tmp_path)
+    before = file_stamps(tmp_path)
     (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
     (tmp_path / name).write_bytes(b"new")
-    assert stamps(tmp_path) == before
+    assert file_stamps(tmp_path) == before
 
 
 def later(seconds, action):
@@ -79,7 +79,7 @@ def later(seconds, action):
 @pytest.fixture
 def patient(monkeypatch):
     """As long as a busy machine needs."""
-    monkeypatch.setattr("report.cli.report.MOST_POLLS", 200)
+    monkeypatch.setattr("report.cli.file_watcher.MAX_POLLS", 200)
 
 
 @pytest.mark.nightly
@@ -92,7 +92,7 @@ def test_a_save_in_several_steps_is_one(tmp_path, patient):
     seen = settled(path)
     for timer in timers:
         timer.join()
-    assert seen == stamps(tmp_path)
+    assert seen == file_stamps(tmp_path)
     assert record.read_text() == whole[:280]
 
 
@@ -109,7 +109,7 @@ def test_a_workbook_that_is_not_finished_is_read_again(tmp_path, patient, start)
     seen = settled(path)
     timer.join()
     assert 0.8 < time.monotonic() - began < 60.0
-    assert seen == stamps(tmp_path)
+    assert seen == file_stamps(tmp_path)
 
 
 def test_a_workbook_that_is_not_there_is_an_error_at_once(tmp_path):
@@ -119,7 +119,7 @@ def test_a_workbook_that_is_not_there_is_an_error_at_once(tmp_path):
 
 @pytest.mark.nightly
 def test_a_round_says_what_changed_up_to_a_number(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("report.cli.report.MOST_CHANGES", 1)
+    monkeypatch.setattr("report.cli.file_watcher.MAX_CHANGES", 1)
     path = make(tmp_path)
     with unlaid():
         results = report_again(path, None, b"")
@@ -135,7 +135,7 @@ def test_a_round_says_what_changed_up_to_a_number(tmp_path, capsys, monkeypatch)
 
 
 UNLAID = """
-from packages import unlaid
+from fixtures.packages import unlaid
 from report.cli.main import main
 
 with unlaid(): main()

@@ -18,7 +18,7 @@ from report.assessment.assess import assess
 from report.assessment.checks.sentence import sentence
 from report.assessment.design.routes import Route
 from report.assessment.design.verdict import Verdict
-from report.cli.check import checked, lines
+from report.cli.project_findings import findings_before_runs, lines
 from report.drawing.items import Layer, write_dxf
 from report.drawing.plan import plan_drawing
 from report.making import make
@@ -108,7 +108,8 @@ def test_no_page_states_anything_of_runs(id):
 
 def test_check_says_what_is_made_and_the_screen_what_an_analysis_could_save(tmp_path):
     path = type_into(without_motions(tmp_path), {"Options/Smaller events": "0.50"})
-    sheet, _, found = checked(path)
+    sheet = read(path)
+    _, found = findings_before_runs(sheet)
     notes = [line for line in lines(sheet, found) if line.startswith("note: ")]
     assert any("Motions!" in note and "uses the prescriptive displacement" in note
                for note in notes)  # fmt: skip

@@ -56,7 +56,7 @@ def test_a_study_is_read_as_it_was():
 
 def test_what_is_wrong_in_a_half_filled_one_is_named_as_it_was(tmp_path, monkeypatch):
     # However slow the machine is, it prints no progress.
-    monkeypatch.setattr("report.cli.terminal.time.monotonic", lambda: 0.0)
+    monkeypatch.setattr("report.cli.progress.time.monotonic", lambda: 0.0)
     beside(tmp_path / "job", "undone", "conditions")
     done = CliRunner().invoke(main, ["check", str(tmp_path / "job")])
     assert done.exit_code == 2

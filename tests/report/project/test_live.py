@@ -230,7 +230,7 @@ def test_a_command_takes_the_value_of_a_formula_that_may_refer_to_what_it_wrote(
 
 
 def test_a_formula_of_a_formula_loses_its_value_and_check_and_report_agree(saved, monkeypatch):
-    monkeypatch.setattr("report.cli.terminal.time.monotonic", lambda: 0.0)  # prints no progress
+    monkeypatch.setattr("report.cli.progress.time.monotonic", lambda: 0.0)  # prints no progress
     slope = CellPosition("Arrays", 8, 3)
     assert valued(saved, {FIRST: "C8*0.9", SECOND: "E8"}, slope, 0.6) == [None, None]
     check, report = (commands.errors_of(name, saved) for name in ("check", "report"))

@@ -27,7 +27,7 @@ from pypdf import PdfReader
 
 from fixtures import commands, tampering
 from fixtures.marks import by_day
-from report.cli.terminal import warn_of_others
+from report.cli.one_package import warn_of_other_packages
 from report.proof.contents import refused
 from report.proof.package import compared, opened
 from report.proof.signatures import Appended, Signature, appended
@@ -314,7 +314,7 @@ def test_what_came_with_a_signature_is_found(sign, updated, found, change, said)
 def made(job, monkeypatch):
     """Has the command take the package that is there for the one made again."""
     data = (job / "out" / "calc-package.pdf").read_bytes()
-    monkeypatch.setattr("report.cli.verify.made_again", lambda *_: data)
+    monkeypatch.setattr("report.cli.package_proof.made_again", lambda *_: data)
     return data
 
 
@@ -329,7 +329,7 @@ def test_a_signature_that_cannot_be_checked_is_said_not_to_be(made, sign, tmp_pa
     assert "./roofslip sign installs" in told
     assert list(tmp_path.iterdir()) == [path]
     monkeypatch.undo()
-    monkeypatch.setattr("report.cli.verify.made_again", lambda *_: made)
+    monkeypatch.setattr("report.cli.package_proof.made_again", lambda *_: made)
     said = commands.as_json("verify-package", path)
     assert said["answer"] == "same"
     assert said["signed"] == [{"field": FIELD, "signer": "Jane Doe, S.E."}]
@@ -421,10 +421,10 @@ def test_a_signed_package_beside_a_new_one_is_named_where_it_is_of_another_input
     new.write_bytes(data)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        warn_of_others(new)
+        warn_of_other_packages(new)
     new.write_bytes(tampering.rewritten(data, later))
     with pytest.warns(UserWarning, match="another input") as told:
-        warn_of_others(new)
+        warn_of_other_packages(new)
     revision, verdict = results["input"]["project"]["revision"], results["verdict"]
     said = f"is of revision {revision}, another input: {verdict}"
     assert [str(one.message) for one in told] == [

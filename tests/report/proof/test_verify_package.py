@@ -18,8 +18,8 @@ from fixtures import commands, packages, tampering
 from fixtures.marks import by_day
 from fixtures.paths import ROOT
 from fixtures.workbooks import type_into
-from report.making import OUTPUTS
 from report.proof.package import Agreement, compared, failed, opened, take_out
+from report.results.publish import OUTPUTS
 from solver.model import InputError
 
 RECORD = "records/RM1-x.csv"
@@ -85,7 +85,7 @@ def test_errors_of_the_version_that_made_a_package_are_named_first(few_sheets, g
     def change(pdf):
         tampering.of_manifest(lambda manifest: manifest.update(roofslip_version="0.3.0"))(pdf)
 
-    monkeypatch.setattr("report.cli.verify.made_again", lambda *_: few_sheets)
+    monkeypatch.setattr("report.cli.package_proof.made_again", lambda *_: few_sheets)
     path = given(few_sheets, change)
     told = commands.output_of("verify-package", path, exit_code=4)
     head, *errors, answer, _, _ = told.splitlines()

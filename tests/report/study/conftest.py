@@ -3,7 +3,7 @@
 import pytest
 
 from fixtures.study_workbooks import command, small, write
-from report.study import files
+from report.study import outputs
 from report.study.run import planned, run_study
 from report.typeset.pdf import lay_out
 
@@ -18,7 +18,7 @@ def laid_out():
 def made(tmp_path_factory, laid_out):
     folder = write(tmp_path_factory.mktemp("study"), small(), motions=6)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(files, "lay_out", lambda html: laid_out.append(html) or lay_out(html))
+        patch.setattr(outputs, "lay_out", lambda html: laid_out.append(html) or lay_out(html))
         done = command(folder)
     assert done.exit_code == 0, done.output
     return folder, done.output

@@ -31,7 +31,7 @@ from report.cli.main import main
 from report.study import figures
 from report.study.curves import compare
 from report.study.exports import export_files
-from report.study.files import study_html
+from report.study.outputs import study_html
 from report.study.run import planned, run_study
 from report.study.schema import Intensity, NoValue, StudyArray, StudyBuilding
 from report.study.tables import curves_csv, study_xlsx

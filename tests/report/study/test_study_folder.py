@@ -13,10 +13,10 @@ from fixtures import folders, pages
 from fixtures.campaigns import forged
 from fixtures.marks import by_day
 from fixtures.study_workbooks import command, sheet_rows, small, write
-from report.cli.study import make
 from report.study.exports import export_files
-from report.study.manifest import KEY_BYTES, state_folder, user_key
+from report.study.outputs import make_study
 from report.study.run import planned, run_study
+from report.study.user_key import KEY_BYTES, state_folder, user_key
 from report.study.wording import headline
 from solver.files import LOCK, locked
 from solver.model import InputError
@@ -62,7 +62,7 @@ def test_a_second_study_in_the_same_folder_waits_and_then_says_so(tmp_path, monk
     runs.mkdir(parents=True)
     plan, _ = planned(folder)
     with locked(runs), pytest.raises(InputError, match="another command has been writing there"):
-        make(plan, runs.parent, lambda _: None)
+        make_study(plan, runs.parent, lambda _: None)
     assert list(runs.iterdir()) == []
 
 

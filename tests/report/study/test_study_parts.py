@@ -17,8 +17,8 @@ import pytest
 from fixtures.campaigns import KEY, campaign, forged, row_bytes
 from fixtures.paths import ROOT, TESTS
 from fixtures.study_workbooks import command, write
-from report.study import run as clusters
-from report.study.manifest import NAME, check_former, manifest_of
+from report.study.cluster import connected, run_on_cluster
+from report.study.manifest import NAME, check_earlier, manifest_of
 from report.study.parts import (
     begin,
     done_parts,
@@ -29,7 +29,6 @@ from report.study.parts import (
     run_missing,
     signed,
 )
-from report.study.run import connected, run_on_cluster
 from solver.model import InputError
 from solver.sliding.model_selection import Model
 from solver.studies.runs import LENGTHS, STATUSES, Runner, run_part
@@ -40,7 +39,7 @@ NAMES = ["roof"]
 def run(folder, c, about=None):
     """Run what is missing; return the manifest and the numbers of the parts that ran."""
     manifest = manifest_of(c, about or {})
-    begin(folder, manifest, check_former(folder, manifest))
+    begin(folder, manifest, check_earlier(folder, manifest))
     identity, ran = manifest["identity"], []
     found = done_parts(folder, c, identity, KEY)
     had = {number for number, part in found.items() if part.is_own}
@@ -397,7 +396,7 @@ def test_a_cluster_without_workers_is_an_error():
 def test_a_cluster_that_cannot_be_reached_is_an_error_before_anything_runs(
     tmp_path, monkeypatch, address, wanted
 ):
-    monkeypatch.setattr(clusters, "TIMEOUT_S", 0.5)
+    monkeypatch.setattr("report.study.cluster.TIMEOUT_S", 0.5)
     folder = write(tmp_path)
     done = command(folder, "--scheduler", address)
     assert done.exit_code == 2

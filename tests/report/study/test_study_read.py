@@ -30,9 +30,9 @@ from projects.study.make import study
 from report.project.model.choices import UnitsFirst
 from report.project.read.read import read
 from report.project.read.study_years import SUPPORTING, StudyYears
-from report.study import files
-from report.study.files import study_files, study_html
+from report.study import outputs
 from report.study.manifest import manifest_of
+from report.study.outputs import study_files, study_html
 from report.study.read import read_study, write_study
 from report.study.run import planned, run_study
 from report.study.schema import (
@@ -320,7 +320,7 @@ def results(tmp_path_factory):
 def made(results):
     """Its files; the layout of a study is read elsewhere."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(files, "lay_out", str.encode)
+        patch.setattr(outputs, "lay_out", str.encode)
         return study_files(results)
 
 

@@ -20,7 +20,7 @@ from fixtures.study_workbooks import (
     with_study,
     write,
 )
-from report.study import files
+from report.study import outputs
 from report.study.array_capacities import spectral_spread
 from report.study.array_page import fragility as fragility_page
 from report.study.exports import export_files
@@ -168,7 +168,7 @@ def test_an_entered_record_to_record_value_replaces_that_of_the_motions(results)
 
 @pytest.mark.nightly
 def test_a_run_that_exports_nothing_leaves_no_export_of_a_former_one(tmp_path, monkeypatch):
-    monkeypatch.setattr(files, "lay_out", str.encode)
+    monkeypatch.setattr(outputs, "lay_out", str.encode)
     folder = write(tmp_path, study_input(intensities="0.2 to 2.4 by 0.2"), motions=1)
     first = command(folder, "--allow-matched")
     assert first.exit_code == 0, first.output

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from report.making import Step
+from report.steps import Step
 from report.web.worker import Packages, State, in_words, made
 from solver.model import DefectError, InputError
 

@@ -1,12 +1,10 @@
-"""The command `roofslip serve`: the page in the browser, for one engineer.
-
-Parses, listens and prints; `report.web` answers. Read `serve`.
-"""
+"""Serves the page in the browser, for one engineer; `report.web` answers. Read `serve_page`."""
 
 from __future__ import annotations
 
 import errno
 import ipaddress
+import json
 import os
 import re
 import signal
@@ -16,28 +14,27 @@ import threading
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack, suppress
-from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import Any
+from urllib.request import ProxyHandler, Request, build_opener
 
 import click
+import uvicorn
 
-from report.cli.options import Existing
-from report.cli.terminal import INPUT_ERROR, INTERNAL_ERROR, input_errors
+from report.cli.commands.serve import MIN_TOKEN
+from report.cli.exit_codes import INPUT_ERROR, INTERNAL_ERROR
+from report.cli.input_errors import input_errors
+from report.web.access import ENTRY, KEY_HEADER, TOKEN_HEADER, Keys
+from report.web.app import made
+from solver.files import read_file
 
-if TYPE_CHECKING:
-    import uvicorn
-
-    from report.web.access import Keys
-
-LOOPBACK, PORT = "127.0.0.1", 8765
+LOOPBACK = "127.0.0.1"
 HTTP_PORT = 80
-SHORTEST_TOKEN, MOST_TOKEN = 20, 10_000
+MAX_TOKEN = 10_000
 
 # What stands in an address without being escaped (RFC 3986, 2.3).
 _TOKEN = re.compile(r"[A-Za-z0-9_~.-]+")
-_NEEDED = {"starlette": "starlette", "uvicorn": "uvicorn", "python_multipart": "python-multipart"}
 _NOT_ENCRYPTED = (
     "warning: the connection is not encrypted; put a reverse proxy with TLS in front of it"
 )
@@ -46,32 +43,10 @@ _STOPPED_S = 3
 _VISIT_S = 120.0
 
 
-@click.command()
-@click.option("--port", type=click.IntRange(0, 65535), default=PORT, show_default=True,
-              help="0: any that is free.")  # fmt: skip
-@click.option("--no-browser", is_flag=True, help="Open no browser.")
-@click.option("--host", metavar="ADDRESS", help="Listen on this address of the machine, so that "
-              "other machines reach the page. Needs --token-file.")  # fmt: skip
-@click.option("--token-file", type=Existing(dir_okay=False),
-              help=f"File with the token of the address: {SHORTEST_TOKEN} letters and digits or "
-              "more, which stays good. Without it, an address is good once.")  # fmt: skip
-@click.option("--once", is_flag=True, help="Load the page with the example as a browser does, "
-              "print what it took, and end.")  # fmt: skip
-def serve(
-    port: int, no_browser: bool, host: str | None, token_file: Path | None, once: bool
+def serve_page(
+    *, port: int, no_browser: bool, host: str | None, token_file: Path | None, once: bool
 ) -> None:
-    """Show the page in the browser: drop a workbook, move the sliders, take the package.
-
-    Prints the address with its token, and serves one engineer until Ctrl+C; then what was uploaded
-    and made is removed. On a terminal, Enter prints another address, for another tab. Without
-    --host, only this machine can reach the page. A reverse proxy must ask for it under the host and
-    port of the printed address.
-    """
-    _check_packages()
-    from report.web.access import Keys
-
-    if host is not None and token_file is None:
-        raise click.UsageError("--host needs --token-file: a file with the token of the address")
+    """Print the address, and serve until Ctrl+C; with `once`, until the page has answered."""
     lasting = "" if token_file is None else _token(token_file)
     keys = Keys(lasting)
     with ExitStack() as stack:
@@ -116,13 +91,6 @@ def _print_more(page: str, keys: Keys) -> None:
         click.echo(f"{page}?token={keys.token()}")
 
 
-def _check_packages() -> None:
-    missing = [name for module, name in _NEEDED.items() if find_spec(module) is None]
-    if missing:
-        click.echo(f"The page needs {', '.join(missing)}: install roofslip[web].", err=True)
-        sys.exit(INPUT_ERROR)
-
-
 def names_of(host: str | None, port: int) -> tuple[str, Sequence[str]]:
     """Return the name in the address, and the values of Host that are answered; none for any."""
     # A browser leaves out the port of HTTP.
@@ -142,12 +110,10 @@ def names_of(host: str | None, port: int) -> tuple[str, Sequence[str]]:
 def _token(file: Path) -> str:
     """Return the token of a file; exit where it is too short, or no part of an address."""
     with input_errors(file):
-        from solver.files import read_file
-
-        token = read_file(file, MOST_TOKEN).decode(errors="replace").strip()
-    if len(token) < SHORTEST_TOKEN or not _TOKEN.fullmatch(token):
-        wanted = f"{SHORTEST_TOKEN} or more letters, digits, '-', '_', '.' and '~', on one line"
-        click.echo(f"{file}: has no token; give {wanted}.", err=True)
+        token = read_file(file, MAX_TOKEN).decode(errors="replace").strip()
+    if len(token) < MIN_TOKEN or not _TOKEN.fullmatch(token):
+        accepted = f"{MIN_TOKEN} or more letters, digits, '-', '_', '.' and '~', on one line"
+        click.echo(f"{file}: has no token; give {accepted}.", err=True)
         sys.exit(INPUT_ERROR)
     return token
 
@@ -163,18 +129,14 @@ def listen(host: str, port: int) -> socket.socket:
         return listening
     except OSError as error:
         if error.errno == errno.EADDRINUSE:
-            told = f"Port {port} of {host} is in use: end what uses it, or give another --port."
+            message = f"Port {port} of {host} is in use: end what uses it, or give another --port."
         else:
-            told = f"{host}, port {port}: cannot listen there; give another --port or --host."
-        click.echo(told, err=True)
+            message = f"{host}, port {port}: cannot listen there; give another --port or --host."
+        click.echo(message, err=True)
         sys.exit(INPUT_ERROR)
 
 
 def _server(folder: Path, keys: Keys, hosts: Sequence[str]) -> uvicorn.Server:
-    import uvicorn
-
-    from report.web.app import made
-
     return uvicorn.Server(
         uvicorn.Config(
             made(keys, folder, hosts),
@@ -202,24 +164,19 @@ class _Visit(threading.Thread):
 
     def run(self) -> None:
         """Load the page and its first answer."""
-        import json
-        from urllib.request import ProxyHandler, Request, build_opener
-
-        from report.web.access import ENTRY, KEY_HEADER, TOKEN_HEADER
-
         began = time.monotonic()
         # Only this server is asked, and no proxy of the environment.
         browser = build_opener(ProxyHandler({}))
         page, _, token = self._address.partition("/?token=")
 
-        def asked(path: str, method: str, **headers: str) -> Any:
+        def answer(path: str, method: str, **headers: str) -> Any:
             request = Request(page + path, headers=headers, method=method)
             return json.load(browser.open(request, timeout=_VISIT_S))
 
         try:
             browser.open(self._address, timeout=_VISIT_S).read()
-            key = asked(ENTRY, "POST", **{TOKEN_HEADER: token})["key"]
-            state = asked("/api/state", "GET", **{KEY_HEADER: key})
+            key = answer(ENTRY, "POST", **{TOKEN_HEADER: token})["key"]
+            state = answer("/api/state", "GET", **{KEY_HEADER: key})
             verdict = state["answer"]["verdict"]["text"]
             self.sentence = f"the example: {verdict}, after {time.monotonic() - began:.1f} s"
             self.is_answered = True

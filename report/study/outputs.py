@@ -1,23 +1,58 @@
-"""Every file of a study but its runs, as finished bytes. Read `study_files`."""
+"""A study run and published: the report, the tables and the exports. Read `make_study`."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
 
 from markupsafe import Markup
 
 from report.document.templates import Section, filled, rendered, section
 from report.project.read.study_years import YEARS
+from report.results.publish import publish
 from report.study.array_page import fragility, sheets, years, years_json
 from report.study.curves import allowed, compare, curves, prescribed
-from report.study.exports import export_files
+from report.study.exports import LIBRARY, export_files
 from report.study.page_parts import basis, formula, limits
+from report.study.plan import StudyPlan
 from report.study.results import StudyResults
+from report.study.run import RUNS, run_study
 from report.study.tables import curves_csv, study_xlsx
 from report.study.wording import context, headline
 from report.typeset.pdf import TEMPLATES, lay_out
+from solver.files import add_folder, check_plain, locked
 
 TABLE = "study.xlsx"
+
+
+def make_study(
+    plan: StudyPlan,
+    folder: Path,
+    progress: Callable[[str], None],
+    **options: Any,
+) -> tuple[StudyResults, Mapping[str, bytes]]:
+    """Run a study and publish its files; another run to the same folder waits until it ends.
+
+    Options are those of `report.study.run.run_study`.
+    """
+    runs = folder / RUNS
+    check_plain(runs, folder, is_folder=True)
+    with ExitStack() as undo:
+        # Where nothing ran, as with no cluster, nothing new stays.
+        add_folder(runs, undo)
+        with locked(runs):
+            results = run_study(plan, folder, progress=progress, **options)
+            progress("writing the report")
+            files = study_files(results)
+            publish(files, folder)
+            # Those of an earlier study would pass for results of this one.
+            for name in (LIBRARY, YEARS):
+                if name not in files:
+                    (folder / name).unlink(missing_ok=True)
+        undo.pop_all()
+    return results, files
 
 
 def study_files(results: StudyResults) -> Mapping[str, bytes]:

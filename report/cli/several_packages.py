@@ -15,32 +15,29 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn
 
 import click
 
-from report.cli.terminal import (
-    INPUT_ERROR,
-    INTERNAL_ERROR,
-    NOT_OK,
+from report.cli.exit_codes import INPUT_ERROR, INTERNAL_ERROR, NOT_OK
+from report.cli.input_errors import (
     SCHEMA_VERSION,
-    Progress,
-    colored,
     outputs_of,
-    plain,
-    print_json,
-    say,
-    say_former,
+    say_earlier_outputs,
     say_problems,
     system_problem,
-    warn_of_others,
     workbook_of,
 )
+from report.cli.one_package import report_one, warn_of_other_packages
+from report.cli.progress import Progress
+from report.cli.terminal import colored, plain, print_json, say
+from report.making import make
+from report.results.publish import check_of_workbook, output_folder
+from report.steps import STEPS, Step
 from report.text.counts import numbered
-
-if TYPE_CHECKING:
-    from report.making import Step
-    from solver.model import Problem
+from report.text.formats import aligned
+from report.text.units import ratio
+from solver.model import InputError, Problem
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,24 +53,54 @@ class ReportOutcome:
     seconds: float = 0.0
 
 
+def report_projects(
+    sources: Sequence[Path],
+    out: Path | None,
+    since: Path | None,
+    *,
+    fail_on_ng: bool,
+    quiet: bool,
+    as_json: bool,
+    has_page: bool,
+) -> None:
+    """Make the package of one project, or those of several with one table."""
+    if len(sources) == 1:
+        report_one(
+            sources[0],
+            out,
+            since,
+            fail_on_ng=fail_on_ng,
+            quiet=quiet,
+            as_json=as_json,
+            has_page=has_page,
+        )
+        return
+    if out or since:
+        raise click.UsageError(
+            "--out and --since are of one project; leave them out, and each project is written "
+            "to its own out/, or report each on its own"
+        )
+    report_several(sources, fail_on_ng=fail_on_ng, quiet=quiet, as_json=as_json, has_page=has_page)
+
+
 def report_several(
     sources: Sequence[Path], *, fail_on_ng: bool, quiet: bool, as_json: bool, has_page: bool
 ) -> NoReturn:
     """Write the packages, print one table, and end with the exit code of the worst."""
     books = [workbook_of(source) for source in sources]
     # A link stays one: the package lies beside it.
-    places = [book.parent.resolve() / book.name for book in books]
-    distinct = dict(zip(places, sources, strict=True))
+    paths = [book.parent.resolve() / book.name for book in books]
+    distinct = dict(zip(paths, sources, strict=True))
     # Packages of one folder would overwrite each other in its out/.
-    homes = Counter(workbook.parent for workbook in distinct if os.path.isfile(workbook))
+    folders = Counter(workbook.parent for workbook in distinct if os.path.isfile(workbook))
     outcomes = []
     for workbook, source in distinct.items():
-        is_shared = homes[workbook.parent] > 1
+        is_shared = folders[workbook.parent] > 1
         outcomes.append(package(source, is_shared, quiet=quiet, as_json=as_json, has_page=has_page))
         gc.collect()  # a package leaves much that refers to itself
-    for home, count in homes.items():
+    for folder, count in folders.items():
         if count > 1:
-            say_former(outputs_of(home, None))
+            say_earlier_outputs(outputs_of(folder, None))
     if as_json:
         print_json(document(outcomes))
     elif not quiet:
@@ -109,13 +136,11 @@ def package(
 
     Where its folder is that of others as well, to a folder of its own below out/.
     """
-    from report.making import STEPS, make
-    from report.results.publish import check_of_workbook, output_folder
-    from solver.model import InputError
-
-    started, lines = time.monotonic(), list[str]()
-    workbook, out = workbook_of(source), None
-    done = ReportOutcome(source=str(source))
+    started = time.monotonic()
+    lines: list[str] = []
+    workbook = workbook_of(source)
+    out = None
+    outcome = ReportOutcome(source=str(source))
     problems: Sequence[Problem] = ()
     try:
         if is_shared:
@@ -127,13 +152,13 @@ def package(
                 progress(f"{source}: {step}")
 
             made = make(source, out, None, say_step, lines.append, has_page=has_page)
-        assessment, folder, *_ = made
-        warn_of_others(folder / "calc-package.pdf")
-        done = replace(
-            done,
-            verdict=assessment.verdict.value,
-            demand_capacity=largest(gap.demand_capacity for gap in assessment.clearances),
-            package=str(folder / "calc-package.pdf"),
+        pdf = made.folder / "calc-package.pdf"
+        warn_of_other_packages(pdf)
+        outcome = replace(
+            outcome,
+            verdict=made.assessment.verdict.value,
+            demand_capacity=largest(check.demand_capacity for check in made.assessment.clearances),
+            package=str(pdf),
         )
     except InputError as error:
         problems = error.parts
@@ -142,17 +167,17 @@ def package(
     # One project that fails in the program stops no other.
     except Exception:
         click.echo(f"{plain(source)}: {traceback.format_exc()}", err=True)
-        done = replace(done, is_internal_error=True)
+        outcome = replace(outcome, is_internal_error=True)
     if not (quiet or as_json):
         for line in lines:
             say(line)
     if problems and not as_json:
         say_problems(source, problems)
     # Without a package the files that are there are of an earlier run.
-    if not done.verdict:
-        say_former(outputs_of(source, out))
+    if not outcome.verdict:
+        say_earlier_outputs(outputs_of(source, out))
     seconds = round(time.monotonic() - started, 3)
-    return replace(done, errors=tuple(map(str, problems)), seconds=seconds)
+    return replace(outcome, errors=tuple(map(str, problems)), seconds=seconds)
 
 
 def largest(ratios: Iterable[float]) -> float | None:
@@ -163,13 +188,12 @@ def largest(ratios: Iterable[float]) -> float | None:
 
 def table(outcomes: Sequence[ReportOutcome]) -> Iterator[str]:
     """Return the headings and a line for each project."""
-    from report.text.formats import aligned
-    from report.text.units import ratio
-
     rows = [("project", "verdict", "D/C", "time", "package")]
-    for one in outcomes:
-        wrong = "internal error" if one.is_internal_error else numbered(len(one.errors), "problem")
-        worst = "" if one.demand_capacity is None else ratio(one.demand_capacity)
-        time_s = f"{one.seconds:.1f} s"
-        rows.append((one.source, one.verdict or wrong, worst, time_s, one.package or ""))
+    for outcome in outcomes:
+        verdict = outcome.verdict or numbered(len(outcome.errors), "problem")
+        if outcome.is_internal_error:
+            verdict = "internal error"
+        ratio_text = ratio(outcome.demand_capacity) if outcome.demand_capacity is not None else ""
+        time_text = f"{outcome.seconds:.1f} s"
+        rows.append((outcome.source, verdict, ratio_text, time_text, outcome.package or ""))
     return aligned(rows)

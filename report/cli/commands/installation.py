@@ -1,0 +1,45 @@
+"""The commands on an installation: `doctor`, `completion`, and `test` of a checkout."""
+
+from __future__ import annotations
+
+import click
+from click.shell_completion import get_completion_class
+
+# Set by the script in which the shell asks for completions.
+VARIABLE = "_ROOFSLIP_COMPLETE"
+
+
+@click.command()
+def doctor() -> None:
+    """Check versions, native libraries, a test run and a test page; list what to install."""
+    from report.cli.installation_check import check_installation
+
+    check_installation()
+
+
+@click.command()
+@click.argument("shell", type=click.Choice(["bash", "zsh", "fish"]))
+def completion(shell: str) -> None:
+    """Print the script by which a shell completes commands, options and files.
+
+    In bash: `eval "$(roofslip completion bash)"`, which also completes ./roofslip. In zsh the same
+    with zsh, after compinit. In fish: `roofslip completion fish | source`. zsh and fish complete a
+    roofslip that is in the PATH.
+    """
+    root = click.get_current_context().find_root().command
+    script = get_completion_class(shell)
+    assert script is not None  # by the choice of shells
+    click.echo(script(root, {}, "roofslip", VARIABLE).source())
+
+
+@click.command()
+@click.option("--quick", is_flag=True, help="The short ones, some of every test file.")
+@click.option("--nightly", is_flag=True, help="All, with the coverage of the program.")
+@click.option("--golden", is_flag=True, help="Accept what changed in the words of the pages.")
+@click.argument("paths", metavar="[PATH]...", nargs=-1)
+def test(**_: object) -> None:
+    """Run the tests of a checkout, after its linters: all of PATH, else what every day runs.
+
+    What pytest takes may follow. The first call installs what tests need, 1.1 GB.
+    """
+    raise click.UsageError("tests are run by the launcher of a checkout: ./roofslip test")

@@ -1,0 +1,87 @@
+"""The commands on records: `roofslip motion info`, `convert`, `rows`, `suite`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from report.cli.lazy_group import LazyGroup
+from report.cli.options import AS_JSON, SOURCE, Existing, Number, reading
+
+
+@click.group(cls=LazyGroup)
+def motion() -> None:
+    """Inspect and convert records, and generate suites of motions."""
+
+
+_HERE = "report.cli.commands.motion"
+motion.add_section("Commands", f"{_HERE}:convert", f"{_HERE}:info", f"{_HERE}:rows")
+motion.add_section("Commands", "report.cli.commands.suite:suite")
+
+_per_line = click.option("--values-per-line", type=click.IntRange(1), help="The values follow each "
+                         "other across the lines, so many in each but the last.")  # fmt: skip
+_response = click.option("--response", default="", metavar="STATION.xml|NUMBER", help="Of raw "
+                         "counts, as in miniSEED: StationXML, or the counts per m/s2.")  # fmt: skip
+_channel = click.option("--channel", default="", metavar="NAME",
+                        help="One channel: its name or its number in the file.")  # fmt: skip
+
+
+@click.command()
+@click.argument("file", metavar="FILE", type=SOURCE)
+@_channel
+@_per_line
+@_response
+@reading
+@AS_JSON
+def info(file: Path, **options: Any) -> None:
+    """List the channels of FILE with peaks, duration and drift.
+
+    Prints peak acceleration, velocity and displacement, Arias intensity, significant duration (5 to
+    95 % of it), and the velocity and displacement at the end, without baseline correction. The
+    format is recognized from the content, not from the file name.
+    """
+    from report.cli.record_file import print_channels
+
+    print_channels(file, **options)
+
+
+@click.command()
+@click.argument("file", metavar="FILE", type=SOURCE)
+@click.argument("out", metavar="OUT.csv", type=SOURCE)
+@_channel
+@click.option("--factor", type=Number(), default=1.0, help="Multiply the samples, by -1 for a "
+              "vertical record that is positive downward.")  # fmt: skip
+@_per_line
+@_response
+@reading
+def convert(file: Path, out: Path, **options: Any) -> None:
+    """Write FILE as CSV: time in s, acceleration in g.
+
+    An existing file is never overwritten. If FILE has several channels, select one with --channel.
+    """
+    from report.cli.record_file import convert_record
+
+    convert_record(file, out, **options)
+
+
+@click.command()
+@click.argument("source", metavar="FOLDER|ZIP", type=Existing())
+@click.argument("project", metavar="[DIR|WORKBOOK]", type=SOURCE, required=False)
+@click.option("--at", "recorded_at", type=click.Choice(["roof", "ground"]),
+              help="Where they were recorded; required with a workbook.")  # fmt: skip
+@click.option("--only", metavar="NAME", multiple=True,
+              help="Take the motions of this name; * stands for any letters.")  # fmt: skip
+@click.option("--without-vertical", is_flag=True,
+              help="Take two horizontal records without a vertical one as a set.")  # fmt: skip
+@reading
+def rows(source: Path, project: Path | None, **options: Any) -> None:
+    """List the motions in FOLDER or ZIP, sets of three records; add them to a workbook.
+
+    Sets that are not clear are listed with the reason and not added. Records are copied into
+    records/ beside the workbook, unless they are in its folder.
+    """
+    from report.cli.motion_rows import add_motions
+
+    add_motions(source, project, **options)

@@ -1,0 +1,15 @@
+"""The command `roofslip schema`."""
+
+from __future__ import annotations
+
+import json
+
+import click
+
+
+@click.command()
+def schema() -> None:
+    """Print the JSON schema of results.json."""
+    from report.results.schema import schema as results_schema
+
+    click.echo(json.dumps(results_schema(), indent=1))

@@ -1,0 +1,84 @@
+"""Waits for saves in the folder of a project, and reports after each."""
+
+from __future__ import annotations
+
+import gc
+import os
+import time
+from contextlib import suppress
+from pathlib import Path
+from typing import NoReturn
+
+import click
+
+from report.cli.input_errors import input_errors
+from report.cli.one_package import package, show
+from report.cli.terminal import say
+from report.project.read.archive import located, open_book
+from report.results.changes import changes
+from report.results.publish import OUTPUTS
+from report.results.results_json import former_from
+
+POLL_S = 0.3
+MAX_POLLS = 10
+MAX_CHANGES = 12
+"""Changes that are printed after a report."""
+
+# What the report writes itself, and files that programs keep beside one that is open.
+NO_INPUTS = (*OUTPUTS, ".sha256", ".tmp", ".bak", ".swp", ".lock", "~")
+
+FileStamps = set[tuple[str, int, int]]
+"""Path, time and size of each file."""
+
+
+def watch_project(source: Path, out: Path | None) -> NoReturn:
+    """Report, and again after every save, until Ctrl+C."""
+    with input_errors(source):
+        workbook, results = located(source), b""
+    while True:
+        stamps = settled(workbook)
+        # After an error the next save is waited for as well.
+        with suppress(SystemExit):
+            results = report_again(workbook, out, results)
+        gc.collect()  # a package leaves much that refers to itself
+        click.echo(f"watching {workbook.parent}; end with Ctrl+C")
+        while file_stamps(workbook.parent) == stamps:
+            time.sleep(POLL_S)
+
+
+def report_again(workbook: Path, out: Path | None, former: bytes) -> bytes:
+    """Report, print what changed since the former results.json, and return the new one."""
+    made = package(workbook, out)
+    show(made)
+    if former:
+        items = changes(former_from(former, made.folder), made.assessment).items
+        say(f"changes since the round before: {len(items)}")
+        for item in items[:MAX_CHANGES]:
+            say(f"  {item.title} {item.cell}".rstrip() + f": {item.before} -> {item.now}")
+    return made.files["results.json"]
+
+
+def settled(workbook: Path) -> FileStamps:
+    """Wait until a workbook opens and no file changes, if that comes; return `file_stamps`."""
+    for _ in range(MAX_POLLS):
+        stamps = file_stamps(workbook.parent)
+        time.sleep(POLL_S)
+        # Excel writes a workbook in several steps, and locks it meanwhile.
+        with suppress(Exception):  # the report says what is wrong with it
+            open_book(workbook)
+            if file_stamps(workbook.parent) == stamps:
+                break
+    return stamps
+
+
+def file_stamps(top: Path) -> FileStamps:
+    """Return the stamps of the files below a folder that may be inputs."""
+    stamps = set()
+    for folder, _, names in os.walk(top):
+        for name in names:
+            if not name.startswith((".", "~")) and not name.endswith(NO_INPUTS):
+                path = os.path.join(folder, name)
+                with suppress(OSError):  # it may be gone by now
+                    status = os.stat(path)
+                    stamps.add((path, status.st_mtime_ns, status.st_size))
+    return stamps

@@ -1,0 +1,126 @@
+"""Errors of the input, as a command prints them: one problem per line, or JSON.
+
+    with input_errors(source):
+        sheet = read(source)
+
+Also the outputs of an earlier run, which an error leaves as they are.
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+import os
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, NoReturn
+
+import click
+
+from report.cli.exit_codes import INPUT_ERROR
+from report.cli.terminal import plain, print_json
+from report.results.publish import OUTPUTS
+from report.text.counts import as_typed, numbered
+from solver.model import InputError, Problem
+
+SCHEMA_VERSION = 1
+"""Of the documents of `--json`: raised where a key changes its name or meaning."""
+
+
+@contextmanager
+def input_errors(
+    source: Path, *, as_json: bool = False, outputs: Sequence[Path] = ()
+) -> Iterator[None]:
+    """Print input errors, one problem per line or as JSON, and exit with code 2.
+
+    So with what the system refuses, such as a file without permission or a folder that is gone.
+    Outputs of an earlier run that are there are named.
+    """
+    try:
+        yield
+    # Nobody reads any more: no error of the input, and nothing to print it to.
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        _refuse(source, [system_problem(error)], outputs, as_json=as_json)
+    except InputError as error:
+        _refuse(source, error.parts, outputs, as_json=as_json)
+
+
+def _refuse(
+    source: Path, problems: Sequence[Problem], outputs: Sequence[Path], *, as_json: bool
+) -> NoReturn:
+    if as_json:
+        print_json(document(source, problems))
+    else:
+        say_problems(source, problems)
+    say_earlier_outputs(outputs)
+    sys.exit(INPUT_ERROR)
+
+
+def workbook_of(source: Path) -> Path:
+    """Return the workbook that a command is given, by itself or by its folder."""
+    # Unlike `Path.is_dir`, it raises nothing where a name is too long.
+    return source / "input.xlsx" if os.path.isdir(source) else source
+
+
+def outputs_of(source: Path, out: Path | None) -> tuple[Path, ...]:
+    """Return where the package and the tables of a workbook are written."""
+    folder = out or workbook_of(source).parent / "out"
+    return tuple(folder / name for name in OUTPUTS)
+
+
+def say_earlier_outputs(outputs: Sequence[Path]) -> None:
+    """Say which outputs are there from an earlier run, after one that has not replaced them."""
+    # Files of an earlier run look like those of this one, which has none.
+    files = [path for path in outputs if os.path.isfile(path)]
+    if not files:
+        return
+    newest = dt.datetime.fromtimestamp(max(path.stat().st_mtime for path in files))
+    subject = f"{files[0]} is" if len(files) == 1 else f"{files[0]} and {len(files) - 1} more are"
+    line = f"{subject} of an earlier run, {newest:%Y-%m-%d %H:%M}, and not replaced"
+    click.echo(plain(line), err=True)
+
+
+def document(source: Path, problems: Sequence[Problem] = ()) -> dict[str, Any]:
+    """Return what every document about a workbook has: which one it is, and its errors."""
+    return {
+        "schema_version": SCHEMA_VERSION,
+        "workbook": str(source),
+        "errors": [str(problem) for problem in problems],
+    }
+
+
+def say_problems(source: Path, problems: Sequence[Problem]) -> None:
+    """Print the problems of an input, one per line; those of several cells once."""
+    # Imported for an error alone: `motion` and `slide` need no models of a workbook.
+    from report.project.check.problem_lines import grouped, line_of
+
+    click.echo(f"{plain(source)}: {numbered(len(problems), 'problem')} found.", err=True)
+    for equal_problems in grouped(problems):
+        click.echo(f"  {as_typed(plain(line_of(equal_problems)))}", err=True)
+
+
+def system_problem(error: OSError) -> Problem:
+    """Return what the system refuses, as a problem of an input."""
+    reason = error.strerror or error
+    if not error.filename:
+        return Problem(
+            f"a file cannot be written or read ({reason})",
+            f"free disk space, also for temporary files{_place()}, or raise the limit on the size "
+            "of files",
+        )
+    return Problem(
+        f"{error.filename}: the system refuses it ({reason})",
+        "correct the path, its rights or the space on its disk",
+    )
+
+
+def _place() -> str:
+    """Return where temporary files are, if there is such a place."""
+    try:
+        return f" in {tempfile.gettempdir()}"
+    except OSError:
+        return ""

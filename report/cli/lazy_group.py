@@ -1,0 +1,65 @@
+"""A group of commands that imports the module of a command when it is asked for.
+
+    main.add_section("Package", "report.cli.commands.report:report")
+
+A module of `report.cli.commands` has the options of a command, and imports what does its work only
+where it runs: help and completion import no more than click.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Mapping
+from importlib import import_module
+
+import click
+
+
+class LazyGroup(click.Group):
+    """A group whose commands stand under titles, each given by its module and function."""
+
+    def __init__(self, **options: object) -> None:
+        super().__init__(**options)  # type: ignore[arg-type]
+        self._sections: dict[str, list[str]] = {}
+        self._modules: dict[str, str] = {}
+
+    def add_section(self, title: str, *commands: str) -> None:
+        """Add commands under a title, each as `report.cli.commands.sign:sign`."""
+        for command in commands:
+            module, _, function = command.partition(":")
+            name = function.replace("_", "-")
+            self._sections.setdefault(title, []).append(name)
+            self._modules[name] = module
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Return a command by its name, from its module."""
+        if cmd_name not in self.commands and cmd_name in self._modules:
+            module = import_module(self._modules[cmd_name])
+            self.add_command(getattr(module, cmd_name.replace("-", "_")))
+        return super().get_command(ctx, cmd_name)
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the names in the order of their sections."""
+        return list(self._modules)
+
+    def every(self) -> Mapping[str, click.Command]:
+        """Return all commands by name, in the order in which they are listed."""
+        context = click.Context(self)
+        commands = {}
+        for name in self._modules:
+            command = self.get_command(context, name)
+            assert command is not None  # by `add_section`
+            commands[name] = command
+        return commands
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write each section: its commands, with the first sentence of their help."""
+        commands = self.every()
+        width = max(map(len, commands))  # the same in every section
+        for title, names in self._sections.items():
+            rows = []
+            for name in names:
+                first, _, _ = inspect.cleandoc(commands[name].help or "").partition("\n\n")
+                rows.append((name.ljust(width), " ".join(first.split())))
+            with formatter.section(title):
+                formatter.write_dl(rows)

@@ -1,0 +1,99 @@
+"""Generates a suite of motions that match a spectrum, and adds it to a workbook."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+
+from report.cli.input_errors import input_errors
+from report.cli.progress import Progress
+from report.cli.terminal import plain, say_next
+from report.project.read.read import read
+from report.project.read.workbook_data import Sheet
+from report.results.motions import add_suite, said_near, suite_rows
+from report.results.publish import output_folder, publish
+from report.suite.files import generate, suite_table
+from report.suite.inputs import (
+    SuiteTargets,
+    ac156_targets,
+    check_folder,
+    read_seeds,
+    site_targets,
+    table_targets,
+)
+from report.suite.target_table import read_target
+from report.text.counts import called, numbered
+from solver.model import InputError
+from solver.rules.hazard import Tail
+
+
+def generate_suite(
+    folder: Path,
+    *,
+    seed_files: Sequence[str],
+    target: str | None,
+    count: int,
+    seed: int,
+    into: Path | None,
+    units: str | None,
+    dt_s: float,
+    **spectrum: Any,
+) -> None:
+    """Write the records of a suite to a folder, and list them in a workbook if one is given.
+
+    `spectrum` are `s_ds_g`, `z_over_h`, `code` and `tail`, None where they are not given.
+    """
+    # What comes before the first motion takes no share, so that the time left is theirs.
+    shares = (0.0, *[1.0] * count, 1.0)
+    with input_errors(into or folder), Progress(shares) as progress:
+        # Before minutes of work: a folder that cannot be written is told at once.
+        check_folder(folder, count)
+        output_folder(folder, folder, "")
+        sheet = read(into) if into else None
+        options = {name: value for name, value in spectrum.items() if value is not None}
+        targets, taken = _targets(options, target, sheet)
+        rows = suite_rows(sheet.book, folder, count, targets.source(seed)) if sheet else []
+        seeds = read_seeds(seed_files, units=units or "", dt_s=dt_s)
+        motions, files = generate(targets, count, seed, seeds, progress)
+        # With a workbook both or neither are written: rows without their records would be errors.
+        if into:
+            change = add_suite(into, folder, rows, files)
+        else:
+            publish(files, folder)
+    for line in (*taken, *suite_table(motions, targets), *seeds.notes):
+        click.echo(line)
+    click.echo(f"{folder}: {len(files) - 2} records, suite.json, suite.png; seed {seed}")
+    if sheet:
+        earlier_ids = {row.get("id") for row in sheet.inputs["motions"]}
+        renewed = len({row["id"] for row in rows} & earlier_ids)
+        also = f", {renewed} renewed" if renewed else ""
+        added = f"{numbered(count - renewed, 'row')} added to the sheet Motions{also}"
+        click.echo(f"{sheet.path}: {added}: {change.areas}")
+        say_next(sheet.path, change.has_formulas)
+        return
+    for line in said_near(folder):
+        click.echo(plain(f"warning: {line}"), err=True)
+    click.echo("Next: copy the records into records/ of a project, list them on its sheet Motions,")
+    click.echo(f"then run: {called()} check DIR")
+
+
+def _targets(
+    options: dict[str, Any], target: str | None, sheet: Sheet | None
+) -> tuple[SuiteTargets, list[str]]:
+    """Return the target of a suite, and what of it is from which cells of a workbook."""
+    # Any of the options makes a target of its own; half of a site and half of options would be
+    # nobody's.
+    if sheet and not options and not target:
+        return site_targets(sheet)
+    spectrum: dict[str, Any] = {"s_ds_g": math.nan, "z_over_h": 1.0} | options
+    spectrum["tail"] = Tail.RECIPROCAL if options.get("tail") == "1/T" else Tail.AC156
+    if target:
+        table = read_target(target)
+        return table_targets(table, s_ds_g=spectrum["s_ds_g"], tail=spectrum["tail"]), []
+    if not {"s_ds_g", "code"} <= options.keys():
+        raise InputError("no target; give --sds and --code, or --target")
+    return ac156_targets(**spectrum), []

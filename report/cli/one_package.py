@@ -1,0 +1,112 @@
+"""One package: made, with what `roofslip report` prints of it."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import click
+
+from report.assessment.revision_changes import Changes
+from report.cli.exit_codes import NOT_OK
+from report.cli.input_errors import document, input_errors, outputs_of
+from report.cli.progress import Progress
+from report.cli.terminal import plain, print_json, say
+from report.making import Made, make
+from report.pages import terminal as summaries
+from report.pages.changes import counted
+from report.results.publish import OUTPUTS
+from report.steps import STEPS
+from report.text.counts import numbered
+
+
+def report_one(
+    source: Path,
+    out: Path | None,
+    since: Path | None,
+    *,
+    fail_on_ng: bool,
+    quiet: bool,
+    as_json: bool,
+    has_page: bool,
+) -> None:
+    """Make the package of a project, and print its summary."""
+    lines: list[str] = []
+    made = package(
+        source,
+        out,
+        since,
+        quiet=quiet,
+        as_json=as_json,
+        on_record=lines.append,
+        has_page=has_page,
+    )
+    if as_json:
+        files = {"files": [str(made.folder / name) for name in made.files]}
+        workbook = made.assessment.sheet.path
+        print_json(document(workbook) | summaries.document(made.assessment) | files)
+    elif not quiet:
+        for line in lines:
+            say(line)
+        show(made)
+    if fail_on_ng and made.assessment.verdict != "OK":
+        sys.exit(NOT_OK)
+
+
+def package(
+    source: Path,
+    out: Path | None,
+    since: Path | None = None,
+    *,
+    quiet: bool = False,
+    as_json: bool = False,
+    on_record: Callable[[str], None] | None = None,
+    has_page: bool = True,
+) -> Made:
+    """Make a package as `make` does; an input error is printed, and ends with exit code 2."""
+    with (
+        input_errors(source, as_json=as_json, outputs=outputs_of(source, out)),
+        Progress(STEPS, quiet=quiet) as progress,
+    ):
+        made = make(source, out, since, progress, on_record, has_page=has_page)
+    warn_of_other_packages(made.folder / OUTPUTS[0])
+    return made
+
+
+def show(made: Made) -> None:
+    """Print the summary of a package and its files; last the verdict, with the package."""
+    *lines, verdict = summaries.summary(made.assessment)
+    for line in lines:
+        say(line)
+    if made.changes.is_asked_for:
+        _print_changes(made.changes)
+    click.echo("")
+    package, *tables = (made.folder / name for name in made.files)
+    for path in tables:
+        click.echo(path)
+    say(f"{verdict}; {package}, {numbered(made.sheets, 'sheet')}")
+
+
+def warn_of_other_packages(new: Path) -> None:
+    """Warn of packages beside a new one that are of another input."""
+    others = sorted(path for path in new.parent.glob("*.pdf") if path.name != new.name)
+    if others:
+        # An extra, which a report imports only here: it takes most of a second.
+        from report.proof.package import warn_of_other_input
+
+        warn_of_other_input(new, others)
+
+
+def _print_changes(changes: Changes) -> None:
+    before = {item.title: plain(item.before) for item in changes.items if item.cell}
+    # Both changed: one alone may be a correction.
+    if {"Project name", "Project number"} <= before.keys():
+        click.echo(
+            f"--since is of another project: {before['Project number']},"
+            f" {before['Project name']}; check that it is the former revision of this one"
+        )
+    click.echo(
+        f"since revision {changes.revision}: {counted(changes)}; the package lists them after its "
+        "summary"
+    )

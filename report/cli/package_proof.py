@@ -1,0 +1,129 @@
+"""Makes a package again from the input inside it, and compares the bytes."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import asdict, replace
+from pathlib import Path
+
+import click
+
+from report.cli.exit_codes import DIFFERS, NOT_COMPARED
+from report.cli.input_errors import input_errors
+from report.cli.progress import Progress
+from report.cli.terminal import plain, print_json, say
+from report.making import make
+from report.proof.package import (
+    Agreement,
+    Proof,
+    RecordsMissingError,
+    compared,
+    failed,
+    opened,
+    read_package,
+    take_out,
+)
+from report.provenance.known_errors import touching
+from report.results.publish import OUTPUTS, STAMP, warn_if_mixed
+from report.steps import STEPS
+from solver.files import write_whole
+from solver.model import InputError
+
+COMPARING = 0.1
+"""Usual time of the comparison, as a share of that of the package."""
+
+_ANSWERS = {
+    "same": "Same: the input in the package gives this package, to the byte.",
+    "not compared in full": "Not compared in full; nothing differs in what was compared:",
+    "differs": "Differs from what the input in the package gives:",
+}
+
+
+def prove(
+    file: Path, *, records: Path | None, out: Path | None, quiet: bool, as_json: bool
+) -> None:
+    """Print whether the input in a package gives this package, and exit by the answer."""
+    again = out or file.with_name(f"{file.stem}-again.pdf")
+    with input_errors(file, as_json=as_json), _ended_by_signals():
+        data = read_package(file)
+        # Before the work, and a dangling link as well.
+        if os.path.lexists(again):
+            raise InputError(f"{again}: already exists; give another --out, or move the file")
+        with Progress((*STEPS, COMPARING), quiet=quiet) as progress:
+            proof, made = _proof(file, data, records, progress)
+        if proof.is_to_be_read:
+            write_whole(again, made)
+    written = str(again) if proof.is_to_be_read else ""
+    if as_json:
+        print_json(asdict(proof) | {"made_again": written})
+    elif not quiet:
+        _print(proof, written)
+    code = {"differs": DIFFERS, "not compared in full": NOT_COMPARED}.get(proof.answer)
+    if code:
+        sys.exit(code)
+
+
+@contextmanager
+def _ended_by_signals() -> Iterator[None]:
+    """Have SIGTERM end the command as Ctrl+C does, so that its files are removed."""
+    handler = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, handler)
+
+
+def _proof(
+    file: Path, data: bytes, records: Path | None, progress: Progress
+) -> tuple[Proof, bytes]:
+    """Return the outcome, and the package made again if it was."""
+    if os.path.lexists(file.parent / STAMP):
+        warn_if_mixed(file.parent, OUTPUTS)
+    try:
+        package = opened(data)
+        errors = tuple(touching(package.manifest.roofslip_version, package.results))
+        with tempfile.TemporaryDirectory(prefix="roofslip-") as folder:
+            workbook, earlier = take_out(package, Path(folder, "input"), records)
+            try:
+                made = made_again(workbook, Path(folder, "out"), earlier, progress)
+            except InputError as error:
+                # Its own input is refused: the package was not made from it, or by another version.
+                return replace(failed(package, error.problems), known_errors=errors), b""
+        progress("comparing")
+        return replace(compared(package, opened(made)), known_errors=errors), made
+    # No verdict on the package: it can be given once the records are there.
+    except RecordsMissingError:
+        raise
+    except InputError as error:
+        return Proof(answer=Agreement.DIFFERS, reasons=tuple(error.problems)), b""
+
+
+def made_again(workbook: Path, out: Path, earlier: list[Path], progress: Progress) -> bytes:
+    """Return the package of a workbook."""
+    since = earlier[0] if earlier else None
+    files = make(workbook, out, since, progress, has_page=False).files
+    return files["calc-package.pdf"]
+
+
+def _print(proof: Proof, written: str) -> None:
+    if proof.known_errors:
+        click.echo("Errors of the version that made the package, which it may have:")
+    for error in proof.known_errors:
+        click.echo(f"  {error.error} {error.action}")
+    click.echo(_ANSWERS[proof.answer])
+    for reason in proof.reasons:
+        say(f"  {reason}")
+    if written:
+        click.echo(plain(f"The package made again: {written}"))
+    for signature in proof.signed:
+        click.echo(
+            plain(
+                f"Signed since, in the field '{signature.field}', by '{signature.signer}'. Who "
+                "issued the certificate was not checked: a PDF reader does."
+            )
+        )

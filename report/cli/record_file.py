@@ -1,0 +1,64 @@
+"""What `roofslip motion info` prints of the records of a file, and `convert` writes."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import click
+
+from report.cli.input_errors import input_errors
+from report.motions.measured import summary, table
+from solver.files import write_whole
+from solver.formats import MotionFile, read_motion_file
+from solver.model import InputError
+from solver.records.record import record_csv
+
+# Rounding error allowed in a converted record, relative to its peak.
+_TOLERANCE = 1e-9
+
+
+def print_channels(file: Path, *, channel: str, as_json: bool, **reading: Any) -> None:
+    """Print the channels of a file, or one of them."""
+    with input_errors(file):
+        motion_file = _read(file, reading)
+        records = [motion_file.channel(channel)] if channel else motion_file.channels
+    channels = [summary(record) for record in records]
+    if as_json:
+        document = {
+            "file": str(file),
+            "format": motion_file.format,
+            "notes": list(motion_file.notes),
+            "channels": channels,
+        }
+        click.echo(json.dumps(document))
+        return
+    click.echo(f"{file}: {motion_file.format}")
+    for line in table(channels):
+        click.echo(line)
+    for note in motion_file.notes:
+        click.echo(f"note: {note}")
+
+
+def convert_record(file: Path, out: Path, *, channel: str, factor: float, **reading: Any) -> None:
+    """Write a record, times a factor, as CSV."""
+    with input_errors(file):
+        motion_file = _read(file, reading)
+        record = motion_file.channel(channel)
+        if os.path.lexists(out):  # a dangling link as well
+            raise InputError(f"{out}: already exists; give another name, or move the file")
+        scaled = replace(record, a_mps2=factor * record.a_mps2)
+        write_whole(out, record_csv(scaled, within=_TOLERANCE).encode())
+    for note in motion_file.notes:
+        click.echo(f"note: {note}")
+    click.echo(out)
+
+
+def _read(path: Path, reading: Mapping[str, Any]) -> MotionFile:
+    """Read a file by the options of the command, in which None stands for what is not given."""
+    given = {name: value for name, value in reading.items() if value is not None}
+    return read_motion_file(path, **given)

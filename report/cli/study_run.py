@@ -1,0 +1,68 @@
+"""Runs a study, and prints what it takes, its progress and its headline."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from report.cli.input_errors import input_errors, workbook_of
+from report.cli.progress import Progress
+from report.cli.terminal import plain
+from report.results.publish import check_apart, check_of_workbook, output_folder
+from report.study.exports import LIBRARY
+from report.study.manifest import NAME
+from report.study.outputs import TABLE, make_study
+from report.study.run import estimate, planned
+from report.study.wording import headline
+
+
+def run(
+    source: Path,
+    out: Path | None,
+    *,
+    dry_run: bool,
+    scheduler: str,
+    allow_matched: bool,
+    trust_parts: bool,
+    quiet: bool,
+) -> None:
+    """Run what is missing of a study, and publish its files; with `dry_run`, print the number."""
+    folder = out or workbook_of(source).parent / "out/study"
+    names = () if dry_run else ("study.pdf", "curves.csv", TABLE, LIBRARY)
+    with input_errors(source, outputs=[folder / name for name in names]):
+        plan, home = planned(source)
+        for cell, text in plan.warnings:
+            click.echo(plain(f"warning: {cell}: {text}"), err=True)
+        if dry_run:
+            cost = estimate(plan)
+            capacity_runs = f"; at most {cost.capacity_runs:,} more runs for the capacities"
+            click.echo(
+                f"{cost.cases:,} cases, {cost.runs:,} runs in {cost.parts:,} parts"
+                f"{capacity_runs if cost.capacity_runs else ''}"
+            )
+            click.echo(f"{cost.disk_bytes / 1e6:,.1f} MB on disk")
+            return
+        folder = output_folder(out, home, "out/study", (TABLE, NAME))
+        # A folder that was asked for by name may have the study of another workbook.
+        if out is None:
+            check_of_workbook(folder, NAME, plan.workbook)
+        check_apart([TABLE], folder, [source, source / "input.xlsx"])
+        with Progress(quiet=quiet) as progress:
+            results, files = make_study(
+                plan,
+                folder,
+                progress,
+                scheduler=scheduler,
+                allow_matched=allow_matched,
+                trust_parts=trust_parts,
+            )
+    if quiet:
+        return
+    first, *others = headline(results)
+    # The time is no result, and not in the files to read.
+    seconds = results.manifest["processor_seconds"]
+    for line in (f"{first}, {seconds:,.0f} s of processor time", *others):
+        click.echo(plain(line))
+    for name in files:
+        click.echo(folder / name)
