@@ -8,6 +8,7 @@ from itertools import takewhile
 
 import pytest
 
+import report.page_file.page
 from fixtures import assessments, packages
 from report.page_file.page import SECTIONS, page
 
@@ -62,6 +63,7 @@ def test_its_policy_allows_its_own_style_alone_and_it_names_no_address(reported)
     assert "unsafe-inline" not in policy
     # Where a browser would load from: an xmlns is a name.
     assert not re.search(r'(?:src|href)="(?!#)', shown)
+    assert set(re.findall(r'href="#([^"]*)"', shown)) <= set(SECTIONS)
     assert set(re.findall(r"url\((\w+):", css)) == {"data"}
     assert not re.search(r'<[^>]+ (?:style|on\w+)="', shown)
 
@@ -75,3 +77,21 @@ def test_arrays_are_shaded_by_their_largest_ratio_and_names_are_no_anchors():
     assert 'id="A1"' not in found
     assert 'id="RTU-1"' not in found
     assert "metadata" not in found
+
+
+def test_a_file_that_would_be_too_large_computes_nothing_and_says_so(monkeypatch):
+    monkeypatch.setattr(report.page_file.page, "MOST_BYTES", 200_000)
+    with pytest.warns(
+        match=r"without recomputation: with it, it would have \d\.\d MB, more than 0\.2"
+    ):
+        found = page(drawn("A1"), assessments.usual(), "0" * 12, b"{}").decode()
+    assert len(found) < 200_000
+    assert "This file computes nothing: with its motions it would have more than 0.2 MB" in found
+    assert "<script" not in found
+    assert "script-src" not in found
+
+
+def test_without_motions_there_is_nothing_to_compute():
+    found = page(drawn("A1"), assessments.without_motions(), "0" * 12, b"{}").decode()
+    assert "<script" not in found
+    assert "computes nothing" not in found
