@@ -135,6 +135,11 @@ function sceneOf(results, array, run, { friction = 1, intensity = 1 }) {
   return { motion, along: run.along, polarity: run.polarity, slope_rad: array.slope_rad, friction: law, scale: run.scale * intensity };
 }
 
+// No number is null, as in JSON.
+function finite(values) {
+  return Array.from(values, (value) => (Number.isFinite(value) ? value : null));
+}
+
 function panel(kind, units, series) {
   return { title: KINDS[kind], title_with_unit: KINDS[kind], units, series };
 }
@@ -146,7 +151,8 @@ function plain(symbol) {
 function slide({ results, array, of, chosen, governing, history, outline }) {
   const { dt_s: dt, rows: [down, across, vDown, vAcross], shaken: [ax, ay, az], sn, cs } = history;
   const lengths = unitsOf(results);
-  const prd = (m) => (Number.isNaN(m) ? "no PRD" : `PRD ${lengths.map((unit, k) => (k ? "(" : "") + printedAs("prd_m", m, unit, results.printed)).join(" ")})`);
+  const [first, second] = lengths.map((unit) => (m) => printedAs("prd_m", m, unit, results.printed));
+  const isLost = Number.isNaN(history.prd_m);
   const last = dt * (ax.length - 1);
   const slips = slipsOf(history, last);
   const normal = ax.map((a, k) => (G + az[k]) * cs + a * sn);
@@ -154,9 +160,9 @@ function slide({ results, array, of, chosen, governing, history, outline }) {
   const { mu_slow: slow, mu_fast: fast, rate_s_per_m: rate } = history.law;
   const sliding = (speed) => fast - (fast - slow) * Math.exp(-rate * speed);
   const isDuring = during(slips);
-  const used = demand.map((resting, k) => (isDuring(k * dt) ? sliding(Math.hypot(vDown[k] / cs, vAcross[k])) : resting));
+  const used = demand.map((resting, k) => (Number.isNaN(down[k]) ? Number.NaN : isDuring(k * dt) ? sliding(Math.hypot(vDown[k] / cs, vAcross[k])) : resting));
   const at = Math.round(history.t_prd_s / dt);
-  const label = ({ run, done }) => `${nameOf(run)}, ${prd(done.prd_m)}${run === governing.run ? ", governing" : ""}`;
+  const label = ({ run, done }) => `${nameOf(run)}, ${Number.isNaN(done.prd_m) ? "no PRD" : `PRD ${first(done.prd_m)}`}${run === governing.run ? ", governing" : ""}`;
   return {
     run: nameOf(chosen.run),
     runs: of.map((one) => ({ name: nameOf(one.run), label: label(one) })),
@@ -165,16 +171,15 @@ function slide({ results, array, of, chosen, governing, history, outline }) {
     plan: outline,
     roof_m: [travel(ax, dt), travel(ay, dt)],
     slips: slips.map((slip, k) => ({ ...slip, text: `Slip ${k + 1} of ${slips.length}: ${slip.from_s.toFixed(3)} s to ${slip.to_s.toFixed(3)} s` })),
-    peak: Number.isNaN(history.prd_m) ? null : { down_m: down[at], across_m: across[at] },
-    relative: panel("relative", lengths, [{ name: "down", v: [...down] }, { name: "cross", v: [...across] }]),
-    normal: panel("normal", plain("W"), [{ name: "N / W", v: normal.map((n) => n / G) }]),
-    friction: panel("friction", plain(""), [{ name: "used", v: used }, { name: "demand", v: demand }]),
-    prd_m: history.prd_m,
-    t_prd_s: history.t_prd_s,
+    peak: isLost ? null : { down_m: down[at], across_m: across[at] },
+    relative: panel("relative", lengths, [{ name: "down", v: finite(down) }, { name: "cross", v: finite(across) }]),
+    normal: panel("normal", plain("W"), [{ name: "N / W", v: finite(normal.map((n) => n / G)) }]),
+    friction: panel("friction", plain(""), [{ name: "used", v: finite(used) }, { name: "demand", v: finite(demand) }]),
+    t_prd_s: isLost ? null : history.t_prd_s,
     texts: {
       title: `Array ${array.id}, motion ${chosen.run.motion}, run ${nameOf(chosen.run)}`,
-      prd: `${prd(history.prd_m)}${Number.isNaN(history.prd_m) ? "" : ` at ${history.t_prd_s.toFixed(2)} s`}`,
-      no_slip: "The array does not slip in this run.",
+      prd: isLost ? "no PRD" : `PRD ${first(history.prd_m)} (${second(history.prd_m)}) at ${history.t_prd_s.toFixed(2)} s`,
+      no_slip: isLost ? "This run gives no displacement." : "The array does not slip in this run.",
       notes: ["Computed here. Down is downslope; cross is cross-slope, positive to the left when facing downslope."],
     },
   };

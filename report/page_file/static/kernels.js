@@ -42,13 +42,15 @@ export function createKernels(wasm, motions) {
       const as = { ...made, ...(done.model < 3 ? { y: still } : {}), ...(done.model === 1 ? { z: still } : {}) };
       const { take, view } = memory;
       return memory.keeping(() => {
+        const shaken = [as.x, as.y, as.z].map(({ at }) => Array.from(view(at, n), (a) => a * scene.scale));
+        const told = { ...done, dt_s: made.dt, shaken, sn, cs, law: made.friction };
+        if (Number.isNaN(done.prd_m)) return { ...told, rows: Array(4).fill(new Float64Array(n).fill(Number.NaN)), noted: [] };
         const first = followed(runs, as);
         const [events, places] = [take(4 * first.events), take(4 * n)];
         runs.plane(as, first.step, [events, first.events, places, n]);
         const rows = [0, 1, 2, 3].map((k) => Float64Array.from(view(places + 8 * k * n, n), (s) => (k % 2 ? s : s * cs)));
         const noted = Array.from({ length: first.events }, (_, k) => [...view(events + 32 * k, 4)]);
-        const shaken = [as.x, as.y, as.z].map(({ at }) => Array.from(view(at, n), (a) => a * scene.scale));
-        return { ...done, dt_s: made.dt, rows, noted, shaken, sn, cs, law: made.friction };
+        return { ...told, rows, noted };
       });
     },
   };

@@ -15,7 +15,7 @@ from fixtures.browser import chromium, quiet_page
 from fixtures.marks import nightly
 from fixtures.paths import ROOT
 from report.page_file.page import _script
-from solver.model import Friction, HorizontalComponent, Motion, Orientation
+from solver.model import Friction, HorizontalComponent, Motion, Orientation, coulomb
 from solver.sliding import model_selection
 
 _SPEC = importlib.util.spec_from_file_location("page_parts", ROOT / "docs" / "page_parts.py")
@@ -23,14 +23,23 @@ page_parts = importlib.util.module_from_spec(_SPEC)
 _SPEC.loader.exec_module(page_parts)
 PARTS = ROOT / "templates" / "page-file"
 LENGTHS = ("prd_m", "down_m", "up_m", "across_m", "residual_m", "residual_across_m")
-RUN = """([wasm, motions, scenes]) => {
+MADE = """
   const { createKernels, LENGTHS } = modules["kernels.js"];
   const bytes = Uint8Array.from(atob(wasm), (letter) => letter.codePointAt(0));
   for (const motion of motions) motion.parts = motion.parts.map((part) => Float64Array.from(part));
   const kernels = createKernels(bytes, motions);
+"""
+HISTORY = f"""([wasm, motions, [scene]]) => {{{MADE}
+  return kernels.history(scene).rows.flatMap((row) => [...row]);
+}}"""
+RUN = f"""([wasm, motions, scenes]) => {{{MADE}
   return scenes.map((scene) => kernels.run(scene))
     .map((done) => [done.model, done.error_m, ...LENGTHS.map((name) => done[name])]);
-}"""
+}}"""
+
+
+def wasm():
+    return base64.b64encode((PARTS / "kernels.wasm").read_bytes()).decode()
 
 
 @pytest.mark.quick
@@ -112,10 +121,9 @@ def compared(n_scenes, seed):
         {"dt_s": each.dt_s, "parts": [part.tolist() for part in parts]}
         for each, parts in zip(motions, records, strict=True)
     ]
-    wasm = base64.b64encode((PARTS / "kernels.wasm").read_bytes()).decode()
     with chromium() as browser, quiet_page(browser) as page:
         page.add_script_tag(content=_script("kernels.js"))
-        return natives, page.evaluate(RUN, [wasm, given, scenes])
+        return natives, page.evaluate(RUN, [wasm(), given, scenes])
 
 
 @pytest.mark.parametrize("n_scenes", [60, nightly(3000)])
@@ -136,3 +144,23 @@ def test_random_scenes_have_the_model_and_the_displacements_of_the_solver(n_scen
         n_equal += not changes.any()
     assert set(models) == set(model_selection.Model)
     assert n_equal >= 0.99 * len(natives)
+
+
+def test_a_run_that_lifts_off_has_no_displacement_and_no_history():
+    t = np.arange(0.0, 5.0, 0.01)
+    lifting = -12.0 * np.sin(6.0 * t)
+    scene = {
+        "motion": 0,
+        "along": "record",
+        "polarity": 1,
+        "slope_rad": 0.05,
+        "friction": asdict(coulomb(0.4)),
+        "scale": 1.0,
+    }
+    given = [{"dt_s": 0.01, "parts": [np.cos(9.0 * t).tolist(), [], lifting.tolist()]}]
+    with chromium() as browser, quiet_page(browser) as page:
+        page.add_script_tag(content=_script("kernels.js"))
+        ((_, _, *lengths),) = page.evaluate(RUN, [wasm(), given, [scene]])
+        rows = page.evaluate(HISTORY, [wasm(), given, [scene]])
+    assert all(map(math.isnan, lengths))
+    assert all(map(math.isnan, rows))
