@@ -80,7 +80,7 @@ class Table:
         """Return the share of a column: more where it has long names, for two lines of each."""
         share = self.columns[k].share
         whole = (row for row in self.rows if not any(type(cell) is Wide for cell in row.cells))
-        cells = [str(row.cells[k]) for row in whole]
+        cells = [_letters(row.cells[k]) for row in whole]
         longest = max(map(len, cells), default=0)
         # Names are in the first columns; what is longer than any name is a sentence.
         is_named = k < NAMED and self.columns[k].align == "left"
@@ -113,13 +113,19 @@ def _placed(
             continue
         # Marks after a number hang outside the column, so that the digits stay aligned.
         text = cell.rstrip("†‡") if aligns[at] == "right" else cell
-        is_long = aligns[at] == "left" and max(map(len, text.split()), default=0) > whole_word
+        longest = max(map(len, _letters(text).split()), default=0)
+        is_long = aligns[at] == "left" and longest > whole_word
         style = f"{aligns[at]} long" if is_long else aligns[at]
         placed.append((text, cell[len(text) :], 1, style))
         at += 1
     if at != len(aligns):
         raise DefectError(f"a row of {at} columns in a table of {len(aligns)}: {cells[0]}")
     return placed
+
+
+def _letters(cell: object) -> str:
+    """Return what of a cell takes room: tags do not."""
+    return cell.striptags() if isinstance(cell, Markup) else str(cell)
 
 
 def stamp(value: Verdict, text: str = "") -> Markup:

@@ -1,13 +1,13 @@
 """The templates of documents, with the filters that their prose uses.
 
-Words are in the templates and numbers in Python: a filter prints a number as every page does.
-A template that is given the data of a package calls it `p`. Owns no content.
+A template prints the dict that its page returns and calls no method; filters are plain functions of
+values. Owns no content.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cache
@@ -15,18 +15,15 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from jinja2 import pass_context
 from markupsafe import Markup
 
 from report.assessment.checks.check import dagger
-from report.assessment.design.friction import mu_words
-from report.document.tables import headed, merged, part_of, stamp
+from report.document.tables import headed
 from report.text import counts, formats, units
 from report.typeset import equations
 
 if TYPE_CHECKING:
     from jinja2 import BytecodeCache, Environment
-    from jinja2.runtime import Context
 
 
 _HERE = Path(__file__).resolve().parents[2]
@@ -39,30 +36,10 @@ _SHARED = {
     units: "digits_down digits_up number ratio ratio_up",
 }
 
-# Filters that are methods of the data of a package.
-OF_PACKAGE = (
-    "both",
-    "both_up",
-    "clause",
-    "friction_basis",
-    "mark",
-    "rule_length",
-)
-
 
 def rendered(folder: Path, name: str, context: Mapping[str, Any]) -> str:
     """Return a document from a template of a folder."""
     return _environment(folder).get_template(name).render(context)
-
-
-def sentence(folder: Path, name: str, *about: object, package: object = None) -> str:
-    """Return a sentence that pages and the screen share, from `sentences.html`, as plain text.
-
-    Its numbers are marked by the package, or by an assessment with its marks.
-    """
-    macros = _environment(folder).get_template("sentences.html").make_module({"p": package})
-    # Line breaks of the template are none of the sentence.
-    return " ".join(Markup(getattr(macros, name)(*about)).unescape().split())
 
 
 def said(folder: Path, path: str, name: str, context: Mapping[str, Any]) -> str:
@@ -89,26 +66,18 @@ def _environment(folder: Path) -> Environment:
     )
     environment.filters |= {
         **{name: getattr(of, name) for of, names in _SHARED.items() for name in names.split()},
-        **{name: _of_package(name) for name in OF_PACKAGE},
-        "degrees": lambda value_rad, decimals: units.number(math.degrees(value_rad), decimals),
         "dagger": dagger,
-        "friction": mu_words,
-        "merged": merged,
         "needs_a_line": _needs_a_line,
-        "part_of": part_of,
-        "stamp": stamp,
     }
     environment.tests |= {"infinite": math.isinf, "nan": math.isnan}
-    environment.globals |= {
-        "fraction": equations.fraction,
-        "headed": headed,
-    }
+    environment.globals["headed"] = headed
     return environment
 
 
 def _finished(value: Any) -> Any:
     """Return what is printed of a value: a text with its quantities whole."""
-    # Markup is finished: what a macro returns, or a page.
+    # Pages format their own so. The words of a check, of the solver and of a workbook are made
+    # once for every output, also those in which a space is a space.
     return units.kept(value) if type(value) is str else value
 
 
@@ -147,16 +116,6 @@ def _needs_a_line(numbers: Markup) -> bool:
     rows = (row for row in numbers.split("</div>") if 'class="small"' not in row)
     # Tags take no room.
     return any(len(row.striptags()) > SHORT_LETTERS for row in rows)
-
-
-def _of_package(name: str) -> Callable[..., Any]:
-    """Return the filter that is a method of the package."""
-
-    @pass_context
-    def found(context: Context, *given: object) -> Any:
-        return getattr(context["p"], name)(*given)
-
-    return found
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -23,8 +23,13 @@ MOST_LETTERS = 24
 
 
 def page(package: PackageData) -> Mapping[str, object]:
-    """Return the input echo."""
-    return {"sheets": echo(package.assessment.sheet.echo, package.changes.cells)}
+    """Return the workbook, and its sheets as tables."""
+    sheet = package.assessment.sheet
+    return {
+        "workbook": sheet.path.name,
+        "sha256": sheet.sha256,
+        "sheets": echo(sheet.echo, package.changes.cells),
+    }
 
 
 _Echoed = tuple[Table, Sequence[str], Sequence[str]]

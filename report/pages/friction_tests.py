@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from report.assessment.checks.check import VELOCITY_ROW
 from report.assessment.design.arrays import ArrayAssessment
@@ -18,14 +17,15 @@ from report.assessment.design.velocity_check import velocity_check
 from report.assessment.design.verdict import Verdict
 from report.assessment.design.words import NOT_GIVEN
 from report.document.columns import ColumnHead, centered, text, words
-from report.document.tables import Table, Wide, by_place, listed, stamp
+from report.document.tables import Table, Wide, by_place, listed, merged, stamp
 from report.pages.parts import PackageData
 from report.project.check.friction_faults import MU_TOLERANCE
 from report.project.model import ProjectInput
 from report.project.model.array import Array
 from report.project.model.friction_report import FrictionTests
-from report.text.counts import ids_by, numbered
-from report.text.units import Quantity, no_less, number
+from report.text.counts import capitalized, ids_by, named, numbered
+from report.text.unit_format import UnitFormat
+from report.text.units import NO_BREAK, Quantity, no_less, number
 from solver.friction_tests import FittedLaw, Series, Surface, fit_law, governing
 
 _STATED = (
@@ -40,37 +40,53 @@ _STATED = (
 
 
 def page(package: PackageData) -> Mapping[str, object]:
-    """Return what the part on friction as tested needs beside its chart."""
-    data, assessment = package.data, package.assessment
+    """Return what the part on friction as tested says beside its chart."""
+    data, assessment, fmt = package.data, package.assessment, package.fmt
     all_series, tests = tested(data), data.friction_tests
+    reports = dict.fromkeys(series.report for series in all_series)
+    fits, runs = list(_fits(package)), _runs(package)
+    points = [
+        _means([series for series in all_series if series.report == report], len(reports) > 1)
+        for report in reports
+    ]
+    if all_series:
+        points += _compared(package, all_series)
+    points += [_fit_words(series, fit) for series, fit in fits]
     return {
-        "is_reported": tests != FrictionTests(),
-        "report": [(label, getattr(tests, field) or NOT_GIVEN) for label, field in _STATED],
-        "tested_pa": tests.contact_pressure_pa,
-        "pressures": _pressures(data),
-        "runs": _runs(package),
+        "report": "; ".join(
+            f"{label}: {getattr(tests, field) or NOT_GIVEN}" for label, field in _STATED
+        )
+        if tests != FrictionTests()
+        else "",
+        "pressures": _pressures(package),
+        "pairs_of_runs": [runs[k : k + 2] for k in range(0, len(runs), 2)],
         "n_drawn": _n_drawn(data),
-        "reports": [
-            _means([series for series in all_series if series.report == report])
-            for report in dict.fromkeys(series.report for series in all_series)
-        ],
-        "compared": _compared(package, all_series) if all_series else {},
-        "fits": [(series, fit, _scatter(series)) for series, fit in _fits(package)],
-        "velocities": _velocities(package) if assessment.has_motions else None,
-        "tolerance": MU_TOLERANCE,
-        "most_beyond": MOST_BEYOND,
-        "alone": [
-            (item, by_id(assessment.arrays, item.id).design_m)
+        "has_fits": any(fit.is_determined for _, fit in fits),
+        "points": points,
+        "has_tests": bool(all_series),
+        "velocities": merged(_velocities(package)) if assessment.has_motions else None,
+        "tolerance": f"{MU_TOLERANCE:g}",
+        "most_beyond": f"{MOST_BEYOND:g}",
+        "at_low_velocity": [
+            _at_low_velocity(item, by_id(assessment.arrays, item.id), fmt)
             for item in assessment.low_velocity.arrays
         ],
     }
 
 
-def _pressures(data: ProjectInput) -> Mapping[float | None, Sequence[str]]:
-    """Return the arrays by the contact pressure of their supports [Pa]; empty if none is known."""
-    pressures = ids_by(data.arrays, lambda array: array.contact_pressure_pa)
-    is_given = data.friction_tests.contact_pressure_pa or any(pressures)
-    return pressures if is_given else {}
+def _pressures(package: PackageData) -> str:
+    """Return the contact pressures of the tests and of the supports; nothing if none is known."""
+    data, fmt = package.data, package.fmt
+    tested_pa = data.friction_tests.contact_pressure_pa
+    by_pressure = ids_by(data.arrays, lambda array: array.contact_pressure_pa)
+
+    def words(pressure_pa: float | None) -> str:
+        return fmt.both(pressure_pa, Quantity.PRESSURE) if pressure_pa else "not entered"
+
+    if not (tested_pa or any(by_pressure)):
+        return ""
+    supports = (f"{named(ids, 'array')} {words(pa)}" for pa, ids in by_pressure.items())
+    return f"of the tests {words(tested_pa)}; of the supports {', '.join(supports)}"
 
 
 def drawings(package: PackageData) -> Sequence[str]:
@@ -165,44 +181,71 @@ def _velocity(
     return *about, tested_mps, check.beyond_words, check.minimum_words, verdict
 
 
-def _means(all_series: Sequence[Series]) -> Mapping[str, object]:
-    """Return the series of a report, the smallest mean, and the condition without runs."""
-    least = min(all_series, key=lambda series: series.mean)
-    other = next(surface for surface in Surface if surface is not least.surface)
-    return {"series": all_series, "least": least, "other": other}
+def _means(all_series: Sequence[Series], has_others: bool) -> str:
+    """Return the means of the series of a report, and which governs, in a sentence."""
+    smallest = min(all_series, key=lambda series: series.mean)
+    means = ", ".join(
+        f"{number(series.mean, 3)} {series.surface} ({numbered(len(series.runs), 'run')})"
+        for series in all_series
+    )
+    if len(all_series) > 1:
+        governs = f"the smaller, {number(smallest.mean, 3)} {smallest.surface}, governs"
+    else:
+        lacking = next(surface for surface in Surface if surface is not smallest.surface)
+        governs = f"no {lacking} runs are entered"
+    kinetic = (
+        f"Report {smallest.report or 'without a number'}: kinetic" if has_others else "Kinetic"
+    )
+    return f"{kinetic} mean {means}; {governs}."
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Compared:
-    """The friction of an array and the tested mean, as printed."""
+def _compared(package: PackageData, series: Sequence[Series]) -> Iterator[str]:
+    """Yield how the friction of the arrays compares with the tests, alike arrays together."""
 
-    is_by_velocity: bool
-    used: float
-    tested: float
-    surface: Surface
-    basis: str
-
-    @property
-    def above(self) -> float:
-        """How far the friction is above the tested mean."""
-        return round(self.used - self.tested, 3)
-
-
-def _compared(package: PackageData, series: Sequence[Series]) -> Mapping[_Compared, Sequence[str]]:
-    """Return how the friction of the arrays compares with the tests, alike arrays together."""
-
-    def compared(array: Array) -> _Compared:
-        test_series = governing(series, array.mu_report)
-        return _Compared(
-            is_by_velocity=array.friction.is_by_velocity,
-            # As printed: a difference that the page does not show is none.
-            used=round(test_series.mean_of(array.friction), 3),
-            tested=round(test_series.mean, 3),
-            surface=test_series.surface,
-            basis=package.friction_basis(array),
+    def comparison_of(array: Array) -> str:
+        tests = governing(series, array.mu_report)
+        # As printed: a difference that the page does not show is none.
+        used, mean = round(tests.mean_of(array.friction), 3), round(tests.mean, 3)
+        above = round(used - mean, 3)
+        is_by_velocity = array.friction.is_by_velocity
+        mu = "mean of μ(v) at the tested velocities" if is_by_velocity else "μ ="
+        differs, rounding = "equal to", ""
+        if above:
+            differs = f"{number(abs(above), 3)} {'above' if above > 0.0 else 'below'}"
+        if above > 0.0:
+            rounding = ", within the rounding of two decimals"
+        return (
+            f"{mu} {number(used, 3)}, {differs} the tested mean {number(mean, 3)} "
+            f"({tests.surface}){rounding}; {package.friction_basis(array)}."
         )
 
-    return ids_by(package.data.arrays, compared)
+    for comparison, ids in ids_by(package.data.arrays, comparison_of).items():
+        yield f"{named(ids, 'Array')}: {comparison}"
+
+
+def _fit_words(series: Series, fit: FittedLaw) -> str:
+    """Return the law fitted to the runs of a series, and how far they scatter about it."""
+    count, scatter = _scatter(series)
+    start = f"{capitalized(series.surface)}, {count} velocities:"
+    if not fit.is_determined:
+        return f"{start} the runs do not determine a velocity-dependent coefficient."
+    law = fit.law
+    return (
+        f"{start} fit μ = {number(law.mu_slow, 3)} at low and {number(law.mu_fast, 3)} at high "
+        f"velocity, rate {number(law.rate_s_per_m, 1)}{NO_BREAK}s/m; rms residual "
+        f"{number(fit.rms, 4)} ({number(scatter, 4)} with a single coefficient)."
+    )
+
+
+def _at_low_velocity(item: ArrayAssessment, as_run: ArrayAssessment, fmt: UnitFormat) -> str:
+    """Return what an array comes to with its low-velocity friction at every velocity."""
+    alone, with_law = fmt.both_up(item.design_m), fmt.both_up(as_run.design_m)
+    refused = " (not permitted)" if item.has_unpermitted_value else ""
+    instead = ", unchanged" if alone == with_law else f" instead of {with_law}"
+    return (
+        f"With μ = {mu_words(item.array.friction)} at all velocities (all motions rerun), the "
+        f"design displacement of {item.id} is {alone}{refused}{instead}."
+    )
 
 
 def _fits(package: PackageData) -> Iterator[tuple[Series, FittedLaw]]:

@@ -1,80 +1,77 @@
-"""Inputs: site parameters in the order of a permit sheet, arrays, friction tests.
-
-Seismic parameters of the site that are not given; their table is in its template.
-"""
+"""Inputs: site parameters, arrays, friction tests."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
 
+from markupsafe import Markup
+
 from report.assessment.design.friction import mu_words
 from report.document.columns import ColumnHead, length, plain, text, weight, words
-from report.document.tables import Table, listed
-from report.motions.history import ac156
+from report.document.tables import Table, listed, merged
+from report.motions.history import OWN
 from report.pages import friction_tests
-from report.pages.parts import PackageData
-from report.project.model import ProjectInput
-from report.project.model.choices import RiskCategory
+from report.pages.parts import PackageData, all_or
+from report.pages.site import site_table
+from report.project.model.array import Array
 from report.project.model.site import Site
-from report.text.counts import ids_by
-from report.text.units import Quantity, number
-from solver.building.structure import approximate_period_s
-from solver.rules import hazard
-from solver.rules.hazard import ComponentForce, component_force
+from report.text.counts import capitalized, grouped_by, ids_by, ranged
+from report.text.unit_format import UnitFormat
+from report.text.units import NO_BREAK, Quantity, number
+from report.typeset.equations import symbol
 from solver.rules.rulesets import LowProfileLength
 
 
-def site(package: PackageData) -> Mapping[str, object]:
-    """Return what the table of the site needs beside the package."""
-    site, building = package.data.site, package.data.building
-    factors = sorted({array.i_p for array in package.data.arrays})
-    categories = hazard.design_categories(
-        s_ds_g=site.s_ds,
-        s_d1_g=site.s_d1,
-        s_1_g=site.s_1_g,
-        is_essential=site.risk_category is RiskCategory.IV,
-    )
+def page(package: PackageData) -> Mapping[str, object]:
+    """Return the tables of the inputs, and what is said below them."""
+    done, data, fmt, marks = package.assessment, package.data, package.fmt, package.marks
+    rules, site, n_arrays = done.rules, data.site, len(data.arrays)
+    construction = ids_by(data.arrays, lambda array: (array.construction, array.mu_report))
+    low_profile_mark = marks.of("low_profile_ratio")
     return {
-        # Smallest and largest, once where they are the same.
-        "i_p": tuple(dict.fromkeys((factors[0], factors[-1]))),
-        "period_s": approximate_period_s(building.structure or "other", site.structure_height_m),
-        "force": site_force(package.data),
-        "near_fault_g": hazard.NEAR_FAULT_S_1_G,
-        "categories": categories,
+        "site": site_table(package),
+        "s_ds_note": _s_ds_note(site),
+        "spectrum": _ground_spectrum(package),
+        "arrays": merged(_arrays(package)),
+        "construction": "; ".join(
+            f"{capitalized(all_or(ids, n_arrays))}: {words}, friction test report "
+            f"{report or 'not entered'}"
+            for (words, report), ids in construction.items()
+        ),
+        "friction_laws": [
+            f"Array {array.id}. Friction: {mu_words(array.friction)}{_rate(array)}; "
+            f"{package.friction_basis(array)}."
+            for array in data.arrays
+            if not array.friction.is_constant
+        ],
+        "low_profile": package.rule_length("low_profile_in"),
+        "low_profile_ratio": f"{rules['low_profile_ratio']:g}{low_profile_mark}",
+        "low_profile_length": rules.low_profile_length.value,
+        "low_profile_lengths": _low_profile_lengths(package),
+        "weights": "; ".join(
+            _weight(array, fmt) for array in data.arrays if array.parts_n is not None
+        ),
+        "links": _links(package) if done.linked else None,
+        "friction": friction_tests.page(package),
     }
 
 
-def site_force(data: ProjectInput) -> ComponentForce | None:
-    """Return F_p / W_p with the largest I_p of the arrays, if a_p and R_p are given.
-
-    The height factor of ASCE 7-22 takes the period where the workbook states period or structure.
-    """
-    site, building = data.site, data.building
-    if site.force_factor is None or site.force_divisor is None:
-        return None
-    period_s = building.period_s
-    # ASCE 7-22 13.3.1.1: H_f takes T_a where the period is not known.
-    if period_s is None and building.structure is not None:
-        period_s = approximate_period_s(building.structure, site.structure_height_m)
-    return component_force(
-        site.edition,
-        s_ds_g=site.s_ds,
-        factor=site.force_factor,
-        divisor=site.force_divisor,
-        # One force for all: the largest is on the safe side for the others.
-        i_p=max(array.i_p for array in data.arrays),
-        z_over_h=site.z_over_h,
-        period_s=period_s,
-    )
-
-
-def unused_s_ds(site: Site) -> Mapping[str, object]:
-    """Return the symbols from which S_DS follows, and its value from them if another is given."""
-    origin, s_ms = _origin(site), site.parameters.s_ms
+def _s_ds_note(site: Site) -> Markup:
+    """Return whether S_DS is computed or given, and in the latter case what it would be."""
+    symbols = Markup(" and ").join(map(symbol, _origin(site)))
+    s_ds, s_ms = symbol("S_DS"), site.parameters.s_ms
+    if site.s_ds_g is None:
+        return Markup(
+            "{} is computed from {} in full precision and rounded only for printing."
+        ).format(s_ds, symbols)
+    note = Markup("{} is as entered in the workbook.").format(s_ds)
     # A value of S_DS that is given goes before what F_a and S_S give: the page shows both.
-    is_unused = site.s_ds_g is not None and s_ms is not None and origin
-    return {"origin": origin, "value_g": 2.0 / 3.0 * s_ms if is_unused and s_ms else None}
+    if symbols and s_ms:
+        value = f"{number(2.0 / 3.0 * s_ms, 3)}{NO_BREAK}g"
+        unused = Markup(" The value from {} is {}; it is not used.").format(symbols, value)
+        return note + unused
+    return note
 
 
 def _origin(site: Site) -> tuple[str, ...]:
@@ -87,21 +84,55 @@ def _origin(site: Site) -> tuple[str, ...]:
     return ()
 
 
-def inputs(package: PackageData) -> Mapping[str, object]:
-    """Return what the part on inputs needs beside the package."""
-    data = package.data
-    horizontal, vertical = ac156(data)
+def _ground_spectrum(package: PackageData) -> Mapping[str, str] | None:
+    """Return the numbers of the design spectrum, where it is the target of ground motions."""
+    site, t_l_s = package.data.site, package.data.target.t_l_s
+    found, ground = site.parameters, package.assessment.targets.ground
+    if not package.has_ground or ground.name == OWN:
+        return None
+    if found.s_d1 is None or found.t_s is None or t_l_s is None:
+        return None
     return {
-        "horizontal_g": horizontal.sa_g,
-        "vertical_g": vertical.sa_g,
-        "site": site(package),
-        "s_ds": unused_s_ds(data.site),
-        "arrays": _arrays(package),
-        "takes_base": package.assessment.rules.low_profile_length is LowProfileLength.BASE,
-        "made": ids_by(data.arrays, lambda array: (array.construction, array.mu_report)),
-        "links": _links(package),
-        "friction": friction_tests.page(package),
+        "clause": site.edition.clause("t_l"),
+        "t_0": f"{number(0.2 * found.t_s, 3)}{NO_BREAK}s",
+        "t_s": f"{number(found.t_s, 3)}{NO_BREAK}s",
+        "t_l": f"{t_l_s:g}{NO_BREAK}s",
     }
+
+
+def _rate(array: Array) -> str:
+    law = array.friction
+    return f" (rate {number(law.rate_s_per_m, 1)}{NO_BREAK}s/m)" if law.is_by_velocity else ""
+
+
+def _low_profile_lengths(package: PackageData) -> str:
+    """Return the length that the height of a center of gravity is compared with, by arrays."""
+    takes_base = package.assessment.rules.low_profile_length is LowProfileLength.BASE
+
+    def length_m(array: Array) -> float:
+        return array.base_dimension_m if takes_base else array.support_spacing_m
+
+    groups = grouped_by(package.data.arrays, length_m)
+    texts = []
+    for size_m in sorted(groups):
+        group = groups[size_m]
+        without = [array.id for array in group if takes_base and array.base_m is None]
+        text = f"{ranged(array.id for array in group)} {package.fmt.both(size_m)}"
+        if without:
+            some = f" for {ranged(without)}" if len(without) < len(group) else ""
+            text += f" (support spacing; no base dimension entered{some})"
+        texts.append(text)
+    return ", ".join(texts)
+
+
+def _weight(array: Array, fmt: UnitFormat) -> str:
+    """Return the weight of an array by its parts, and their sum if that is not the weight."""
+    module, ballast, total, entered = (
+        fmt.both(weight_n or 0.0, Quantity.WEIGHT)
+        for weight_n in (array.module_weight_n, array.ballast_n, array.parts_n, array.weight_n)
+    )
+    text = f"{array.id} {array.modules} × {module} + {ballast}"
+    return text if total == entered else f"{text} = {total} (entered as above)"
 
 
 def _arrays(package: PackageData) -> Table:

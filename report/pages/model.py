@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.design.friction import mu_words
 from report.assessment.design.tested_friction import tested
 from report.document.columns import (
     ColumnHead,
@@ -23,25 +24,14 @@ from report.document.columns import (
     weight,
     words,
 )  # fmt: skip
-from report.document.tables import Column, Table, Wide, by_place, listed
+from report.document.tables import Column, Table, Wide, by_place, listed, merged
 from report.pages.parts import PackageData, statistic, verdict
 from report.runs import OrientedRun
-from report.text.counts import below_mm, grouped_by
+from report.text.counts import below_mm, grouped_by, named, spelled
 from report.text.unit_format import NO_VALUE
-from report.text.units import Quantity, nan_is_worst, number, ratio, ratio_up
-from solver.model import INCH_M
+from report.text.units import NO_BREAK, Quantity, nan_is_worst, number, ratio, ratio_up
+from solver.model import INCH_M, Motion
 from solver.sliding.model_selection import DEFAULT, Model, Solution
-
-
-def part(package: PackageData) -> Mapping[str, object]:
-    """Return the rows of linked blocks for the page on the models; empty where there are none."""
-    linked = package.assessment.linked
-    return {
-        "runs": _link_runs_table(package),
-        "adequacy": _adequacy_table(package),
-        "statistics": sorted({statistic(array.design.analysis.basis) for array in linked}),
-        "troubles": package.sentences("links"),
-    }
 
 
 def _link_runs_table(package: PackageData) -> Table:
@@ -88,16 +78,101 @@ _NOT_KNOWN = Wide("not known", 4), ""
 
 
 def page(package: PackageData) -> Mapping[str, object]:
-    """Return the page on the models."""
+    """Return the assumptions, the models used, what they neglect, and the checks beside them."""
+    done, data = package.assessment, package.data
+    motions = [run.motion for run in done.governing.motions]
+    millimeters, inches = number(1000.0 * DEFAULT.matters_m, 0), DEFAULT.matters_m / INCH_M
+    varied = [array for array in data.arrays if not array.friction.is_constant]
     return {
-        "is_tested": bool(tested(package.data)),
-        "models": list(Model),
-        "matters": DEFAULT,
-        "matters_in": DEFAULT.matters_m / INCH_M,
-        "table": _table(package),
-        "neglected": _neglected_table(package),
-        "stability": _stability_table(package),
-        "links": part(package),
+        "varied": [f"{array.id}: {mu_words(array.friction)}" for array in varied],
+        "is_tested": bool(tested(data)),
+        "has_ground": package.has_ground,
+        "n_motions": len(motions),
+        "n_transverse": sum(motion.has_transverse for motion in motions),
+        "n_vertical": sum(motion.has_vertical for motion in motions),
+        "models": "; ".join(f"{model.value}: {model.title}" for model in Model),
+        "tolerance": f"{millimeters}{NO_BREAK}mm ({number(inches, 2)}{NO_BREAK}in) or "
+        f"{number(100.0 * DEFAULT.matters_share, 1)}{NO_BREAK}%",
+        "orientations": _orientations(motions),
+        "models_used": merged(_table(package)),
+        "neglected": merged(_neglected_table(package)),
+        "stability": merged(_stability_table(package)),
+        "unchecked": _unchecked(done.shaking.motions),
+        "sensitive": [
+            named([item.id for item in group], "Array")
+            for group in done.alike
+            if _is_sensitive(group[0])
+        ],
+        "links": _links(package) if done.linked else None,
+    }
+
+
+def _orientations(motions: Sequence[Motion]) -> str:
+    """Return in which orientations the motions are run."""
+    in_two = [motion for motion in motions if motion.has_transverse]
+    if not in_two:
+        return (
+            "No motion has a second horizontal component: each record is applied along the slope, "
+            "in the polarities that the workbook requests. Cross-slope shaking also uses part of "
+            "the friction; with both components, most displacements are larger (verification "
+            "manual)."
+        )
+    polarities = "with the polarities that the workbook requests"
+    if all(len(motion.signs) == 2 for motion in motions):
+        polarities = "with both polarities"
+    some = (
+        ""
+        if in_two == motions
+        else f", in the {len(in_two)} of {len(motions)} motions that have two"
+    )
+    counts = sorted({len(motion.orientations) for motion in in_two})
+    return (
+        "Each horizontal component in turn is applied along the slope and the other cross-slope, "
+        f"{polarities}{some}: {' or '.join(map(spelled, counts))} runs per motion. The "
+        "largest PRD governs."
+    )
+
+
+def _unchecked(motions: Sequence[Motion]) -> str:
+    """Return what lack of vertical components leaves unchecked; nothing if all have one."""
+    count = sum(motion.has_vertical for motion in motions)
+    if count == len(motions):
+        return ""
+    have, others = "No motion has", ""
+    if count:
+        have = f"{count} of {len(motions)} motions {'has' if count == 1 else 'have'}"
+        others = " for the others"
+    return (
+        f"{have} a vertical component; uplift is not checked{others}, and tipping is checked with "
+        "horizontal shaking alone."
+    )
+
+
+def _is_sensitive(array: ArrayAssessment) -> bool:
+    """Whether friction that decreases lets a negligible perturbation decide if an array stops."""
+    is_by_speed = array.worst.governing.solution.model is Model.SPEED_FRICTION
+    return is_by_speed and not array.array.friction.is_monotone
+
+
+def _links(package: PackageData) -> Mapping[str, object]:
+    """Return the rows of linked blocks."""
+    linked, fmt = package.assessment.linked, package.fmt
+    return {
+        "names": named([item.design.id for item in linked], "array"),
+        "estimates": [
+            (
+                item.design.id,
+                ratio_up(item.ratio),
+                fmt.both_up(item.design.analysis.value_m),
+                fmt.both_up(item.design.floor_m),
+                "no limit" if math.isinf(item.estimated_m) else fmt.both_up(item.estimated_m),
+            )
+            for item in linked
+        ],
+        "runs": _link_runs_table(package),
+        "adequacy": _adequacy_table(package),
+        "statistics": ", ".join(sorted({statistic(item.design.analysis.basis) for item in linked})),
+        "troubles": package.sentences("links"),
     }
 
 

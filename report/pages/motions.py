@@ -1,152 +1,35 @@
-"""The part on roof motions: list, processing, response spectra and target.
-
-From ground to roof: the building model, and the roof motion from each ground motion.
-"""
+"""The part on roof motions: list, limits, processing, response spectra and target."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from functools import partial
-from operator import itemgetter
 
 import numpy as np
 from markupsafe import Markup
 
 from report.assessment.checks.records import DRIFT_M, drifts
-from report.assessment.support.departures import departures
+from report.assessment.support.departures import Departure, departures
 from report.assessment.support.evidence import Evidence
 from report.assessment.support.filter_effect import Beyond
-from report.assessment.support.spectra import PRINTED_S, Spectra
-from report.document.columns import centered, length, plain, required, text, words
-from report.document.tables import Column, Table, Wide, by_place, listed
-from report.motions.history import PreparedMotion, first_period_s
+from report.assessment.support.spectra import Spectra
+from report.document.columns import centered, length, plain, text, words
+from report.document.tables import Column, Table, headed, listed
+from report.motions.history import OWN, PreparedMotion
 from report.pages.acceptance import acceptance_table, events, lowest_between, strength_table
+from report.pages.building import building_part
 from report.pages.parts import MOTION_ROWS, PackageData
 from report.pages.symbols import with_symbols
-from report.project.model.motion_input import BuildingInput
-from report.text.counts import grouped_by, numbered
-from report.text.units import G_MPS2, Unit, number
-from solver.building.roof import RoofMotion
-from solver.building.structure import APPROXIMATE_PERIODS, FOOT_M
+from report.text.counts import grouped_by, lowered
+from report.text.unit_format import UnitFormat
+from report.text.units import G_MPS2, NO_BREAK, Unit, digits_up, number
+from report.typeset.equations import symbol
 from solver.model import Floats, Motion
 from solver.records.acceptance import N_AC156, N_SETS, N_SLIDING, POINTS_HZ
 from solver.records.processing import AS_RECORDED
 from solver.rules.hazard import Tail
-from solver.rules.provisions import AnalysisValue
-
-SHOWN_MODES = 6
-NAMES = {"horizontal": "record", "transverse": "transverse"}
-"""Names of the horizontal components in the tables of runs."""
-SHORT = {"record": "record", "transverse": "transv."}
-
-
-@dataclass(frozen=True, slots=True)
-class _Transferred:
-    """A component of a motion, transferred to the roof."""
-
-    motion: str
-    per_g: float  # scale / g [s2/m]
-    name: str
-    roof: RoofMotion
-
-
-def building_part(
-    package: PackageData, variations: Sequence[tuple[BuildingInput, AnalysisValue]]
-) -> Mapping[str, object]:
-    """Return what the page needs on the motion from ground to roof."""
-    shaking = package.assessment.shaking
-    components = [
-        _Transferred(motion.id, abs(motion.scale) / G_MPS2, NAMES[name], roof)
-        for motion, prepared in zip(shaking.motions, shaking.prepared, strict=True)
-        for name, roof in prepared.roof.items()
-    ]
-    structure = package.data.building.structure
-    return {
-        "models": grouped_by(components, lambda item: item.roof.building.words),
-        "coefficients": structure and APPROXIMATE_PERIODS[structure],
-        "height_ft": package.data.site.structure_height_m / FOOT_M,
-        "period_s": first_period_s(package.data),
-        "modes": _modes(package, components),
-        "peaks": _peaks(package, components),
-        "means_m": [value.mean_m for _, value in variations],
-        "variations": _variations(package, variations),
-    }
-
-
-def _modes(package: PackageData, components: Sequence[_Transferred]) -> Table:
-    """Return the slowest modes of the building in each direction."""
-    rows = []
-    for name, of in grouped_by(components, lambda item: item.name).items():
-        building, included = of[0].roof.building, max(item.roof.n_modes for item in of)
-        # One more than included: a reader sees what the first omitted mode would add.
-        printed = min(max(SHOWN_MODES, included + 1), building.periods_s.size)
-        rows += [(name, building, mode, mode < included) for mode in range(printed)]
-    columns = (
-        (words("Direction", 1.3), lambda row: row[0] if row[2] == 0 else ""),
-        (text("Mode", share=0.6), lambda row: row[2] + 1),
-        (text("Period", "s"), lambda row: f"{row[1].periods_s[row[2]]:.3g}"),
-        (plain("Damping", 1, "% of critical"), lambda row: 100.0 * row[1].damping[row[2]]),
-        (plain("Roof factor", 3, "Γφ"), lambda row: row[1].roof_factors[row[2]]),
-        (words("Included"), lambda row: "yes" if row[3] else "no"),
-    )
-    return listed(rows, columns, package.fmt, kind="compact")
-
-
-def _peaks(package: PackageData, components: Sequence[_Transferred]) -> Table:
-    """Return the peaks and modes of each motion, its components side by side."""
-    quantities: Sequence[tuple[str, int, Callable[[_Transferred], float]]] = (
-        ("Ground peak, g", 3, lambda item: item.per_g * item.roof.ground_peak_mps2),
-        ("Roof peak, g", 3, lambda item: item.per_g * item.roof.roof_peak_mps2),
-        (
-            "Roof / ground",
-            2,
-            # A component may be all zeros.
-            lambda item: item.roof.roof_peak_mps2 / (item.roof.ground_peak_mps2 or math.nan),
-        ),
-        ("Modes included", 0, lambda item: item.roof.n_modes),
-        ("Next mode, % of roof peak", 1, lambda item: 100.0 * item.roof.next_share),
-        ("All omitted, % of roof peak", 1, lambda item: 100.0 * item.roof.left_out_share),
-    )
-
-    def of_component(
-        components: Sequence[_Transferred], name: str, value: Callable[[_Transferred], float]
-    ) -> float:
-        # A motion need not have each component that another one has.
-        return next((value(item) for item in components if item.name == name), math.nan)
-
-    columns: Sequence[Column] = (
-        (words("Motion", 1.2), lambda of: of[0].motion),
-        *(
-            (
-                plain(head, decimals, SHORT[name], 0.9),
-                partial(of_component, name=name, value=value),
-            )
-            for head, decimals, value in quantities
-            for name in dict.fromkeys(component.name for component in components)
-        ),
-        (plain("Extended by", 1, "s"), lambda of: of[0].roof.pad_s),
-    )
-    by_motion = grouped_by(components, lambda item: item.motion)
-    return listed(by_motion.values(), columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
-
-
-def _variations(
-    package: PackageData, variations: Sequence[tuple[BuildingInput, AnalysisValue]]
-) -> Table:
-    """Return each variation and its ratios to the building as used, which is first."""
-    used, value = variations[0]
-    columns = (
-        (plain("Period", 3, "s"), lambda row: row[0].period_s),
-        (plain("Period", 2, "/ used"), lambda row: row[0].period_s / used.period_s),
-        (plain("Damping", 1, "% of critical"), lambda row: row[0].damping_percent),
-        (length("Mean PRD"), lambda row: row[1].mean_m),
-        (plain("Mean PRD", 2, "/ used"), lambda row: row[1].mean_m / (value.mean_m or math.nan)),
-        (length("Largest PRD"), lambda row: row[1].largest_m),
-        (required("Analysis displacement"), lambda row: row[1].value_m),
-    )
-    return listed(variations, columns, package.fmt, kind="compact", whole_rows=len(variations))
+from solver.rules.limit import Consequence
 
 
 def below(package: PackageData) -> tuple[tuple[str, str], ...]:
@@ -159,6 +42,110 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
         ("motions-spectra", "Response spectra"),
         *ground,
     )
+
+
+def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
+    """Return the part on motions, without its charts."""
+    done, fmt = package.assessment, package.fmt
+    shaking, spectra, limits = done.shaking, evidence.spectra, done.acceptance.rows
+    targets, sources = done.targets, _sources(shaking.motions)
+    table, alike = _motion_table(package, has_sources=not sources)
+    limits_drift = fmt.both(DRIFT_M)
+    return {
+        "motions": table,
+        "alike": ", ".join(f"{lowered(name)} {value}" for name, value in alike.items()),
+        "sources": [
+            (f" of {', '.join(ids)}" if len(sources) > 1 else "", source.rstrip("."))
+            for source, ids in sources.items()
+        ],
+        "notes": dict.fromkeys(
+            # The components of a motion often say the same.
+            f"Motion {row.motion_id}: {note.rstrip('.')}."
+            for row in shaking.records
+            for note in row.notes
+        ),
+        "events": _events_table(package),
+        "acceptance": acceptance_table(package),
+        "has_program_limit": any(row.is_program_limit for row in limits),
+        "has_target": any(row.is_ratio_to_target for row in limits),
+        "has_condition": any(row.consequence is Consequence.CONDITION for row in limits),
+        "n_points": len(POINTS_HZ),
+        "n_sliding": N_SLIDING,
+        "n_ac156": N_AC156,
+        "n_sets": N_SETS,
+        "between": _between(package, spectra),
+        "strength": strength_table(package),
+        "ends": _ends(shaking.prepared, fmt),
+        "drift": _drift_table(package, fmt.units()[0]),
+        "drift_limit": limits_drift,
+        "highpass": _highpass_table(package, evidence.highpass) if evidence.highpass else None,
+        "governing": done.governing.id,
+        "has_own_target": targets.roof.name == OWN,
+        "tail": Tail(package.data.target.tail).sentence,
+        "ground_target": _ground_target(targets.ground.name) if package.has_ground else "",
+        "departures": [_departure(departure) for departure in departures(spectra)],
+        "building": building_part(package, evidence.building) if package.has_ground else None,
+    }
+
+
+def _between(package: PackageData, spectra: Sequence[Spectra]) -> str:
+    """Return where a spectrum is lower between the points of the limits; nothing if none is."""
+    lowest = lowest_between(package.assessment.acceptance, spectra)
+    if lowest is None:
+        return ""
+    ratio, motion, period_s, component = lowest
+    return (
+        "Between the points, where no limit is checked, a spectrum may be lower; the smallest "
+        f"ratio shown below is {number(ratio, 2)} ({motion}, {component.lower()}, at "
+        f"{1.0 / period_s:.3g}{NO_BREAK}Hz)."
+    )
+
+
+def _ground_target(name: str) -> str:
+    """Return the target of ground motions in a sentence."""
+    if not name:
+        return (
+            "Ground motions have no target, because the workbook contains neither a spectrum nor "
+            "S_1, F_v and T_L for the design spectrum of ASCE 7."
+        )
+    if name == OWN:
+        return "Target of ground motions: the project-specific spectrum (Spectrum worksheet)."
+    return "Target of ground motions: the two-period design response spectrum of ASCE 7, 11.4.6."
+
+
+def _departure(found: Departure) -> str:
+    """Return where the mean of the motions misses its target, by how much, and what follows."""
+    first, *others = found.titles
+    likewise = f" ({'; '.join(others).lower()} likewise)" if others else ""
+    hertz = f"{NO_BREAK}Hz"
+    place = f"{1.0 / found.period_s:.3g}{hertz}"
+    if found.is_short:
+        reaches, beyond = f"falls to {number(found.ratio, 2)}", "is below"
+        effect = (
+            "Weaker shaking results in smaller displacements. Scale or replace the motions, or "
+            "justify the difference."
+        )
+    else:
+        reaches = f"reaches {digits_up(found.ratio, 3)}"
+        beyond = f"exceeds {number(found.maximum_excess, 2)} times"
+        effect = "Displacements are not reduced for this excess."
+    where = f"from {1.0 / found.to_s:.3g} to {1.0 / found.from_s:.3g}{hertz}"
+    if found.from_s == found.to_s:
+        where = "there only"
+    return (
+        f"{first}{likewise}: the mean of the motions {reaches} times the target ({found.target}) "
+        f"at {place}; it {beyond} the target {where}. {effect}"
+    )
+
+
+def _events_table(package: PackageData) -> Table | None:
+    """Return the events of the records; nothing where none is given."""
+    columns = (
+        ("Motion", 1), ("Event", 3), ("M", 1, "right"), ("R", 1, "right", "km"),
+        (symbol("V_s30"), 1, "right", "m/s"),
+    )  # fmt: skip
+    rows = list(events(package.data.motions))
+    return headed(*columns, rows=rows, kind="compact", whole_rows=MOTION_ROWS) if rows else None
 
 
 def _sources(motions: Sequence[Motion]) -> Mapping[str, Sequence[str]]:
@@ -250,15 +237,18 @@ def _final(prepared: PreparedMotion, name: str, end: str, si: float) -> float:
     return getattr(measures, end) / si if measures else math.nan
 
 
-def _largest_ends(preparations: Sequence[PreparedMotion]) -> tuple[float, float] | None:
+def _ends(preparations: Sequence[PreparedMotion], fmt: UnitFormat) -> tuple[str, str] | None:
     """Return the largest final velocity and displacement; None if any is processed or drifts."""
     # A sentence does for records that are run as they are and end at rest; else each has a row.
     if any(drifts(prepared) or prepared.done != AS_RECORDED for prepared in preparations):
         return None
+    unit = fmt.units()[0]
     measures = [m for prepared in preparations for m in prepared.measures.values()]
+    speed_mps = max(abs(m.final_velocity_mps) for m in measures)
+    end_m = max(abs(m.final_displacement_m) for m in measures)
     return (
-        max(abs(m.final_velocity_mps) for m in measures),
-        max(abs(m.final_displacement_m) for m in measures),
+        f"{number(speed_mps / unit.si, 2)} {unit.symbol}/s",
+        f"{number(end_m / unit.si, 2)} {unit.symbol}",
     )
 
 
@@ -273,69 +263,3 @@ def _highpass_table(package: PackageData, beyond: Sequence[Beyond]) -> Table:
         (text("Removed", "%", 1.2), lambda run: number(100.0 * run.share, 0)),
     )
     return listed(beyond, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
-
-
-def spectrum_table(spectra: Sequence[Spectra]) -> Table:
-    """Return target, achieved ordinates and their ratios at a few periods, by component."""
-    periods = (text(f"{period:g} s", f"{1 / period:.3g} Hz") for period in PRINTED_S)
-    rows = (row for part in spectra for row in _spectrum_rows(part))
-    columns = by_place(words("Period", 2.9), *periods)
-    return listed(rows, columns, kind="compact", style=itemgetter(-1))
-
-
-def _spectrum_rows(part: Spectra) -> Iterator[Sequence[str | Wide]]:
-    """Yield name, ordinates and style of each row; a component stays on one sheet."""
-    at = [int(np.argmin(np.abs(part.periods_s - period))) for period in PRINTED_S]
-    target, sa = part.target_g[at], part.sa_g[:, at]
-    # With how many, since a component may be missing in some motions.
-    mean = f"Mean of {numbered(len(part.ids), 'motion')} [g]", *_numbers(sa.mean(axis=0), 3)
-    yield Wide(Markup("<b>{}</b>").format(part.title), 1 + len(PRINTED_S)), "total group"
-    if not part.target.name:
-        yield *mean, ""
-        return
-    share = sa / target
-    yield f"Target, {part.target.name} [g]", *_numbers(target, 3), "group"
-    yield *mean, "group"
-    yield "Mean / target", *_numbers(share.mean(axis=0), 2), "group"
-    yield "Smallest motion / target", *_numbers(share.min(axis=0), 2), "group"
-    yield "Largest motion / target", *_numbers(share.max(axis=0), 2), ""
-
-
-def _numbers(values: Floats, decimals: int) -> Sequence[str]:
-    return [number(float(value), decimals) for value in values]
-
-
-def spectra(_: PackageData, evidence: Evidence) -> Mapping[str, object]:
-    """Return the table of spectra."""
-    return {"table": spectrum_table(evidence.spectra)}
-
-
-def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
-    """Return the part on motions, without its charts."""
-    shaking, spectra = package.assessment.shaking, evidence.spectra
-    unit, sources = package.fmt.units()[0], _sources(shaking.motions)
-    table, alike = _motion_table(package, has_sources=not sources)
-    return {
-        "table": table,
-        "alike": alike,
-        "sources": sources,
-        "notes": dict.fromkeys(
-            # The components of a motion often say the same.
-            (row.motion_id, note.rstrip("."))
-            for row in shaking.records
-            for note in row.notes
-        ),
-        "unit": unit,
-        "ends": _largest_ends(shaking.prepared),
-        "drift": _drift_table(package, unit),
-        "drift_m": DRIFT_M,
-        "highpass": _highpass_table(package, evidence.highpass) if evidence.highpass else None,
-        "building": building_part(package, evidence.building) if package.has_ground else None,
-        "tail": Tail(package.data.target.tail).sentence,
-        "departures": departures(spectra),
-        "events": list(events(package.data.motions)),
-        "acceptance": acceptance_table(package),
-        "points": {"all": len(POINTS_HZ), "sliding": N_SLIDING, "ac156": N_AC156, "sets": N_SETS},
-        "between": lowest_between(package.assessment.acceptance, spectra),
-        "strength": strength_table(package),
-    }

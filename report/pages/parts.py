@@ -14,21 +14,19 @@ from markupsafe import Markup
 from report.assessment.assessment import Assessment
 from report.assessment.checks.alike import alike
 from report.assessment.checks.sentence import sentence
-from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.tested_friction import basis_words
 from report.assessment.design.verdict import Verdict
 from report.assessment.revision_changes import NO_FORMER, Changes
-from report.assessment.support.saving import Saving, saving
 from report.document.tables import stamp
+from report.drawing.on_paper import PrintedPlan, printed_plan
 from report.pages.marks import Marks
 from report.project.model import ProjectInput
 from report.project.model.array import Array
 from report.project.model.choices import PackageEdition, RecordedAt
 from report.project.model.friction_report import FrictionTests
 from report.provenance.files import fingerprint
-from report.text.counts import ids_by
 from report.text.unit_format import UnitFormat
-from report.text.units import NO_BREAK, Quantity, no_less, no_more
+from report.text.units import NO_BREAK, no_less, no_more
 from solver.rules.provisions import Basis
 from solver.rules.rulesets import ALLOWED
 
@@ -73,36 +71,10 @@ class PackageData:
         """The marks of numbers."""
         return Marks(self.assessment)
 
-    def both(self, value_si: float, quantity: str = "DISPLACEMENT") -> str:
-        """Return a value in both systems, for templates."""
-        return self.fmt.both(value_si, Quantity[quantity])
-
-    def both_up(self, value_si: float, quantity: str = "DISPLACEMENT") -> str:
-        """Return a value rounded up, for templates."""
-        return self.fmt.both(value_si, Quantity[quantity], no_less)
-
-    def mark(self, key: str) -> str:
-        """Return marks of a provision, for templates."""
-        return self.marks.of(key)
-
-    def clause(self, key: str) -> str:
-        """Return the clause of a provision, for templates."""
-        return self.marks.clause(key)
-
     def part(self, name: str) -> str:
         """Return the reference to a part, as in `Section 6`."""
         number = self.numbers[name]
         return f"Section {number}" if number.isdigit() else f"Appendix {number}"
-
-    @property
-    def n_runs(self) -> int:
-        """Number of runs of all arrays."""
-        return sum(len(motion.runs) for item in self.assessment.arrays for motion in item.motions)
-
-    @property
-    def friction_sources(self) -> Mapping[tuple[str, str], Sequence[str]]:
-        """The arrays by the basis of their friction and the test report named for it."""
-        return ids_by(self.data.arrays, lambda array: (self.friction_basis(array), array.mu_report))
 
     @property
     def has_ground(self) -> bool:
@@ -115,11 +87,6 @@ class PackageData:
         # A law by velocity prints two coefficients and a rate in one cell.
         return 2.4 if any(array.friction.is_by_velocity for array in self.data.arrays) else 0.9
 
-    @property
-    def routes(self) -> Mapping[str, Sequence[str]]:
-        """The arrays of each route that any takes."""
-        return ids_by(self.assessment.arrays, lambda item: item.route.value)
-
     def sentences(self, id: str, arrays: Collection[str] = ()) -> Sequence[str]:
         """Return the open checks of a kind in words, those that ask the same as one."""
         ids = set(arrays or (item.id for item in self.assessment.arrays))
@@ -128,20 +95,14 @@ class PackageData:
         return [sentence(check, self.fmt.us_first) for check in alike(of_kind)]
 
     @cached_property
-    def saving(self) -> Saving:
-        """What an analysis could save; for a project without motions."""
-        return saving(self.assessment)
+    def printed_plan(self) -> PrintedPlan:
+        """The roof plan as it is placed on its sheet, which takes a while."""
+        return printed_plan(self.assessment)
 
     @property
     def fingerprint(self) -> str:
         """Short hash of workbook, records and version, at the foot of every sheet."""
         return fingerprint(self.assessment.sheet, self.assessment.shaking)
-
-    @property
-    def reviewer(self) -> str:
-        """Who reviewed the analysis: name, license and date."""
-        options = self.data.options
-        return f"{options.peer_reviewer}, {options.peer_license}, {options.peer_date}"
 
     def rule_length(self, key: str) -> str:
         """Return a length of the rule set in both systems of units, with its marks."""
@@ -156,11 +117,6 @@ class PackageData:
     def bar(self, is_changed: bool, kind: str = "") -> str:
         """Return the style of a row, with a bar in the margin where it changed."""
         return f"{kind} {BAR}".lstrip() if is_changed else kind
-
-    @property
-    def governing(self) -> ArrayAssessment:
-        """The array with the largest design displacement."""
-        return self.assessment.governing
 
 
 def all_or(ids: Sequence[str], n_arrays: int) -> str:

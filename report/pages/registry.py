@@ -17,21 +17,26 @@ from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.revision_changes import NO_FORMER, Changes
 from report.assessment.support.evidence import Evidence
 from report.document.templates import Part
-from report.drawing.on_paper import printed_plan
 from report.pages import (
-    acceptance,
     accuracy,
     basis,
     changes,
     comparison,
     echo,
     friction_tests,
+    hashes,
+    histories,
     inputs,
     limits,
+    method,
     model,
     motions,
     notes,
+    plan,
+    provisions,
+    records,
     results,
+    spectra,
     summary,
     symbols,
 )
@@ -76,21 +81,21 @@ PAGES = (
     Page("summary", "Summary", summary.page),
     Page("comparison", "Comparison with the prescriptive displacement", comparison.page),
     Page("basis", "Basis and limits of the method", _alone(basis.page)),
-    Page("plan", "Roof plan and schedule of clearances", _alone(limits.plan)),
+    Page("plan", "Roof plan and schedule of clearances", _alone(plan.page)),
     Page("model", "Model used", _alone(model.page)),
-    Page("limits", "Limits and requirements", limits.limits),
-    Page("provisions", "Provisions and overrides", _alone(limits.provisions)),
-    Page("inputs", "Inputs", _alone(inputs.inputs), lambda _: BELOW_INPUTS),
+    Page("limits", "Limits and requirements", limits.page),
+    Page("provisions", "Provisions and overrides", _alone(provisions.page)),
+    Page("inputs", "Inputs", _alone(inputs.page), lambda _: BELOW_INPUTS),
     Page("motions", "Roof motions", motions.page, motions.below),
-    Page("method", "Equations", _alone(results.equations), results.equations_below),
+    Page("method", "Equations", _alone(method.page), method.below),
     Page("results", "Results", results.page, results.below),
     Page("accuracy", "Accuracy and sensitivity", accuracy.page),
-    Page("records", "Records, software and references", _alone(acceptance.page), is_appendix=True),
+    Page("records", "Records, software and references", _alone(records.page), is_appendix=True),
     Page("notes", "Notes for the construction documents", _alone(notes.page), is_appendix=True),
     _complete("echo", "Input echo", _alone(echo.page)),
-    _complete("hashes", "Hashes of the records", _alone(acceptance.hashes)),
-    _complete("spectra", "Table of spectra", motions.spectra),
-    _complete("histories", "Histories and paths", results.histories),
+    _complete("hashes", "Hashes of the records", _alone(hashes.page)),
+    _complete("spectra", "Table of spectra", spectra.page),
+    _complete("histories", "Histories and paths", histories.page),
     _complete("symbols", "Symbols", _alone(symbols.page)),
 )
 
@@ -167,8 +172,8 @@ def parts(package: PackageData) -> tuple[Part, ...]:
 # Maximum in one figure: a picture cannot break, so it must fit on a page.
 PANELS, CHART_ROWS, ACCELERATION_ROWS = 12, 16, 16
 Drawings = Mapping[str, Sequence[Any]]
-"""SVG by the id of its place; of an array, pairs of histories and paths; of the roof plan, what
-is printed, the plan and its legend."""
+"""SVG by the id of its place; of an array, pairs of histories and paths; of the roof plan, the
+plan and its legend."""
 
 
 def _in_parts(items: Sequence[Any], most: int) -> Iterator[Sequence[Any]]:
@@ -179,22 +184,21 @@ def _in_parts(items: Sequence[Any], most: int) -> Iterator[Sequence[Any]]:
 def draw_assessment(package: PackageData) -> Drawings:
     """Return the drawings that need no evidence."""
     # Here and below: what draws nothing loads no matplotlib.
-    from report.figures import plan, records
-    from report.figures.plan import array_section
+    from report.figures.plan import array_section, paper_svg
+    from report.figures.records import accelerations
 
     us_first, assessment = package.fmt.us_first, package.assessment
-    printed = printed_plan(assessment)
+    printed = package.printed_plan
     drawings = {
         "inputs-friction": friction_tests.drawings(package),
-        "plan": [printed, *(plan.paper_svg(each) for each in (printed.plan, printed.key))],
+        "plan": [paper_svg(printed.plan), paper_svg(printed.key)],
     }
     if not assessment.has_motions:
         return drawings
     return drawings | {
-        "method-motion": [array_section(package.governing.array, us_first)],
+        "method-motion": [array_section(package.assessment.governing.array, us_first)],
         "motions-list": [
-            records.accelerations(some)
-            for some in _in_parts(assessment.shaking.motions, ACCELERATION_ROWS)
+            accelerations(some) for some in _in_parts(assessment.shaking.motions, ACCELERATION_ROWS)
         ],
     }
 
@@ -202,7 +206,7 @@ def draw_assessment(package: PackageData) -> Drawings:
 def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
     """Return the drawings of spectra and of runs; none without motions."""
     from report.figures.charts import comparison as comparison_chart
-    from report.figures.spectra import spectra
+    from report.figures.spectra import spectra as spectra_chart
 
     if not package.assessment.has_motions:
         return {}
@@ -216,7 +220,9 @@ def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
             comparison_chart(some, us_first, others_m)
             for some in _in_parts(package.assessment.alike, CHART_ROWS)
         ],
-        "motions-spectra": [spectra(parts) for parts in ((roof, ground) if ground else (roof,))],
+        "motions-spectra": [
+            spectra_chart(parts) for parts in ((roof, ground) if ground else (roof,))
+        ],
         "results": list(_governing(runs, us_first)),
     }
     # Only the complete edition has this part: the other draws the governing runs alone.
@@ -232,7 +238,8 @@ def _governing(
     us_first: bool,
 ) -> Iterator[str]:
     """Yield the histories of the governing runs, a panel for each group of arrays."""
-    from report.figures.history import RunPanel, histories
+    from report.figures.history import RunPanel
+    from report.figures.history import histories as draw_histories
 
     panels = [
         RunPanel(ranged([item.id for item in group]), motion, history)
@@ -242,16 +249,17 @@ def _governing(
         if motion is group[0].worst
     ]
     for some in _in_parts(panels, PANELS):
-        yield histories(some, us_first)
+        yield draw_histories(some, us_first)
 
 
 def _histories(
     array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool
 ) -> Iterator[tuple[str, str]]:
-    from report.figures.history import RunPanel, histories, hodographs
+    from report.figures.history import RunPanel, hodographs
+    from report.figures.history import histories as draw_histories
 
     runs = zip(_in_parts(array.motions, PANELS), _in_parts(followed, PANELS), strict=True)
     for some, paths in runs:
         panels = [RunPanel("", *run) for run in zip(some, paths, strict=True)]
         paths_in_plan = hodographs(some, paths, us_first)
-        yield histories(panels, us_first), paths_in_plan
+        yield draw_histories(panels, us_first), paths_in_plan

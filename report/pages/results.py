@@ -1,7 +1,4 @@
-"""Results by array, and the numbers of the equations that are not in the assessment.
-
-The latter are those of the governing array, unrounded; its equations are in `method.html`.
-"""
+"""Results by array: every run of every motion, the statistics, and the design displacement."""
 
 from __future__ import annotations
 
@@ -13,28 +10,20 @@ from operator import attrgetter, methodcaller
 
 from markupsafe import Markup
 
-from report.assessment.checks.alike import alike
-from report.assessment.checks.check import STRENGTH_ROW, Check
-from report.assessment.checks.sentence import texts
 from report.assessment.design.arrays import ArrayAssessment
-from report.assessment.design.verdict import severity
+from report.assessment.design.friction import mu_words
 from report.assessment.support.evidence import Evidence
 from report.document.columns import ColumnHead, required, text, words
-from report.document.tables import Column, Table, TableRow, Wide, listed, stamp
-from report.drawing.items import drawn_slope_deg
-from report.pages.marks import prescriptive_key
+from report.document.tables import Column, Table, TableRow, Wide, listed
 from report.pages.parts import PackageData, statistic
 from report.project.model.choices import Direction
 from report.runs import MotionRun
-from report.text.counts import grouped_by, named
+from report.text.counts import named
 from report.text.unit_format import UnitFormat
-from report.text.units import Quantity, no_less, number, ratio
+from report.text.units import NO_BREAK, no_less, number
 from solver.model import Orientation, Status
-from solver.rules.provisions import SEPARATION_KEYS
 
 _Alike = Sequence[ArrayAssessment]
-# Peaks in the equation of their mean; those after them are dots.
-_MOST_PEAKS = 12
 _WAYS = (Direction.DOWN, Direction.UP, Direction.ACROSS)
 _SHORT = {
     Status.OK: "at rest",
@@ -53,31 +42,12 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
 
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the results of every group of arrays that share their runs, without the charts."""
-    alike = package.assessment.alike
+    done = package.assessment
     followed = [history for paths in evidence.histories for history in paths]
     return {
-        "groups": [_results(package, group) for group in alike],
+        "has_transverse": any(motion.has_transverse for motion in done.shaking.motions),
+        "groups": [_results(package, group) for group in done.alike],
         "is_drawn_across": any(history.across_m.size for history in followed),
-    }
-
-
-def histories(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
-    """Return what the captions of histories and paths say, by group of arrays."""
-    return {
-        "groups": [
-            {
-                "names": named([item.id for item in group], "Array"),
-                "is_drawn_across": any(path.across_m.size for path in paths),
-                "straight": [
-                    run.motion.id
-                    for run, path in zip(group[0].motions, paths, strict=True)
-                    # In one axis a path is a line along the slope: it is drawn, and the caption
-                    # says why.
-                    if not path.across_m.size and path.result.prd_m > 0.0
-                ],
-            }
-            for group, paths in zip(package.assessment.alike, evidence.histories, strict=True)
-        ]
     }
 
 
@@ -87,15 +57,34 @@ def _results(package: PackageData, group: _Alike) -> Mapping[str, object]:
     orientations = sorted(
         {run.orientation for run in runs}, key=lambda way: (way.is_transverse, -way.polarity)
     )
+    slope_rad = array.array.slope_rad
     return {
-        "array": array,
+        "slope": f"{number(math.degrees(slope_rad), 2)}° "
+        f"({number(100.0 * math.tan(slope_rad), 1)}{NO_BREAK}%)",
+        "mu": mu_words(array.array.friction),
         # Arrays share their runs by what a run takes; of what they are built the runs know nothing.
-        "constructions": dict.fromkeys(item.array.construction for item in group),
-        "slope_percent": 100.0 * math.tan(array.array.slope_rad),
-        "table": _peaks(package, group, orientations),
+        "constructions": "; ".join(dict.fromkeys(item.array.construction for item in group)),
+        "spread": _spread(array),
+        "peaks": _peaks(package, group, orientations),
         "is_prd_across": not all(run.has_across for run in runs),
         "troubles": package.sentences("runs", [item.id for item in group]),
     }
+
+
+def _spread(array: ArrayAssessment) -> str:
+    """Return how far the motions of an array are from their mean; nothing if that is not known."""
+    mean_m = array.analysis.mean_m
+    if not mean_m > 0.0:
+        return ""
+    in_order = sorted(array.motions, key=lambda motion: motion.governing.prd_m)
+    smallest, largest = in_order[0], in_order[-1]
+    orientation = largest.governing.orientation.name
+    ratios = [number(run.governing.prd_m / mean_m, 2) for run in (smallest, largest)]
+    return (
+        f"{largest.motion.id} ({orientation}) has the largest PRD, {ratios[1]} times the mean; "
+        f"{smallest.motion.id} has the smallest, {ratios[0]} times. Coefficient of variation "
+        f"{number(array.variation, 2)}."
+    )
 
 
 def _peaks(package: PackageData, group: _Alike, orientations: Sequence[Orientation]) -> Table:
@@ -183,142 +172,3 @@ def _floor_words(package: PackageData) -> str:
         return "none; the analysis is peer reviewed"
     share = number(100.0 * package.assessment.rules["analysis_floor"], 0)
     return f"{share} % of prescriptive, {package.marks.clause('analysis_floor')}"
-
-
-def equations_below(package: PackageData) -> tuple[tuple[str, str], ...]:
-    """Return the parts below, in order."""
-    motion = ("method-motion", "Motion of an array")
-    return (
-        *([motion] if package.assessment.has_motions else []),
-        ("method-design", "Design displacement"),
-        ("method-separation", "Separations"),
-    )
-
-
-def equations(package: PackageData) -> Mapping[str, object]:
-    """Return what the equations need beside the package."""
-    # Several arrays may have it: the text then says that the equations are of one of them.
-    largest_m = package.governing.design_m
-    return {
-        "is_shared": sum(item.design_m == largest_m for item in package.assessment.arrays) > 1,
-        **_motion(package),
-        **_weights(package),
-        **_design(package),
-        **_separations(package),
-    }
-
-
-def _motion(package: PackageData) -> Mapping[str, object]:
-    """Return the forces with the roof at rest / m g, and the accelerations that begin sliding."""
-    array = package.governing.array
-    theta, law, drawn_deg = array.slope_rad, array.friction, drawn_slope_deg(array)
-    phi = math.atan(law.mu_static)
-    # At 0.1 m/s, an example: mu(v) = mu_fast - (mu_fast - mu_slow) exp(-r v).
-    decay = math.exp(-0.1 * law.rate_s_per_m) if law.is_by_velocity else 1.0
-    return {
-        # A slope that could not be seen is drawn steeper, and the caption says so.
-        "drawn_deg": None if math.isclose(math.degrees(theta), drawn_deg) else drawn_deg,
-        "phi_rad": phi,
-        "cos": math.cos(theta),
-        "sin": math.sin(theta),
-        "holding": law.mu_static * math.cos(theta),
-        "rests": math.tan(theta) <= law.mu_static,
-        # a_down = -g tan(phi - theta), a_up = g tan(phi + theta): there the shear is mu N.
-        "down_g": -math.tan(phi - theta),
-        "up_g": math.tan(phi + theta),
-        "mu_at_tenth": law.mu_fast - (law.mu_fast - law.mu_slow) * decay,
-    }
-
-
-def _weights(package: PackageData) -> Mapping[str, object]:
-    """Return the weight over plan area of the governing array, and the range of the others."""
-    own, fmt = package.governing.array, package.fmt
-    others = [array.weight_pa for array in package.data.arrays if array.id != own.id]
-    ends = [fmt.first(end(others), Quantity.PRESSURE) for end in (min, max) if others]
-    unit = fmt.units(Quantity.PRESSURE)[0].symbol
-    return {
-        "weight_pa": own.weight_pa,
-        "other_weights": " to ".join(dict.fromkeys(ends)) + f" {unit}" if others else "",
-    }
-
-
-def _design(package: PackageData) -> Mapping[str, object]:
-    array, checks = package.governing, package.assessment.checks
-    strengths = [check for check in checks if check.id == STRENGTH_ROW]
-    strength = max(strengths, key=_exceeds)
-    peaks = [
-        package.fmt.first(run.governing.prd_m, show=no_less) for run in array.motions[:_MOST_PEAKS]
-    ]
-    peaks += ["…"] * (len(array.motions) > _MOST_PEAKS)
-    arrays = package.assessment.arrays
-    return {
-        "statistic": statistic(array.analysis.basis),
-        "prescriptive_clause": package.marks.clause(prescriptive_key(array)),
-        "prescriptive_mark": package.marks.prescriptive(array),
-        "analysis_mark": array.overridden.analysis,
-        "floor_mark": package.marks.floor(array),
-        "design_mark": package.marks.design(array),
-        "troubles": package.sentences("runs", [array.id]),
-        "peaks": " + ".join(peaks),
-        "unit": package.fmt.units()[0].symbol,
-        "by_routes": [
-            (check.subject, stamp(check.verdict))
-            for check in alike(check for check in checks if check.id == "design")
-        ],
-        "interconnected": next(item for item in arrays if item.id == strength.subject).array,
-        "strength": _compared(strength, package.fmt.us_first),
-    }
-
-
-def _exceeds(check: Check) -> tuple[float, float]:
-    """Return what the governing of checks has most of; one that is not given has no ratio."""
-    is_known = math.isfinite(check.ratio)
-    return severity(check.verdict) if is_known else -1.0, check.ratio if is_known else 0.0
-
-
-def _compared(check: Check, us_first: bool) -> tuple[str, Markup]:
-    """Return the number of a check that an equation ends in, and how it compares: its verdict.
-
-    That number is the demand; of a pathway, which is the narrower the more an array slides, it is
-    what is left.
-    """
-    is_left = check.id == "fire_pathway"
-    both, first = texts(check, us_first), texts(check, us_first, is_both=False)
-    result, other = first if is_left else (both[1], first[0])
-    result, other = (each.removeprefix(f"{check.sense} ") for each in (result, other))
-    if not math.isfinite(check.ratio):
-        return result, Markup("; provided: {}, {}").format(other, stamp(check.verdict))
-    sign = ("≥" if is_left else "≤") if check.is_satisfied else ("<" if is_left else ">")
-    parts = sign, other, ratio(check.ratio), stamp(check.verdict)
-    return result, Markup(" {} {}, D/C {}, {}").format(*parts)
-
-
-def _separations(package: PackageData) -> Mapping[str, object]:
-    """Return the governing clearance of each condition that occurs, and what else Δ narrows.
-
-    What has no permitted displacement has no equation: `unknown` are the arrays.
-    """
-    done, us_first = package.assessment, package.fmt.us_first
-    clauses = {done.rules.values[key].clause for key in SEPARATION_KEYS.values()}
-    of_kind = grouped_by(done.checks, attrgetter("id"))
-    finite = [
-        (gap, check)
-        for gap, check in zip(done.clearances, of_kind.get("clearance", ()), strict=True)
-        if math.isfinite(check.ratio)
-    ]
-    largest = sorted(finite, key=lambda pair: -pair[1].ratio)
-    kinds = grouped_by(largest, lambda pair: pair[0].neighbor)
-    others = [
-        max(known, key=_exceeds)
-        for kind in ("electrical_slack", "fire_pathway")
-        if (known := [each for each in of_kind.get(kind, ()) if math.isfinite(each.ratio)])
-    ]
-    return {
-        "separation_clauses": sorted(clauses),
-        "separations": [
-            (some[0][0], SEPARATION_KEYS[kind], _compared(some[0][1], us_first))
-            for kind, some in kinds.items()
-        ],
-        "others": [(check, _compared(check, us_first)) for check in others],
-        "unknown": [item.id for item in done.arrays if math.isnan(item.permitted_m)],
-    }

@@ -9,6 +9,7 @@ from itertools import zip_longest
 from markupsafe import Markup, escape
 
 from report.assessment.design.tested_friction import STANDARD
+from report.document.tables import headed
 from report.pages.parts import PackageData
 from report.text.units import kept
 from report.typeset.equations import symbol
@@ -123,4 +124,7 @@ def page(package: PackageData) -> Mapping[str, object]:
     ]
     half = (len(items) + 1) // 2
     pairs = zip_longest(items[:half], items[half:], fillvalue=("", ""))
-    return {"rows": [[*left, *right] for left, right in pairs]}
+    symbol_column, meaning_column = ("Symbol", 0.5), ("Meaning", 3)
+    columns = (symbol_column, meaning_column) * 2
+    rows = [[*left, *right] for left, right in pairs]
+    return {"symbols": headed(*columns, rows=rows, kind="compact")}

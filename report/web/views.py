@@ -17,13 +17,11 @@ from contourpy import contour_generator
 from report.assessment.assessment import Assessment
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.support.response_surface import ResponseSurface, surface
-from report.document.templates import sentence
 from report.drawing.sheet import unit_format
 from report.runs import MotionRun, OrientedRun
 from report.text.counts import cut, ids_by, ranged
 from report.text.unit_format import UnitFormat
 from report.text.units import Unit, no_less, number
-from report.typeset.pdf import TEMPLATES
 from report.web.answers import finite
 from report.web.run_forces import Slip, run_forces, slips_of, with_jumps
 from solver.model import Floats, InputError, Scene, SlideHistory, Status
@@ -270,7 +268,11 @@ def _contour_texts(contours: ResponseSurface, here_m: float, fmt: UnitFormat) ->
             "the end of their record: their PRD is not final."
         )
     if contours.others:
-        notes.append(sentence(TEMPLATES, "dots", contours))
+        law = "constant" if array.friction.is_constant else "velocity-dependent"
+        notes.append(
+            f"Dots: the arrays with the friction of {array.id} ({law}), scaled as a whole; not "
+            f"{ranged(contours.others)}."
+        )
     return {
         "title": f"Mean PRD of {runs} motion{'s' if runs > 1 else ''} over friction and slope, "
         f"array {array.id}",

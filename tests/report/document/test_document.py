@@ -5,6 +5,7 @@ from dataclasses import replace
 from operator import itemgetter
 
 import pytest
+from markupsafe import Markup
 
 from report.document.columns import required, text, words
 from report.document.tables import Wide, listed, merged
@@ -39,6 +40,14 @@ def test_a_column_has_its_share_or_more_and_only_a_word_too_long_for_its_table_i
     assert [style for *_, style in placed] == ["left", "right", "left long"]
     ((_, placed),) = replace(table, is_narrow=True).body
     assert [style for *_, style in placed] == ["left long", "right", "left long"]
+
+
+def test_tags_of_a_cell_take_no_room():
+    names = [(Markup("<i>S</i><sub>DS</sub> and <i>S</i>"), "1.5 in", Markup("<b>OK</b>"))]
+    plain = [("S_DS and S", "1.5 in", "OK")]
+    assert listed(names, COLUMNS).heads == listed(plain, COLUMNS).heads
+    ((_, placed),) = replace(listed(names, COLUMNS), is_narrow=True).body
+    assert [style for *_, style in placed] == ["left", "right", "left"]
 
 
 def test_rows_that_differ_in_names_alone_are_one_and_their_column_is_wider():

@@ -59,7 +59,7 @@ STATES = {
     "conditions": (
         of(),
         "OK with conditions No check is NG.",
-        "Arrays that are alike remain alike",
+        "Arrays of similar construction remain so",
     ),
     "one array": (
         of(**ONE),
@@ -80,9 +80,12 @@ STATES = {
         of(options=assessments.REVIEW),
         "Analysis peer reviewed by Reviewer of record",
     ),
-    "override": (of(overrides=[OVERRIDE]), "One number of the rule set is overridden"),
+    "override": (of(overrides=[OVERRIDE]), "One value of the rule set is overridden"),
     "links": (of(links=[LINKS]), "Adequacy of the rigid-block model"),
-    "ground": (lambda: package_data(assessments.unpermitted()), "Motions given at the ground are"),
+    "ground": (
+        lambda: package_data(assessments.unpermitted()),
+        "Ground motions are transferred to the roof",
+    ),
     "revision": (revised, "Compared with revision 0 of"),
 }
 
