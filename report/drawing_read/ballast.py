@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import shapely
 
-from report.drawing_read.dxf_file import MB
 from report.project.model.shapes import Point, Shape, solid
 from report.project.read.number_formats import unit_named
 from report.project.read.typed_text import number_in, separator, with_point
@@ -25,7 +25,7 @@ from report.text.units import LENGTHS
 from solver.files import read_file
 from solver.model import InputError
 
-MAX_BYTES, MAX_ROWS, MAX_BLOCKS = 5 * MB, 20_000, 10_000
+MAX_BYTES, MAX_ROWS, MAX_BLOCKS = 5_000_000, 20_000, 10_000
 COLUMNS = ("x", "y", "blocks")
 _NAMES = dict.fromkeys(("block count", "number of blocks"), "blocks")
 _HEADING = re.compile(  # of one blank between its words
@@ -92,8 +92,6 @@ def read_map(path: Path, unit_m: float) -> Any:
 
 def loads(rows: Any, arrays: Mapping[str, Shape]) -> tuple[dict[str, Load], list[int]]:
     """Return what each array carries that has blocks, and the lines of blocks outside of all."""
-    import shapely
-
     solids = [solid(shape) for shape in arrays.values()]
     points = shapely.STRtree(shapely.points(rows[:, 1:3]))
     # Of arrays that overlap the last one carries the block: it is counted once.

@@ -13,6 +13,11 @@ from itertools import chain, islice, product
 from typing import Any
 
 import numpy as np
+import shapely
+from ezdxf import edgeminer
+from ezdxf.disassemble import make_primitive
+from ezdxf.entities.factory import new
+from ezdxf.math import arc_angle_span_deg, arc_segment_count, arc_to_bulge, bulge_to_arc
 
 from report.project.model.shapes import Point
 
@@ -82,8 +87,6 @@ def _vertices(entity: Any, kind: str) -> list[tuple[float, float, float]]:
         (x, y, _), radius = entity.dxf.center, entity.dxf.radius
         vertices = [(x - radius, y, 1.0), (x + radius, y, 1.0)]
     elif kind == "ARC":
-        from ezdxf.math import arc_to_bulge
-
         dxf = entity.dxf
         turn = math.radians(dxf.start_angle), math.radians(dxf.end_angle)
         start, end, bulge = arc_to_bulge(dxf.center, turn[0], turn[1], dxf.radius)
@@ -102,8 +105,6 @@ def _vertices(entity: Any, kind: str) -> list[tuple[float, float, float]]:
 
 def _is_circle(entity: Any, kind: str) -> bool:
     """Whether a curve is a circle, also one that is drawn as an arc of a whole turn."""
-    from ezdxf.math import arc_angle_span_deg
-
     if kind != "ARC":
         return kind == "CIRCLE"
     return bool(arc_angle_span_deg(entity.dxf.start_angle, entity.dxf.end_angle) == 360.0)
@@ -111,8 +112,6 @@ def _is_circle(entity: Any, kind: str) -> bool:
 
 def _spline(entity: Any, sagitta: float) -> Iterable[Any]:
     """Return points of a spline whose chords are within the sagitta of it."""
-    import shapely
-
     # The library's own points go beyond the ends of a spline that is not clamped, such as a closed
     # one of AutoCAD.
     tool = entity.construction_tool()
@@ -132,8 +131,6 @@ def _spline(entity: Any, sagitta: float) -> Iterable[Any]:
 def _chords(
     vertices: Sequence[tuple[float, float, float]], is_closed: bool, sagitta: float
 ) -> Iterator[Point]:
-    from ezdxf.math import arc_segment_count, bulge_to_arc
-
     # A bulge is the tangent of a quarter of the angle of an arc, positive counterclockwise.
     following = (*vertices[1:], *(vertices[:1] if is_closed else ()))
     for (x0, y0, bulge), (x1, y1, _) in zip(vertices, following, strict=False):
@@ -159,8 +156,6 @@ Closed = tuple[list[Point], list[int]]
 
 def join(lines: Sequence[Line], tolerance: float) -> tuple[list[Closed], Mapping[int, str]]:
     """Return the closed lines of open ones whose ends meet within a tolerance, and why not all."""
-    from ezdxf import edgeminer
-
     cells: dict[Point, list[Point]] = defaultdict(list)
     # Ends that meet are one point from here on, so that a chain is found by equality.
     ends: dict[int, tuple[Point, Point]] = {}
@@ -266,8 +261,6 @@ def boundaries(hatch: Any, sagitta: float, tolerance: float) -> list[Any] | str:
 
 def _curves(path: Any) -> Iterator[Any]:
     """Yield the curves of a boundary, in the plane of the hatch."""
-    from ezdxf.entities.factory import new
-
     if hasattr(path, "vertices"):
         line: Any = new("LWPOLYLINE")
         line.set_points(path.vertices, format="xyb")
@@ -286,8 +279,6 @@ def _curves(path: Any) -> Iterator[Any]:
 
 def faces(entity: Any) -> list[Any] | str:
     """Return the faces of a 3DFACE or a mesh as polygons, without vertical ones; or why none."""
-    from ezdxf.disassemble import make_primitive
-
     kind = entity.dxftype()
     if kind == "3DFACE":
         rings = [entity.wcs_vertices()]
@@ -303,16 +294,12 @@ def faces(entity: Any) -> list[Any] | str:
 
 def polygons(rings: Iterable[Sequence[Point]]) -> list[Any]:
     """Return closed lines as polygons, valid where they cross themselves; none without an area."""
-    import shapely
-
     made = (shapely.make_valid(shapely.Polygon(ring)) for ring in rings if len(ring) > 2)
     return [area for area in made if area.area > 0.0]
 
 
 def outlines(areas: Sequence[Any], tolerance: float) -> tuple[list[list[Point]], bool]:
     """Return the outlines of areas that touch within a tolerance, and whether they have holes."""
-    import shapely
-
     half = 0.5 * tolerance
     # The library finds the corner of a spike by dividing by its width, and then does without it.
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):

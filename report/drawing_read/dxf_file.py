@@ -10,14 +10,14 @@ import logging
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+
+from ezdxf import recover
+from ezdxf.document import Drawing as Document
+from ezdxf.filemanagement import dxf_stream_info, read
 
 from solver.files import read_file
 from solver.model import InputError
 from solver.suggestions import meant
-
-if TYPE_CHECKING:
-    from ezdxf.document import Drawing as Document
 
 MB = 1_000_000
 MAX_BYTES = 25 * MB
@@ -93,8 +93,6 @@ def limit(count: int, allowed: int, noun: str) -> None:
 
 
 def _strict(data: bytes) -> Document:
-    from ezdxf.filemanagement import dxf_stream_info, read
-
     info = dxf_stream_info(io.TextIOWrapper(io.BytesIO(data), "utf-8", "ignore"))
     return read(io.TextIOWrapper(io.BytesIO(data), info.encoding, "surrogateescape"))
 
@@ -104,8 +102,6 @@ def loaded(path: Path) -> tuple[Document, str]:
 
     Raises `InputError` if it is no DXF, damaged, or too large.
     """
-    from ezdxf import recover
-
     data = _read(path)
     logging.getLogger("ezdxf").addHandler(logging.NullHandler())
     try:

@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from report.drawing_read.roof_drawing import DrawnOutline
@@ -95,8 +96,6 @@ def joined(
 
 def _overlap(lines: Sequence[DrawnOutline], arrays: Sequence[DrawnOutline]) -> Any:
     """Return which lines have more in common with arrays than their borders."""
-    import shapely
-
     # Neighbors share a border, which is nothing in common.
     inner = [solid(array.shape).buffer(-ALIKE_M) for array in arrays]
     area = shapely.union_all(inner)
@@ -125,8 +124,6 @@ def _arrays(
     lines: Sequence[DrawnOutline], gap_m: float, turned_deg: float
 ) -> Iterator[tuple[DrawnOutline, dict[int, bool]]]:
     """Yield the arrays of a layer, with the lines within each and whether they are its modules."""
-    import shapely
-
     small = [k for k, line in enumerate(lines) if line.shape.area_m2 <= SIDES_M[1] ** 2]
     middles = np.array([complex(*mean(lines[k].shape.points)) for k in small])
     groups = list(_parallel(lines, turned_deg))
@@ -249,8 +246,6 @@ def _runs(values: Any, indices: Any, width: float) -> list[NDArray[np.intp]]:
 
 def _once(boxes: Any, layer: str) -> Any:
     """Return which boxes are modules: none that is drawn again, and no line within another one."""
-    import shapely
-
     middles = 0.5 * (boxes[:, :2] + boxes[:, 2:])
     densest = max(Counter(map(tuple, np.floor(middles).tolist())).values())
     if densest > _MOST_PER_M2:  # their pairs would be without number
@@ -265,8 +260,6 @@ def _once(boxes: Any, layer: str) -> Any:
 
 def _closed(boxes: Any, width_m: float) -> list[Any]:
     """Return the polygons of boxes with the gaps up to a width [m] closed."""
-    import shapely
-
     half = 0.5 * width_m
     grown = boxes + half * _OUTWARD
     blocks = shapely.box(*_blocks(grown).T)

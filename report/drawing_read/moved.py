@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from itertools import chain, starmap
 
 import numpy as np
+import shapely
 
 from report.drawing_read.geometry import boxed
 from report.project.model.shapes import Polygon, Shape, ring, solid
@@ -116,8 +117,6 @@ def whole_move(
 
 def _agreeing(move: Move, rows: Sequence[Keyed], drawn: Sequence[Keyed]) -> int:
     """Return how many rows are where they are drawn after a move."""
-    import shapely
-
     if not rows:
         return 0
     shapes = [solid(move.of(shape)) for _, shape in rows]

@@ -11,6 +11,8 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
+import shapely
+
 from report.assessment.plan.bare_edges import EDGE_STRIP_M, bare_sides
 from report.drawing.items import Layer
 from report.drawing_read.geometry import ROUNDED_M, box_of, boxed, own_axes
@@ -130,8 +132,6 @@ def plan_of(
 
 def _once(outlines: Sequence[DrawnOutline], unread: list[Unread]) -> list[DrawnOutline]:
     """Return outlines without those that are drawn over an equal one of their kind."""
-    import shapely
-
     solids = [solid(outline.shape) for outline in outlines]
     twins: set[int] = set()
     near = shapely.STRtree(solids).query(solids, predicate="intersects").T if solids else ()
@@ -197,8 +197,6 @@ def _unread(line: DrawnOutline, reason: str, detail: str = "") -> Unread:
 
 def _shape(line: DrawnOutline, unit_m: float) -> Shape | Unread:
     """Return the shape of a line [m], or why it is none."""
-    import shapely
-
     scaled = [(x * unit_m, y * unit_m) for x, y in line.shape.points]
     # Most lines are modules, which need no search for vertices in line and for crossings.
     if (module := _clear_box(scaled)) is not None:
@@ -324,8 +322,6 @@ def _texts_inside(
     outlines: Sequence[DrawnOutline], texts: Sequence[Words], unit_m: float
 ) -> list[list[Words]]:
     """Return the texts of each line: what `report` wrote of it, and what is inside of it."""
-    import shapely
-
     inside: list[list[Words]] = [[] for _ in outlines]
     # A text belongs to the smallest line around it.
     order = sorted(range(len(outlines)), key=lambda k: outlines[k].shape.area_m2)

@@ -14,7 +14,12 @@ from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
+
+import shapely
+from ezdxf.document import Drawing as Document
+from ezdxf.tools.text import plain_mtext
+from ezdxf.xclip import XClip
 
 from report.drawing.items import APPLICATION
 from report.drawing_read.closed_lines import (
@@ -34,10 +39,8 @@ from report.drawing_read.dxf_file import DAMAGED, MAX_ENTITIES, UNITS, limit, lo
 from report.drawing_read.roof_drawing import DrawnOutline, RoofDrawing, Unread, Words
 from report.project.model.shapes import Point, Polygon, ring
 from report.text.counts import UNPRINTABLE, trimmed
+from report.text.units import LENGTHS
 from solver.model import InputError
-
-if TYPE_CHECKING:
-    from ezdxf.document import Drawing as Document
 
 MAX_DEPTH = 8
 MAX_CURVE_POINTS = 500_000
@@ -71,8 +74,6 @@ def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
 
 
 def _read(document: Document, repairs: str, unit_m: float | None) -> RoofDrawing:
-    from report.text.units import LENGTHS
-
     code = document.header.get("$INSUNITS", 0)
     unit = UNITS.get(code, "")
     geodata = document.modelspace().get_geodata()
@@ -239,8 +240,6 @@ class _Reader:
 
     def _take_area(self, entity: Any, layer: str, handle: str, block: _Block) -> str:
         """Note a hatch, or the faces of a mesh, or return why it is none."""
-        import shapely
-
         kind = entity.dxftype()
         is_hatch = kind in HATCHES
         areas = (
@@ -266,8 +265,6 @@ class _Reader:
 
     def _take_areas(self) -> None:
         """Add the outlines of hatches, faces and meshes, but for what fills closed lines."""
-        import shapely
-
         if not self.areas:
             return
         lines = self.drawing.lines
@@ -354,8 +351,6 @@ class _Reader:
 
     def _clip_off(self, first: int, clip: _Clip) -> None:
         """Leave out the lines of a block that its clip hides whole."""
-        import shapely
-
         path, is_inverted = clip
         area, lines = shapely.Polygon(path).buffer(0.0), self.drawing.lines[first:]
         del self.drawing.lines[first:]
@@ -383,8 +378,6 @@ class _Reader:
 
 def _lines(entity: Any) -> list[str]:
     """Return the lines of a text or an attribute that say something."""
-    from ezdxf.tools.text import plain_mtext
-
     if entity.dxftype() == "ATTRIB" and entity.has_embedded_mtext_entity:
         entity = entity.virtual_mtext_entity()
     if entity.dxftype() == "MTEXT":
@@ -406,8 +399,6 @@ def _fraction(code: re.Match[str]) -> str:
 
 def _clip(insert: Any) -> _Clip | None:
     """Return the clip of a block in world coordinates, and whether it hides what is inside."""
-    from ezdxf.xclip import XClip
-
     # One within another block is a copy, which has no clip of its own.
     clip = XClip(insert.origin_of_copy or insert)
     if not clip.is_clipping_enabled:

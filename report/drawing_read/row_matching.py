@@ -11,6 +11,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
 
+import shapely
+
 from report.drawing_read.moved import SAME_M, Move, whole_move
 from report.drawing_read.plan_read import free_name
 from report.drawing_read.roof_drawing import DrawnOutline
@@ -125,8 +127,6 @@ def matched(plan: RoofPlan, inputs: Inputs) -> RoofPlan:
 
 def _outward(edge: Shape, roof: Shape) -> complex:
     """Return the direction across an edge, as a number of length 1, that leads away from a roof."""
-    import shapely
-
     start, end = max(sides(edge.points), key=lambda side: math.dist(*side))
     across = complex(end[1] - start[1], start[0] - end[0]) / math.dist(start, end)
     middle = complex(*mean(edge.bounds.points))

@@ -22,7 +22,6 @@ from report.assessment.plan.neighbors import NearbyKind
 from report.drawing_read.fill import fill_plan, layers_of, plan_as_rows, unread
 from report.drawing_read.layer_names import drawn_on, proposed
 from report.drawing_read.plan_read import known_layers
-from report.drawing_read.read_dxf import read_dxf
 from report.project.model.choices import LayerKind, UnitsFirst
 from report.project.read.archive import open_book
 from report.project.read.changed_cells import changed
@@ -137,6 +136,8 @@ def _drawing(workbook: Path) -> Json | None:
     """Return the first DXF beside a workbook, with what its layers may be; None for none."""
     if (path := next(_drawings(workbook), None)) is None:
         return None
+    from report.drawing_read.read_dxf import read_dxf  # with ezdxf, half a second
+
     found = {"name": path.name, "kinds": list(LayerKind), "units": list(LENGTHS)}
     try:
         drawn, known = read_dxf(path), known_layers(layers_of(read(workbook).inputs))
@@ -168,6 +169,8 @@ def read_plan(workbook: Path, job: Json) -> Json:
     unit the drawing is read in the one that it states, which may be asked about. Answers with the
     lines of `plan read` on what moved, what is lost and what was not read.
     """
+    from report.drawing_read.read_dxf import read_dxf  # with ezdxf, half a second
+
     drawn = read_dxf(next(_drawings(workbook)), LENGTHS.get(job["unit"]))
     unit = job["unit"] or drawn.unit
     if unit not in LENGTHS:
