@@ -17,6 +17,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
+from filelock import FileLock, Timeout
+
 from solver.model import InputError
 
 LOCK = ".roofslip-lock"
@@ -224,8 +226,6 @@ def locked(folder: Path) -> Iterator[None]:
     InputError
         If another process holds it for `WAIT_S`, or something else has its name.
     """
-    from filelock import FileLock, Timeout
-
     check_length(folder / LOCK)
     check_plain(folder / LOCK, folder, in_place=True)
     lock = FileLock(folder / LOCK, timeout=WAIT_S)

@@ -105,7 +105,7 @@ class StudyRuns:
         The capacity of each motion is searched by runs of its own up to the greatest intensity; a
         run without a final value exceeds the limit. Needs SciPy, which `./roofslip study` installs.
         """
-        from solver.studies.fragility import fragility
+        from solver.studies.fragility import fragility  # with SciPy, which is optional
 
         tracks = iter(Runner(_campaign(self.motions, (slope_rad,), (mu,), (1.0,))).tracks[0])
         by_motion = [
@@ -123,7 +123,7 @@ class StudyRuns:
         Index: `slope_rad`, `mu`, `intensity`, `motion`, `orientation`; columns: `slope_deg`,
         `prd_m`, `down_m`, `up_m`, `across_m`, `residual_m`, `status`, `model`.
         """
-        import pandas as pd
+        import pandas as pd  # optional, and 0.8 s to load
 
         axes = (self.slopes_rad.tolist(), self.mus.tolist(), self.intensities.tolist(), self.runs)
         rows = [(*case, *run) for *case, run in product(*axes)]
