@@ -45,7 +45,7 @@ class Section(NamedTuple):
     """A section of the file."""
 
     id: str
-    number: str  # of the part of the package
+    number: str  # as in the package
     title: str
     body: Markup
 
@@ -181,14 +181,14 @@ def _markup(section: Element, numbers: Mapping[str, str], shades: Mapping[str, s
     for element in section.iter():
         # Widths are those of paper, and the policy allows no style of an element.
         element.attrib.pop("style", None)
-        # Where the PDF has the number of a sheet, the file has that of a part, which it may lack.
+        # Where the PDF has the number of a sheet, the file has that of a section, which it may lack.
         if element.get("class") == "at":
             target = element.get("href", "").removeprefix("#")
             element.text = numbers[target]
             if target not in SECTIONS:
                 element.tag, element.attrib = "span", {}
         elif element.tag == "th" and element.text == "Sheet":
-            element.text = "Part"
+            element.text = "Section"
     return "".join(ElementTree.tostring(child, "unicode", method="html") for child in section)
 
 

@@ -89,8 +89,8 @@ function createRuns({ take, view, run, keeping }) {
       const rest = [x.n, x.m, dt, sn, cs, friction.mu_slow, G, scale, out];
       if (hasVertical) run("along", x.at, z.at, x.bounds, z.bounds, ...rest);
       else run("level", x.at, x.bounds, ...rest);
-      const [most, least, last, w, t, stops, , normal, error] = view(out, 9);
-      return { prd_m: cs * Math.max(most, -least), down_m: cs * most, up_m: cs * Math.abs(least), across_m: 0, residual_m: cs * last, residual_across_m: 0, rests: w === 0, t_prd_s: t, stops, normal, error_m: error };
+      const [most, least, last, w, t, , , normal, error] = view(out, 9);
+      return { prd_m: cs * Math.max(most, -least), down_m: cs * most, up_m: cs * Math.abs(least), across_m: 0, residual_m: cs * last, residual_across_m: 0, rests: w === 0, t_prd_s: t, normal, error_m: error };
     },
     plane({ x, y, z, dt, samples, sn, cs, friction: f, scale }, step, [events, count, places, n] = [0, 0, 0, 0]) {
       const degree = Math.min(ORDER, 4 + Math.ceil(-0.5 * Math.log(step)));
@@ -98,10 +98,10 @@ function createRuns({ take, view, run, keeping }) {
       const tail = [G, scale, step, BigInt(degree), BigInt(200_000 + 20 * samples), events, BigInt(count), places, BigInt(n), top, end, out];
       if (isConstant(f)) keeping(() => run("plane", ...head, f.mu_slow, ...tail));
       else keeping(() => run("law", ...head, f.mu_fast, f.mu_fast - f.mu_slow, f.rate_s_per_m, f.mu_static, ...tail));
-      const [status, error, stops, noted] = view(out, 4);
+      const [status, error, , noted] = view(out, 4);
       const [prd, t, most, least, left, right] = view(top, 6);
       const [sx, sy, vx, vy] = view(end, 4);
-      return { status, error_m: error, stops, events: noted, prd_m: prd, t_prd_s: t, down_m: cs * most, up_m: cs * Math.abs(least), across_m: Math.max(left, Math.abs(right)), residual_m: cs * sx, residual_across_m: sy, rests: vx === 0 && vy === 0, step };
+      return { status, error_m: error, events: noted, prd_m: prd, t_prd_s: t, down_m: cs * most, up_m: cs * Math.abs(least), across_m: Math.max(left, Math.abs(right)), residual_m: cs * sx, residual_across_m: sy, rests: vx === 0 && vy === 0, step };
     },
   };
 }

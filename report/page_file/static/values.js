@@ -29,8 +29,9 @@ export function movable({ arrays, clearances }) {
 export function followsFrom({ arrays, clearances }, made, { clearance_m: more = 0 }) {
   const designs = new Map();
   const of = arrays.map((array) => {
-    const peaks = Map.groupBy(made.filter((one) => one.array === array), ({ run }) => run.motion);
-    const prds = [...peaks.values()].map((all) => largest(all.map(({ done }) => (done.rests ? done.prd_m : Number.NaN))));
+    const own = made.filter((one) => one.array === array).map(({ run, done }) => ({ motion: run.motion, prd: done.rests ? done.prd_m : Number.NaN }));
+    const motions = [...new Set(own.map(({ motion }) => motion))];
+    const prds = motions.map((id) => largest(own.filter(({ motion }) => motion === id).map(({ prd }) => prd)));
     const mean = prds.reduce((sum, prd) => sum + prd, 0) / prds.length;
     const design = largest([array.analysis_factor * (array.takes_largest ? largest(prds) : mean), array.floor_m]);
     designs.set(array.id, design);

@@ -46,9 +46,9 @@ def test_the_sections_have_the_words_of_the_package(reported):
         (found,) = re.findall(rf'<section id="{id}">(.*?)</section>', shown, re.DOTALL)
         legend = r"<figcaption class=.shades.*?</figcaption>"
         of_part = re.sub(legend, "", found, flags=re.DOTALL)
-        # Its numbers of sheets are those of parts here.
+        # Its numbers of sheets are those of sections here.
         of_part = re.sub(r'(<a[^>]*class="at"[^>]*>)\d+', r"\1", of_part)
-        of_part = of_part.replace(">Part</th>", ">Sheet</th>")
+        of_part = of_part.replace(">Section</th>", ">Sheet</th>")
         assert words(of_part) == words(" ".join(part.partition("</section>")[0] for part in given))
     assert words(shown.partition("<title>")[2]).startswith("OK: Distribution Warehouse")
 
