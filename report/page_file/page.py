@@ -181,7 +181,7 @@ def _markup(section: Element, numbers: Mapping[str, str], shades: Mapping[str, s
     for element in section.iter():
         # Widths are those of paper, and the policy allows no style of an element.
         element.attrib.pop("style", None)
-        # Where the PDF has the number of a sheet, the file has that of a section, which it may lack.
+        # For the number of a sheet the file has that of a section, which it may lack.
         if element.get("class") == "at":
             target = element.get("href", "").removeprefix("#")
             element.text = numbers[target]
