@@ -30,7 +30,7 @@ from report.project.workbook import SECTIONS
 from report.project.workbook.entries import Entry
 from report.project.workbook.sections import rows_of
 from report.provenance.known_errors import known_errors
-from report.results.schema import schema
+from report.results.results_schema import schema
 from report.text.counts import grouped_by
 from solver import public
 

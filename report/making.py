@@ -27,9 +27,8 @@ from report.project.read.read import read
 from report.project.read.what_if import cells
 from report.project.read.workbook_data import Sheet
 from report.project.write.filled import changing
-from report.provenance.files import attachments, fingerprint, sources
-from report.results.changes import changes, check_listed, with_reissue
-from report.results.motions import other_sources
+from report.provenance.package_sources import attachments, fingerprint, sources
+from report.results.added_motions import other_sources
 from report.results.publish import (
     OUTPUTS,
     STAMP,
@@ -40,6 +39,7 @@ from report.results.publish import (
     warn_if_mixed,
 )
 from report.results.results_json import read_former, results_json
+from report.results.revision_comparison import changes, check_listed, with_reissue
 from report.results.xlsx import results_xlsx
 from report.steps import Step
 from report.typeset.letters import check_letters

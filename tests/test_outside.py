@@ -96,7 +96,7 @@ COMMANDS = [
                                    for case in COMMANDS], ids=lambda words: words[0])  # fmt: skip
 def test_a_command_writes_nowhere_else(tmp_path, private, monkeypatch, words):
     monkeypatch.setattr(
-        "report.suite.files.make_suite", lambda *_, count, **__: records.suite(count)
+        "report.suite.suite_files.make_suite", lambda *_, count, **__: records.suite(count)
     )
     workbooks.make(tmp_path / "job")
     sketch = Sketch()

@@ -25,7 +25,7 @@ from solver.files import LOCK
 def quick_without_a_hang(monkeypatch):
     """Motions of sines at once; a command that opens a pipe would wait for ever."""
     monkeypatch.setattr(
-        "report.suite.files.make_suite", lambda *_, count, **__: records.suite(count)
+        "report.suite.suite_files.make_suite", lambda *_, count, **__: records.suite(count)
     )
     signal.alarm(120)
     yield

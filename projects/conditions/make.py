@@ -21,7 +21,7 @@ from projects.rows import (
 from report.project.model import ProjectInput
 from report.project.model.choices import UnitsFirst
 from report.project.write.template import write_template
-from report.suite.inputs import ac156_targets
+from report.suite.targets import ac156_targets
 from solver.rules.hazard import Tail
 from solver.synthesis.suite import SuiteMotion, make_suite
 

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from projects.rows import write_motions
 from report.project.model.choices import UnitsFirst
-from report.study.read import write_study
-from report.study.schema import (
+from report.study.read_study import write_study
+from report.study.study_input import (
     Hazard,
     Intensity,
     Mat,
@@ -20,7 +20,7 @@ from report.study.schema import (
     StudyFrictionRun,
     StudyInput,
 )
-from report.suite.inputs import ac156_targets
+from report.suite.targets import ac156_targets
 from solver.friction_tests import Surface
 from solver.rules.hazard import Tail
 from solver.synthesis.suite import make_suite

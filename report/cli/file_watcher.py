@@ -15,9 +15,9 @@ from report.cli.input_errors import input_errors
 from report.cli.one_package import package, show
 from report.cli.terminal import say
 from report.project.read.archive import located, open_book
-from report.results.changes import changes
 from report.results.publish import OUTPUTS
 from report.results.results_json import former_from
+from report.results.revision_comparison import changes
 
 POLL_S = 0.3
 MAX_POLLS = 10

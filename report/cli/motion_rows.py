@@ -15,7 +15,7 @@ from report.cli.terminal import plain, say_next
 from report.motions.sets import sets_of, table
 from report.motions.stored import unpack
 from report.project.write.filled import changing
-from report.results.motions import row_cells, set_rows
+from report.results.added_motions import row_cells, set_rows
 from report.text.counts import numbered
 from solver.model import InputError
 

@@ -14,18 +14,18 @@ from report.cli.progress import Progress
 from report.cli.terminal import plain, say_next
 from report.project.read.read import read
 from report.project.read.workbook_data import Sheet
-from report.results.motions import add_suite, said_near, suite_rows
+from report.results.added_motions import add_suite, said_near, suite_rows
 from report.results.publish import output_folder, publish
-from report.suite.files import generate, suite_table
-from report.suite.inputs import (
+from report.suite.seed_records import read_seeds
+from report.suite.site_target import site_targets
+from report.suite.suite_files import check_folder, generate
+from report.suite.suite_table import suite_table
+from report.suite.target_table import read_target
+from report.suite.targets import (
     SuiteTargets,
     ac156_targets,
-    check_folder,
-    read_seeds,
-    site_targets,
     table_targets,
 )
-from report.suite.target_table import read_target
 from report.text.counts import called, numbered
 from solver.model import InputError
 from solver.rules.hazard import Tail

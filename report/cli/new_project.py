@@ -45,7 +45,7 @@ def _write(folder: Path, units: UnitsFirst, *, is_example: bool, is_study: bool)
             if is_example:
                 write_all(example_files(units), folder)
             elif is_study:
-                from report.study.read import write_study  # an extra
+                from report.study.read_study import write_study  # an extra
 
                 write_study(path, units=units)
             else:

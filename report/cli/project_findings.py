@@ -20,7 +20,7 @@ from report.project.model.place import Place
 from report.project.read.workbook_data import Sheet
 from report.project.workbook import SECTION
 from report.project.write.overwritten import formula_findings, overwritten
-from report.results.motions import other_sources
+from report.results.added_motions import other_sources
 from report.text.counts import command, numbered
 from report.typeset.letters import check_letters
 

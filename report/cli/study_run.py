@@ -13,7 +13,7 @@ from report.results.publish import check_apart, check_of_workbook, output_folder
 from report.study.exports import LIBRARY
 from report.study.manifest import NAME
 from report.study.outputs import TABLE, make_study
-from report.study.run import estimate, planned
+from report.study.run_study import estimate, planned
 from report.study.wording import headline
 
 

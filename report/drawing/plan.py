@@ -34,7 +34,7 @@ from report.drawing.sheet import LINE_IN, PAD_IN, Gap, Paper, Scale, round_scale
 from report.project.model.choices import ObjectKind
 from report.project.model.roof import ROOF
 from report.project.model.shapes import Point, Polygon, Rectangle, Shape, around, room, sides
-from report.provenance.files import fingerprint
+from report.provenance.package_sources import fingerprint
 from report.text.amounts import capacity, compared_pairs, demand
 from report.text.units import Quantity, no_less, number, pair
 

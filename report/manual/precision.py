@@ -17,8 +17,7 @@ from report.document.columns import text, words
 from report.document.tables import Column, Table, listed
 from report.document.templates import Section, section
 from report.figures.base import power_of_ten
-from report.manual import figures as stability_figures
-from report.manual import paper_figures
+from report.manual import paper_figures, stability_maps
 from report.manual import work_figures as figures
 from report.text.counts import capitalized, grouped_by, lettered
 from report.text.formats import percent, seconds, slug
@@ -129,15 +128,15 @@ def stability(verification: Verification) -> Section:
     # Numbered through all charts: the notes name a map by its number.
     counted = list(enumerate(verification.maps, start=1))
     by_chart = {
-        f"stability-{at // stability_figures.MOST + 1}": counted[at : at + stability_figures.MOST]
-        for at in range(0, len(counted), stability_figures.MOST)
+        f"stability-{at // stability_maps.MOST + 1}": counted[at : at + stability_maps.MOST]
+        for at in range(0, len(counted), stability_maps.MOST)
     }
     return section(
         "manual/stability",
         "Stability",
         by_chart=by_chart,
         charts={
-            name: stability_figures.stability([sweep for _, sweep in maps], first=maps[0][0])
+            name: stability_maps.stability([sweep for _, sweep in maps], first=maps[0][0])
             for name, maps in by_chart.items()
         },
     )

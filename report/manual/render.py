@@ -21,12 +21,12 @@ from report.document.columns import centered, text, words
 from report.document.tables import grouped
 from report.document.templates import Section, filled, rendered, section
 from report.manual import precision
-from report.manual.measured import building, models
+from report.manual.measured_buildings import building, models
 from report.manual.precision import conditioning, convergence, curves, floor, links, stability, work
 from report.pages.parts import verdict
 from report.pages.symbols import with_symbols
-from report.provenance.files import installed, processor
 from report.provenance.known_errors import known_errors
+from report.provenance.package_sources import installed, processor
 from report.provenance.release import version
 from report.text.counts import grouped_by, lettered
 from report.text.formats import (

@@ -24,7 +24,7 @@ from report.project.model import ProjectInput
 from report.project.model.array import Array
 from report.project.model.choices import PackageEdition, RecordedAt
 from report.project.model.friction_report import FrictionTests
-from report.provenance.files import fingerprint
+from report.provenance.package_sources import fingerprint
 from report.text.unit_format import UnitFormat
 from report.text.units import NO_BREAK, no_less, no_more
 from solver.rules.provisions import Basis

@@ -6,7 +6,13 @@ from collections.abc import Iterator, Mapping
 
 from report.pages.parts import PackageData
 from report.pages.symbols import friction_standard
-from report.provenance.files import SHORT, holds_records, record_bytes, record_paths, versions
+from report.provenance.package_sources import (
+    SHORT,
+    holds_records,
+    record_bytes,
+    record_paths,
+    versions,
+)
 from report.text.counts import counted
 from report.text.units import NO_BREAK, number
 

@@ -25,8 +25,8 @@ from report.motions.files import MAX_BYTES as MAX_RECORD
 from report.project.read.archive import MAX_FILE, MAX_MEMBERS, MAX_TOTAL, MB
 from report.proof.contents import differences, first_other_word, guarded, parsed, refused, words
 from report.proof.signatures import Appended, Signature, appended
-from report.provenance.files import MANIFEST, RESULTS, SCHEMA_VERSION, Listed, Manifest
 from report.provenance.known_errors import KnownError
+from report.provenance.package_sources import MANIFEST, RESULTS, SCHEMA_VERSION, Listed, Manifest
 from report.provenance.release import version
 from solver.files import read_file, within
 from solver.model import InputError

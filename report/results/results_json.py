@@ -15,7 +15,7 @@ from pydantic_core import from_json
 
 from report.assessment.assessment import Assessment
 from report.assessment.support.evidence import Evidence
-from report.results.model import SCHEMA_VERSION, Compared
+from report.results.results_model import SCHEMA_VERSION, Compared
 from report.results.rows import results
 from report.text.counts import UNPRINTABLE, cut
 from report.text.formats import finite

@@ -30,7 +30,7 @@ from report.project.model.motion_input import BuildingInput
 from report.project.model.place import Place
 from report.project.read.documents import Document
 from report.provenance.release import version
-from report.results import model
+from report.results import results_model as model
 from report.runs import MotionRun, OrientedRun
 from report.text.amounts import Amount
 from report.text.counts import joined

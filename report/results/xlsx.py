@@ -11,18 +11,18 @@ from collections.abc import Sequence
 
 from report.assessment.assessment import Assessment
 from report.assessment.support.spectra import Spectra
-from report.provenance.files import fingerprint
-from report.results.clearances import result_cells, write_clearances
-from report.results.design import DESIGN, write_design, write_inputs, write_peaks
-from report.results.lists import (
+from report.provenance.package_sources import fingerprint
+from report.results.clearances_sheet import result_cells, write_clearances
+from report.results.design_sheet import DESIGN, write_design, write_inputs, write_peaks
+from report.results.list_sheets import (
     link_cells,
     write_link_runs,
     write_links,
     write_lists,
     write_requirements,
 )
-from report.results.sheets import TOP, Cells, Pages, text_workbook
-from report.results.summary import write_summary
+from report.results.sheet_columns import TOP, Cells, Pages, text_workbook
+from report.results.summary_sheet import write_summary
 from report.text.formats import shortened
 
 # The sheets in the order of the package.

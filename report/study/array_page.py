@@ -14,12 +14,12 @@ from report.document.columns import text, words
 from report.document.tables import Column, listed
 from report.document.templates import Section, section
 from report.project.read.study_years import SUPPORTING, Distance, StudyYears, YearsOfArray
-from report.study import figures
+from report.study import study_charts
 from report.study import years as rates
 from report.study.page_parts import axis, design_length
-from report.study.plan import SLOPE
-from report.study.results import ArrayStudyResult, LimitState, StudyResults
-from report.study.tables import Row, length_unit, who
+from report.study.study_plan import SLOPE
+from report.study.study_results import ArrayStudyResult, LimitState, StudyResults
+from report.study.study_tables import Row, length_unit, who
 from report.study.wording import (
     MASS,
     NAMES,
@@ -57,12 +57,12 @@ def fragility(results: StudyResults, result: ArrayStudyResult) -> Section:
 
 
 def _charts(results: StudyResults, result: ArrayStudyResult) -> Iterator[tuple[str, str]]:
-    yield "fragility", figures.fragilities(result.states, axis(results))
+    yield "fragility", study_charts.fragilities(result.states, axis(results))
     tested = [state for state in result.states if not math.isnan(state.fragility.p_value)]
     if tested:
-        yield "goodness", figures.goodness(tested, axis(results))
+        yield "goodness", study_charts.goodness(tested, axis(results))
     if result.bars and not math.isnan(result.center_m):
-        yield "tornado", figures.tornado(result.bars, result.center_m, length_unit(results))
+        yield "tornado", study_charts.tornado(result.bars, result.center_m, length_unit(results))
 
 
 def _exported(
@@ -148,8 +148,8 @@ def years(results: StudyResults, array_years: ArrayYears) -> Section:
         predictive=predictive,
         rates=rates,
         charts={
-            "rates": figures.rates(array_years, curve, unit, axis(results)),
-            "lives": figures.lives(array_years, unit),
+            "rates": study_charts.rates(array_years, curve, unit, axis(results)),
+            "lives": study_charts.lives(array_years, unit),
         },
     )
 

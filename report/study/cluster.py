@@ -10,7 +10,7 @@ from typing import Any
 
 from report.study.manifest import program, version_differences
 from report.study.optional_packages import DASK, optional_package
-from report.study.parts import OnDone, keep, made_part, mixed
+from report.study.parquet_parts import OnDone, keep, made_part, mixed
 from solver.model import InputError
 from solver.studies.runs import Campaign, Runner
 

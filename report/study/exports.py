@@ -11,9 +11,9 @@ from functools import partial
 
 from report.document.templates import said
 from report.project.model.choices import RecordedAt
-from report.study.results import ArrayStudyResult, LimitState, StudyResults
-from report.study.schema import Intensity
-from report.study.tables import Row
+from report.study.study_input import Intensity
+from report.study.study_results import ArrayStudyResult, LimitState, StudyResults
+from report.study.study_tables import Row
 from report.study.wording import (
     MASS,
     context,

@@ -17,7 +17,7 @@ import numpy as np
 from pydantic_core import from_json
 
 import solver
-from report.provenance.files import installed, processor
+from report.provenance.package_sources import installed, processor
 from report.provenance.release import version
 from report.text.units import G_MPS2
 from solver.model import InputError, Motion

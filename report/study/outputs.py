@@ -13,13 +13,13 @@ from report.document.templates import Section, filled, rendered, section
 from report.project.read.study_years import YEARS
 from report.results.publish import publish
 from report.study.array_page import fragility, sheets, years, years_json
-from report.study.curves import allowed, compare, curves, prescribed
+from report.study.design_curves import allowed, compare, curves, prescribed
 from report.study.exports import LIBRARY, export_files
 from report.study.page_parts import basis, formula, limits
-from report.study.plan import StudyPlan
-from report.study.results import StudyResults
-from report.study.run import RUNS, run_study
-from report.study.tables import curves_csv, study_xlsx
+from report.study.run_study import RUNS, run_study
+from report.study.study_plan import StudyPlan
+from report.study.study_results import StudyResults
+from report.study.study_tables import curves_csv, study_xlsx
 from report.study.wording import context, headline
 from report.typeset.pdf import TEMPLATES, lay_out
 from solver.files import add_folder, check_plain, locked
@@ -35,7 +35,7 @@ def make_study(
 ) -> tuple[StudyResults, Mapping[str, bytes]]:
     """Run a study and publish its files; another run to the same folder waits until it ends.
 
-    Options are those of `report.study.run.run_study`.
+    Options are those of `report.study.run_study.run_study`.
     """
     runs = folder / RUNS
     check_plain(runs, folder, is_folder=True)

@@ -18,10 +18,10 @@ from report.document.columns import text
 from report.document.tables import Table, listed
 from report.document.templates import Section, section
 from report.pages.symbols import with_symbols
-from report.study import figures
-from report.study.array_capacities import FREQ_HZ
-from report.study.results import StudyResults
-from report.study.tables import length_unit
+from report.study import study_charts
+from report.study.capacity_runs import FREQ_HZ
+from report.study.study_results import StudyResults
+from report.study.study_tables import length_unit
 from report.study.wording import on_building
 from report.text.counts import capitalized, joined
 from report.text.formats import VALIDATION
@@ -68,10 +68,10 @@ def axis(results: StudyResults) -> str:
 def by_intensity(results: StudyResults, values: Floats, m: int, **more: Any) -> str:
     """Return displacements at a friction coefficient over intensity, a line for each slope.
 
-    They have the shape (slopes, frictions, intensities) [m]; `more` is as in `figures.curves`.
+    They have the shape (slopes, frictions, intensities) [m]; `more` is as in `study_charts.curves`.
     """
     study_input = results.plan.input
-    return figures.curves(
+    return study_charts.curves(
         np.array(study_input.intensities),
         [
             (f"{study_input.slopes_deg[s]:g}°", values[s, m])

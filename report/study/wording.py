@@ -17,9 +17,15 @@ from report.document.templates import said
 from report.pages.marks import UNVERIFIED
 from report.pages.symbols import with_symbols
 from report.study.manifest import OWN_KEY, TRUST_PARTS
-from report.study.plan import FRICTION, I_E, SDC, SLOPE
-from report.study.results import MEAN, SLOPE_DECIMALS, ArrayStudyResult, LimitState, StudyResults
-from report.study.schema import Intensity
+from report.study.study_input import Intensity
+from report.study.study_plan import FRICTION, I_E, SDC, SLOPE
+from report.study.study_results import (
+    MEAN,
+    SLOPE_DECIMALS,
+    ArrayStudyResult,
+    LimitState,
+    StudyResults,
+)
 from report.text.unit_format import UnitFormat
 from report.text.units import no_less
 from report.typeset.pdf import TEMPLATES

@@ -10,7 +10,7 @@ import datetime as dt
 from report.project.workbook.entries import Entry
 from report.project.workbook.sections import block, table
 from report.project.workbook.site_sheets import FRICTION_RUNS
-from report.study.schema import (
+from report.study.study_input import (
     Hazard,
     HazardPoint,
     Intensity,

@@ -13,8 +13,8 @@ from functools import partial
 import numpy as np
 
 from report.project.read.study_years import ABOVE, ALWAYS, NEVER
-from report.study.array_capacities import curves_of
-from report.study.plan import ArrayPlan, StudyPlan
+from report.study.capacity_runs import curves_of
+from report.study.study_plan import ArrayPlan, StudyPlan
 from solver.model import Floats
 from solver.studies.curves import first_allowed
 from solver.studies.lives import (

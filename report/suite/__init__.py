@@ -1,1 +1,1 @@
-"""Generated suites of motions: targets, files, tables. Read `files`."""
+"""Generated suites of motions: targets, files, tables. Read `suite_files`."""

@@ -64,9 +64,10 @@ def motions_made(workbook: Path, out: Path) -> str:
     def do() -> None:
         from report.project.read.read import read
         from report.project.write.filled import BEFORE
-        from report.results.motions import add_suite, suite_rows
-        from report.suite.files import generate
-        from report.suite.inputs import read_seeds, site_targets
+        from report.results.added_motions import add_suite, suite_rows
+        from report.suite.seed_records import read_seeds
+        from report.suite.site_target import site_targets
+        from report.suite.suite_files import generate
 
         sheet = read(workbook)
         targets, _ = site_targets(sheet)

@@ -20,7 +20,7 @@ from measure import SMOKE, figure, made_records
 from fixtures.campaigns import frozen, motion
 from peers import real_records
 from report.study.manifest import manifest_of
-from report.study.parts import begin, done_parts, peaks, read_part, run_missing
+from report.study.parquet_parts import begin, done_parts, peaks, read_part, run_missing
 from solver import read_record, sweep
 from solver.model import Motion
 from solver.studies.runs import Campaign, Runner, grid, run_part

@@ -20,7 +20,7 @@ from fixtures.errors import input_problems
 from fixtures.marks import by_day
 from fixtures.project_parts import FT
 from report.drawing_read.ballast import read_map
-from report.study.shaking import points_of
+from report.study.hazard_curve import points_of
 from report.suite.target_table import read_target
 from solver.formats.source import open_source
 

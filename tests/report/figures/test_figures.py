@@ -24,11 +24,11 @@ from report.figures import history
 from report.figures.history import STEP_IN, PanelScale, hodographs, path_of, thinned
 from report.figures.records import accelerations
 from report.figures.spectra import spectra as drawn_spectra
-from report.manual import figures as manual
+from report.manual import stability_maps as manual
 from report.manual import work_figures as work
 from report.pages.registry import draw_assessment, draw_plotted
 from report.project.model.choices import UnitsFirst
-from report.study import figures as study
+from report.study import study_charts as study
 from report.text.units import Quantity
 from solver.rivals.methods import METHODS
 from solver.studies.uncertainty import Bar

@@ -13,7 +13,7 @@ import pytest
 from fixtures import commands, pages
 from fixtures.paths import RECORDS
 from fixtures.verify_run import only
-from report.manual.measured import building, models
+from report.manual.measured_buildings import building, models
 from report.manual.precision import methods, work
 from report.manual.render import summary, verification_csv
 from report.text.formats import percent

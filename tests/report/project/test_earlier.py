@@ -17,8 +17,8 @@ from report.project.model import ProjectInput
 from report.project.read.read import read
 from report.project.workbook import SECTION, SECTIONS
 from report.project.write.overwritten import overwritten
-from report.study.read import read_study
-from report.study.schema import StudyInput
+from report.study.read_study import read_study
+from report.study.study_input import StudyInput
 
 EARLIER = DATA / "0.3.0"
 RECORDED = json.loads((EARLIER / "recorded.json").read_text())

@@ -17,8 +17,7 @@ from report.motions import files as motion_files
 from report.motions.prepare import prepare
 from report.project.read.documents import Document
 from report.project.read.read import read
-from report.provenance import files
-from report.provenance.files import (
+from report.provenance.package_sources import (
     MOST_RECORDS,
     attachments,
     environment,
@@ -94,7 +93,7 @@ def test_what_changed_meanwhile_is_an_input_error_and_changes_the_hash(job, tmp_
         (sheet, replace(shaking, records=(*swapped, *others))),
     ]
     hashes = [fingerprint(*pair) for pair in given]
-    monkeypatch.setattr(files, "version", lambda: "9.9")
+    monkeypatch.setattr("report.provenance.package_sources.version", lambda: "9.9")
     hashes.append(fingerprint(sheet, shaking))
     assert len(set(hashes)) == 5
     assert all(len(short) == 12 for short in hashes)
@@ -176,7 +175,7 @@ def test_records_are_kept_up_to_the_limit_and_hashed_beyond_it(job, monkeypatch)
     assert 0 < sum(map(len, sheet.book.records.values())) <= 300_000 < record_bytes(records)
     assert records == job[1].records
     sheet, shaking = job
-    monkeypatch.setattr(files, "MOST_RECORDS", 1_000_000)
+    monkeypatch.setattr("report.provenance.package_sources.MOST_RECORDS", 1_000_000)
     assert not holds_records(shaking.records)
     contents, listed = attached(sources(sheet, shaking))
     named = {document.path for document in sheet.documents}

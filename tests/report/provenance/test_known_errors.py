@@ -7,7 +7,7 @@ from packaging.version import Version
 
 from fixtures.paths import ROOT
 from report.provenance.known_errors import known_errors, touching
-from report.results.schema import schema
+from report.results.results_schema import schema
 
 pytestmark = pytest.mark.quick
 

@@ -7,8 +7,8 @@ from click.testing import CliRunner
 
 from fixtures import assessments
 from report.cli.main import main
-from report.results.model import Results
 from report.results.results_json import results_json
+from report.results.results_model import Results
 
 pytestmark = pytest.mark.quick
 

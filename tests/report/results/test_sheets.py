@@ -15,7 +15,7 @@ from fixtures.libreoffice import converted, recalculated
 from fixtures.marks import by_day
 from fixtures.workbooks import put, row_cells
 from report.assessment.support.spectra import spectra
-from report.provenance.files import fingerprint
+from report.provenance.package_sources import fingerprint
 from report.results.xlsx import results_xlsx
 from report.text.units import ratio
 

@@ -18,8 +18,8 @@ from report.assessment.design.verdict import Verdict
 from report.assessment.revision_changes import ChangeKind
 from report.pages.registry import package_data, parts
 from report.project.read.documents import Document
-from report.results.changes import MOST_CHANGES, changes, check_listed, with_reissue
 from report.results.results_json import AGAIN, former_from, read_former, results_json
+from report.results.revision_comparison import MOST_CHANGES, changes, check_listed, with_reissue
 from solver.model import InputError
 
 

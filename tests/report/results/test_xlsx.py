@@ -13,8 +13,15 @@ from fixtures.workbooks import formula_cells
 from report.assessment.checks.alike import alike
 from report.assessment.checks.sentence import found_and_limit
 from report.assessment.support.spectra import spectra
-from report.provenance.files import fingerprint
-from report.results.sheets import Pages, SheetColumn, SheetLayout, SheetRow, up_column, write_live
+from report.provenance.package_sources import fingerprint
+from report.results.sheet_columns import (
+    Pages,
+    SheetColumn,
+    SheetLayout,
+    SheetRow,
+    up_column,
+    write_live,
+)
 from report.results.xlsx import results_xlsx
 
 GOVERNING = "Governing array"

@@ -4,7 +4,7 @@ import pytest
 
 from fixtures.study_workbooks import command, small, write
 from report.study import outputs
-from report.study.run import planned, run_study
+from report.study.run_study import planned, run_study
 from report.typeset.pdf import lay_out
 
 

@@ -28,13 +28,13 @@ from fixtures.study_workbooks import (
     write,
 )
 from report.cli.main import main
-from report.study import figures
-from report.study.curves import compare
+from report.study import study_charts
+from report.study.design_curves import compare
 from report.study.exports import export_files
 from report.study.outputs import study_html
-from report.study.run import planned, run_study
-from report.study.schema import Intensity, NoValue, StudyArray, StudyBuilding
-from report.study.tables import curves_csv, study_xlsx
+from report.study.run_study import planned, run_study
+from report.study.study_input import Intensity, NoValue, StudyArray, StudyBuilding
+from report.study.study_tables import curves_csv, study_xlsx
 from report.study.wording import headline, sentence
 from report.text.units import Quantity
 
@@ -120,7 +120,7 @@ def test_a_sheet_is_drawn_where_cases_without_a_value_leave_a_contour_no_line():
     """Such as uplift on one slope: the end of a study whose runs are done."""
     design_m = np.array([[0.1, 0.2, 0.3], [np.nan] * 3, [3.0] * 3])
     inch, x = Quantity.DISPLACEMENT.us, np.arange(3.0)
-    drawn = figures.contours(x, x, design_m, design_m, inch, along="PPA [g]", allowed_m=1.0)
+    drawn = study_charts.contours(x, x, design_m, design_m, inch, along="PPA [g]", allowed_m=1.0)
     assert ">PPA [g]<" in drawn
 
 

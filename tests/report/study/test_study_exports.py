@@ -19,11 +19,11 @@ from fixtures.study_workbooks import (
     with_study,
     write,
 )
-from report.study.array_capacities import curves_of
+from report.study.capacity_runs import curves_of
 from report.study.exports import component_id, export_files, known_states
-from report.study.plan import FRICTION, SLOPE
-from report.study.run import estimate, planned, run_study
-from report.study.schema import Intensity, StudyArray
+from report.study.run_study import estimate, planned, run_study
+from report.study.study_input import Intensity, StudyArray
+from report.study.study_plan import FRICTION, SLOPE
 from report.study.wording import dispersions, exported, headline
 from solver.studies.capacity import capacities
 from solver.studies.fragility import UNKNOWN, Lognormal, fit_lognormal

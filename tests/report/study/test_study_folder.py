@@ -15,7 +15,7 @@ from fixtures.marks import by_day
 from fixtures.study_workbooks import command, sheet_rows, small, write
 from report.study.exports import export_files
 from report.study.outputs import make_study
-from report.study.run import planned, run_study
+from report.study.run_study import planned, run_study
 from report.study.user_key import KEY_BYTES, state_folder, user_key
 from report.study.wording import headline
 from solver.files import LOCK, locked

@@ -19,7 +19,7 @@ from fixtures.paths import ROOT, TESTS
 from fixtures.study_workbooks import command, write
 from report.study.cluster import connected, run_on_cluster
 from report.study.manifest import NAME, check_earlier, manifest_of
-from report.study.parts import (
+from report.study.parquet_parts import (
     begin,
     done_parts,
     finished,
@@ -246,7 +246,7 @@ sys.path.insert(0, {tests!r})
 from pathlib import Path
 from test_study_parts import KEY, NAMES, campaign
 from report.study.manifest import manifest_of
-from report.study.parts import begin, done_parts, run_missing
+from report.study.parquet_parts import begin, done_parts, run_missing
 c = campaign("xyz", 2)
 manifest = manifest_of(c, {{}})
 folder = Path({folder!r})

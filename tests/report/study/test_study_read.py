@@ -31,11 +31,12 @@ from report.project.model.choices import UnitsFirst
 from report.project.read.read import read
 from report.project.read.study_years import SUPPORTING, StudyYears
 from report.study import outputs
+from report.study.hazard_curve import points_of
 from report.study.manifest import manifest_of
 from report.study.outputs import study_files, study_html
-from report.study.read import read_study, write_study
-from report.study.run import planned, run_study
-from report.study.schema import (
+from report.study.read_study import read_study, write_study
+from report.study.run_study import planned, run_study
+from report.study.study_input import (
     Hazard,
     HazardPoint,
     Intensity,
@@ -47,7 +48,6 @@ from report.study.schema import (
     StudyMotion,
     values,
 )
-from report.study.shaking import points_of
 from report.study.years import RECURRENCES
 from report.typeset.pdf import lay_out
 from solver.friction_tests import Surface
@@ -218,10 +218,10 @@ def test_a_folder_of_motions_is_refused_at_its_cell(tmp_path, letters, change, w
 
 def test_too_many_samples_and_runs_are_refused_at_their_cell(tmp_path, monkeypatch):
     folder = write(tmp_path)
-    monkeypatch.setattr("report.study.shaking.MOST_SAMPLES", 1000)
+    monkeypatch.setattr("report.study.study_motions.MOST_SAMPLES", 1000)
     assert cell_address(f"{FOLDER}: the records have 1,200 samples") in problems(folder)
     monkeypatch.undo()
-    monkeypatch.setattr("report.study.plan.MOST_RUNS", 10)
+    monkeypatch.setattr("report.study.study_plan.MOST_RUNS", 10)
     assert cell_address("<Study/Intensities>: make") in problems(folder)
 
 

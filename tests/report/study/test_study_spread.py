@@ -21,13 +21,13 @@ from fixtures.study_workbooks import (
     write,
 )
 from report.study import outputs
-from report.study.array_capacities import spectral_spread
 from report.study.array_page import fragility as fragility_page
+from report.study.capacity_runs import spectral_spread
 from report.study.exports import export_files
-from report.study.plan import FRICTION, SLOPE, ArrayPlan
-from report.study.results import ArrayStudyResult
-from report.study.run import planned, run_study
-from report.study.schema import StudyArray
+from report.study.run_study import planned, run_study
+from report.study.study_input import StudyArray
+from report.study.study_plan import FRICTION, SLOPE, ArrayPlan
+from report.study.study_results import ArrayStudyResult
 from report.study.wording import headline, sentence
 from report.text.units import digits_down
 from solver.studies.fragility import Lognormal

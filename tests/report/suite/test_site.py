@@ -8,17 +8,18 @@ import numpy as np
 import pytest
 from openpyxl import Workbook, load_workbook
 
-import report.suite.files
+import report.suite.suite_files
 from fixtures import commands, records
 from fixtures.cells import address, cell
 from fixtures.marks import by_day
 from fixtures.packages import unlaid
 from fixtures.workbooks import cell_address, edit, make, type_into
 from report.project.read.read import read
-from report.results.motions import other_sources
+from report.results.added_motions import other_sources
 from report.results.publish import STAMP
-from report.suite.inputs import ac156_targets, site_targets
+from report.suite.site_target import site_targets
 from report.suite.target_table import MAX_ROWS, read_target
+from report.suite.targets import ac156_targets
 from solver.model import InputError
 from solver.rules.hazard import Tail
 
@@ -88,7 +89,7 @@ def test_what_the_workbook_lacks_or_has_out_of_range_or_beside_is_an_error_at_it
 def quick(monkeypatch):
     """Motions of sines at once."""
     monkeypatch.setattr(
-        report.suite.files, "make_suite", lambda *_, count, **__: records.suite(count)
+        report.suite.suite_files, "make_suite", lambda *_, count, **__: records.suite(count)
     )
 
 

@@ -14,8 +14,10 @@ from openpyxl import Workbook
 from fixtures import commands, records
 from fixtures.records import PEAK_G
 from report.results.publish import STAMP
-from report.suite.files import suite_files, suite_table
-from report.suite.inputs import ac156_targets, read_seeds
+from report.suite.seed_records import read_seeds
+from report.suite.suite_files import suite_files
+from report.suite.suite_table import suite_table
+from report.suite.targets import ac156_targets
 from report.text.units import G_MPS2
 from solver.formats import read_motion_file, read_record
 from solver.model import InputError

@@ -7,7 +7,7 @@ import zipfile
 
 import pytest
 
-import report.suite.files
+import report.suite.suite_files
 from fixtures import records
 from fixtures.browser import at_rest, called, cases, opened, quiet_page, served
 from fixtures.workbooks import cell_address, make, type_into
@@ -78,7 +78,7 @@ def test_motions_are_made_into_the_copy_and_its_zip(tmp_path, monkeypatch):
         progress("motion 1 of 7")
         return records.suite(count)
 
-    monkeypatch.setattr(report.suite.files, "make_suite", motions)
+    monkeypatch.setattr(report.suite.suite_files, "make_suite", motions)
     monkeypatch.setattr(worker, "tell", told.append)
     path, out = without_motions(tmp_path / "p"), tmp_path / "p" / "out"
     # As `report.web.processes` has it: the process has its temporary files beside the workbook.

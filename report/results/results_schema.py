@@ -18,7 +18,7 @@ from pydantic.json_schema import GenerateJsonSchema
 from report.project.model import ProjectInput
 from report.project.model.frozen import Frozen
 from report.project.workbook import SECTION, SECTIONS
-from report.results.model import Results
+from report.results.results_model import Results
 
 
 def schema() -> dict[str, Any]:

@@ -21,8 +21,8 @@ from report.project.model.place import Place
 from report.project.workbook import SECTIONS
 from report.project.workbook.entries import Entry
 from report.project.workbook.sections import SheetSection
-from report.results.model import ArrayResult, ClearanceResult, Compared, ResultModel
 from report.results.results_json import GIVE
+from report.results.results_model import ArrayResult, ClearanceResult, Compared, ResultModel
 from report.results.rows import compared
 from report.text.unit_format import UnitFormat
 from report.text.units import in_us_order, no_less, ratio

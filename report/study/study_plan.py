@@ -19,8 +19,9 @@ import numpy as np
 from report.project.model.finding import Finding
 from report.project.model.place import Place
 from report.project.read.unseen import warnings
-from report.study.read import StudySheet
-from report.study.schema import (
+from report.study.hazard_curve import hazard_curves
+from report.study.read_study import StudySheet
+from report.study.study_input import (
     MOST_CASES,
     MOST_RUNS,
     Intensity,
@@ -29,7 +30,7 @@ from report.study.schema import (
     StudyArray,
     StudyInput,
 )
-from report.study.shaking import StudyMotions, hazard_curves
+from report.study.study_motions import StudyMotions
 from solver.model import Floats, InputError
 from solver.rules.provisions import (
     RULE_SETS,

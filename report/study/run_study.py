@@ -9,11 +9,11 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from report.study.array_capacities import maximum_runs
+from report.study.capacity_runs import maximum_runs
 from report.study.cluster import connected, run_on_cluster
 from report.study.manifest import NAME, OWN_KEY, TRUST_PARTS, check_earlier, manifest_of
 from report.study.optional_packages import ARROW, optional_package
-from report.study.parts import (
+from report.study.parquet_parts import (
     BYTES_A_ROW,
     Done,
     begin,
@@ -22,10 +22,10 @@ from report.study.parts import (
     finished,
     run_missing,
 )
-from report.study.plan import StudyPlan, plan_study
-from report.study.read import read_study
-from report.study.results import StudyResults, results_of
-from report.study.shaking import study_motions
+from report.study.read_study import read_study
+from report.study.study_motions import study_motions
+from report.study.study_plan import StudyPlan, plan_study
+from report.study.study_results import StudyResults, results_of
 from report.study.user_key import user_key
 from report.text.counts import numbered
 from solver.files import write_all

@@ -16,10 +16,10 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from report.study.array_capacities import SHARES, SpectralSpread, array_capacities, spectral_spread
-from report.study.parts import Done, peaks, read_part
-from report.study.plan import ArrayPlan, StudyPlan
-from report.study.schema import NoValue
+from report.study.capacity_runs import SHARES, SpectralSpread, array_capacities, spectral_spread
+from report.study.parquet_parts import Done, peaks, read_part
+from report.study.study_input import NoValue
+from report.study.study_plan import ArrayPlan, StudyPlan
 from report.study.years import ArrayYears, years_of
 from report.text.units import G_MPS2, round_down, round_up
 from solver.model import Floats, InputError

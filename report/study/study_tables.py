@@ -15,9 +15,9 @@ import numpy as np
 
 from report.pages.marks import UNVERIFIED
 from report.project.read.study_years import SUPPORTING
-from report.results.sheets import text_workbook
-from report.study.plan import ArrayPlan
-from report.study.results import ArrayStudyResult, LimitState, StudyResults
+from report.results.sheet_columns import text_workbook
+from report.study.study_plan import ArrayPlan
+from report.study.study_results import ArrayStudyResult, LimitState, StudyResults
 from report.study.wording import (
     NAMES,
     dispersions,

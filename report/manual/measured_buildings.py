@@ -10,7 +10,7 @@ import numpy as np
 from report.document.columns import plain, text, words
 from report.document.tables import Column, Table, compared_with, listed
 from report.document.templates import Section, section
-from report.manual import figures
+from report.manual import stability_maps
 from report.text.counts import capitalized
 from report.text.formats import scientific, slug, ten_digits
 from report.text.units import G_MPS2, number
@@ -57,14 +57,14 @@ def building(verification: Verification) -> Section:
     return section(
         "manual/building",
         "Roof motion computed from ground motion",
-        SHOWN_S=figures.SHOWN_S,
-        computed=figures.computed,
+        SHOWN_S=stability_maps.SHOWN_S,
+        computed=stability_maps.computed,
         roofs=[
             (roof, name, _properties(roof), _bands(roof), _peaks(roof))
             for roof, name in zip(verification.roofs, names, strict=True)
         ],
         charts={
-            name: figures.comparison(roof)
+            name: stability_maps.comparison(roof)
             for roof, name in zip(verification.roofs, names, strict=True)
         },
     )

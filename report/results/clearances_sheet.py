@@ -14,8 +14,8 @@ from report.assessment.assessment import Assessment
 from report.assessment.design.clearances import ClearanceCheck, beside
 from report.assessment.design.rule_set import MEANING
 from report.assessment.design.verdict import Verdict
-from report.results.design import DESIGN, InputCells
-from report.results.sheets import (
+from report.results.design_sheet import DESIGN, InputCells
+from report.results.sheet_columns import (
     TOP,
     Pages,
     SheetColumn,

@@ -20,7 +20,7 @@ from report.document.columns import ColumnHead, centered, text, words
 from report.document.tables import Table, listed
 from report.document.templates import Section, section
 from report.pages.symbols import with_symbols
-from report.study import figures
+from report.study import study_charts
 from report.study.page_parts import (
     LOW_G,
     MOST_CUTS,
@@ -33,8 +33,14 @@ from report.study.page_parts import (
     length,
     some,
 )
-from report.study.results import FRICTION_DECIMALS, MEAN, SLOPE_DECIMALS, STATISTICS, StudyResults
-from report.study.tables import length_unit
+from report.study.study_results import (
+    FRICTION_DECIMALS,
+    MEAN,
+    SLOPE_DECIMALS,
+    STATISTICS,
+    StudyResults,
+)
+from report.study.study_tables import length_unit
 from report.study.wording import answer, level, on_building, shown
 from report.text.counts import capitalized
 from report.text.units import number, round_down
@@ -83,7 +89,7 @@ def _against_slope(results: StudyResults, building: int, m: int) -> str:
     study_input = results.plan.input
     shown = some(study_input.intensities, MOST_LINES)
     values, mean = _drawn(results, building)
-    return figures.curves(
+    return study_charts.curves(
         np.array(study_input.slopes_deg),
         [(level(results, study_input.intensities[x]), values[:, m, x]) for x in shown],
         length_unit(results),
@@ -102,7 +108,7 @@ def _sheets(results: StudyResults, building: int) -> Iterator[tuple[str, str, bo
         if len(x) < 2 or len(study_input.slopes_deg) < 2 or np.isnan(values[cut]).all():
             # One row or column has no contours.
             continue
-        svg = figures.contours(
+        svg = study_charts.contours(
             np.array(x),
             np.array(study_input.slopes_deg),
             values[cut],

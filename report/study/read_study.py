@@ -20,7 +20,7 @@ from report.project.read.locate_cell import is_absent
 from report.project.read.read import read_as
 from report.project.read.workbook_data import SheetOf
 from report.project.write.template import book_of, saved
-from report.study.schema import (
+from report.study.study_input import (
     MOST_CASES,
     MOST_VALUES,
     Intensity,

@@ -18,8 +18,8 @@ from report.assessment.design.routes import Route
 from report.assessment.design.rule_set import MEANING, OVERRIDDEN
 from report.assessment.design.verdict import Verdict, worst
 from report.project.model.choices import Direction, YesNo
-from report.results.lists import RUNS
-from report.results.sheets import (
+from report.results.list_sheets import RUNS
+from report.results.sheet_columns import (
     TOP,
     Cells,
     Pages,

@@ -20,7 +20,7 @@ from report.assessment.support.spectra import Spectra
 from report.motions.history import PreparedMotion
 from report.motions.prepare import Shaking
 from report.project.model.choices import Direction
-from report.results.sheets import (
+from report.results.sheet_columns import (
     LINE_PT,
     TOP,
     Cells,

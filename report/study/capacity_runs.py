@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from report.study.plan import ArrayPlan, Shift, StudyPlan
-from report.study.schema import NoValue
+from report.study.study_input import NoValue
+from report.study.study_plan import ArrayPlan, Shift, StudyPlan
 from solver.model import Floats, Motion
 from solver.records.acceptance import LEAST_RATIO, POINTS_HZ
 from solver.records.spectrum import response_spectrum

@@ -16,10 +16,10 @@ from report.assessment.causes import largest
 from report.assessment.checks.check import Check
 from report.assessment.checks.sentence import found_and_limit
 from report.assessment.design.verdict import Verdict, worst
-from report.provenance.files import fingerprint
-from report.results.clearances import GAPS, GapRow
-from report.results.design import DESIGN, DesignRow, any_of
-from report.results.sheets import LINE_PT, TOP, Cells, Pages, lines_of
+from report.provenance.package_sources import fingerprint
+from report.results.clearances_sheet import GAPS, GapRow
+from report.results.design_sheet import DESIGN, DesignRow, any_of
+from report.results.sheet_columns import LINE_PT, TOP, Cells, Pages, lines_of
 from report.text.units import ratio
 
 # What a cell holds: a text, a number, or a formula with its value.

@@ -31,7 +31,7 @@ from report.figures.base import (
     svg_text,
 )
 from report.project.read.study_years import ALWAYS
-from report.study.results import LimitState
+from report.study.study_results import LimitState
 from report.study.years import LIVES, RECURRENCES, ArrayYears
 from report.text.units import Quantity, Unit, digits_down, measured
 from solver.model import Floats
