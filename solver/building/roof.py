@@ -164,7 +164,7 @@ def at_roof(motion: Motion, building: Building, transverse: Building | None = No
     components = [motion.ax_mps2, motion.ay_mps2][: 1 + motion.has_transverse]
     buildings = [building, transverse or building][: len(components)]
     roof = shaking_to_roof(components, motion.az_mps2, motion.dt_s, buildings)
-    x, *y = (each.a_mps2 for each in roof.horizontal)
+    x, *y = (record.a_mps2 for record in roof.horizontal)
     return replace(
         motion,
         source=f"{motion.source} at the roof of: {building.words}".strip(),
@@ -197,15 +197,15 @@ def _cut(ground: Floats, dt_s: float, building: Building, share: float) -> _Cut:
     parts -= a[:, None]
     parts *= building.roof_factors
     peak = float(np.abs(a + parts.sum(axis=1)).max())
-    each = np.maximum(parts.max(axis=0), -parts.min(axis=0))
+    larger = np.maximum(parts.max(axis=0), -parts.min(axis=0))
     # Column n is the sum of all modes from n on. No column after the modes included is over the
     # limit.
-    rest = np.cumsum(parts[:, ::-1], axis=1, out=parts[:, ::-1])[:, ::-1]
-    left_out = np.append(np.maximum(rest.max(axis=0), -rest.min(axis=0)), 0.0)
+    remaining = np.cumsum(parts[:, ::-1], axis=1, out=parts[:, ::-1])[:, ::-1]
+    left_out = np.append(np.maximum(remaining.max(axis=0), -remaining.min(axis=0)), 0.0)
     over = np.flatnonzero(left_out > share * peak)
     n_modes = int(over[-1]) + 1 if over.size else 0
     per = 1.0 / peak if peak > 0.0 else 0.0
-    return _Cut(n_modes, read_only(each * per), float(left_out[n_modes]) * per)
+    return _Cut(n_modes, read_only(larger * per), float(left_out[n_modes]) * per)
 
 
 def _carried(ground: Floats, dt_s: float, building: Building, cut: _Cut, steps: int) -> RoofMotion:

@@ -144,10 +144,10 @@ def _weights(gamma: Floats, beta: Floats) -> tuple[Floats, Floats, Floats]:
     # The hyperbolic part of a shape is written with exponentials that decay from either end: the
     # difference of sinh and cosh would lose all digits for beta above 36.
     sine, cosine, sech = np.sin(gamma), np.cos(gamma), _sech(beta)
-    whole = beta**2 + gamma**2 * cosine * sech
-    eta = (gamma**2 * sine * sech + gamma * beta * np.tanh(beta)) / whole
-    rest = gamma**2 * sine - gamma * beta * np.exp(-beta) - gamma**3 * cosine / beta
-    high = rest / (whole * (1.0 + np.exp(-2.0 * beta)))
+    total = beta**2 + gamma**2 * cosine * sech
+    eta = (gamma**2 * sine * sech + gamma * beta * np.tanh(beta)) / total
+    remainder = gamma**2 * sine - gamma * beta * np.exp(-beta) - gamma**3 * cosine / beta
+    high = remainder / (total * (1.0 + np.exp(-2.0 * beta)))
     return eta, 0.5 * (eta + gamma / beta), high
 
 

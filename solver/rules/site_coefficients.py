@@ -72,13 +72,13 @@ def site_coefficient(table: CoefficientTable, site_class: str, mapped_g: float) 
     """Return a site coefficient, interpolated along a row; NaN where it is site-specific."""
     row, heads = table.rows[site_class], table.mapped_g
     # The first and last columns are "at most" and "at least" in the tables.
-    at = min(max(mapped_g, heads[0]), heads[-1])
-    left = bisect_right(heads, at) - 1
+    acceleration_g = min(max(mapped_g, heads[0]), heads[-1])
+    column = bisect_right(heads, acceleration_g) - 1
     # Not interpolated: NaN beside a tabled value must not spoil it.
-    if at == heads[left]:
-        return row[left]
-    share = (at - heads[left]) / (heads[left + 1] - heads[left])
-    return row[left] + share * (row[left + 1] - row[left])
+    if acceleration_g == heads[column]:
+        return row[column]
+    share = (acceleration_g - heads[column]) / (heads[column + 1] - heads[column])
+    return row[column] + share * (row[column + 1] - row[column])
 
 
 # S_1 [g] from which site class D needs a site-specific hazard analysis (ASCE 7-16 11.4.8).

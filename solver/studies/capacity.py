@@ -75,25 +75,25 @@ class Curve:
         In two axes with a limit it is that of some orientations, which tells whether the limit is
         exceeded: up to the first that exceeds it, and none that runs around keep below (`STEEPER`).
         """
-        wanted = intensity.tolist()
-        new = [x for x in wanted if x not in self.known]
+        intensities = intensity.tolist()
+        unknown = [x for x in intensities if x not in self.known]
         if math.isfinite(limit_m) and any(track.scene.ay_mps2.size for track in self.tracks):
-            decided = {x: self._decided(x, limit_m) for x in new}
-            return np.array([self.known.get(x, decided.get(x)) for x in wanted])
+            decided = {x: self._decided(x, limit_m) for x in unknown}
+            return np.array([self.known.get(x, decided.get(x)) for x in intensities])
         for track, by_intensity in self._alone:
-            self._run(track, by_intensity, new)
-        prd_m = np.array([[alone[x] for x in new] for _, alone in self._alone]).max(axis=0)
-        self.known.update(zip(new, prd_m.tolist(), strict=True))
-        return np.array([self.known[x] for x in wanted])
+            self._run(track, by_intensity, unknown)
+        prd_m = np.array([[alone[x] for x in unknown] for _, alone in self._alone]).max(axis=0)
+        self.known.update(zip(unknown, prd_m.tolist(), strict=True))
+        return np.array([self.known[x] for x in intensities])
 
     def _run(self, track: Track, by_intensity: dict[float, float], xs: Sequence[float]) -> None:
-        new = [x for x in xs if x not in by_intensity]
-        cases = grid(1, [self.slope_rad], [self.mu], new)
+        unknown = [x for x in xs if x not in by_intensity]
+        cases = grid(1, [self.slope_rad], [self.mu], unknown)
         rows = empty_rows((len(cases), 1))
         track.fill(cases, np.arange(len(cases)), rows, 0)
         final = rows.status == STATUSES.index(Status.OK)
         prd_m = np.where(final, rows.lengths[0], np.nan)[:, 0]
-        by_intensity.update(zip(new, prd_m.tolist(), strict=True))
+        by_intensity.update(zip(unknown, prd_m.tolist(), strict=True))
 
     def _decided(self, x: float, limit_m: float) -> float:
         largest_m = 0.0
@@ -255,14 +255,14 @@ def _may_exceed(x: Floats, prd_m: Floats, limit_m: float) -> Flags:
 def _may_exceed_at(x: float, known: dict[float, float], limit_m: float) -> bool:
     """Return whether the limit may be exceeded at an intensity beside those that are known."""
     xs = sorted(known)
-    at = bisect(xs, x)
-    if at in (0, len(xs)):
+    place = bisect(xs, x)
+    if place in (0, len(xs)):
         return True
     # The step, with one on each side.
-    start = max(at - 2, 0)
-    near = np.array(xs[start : at + 2])
-    prd_m = np.array([known[each] for each in near.tolist()])
-    return bool(_may_exceed(near, prd_m, limit_m)[at - 1 - start])
+    start = max(place - 2, 0)
+    near = np.array(xs[start : place + 2])
+    prd_m = np.array([known[level] for level in near.tolist()])
+    return bool(_may_exceed(near, prd_m, limit_m)[place - 1 - start])
 
 
 class _Scan:
@@ -273,20 +273,20 @@ class _Scan:
 
     def capacity(self, limit_m: float, is_censoring: bool) -> tuple[float, bool, float, bool]:
         """Return the fields of `Capacities` for a limit above 0."""
-        most = self._x.size + MOST_CLOSER
+        levels_allowed = self._x.size + MOST_CLOSER
         decisive_m = math.inf if is_censoring else limit_m
-        first = self._first_beyond(limit_m, decisive_m, most)
-        while (close := self._doubtful(first, limit_m)).size and self._x.size < most:
-            self._add(close[: most - self._x.size], decisive_m)
-            first = self._first_beyond(limit_m, decisive_m, most)
+        first = self._first_beyond(limit_m, decisive_m, levels_allowed)
+        while (close := self._doubtful(first, limit_m)).size and self._x.size < levels_allowed:
+            self._add(close[: levels_allowed - self._x.size], decisive_m)
+            first = self._first_beyond(limit_m, decisive_m, levels_allowed)
         lost = np.flatnonzero(np.isnan(self._prd_m)) if is_censoring else np.array([], dtype=int)
         end = int(lost[0]) - 1 if lost.size else self._x.size - 1
         is_censored = first > end
         falls = bool((self._prd_m[first:] <= limit_m).any())
-        at = end if is_censored else max(first - 1, 0)
+        last = end if is_censored else max(first - 1, 0)
         if close.size:
-            at = min(at, int(np.searchsorted(self._x, close[0])) - 1)
-        return float(self._x[at]), is_censored, float(self._x[end]), falls
+            last = min(last, int(np.searchsorted(self._x, close[0])) - 1)
+        return float(self._x[last]), is_censored, float(self._x[end]), falls
 
     def _first_beyond(self, limit_m: float, decisive_m: float, maximum: int) -> int:
         """Return the index of the first run beyond a limit, bisected; their number for none."""
@@ -308,6 +308,6 @@ class _Scan:
         return np.asarray(0.5 * (low + high)[may])
 
     def _add(self, intensity: Floats, decisive_m: float) -> None:
-        at = np.searchsorted(self._x, intensity)
-        self._x = np.insert(self._x, at, intensity)
-        self._prd_m = np.insert(self._prd_m, at, self._curve.prd_m(intensity, decisive_m))
+        places = np.searchsorted(self._x, intensity)
+        self._x = np.insert(self._x, places, intensity)
+        self._prd_m = np.insert(self._prd_m, places, self._curve.prd_m(intensity, decisive_m))

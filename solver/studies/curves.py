@@ -147,15 +147,15 @@ def fit_prd(
     slope_rad, mu, intensity, prd_m, r = (
         values[fits] for values in (slope_rad, mu, intensity, prd_m, r)
     )
-    terms, wanted = _terms(slope_rad, mu, intensity, r), np.log(prd_m)
-    coefficients, _, rank, _ = np.linalg.lstsq(terms, wanted, rcond=None)
+    terms, log_prd = _terms(slope_rad, mu, intensity, r), np.log(prd_m)
+    coefficients, _, rank, _ = np.linalg.lstsq(terms, log_prd, rcond=None)
     if rank < TERMS:
         raise InputError(
             "the cases do not determine a formula; give two or more slopes, friction "
             "coefficients and intensities"
         )
     coefficients = np.array([_to_digits(value) for value in coefficients])
-    off = wanted - terms @ coefficients
+    off = log_prd - terms @ coefficients
     values = {"slope_rad": slope_rad, "mu": mu, "intensity": intensity, "r": r, "prd_m": prd_m}
     return Fit(
         coefficients=tuple(coefficients.tolist()),

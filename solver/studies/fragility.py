@@ -193,7 +193,7 @@ def _drawn_ranges(capacities: Capacities, fitted: Lognormal, seed: int) -> tuple
     drawn = mean + fitted.beta * np.random.default_rng(seed).standard_normal((REPEATS, y.size))
     ends = np.log(capacities.end)
     is_beyond, drawn = drawn > ends, np.minimum(drawn, ends)
-    fits, own = fit_normals(drawn, is_beyond), fit_normals(y, flags)
+    fits, observed = fit_normals(drawn, is_beyond), fit_normals(y, flags)
     deviances = deviance(drawn, is_beyond, mean, fits)
     bound = float(np.nanquantile(deviances, CONFIDENCE))
     pivots = (np.log(fits.deviation) - math.log(fitted.beta)) / fits.of_log
@@ -201,14 +201,14 @@ def _drawn_ranges(capacities: Capacities, fitted: Lognormal, seed: int) -> tuple
 
     def end(step: float) -> float:
         def over(distance: float) -> float:
-            return float(deviance(y, flags, mean + distance, own)[0]) - bound
+            return float(deviance(y, flags, mean + distance, observed)[0]) - bound
 
         near, far = 0.0, step
         while over(far) <= 0.0:
             near, far = far, 2.0 * far
         return math.exp(mean + brentq(over, near, far))
 
-    of_mean, of_log = float(own.of_mean[0]), float(own.of_log[0])
+    of_mean, of_log = float(observed.of_mean[0]), float(observed.of_log[0])
     beta_range = fitted.beta * math.exp(-high * of_log), fitted.beta * math.exp(-low * of_log)
     return (end(-of_mean), end(of_mean)), beta_range
 

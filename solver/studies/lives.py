@@ -64,13 +64,13 @@ def run_levels(
     def run(case: tuple[float, tuple[Track, Floats]]) -> Floats:
         mu, (track, of_track) = case
         # Beyond its last level a track repeats it: each is run once.
-        once, at = np.unique(of_track, return_inverse=True)
+        once, inverse = np.unique(of_track, return_inverse=True)
         rows = np.full((once.size, len(RESPONSES)), math.nan)
         for row, x in zip(rows, once, strict=True):
             result = track.solve(np.array([slope_rad, mu, track.scene.scale * x])).result
             if result.status is Status.OK:
                 row[:] = [getattr(result, name) for name in RESPONSES]
-        return rows[at]
+        return rows[inverse]
 
     with ThreadPoolExecutor(THREADS) as pool:
         rows = list(pool.map(run, product(mus, zip(tracks, levels, strict=True))))
@@ -166,10 +166,10 @@ def distances(draws: Draws, responses: Responses, recenter_m: float) -> Floats:
     # Level -1 is beyond what is run: the kernel gives that life no distance.
     level, weight = np.full(draws.run.size, -1), np.zeros(draws.run.size)
     for run, levels in enumerate(responses.levels):
-        of = np.flatnonzero((draws.run == run) & (draws.intensity <= levels[-1]))
-        x = draws.intensity[of]
-        level[of] = low = np.maximum(np.searchsorted(levels, x) - 1, 0)
-        weight[of] = np.maximum((x - levels[low]) / (levels[low + 1] - levels[low]), 0.0)
+        events = np.flatnonzero((draws.run == run) & (draws.intensity <= levels[-1]))
+        x = draws.intensity[events]
+        level[events] = low = np.maximum(np.searchsorted(levels, x) - 1, 0)
+        weight[events] = np.maximum((x - levels[low]) / (levels[low + 1] - levels[low]), 0.0)
     out = np.empty((2, draws.friction.size))
     kernel.live(
         draws.first, draws.friction, draws.run, level, weight, draws.side, responses.values,

@@ -58,10 +58,10 @@ class Predictive:
         With the same mean and scatter, on the same surface: 0 if it is one already, inf if
         `MOST_RUNS` are too few.
         """
-        for more in range(MOST_RUNS + 1):
-            then = replace(self, runs=self.runs + more, freedom=self.freedom + more)
+        for further in range(MOST_RUNS + 1):
+            then = replace(self, runs=self.runs + further, freedom=self.freedom + further)
             if then.quantile(QUANTILES[0]) >= required_mu:
-                return more
+                return further
         return math.inf
 
 
@@ -91,10 +91,10 @@ def predictive(surfaces: Sequence[Series]) -> Predictive:
             ratio = among / (count - 1) / (squares / freedom)
             p_value = float(fdtrc(count - 1, freedom, ratio))
     # The surface of the least mean: nobody knows which of them a roof is like.
-    least = min(groups, key=lambda group: float(group.mean()))
+    lowest = min(groups, key=lambda group: float(group.mean()))
     distribution = Predictive(
-        mean=float(least.mean()),
-        runs=least.size,
+        mean=float(lowest.mean()),
+        runs=lowest.size,
         freedom=freedom,
         within=math.sqrt(squares / freedom),
         between=between,

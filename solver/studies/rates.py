@@ -63,8 +63,8 @@ class HazardCurve:
 
     def beyond(self, intensity: float) -> HazardCurve:
         """Return the curve of the events whose intensity, without its factor, is larger."""
-        at = math.log(intensity)
-        rate = math.exp(np.interp(at, np.log(self.intensity), np.log(self.rate)))
+        log_intensity = math.log(intensity)
+        rate = math.exp(np.interp(log_intensity, np.log(self.intensity), np.log(self.rate)))
         is_larger = self.intensity > intensity
         return HazardCurve(
             intensity=np.append(intensity, self.intensity[is_larger]),

@@ -203,9 +203,9 @@ class Track:
             for length, values in zip(rows.lengths, solved.lengths, strict=True):
                 length[chosen, column] = values
             rows.status[chosen, column], rows.model[chosen, column] = solved.status, solved.model
-        for at in odd:
-            place = int(chosen[at]), column
-            solution = self.solve(scenes[at])
+        for index in odd:
+            place = int(chosen[index]), column
+            solution = self.solve(scenes[index])
             rows.lengths[:, *place] = [getattr(solution.result, name) for name in LENGTHS]
             rows.status[place] = STATUSES.index(solution.result.status)
             rows.model[place] = solution.model
@@ -259,8 +259,8 @@ def _sweep(track: Track, scenes: Floats, az: Floats | None, z: Floats | None) ->
 
 def _by_slope(function: object, scenes: Floats) -> Floats:
     """Return a function of the slopes by the math library, as single runs evaluate it."""
-    slopes, at = np.unique(scenes[:, 0], return_inverse=True)
-    return np.array([function(slope) for slope in slopes.tolist()])[at]  # type: ignore[operator]
+    slopes, inverse = np.unique(scenes[:, 0], return_inverse=True)
+    return np.array([function(slope) for slope in slopes.tolist()])[inverse]  # type: ignore[operator]
 
 
 def _is_level_enough(
@@ -292,9 +292,9 @@ _NEAR = 1e-12
 def _demands(track: Track, scenes: Floats) -> Floats:
     """Return the friction demand of each scene."""
     if track.z is not None:
-        pairs, at = np.unique(scenes[:, [0, 2]], axis=0, return_inverse=True)
+        pairs, inverse = np.unique(scenes[:, [0, 2]], axis=0, return_inverse=True)
         exact = [demand_at(track, np.array([slope, 0.0, scale])) for slope, scale in pairs.tolist()]
-        return np.array(exact, dtype=np.float64)[at.ravel()]
+        return np.array(exact, dtype=np.float64)[inverse.ravel()]
     # Without a vertical record the demand is tan(theta - atan(a / g)), monotone in a, so that it is
     # largest at the least or greatest sample.
     sn, cs = _by_slope(math.sin, scenes), _by_slope(math.cos, scenes)

@@ -183,9 +183,9 @@ def study(
     >>> runs.minimum_friction(0.002).round(3)
     array([[0.256]])
     """
-    as_motions = [motion(each) if isinstance(each, Record) else each for each in motions]
+    as_motions = [motion(item) if isinstance(item, Record) else item for item in motions]
     problems = [] if as_motions else ["motions is empty; give one or more"]
-    if len({each.id for each in as_motions}) < len(as_motions):
+    if len({item.id for item in as_motions}) < len(as_motions):
         problems.append("two motions have one name; give solver.motion an id")
     axes = [
         axis("slopes_rad", slopes_rad, -math.pi / 2, math.pi / 2, problems),
@@ -200,7 +200,7 @@ def study(
     with ThreadPoolExecutor(THREADS) as pool:
         parts = list(pool.map(partial(run_part, Runner(campaign)), campaign.parts))
     shape = (*(values.size for values in axes), len(campaign.columns))
-    names = ((as_motions[number].id, each.name) for number, each in campaign.columns)
+    names = ((as_motions[number].id, item.name) for number, item in campaign.columns)
     return StudyRuns(
         motions=tuple(as_motions),
         slopes_rad=axes[0],

@@ -295,8 +295,8 @@ def _run_in_plane(
 ) -> Sweep:
     slopes, mus, scales = axes
 
-    def run(each: tuple[float, float, float]) -> SlideResult:
-        slope, mu, scale = map(float, each)
+    def run(case: tuple[float, float, float]) -> SlideResult:
+        slope, mu, scale = map(float, case)
         return two_axes.run(
             replace(scene, slope_rad=slope, friction=coulomb(mu), scale=factor * scale)
         )
@@ -311,8 +311,8 @@ def _run_in_plane(
         slopes_rad=slopes,
         mus=mus,
         scales=scales,
-        prd_m=np.array([each.prd_m for each in results]).reshape(shape),
-        residual_m=np.array([each.residual_m for each in results]).reshape(shape),
+        prd_m=np.array([case.prd_m for case in results]).reshape(shape),
+        residual_m=np.array([case.residual_m for case in results]).reshape(shape),
         status=np.array([STATUSES.index(r.status) for r in results], np.uint8).reshape(shape),
     )
 

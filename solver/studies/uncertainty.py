@@ -135,9 +135,9 @@ def one_at_a_time(spreads: Mapping[str, Spread]) -> tuple[tuple[float, ...], ...
     """Return the cases of a tornado chart: all centers, then low and high of each variable."""
     centers = tuple(spread.center for spread in spreads.values())
     cases = [centers]
-    for at, spread in enumerate(spreads.values()):
+    for index, spread in enumerate(spreads.values()):
         for chance in (LOW, HIGH):
-            cases.append((*centers[:at], spread.quantile(chance), *centers[at + 1 :]))
+            cases.append((*centers[:index], spread.quantile(chance), *centers[index + 1 :]))
     return tuple(cases)
 
 
@@ -151,10 +151,10 @@ def tornado(spreads: Mapping[str, Spread], means_m: Floats) -> tuple[Bar, ...]:
             name=name,
             at_low=spread.quantile(LOW),
             at_high=spread.quantile(HIGH),
-            prd_low_m=float(means_m[1 + 2 * at]),
-            prd_high_m=float(means_m[2 + 2 * at]),
+            prd_low_m=float(means_m[1 + 2 * index]),
+            prd_high_m=float(means_m[2 + 2 * index]),
         )
-        for at, (name, spread) in enumerate(spreads.items())
+        for index, (name, spread) in enumerate(spreads.items())
         if not spread.is_fixed
     ]
     return tuple(sorted(bars, key=lambda bar: -bar.width_m))

@@ -230,9 +230,11 @@ def _calmed(frame: MatchingFrame, a: Floats) -> Floats:
 
 def _peaks(frame: MatchingFrame, a: Floats) -> tuple[Floats, _Samples]:
     """Peak pseudo-accelerations [m/s2] with their signs, and the samples at which they occur."""
-    peak, at = np.empty(len(frame.freq_hz)), np.empty(len(frame.freq_hz), dtype=np.int64)
-    oscillator.peaks(read_only(a), frame.dt_s, 2.0 * math.pi * frame.freq_hz, DAMPING, peak, at)
-    return peak, at
+    peak, samples = np.empty(len(frame.freq_hz)), np.empty(len(frame.freq_hz), dtype=np.int64)
+    oscillator.peaks(
+        read_only(a), frame.dt_s, 2.0 * math.pi * frame.freq_hz, DAMPING, peak, samples
+    )
+    return peak, samples
 
 
 def matched(frame: MatchingFrame, a: Floats) -> Floats:
@@ -242,14 +244,14 @@ def matched(frame: MatchingFrame, a: Floats) -> Floats:
     """
     between = replace(frame, freq_hz=band(_LOOKED_AT, float(frame.freq_hz[0])))
     goal = _goal_mps2(between)
-    best, least = a, math.inf
+    best, smallest = a, math.inf
     for count in range(1, _CORRECTIONS + 1):
         a = _corrected(frame, a)
         if count >= _FIRST and count % _EVERY == 0:
             ratio = np.abs(_peaks(between, a)[0]) / goal
             excess = float(ratio.mean() / ratio.min())
-            if excess < least:
-                best, least = a, excess
+            if excess < smallest:
+                best, smallest = a, excess
             if excess <= _CLOSE:
                 break
             # The rigid oscillator stays last.
@@ -294,7 +296,7 @@ class _Rows(NamedTuple):
 def _asked(frame: MatchingFrame, a: Floats) -> _Rows:
     """Return the peaks of all oscillators, and the highest other crests beyond the interval."""
     goal, omega = _goal_mps2(frame), 2.0 * math.pi * frame.freq_hz
-    peak, at = _peaks(frame, a)
+    peak, samples = _peaks(frame, a)
     ratio = np.abs(peak) / goal
     moves = np.where(ratio < _LEAST, _AIM - ratio, np.minimum(_MOST - ratio, 0.0))
     some = np.flatnonzero(frame.freq_hz > _CRESTS_HZ)[::-_CRESTS_OF_EVERY]
@@ -304,16 +306,16 @@ def _asked(frame: MatchingFrame, a: Floats) -> _Rows:
     which = some[which]
     beyond = np.abs(values) / goal[which] - _MOST
     # A peak is at the end of its step.
-    beyond[np.abs(where - at[which]) <= 1] = 0.0
-    most = np.argsort(-beyond, kind="stable")[:_CRESTS]
-    most = most[beyond[most] > 0.0]
-    every = np.append(np.arange(len(goal)), which[most])
-    is_outside = np.append((ratio < _LEAST) | (ratio > _MOST), np.full(len(most), True))
+    beyond[np.abs(where - samples[which]) <= 1] = 0.0
+    farthest = np.argsort(-beyond, kind="stable")[:_CRESTS]
+    farthest = farthest[beyond[farthest] > 0.0]
+    every = np.append(np.arange(len(goal)), which[farthest])
+    is_outside = np.append((ratio < _LEAST) | (ratio > _MOST), np.full(len(farthest), True))
     return _Rows(
         radians=omega[every] * frame.dt_s,
         goal=goal[every],
-        at=np.append(at, where[most]),
-        moves=np.append(np.sign(peak) * moves, -np.sign(values[most]) * beyond[most]),
+        at=np.append(samples, where[farthest]),
+        moves=np.append(np.sign(peak) * moves, -np.sign(values[farthest]) * beyond[farthest]),
         ridge=np.where(is_outside, _RIDGE_OUTSIDE, _RIDGE_INSIDE),
     )
 

@@ -325,7 +325,7 @@ def synthesize(
         a = matched(frame, shaped(frame, start))
         a = rounded(a * _ABOVE / _lowest(frame, a))
         record = Record(name=name, dt_s=frame.dt_s, a_mps2=a)
-        alike = any(abs(correlation(record, other)) > MOST_CORRELATION for other in unlike)
+        alike = any(abs(correlation(record, earlier)) > MOST_CORRELATION for earlier in unlike)
         is_strong = strength(record).d5_95_s >= HOLD_SHARE * duration_s
         fit = _fit(frame, a)
         if keeps(fit) and is_strong and not alike:
@@ -366,8 +366,10 @@ def _check_records(records: Sequence[Sequence[Record]], dt_s: float, duration_s:
     for record in chain.from_iterable(records):
         found_s = record.dt_s * (len(record.a_mps2) - 1)
         if found_s < _SHORTEST_SHARE * duration_s:
-            least = f"{_SHORTEST_SHARE * duration_s:g} s"
-            problems.append(f"{record.name}: lasts {found_s:g} s; give a seed of at least {least}")
+            shortest = f"{_SHORTEST_SHARE * duration_s:g} s"
+            problems.append(
+                f"{record.name}: lasts {found_s:g} s; give a seed of at least {shortest}"
+            )
         elif not strongest(record, dt_s, n).any():
             problems.append(f"{record.name}: is constant; give another record as a seed")
     if problems:

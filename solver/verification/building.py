@@ -89,8 +89,8 @@ def identify(
     steps = int(np.log(periods_s[1] / periods_s[0]) / _PERIOD_STEP) + 2
     grid = product(np.log(np.geomspace(*periods_s, steps)), np.log(DAMPINGS), np.log1p(ALPHAS))
     # The grid first: a descent alone ends in the nearest of several minima.
-    least, best = _descend(misfit, *best_of(misfit, grid))
-    return Identified(*_plain(best), least)
+    smallest, best = _descend(misfit, *best_of(misfit, grid))
+    return Identified(*_plain(best), smallest)
 
 
 def _plain(point: _Point) -> _Point:

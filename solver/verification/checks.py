@@ -49,9 +49,9 @@ def slip_checks(
         yield Verified(id, source, quantity, "m", problem, known, value, tolerance, expected.prd_m)
 
 
-def trapezoid(peak: float, plateau: int, rest: int) -> Floats:
+def trapezoid(peak: float, plateau: int, still: int) -> Floats:
     """Return a pulse: zero, `plateau` intervals at the peak between ramps, `rest` intervals."""
-    return np.concatenate([[0.0], np.full(plateau + 1, peak), np.zeros(rest + 1)])
+    return np.concatenate([[0.0], np.full(plateau + 1, peak), np.zeros(still + 1)])
 
 
 def closed_forms() -> Iterator[Verified]:
@@ -158,14 +158,14 @@ def _yield_accelerations() -> Iterator[Verified]:
 
 def _limit_by_bisection(slope: float, mu: float, limit: float) -> float:
     """Return the least acceleration that moves the block; bisects from 0 to twice `limit`."""
-    least, most = 0.0, 2.0 * limit
+    low, high = 0.0, 2.0 * limit
     # Halved 45 times: to 3e-14 of the limit, below the tolerance of 1e-9.
     for _ in range(45):
-        middle = 0.5 * (least + most)
+        middle = 0.5 * (low + high)
         ax = np.array([0.0, middle, 0.0])
         moves = slide(ax, 0.5, slope_rad=slope, mu=mu, g_mps2=G).n_stops > 0
-        least, most = (least, middle) if moves else (middle, most)
-    return 0.5 * (least + most)
+        low, high = (low, middle) if moves else (middle, high)
+    return 0.5 * (low + high)
 
 
 def _self_locking() -> Verified:
@@ -204,11 +204,11 @@ def physical_checks(record: Record) -> Iterator[Verified]:
 def _critical_friction() -> Iterator[Verified]:
     slope, time_s = math.radians(0.5), 5.0
     source = "Paper, Physical Checks (4): slides at 0.999 tan(theta), no slip at 1.000 tan(theta)"
-    less, just = 0.999 * math.tan(slope), math.tan(slope)
-    travel_m = reference.free_slide_travel(slope, less, time_s, G) * math.cos(slope)
+    below, just = 0.999 * math.tan(slope), math.tan(slope)
+    travel_m = reference.free_slide_travel(slope, below, time_s, G) * math.cos(slope)
     for factor, mu, expected, tolerance in (
         # sin - mu cos cancels to a thousandth of sin, which costs three digits.
-        (0.999, less, travel_m, 1e-11),
+        (0.999, below, travel_m, 1e-11),
         (1.0, just, 0.0, ROUNDING),
     ):
         result = slide(np.zeros(501), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
@@ -278,10 +278,10 @@ def rival_errors(kinds: Mapping[str, Sequence[KnownBlock]]) -> pd.DataFrame:
     rows = []
     for method in runnable_methods():
         for kind, blocks in kinds.items():
-            for _, given, exact in blocks:
-                if given["az_mps2"] is None or method.takes_vertical:
-                    found = slide(**given, method=method.name)
-                    off = abs(found.prd_m - exact.prd_m), abs(found.residual_m - exact.residual_m)
+            for _, arguments, exact in blocks:
+                if arguments["az_mps2"] is None or method.takes_vertical:
+                    result = slide(**arguments, method=method.name)
+                    off = abs(result.prd_m - exact.prd_m), abs(result.residual_m - exact.residual_m)
                     error = float(percent_of(np.max(off), exact.prd_m))
                     rows.append({"method": method.name, "motions": kind, "error [%]": error})
     return pd.DataFrame(rows)
@@ -294,7 +294,7 @@ def claims(errors: pd.DataFrame) -> Iterator[Verified]:
     runnable = runnable_methods()
     for method in METHODS.values():
         for kind in (RANDOM, ROOF) if method.invalid_when.startswith("Never") else ():
-            own = errors.loc[(errors["method"] == method.name) & (errors["motions"] == kind)]
-            largest = 0.01 * own["error [%]"].max(skipna=False)
+            own_errors = errors.loc[(errors["method"] == method.name) & (errors["motions"] == kind)]
+            largest = 0.01 * own_errors["error [%]"].max(skipna=False)
             name, is_run = f"{method.title}: {kind}", method in runnable
             yield row(name, 0.0, largest if is_run else math.nan, is_run=is_run)

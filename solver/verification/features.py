@@ -109,12 +109,12 @@ def statuses(checks: Sequence[Verified]) -> tuple[FeatureStatus, ...]:
 
 def _status(feature: Feature, checks: Sequence[Verified]) -> FeatureStatus:
     ran = {row.id for row in checks}
-    wanted = (*feature.checks, *(id for id in feature.extra if id in ran))
-    rows = [row for row in checks if row.id in wanted]
+    required = (*feature.checks, *(id for id in feature.extra if id in ran))
+    rows = [row for row in checks if row.id in required]
     return FeatureStatus(
         feature=feature,
-        ids=tuple(id for id in wanted if id in ran),
+        ids=tuple(id for id in required if id in ran),
         n_checks=len(rows),
         n_passed=sum(row.passed for row in rows),
-        missing=tuple(id for id in wanted if id not in ran),
+        missing=tuple(id for id in required if id not in ran),
     )

@@ -53,8 +53,8 @@ def model_checks(triples: Sequence[Motion], *, quick: bool) -> Iterator[Verified
 
     Motions whose vertical component lifts the block in one of `MODEL_CASES` are excluded.
     """
-    kept = [triple for triple in triples if stays(triple)]
-    for triple in kept:
+    chosen = [triple for triple in triples if stays(triple)]
+    for triple in chosen:
         yield from _one_axis(triple)
         yield from _turned(triple)
         yield _in_proportion(triple)
@@ -64,10 +64,10 @@ def model_checks(triples: Sequence[Motion], *, quick: bool) -> Iterator[Verified
         yield _left_out(triple, quick=quick)
     yield from _circle()
     yield from _stop()
-    yield from _choices(kept[0])
+    yield from _choices(chosen[0])
     yield from _random_pairs(quick=quick)
-    recorded = [triple for triple in kept if triple.source == RECORDED]
-    for triple in [kept[0], *recorded][: 1 if quick else 3]:
+    recorded = [triple for triple in chosen if triple.source == RECORDED]
+    for triple in [chosen[0], *recorded][: 1 if quick else 3]:
         yield from _against_scipy(triple, REFERENCE_SAMPLES[not quick])
 
 
@@ -230,8 +230,8 @@ def _left_out(triple: Motion, *, quick: bool) -> Verified:
             scene = faded(full, share)
             choice = model_selection.solve(scene)
             change = abs(two_axes.run(scene, TIGHT).prd_m - choice.result.prd_m)
-            said = 0.0 if choice.model is Model.TWO_AXES else choice.next_effect_m
-            over += not change <= said + choice.result.error_m
+            stated_m = 0.0 if choice.model is Model.TWO_AXES else choice.next_effect_m
+            over += not change <= stated_m + choice.result.error_m
             count += 1
     name = f"Effect of the neglected component: {triple.id}, {count} cases"
     source = "Two axes with vertical, second component times 0.3, 0.1, 0.03, 0.01 and 0.003"
@@ -264,14 +264,14 @@ def _choices(triple: Motion) -> Iterator[Verified]:
     law = Friction(mu_slow=0.3, mu_fast=0.4, rate_s_per_m=30.0, mu_static=0.3)
     faint = faded(full, 1e-4)
     level = replace(faint, az_mps2=read_only(1e-5 * full.az_mps2))
-    for what, scene, model in (
+    for claim, scene, model in (
         ("Friction above the demand", replace(full, friction=coulomb(1.001 * peak)), Model.NO_SLIP),
         ("Second and vertical components negligible", level, Model.ONE_AXIS),
         ("Second component negligible", faint, Model.ONE_AXIS_VERTICAL),
         ("Three components", full, Model.TWO_AXES),
         ("Velocity-dependent friction", replace(full, friction=law), Model.SPEED_FRICTION),
     ):
-        name = f"{what}: {triple.id}, {case.slope_deg:g}°, PPA = {case.ppa_g:g} g"
+        name = f"{claim}: {triple.id}, {case.slope_deg:g}°, PPA = {case.ppa_g:g} g"
         chosen = float(model_selection.solve(scene, Settings()).model)
         yield Verified("TA-12", source, "Model chosen", "1", name, float(model), chosen, 0.0)
 

@@ -293,9 +293,9 @@ def _at_tan_slope(rng: Random) -> Pair:
 
 
 def _light(rng: Random) -> Pair:
-    least = float(rng.choice((0.0, 0.0, 1e-15, 1e-9, 1e-6, 1e-3)))
+    smallest_g = float(rng.choice((0.0, 0.0, 1e-15, 1e-9, 1e-6, 1e-3)))
     law = _by_speed(rng) if rng.random() < 0.2 else coulomb
-    return _either(rng, _scene(rng, minimum_normal_g=least, law=law))
+    return _either(rng, _scene(rng, minimum_normal_g=smallest_g, law=law))
 
 
 KINDS: dict[str, Callable[[Random], Pair]] = {

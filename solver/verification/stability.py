@@ -88,13 +88,13 @@ def near_rest_maps(record: Record, name: str, *, quick: bool) -> Iterator[Stabil
     )
     at_slopes = [Case(slope_deg, CRITICAL_MU, PPA_G) for slope_deg in slopes.tolist()]
     at_mus = [Case(SLOPE_DEG, mu, PPA_G) for mu in mus.tolist()]
-    for what, label, x, limit, cases, note in (
+    for quantity, label, x, limit, cases, note in (
         ("slope", "Slope [deg]", slopes, SLOPE_DEG, at_slopes, still),
         ("friction", "Friction coefficient", mus, CRITICAL_MU, at_mus, loose),
     ):
         cells = [[[(case, {"substeps": count})] for case in cases] for count in substeps.tolist()]
         yield StabilityMap(
-            title=f"{METHODS[name].title}: sub-step against {what}",
+            title=f"{METHODS[name].title}: sub-step against {quantity}",
             note=f"{record.name}. {note}",
             x_label=label,
             x=x,

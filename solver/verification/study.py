@@ -256,9 +256,9 @@ def flat_scene(ax_mps2: Floats, ay_mps2: Floats, dt_s: float, friction: Friction
 
 def samples_of(scene: Scene) -> Floats:
     """Return downslope G, cross-slope G and mu N at the samples, shape (n, 3) [m/s2]."""
-    on = forces(scene)
-    cap = scene.friction.mu_slow * on.normal_mps2
-    return np.column_stack([on.down_mps2, on.across_mps2, cap])
+    forces_on = forces(scene)
+    cap = scene.friction.mu_slow * forces_on.normal_mps2
+    return np.column_stack([forces_on.down_mps2, forces_on.across_mps2, cap])
 
 
 def faded(scene: Scene, share: float) -> Scene:
