@@ -1,5 +1,7 @@
 """Curves and areas of a drawing as closed lines: arcs become chords, open lines are joined.
 
+A quarter of a circle of 1 m becomes 11 chords within 3 mm of it.
+
 Points are in world coordinates and the unit of the drawing; heights are dropped.
 """
 

@@ -1,5 +1,7 @@
 """How a plan as a whole has moved between a workbook and a drawing: shift, turn, factor, mirror.
 
+A plan in inches of which the workbook has feet is twelve times as large, and turned by nothing.
+
 Knows no cells (`report.drawing_read.fill`). Read `whole_move` first. Points are complex.
 """
 

@@ -1,5 +1,7 @@
 """Which row of a workbook each outline of a drawing is: by its name, else by its place.
 
+An outline without a name that covers most of the former place of A2 is A2.
+
 Reads no drawing and changes no cell (`report.drawing_read.fill`). Read `matched` first.
 """
 

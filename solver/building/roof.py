@@ -1,5 +1,7 @@
 """From ground to roof: the roof motion of an elastic building of a few modes.
 
+A rigid building moves its roof as its ground; a soft one swings at its own period.
+
 Computes the roof motion; `solver.building.structure` defines the building. Slides no blocks.
 Read `to_roof` first, then `shaking_to_roof` for all components of a motion.
 """

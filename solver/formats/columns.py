@@ -1,5 +1,7 @@
 """What the columns of a table show by their numbers, whatever their headings say.
 
+`1 2 3` counts lines, `0.00 0.01 0.02` are times, and `0.1 -0.2 0.1` is a record.
+
 One look for all readers and messages; knows no heading and no format. Read `rising`.
 """
 

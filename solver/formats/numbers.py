@@ -1,5 +1,7 @@
 """Numbers in lines of text: in columns of fixed width, as written by Fortran, or free format.
 
+`-.1234E-02-.5678E+01` are two numbers of ten columns: a sign fills the field of the second.
+
 Reports errors in numbers, counts and the end of a file; knows no file format. Read `fixed_values`
 first.
 """

@@ -1,5 +1,7 @@
 """What text states of numbers: the heading of a column, or a line above or among them.
 
+`EW [cm/s2]` heads an acceleration in cm/s2, and `dt = 5 ms` states a step of 0.005 s.
+
 One vocabulary for all readers: quantity, units, step or rate, and count; knows no format. Read
 `parse` of one heading, then `units_in` and `step_in` of a line.
 """

@@ -1,5 +1,7 @@
 """Columns of times: evenly spaced times give the step; with uneven times the record is resampled.
 
+`0.00 0.01 0.02` has a step of 0.01 s; `0.00 0.01 0.03` is resampled; `0.0 0.0 0.0 0.1` is rounded.
+
 Decides what counts as even. Changes nothing if times are even within the digits printed. Read
 `sampled` first.
 """

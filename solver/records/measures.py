@@ -1,5 +1,8 @@
 """Measures of a record: peaks, drift, Arias intensity and significant duration, exactly.
 
+An acceleration of 1 m/s2 held for 1 s has an Arias intensity of pi / (2 g) = 0.16 m/s, and ends
+with a velocity of 1 m/s.
+
 Changes no record (`solver.records.processing` does) and computes no spectra
 (`solver.records.spectrum` does). Read `measures` first.
 """

@@ -1,5 +1,8 @@
 """Response spectra of records, and the factor that scales a motion to a target spectrum.
 
+Far above the frequencies of a record the ordinate is its peak: a stiff oscillator moves as the
+roof.
+
 Reads no files. Read `response_spectrum`, then `factor_to_target`.
 """
 

@@ -1,5 +1,8 @@
 """The formulas of the code rules, in SI, with the numbers of a rule set.
 
+The prescriptive displacement of PV1-2012 at S_DS = 1.0 and I = 1.0 is 60 in (1.0 - 0.4)^2 =
+21.6 in.
+
 Independent of motions and solvers. The numbers with their clauses are in `solver.rules.rulesets`.
 """
 

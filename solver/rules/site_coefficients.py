@@ -1,5 +1,7 @@
 """The site coefficients F_a and F_v of ASCE 7-16, Tables 11.4-1 and 11.4-2, by site class.
 
+Site class D has F_a = 1.4 at S_S = 0.5, and 1.3 at 0.625, halfway to the next column.
+
 ASCE 7-22 has none. A package uses the coefficients that its workbook gives; the workbook shows
 these beside them. Read `site_coefficient`, then `site_specific_reason`.
 """

@@ -1,5 +1,7 @@
 """Models 1 and 2: one block along the slope, by the exact method or another one.
 
+Samples of 0, 4, -4, 0 m/s2 at 0.1 s move a block with mu = 0.2 on a flat roof 4.9 mm, in two slips.
+
 Checks no input (`solver.sliding.arguments`) and computes no physics (`solver.kernels.one_axis`,
 `solver.sliding.method`). Read `run` first.
 """

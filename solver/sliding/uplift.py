@@ -1,5 +1,7 @@
 """Checks independent of the model: uplift of a block, and tipping about an edge of its supports.
 
+A block 2 m wide with its center of gravity 0.5 m high tips at a shear of twice its normal force.
+
 Integrates no motion; with uplift no displacement is given. Read `uplift`, then `tipping`.
 """
 

@@ -1,5 +1,7 @@
 """The capacity of each motion: the lowest intensity at which its PRD exceeds a limit.
 
+A motion of 0.1 m at 0.2 g and of 0.6 m at 0.4 g exceeds a limit of 0.3 m from somewhere between on.
+
 Found by runs of its own, as those of a study, not read off the levels of a study. Fits
 nothing (`fragility` does). Read `capacities`.
 """

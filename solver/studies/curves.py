@@ -1,5 +1,7 @@
 """Design curves: statistics of the PRD over motions, and values read off the curves.
 
+Peaks of 0.1, 0.2 and 0.3 m have a mean of 0.2 m, and a design curve of 0.22 m at 1.1 times it.
+
 A PRD that is NaN is a run without a value (uplift, or sliding at the end of the record): it counts
 as larger than any limit and is never left out. Runs nothing. Read `statistics` first.
 

@@ -1,5 +1,7 @@
 """What a roof sees in its life: events by Poisson, whose displacements accumulate.
 
+Two events of 0.3 m downslope leave an array 0.6 m away, unless it is put back between them.
+
 The responses are runs of their own, as those of a study. Read `draw`, then `distances`.
 """
 

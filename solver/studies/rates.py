@@ -1,5 +1,7 @@
 """Annual rates of displacement from a hazard curve and runs at many intensities.
 
+A limit that every motion exceeds from 0.3 g on has the rate at which 0.3 g is exceeded.
+
 Runs nothing. Read `HazardCurve`, then `contributions`.
 """
 
