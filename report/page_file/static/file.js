@@ -58,6 +58,7 @@ async function watch(api) {
 }
 
 async function begin() {
+  line.textContent = "All runs are being computed again …";
   const api = createApi(announce, data);
   try {
     await api.state();
