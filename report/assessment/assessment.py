@@ -30,7 +30,7 @@ from report.project.model.array import Array
 from report.project.model.roof import RoofObject
 from report.project.read.workbook_data import Sheet
 from report.runs import Runs, scene_key
-from report.text.counts import grouped_by
+from report.text.grouping import grouped_by
 from report.text.units import nan_is_worst
 from solver.records.acceptance import Acceptance
 from solver.rules.provisions import RuleSet

@@ -12,7 +12,8 @@ from report.assessment.checks.alike import alike
 from report.assessment.checks.check import MOTIONS_ID, Check, by_ratio
 from report.assessment.checks.sentence import words
 from report.assessment.design.verdict import Verdict
-from report.text.counts import grouped_by, numbered
+from report.text.counts import numbered
+from report.text.grouping import grouped_by
 from report.text.units import nan_is_worst
 
 if TYPE_CHECKING:

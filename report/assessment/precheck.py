@@ -35,7 +35,8 @@ from report.project.model.finding import Finding, limit, note
 from report.project.model.place import Place
 from report.project.read.unseen import warnings
 from report.project.read.workbook_data import Sheet
-from report.text.counts import numbered, quoted
+from report.text.command_line import quoted
+from report.text.counts import numbered
 from report.text.units import Quantity, no_less, no_more, pair
 from solver.records.acceptance import POINTS_HZ
 from solver.records.block_spectra import together

@@ -18,7 +18,8 @@ from report.assessment.design.friction import at_low_velocity, mus_words, with_l
 from report.assessment.design.rule_set import as_adopted, under_code
 from report.assessment.design.verdict import Verdict
 from report.project.model import ProjectInput
-from report.text.counts import capitalized, ranged
+from report.text.letter_case import capitalized
+from report.text.names import ranged
 from report.text.units import Quantity, nan_is_worst, no_less, pair
 
 if TYPE_CHECKING:

@@ -22,7 +22,8 @@ import click
 from report.cli.exit_codes import INPUT_ERROR
 from report.cli.terminal import plain, print_json
 from report.results.publish import OUTPUTS
-from report.text.counts import as_typed, numbered
+from report.text.command_line import as_typed
+from report.text.counts import numbered
 from solver.model import InputError, Problem
 
 SCHEMA_VERSION = 1

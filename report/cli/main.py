@@ -26,7 +26,7 @@ from report.cli.streams import (
 )
 from report.cli.terminal import color_choice, plain
 from report.libraries import stay_apart
-from report.text.counts import called
+from report.text.command_line import called
 
 
 class _Commands(LazyGroup):

@@ -26,7 +26,8 @@ from report.suite.targets import (
     ac156_targets,
     table_targets,
 )
-from report.text.counts import called, numbered
+from report.text.command_line import called
+from report.text.counts import numbered
 from solver.model import InputError
 from solver.rules.hazard import Tail
 

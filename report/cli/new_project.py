@@ -12,7 +12,7 @@ from report.cli.input_errors import input_errors
 from report.project.model.choices import UnitsFirst
 from report.project.write.example import example_files
 from report.project.write.template import write_template
-from report.text.counts import command
+from report.text.command_line import command
 from solver.files import add_folder, check_plain, write_all
 from solver.model import InputError
 

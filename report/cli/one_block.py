@@ -13,7 +13,8 @@ from pathlib import Path
 import click
 
 from report.cli.input_errors import input_errors
-from report.text.formats import aligned, finite
+from report.text.aligned import aligned
+from report.text.json_numbers import finite
 from solver.formats import read_record
 from solver.friction_tests import MOST_MU
 from solver.model import STANDARD_GRAVITY_MPS2, InputError

@@ -26,8 +26,9 @@ from report.drawing_read.roof_drawing import DrawnOutline, RoofDrawing
 from report.project.check.plan_shapes import us_first
 from report.project.model.choices import LayerKind
 from report.project.write.filled import changing, withdrawn
-from report.text.counts import command, numbered
-from report.text.formats import aligned
+from report.text.aligned import aligned
+from report.text.command_line import command
+from report.text.counts import numbered
 from report.text.units import LENGTHS, Quantity, pair
 from solver.model import InputError, Problem
 from solver.suggestions import nearest

@@ -21,7 +21,8 @@ from report.project.read.workbook_data import Sheet
 from report.project.workbook import SECTION
 from report.project.write.overwritten import formula_findings, overwritten
 from report.results.added_motions import other_sources
-from report.text.counts import command, numbered
+from report.text.command_line import command
+from report.text.counts import numbered
 from report.typeset.letters import check_letters
 
 

@@ -34,8 +34,8 @@ from report.cli.terminal import colored, plain, print_json, say
 from report.making import make
 from report.results.publish import check_of_workbook, output_folder
 from report.steps import STEPS, Step
+from report.text.aligned import aligned
 from report.text.counts import numbered
-from report.text.formats import aligned
 from report.text.units import ratio
 from solver.model import InputError, Problem
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import click
 
-from report.text.counts import as_typed, command
+from report.text.command_line import as_typed, command
 
 _GREEN, _RED, _YELLOW = ({"fg": color, "bold": True} for color in ("green", "red", "yellow"))
 _STYLES: Mapping[str, Mapping[str, Any]] = {

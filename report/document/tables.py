@@ -15,7 +15,8 @@ from markupsafe import Markup
 
 from report.assessment.design.verdict import Verdict
 from report.document.columns import ColumnHead, TableColumn
-from report.text.counts import LONGEST, grouped_by, joined, name_order, ranged
+from report.text.grouping import grouped_by
+from report.text.names import LONGEST, joined, name_order, ranged
 from report.text.unit_format import UnitFormat
 from report.text.units import Unit
 from solver.model import DefectError

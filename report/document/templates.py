@@ -19,8 +19,13 @@ from markupsafe import Markup
 
 from report.assessment.checks.check import dagger
 from report.document.tables import headed
-from report.text import counts, formats, units
-from report.typeset import equations
+from report.text.counts import counted, numbered, spelled
+from report.text.error_text import below_mm, general, percent, scientific, seconds
+from report.text.formula_text import lettered
+from report.text.letter_case import capitalized, lowered
+from report.text.names import joined, named, ranged, shortened
+from report.text.units import NO_BREAK, digits_down, digits_up, kept, number, ratio, ratio_up
+from report.typeset.equations import data_uri, formula, symbol
 
 if TYPE_CHECKING:
     from jinja2 import BytecodeCache, Environment
@@ -28,13 +33,11 @@ if TYPE_CHECKING:
 
 _HERE = Path(__file__).resolve().parents[2]
 
-# Functions that are filters by their names.
-_SHARED = {
-    counts: "below_mm capitalized counted joined lettered lowered named numbered ranged spelled",
-    equations: "data_uri formula symbol",
-    formats: "general percent scientific seconds shortened",
-    units: "digits_down digits_up number ratio ratio_up",
-}
+_FILTERS = (
+    below_mm, capitalized, counted, dagger, data_uri, digits_down, digits_up, formula, general,
+    joined, lettered, lowered, named, number, numbered, percent, ranged, ratio, ratio_up,
+    scientific, seconds, shortened, spelled, symbol,
+)  # fmt: skip
 
 
 def rendered(folder: Path, name: str, context: Mapping[str, Any]) -> str:
@@ -46,7 +49,7 @@ def said(folder: Path, path: str, name: str, context: Mapping[str, Any]) -> str:
     """Return what a macro of a template says, as plain text: for tables and the screen."""
     module = _environment(folder).get_template(path).make_module(dict(context))
     plain = Markup(getattr(module, name)()).unescape()
-    return plain.replace(units.NO_BREAK, " ").strip()
+    return plain.replace(NO_BREAK, " ").strip()
 
 
 @cache
@@ -64,11 +67,8 @@ def _environment(folder: Path) -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters |= {
-        **{name: getattr(of, name) for of, names in _SHARED.items() for name in names.split()},
-        "dagger": dagger,
-        "needs_a_line": _needs_a_line,
-    }
+    environment.filters |= {function.__name__: function for function in _FILTERS}
+    environment.filters["needs_a_line"] = _needs_a_line
     environment.tests |= {"infinite": math.isinf, "nan": math.isnan}
     environment.globals["headed"] = headed
     return environment
@@ -78,7 +78,7 @@ def _finished(value: Any) -> Any:
     """Return what is printed of a value: a text with its quantities whole."""
     # Pages format their own so. The words of a check, of the solver and of a workbook are made
     # once for every output, also those in which a space is a space.
-    return units.kept(value) if type(value) is str else value
+    return kept(value) if type(value) is str else value
 
 
 def _kept(folder: Path) -> BytecodeCache:

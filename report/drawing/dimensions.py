@@ -15,7 +15,8 @@ from report.drawing.placer import Frame, Placer, centered
 from report.drawing.sheet import BASE_IN, LINE_IN, Gap, Paper, PlanSheet
 from report.project.model.shapes import Point, Rectangle, between
 from report.text.amounts import capacity, demand, shown_in_order
-from report.text.counts import grouped_by, joined
+from report.text.grouping import grouped_by
+from report.text.names import joined
 from report.text.unit_format import UnitFormat
 from report.text.units import Quantity, round_below
 from solver.rules.provisions import Neighbor

@@ -21,7 +21,8 @@ from report.drawing.sheet import LINE_IN, PAD_IN, PlanSheet, PlanSize, text_size
 from report.project.model.choices import ObjectKind
 from report.project.model.roof import RoofObject
 from report.project.model.shapes import Point, Rectangle, Shape, around
-from report.text.counts import ids_by, ranged
+from report.text.grouping import ids_by
+from report.text.names import ranged
 from report.text.unit_format import UnitFormat
 from report.text.units import Quantity, measured, no_less, number, pair
 

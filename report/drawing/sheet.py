@@ -19,7 +19,7 @@ from report.drawing.items import TYPE_PT, Item, Layer, Look, Mark, tick_text, wi
 from report.drawing.placer import Frame, Placer, centered
 from report.project.model.roof import RoofObject
 from report.project.model.shapes import Point, Rectangle, Shape, room, sides
-from report.text.counts import name_lines
+from report.text.names import name_lines
 from report.text.unit_format import UnitFormat
 from report.text.units import LENGTHS
 from solver.model import INCH_M

@@ -20,7 +20,7 @@ import shapely
 from report.project.model.shapes import Point, Shape, solid
 from report.project.read.number_formats import unit_named
 from report.project.read.typed_text import number_in, separator, with_point
-from report.text.counts import cut
+from report.text.typed_letters import cut
 from report.text.units import LENGTHS
 from solver.files import read_file
 from solver.model import InputError

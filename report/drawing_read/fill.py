@@ -28,7 +28,7 @@ from report.project.read.locate_cell import cell_as_column, find_cell, is_absent
 from report.project.read.positions import found_at
 from report.project.workbook import SECTION
 from report.project.write.filled import DIGITS, WorkbookChange
-from report.text.counts import grouped_by
+from report.text.grouping import grouped_by
 from report.text.units import LENGTHS, Quantity
 from solver.model import InputError
 

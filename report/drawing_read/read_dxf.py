@@ -38,7 +38,7 @@ from report.drawing_read.closed_lines import (
 from report.drawing_read.dxf_file import DAMAGED, MAX_ENTITIES, UNITS, limit, loaded, other_unit
 from report.drawing_read.roof_drawing import DrawnOutline, RoofDrawing, Unread, Words
 from report.project.model.shapes import Point, Polygon, ring
-from report.text.counts import UNPRINTABLE, trimmed
+from report.text.typed_letters import UNPRINTABLE, trimmed
 from report.text.units import LENGTHS
 from solver.model import InputError
 

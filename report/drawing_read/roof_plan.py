@@ -10,7 +10,7 @@ from report.drawing_read.roof_drawing import DrawnOutline, Unread
 from report.project.model.input_rows import InputRow
 from report.project.model.roof import DRAWN_MODULES
 from report.project.model.shapes import Shape, solid
-from report.text.formats import aligned
+from report.text.aligned import aligned
 from report.text.units import Quantity, Unit
 
 STILL_M = 1e-3  # what has moved by less has not

@@ -23,7 +23,7 @@ from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
 
-from report.text import counts
+from report.text import error_text
 from report.typeset.pdf import TEMPLATES
 from solver.model import Floats
 
@@ -190,7 +190,7 @@ def power_of_ten(value: float) -> str:
     if value <= 0.0:
         return ""
     exponent = round(math.log10(value))
-    return f"{10.0**exponent:g}" if -1 <= exponent <= 2 else counts.power_of_ten(exponent)
+    return f"{10.0**exponent:g}" if -1 <= exponent <= 2 else error_text.power_of_ten(exponent)
 
 
 def plain(value: float) -> str:
@@ -198,7 +198,7 @@ def plain(value: float) -> str:
     if value == 0.0 or abs(value) >= 1e-3:
         return f"{value:g}".replace("-", "−")
     exponent = math.floor(math.log10(abs(value)))
-    return f"{value / 10.0**exponent:.3g} × {counts.power_of_ten(exponent)}"
+    return f"{value / 10.0**exponent:.3g} × {error_text.power_of_ten(exponent)}"
 
 
 def decades(axis: Axis, maximum: int = 9) -> None:

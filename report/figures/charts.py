@@ -32,7 +32,9 @@ from report.figures.base import (
     svg_text,
 )
 from report.project.model.array import Array
-from report.text.counts import cut, ids_by, ranged
+from report.text.grouping import ids_by
+from report.text.names import ranged
+from report.text.typed_letters import cut
 from report.text.unit_format import UnitFormat
 from report.text.units import Quantity, Unit, number
 from solver.friction_tests import FittedLaw, FrictionRun, Surface

@@ -28,7 +28,8 @@ from report.figures.base import (
     svg_text,
 )
 from report.runs import MotionRun
-from report.text.counts import LONGEST, cut, name_lines
+from report.text.names import LONGEST, name_lines
+from report.text.typed_letters import cut
 from report.text.unit_format import UnitFormat
 from report.text.units import Unit, no_less, number, round_below
 from solver.model import Floats, SlideHistory

@@ -21,7 +21,7 @@ from report.figures.base import (
     svg_text,
 )
 from report.figures.history import envelope
-from report.text.counts import name_lines
+from report.text.names import name_lines
 from report.text.units import G_MPS2, round_below
 from solver.model import Floats, Motion
 

@@ -11,8 +11,9 @@ from report.document.columns import plain, text, words
 from report.document.tables import Column, Table, compared_with, listed
 from report.document.templates import Section, section
 from report.manual import stability_maps
-from report.text.counts import capitalized
-from report.text.formats import scientific, slug, ten_digits
+from report.text.error_text import scientific, ten_digits
+from report.text.letter_case import capitalized
+from report.text.names import slug
 from report.text.units import G_MPS2, number
 from solver.model import Floats
 from solver.verification.evidence import RoofComparison, RoofPrediction, Verification

@@ -19,8 +19,11 @@ from report.document.templates import Section, section
 from report.figures.base import power_of_ten
 from report.manual import paper_figures, stability_maps
 from report.manual import work_figures as figures
-from report.text.counts import capitalized, grouped_by, lettered
-from report.text.formats import percent, seconds, slug
+from report.text.error_text import percent, seconds
+from report.text.formula_text import lettered
+from report.text.grouping import grouped_by
+from report.text.letter_case import capitalized
+from report.text.names import slug
 from solver.rivals.methods import METHODS
 from solver.sliding.two_axes import DEFAULT_TOLERANCE
 from solver.verification import paper_studies

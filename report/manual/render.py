@@ -28,15 +28,11 @@ from report.pages.symbols import with_symbols
 from report.provenance.known_errors import known_errors
 from report.provenance.package_sources import installed, processor
 from report.provenance.release import version
-from report.text.counts import grouped_by, lettered
-from report.text.formats import (
-    NOT_VALIDATED,
-    VALIDATION,
-    csv_text,
-    scientific,
-    ten_digits,
-    unbroken,
-)
+from report.text.csv_text import csv_text
+from report.text.error_text import scientific, ten_digits
+from report.text.formula_text import lettered, unbroken
+from report.text.grouping import grouped_by
+from report.text.validation import NOT_VALIDATED, VALIDATION
 from report.typeset.pdf import TEMPLATES, lay_out
 from solver.verification import evidence, model_study
 from solver.verification.building import BY_HEIGHT

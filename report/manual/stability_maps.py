@@ -29,7 +29,7 @@ from report.figures.base import (
     svg_text,
     ticks,
 )
-from report.text.counts import lettered
+from report.text.formula_text import lettered
 from report.text.units import G_MPS2
 from solver.model import Floats
 from solver.verification.evidence import RoofComparison, RoofPrediction, StabilityMap

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
-from report.text.formats import aligned
+from report.text.aligned import aligned
 from report.text.units import G_MPS2
 from solver.records.measures import Measures, measures
 from solver.records.record import Record

@@ -16,7 +16,7 @@ from pathlib import Path, PurePosixPath
 
 from report.motions.files import BAR, MAX_BYTES
 from report.motions.stored import MOST_FILES
-from report.text.formats import aligned
+from report.text.aligned import aligned
 from solver.formats import MotionFile, read_motion_file
 from solver.model import InputError
 

@@ -23,7 +23,9 @@ from report.document.columns import length, required, text, words
 from report.document.tables import Column, Table, listed, merged
 from report.pages.parts import PackageData
 from report.runs import OrientedRun
-from report.text.counts import below_mm, lowered, named, ranged
+from report.text.error_text import below_mm
+from report.text.letter_case import lowered
+from report.text.names import named, ranged
 from report.text.unit_format import NO_VALUE, UnitFormat
 from report.text.units import NO_BREAK, number
 from solver.model import DefectError, Status

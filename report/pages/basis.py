@@ -8,8 +8,9 @@ from report.assessment.design.routes import Route
 from report.assessment.support.saving import saving
 from report.pages.parts import PackageData
 from report.pages.saving import saving_words
-from report.text.counts import capitalized, ranged
-from report.text.formats import VALIDATION
+from report.text.letter_case import capitalized
+from report.text.names import ranged
+from report.text.validation import VALIDATION
 
 
 def page(package: PackageData) -> Mapping[str, object]:

@@ -14,7 +14,7 @@ from report.document.tables import Column, Table, listed
 from report.motions.history import first_period_s
 from report.pages.parts import MOTION_ROWS, PackageData
 from report.project.model.motion_input import BuildingInput
-from report.text.counts import grouped_by
+from report.text.grouping import grouped_by
 from report.text.units import G_MPS2, NO_BREAK, Quantity, number
 from solver.building.roof import RoofMotion
 from solver.building.structure import APPROXIMATE_PERIODS, FOOT_M

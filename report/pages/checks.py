@@ -20,7 +20,8 @@ from report.assessment.checks.sentence import found_and_limit, texts
 from report.assessment.design.verdict import Verdict
 from report.document.tables import Table, TableRow, Wide, headed, stamp
 from report.pages.symbols import with_symbols
-from report.text.counts import capitalized, counted, lowered, numbered
+from report.text.counts import counted, numbered
+from report.text.letter_case import capitalized, lowered
 from report.text.units import ratio
 
 # The part with the numbers behind a kind of check; of the others the part on checks.

@@ -18,7 +18,10 @@ from report.pages.array_tables import comparison_table
 from report.pages.marks import prescriptive_key
 from report.pages.parts import PackageData
 from report.pages.study_years import study_years
-from report.text.counts import capitalized, ids_by, named, numbered
+from report.text.counts import numbered
+from report.text.grouping import ids_by
+from report.text.letter_case import capitalized
+from report.text.names import named
 from report.text.units import number
 
 

@@ -23,7 +23,10 @@ from report.project.check.friction_faults import MU_TOLERANCE
 from report.project.model import ProjectInput
 from report.project.model.array import Array
 from report.project.model.friction_report import FrictionTests
-from report.text.counts import capitalized, ids_by, named, numbered
+from report.text.counts import numbered
+from report.text.grouping import ids_by
+from report.text.letter_case import capitalized
+from report.text.names import named
 from report.text.unit_format import UnitFormat
 from report.text.units import NO_BREAK, Quantity, no_less, number
 from solver.friction_tests import FittedLaw, Series, Surface, fit_law, governing

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from report.assessment.support.evidence import Evidence
 from report.pages.parts import PackageData
-from report.text.counts import named
+from report.text.names import named
 
 
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:

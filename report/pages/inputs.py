@@ -16,7 +16,9 @@ from report.pages.parts import PackageData, all_or
 from report.pages.site import site_table
 from report.project.model.array import Array
 from report.project.model.site import Site
-from report.text.counts import capitalized, grouped_by, ids_by, ranged
+from report.text.grouping import grouped_by, ids_by
+from report.text.letter_case import capitalized
+from report.text.names import ranged
 from report.text.unit_format import UnitFormat
 from report.text.units import NO_BREAK, Quantity, number
 from report.typeset.equations import symbol

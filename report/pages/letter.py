@@ -13,7 +13,10 @@ from report.pages.array_tables import letter_table
 from report.pages.checks import verdict_sentence
 from report.pages.parts import PackageData, all_or, friction_report
 from report.pages.review import by_analysis, excepted
-from report.text.counts import capitalized, counted, ids_by, lowered, ranged, spelled
+from report.text.counts import counted, spelled
+from report.text.grouping import ids_by
+from report.text.letter_case import capitalized, lowered
+from report.text.names import ranged
 from report.text.units import number
 
 

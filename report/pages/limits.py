@@ -16,7 +16,8 @@ from report.pages.parts import PackageData
 from report.pages.saving import without_analysis
 from report.project.check.finding_lines import lines
 from report.project.model.finding import Level
-from report.text.counts import capitalized, grouped_by
+from report.text.grouping import grouped_by
+from report.text.letter_case import capitalized
 
 
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:

@@ -22,7 +22,8 @@ from report.drawing.items import drawn_slope_deg
 from report.pages.marks import prescriptive_key
 from report.pages.parts import PackageData, statistic
 from report.project.model.array import Array
-from report.text.counts import grouped_by, named
+from report.text.grouping import grouped_by
+from report.text.names import named
 from report.text.units import NO_BREAK, Quantity, no_less, number, ratio
 from report.typeset.equations import fraction
 from solver.rules.provisions import SEPARATION_KEYS, Basis, Neighbor, PrescriptiveBasis

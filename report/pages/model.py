@@ -27,7 +27,10 @@ from report.document.columns import (
 from report.document.tables import Column, Table, Wide, by_place, listed, merged
 from report.pages.parts import PackageData, statistic, verdict
 from report.runs import OrientedRun
-from report.text.counts import below_mm, grouped_by, named, spelled
+from report.text.counts import spelled
+from report.text.error_text import below_mm
+from report.text.grouping import grouped_by
+from report.text.names import named
 from report.text.unit_format import NO_VALUE
 from report.text.units import NO_BREAK, Quantity, nan_is_worst, number, ratio, ratio_up
 from solver.model import INCH_M, Motion

@@ -21,7 +21,8 @@ from report.pages.acceptance import acceptance_table, events, lowest_between, st
 from report.pages.building import building_part
 from report.pages.parts import MOTION_ROWS, PackageData
 from report.pages.symbols import with_symbols
-from report.text.counts import grouped_by, lowered
+from report.text.grouping import grouped_by
+from report.text.letter_case import lowered
 from report.text.unit_format import UnitFormat
 from report.text.units import G_MPS2, NO_BREAK, Unit, digits_up, number
 from report.typeset.equations import symbol

@@ -10,7 +10,10 @@ from report.pages.array_tables import schedule
 from report.pages.clearance_tables import field_schedule, numbered_gaps
 from report.pages.parts import PackageData, all_or, friction_report
 from report.project.model.choices import DistanceBasis
-from report.text.counts import capitalized, counted, ids_by, ranged
+from report.text.counts import counted
+from report.text.grouping import ids_by
+from report.text.letter_case import capitalized
+from report.text.names import ranged
 from report.text.units import number
 from solver.rules.provisions import Neighbor
 

@@ -34,7 +34,9 @@ from report.project.model.array import Array
 from report.project.model.choices import ObjectKind
 from report.project.model.roof import RoofObject
 from report.project.model.shapes import Polygon, Shape
-from report.text.counts import grouped_by, ranged, spelled
+from report.text.counts import spelled
+from report.text.grouping import grouped_by
+from report.text.names import ranged
 from report.text.unit_format import UnitFormat
 from report.text.units import Quantity, number
 from solver.rules.provisions import Neighbor

@@ -42,7 +42,7 @@ from report.pages import (
 )
 from report.pages.parts import PackageData
 from report.project.model.choices import PackageEdition
-from report.text.counts import ranged
+from report.text.names import ranged
 from solver.model import SlideHistory
 
 Content = Mapping[str, Any]

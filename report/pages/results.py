@@ -18,7 +18,7 @@ from report.document.tables import Column, Table, TableRow, Wide, listed
 from report.pages.parts import PackageData, statistic
 from report.project.model.choices import Direction
 from report.runs import MotionRun
-from report.text.counts import named
+from report.text.names import named
 from report.text.unit_format import UnitFormat
 from report.text.units import NO_BREAK, no_less, number
 from solver.model import Orientation, Status

@@ -12,7 +12,8 @@ from report.assessment.assessment import Assessment
 from report.assessment.support.saving import Saving, saving
 from report.pages.marks import Marks
 from report.pages.parts import all_or
-from report.text.counts import counted, named, spelled
+from report.text.counts import counted, spelled
+from report.text.names import named
 from report.text.unit_format import UnitFormat
 from report.text.units import number
 

@@ -11,8 +11,8 @@ from report.document.tables import Table, listed
 from report.pages.parts import PackageData
 from report.project.read.study_years import Distance, StudyYears, YearsOfArray
 from report.project.workbook import SECTION
-from report.text.counts import named
-from report.text.formats import general
+from report.text.error_text import general
+from report.text.names import named
 from report.text.unit_format import UnitFormat
 from report.text.units import number
 

@@ -21,7 +21,9 @@ from report.pages.checks import (
 from report.pages.marks import prescriptive_key
 from report.pages.parts import PackageData, statistic
 from report.pages.review import by_analysis, excepted
-from report.text.counts import capitalized, lowered, named, numbered
+from report.text.counts import numbered
+from report.text.letter_case import capitalized, lowered
+from report.text.names import named
 from report.text.units import number
 
 

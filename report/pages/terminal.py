@@ -22,7 +22,8 @@ from report.assessment.design.rule_set import MEANING
 from report.pages.array_tables import governing_name, ratio_words
 from report.pages.attention import attention
 from report.pages.marks import Marks
-from report.text.formats import aligned, finite
+from report.text.aligned import aligned
+from report.text.json_numbers import finite
 from report.text.unit_format import UnitFormat
 
 if TYPE_CHECKING:

@@ -17,8 +17,8 @@ from report.assessment.assessment import Assessment
 from report.assessment.support.evidence import Evidence
 from report.results.results_model import SCHEMA_VERSION, Compared
 from report.results.rows import results
-from report.text.counts import UNPRINTABLE, cut
-from report.text.formats import finite
+from report.text.json_numbers import finite
+from report.text.typed_letters import UNPRINTABLE, cut
 from report.typeset.letters import named, undrawable
 from solver.files import read_file
 from solver.model import InputError

@@ -33,7 +33,7 @@ from report.provenance.release import version
 from report.results import results_model as model
 from report.runs import MotionRun, OrientedRun
 from report.text.amounts import Amount
-from report.text.counts import joined
+from report.text.names import joined
 from report.text.unit_format import UnitFormat
 from solver.building.roof import RoofMotion
 from solver.model import Motion

@@ -23,7 +23,7 @@ from report.results.list_sheets import (
 )
 from report.results.sheet_columns import TOP, Cells, Pages, text_workbook
 from report.results.summary_sheet import write_summary
-from report.text.formats import shortened
+from report.text.names import shortened
 
 # The sheets in the order of the package.
 _ORDER = (

@@ -31,7 +31,7 @@ from report.study.wording import (
     on_building,
 )
 from report.study.years import ArrayYears
-from report.text.formats import slug
+from report.text.names import slug
 from report.text.units import number, round_up
 from solver.studies import capacity, lives, predictive, uncertainty
 from solver.studies import fragility as fits

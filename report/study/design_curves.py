@@ -42,7 +42,7 @@ from report.study.study_results import (
 )
 from report.study.study_tables import length_unit
 from report.study.wording import answer, level, on_building, shown
-from report.text.counts import capitalized
+from report.text.letter_case import capitalized
 from report.text.units import number, round_down
 from solver.model import Floats
 from solver.rules.provisions import prescriptive_checks, required_mu

@@ -22,8 +22,8 @@ from report.study.wording import (
     is_exportable,
     is_refused,
 )
-from report.text.counts import capitalized
-from report.text.formats import csv_text
+from report.text.csv_text import csv_text
+from report.text.letter_case import capitalized
 from report.text.units import digits_down, digits_up
 from report.typeset.pdf import TEMPLATES
 

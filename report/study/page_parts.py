@@ -23,8 +23,8 @@ from report.study.capacity_runs import FREQ_HZ
 from report.study.study_results import StudyResults
 from report.study.study_tables import length_unit
 from report.study.wording import on_building
-from report.text.counts import capitalized, joined
-from report.text.formats import VALIDATION
+from report.text.letter_case import capitalized
+from report.text.names import joined
 from report.text.units import (
     digits_down,
     digits_up,
@@ -34,6 +34,7 @@ from report.text.units import (
     round_down,
     round_up,
 )
+from report.text.validation import VALIDATION
 from solver.model import Floats
 from solver.studies.curves import DIGITS, Fit
 

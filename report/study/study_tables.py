@@ -27,8 +27,8 @@ from report.study.wording import (
     sentence,
     taken_over,
 )
-from report.text.counts import capitalized
-from report.text.formats import csv_text
+from report.text.csv_text import csv_text
+from report.text.letter_case import capitalized
 from report.text.unit_format import UnitFormat
 from report.text.units import Unit
 from solver.model import Floats

@@ -13,7 +13,7 @@ from report.suite.suite_components import (
     suite_components,
 )
 from report.suite.targets import SuiteTargets
-from report.text.formats import aligned
+from report.text.aligned import aligned
 from report.text.units import G_MPS2
 from solver.synthesis.matching import BAND_HZ
 from solver.synthesis.suite import SuiteMotion

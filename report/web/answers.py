@@ -24,7 +24,9 @@ from report.pages.attention import attention
 from report.pages.checks import verdict_sentence
 from report.pages.clearance_tables import NumberedGap, numbered_gaps
 from report.pages.marks import Marks
-from report.text.counts import grouped_by, numbered, ranged
+from report.text.counts import numbered
+from report.text.grouping import grouped_by
+from report.text.names import ranged
 from report.text.unit_format import UnitFormat
 from report.text.units import Show, no_less, ratio
 from report.web.plan import USUAL_PX, Cell, ShowVerdict, described, plan, stamp

@@ -16,7 +16,9 @@ from report.project.model.choices import Polarity, RuleSetName, UnitsFirst
 from report.project.model.place import Place
 from report.project.read.what_if import retyped
 from report.project.read.workbook_data import Sheet
-from report.text.counts import cut, ids_by, ranged
+from report.text.grouping import ids_by
+from report.text.names import ranged
+from report.text.typed_letters import cut
 from report.text.units import Quantity, no_more, number, pair
 from report.web.values import MUS, UNITS_FIRST, Values, typed
 from solver.friction_tests import MOST_MU

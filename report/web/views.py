@@ -19,7 +19,9 @@ from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.support.response_surface import ResponseSurface, surface
 from report.drawing.sheet import unit_format
 from report.runs import MotionRun, OrientedRun
-from report.text.counts import cut, ids_by, ranged
+from report.text.grouping import ids_by
+from report.text.names import ranged
+from report.text.typed_letters import cut
 from report.text.unit_format import UnitFormat
 from report.text.units import Unit, no_less, number
 from report.web.answers import finite

@@ -23,7 +23,7 @@ from zipfile import ZIP_DEFLATED, ZipFile
 
 from report.results.publish import OUTPUTS
 from report.steps import STEPS, Step
-from report.text.counts import capitalized
+from report.text.letter_case import capitalized
 from report.web.processes import WorkerProcess, tell
 from report.web.values import Values
 

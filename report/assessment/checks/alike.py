@@ -8,7 +8,8 @@ from dataclasses import replace
 from report.assessment.checks.check import Check
 from report.assessment.checks.sentence import PAIRS
 from report.text.amounts import Amount
-from report.text.counts import grouped_by, ranged
+from report.text.grouping import grouped_by
+from report.text.names import ranged
 from report.text.units import Rounding, nan_is_worst
 
 

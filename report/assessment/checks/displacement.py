@@ -11,7 +11,9 @@ from report.assessment.checks.array_capacities import slack_check
 from report.assessment.checks.check import THIS_PROGRAM, Check, Sense
 from report.assessment.design.routes import Route, lacking_motions, statistic_basis
 from report.text.amounts import Amount, capacity, demand
-from report.text.counts import grouped_by, lowered, ranged
+from report.text.grouping import grouped_by
+from report.text.letter_case import lowered
+from report.text.names import ranged
 from report.text.units import Quantity, no_less, pair
 from solver.model import Status
 from solver.rules.provisions import RuleSet, review_lifts_slope

@@ -15,7 +15,7 @@ from report.project.model import ProjectInput
 from report.project.model.choices import BuildingCode
 from report.project.model.place import Place
 from report.text.amounts import capacity, demand
-from report.text.counts import lowered
+from report.text.letter_case import lowered
 from report.text.units import Quantity, pair
 
 _NOISE = 1e-9  # a weight in other units is no more than itself

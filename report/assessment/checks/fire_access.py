@@ -17,7 +17,8 @@ from report.project.model.place import Place
 from report.project.model.placed import SIDES
 from report.project.model.shapes import around, gap_m
 from report.text.amounts import Amount, capacity, demand, entered
-from report.text.counts import numbered, ranged
+from report.text.counts import numbered
+from report.text.names import ranged
 from report.text.units import Quantity, no_less, no_more, pair
 
 if TYPE_CHECKING:

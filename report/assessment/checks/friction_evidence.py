@@ -20,7 +20,7 @@ from report.assessment.design.words import NOT_GIVEN
 from report.project.model import ProjectInput
 from report.project.model.place import Place
 from report.text.amounts import capacity, compared_pairs, demand, entered
-from report.text.counts import grouped_by
+from report.text.grouping import grouped_by
 from report.text.units import Quantity
 from solver.friction_tests import Series, Surface
 

@@ -13,7 +13,9 @@ from report.assessment.checks.rule_limits import of_limit
 from report.assessment.design.words import STAYS
 from report.motions.history import PreparedMotion
 from report.project.model.place import Place
-from report.text.counts import grouped_by, ids_by, quoted, ranged
+from report.text.command_line import quoted
+from report.text.grouping import grouped_by, ids_by
+from report.text.names import ranged
 from report.text.units import digits_up
 from solver.records.acceptance import FULL_RATIO, Acceptance
 from solver.rules.limit import PROGRAM, Consequence, Limit, Measure

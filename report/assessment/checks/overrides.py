@@ -12,7 +12,7 @@ from report.project.model import ProjectInput
 from report.project.model.options import Override
 from report.project.model.place import Place
 from report.project.model.provision_names import provision_name, provision_unit
-from report.text.counts import lowered
+from report.text.letter_case import lowered
 from solver.rules.provisions import RULE_SETS
 from solver.rules.rulesets import ALLOWED, Provision
 

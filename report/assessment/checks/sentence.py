@@ -6,7 +6,7 @@ import math
 
 from report.assessment.checks.check import Check, Sense
 from report.text.amounts import Amount, amount_text, amount_texts
-from report.text.counts import capitalized, lowered
+from report.text.letter_case import capitalized, lowered
 from report.text.units import Quantity, ratio
 
 # Kinds whose subjects are pairs, which do not count on as A1 to A3 do.

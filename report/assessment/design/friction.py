@@ -7,7 +7,8 @@ from collections.abc import Mapping, Sequence
 
 from report.project.model import ProjectInput
 from report.project.model.array import Array
-from report.text.counts import ids_by, ranged
+from report.text.grouping import ids_by
+from report.text.names import ranged
 from report.text.units import number
 from solver.model import Friction
 

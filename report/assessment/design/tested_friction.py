@@ -13,7 +13,8 @@ from report.assessment.design.words import NOT_GIVEN
 from report.project.check.friction_faults import MU_TOLERANCE
 from report.project.model import ProjectInput
 from report.project.model.array import Array
-from report.text.counts import grouped_by, numbered
+from report.text.counts import numbered
+from report.text.grouping import grouped_by
 from report.text.units import Quantity, measured, pair
 from solver.friction_tests import Series, Surface, fit_law, governing, series
 from solver.model import Friction

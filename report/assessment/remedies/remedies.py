@@ -35,7 +35,9 @@ from report.project.model import ProjectInput
 from report.project.model.roof import Clearance
 from report.text.amounts import Amount, amount_texts, capacity, demand
 from report.text.amounts import entered as entered_amount
-from report.text.counts import capitalized, grouped_by, joined, lowered, name_order, ranged
+from report.text.grouping import grouped_by
+from report.text.letter_case import capitalized, lowered
+from report.text.names import joined, name_order, ranged
 from report.text.units import Quantity, no_less, pair
 from solver.friction_tests import MOST_MU
 

@@ -17,7 +17,7 @@ from report.project.model.place import Place
 from report.project.model.placed import SIDES
 from report.project.workbook import SECTION, SECTIONS
 from report.project.workbook.earlier_workbooks import ORDERS
-from report.text.counts import grouped_by
+from report.text.grouping import grouped_by
 
 _LETTERS = 6  # of a hash
 # Fields by section.

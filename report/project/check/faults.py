@@ -23,7 +23,7 @@ from report.project.model.input_rows import InputRow, Inputs
 from report.project.model.options import factors
 from report.project.model.place import Place, Where
 from report.project.model.provision_names import provision_name
-from report.text.counts import cut, foreign_letters, looks
+from report.text.typed_letters import cut, foreign_letters, looks
 from solver.rules.rulesets import ALLOWED, RULE_SETS
 from solver.suggestions import nearest
 

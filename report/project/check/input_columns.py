@@ -7,7 +7,7 @@ from typing import Any
 
 from report.project.model.input_rows import Inputs
 from report.project.model.place import Place
-from report.text.counts import foreign_letters, looks
+from report.text.typed_letters import foreign_letters, looks
 from solver.suggestions import nearest
 
 

@@ -28,7 +28,7 @@ from report.project.read.typed_text import (
     rise_in,
 )
 from report.project.workbook.entries import Entry
-from report.text.counts import SHOWN, UNPRINTABLE, cut, trimmed
+from report.text.typed_letters import SHOWN, UNPRINTABLE, cut, trimmed
 from report.text.units import LENGTHS
 from solver.model import INCH_M, InputError, Problem
 

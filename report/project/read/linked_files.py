@@ -7,7 +7,7 @@ from itertools import chain, islice
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from unicodedata import normalize
 
-from report.text.counts import grouped_by
+from report.text.grouping import grouped_by
 from solver.files import check_length
 from solver.model import InputError
 from solver.suggestions import nearest

@@ -55,7 +55,9 @@ from report.project.workbook import SECTION, SECTIONS
 from report.project.workbook.earlier_workbooks import GoneInput
 from report.project.workbook.entries import Entry
 from report.project.workbook.sections import SheetSection
-from report.text.counts import cut, lowered, quoted, trimmed
+from report.text.command_line import quoted
+from report.text.letter_case import lowered
+from report.text.typed_letters import cut, trimmed
 from solver.model import InputError, Problem
 
 # Sheet of a workbook that `roofslip study` reads.

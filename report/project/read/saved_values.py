@@ -10,7 +10,7 @@ from report.project.model.finding import Finding, warning
 from report.project.model.place import Place
 from report.project.read.archive import OpenBook
 from report.project.read.unseen import Used
-from report.text.counts import cut
+from report.text.typed_letters import cut
 
 _MOST_LISTED = 8
 

@@ -29,7 +29,7 @@ from report.project.read.what_if import cells
 from report.project.read.workbook_data import Sheet
 from report.project.workbook import SECTION, SECTIONS
 from report.project.write.style import is_answer
-from report.text.counts import grouped_by
+from report.text.grouping import grouped_by
 from solver.files import check_plain, locked, write_all
 from solver.model import InputError
 

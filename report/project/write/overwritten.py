@@ -15,7 +15,7 @@ from report.project.read.positions import FRESH, CellPosition, area_named, found
 from report.project.workbook import SECTIONS
 from report.project.write.start_sheet import START
 from report.project.write.style import is_answer
-from report.text.counts import cut
+from report.text.typed_letters import cut
 
 _PANEL = "live_sdc_used"
 # In a formula that refers to a column which the workbook lacks.

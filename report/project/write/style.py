@@ -22,7 +22,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from report.project.model.choices import YesNo
 from report.project.read.cells import escaped, wish
 from report.project.workbook.entries import Entry
-from report.text.counts import as_typed
+from report.text.command_line import as_typed
 from report.text.units import Unit
 
 INK = "1F3A4D"

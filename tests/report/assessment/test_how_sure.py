@@ -13,7 +13,7 @@ from fixtures.single_runs import prd_m, slid
 from report.assessment.support.response_surface import surface
 from report.assessment.support.shifted_friction import accuracy
 from report.assessment.support.uncertainty import uncertainty
-from report.text.counts import below_mm
+from report.text.error_text import below_mm
 from solver.model import Friction
 
 PEER = project_parts.REVIEW

@@ -10,7 +10,7 @@ from report.assessment.checks.sentence import sentence
 from report.assessment.design.routes import Route
 from report.assessment.design.verdict import Verdict
 from report.pages.terminal import summary
-from report.text.counts import lowered
+from report.text.letter_case import lowered
 from report.web.answers import answer
 
 ARRAY, GAP, FOOT = projects.array, projects.clearance, projects.FOOT

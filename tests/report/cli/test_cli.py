@@ -23,7 +23,7 @@ from report.cli.installation_check import NATIVE
 from report.cli.main import main
 from report.cli.terminal import color_choice, colored
 from report.results.publish import STAMP
-from report.text.counts import as_typed
+from report.text.command_line import as_typed
 
 EXAMPLE = ROOT / "projects" / "example"
 MANY = (

@@ -19,8 +19,8 @@ from fixtures.commands import errors_of, run
 from fixtures.verify_run import only
 from report.manual import render
 from report.manual import work_figures as work
-from report.text import formats
-from report.text.counts import lettered
+from report.text import error_text, formula_text
+from report.text.formula_text import lettered
 from solver.model import Status
 from solver.rivals.methods import METHODS
 from solver.verification.evidence import Verified
@@ -169,16 +169,16 @@ def test_every_check_and_the_papers_figures_are_printed_and_in_the_table(verific
         line = (
             f"{lettered(row.problem)} {row.quantity}"
             + (f" [{lettered(row.unit)}]" if row.unit != "1" else "")
-            + f" {formats.ten_digits(row.expected)} {formats.ten_digits(row.computed)} "
-            + f"{formats.scientific(row.error)} {formats.scientific(row.tolerance)} PASS"
+            + f" {error_text.ten_digits(row.expected)} {error_text.ten_digits(row.computed)} "
+            + f"{error_text.scientific(row.error)} {error_text.scientific(row.tolerance)} PASS"
         )
         assert line in words, line
     for percent in ("6.78 %", "1.69 %", "0.48 %"):
         assert percent in words
     assert "1000 mm at θ = 4°, μ = 0.5; μ ≥ 0.55 at θ = 2° for 500 mm" in words
     for comparison in verification.links:
-        assert formats.percent(comparison.worst_percent) in words
-        assert formats.percent(comparison.mean_percent) in words
+        assert error_text.percent(comparison.worst_percent) in words
+        assert error_text.percent(comparison.mean_percent) in words
     assert f"{verification.curves[0].minimum_mu(2.0, 1.5, 0.5):.3f}" in words
     table = pd.read_csv(io.BytesIO(made["verification.csv"]))
     checks, runs = table[table["kind"] == "check"], table[table["kind"] == "run"]
@@ -272,20 +272,20 @@ def test_a_folder_at_fault_is_refused_before_any_run(tmp_path):
 @pytest.mark.parametrize(
     ("write", "value", "text"),
     [
-        (formats.scientific, 3.24e-15, "3.2 × 10⁻¹⁵"),
-        (formats.scientific, 0.0, "0"),
-        (formats.scientific, math.inf, "∞"),
-        (formats.percent, 0.361, "0.361 %"),
-        (formats.percent, 478.2, "478 %"),
-        (formats.percent, math.nan, "—"),
-        (formats.percent, 1e-6, "1.0 × 10⁻⁶ %"),
-        (formats.seconds, 2.5, "2.5 s"),
-        (formats.seconds, 0.0123, "12.3 ms"),
-        (formats.seconds, 5e-8, "50 ns"),
-        (formats.seconds, math.nan, "—"),
+        (error_text.scientific, 3.24e-15, "3.2 × 10⁻¹⁵"),
+        (error_text.scientific, 0.0, "0"),
+        (error_text.scientific, math.inf, "∞"),
+        (error_text.percent, 0.361, "0.361 %"),
+        (error_text.percent, 478.2, "478 %"),
+        (error_text.percent, math.nan, "—"),
+        (error_text.percent, 1e-6, "1.0 × 10⁻⁶ %"),
+        (error_text.seconds, 2.5, "2.5 s"),
+        (error_text.seconds, 0.0123, "12.3 ms"),
+        (error_text.seconds, 5e-8, "50 ns"),
+        (error_text.seconds, math.nan, "—"),
         (lettered, "mu = tan(theta), -0.3 m/s2, v0 a-1", "μ = tan(θ), −0.3 m/s², v₀ a-1"),
         (lettered, "multi-axial -g sqrt(a - b) >= pi", "multi-axial −g √(a − b) ≥ π"),
-        (formats.unbroken, "2°, μ = 0.4, PPA = 1.5 g, flat",
+        (formula_text.unbroken, "2°, μ = 0.4, PPA = 1.5 g, flat",
          "2°, μ\xa0=\xa00.4, PPA\xa0=\xa01.5\xa0g, flat"),
     ],
 )  # fmt: skip

@@ -8,7 +8,7 @@ from fixtures import pages
 from fixtures.verify_run import only
 from report.document.templates import section
 from report.manual.render import errors_by_version
-from report.text.formats import VALIDATION
+from report.text.validation import VALIDATION
 from solver.verification.design_checks import design_checks
 from solver.verification.evidence import SECTIONS, Verified
 from solver.verification.features import FEATURES, statuses

@@ -16,7 +16,7 @@ from fixtures.verify_run import only
 from report.manual.measured_buildings import building, models
 from report.manual.precision import methods, work
 from report.manual.render import summary, verification_csv
-from report.text.formats import percent
+from report.text.error_text import percent
 from solver.building.roof import absolute_accelerations, roof_motion
 from solver.building.structure import beam_modes, building_of_periods
 from solver.model import InputError

@@ -21,7 +21,7 @@ from report.package.html import pages as written
 from report.package.html import part
 from report.pages.registry import draw_assessment
 from report.project.model.choices import PlanPaper
-from report.text.counts import name_lines
+from report.text.names import name_lines
 from report.typeset.pdf import TEMPLATES, lay_out
 
 

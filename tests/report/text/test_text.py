@@ -20,17 +20,12 @@ from report.text.amounts import (
     limit_texts,
     shown_in_order,
 )
-from report.text.counts import (
-    capitalized,
-    counted,
-    name_lines,
-    named,
-    quoted,
-    ranged,
-    spelled,
-    trimmed,
-)
-from report.text.formats import csv_text
+from report.text.command_line import quoted
+from report.text.counts import counted, spelled
+from report.text.csv_text import csv_text
+from report.text.letter_case import capitalized
+from report.text.names import name_lines, named, ranged
+from report.text.typed_letters import trimmed
 from report.text.units import Quantity, digits_down, digits_up, measured, no_less, no_more
 from solver.rules.limit import Limit, Measure
 

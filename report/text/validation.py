@@ -1,0 +1,14 @@
+"""What has been validated, and what has not: for every document that states a result."""
+
+from __future__ import annotations
+
+NOT_VALIDATED = (
+    "The sliding solution has not been validated against shake-table tests of ballasted arrays."
+)
+
+VALIDATION = (
+    f"{NOT_VALIDATED} The checks of the verification manual show that the equations are solved "
+    "correctly. They do not show how well friction between a ballasted array and a roof membrane "
+    "follows them."
+)
+"""The same, with what remains unknown."""
