@@ -31,7 +31,7 @@ from report.project.workbook.entries import Entry
 from report.project.workbook.sections import rows_of
 from report.provenance.known_errors import known_errors
 from report.results.results_schema import schema
-from report.text.counts import grouped_by
+from report.text.grouping import grouped_by
 from solver import public
 
 HERE = Path(__file__).resolve().parent
